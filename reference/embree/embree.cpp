@@ -1,0 +1,54 @@
+#include "reference/embree/embree.h"
+
+#include <utility>
+
+#include "reference/embree/rays.h"
+#include "reference/math/oracle.h"
+
+namespace plumbline::embree {
+
+namespace {
+
+class EmbreeRenderer final : public Renderer {
+ public:
+  RendererInfo info() const override {
+    RendererInfo info;
+    info.name = "embree";
+    info.version = version_;
+    for (const Stage stage :
+         {Stage::coverage, Stage::depth, Stage::attributes, Stage::shade, Stage::visibility, Stage::merge}) {
+      info[stage] = {true, false, ""};
+    }
+    for (const Stage stage : {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window}) {
+      info[stage].reason = "a ray sees no vertices, only what it hits";
+    }
+    info[Stage::texture].reason = "scenes have no textures yet";
+    info.legal = true;
+    return info;
+  }
+
+  Capture capture(const Scene& scene, const Request& request) override {
+    math::Candidates candidates(math::candidate_budget(scene, request.memory_budget));
+    const math::Projected projected = math::project(scene);
+    add_by_rays(projected, candidates);
+    math::add_by_edges(projected, candidates);
+    math::Oracle oracle = math::consult(scene, projected, candidates);
+    Capture out;
+    out.renderer = "embree";
+    out.version = version_;
+    out.width = scene.frame.width;
+    out.height = scene.frame.height;
+    out.planes = std::move(oracle.planes);
+    if (request.legal) out.legal = std::move(oracle.legal);
+    return out;
+  }
+
+ private:
+  std::string version_ = version();
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_embree() { return std::make_unique<EmbreeRenderer>(); }
+
+}  // namespace plumbline::embree

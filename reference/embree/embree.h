@@ -1,0 +1,15 @@
+// The Embree reference: rays through the pixels' centres, in homogeneous space, each hit confirmed in double.
+#pragma once
+
+#include <memory>
+
+#include "stages/renderer.h"
+
+namespace plumbline::embree {
+
+/// A renderer named "embree": an oracle. It hands out legal answers, and planes as double precision has them. Embree
+/// finds the triangles; no number of its own is used. capture() throws RendererFailed where a vertex is not finite or
+/// beyond Embree's range, naming it, or where the device reports an error.
+std::unique_ptr<Renderer> make_embree();
+
+}  // namespace plumbline::embree

@@ -1,0 +1,40 @@
+// Where in its triangle a fragment lies: the ground of stages 6 and 7.
+#pragma once
+
+#include <array>
+
+#include "reference/exact/wide.h"
+#include "stages/stages.h"
+
+namespace plumbline::exact {
+
+/// Weights of a triangle's corners at pixel centres, in the window; they sum to 1. Through the *unsnapped* window
+/// positions, or where those have no area or the other facing, the snapped ones.
+///
+/// The set-up is in 113 bits, so that a sliver's area and gradients are right; the weights are evaluated in long double
+/// from the first corner on, or where their terms are large (a sliver, whose weights are small differences of them)
+/// in 113 bits: they are good to 2^-52 relative to the largest weight.
+class Barycentric {
+ public:
+  /// Of a triangle with a snapped area; else the weights are NaN. `width`, `height` of the frame, in pixels.
+  Barycentric(const WindowTriangle<double>& triangle, int width, int height);
+
+  /// At pixel (x, y)'s centre.
+  std::array<long double, 3> at(int x, int y) const;
+
+ private:
+  template <class T>
+  struct Affine {
+    T x0, y0;        // the first corner, in pixels
+    T d1_dx, d1_dy;  // the second corner's weight: its gradient; it is 0 at the first corner
+    T d2_dx, d2_dy;  // the third's
+  };
+  template <class T>
+  static std::array<long double, 3> at(const Affine<T>& affine, int x, int y);
+
+  Affine<Float128> exact_;
+  Affine<long double> rounded_;
+  bool rounded_suffices_;
+};
+
+}  // namespace plumbline::exact

@@ -1,0 +1,87 @@
+#include "reference/exact/coverage.h"
+
+#include <algorithm>
+
+#include "reference/exact/window.h"
+#include "stages/renderer.h"
+
+namespace plumbline::exact {
+namespace {
+
+/// Divisors are positive.
+Int128 floor_div(Int128 a, Int128 b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+Int128 ceil_div(Int128 a, Int128 b) { return -floor_div(-a, b); }
+
+int clamped(Int128 value, int low, int high) { return static_cast<int>(std::clamp<Int128>(value, low, high)); }
+
+}  // namespace
+
+bool tie_is_in(std::int64_t de_dx, std::int64_t de_dy) { return de_dx != 0 ? de_dx > 0 : de_dy > 0; }
+
+CoveredRows::CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, int height) : edges_{}, width_(width) {
+  const int sign = facing(snapped);
+  if (sign == 0) return;
+  const auto [y_min, y_max] = std::minmax({snapped[0].y, snapped[1].y, snapped[2].y});
+  y_begin_ = clamped(ceil_div(y_min, kSubpixel), 0, height);
+  y_end_ = std::max(y_begin_, clamped(floor_div(y_max, kSubpixel) + 1, 0, height));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::i64vec2 a = snapped[i], b = snapped[(i + 1) % 3];
+    const std::int64_t de_dx = (a.y - b.y) * sign, de_dy = (b.x - a.x) * sign;
+    const Int128 e = -(Int128{de_dx} * a.x + Int128{de_dy} * a.y);
+    edges_[i] = {de_dx, de_dy, tie_is_in(de_dx, de_dy) ? e : e - 1};
+  }
+}
+
+Span CoveredRows::row(int y) const {
+  Span span{0, width_};
+  for (const Edge& edge : edges_) {
+    const Int128 e = edge.at_origin + Int128{edge.de_dy} * kSubpixel * y;  // at pixel (0, y)
+    const Int128 step = Int128{edge.de_dx} * kSubpixel;                    // from pixel to pixel
+    if (step > 0)
+      span.begin = std::max(span.begin, clamped(ceil_div(-e, step), 0, width_));
+    else if (step < 0)
+      span.end = std::min(span.end, clamped(floor_div(e, -step) + 1, 0, width_));
+    else if (e < 0)
+      return {0, 0};
+  }
+  return {span.begin, std::max(span.begin, span.end)};
+}
+
+std::size_t covered_count(const CoveredRows& rows) {
+  std::size_t count = 0;
+  for (int y = rows.y_begin(); y < rows.y_end(); ++y) {
+    const Span span = rows.row(y);
+    count += static_cast<std::size_t>(span.end - span.begin);
+  }
+  return count;
+}
+
+void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector<Covered>& out) {
+  for (int y = rows.y_begin(); y < rows.y_end(); ++y) {
+    const Span span = rows.row(y);
+    for (int x = span.begin; x < span.end; ++x)
+      out.push_back({triangle, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+  }
+}
+
+void cover_triangles(const Scene& scene, const std::vector<WindowTriangle<double>>& triangles, std::size_t budget,
+                     Capture& out) {
+  const int width = scene.frame.width, height = scene.frame.height;
+  const auto rows_of = [&](const WindowTriangle<double>& t) { return CoveredRows(snapped_corners(t), width, height); };
+  std::size_t fragments = 0;
+  for (const WindowTriangle<double>& t : triangles) fragments += covered_count(rows_of(t));
+  require_budget(scene, plane_bytes(scene) + fragments * sizeof(Covered), budget);
+
+  out.planes.count = Plane<std::uint32_t>(width, height);
+  out.planes.id_sum = Plane<std::uint64_t>(width, height);
+  std::vector<Covered>& covered = out.records.covered;
+  covered.reserve(fragments);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const std::size_t first = covered.size();
+    append_covered(rows_of(triangles[i]), i, covered);
+    const std::uint64_t weight = id_weight(triangles[i].primitive);
+    for (std::size_t f = first; f < covered.size(); ++f) add_fragment(out.planes, covered[f].x, covered[f].y, weight);
+  }
+}
+
+}  // namespace plumbline::exact

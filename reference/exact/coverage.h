@@ -1,0 +1,63 @@
+// Stage 5 in integers: which pixels' centres a snapped triangle covers.
+//
+// E(p) = cross(b - a, p - a), times the sign of the area, is positive on the inner side of the edge a -> b. Ties
+// (TieRule::small_sides_in) are those of a sample moved by an infinitesimal (+e, +e^2): where E is 0, dE/dx decides,
+// and where that is 0, dE/dy. No two triangles on either side of an edge can both have such a sample, nor neither.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "reference/exact/wide.h"
+#include "scene/scene.h"
+#include "stages/capture.h"
+
+namespace plumbline::exact {
+
+/// Whether a sample exactly on an edge is inside, from the inward gradient of E there.
+bool tie_is_in(std::int64_t de_dx, std::int64_t de_dy);
+
+/// Pixels [begin, end) of a row.
+struct Span {
+  int begin, end;
+};
+
+/// The pixels that a triangle of snapped corners covers within a frame, row by row: a convex shape's row is one span.
+class CoveredRows {
+ public:
+  /// Any corners; no rows where the area is zero.
+  CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, int height);
+  int y_begin() const { return y_begin_; }
+  int y_end() const { return y_end_; }
+  Span row(int y) const;
+
+ private:
+  struct Edge {
+    std::int64_t de_dx, de_dy;  // per subpixel
+    Int128 at_origin;           // E at pixel (0, 0), less 1 where ties are out: in is >= 0
+  };
+  std::array<Edge, 3> edges_;
+  int width_;
+  int y_begin_ = 0, y_end_ = 0;
+};
+
+/// The number of pixels covered.
+std::size_t covered_count(const CoveredRows& rows);
+
+/// Appends one entry per pixel covered, by y, then x.
+void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector<Covered>& out);
+
+/// Stage 5, from the triangles' snapped corners alone: records.covered, planes.count and planes.id_sum into `out`.
+/// Throws OverBudget where they would take more than `budget` bytes.
+void cover_triangles(const Scene& scene, const std::vector<WindowTriangle<double>>& triangles, std::size_t budget,
+                     Capture& out);
+
+/// Adds a fragment to the planes count and id_sum.
+inline void add_fragment(Planes& planes, int x, int y, std::uint64_t weight) {
+  planes.count(x, y) += 1;
+  planes.id_sum(x, y) += weight;
+}
+
+}  // namespace plumbline::exact

@@ -1,0 +1,49 @@
+#include "reference/exact/geometry.h"
+
+#include <fmt/format.h>
+
+#include "reference/exact/input.h"
+#include "reference/math/light.h"
+#include "reference/math/matrices.h"
+
+namespace plumbline::exact {
+
+std::vector<Matrices<double>> make_matrices(const Scene& scene) {
+  std::vector<Matrices<double>> matrices;
+  for (const Draw& draw : scene.draws) matrices.push_back(math::double_matrices(scene, draw));
+  return matrices;
+}
+
+std::vector<Vertex<double>> transform_vertices(const Scene& scene, const std::vector<Matrices<double>>& matrices) {
+  require_size("records.matrices", matrices.size(), scene.draws.size());
+  std::vector<Vertex<double>> vertices;
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const Mesh& mesh = scene.meshes.at(scene.draws[d].mesh);
+    require_size(fmt::format("the normals of mesh {}", scene.draws[d].mesh), mesh.normals.size(),
+                 mesh.positions.size());
+    const glm::dmat4 model_view_projection = matrices[d].projection * matrices[d].model_view;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      const glm::dvec4 p_model(mesh.positions[i], 1);
+      vertices.push_back({.p_eye = matrices[d].model_view * p_model,
+                          .p_clip = model_view_projection * p_model,
+                          .n_eye = glm::normalize(matrices[d].normal * glm::dvec3(mesh.normals[i]))});
+    }
+  }
+  return vertices;
+}
+
+std::vector<Lit<double>> light_vertices(const Scene& scene, const std::vector<Vertex<double>>& vertices) {
+  const glm::dmat4 view = math::view_matrix(scene);
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  require_size("records.vertices", vertices.size(),
+               ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count);
+  std::vector<Lit<double>> lit;
+  for (std::size_t d = 0; d < scene.draws.size(); ++d)
+    for (std::uint32_t i = 0; i < ranges[d].vertex_count; ++i) {
+      const Vertex<double>& v = vertices[ranges[d].first_vertex + i];
+      lit.push_back({math::vertex_color(scene, scene.draws[d], view, i, glm::dvec3(v.p_eye), v.n_eye)});
+    }
+  return lit;
+}
+
+}  // namespace plumbline::exact

@@ -1,0 +1,21 @@
+// Stages 0 to 2 in double: matrices, vertices, their colours.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::exact {
+
+/// Stage 0: one per draw, unrounded.
+std::vector<Matrices<double>> make_matrices(const Scene& scene);
+
+/// Stage 1: all draws' vertices. p_clip = (projection * model_view) * p_model; n_eye is normalised.
+/// Throws std::invalid_argument where a mesh has not as many normals as positions.
+std::vector<Vertex<double>> transform_vertices(const Scene& scene, const std::vector<Matrices<double>>& matrices);
+
+/// Stage 2: a colour per vertex.
+std::vector<Lit<double>> light_vertices(const Scene& scene, const std::vector<Vertex<double>>& vertices);
+
+}  // namespace plumbline::exact

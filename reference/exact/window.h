@@ -1,0 +1,26 @@
+// Stage 4: polygons are divided by w, moved to the window in double, snapped, split and faced in integers.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::exact {
+
+/// round_half_even((p_win - 1/2) * 256): pixel (i, j)'s centre is (256 i, 256 j).
+glm::ivec2 snap(glm::dvec2 p_win);
+
+/// The sign of the area: 1 where the snapped corners run counter-clockwise (the front), -1 clockwise, 0 for none.
+int facing(const std::array<glm::ivec2, 3>& snapped);
+
+/// The corners' snapped positions.
+std::array<glm::ivec2, 3> snapped_corners(const WindowTriangle<double>& triangle);
+
+/// Stage 4. A polygon with a corner of w <= 0, or whose window position is not finite or beyond 2^31 / 256 pixels, is
+/// dropped whole. Throws std::invalid_argument where the records do not fit the scene or each other.
+std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const ClipPolygons<double>& polygons,
+                                                     const std::vector<Matrices<double>>& matrices);
+
+}  // namespace plumbline::exact

@@ -1,0 +1,182 @@
+// Edges. A pixel is ambiguous where its centre is within delta of an edge that can be seen; centres lie about evenly,
+// so their expected number is the area of those bands: the integral of 2 delta along the visible edges. Each edge is
+// sampled about once per pixel of its length, and a sample counts where its point would be seen beside the winner of
+// the pixel that it falls into. Where two drawn triangles meet, the edge is one, and is counted once.
+// Centres do not lie evenly about edges that run along rows, columns or diagonals of them, as made-up scenes' do: so
+// the centres within the bands are counted too, one per row or column that the edge crosses, and the larger figure is
+// taken. Both know nothing of depth intervals, groups and folding.
+//
+// Surfaces that meet. Two depths cannot be told apart where |z1 - z2| <= w, w the half intervals' sum and a step; with
+// s the slope of z1 - z2 that is a band of half width w/s along the line where the surfaces meet. That line passes at
+// |z1 - z2|/s from the centre. A pixel whose centre is within r = max(1, w/s) pixels of it stands for a share of the
+// band as large as (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such
+// line; within w of each other, they are ambiguous everywhere.
+#include "reference/math/ambiguity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "stages/capture.h"
+
+namespace plumbline::math {
+
+namespace {
+
+struct Edge {
+  std::uint32_t from, to;  // points, from < to
+  std::uint32_t j, k;      // corners
+  std::uint32_t primitive;
+};
+
+/// Each edge of the drawn triangles once.
+std::vector<Edge> drawn_edges(const Projected& projected) {
+  std::vector<Edge> edges;
+  for (std::uint32_t primitive = 0; primitive < projected.triangles.size(); ++primitive) {
+    const Triangle& t = projected.triangles[primitive];
+    if (!t.drawn) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t j = t.corner[i], k = t.corner[(i + 1) % 3];
+      const std::uint32_t from = projected.corners[j].point, to = projected.corners[k].point;
+      edges.push_back({std::min(from, to), std::max(from, to), j, k, primitive});
+    }
+  }
+  const auto key = [](const Edge& e) { return std::array{e.from, e.to, e.primitive}; };
+  std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return key(a) < key(b); });
+  const auto same = [](const Edge& a, const Edge& b) { return a.from == b.from && a.to == b.to; };
+  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+  return edges;
+}
+
+double z_at(const Triangle& t, glm::dvec3 d) { return 0.5 + glm::dot(t.z_plane, d); }
+double slope_of(const Triangle& t) { return std::abs(t.z_plane.x) + std::abs(t.z_plane.y); }
+
+/// Whether a point of depth z of `primitive` is seen in the pixel's neighbourhood, whose winner is `winner`. Surfaces
+/// may fall away within the pixel, as the winner's own neighbours do: depths within a pixel's slope count as equal.
+bool seen(const Scene& scene, const Projected& projected, std::uint32_t primitive, std::int32_t winner, glm::dvec3 d,
+          double z) {
+  const Triangle& t = projected.triangles[primitive];
+  double held = scene.frame.clear_depth, slack = t.flat ? 0 : slope_of(t);
+  if (winner != kBackground) {
+    const Triangle& w = projected.triangles[static_cast<std::size_t>(winner)];
+    if (static_cast<std::uint32_t>(winner) == primitive || w.flat) return true;
+    held = z_at(w, d);
+    slack += slope_of(w);
+  }
+  switch (scene.draws[t.draw].depth_func) {
+    case DepthFunc::never: return false;
+    case DepthFunc::always:
+    case DepthFunc::not_equal:
+      return winner == kBackground || t.draw >= projected.triangles[static_cast<std::size_t>(winner)].draw;
+    case DepthFunc::less:
+    case DepthFunc::less_equal: return z <= held + slack;
+    case DepthFunc::greater:
+    case DepthFunc::greater_equal: return z >= held - slack;
+    case DepthFunc::equal: return std::abs(z - held) <= slack;
+  }
+  return false;
+}
+
+/// The bands along the edges: their area, and the pixels whose centres they hold.
+struct Bands {
+  double area = 0;
+  Plane<char> near;
+};
+
+void add_band(const Scene& scene, const Projected& projected, const Edge& edge, const Plane<std::int32_t>& id,
+              Bands& bands) {
+  const Triangle& t = projected.triangles[edge.primitive];
+  const Corner &j = projected.corners[edge.j], &k = projected.corners[edge.k];
+  const Piece piece = visible_piece(projected, j, k, 0);
+  if (piece.from > piece.to) return;
+  const auto homogeneous = [&](double at) { return glm::dvec4(j.v, j.z) + at * glm::dvec4(k.v - j.v, k.z - j.z); };
+  const glm::dvec4 a = homogeneous(piece.from), b = homogeneous(piece.to);
+  if (!(a.z > 0 && b.z > 0)) return;
+  const glm::dvec3 from(a.x / a.z, a.y / a.z, 1), to(b.x / b.z, b.y / b.z, 1);
+  const glm::dvec3 along = to - from;
+  // The point at from + s along: whether it is seen there, the pixel that it is in, and delta.
+  struct Sample {
+    bool seen;
+    int x, y;
+    double delta;
+  };
+  const auto sample = [&](double s) {
+    const glm::dvec3 d = from + s * along;
+    const double inv_w = (1 - s) / a.z + s / b.z, z = 0.5 + 0.5 * ((1 - s) * a.w / a.z + s * b.w / b.z);
+    const int x = std::clamp(static_cast<int>(d.x + 0.5 * id.width()), 0, id.width() - 1);
+    const int y = std::clamp(static_cast<int>(d.y + 0.5 * id.height()), 0, id.height() - 1);
+    return Sample{seen(scene, projected, edge.primitive, id(x, y), d, z), x, y,
+                  displacement(projected, t, d, 1 / inv_w)};
+  };
+  const double length = glm::length(along);
+  const int samples = 1 + static_cast<int>(std::min(length, 65536.0));
+  for (int i = 0; i < samples; ++i) {
+    const Sample at = sample((i + 0.5) / samples);
+    if (at.seen) bands.area += length / samples * 2 * at.delta;
+  }
+  if (!(length > 0)) return;
+  const int major = std::abs(along.x) >= std::abs(along.y) ? 0 : 1, minor = 1 - major;
+  const glm::dvec2 half(0.5 * id.width(), 0.5 * id.height());
+  const double cosine = std::abs(along[major]) / length;
+  const double lo = std::min(from[major], to[major]) + half[major], hi = std::max(from[major], to[major]) + half[major];
+  for (double centre = std::ceil(lo - 0.5) + 0.5; centre <= hi; centre += 1) {
+    const double s = (centre - half[major] - from[major]) / along[major];
+    const double across = from[minor] + s * along[minor] + half[minor];
+    const double off = std::abs(across - std::floor(across) - 0.5) * cosine;
+    const Sample at = sample(std::clamp(s, 0.0, 1.0));
+    if (at.seen && off <= at.delta) bands.near(at.x, at.y) = 1;
+  }
+}
+
+}  // namespace
+
+double ambiguous_by_edges(const Scene& scene, const Projected& projected, const Plane<std::int32_t>& id) {
+  Bands bands{0, {id.width(), id.height(), 0}};
+  for (const Edge& edge : drawn_edges(projected)) add_band(scene, projected, edge, id, bands);
+  const auto centres = std::count(bands.near.values().begin(), bands.near.values().end(), char{1});
+  return std::max(std::min(bands.area, static_cast<double>(id.size())), static_cast<double>(centres));
+}
+
+namespace {
+
+/// A surface at a pixel, or the cleared depth buffer.
+struct Surface {
+  std::int64_t order;
+  DepthFunc func;
+  double z, half;
+  glm::dvec2 slope;
+};
+
+/// The share of the band where the two meet, that this pixel stands for.
+double meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
+  constexpr double kStandsFor = 1;                              // r, in pixels
+  const DepthFunc later = a.order > b.order ? a.func : b.func;  // compares the two, or does not care
+  if (later == DepthFunc::always || later == DepthFunc::never) return 0;
+  const double width = a.half + b.half + depth_step(frame.depth, std::clamp(std::max(a.z, b.z), 0.0, 1.0));
+  const double apart = std::abs(a.z - b.z), slope = glm::length(a.slope - b.slope);
+  if (slope * kStandsFor <= width) return apart <= width ? 1 : 0;
+  return apart <= kStandsFor * slope ? width / slope / kStandsFor : 0;
+}
+
+}  // namespace
+
+double ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hits, std::int32_t winner) {
+  std::vector<Surface> others;
+  Surface won{kBackground, DepthFunc::always, frame.clear_depth, 0, glm::dvec2(0)};
+  for (const PixelHit& h : hits) {
+    if (!std::isfinite(h.z_half) || h.hit.depth_func == DepthFunc::never) continue;
+    const Surface surface{h.hit.primitive, h.hit.depth_func, h.z, h.z_half, h.z_slope};
+    if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
+      others.push_back(won);
+      won = surface;
+    } else {
+      others.push_back(surface);
+    }
+  }
+  double share = 0;
+  for (const Surface& other : others) share += meeting(frame, won, other);
+  return std::min(1.0, share);
+}
+
+}  // namespace plumbline::math

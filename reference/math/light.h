@@ -1,0 +1,22 @@
+// Stage 2 in double: a vertex' colour by the equations of the OpenGL 2.1 specification, section 2.14.1.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace plumbline::math {
+
+/// The lit colour at a point: rgba, clamped to [0,1]; alpha is the material's diffuse alpha. Infinite viewer, one side,
+/// no attenuation. `view` takes the lights' vectors from world to eye space; `n_eye` is of unit length. 0^0 is 1, and a
+/// vector without a direction (a light at the point itself) has a dot product of 0 with everything.
+glm::dvec4 light(const Scene& scene, const Draw& draw, const glm::dmat4& view, glm::dvec3 p_eye, glm::dvec3 n_eye);
+
+/// The colour of the mesh's vertex number `vertex`: lit, or where the draw is not, the mesh's colour there, or where it
+/// has none, the material's diffuse colour. rgba, clamped to [0,1].
+glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, const glm::dmat4& view, std::uint32_t vertex,
+                        glm::dvec3 p_eye, glm::dvec3 n_eye);
+
+}  // namespace plumbline::math

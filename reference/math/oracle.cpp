@@ -1,0 +1,145 @@
+#include "reference/math/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "reference/math/ambiguity.h"
+#include "reference/math/pixel_hit.h"
+
+namespace plumbline::math {
+
+namespace {
+
+double to_format(DepthFormat format, double z) {
+  const double scale = depth_scale(format);
+  return scale > 0 ? std::nearbyint(z * scale) / scale : static_cast<double>(static_cast<float>(z));
+}
+
+glm::vec4 to_format(ColorFormat format, glm::vec4 color) {
+  if (format == ColorFormat::rgba32f) return color;
+  return glm::round(glm::clamp(color, 0.0f, 1.0f) * 255.0f) / 255.0f;
+}
+
+bool passes(DepthFunc func, double z, double held) {
+  switch (func) {
+    case DepthFunc::never: return false;
+    case DepthFunc::less: return z < held;
+    case DepthFunc::equal: return z == held;
+    case DepthFunc::less_equal: return z <= held;
+    case DepthFunc::greater: return z > held;
+    case DepthFunc::not_equal: return z != held;
+    case DepthFunc::greater_equal: return z >= held;
+    case DepthFunc::always: return true;
+  }
+  return false;
+}
+
+/// The candidates' primitives by pixel, each pixel's ascending and without duplicates.
+class ByPixel {
+ public:
+  ByPixel(const Candidates& candidates, std::size_t pixels) : first_(pixels + 1, 0) {
+    for (const Candidate& c : candidates.all()) ++first_[c.pixel + 1];
+    for (std::size_t i = 0; i < pixels; ++i) first_[i + 1] += first_[i];
+    primitives_.resize(candidates.all().size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (const Candidate& c : candidates.all()) primitives_[next[c.pixel]++] = c.primitive;
+  }
+  std::span<const std::uint32_t> at(std::size_t pixel) {
+    const auto begin = primitives_.begin() + first_[pixel], end = primitives_.begin() + first_[pixel + 1];
+    std::sort(begin, end);
+    return {begin, std::unique(begin, end)};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> primitives_;
+};
+
+Planes empty_planes(const FrameFormat& frame) {
+  Planes planes;
+  planes.count = {frame.width, frame.height, 0};
+  planes.id_sum = {frame.width, frame.height, 0};
+  planes.id = {frame.width, frame.height, kBackground};
+  planes.shaded = {frame.width, frame.height, frame.clear_color};
+  planes.color = {frame.width, frame.height, to_format(frame.color, frame.clear_color)};
+  planes.depth = {frame.width, frame.height, to_format(frame.depth, frame.clear_depth)};
+  return planes;
+}
+
+/// Double's own picture of a pixel.
+void draw_inside(const FrameFormat& frame, std::span<const PixelHit> hits, int x, int y, Planes& planes) {
+  for (const PixelHit& h : hits) {
+    if (!h.inside) continue;
+    ++planes.count(x, y);
+    planes.id_sum(x, y) += id_weight(h.hit.primitive);
+    const double z = to_format(frame.depth, std::clamp(h.z, 0.0, 1.0));
+    if (!passes(h.hit.depth_func, z, planes.depth(x, y))) continue;
+    planes.id(x, y) = static_cast<std::int32_t>(h.hit.primitive);
+    planes.depth(x, y) = z;
+    planes.shaded(x, y) = glm::vec4(h.hit.color);
+    planes.color(x, y) = to_format(frame.color, planes.shaded(x, y));
+  }
+}
+
+}  // namespace
+
+Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates) {
+  const FrameFormat& frame = scene.frame;
+  Oracle out{{}, empty_planes(frame)};
+  Legal& legal = out.legal;
+  legal.certain = {frame.width, frame.height, 0};
+  legal.possible = {frame.width, frame.height, 0};
+  legal.first.reserve(legal.certain.size() + 1);
+  legal.answers.reserve(legal.certain.size());
+  legal.first.push_back(0);
+
+  ByPixel by_pixel(candidates, legal.certain.size());
+  std::vector<PixelHit> hits;
+  std::vector<Hit> to_fold;
+  std::vector<LegalAnswer> answers;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      hits.clear();
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
+      for (const std::uint32_t primitive : by_pixel.at(pixel)) {
+        if (const auto hit = pixel_hit(scene, projected, primitive, x, y)) hits.push_back(*hit);
+      }
+      std::uint32_t certain = static_cast<std::uint32_t>(form_groups(projected, hits, x, y));
+      to_fold.clear();
+      for (const PixelHit& h : hits) {
+        certain += h.hit.certain ? 1 : 0;
+        to_fold.push_back(h.hit);
+      }
+      legal.certain(x, y) = certain;
+      legal.possible(x, y) = static_cast<std::uint32_t>(hits.size());
+      fold_hits(to_fold, frame, answers);
+      legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
+      legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
+      draw_inside(frame, hits, x, y, out.planes);
+      legal.predicted_ambiguous += ambiguous_by_depth(frame, hits, out.planes.id(x, y));
+    }
+  }
+  legal.predicted_ambiguous += ambiguous_by_edges(scene, projected, out.planes.id);
+  return out;
+}
+
+std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget) {
+  const std::size_t pixels = static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height);
+  // Two planes, the answers' index, two answers a pixel (most have one), and a candidate's list by pixel.
+  const std::size_t fixed = plane_bytes(scene) + pixels * (4 * sizeof(std::uint32_t) + 2 * sizeof(LegalAnswer));
+  require_budget(scene, fixed, memory_budget);
+  return (memory_budget - fixed) / (sizeof(Candidate) + sizeof(std::uint32_t));
+}
+
+Legal legal_by_boxes(const Scene& scene, const Request& request) {
+  Candidates candidates(candidate_budget(scene, request.memory_budget));
+  const Projected projected = project(scene);
+  add_by_boxes(projected, candidates);
+  add_by_edges(projected, candidates);
+  return consult(scene, projected, candidates).legal;
+}
+
+}  // namespace plumbline::math

@@ -1,0 +1,184 @@
+#include "reference/math/pixel_hit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::math {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A centre exactly on an edge belongs to the triangle on its right (+x); on a horizontal one, above (+y).
+bool takes_ties(glm::dvec2 inward) { return inward.x > 0 || (inward.x == 0 && inward.y > 0); }
+
+/// S: by how much the errors of a plane's corners may be enlarged at a pixel of its triangle; infinite: without bound.
+double snap_weight(const Triangle& t, bool certain) {
+  // A plane is set up through vertices within delta_E of their places, and evaluated at the pixel. With b' the pixel's
+  // barycentrics in the moved triangle, it comes to z at sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel.
+  // Inside, that sum is 1. Outside by at most a snapping step (coverage is snapped, the plane is not), at most two b'
+  // are negative, each by no more than the step over the altitude. A triangle that is cut is drawn in pieces, which
+  // have such borders inside it too.
+  if (certain && !t.cut) return 1;
+  const double altitude = t.altitude - 2 * (t.reach - kSnap);
+  return altitude > 0 ? 1 + 4 * kSnap / altitude : kInfinity;
+}
+
+struct Place {
+  bool inside = false;    ///< in the closed triangle, in double
+  bool by_ties = false;   ///< and by the tie rule
+  double border = 0;      ///< pixels to its border
+  glm::dvec3 nearest{0};  ///< the point of the triangle nearest to d
+  double w = 0;           ///< there
+};
+
+Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
+  Place out;
+  out.inside = out.by_ties = !t.flat;
+  out.border = kInfinity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double e = t.sign * glm::dot(t.n[i], d);
+    if (!t.flat && e * t.per_pixel[i] < -t.reach) return {false, false, kInfinity, d, 1};
+    out.inside &= e >= 0;
+    out.by_ties &= e > 0 || (e == 0 && takes_ties(t.sign * glm::dvec2(t.n[i])));
+    out.border = std::min(out.border, t.per_pixel[i] > 0 ? e * t.per_pixel[i] : kInfinity);
+  }
+  const double inv_w = glm::dot(t.w_plane, d);
+  if (out.inside && inv_w > 0) {
+    out.nearest = d;
+    out.w = 1 / inv_w;
+    return out;
+  }
+  out.inside = out.by_ties = false;
+  out.border = kInfinity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 &v_j = scene.corners[t.corner[(i + 1) % 3]].v, &v_k = scene.corners[t.corner[(i + 2) % 3]].v;
+    const EdgeDistance edge = edge_distance(t.n[i], v_j, v_k, d);
+    if (edge.pixels < out.border) {
+      out.border = edge.pixels;
+      out.nearest = edge.d_nearest;
+      out.w = edge.w;
+    }
+  }
+  return out;
+}
+
+/// The depth interval: the plane's z at the pixel, moved by at most h + delta_E where coverage and plane are snapped
+/// alike, or by the plane's own error where only coverage is; then the corners' own depth error.
+void set_depth(const Triangle& t, glm::dvec3 d, const Place& at, glm::dvec2 moved, PixelHit& out) {
+  const double weight = snap_weight(t, out.hit.certain);
+  const double w = std::clamp(at.w, t.w_min, t.w_max);
+  if (t.flat || !std::isfinite(weight)) {
+    out.z = t.ahead ? std::clamp(0.5 * (t.z_min + t.z_max), 0.0, 1.0) : 0.5;
+    out.z_half = kInfinity;
+    out.hit.z_lo = 0;
+    out.hit.z_hi = 1;
+    out.hit.certain = false;
+    return;
+  }
+  out.z = 0.5 + glm::dot(t.z_plane, d);
+  out.z_slope = glm::dvec2(t.z_plane);
+  const double z_ndc = std::clamp(std::abs(2 * out.z - 1), 0.0, 1.0);
+  const double corner_error = kFloatRounding * (t.roundings * (t.size.z + z_ndc * t.size.w) / (2 * w) + 1);
+  out.z_half = glm::dot(glm::abs(out.z_slope), kHalfStep + weight * moved) + weight * corner_error;
+  double lo = out.z - out.z_half, hi = out.z + out.z_half;
+  out.whole = out.whole || (t.facing_kept && lo > 0 && hi < 1);
+  // Inside, every plane comes to a convex combination of the corners' depths; outside it may overshoot them.
+  if (out.hit.certain && t.ahead) {
+    lo = std::max(lo, t.z_min - corner_error);
+    hi = std::min(hi, t.z_max + corner_error);
+  }
+  out.hit.certain = out.hit.certain && lo > 0 && hi < 1;  // else the near or far plane may cut it off here
+  out.hit.z_lo = std::clamp(lo, 0.0, 1.0);
+  out.hit.z_hi = std::clamp(hi, 0.0, 1.0);
+}
+
+/// The colour at the pixel: perspective-correct, the plane going on beyond the triangle's border, as renderers' do.
+void set_color(const Scene& scene, const Projected& projected, const Triangle& t, glm::dvec3 d, const Place& at,
+               glm::dvec2 moved, PixelHit& out) {
+  const Corner& last = projected.corners[t.corner[2]];
+  if (scene.draws[t.draw].shading == Shading::flat) {
+    out.hit.color = last.color;
+    out.hit.color_bound = last.color_error + 4 * kFloatRounding;
+    return;
+  }
+  const std::array<const Corner*, 3> c{&projected.corners[t.corner[0]], &projected.corners[t.corner[1]], &last};
+  const glm::dvec3 e(glm::dot(t.n[0], d), glm::dot(t.n[1], d), glm::dot(t.n[2], d));
+  const double weight = snap_weight(t, out.hit.certain), sum = e.x + e.y + e.z;
+  if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0)) {  // no plane to rely on: any colour
+    out.hit.color = (c[0]->color + c[1]->color + c[2]->color) / 3.0;
+    out.hit.color_bound = 1;
+    return;
+  }
+  glm::dvec4 color(0), slope_x(0), slope_y(0);
+  double error = 0, spread = 0;
+  const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double b = e[static_cast<glm::length_t>(i)] / sum;
+    color += b * c[i]->color;
+    slope_x += (t.n[i].x - b * n_sum.x) / sum * c[i]->color;
+    slope_y += (t.n[i].y - b * n_sum.y) / sum * c[i]->color;
+    error = std::max(error, c[i]->color_error);
+  }
+  const auto largest = [](const glm::dvec4& v) {
+    const glm::dvec4 a = glm::abs(v);
+    return std::max({a.x, a.y, a.z, a.w});
+  };
+  for (const Corner* corner : c) spread = std::max(spread, largest(corner->color - color));
+  // A far point of a triangle that comes near has small e_i: their errors are those of the near end, w / w_min larger.
+  // The relative error of 1/w_i moves the colour by its share of the spread, and so does that of w's plane.
+  const double w = std::clamp(at.w, t.w_min, t.w_max), near_end = w / t.w_min;
+  const double color_weight = 1 + (weight - 1) * near_end;
+  const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
+  out.hit.color = color;
+  out.hit.color_bound =
+      std::min(1.0, weight * (largest(slope_x) * moved.x + largest(slope_y) * moved.y) +
+                        color_weight * (error + 2 * w_error * spread) + 32 * kFloatRounding * near_end * color_weight);
+}
+
+}  // namespace
+
+EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d) {
+  const double slope2 = n.x * n.x + n.y * n.y, n2 = glm::dot(n, n);
+  if (slope2 > 0 && n2 > 0) {
+    const double e = glm::dot(n, d);
+    const glm::dvec3 foot(d.x - e / slope2 * n.x, d.y - e / slope2 * n.y, 1);
+    // foot = a v_j + b v_k, and 1/w = a + b there
+    const double a = glm::dot(glm::cross(foot, v_k), n) / n2, b = glm::dot(glm::cross(v_j, foot), n) / n2;
+    if (a >= 0 && b >= 0) return {std::abs(e) / std::sqrt(slope2), foot, 1 / (a + b)};
+  }
+  EdgeDistance nearest{kInfinity, d, 1};
+  for (const glm::dvec3& v : {v_j, v_k}) {
+    if (!(v.z > 0)) continue;
+    const glm::dvec3 p = v / v.z;
+    const double distance = std::hypot(p.x - d.x, p.y - d.y);
+    if (distance < nearest.pixels) nearest = {distance, p, v.z};
+  }
+  return nearest;
+}
+
+std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected, std::uint32_t primitive, int px,
+                                  int py) {
+  const Triangle& t = projected.triangles[primitive];
+  if (!t.drawn) return std::nullopt;
+  const glm::dvec3 d = projected.ray(px, py);
+  const Place at = place(projected, t, d);
+  if (!at.inside && !(at.border <= t.reach)) return std::nullopt;
+  const double w = std::clamp(at.w, t.w_min, t.w_max);
+  const glm::dvec2 moved = float_displacement(projected, t, at.nearest, w);
+  PixelHit out;
+  out.delta = std::min(t.reach, kSnap + glm::length(moved));
+  if (!at.inside && at.border > out.delta) return std::nullopt;
+  out.hit.primitive = primitive;
+  out.hit.depth_func = scene.draws[t.draw].depth_func;
+  out.hit.certain = at.inside && at.border > out.delta && !t.thin;
+  out.whole = t.facing_kept && !t.flat && !t.cut;
+  set_depth(t, d, at, moved, out);
+  if (std::isfinite(out.z_half) && (out.z + out.z_half < 0 || out.z - out.z_half > 1)) return std::nullopt;
+  set_color(scene, projected, t, d, at, moved, out);
+  out.inside = at.by_ties && at.inside && t.facing_kept && out.z >= 0 && out.z <= 1;
+  return out;
+}
+
+}  // namespace plumbline::math

@@ -1,0 +1,43 @@
+// One triangle at one pixel's centre: what double arithmetic says, and what a legal renderer may make of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <glm/glm.hpp>
+
+#include "reference/math/project.h"
+#include "stages/legal.h"
+
+namespace plumbline::math {
+
+/// A triangle that certainly or possibly covers a pixel.
+struct PixelHit {
+  Hit hit;              ///< as fold_hits takes it
+  bool inside = false;  ///< in double the pixel is inside (ties by TieRule::small_sides_in), in depth range, not culled
+  bool whole = false;   ///< neither the near nor the far plane may cut it here, and it is not culled
+  double z = 0;         ///< window z of its plane, not clamped
+  double z_half = 0;    ///< half the depth interval before clamping; infinite where no plane can be relied on
+  glm::dvec2 z_slope{0};  ///< of its plane, per pixel
+  double delta = 0;       ///< pixels: how far its outline may be moved here
+};
+
+/// The triangle `primitive` at the pixel (px, py), or nothing where no legal renderer covers it.
+std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected, std::uint32_t primitive, int px,
+                                  int py);
+
+/// The distance of the window point d from the edge from corner j to corner k of the triangle, as far as the edge is
+/// before the eye; infinite where it is not. `d_nearest` is the point of it nearest to d, `w` the depth there.
+struct EdgeDistance {
+  double pixels;
+  glm::dvec3 d_nearest;
+  double w;
+};
+EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d);
+
+/// Finds possible hits that together certainly cover the pixel, and gives each such set a number (Hit::group).
+/// Returns how many sets there are. `hits` are those of one pixel.
+int form_groups(const Projected& projected, std::span<PixelHit> hits, int px, int py);
+
+}  // namespace plumbline::math

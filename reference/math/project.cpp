@@ -1,0 +1,278 @@
+#include "reference/math/project.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <unordered_map>
+
+#include "reference/math/color_error.h"
+#include "reference/math/light.h"
+#include "reference/math/matrices.h"
+
+namespace plumbline::math {
+
+namespace {
+
+// How far float arithmetic may be from double. u = 2^-24; A = |P| |M| |p|, component by component.
+//   rounding M's and P's entries to float: 1 + 1; the product P M, four products and three sums: 4 (of its terms'
+//   sizes); times p: 4.  So a clip coordinate in float is within 10 u A of the one in double (P (M p) comes to the
+//   same count), and dividing by w and multiplying by the scale adds 2 u |X/W| <= 2 u A_X / W. With 2 spare: 14.
+//   A cut vertex a + t (b - a) adds 3 u of its terms per cut, and no edge is cut by more than three planes in a row
+//   between two of its mesh vertices: 9, so 24. A convex combination of vertices, each within k u A of its place, is
+//   within k u max A of its place, and an error of t moves it along the edge: so cut edges obey the same bound.
+// A point (X, Y, W) = w d that moves by (eX, eY, eW) moves in the window by (eX - x eW) / w, to first order.
+constexpr double kRoundings = 14;
+constexpr double kRoundingsCut = 24;
+/// Scaling and translating to the window: rounded twice, window coordinates are at most the window's size; and 2 spare.
+constexpr double kWindowRoundings = 4;
+/// An entry below this is 0 in float: an error of its whole size, 2^24 roundings.
+constexpr double kZeroEntry = 1e-12;
+
+glm::dmat4 sizes(const glm::dmat4& m) {
+  glm::dmat4 out;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      const double size = std::abs(m[column][row]);
+      out[column][row] = size < kZeroEntry ? size / kFloatRounding : size;
+    }
+  }
+  return out;
+}
+
+/// One number per distinct position: the index of its first vertex.
+std::vector<std::uint32_t> weld(const Mesh& mesh) {
+  struct Bits {
+    std::uint32_t x, y, z;
+    bool operator==(const Bits&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Bits& b) const {
+      return (b.x * std::size_t{0x9e3779b97f4a7c15}) ^ (b.y * std::size_t{0xc2b2ae3d27d4eb4f}) ^
+             (b.z * std::size_t{0x165667b19e3779f9});
+    }
+  };
+  std::unordered_map<Bits, std::uint32_t, Hash> first;
+  first.reserve(mesh.positions.size());
+  std::vector<std::uint32_t> point;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    Bits bits;
+    std::memcpy(&bits, &mesh.positions[i], sizeof bits);
+    point.push_back(first.emplace(bits, static_cast<std::uint32_t>(i)).first->second);
+  }
+  return point;
+}
+
+void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
+  const Mesh& mesh = scene.meshes[draw.mesh];
+  const Matrices<double> m = double_matrices(scene, draw);
+  const glm::dmat4 view = view_matrix(scene), clip = m.projection * m.model_view;
+  const glm::dmat4 clip_size = sizes(m.projection) * sizes(m.model_view);
+  const glm::dvec2 half(0.5 * scene.frame.width, 0.5 * scene.frame.height);
+  const std::vector<std::uint32_t> point = weld(mesh);
+  const auto first = static_cast<std::uint32_t>(out.corners.size());
+  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::dvec4 p(mesh.positions[i], 1);
+    const glm::dvec3 p_eye(m.model_view * p), n_eye = glm::normalize(m.normal * glm::dvec3(mesh.normals[i]));
+    const glm::dvec4 c = clip * p, size = clip_size * glm::abs(p);
+    Corner corner;
+    corner.v = {c.x * half.x, c.y * half.y, c.w};
+    corner.z = c.z;
+    corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
+    corner.color = vertex_color(scene, draw, view, i, p_eye, n_eye);
+    corner.color_error = color_error(scene, draw, m, view, i);
+    corner.point = first + point[i];
+    out.corners.push_back(corner);
+  }
+}
+
+/// Distances inside the view volume's planes, each plus what float arithmetic may add; near and far first.
+std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin) {
+  const double k = kRoundingsCut * kFloatRounding;
+  const double w_error = k * c.size.w, z_error = k * c.size.z + w_error;
+  const glm::dvec2 reach(0.5 * scene.width + margin, 0.5 * scene.height + margin);
+  const double x_error = k * c.size.x + reach.x * w_error, y_error = k * c.size.y + reach.y * w_error;
+  return {c.v.z + c.z + z_error,
+          c.v.z - c.z + z_error,
+          reach.x * c.v.z - c.v.x + x_error,
+          reach.x * c.v.z + c.v.x + x_error,
+          reach.y * c.v.z - c.v.y + y_error,
+          reach.y * c.v.z + c.v.y + y_error};
+}
+
+struct Polygon {
+  std::array<glm::dvec3, 9> v;
+  std::size_t count = 0;
+};
+
+/// The triangle's part inside the view volume, in double.
+Polygon visible_part(const Projected& scene, const std::array<const Corner*, 3>& corners, bool& cut) {
+  struct Vertex {
+    glm::dvec3 v;
+    std::array<double, 6> inside;
+  };
+  std::array<Vertex, 9> in, out;
+  std::size_t count = 3;
+  for (std::size_t i = 0; i < 3; ++i) in[i] = {corners[i]->v, inside_planes(scene, *corners[i], 0)};
+  for (std::size_t plane = 0; plane < 6; ++plane) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vertex &a = in[i], &b = in[(i + 1) % count];
+      if (a.inside[plane] >= 0) out[kept++] = a;
+      if ((a.inside[plane] >= 0) == (b.inside[plane] >= 0)) continue;
+      const double t = a.inside[plane] / (a.inside[plane] - b.inside[plane]);
+      Vertex at{a.v + t * (b.v - a.v), {}};
+      for (std::size_t p = 0; p < 6; ++p) at.inside[p] = a.inside[p] + t * (b.inside[p] - a.inside[p]);
+      at.inside[plane] = 0;
+      out[kept++] = at;
+      cut = true;
+    }
+    in = out;
+    count = kept;
+  }
+  Polygon polygon;
+  polygon.count = count;
+  for (std::size_t i = 0; i < count; ++i) polygon.v[i] = in[i].v;
+  return polygon;
+}
+
+double altitude(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+  const double area = std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  return longest > 0 ? area / longest : 0;
+}
+
+struct Widths {
+  double whole;   ///< the polygon's width: its smallest extent across any direction
+  double pieces;  ///< the smallest altitude of any triangle of its corners
+};
+Widths widths(const std::array<glm::dvec2, 9>& p, std::size_t count) {
+  Widths out{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (std::size_t a = 0; a < count; ++a) {
+    const glm::dvec2 along = p[(a + 1) % count] - p[a];
+    if (const double length = glm::length(along); length > 0) {
+      double extent = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        extent = std::max(extent, std::abs(along.x * (p[i].y - p[a].y) - along.y * (p[i].x - p[a].x)) / length);
+      }
+      out.whole = std::min(out.whole, extent);
+    }
+    for (std::size_t b = a + 1; b < count; ++b) {
+      for (std::size_t c = b + 1; c < count; ++c) out.pieces = std::min(out.pieces, altitude(p[a], p[b], p[c]));
+    }
+  }
+  if (!std::isfinite(out.whole)) out.whole = 0;
+  return out;
+}
+
+void set_planes(const std::array<const Corner*, 3>& c, Triangle& t) {
+  glm::dvec3 z_sum(0), w_sum(0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    t.n[i] = glm::cross(c[(i + 1) % 3]->v, c[(i + 2) % 3]->v);
+    const double slope = std::hypot(t.n[i].x, t.n[i].y);
+    t.per_pixel[i] = slope > 0 ? 1 / slope : 0;
+    z_sum += c[i]->z * t.n[i];
+    w_sum += t.n[i];
+    t.size = i == 0 ? c[i]->size : glm::max(t.size, c[i]->size);
+  }
+  const double det = glm::dot(c[0]->v, t.n[0]);
+  t.sign = det > 0 ? 1 : det < 0 ? -1 : 0;
+  t.z_plane = 0.5 / det * z_sum;
+  t.w_plane = 1 / det * w_sum;
+  // Below 2^-40 of its terms, double's own rounding has eaten the determinant.
+  const double terms = glm::dot(glm::abs(c[0]->v), glm::abs(t.n[0]));
+  t.flat = !(std::abs(det) > 1e-12 * terms) || !std::isfinite(t.z_plane.z) || !std::isfinite(t.w_plane.z);
+}
+
+void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
+  const std::array<const Corner*, 3> c{&scene.corners[t.corner[0]], &scene.corners[t.corner[1]],
+                                       &scene.corners[t.corner[2]]};
+  // Two corners at one place: zero area in every renderer.
+  if (c[0]->point == c[1]->point || c[1]->point == c[2]->point || c[2]->point == c[0]->point) return;
+  const Polygon part = visible_part(scene, c, t.cut);
+  if (part.count < 3) return;
+  set_planes(c, t);
+  for (const Corner* corner : c) {  // a corner on a plane of the view volume may or may not be cut
+    const auto inside = inside_planes(scene, *corner, 0);
+    const double slack = 4 * kRoundingsCut * kFloatRounding;
+    const std::array<double, 6> size{corner->size.z, corner->size.z, corner->size.x,
+                                     corner->size.x, corner->size.y, corner->size.y};
+    const std::array<double, 6> w_scale{
+        1, 1, 0.5 * scene.width, 0.5 * scene.width, 0.5 * scene.height, 0.5 * scene.height};
+    for (std::size_t p = 0; p < 6; ++p) t.cut |= inside[p] < slack * (size[p] + w_scale[p] * corner->size.w);
+  }
+  t.roundings = t.cut ? kRoundingsCut : kRoundings;
+  t.ahead = true;
+  t.z_min = std::numeric_limits<double>::infinity();
+  t.z_max = -t.z_min;
+  for (const Corner* corner : c) {
+    t.ahead &= corner->v.z > 0;
+    t.z_min = std::min(t.z_min, 0.5 + 0.5 * corner->z / corner->v.z);
+    t.z_max = std::max(t.z_max, 0.5 + 0.5 * corner->z / corner->v.z);
+  }
+  std::array<glm::dvec2, 9> p_window;
+  t.w_min = std::numeric_limits<double>::infinity();
+  glm::dvec3 farthest(0, 0, 1);
+  for (std::size_t i = 0; i < part.count; ++i) {
+    // A near plane closer to the eye than w is certain lets w reach 0: then the triangle may be anywhere.
+    const double w = std::max(part.v[i].z, kFloatRounding * t.size.w);
+    t.w_min = std::min(t.w_min, w);
+    t.w_max = std::max(t.w_max, w);
+    p_window[i] = glm::dvec2(part.v[i]) / w;
+    farthest = glm::max(farthest, glm::abs(part.v[i] / w));
+  }
+  t.reach = displacement(scene, t, farthest, t.w_min);
+  const Widths width = widths(p_window, part.count);
+  t.altitude = t.cut ? width.pieces : width.whole;
+  t.thin = t.flat || width.whole <= 2 * t.reach;
+  const bool front = t.sign > 0;
+  t.facing_kept = draw.cull == Cull::none || front == (draw.cull == Cull::back);
+  t.drawn = t.facing_kept || t.thin;
+}
+
+}  // namespace
+
+glm::dvec2 float_displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
+  const glm::dvec2 in_clip = (glm::dvec2(t.size) + glm::abs(glm::dvec2(d)) * t.size.w) * (t.roundings / w);
+  return kFloatRounding * (in_clip + kWindowRoundings * glm::dvec2(scene.width, scene.height));
+}
+
+double displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
+  return kSnap + glm::length(float_displacement(scene, t, d, w));
+}
+
+Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, double margin) {
+  const auto a = inside_planes(scene, j, margin), b = inside_planes(scene, k, margin);
+  Piece piece;
+  for (std::size_t p = 0; p < 6; ++p) {
+    if (a[p] < 0 && b[p] < 0) return {1, 0};
+    const double t = a[p] / (a[p] - b[p]);
+    if (a[p] < 0) piece.from = std::max(piece.from, t);
+    if (b[p] < 0) piece.to = std::min(piece.to, t);
+  }
+  return piece;
+}
+
+Projected project(const Scene& scene) {
+  Projected out;
+  out.width = scene.frame.width;
+  out.height = scene.frame.height;
+  out.perspective = std::holds_alternative<Perspective>(scene.projection);
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {
+    const Draw& draw = scene.draws[d];
+    add_corners(scene, draw, out);
+    for (const glm::uvec3& indices : scene.meshes[draw.mesh].triangles) {
+      Triangle t{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        t.corner[i] = ranges[d].first_vertex + indices[static_cast<glm::length_t>(i)];
+      }
+      t.draw = d;
+      set_up(out, draw, t);
+      out.triangles.push_back(t);
+    }
+  }
+  return out;
+}
+
+}  // namespace plumbline::math

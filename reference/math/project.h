@@ -1,0 +1,85 @@
+// A scene's triangles in homogeneous window coordinates, in double, with what float arithmetic may make of them.
+//
+// A vertex is v = (X, Y, W) = (x_clip width/2, y_clip height/2, w_clip), and the point (x, y) of the window, counted in
+// pixels from its *middle*, is the ray d = (x, y, 1) from the origin: the triangle v0 v1 v2 is at the point where
+// d w = b0 v0 + b1 v1 + b2 v2 with b_i >= 0, sum b_i = 1 (Olano and Greer, "Triangle Scan Conversion using 2D
+// Homogeneous Coordinates", 1997). No division by w, so that triangles across the eye's plane need no cutting:
+//   n_i = v_j x v_k (i, j, k cyclic)   e_i = n_i . d   det = v0 . n0   b_i = e_i / sum e   1/w = sum e / det
+//   z_ndc = sum z_i e_i / det, affine in (x, y);  det > 0 iff counter-clockwise in the window, y up.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace plumbline::math {
+
+inline constexpr double kFloatRounding = 1.0 / (1 << 24);  ///< u: half an ULP of 1
+inline constexpr double kHalfStep = 1.0 / 512;             ///< h: half a snapping step, in pixels
+inline constexpr double kSnap = 1.4142135623730951 / 512;  ///< the farthest that snapping moves a vertex, in pixels
+
+/// A vertex of a draw.
+struct Corner {
+  glm::dvec3 v;         ///< (X, Y, W)
+  double z;             ///< z_clip
+  glm::dvec4 size;      ///< of (X, Y, z_clip, W): the sums' terms by their absolute values
+  glm::dvec4 color;     ///< lit, clamped to [0,1]
+  double color_error;   ///< how far a float evaluation of `color` may be from it
+  std::uint32_t point;  ///< equal for vertices of one draw whose positions are bit-equal
+};
+
+/// A triangle that some legal renderer may draw.
+struct Triangle {
+  std::array<std::uint32_t, 3> corner;  ///< indices into Projected::corners
+  std::uint32_t draw = 0;
+  bool drawn = false;        ///< false: no legal renderer draws any of it; nothing below is set
+  bool facing_kept = false;  ///< its facing in double is not culled
+  bool thin = false;         ///< snapping may turn it over, or make its area 0
+  bool flat = false;         ///< without area in double: it has no plane
+  bool cut = false;          ///< some renderer may cut it at the view volume
+  bool ahead = false;        ///< all w > 0
+  double sign = 0;           ///< of det
+  std::array<glm::dvec3, 3> n;
+  std::array<double, 3> per_pixel;  ///< 1 / |(n_i.x, n_i.y)|: e_i times it is the distance to the edge's line
+  glm::dvec3 z_plane;               ///< z_win = 1/2 + z_plane . d
+  glm::dvec3 w_plane;               ///< 1/w = w_plane . d
+  glm::dvec4 size;                  ///< the corners' largest
+  double roundings = 0;             ///< k: a clip coordinate in float is within k u size of the one in double
+  double w_min = 0, w_max = 0;      ///< over its visible part
+  double z_min = 0, z_max = 0;      ///< window z over its corners, where `ahead`
+  double altitude = 0;              ///< pixels: the smallest one of all planes a renderer may set up for it
+  double reach = 0;                 ///< pixels: the largest vertex displacement over its visible part
+};
+
+/// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange).
+struct Projected {
+  int width = 0, height = 0;
+  bool perspective = true;
+  std::vector<Corner> corners;
+  std::vector<Triangle> triangles;
+
+  /// The ray of a pixel's centre.
+  glm::dvec3 ray(int px, int py) const { return {px + 0.5 - 0.5 * width, py + 0.5 - 0.5 * height, 1}; }
+};
+
+Projected project(const Scene& scene);
+
+/// How far float arithmetic may move the triangle's outline near the window point d, per axis in pixels; `w` is its
+/// w there. (Derived in project.cpp.)
+glm::dvec2 float_displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
+/// As a distance, and with snapping: delta.
+double displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
+
+/// A piece [from, to] of a segment a + t (b - a), t in [0,1]; empty if from > to.
+struct Piece {
+  double from = 0, to = 1;
+};
+/// The part of the edge from corner j to corner k that lies between the near and far planes, with what float arithmetic
+/// may add to it, and within `margin` pixels of the window.
+Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, double margin);
+
+}  // namespace plumbline::math

@@ -1,0 +1,65 @@
+// OpenGL's entry points, taken from the context at run time: libOSMesa and libOpenGL both export gl* functions, and
+// only the context's own are the right ones. Included by this folder's .cpp files alone.
+#pragma once
+
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
+
+#include <string_view>
+
+namespace plumbline::osmesa {
+
+// clang-format off
+#define PLUMBLINE_GL_FUNCTIONS(F) \
+  F(AttachShader) F(BeginQuery) F(BeginTransformFeedback) F(BindBuffer) F(BindBufferBase) F(BindFramebuffer) \
+  F(BindRenderbuffer) F(BlendFunc) F(BufferData) F(CheckFramebufferStatus) F(ClampColor) F(Clear) F(ClearColor) \
+  F(ClearDepth) F(Color4fv) F(ColorPointer) F(CompileShader) F(CreateProgram) F(CreateShader) F(CullFace) \
+  F(DeleteBuffers) F(DeleteFramebuffers) F(DeleteProgram) F(DeleteQueries) F(DeleteRenderbuffers) F(DeleteShader) \
+  F(DepthFunc) F(Disable) F(DrawArrays) F(DrawElements) F(Enable) F(EnableClientState) F(EndQuery) \
+  F(EndTransformFeedback) F(FeedbackBuffer) F(Finish) F(FramebufferRenderbuffer) F(GenBuffers) F(GenFramebuffers) \
+  F(GenQueries) F(GenRenderbuffers) F(GetBufferSubData) F(GetError) F(GetFloatv) F(GetIntegerv) F(GetProgramInfoLog) \
+  F(GetProgramiv) F(GetQueryObjectuiv) F(GetRenderbufferParameteriv) F(GetString) F(LightModelfv) F(Lightfv) \
+  F(LinkProgram) F(LoadIdentity) F(LoadMatrixf) F(Materialf) F(Materialfv) F(MatrixMode) F(NormalPointer) \
+  F(PopAttrib) F(PopClientAttrib) F(PushAttrib) F(PushClientAttrib) F(ReadPixels) F(RenderMode) \
+  F(RenderbufferStorage) F(ShadeModel) F(ShaderSource) F(TexCoordPointer) F(TransformFeedbackVaryings) F(UseProgram) \
+  F(VertexPointer) F(Viewport)
+// clang-format on
+
+struct Gl {
+#define PLUMBLINE_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
+  PLUMBLINE_GL_FUNCTIONS(PLUMBLINE_GL_MEMBER)
+#undef PLUMBLINE_GL_MEMBER
+};
+
+/// Throws RendererFailed, with GL's name of the error and `where`, if GL has recorded one.
+void check(const Gl& gl, std::string_view where);
+
+/// One of GL's limits.
+GLint limit(const Gl& gl, GLenum name);
+
+/// What is set during its lifetime goes back to what it was, which between two passes is GL's default. All but the
+/// matrices and the program.
+class SavedState {
+ public:
+  explicit SavedState(const Gl& gl) : gl_(gl) { gl_.PushAttrib(GL_ALL_ATTRIB_BITS); }
+  ~SavedState() { gl_.PopAttrib(); }
+  SavedState(const SavedState&) = delete;
+  SavedState& operator=(const SavedState&) = delete;
+
+ private:
+  const Gl& gl_;
+};
+
+/// The same for vertex arrays and their buffers.
+class SavedArrays {
+ public:
+  explicit SavedArrays(const Gl& gl) : gl_(gl) { gl_.PushClientAttrib(GL_CLIENT_VERTEX_ARRAY_BIT); }
+  ~SavedArrays() { gl_.PopClientAttrib(); }
+  SavedArrays(const SavedArrays&) = delete;
+  SavedArrays& operator=(const SavedArrays&) = delete;
+
+ private:
+  const Gl& gl_;
+};
+
+}  // namespace plumbline::osmesa

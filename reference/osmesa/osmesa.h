@@ -1,0 +1,31 @@
+// The reference `osmesa`: the scene drawn by Mesa's OpenGL, fixed function, in this process and without a window.
+#pragma once
+
+#include <memory>
+
+#include "stages/renderer.h"
+
+namespace plumbline {
+
+/// Mesa's software drivers. A process can use one of them.
+enum class OsmesaDriver { llvmpipe, softpipe };
+
+/// Makes the context. It shows
+///   matrices   as GL's matrix stacks and viewport hold them, the normal matrix as the inverse transpose of that
+///   vertex     by transform feedback of a GLSL 1.20 program
+///   light      by feedback mode, each vertex as a point
+///   clip       by feedback mode without culling. p_clip comes from the window position, in double: a float's relative
+///              error in p_win, times w. Polygons begin at any of their vertices. `cut` says that the position is not
+///              that of one of the mesh triangle's vertices
+///   window     by the same feedback; facing and culling by stages.h's rule, the sign of the snapped area, because
+///              feedback mode culls by the unsnapped one. GL's own culling shows in the planes. inv_w is 1 / (1 / (1 /
+///              w)): the feedback hands out w. Feedback mode applies no flat shading: the colours of flat draws are
+///              each vertex' own, and not to be compared
+///   coverage   planes.count and planes.id_sum: the scene without a depth test, added up
+///   depth, merge        planes.depth, planes.color: the scene in the frame's own formats
+///   attributes, shade   planes.shaded: the scene in RGBA32F, over the frame's depth format
+///   visibility          planes.id: a colour per primitive
+/// and runs nothing. Throws RendererFailed. Not for use by two threads at once.
+std::unique_ptr<Renderer> make_osmesa(OsmesaDriver driver = OsmesaDriver::llvmpipe);
+
+}  // namespace plumbline

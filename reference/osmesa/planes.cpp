@@ -1,0 +1,111 @@
+#include "reference/osmesa/planes.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reference/osmesa/target.h"
+#include "stages/renderer.h"
+
+namespace plumbline::osmesa {
+namespace {
+
+/// The scene as it is meant to look.
+void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target) {
+  const SavedState state(gl);
+  target.bind();
+  scene.clear(scene.scene().frame.clear_color);
+  scene.set_lights();
+  for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+    scene.set_matrices(i);
+    scene.set_surface(i);
+    scene.set_fragments(i);
+    scene.draw_triangles(i);
+  }
+  check(gl, "drawing the scene");
+}
+
+/// The scene with each primitive's number + 1 for its colour, on 0.
+Plane<std::int32_t> draw_ids(const Gl& gl, const SceneInGl& scene, const Target& target) {
+  {
+    const SavedState state(gl);
+    target.bind();
+    scene.clear(glm::vec4(0));
+    gl.ShadeModel(GL_FLAT);
+    for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+      scene.set_matrices(i);
+      scene.set_fragments(i);
+      scene.draw_ids(i);
+    }
+    check(gl, "drawing the primitives' numbers");
+  }
+  const Plane<std::uint32_t> codes = target.read_codes();
+  Plane<std::int32_t> ids(codes.width(), codes.height());
+  std::transform(codes.values().begin(), codes.values().end(), ids.values().begin(),
+                 [](std::uint32_t code) { return static_cast<std::int32_t>(code) - 1; });
+  return ids;
+}
+
+/// All fragments of all primitives, added up: r counts them, g, b and a sum their weights' parts.
+Plane<glm::vec4> draw_weights(const Gl& gl, const SceneInGl& scene, const Target& target) {
+  {
+    const SavedState state(gl);
+    target.bind();
+    scene.clear(glm::vec4(0));
+    gl.ShadeModel(GL_FLAT);
+    gl.ClampColor(GL_CLAMP_VERTEX_COLOR, GL_FALSE);
+    gl.ClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_FALSE);
+    for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+      scene.set_matrices(i);
+      scene.set_fragments(i);
+      gl.Disable(GL_DEPTH_TEST);
+      gl.Enable(GL_BLEND);
+      gl.BlendFunc(GL_ONE, GL_ONE);
+      scene.draw_weights(i);
+    }
+    check(gl, "drawing the overdraw");
+  }
+  return target.read_color();
+}
+
+void add_up_coverage(const Plane<glm::vec4>& sums, Planes& planes) {
+  constexpr float kMost = 4096;  // fragments at a pixel: below it every sum is under 2^24, and exact in float
+  planes.count = Plane<std::uint32_t>(sums.width(), sums.height());
+  planes.id_sum = Plane<std::uint64_t>(sums.width(), sums.height());
+  for (int y = 0; y < sums.height(); ++y) {
+    for (int x = 0; x < sums.width(); ++x) {
+      const glm::vec4& sum = sums(x, y);
+      if (!(sum.r <= kMost)) {
+        throw RendererFailed(
+            fmt::format("osmesa: {} fragments at pixel ({}, {}); it can tell up to {} apart", sum.r, x, y, kMost));
+      }
+      planes.count(x, y) = static_cast<std::uint32_t>(sum.r);
+      planes.id_sum(x, y) = static_cast<std::uint64_t>(sum.g) + (static_cast<std::uint64_t>(sum.b) << 20) +
+                            (static_cast<std::uint64_t>(sum.a) << 40);
+    }
+  }
+}
+
+}  // namespace
+
+Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
+  const FrameFormat& frame = scene.scene().frame;
+  const Target floats(gl, frame, ColorFormat::rgba32f);
+  const Target bytes(gl, frame, ColorFormat::rgba8);
+  Planes planes;
+  draw_scene(gl, scene, floats);
+  planes.shaded = floats.read_color();
+  if (frame.color == ColorFormat::rgba32f) {
+    planes.color = planes.shaded;
+    planes.depth = floats.read_depth();
+  } else {
+    draw_scene(gl, scene, bytes);
+    planes.color = bytes.read_color();
+    planes.depth = bytes.read_depth();
+  }
+  planes.id = draw_ids(gl, scene, bytes);
+  add_up_coverage(draw_weights(gl, scene, floats), planes);
+  return planes;
+}
+
+}  // namespace plumbline::osmesa

@@ -1,0 +1,12 @@
+// The planes, drawn and read back.
+#pragma once
+
+#include "reference/osmesa/scene_in_gl.h"
+#include "stages/capture.h"
+
+namespace plumbline::osmesa {
+
+/// Throws RendererFailed, also where more than 4096 fragments lie on one pixel: their weights' sum is not exact then.
+Planes draw_planes(const Gl& gl, const SceneInGl& scene);
+
+}  // namespace plumbline::osmesa

@@ -1,0 +1,190 @@
+#include "reference/osmesa/polygon_records.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "reference/osmesa/feedback.h"
+
+namespace plumbline::osmesa {
+namespace {
+
+// A triangle's corner as it goes in. `tag` is a texture coordinate, which clipping cuts like every other: x and y are
+// the primitive's low and high 16 bits, the same at all corners and so at all cuts; z and w are (1,0), (0,1), (0,0) at
+// the corners, and none of these at a cut.
+struct Corner {
+  glm::vec3 position, normal;
+  glm::vec4 color, tag;
+};
+
+// A triangle as GL_4D_COLOR_TEXTURE hands it out.
+struct FedVertex {
+  glm::vec4 p_win_w;  // window x, y, z; clip w
+  glm::vec4 color, tag;
+};
+struct FedTriangle {
+  float token, count;
+  std::array<FedVertex, 3> v;
+};
+constexpr std::size_t kTriangle = sizeof(FedTriangle) / sizeof(float);
+static_assert(kTriangle == 38);
+
+// So many triangles go in at a time: it bounds what the feedback takes.
+constexpr std::size_t kBatch = 1 << 15;
+
+std::vector<std::uint32_t> wanted_primitives(const DrawRange& range, const std::vector<std::uint32_t>& only) {
+  std::vector<std::uint32_t> primitives;
+  const std::uint32_t end = range.first_primitive + range.primitive_count;
+  if (only.empty()) {
+    for (std::uint32_t p = range.first_primitive; p < end; ++p) primitives.push_back(p);
+  } else {
+    std::copy_if(only.begin(), only.end(), std::back_inserter(primitives),
+                 [&](std::uint32_t p) { return p >= range.first_primitive && p < end; });
+  }
+  return primitives;
+}
+
+std::vector<Corner> corners_of(const Mesh& mesh, std::uint32_t first_primitive,
+                               std::span<const std::uint32_t> primitives) {
+  constexpr std::array<glm::vec2, 3> kCornerTags = {glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(0, 0)};
+  std::vector<Corner> corners;
+  corners.reserve(3 * primitives.size());
+  for (const std::uint32_t primitive : primitives) {
+    const glm::uvec3 triangle = mesh.triangles[primitive - first_primitive];
+    const glm::vec2 number(static_cast<float>(primitive & 0xffffu), static_cast<float>(primitive >> 16));
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = triangle[i];
+      corners.push_back({mesh.positions[v], mesh.normals[v], color_at(mesh, v),
+                         glm::vec4(number, kCornerTags[static_cast<std::size_t>(i)])});
+    }
+  }
+  return corners;
+}
+
+// From this process' memory: feedback mode never lets go of a buffer object that it has read (Mesa 22.3).
+void draw_corners(const Gl& gl, const std::vector<Corner>& corners, bool colors) {
+  const SavedArrays arrays(gl);
+  gl.VertexPointer(3, GL_FLOAT, sizeof(Corner), &corners[0].position);
+  gl.NormalPointer(GL_FLOAT, sizeof(Corner), &corners[0].normal);
+  gl.ColorPointer(4, GL_FLOAT, sizeof(Corner), &corners[0].color);
+  gl.TexCoordPointer(4, GL_FLOAT, sizeof(Corner), &corners[0].tag);
+  gl.EnableClientState(GL_VERTEX_ARRAY);
+  gl.EnableClientState(GL_NORMAL_ARRAY);
+  if (colors) gl.EnableClientState(GL_COLOR_ARRAY);
+  gl.EnableClientState(GL_TEXTURE_COORD_ARRAY);
+  gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
+}
+
+std::vector<FedTriangle> triangles_of(std::span<const float> values) {
+  if (values.size() % kTriangle != 0) throw RendererFailed("OpenGL: feedback is not of whole triangles");
+  std::vector<FedTriangle> triangles(values.size() / kTriangle);
+  if (!triangles.empty()) std::memcpy(triangles.data(), values.data(), values.size_bytes());
+  for (const FedTriangle& t : triangles) {
+    if (t.token == static_cast<float>(GL_POLYGON_TOKEN) && t.count == 3) continue;
+    throw RendererFailed(fmt::format("OpenGL: feedback token {} of {} vertices, not a triangle", t.token, t.count));
+  }
+  return triangles;
+}
+
+std::uint32_t primitive_of(const FedTriangle& t) {
+  const glm::vec4& tag = t.v[0].tag;
+  for (const FedVertex& v : t.v) {
+    if (v.tag.x == tag.x && v.tag.y == tag.y) continue;
+    throw RendererFailed(
+        fmt::format("OpenGL: feedback's tags ({}, {}) and ({}, {}) in one triangle", tag.x, tag.y, v.tag.x, v.tag.y));
+  }
+  return static_cast<std::uint32_t>(tag.x) | static_cast<std::uint32_t>(tag.y) << 16;
+}
+
+bool is_cut(const FedVertex& v) {
+  const float a = v.tag.z, b = v.tag.w;
+  return !((a == 0 || a == 1) && (b == 0 || b == 1));
+}
+
+class ToClip {
+ public:
+  explicit ToClip(const Matrices<double>& m) : scale_(m.win_scale), translate_(m.win_translate) {}
+  ClipVertex<double> operator()(const FedVertex& v) const {
+    const double w = static_cast<double>(v.p_win_w.w);
+    const glm::dvec3 p_ndc = (glm::dvec3(v.p_win_w) - translate_) / scale_;
+    return {glm::dvec4(p_ndc * w, w), v.color, is_cut(v)};
+  }
+
+ private:
+  glm::dvec3 scale_, translate_;
+};
+
+// Neighbouring triangles of one primitive are the fan (1, 2, 0), (2, 3, 0) ... of the polygon that clipping left.
+void add_polygons(std::span<const FedTriangle> triangles, const ToClip& to_clip, ClipPolygons<double>& out) {
+  for (std::size_t i = 0; i < triangles.size();) {
+    const std::uint32_t primitive = primitive_of(triangles[i]);
+    const auto first = static_cast<std::uint32_t>(out.vertices.size());
+    const auto& fan = triangles[i].v;
+    for (const int corner : {2, 0, 1}) out.vertices.push_back(to_clip(fan[static_cast<std::size_t>(corner)]));
+    for (++i; i < triangles.size() && primitive_of(triangles[i]) == primitive; ++i) {
+      if (triangles[i].v[2].p_win_w != fan[2].p_win_w || triangles[i].v[0].p_win_w != triangles[i - 1].v[1].p_win_w) {
+        throw RendererFailed(fmt::format("OpenGL: feedback of primitive {} is no fan", primitive));
+      }
+      out.vertices.push_back(to_clip(triangles[i].v[1]));
+    }
+    out.polygons.push_back({primitive, first, static_cast<std::uint32_t>(out.vertices.size()) - first});
+  }
+}
+
+// stages.h's rule, in float as the rasterizer has it.
+int snap(float window) { return static_cast<int>(std::lrint((window - 0.5f) * static_cast<float>(kSubpixel))); }
+
+std::int64_t doubled_area(const WindowTriangle<double>& t) {
+  const auto edge = [&](std::size_t i) { return glm::i64vec2(t.v[i].snapped) - glm::i64vec2(t.v[0].snapped); };
+  return edge(1).x * edge(2).y - edge(1).y * edge(2).x;
+}
+
+// Feedback mode culls by the area of the unsnapped positions, and the rasterizer by that of the snapped ones (measured:
+// on slivers the two differ, and the pixels are those of the latter). So culling is off, and its rule applied here;
+// GL's own culling shows in the planes.
+void add_triangles(std::span<const FedTriangle> triangles, Cull cull, std::vector<WindowTriangle<double>>& out) {
+  for (const FedTriangle& fed : triangles) {
+    WindowTriangle<double> t;
+    t.primitive = primitive_of(fed);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const FedVertex& v = fed.v[i];
+      t.v[i] = {v.p_win_w, 1.0 / static_cast<double>(v.p_win_w.w), {snap(v.p_win_w.x), snap(v.p_win_w.y)}, v.color};
+    }
+    const std::int64_t area = doubled_area(t);
+    t.front = area > 0;
+    if (area == 0 || cull == (t.front ? Cull::front : Cull::back)) continue;
+    out.push_back(t);
+  }
+}
+
+}  // namespace
+
+void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request, Records<double>& records) {
+  const bool clip = request.records.has(Stage::clip), window = request.records.has(Stage::window);
+  if (!clip && !window) return;
+  Feedback feedback(gl, GL_4D_COLOR_TEXTURE);
+  scene.set_lights();
+  for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+    const DrawRange& range = scene.ranges()[i];
+    const Draw& draw = scene.scene().draws[i];
+    const Mesh& mesh = scene.scene().meshes[draw.mesh];
+    const std::vector<std::uint32_t> wanted = wanted_primitives(range, request.primitives);
+    scene.set_matrices(i);
+    scene.set_surface(i);
+    const ToClip to_clip(scene.matrices(i));
+    for (std::size_t at = 0; at < wanted.size(); at += kBatch) {
+      const auto batch = std::span(wanted).subspan(at, std::min(kBatch, wanted.size() - at));
+      const std::vector<Corner> corners = corners_of(mesh, range.first_primitive, batch);
+      const std::vector<FedTriangle> triangles = triangles_of(feedback.run(
+          batch.size() * kTriangle * 5 / 4 + 16 * kTriangle, [&] { draw_corners(gl, corners, !mesh.colors.empty()); }));
+      if (clip) add_polygons(triangles, to_clip, records.polygons);
+      if (window) add_triangles(triangles, draw.cull, records.triangles);
+    }
+  }
+}
+
+}  // namespace plumbline::osmesa

@@ -1,0 +1,218 @@
+#include "reference/osmesa/scene_in_gl.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <fmt/format.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "reference/math/matrices.h"
+#include "stages/capture.h"
+#include "stages/renderer.h"
+
+namespace plumbline::osmesa {
+namespace {
+
+struct Corner {
+  glm::vec3 position;
+  std::uint32_t id;  // GL reads its bytes as a colour
+  glm::vec4 weight;
+};
+
+// What GL takes for a pointer: bytes from the bound buffer's start, or an address where none is bound.
+const void* offset(std::uintptr_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+// OpenGL would read past the end of the arrays.
+void require_whole(const Scene& scene, const Draw& draw) {
+  const Mesh& mesh = scene.meshes.at(draw.mesh);
+  const std::size_t vertices = mesh.positions.size();
+  const auto fail = [&](const std::string& what) {
+    throw RendererFailed(fmt::format("{}: mesh {}: {}", scene.name, draw.mesh, what));
+  };
+  if (mesh.normals.size() != vertices) fail(fmt::format("{} positions, but {} normals", vertices, mesh.normals.size()));
+  if (!mesh.colors.empty() && mesh.colors.size() != vertices) {
+    fail(fmt::format("{} positions, but {} colours", vertices, mesh.colors.size()));
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3 t = mesh.triangles[i];
+    if (std::max({t.x, t.y, t.z}) >= vertices) {
+      fail(fmt::format("triangle {} ({}, {}, {}) has a vertex beyond the {} that there are", i, t.x, t.y, t.z,
+                       vertices));
+    }
+  }
+}
+
+std::vector<Corner> corners_of(const Mesh& mesh, std::uint32_t primitive) {
+  std::vector<Corner> corners;
+  corners.reserve(3 * mesh.triangles.size());
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const auto part = [&](int i) { return static_cast<float>(id_weight_part(primitive, i)); };
+    const glm::vec4 weight(1, part(0), part(1), part(2));
+    for (int i = 0; i < 3; ++i) corners.push_back({mesh.positions[triangle[i]], primitive + 1, weight});
+    ++primitive;
+  }
+  return corners;
+}
+
+// In the world, homogeneous. A direction of unit length, so that its rounding to float loses nothing to its size.
+glm::dvec4 place(const Light& light) {
+  if (light.kind == Light::Kind::point) return glm::dvec4(light.vector, 1);
+  const double length = glm::length(light.vector);
+  return glm::dvec4(length > 0 ? light.vector / length : light.vector, 0);
+}
+
+GLenum gl_depth_func(DepthFunc func) {
+  switch (func) {
+    case DepthFunc::never: return GL_NEVER;
+    case DepthFunc::less: return GL_LESS;
+    case DepthFunc::equal: return GL_EQUAL;
+    case DepthFunc::less_equal: return GL_LEQUAL;
+    case DepthFunc::greater: return GL_GREATER;
+    case DepthFunc::not_equal: return GL_NOTEQUAL;
+    case DepthFunc::greater_equal: return GL_GEQUAL;
+    case DepthFunc::always: return GL_ALWAYS;
+  }
+  return GL_LESS;
+}
+
+}  // namespace
+
+glm::vec4 color_at(const Mesh& mesh, std::uint32_t vertex) {
+  return mesh.colors.empty() ? glm::vec4(1) : mesh.colors[vertex];
+}
+
+std::vector<SceneInGl::MeshVertex> SceneInGl::vertices_of(const Mesh& mesh) {
+  std::vector<MeshVertex> vertices;
+  vertices.reserve(mesh.positions.size());
+  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+    vertices.push_back({mesh.positions[i], mesh.normals[i], color_at(mesh, i)});
+  }
+  return vertices;
+}
+
+SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene) {
+  if (const int most = limit(gl, GL_MAX_LIGHTS); scene.lights.size() > static_cast<std::size_t>(most)) {
+    throw RendererFailed(fmt::format("{}: {} lights; OpenGL has {}", scene.name, scene.lights.size(), most));
+  }
+  for (const Draw& draw : scene.draws) require_whole(scene, draw);
+  ranges_ = draw_ranges(scene);
+  for (std::size_t i = 0; i < scene.draws.size(); ++i) {
+    const Mesh& mesh = scene.meshes[scene.draws[i].mesh];
+    matrices_.push_back(math::float_matrices(scene, scene.draws[i]));
+    std::vector<MeshVertex> vertices = vertices_of(mesh);
+    Buffer vertex_buffer(gl, std::span<const MeshVertex>(vertices));
+    arrays_.push_back({std::move(vertices), std::move(vertex_buffer),
+                       Buffer(gl, std::span<const glm::uvec3>(mesh.triangles)),
+                       Buffer(gl, std::span<const Corner>(corners_of(mesh, ranges_[i].first_primitive)))});
+  }
+  check(gl, "uploading the meshes");
+}
+
+void SceneInGl::clear(const glm::vec4& color) const {
+  gl_.ClearColor(color.r, color.g, color.b, color.a);
+  gl_.ClearDepth(scene_.frame.clear_depth);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void SceneInGl::set_lights() const {
+  gl_.LightModelfv(GL_LIGHT_MODEL_AMBIENT, glm::value_ptr(glm::vec4(scene_.ambient, 1)));
+  // GL takes a light's place through the model-view matrix of the moment; it comes in eye space already.
+  gl_.MatrixMode(GL_MODELVIEW);
+  gl_.LoadIdentity();
+  const glm::dmat4 view = math::view_matrix(scene_);
+  for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+    const Light& light = scene_.lights[i];
+    const auto name = static_cast<GLenum>(GL_LIGHT0 + i);
+    gl_.Lightfv(name, GL_POSITION, glm::value_ptr(glm::vec4(view * place(light))));
+    gl_.Lightfv(name, GL_AMBIENT, glm::value_ptr(glm::vec4(light.ambient, 1)));
+    gl_.Lightfv(name, GL_DIFFUSE, glm::value_ptr(glm::vec4(light.diffuse, 1)));
+    gl_.Lightfv(name, GL_SPECULAR, glm::value_ptr(glm::vec4(light.specular, 1)));
+    gl_.Enable(name);
+  }
+}
+
+void SceneInGl::set_matrices(std::size_t draw) const {
+  gl_.MatrixMode(GL_PROJECTION);
+  gl_.LoadMatrixf(glm::value_ptr(glm::mat4(matrices_[draw].projection)));
+  gl_.MatrixMode(GL_MODELVIEW);
+  gl_.LoadMatrixf(glm::value_ptr(glm::mat4(matrices_[draw].model_view)));
+}
+
+void SceneInGl::set_surface(std::size_t draw) const {
+  const Draw& d = scene_.draws[draw];
+  gl_.ShadeModel(d.shading == Shading::flat ? GL_FLAT : GL_SMOOTH);
+  if (!d.lit) {
+    gl_.Disable(GL_LIGHTING);
+    gl_.Color4fv(glm::value_ptr(d.material.diffuse));  // where the mesh has no colours
+    return;
+  }
+  gl_.Enable(GL_LIGHTING);
+  gl_.Enable(GL_NORMALIZE);
+  gl_.Materialfv(GL_FRONT_AND_BACK, GL_AMBIENT, glm::value_ptr(d.material.ambient));
+  gl_.Materialfv(GL_FRONT_AND_BACK, GL_DIFFUSE, glm::value_ptr(d.material.diffuse));
+  gl_.Materialfv(GL_FRONT_AND_BACK, GL_SPECULAR, glm::value_ptr(d.material.specular));
+  gl_.Materialfv(GL_FRONT_AND_BACK, GL_EMISSION, glm::value_ptr(d.material.emission));
+  gl_.Materialf(GL_FRONT_AND_BACK, GL_SHININESS, d.material.shininess);
+}
+
+void SceneInGl::set_fragments(std::size_t draw) const {
+  const Draw& d = scene_.draws[draw];
+  gl_.Disable(GL_DITHER);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(gl_depth_func(d.depth_func));
+  if (d.cull == Cull::none) {
+    gl_.Disable(GL_CULL_FACE);
+  } else {
+    gl_.Enable(GL_CULL_FACE);
+    gl_.CullFace(d.cull == Cull::back ? GL_BACK : GL_FRONT);
+  }
+}
+
+// `first` is null where a buffer is bound.
+void SceneInGl::point_to_vertices(std::size_t draw, const MeshVertex* first) const {
+  const auto base = reinterpret_cast<std::uintptr_t>(first);
+  gl_.VertexPointer(3, GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, position)));
+  gl_.NormalPointer(GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, normal)));
+  gl_.ColorPointer(4, GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, color)));
+  gl_.EnableClientState(GL_VERTEX_ARRAY);
+  gl_.EnableClientState(GL_NORMAL_ARRAY);
+  if (!scene_.meshes[scene_.draws[draw].mesh].colors.empty()) gl_.EnableClientState(GL_COLOR_ARRAY);
+}
+
+void SceneInGl::bind_corners(std::size_t draw) const {
+  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].corners.name());
+  gl_.VertexPointer(3, GL_FLOAT, sizeof(Corner), offset(offsetof(Corner, position)));
+  gl_.EnableClientState(GL_VERTEX_ARRAY);
+  gl_.EnableClientState(GL_COLOR_ARRAY);
+}
+
+void SceneInGl::draw_triangles(std::size_t draw) const {
+  const SavedArrays arrays(gl_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
+  point_to_vertices(draw, nullptr);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, arrays_[draw].indices.name());
+  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * ranges_[draw].primitive_count), GL_UNSIGNED_INT, nullptr);
+}
+
+// From this process' memory: feedback mode never lets go of a buffer object that it has read (Mesa 22.3).
+void SceneInGl::draw_points(std::size_t draw) const {
+  const SavedArrays arrays(gl_);
+  point_to_vertices(draw, arrays_[draw].vertices.data());
+  gl_.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(ranges_[draw].vertex_count));
+}
+
+void SceneInGl::draw_ids(std::size_t draw) const {
+  const SavedArrays arrays(gl_);
+  bind_corners(draw);
+  gl_.ColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Corner), offset(offsetof(Corner, id)));
+  gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * ranges_[draw].primitive_count));
+}
+
+void SceneInGl::draw_weights(std::size_t draw) const {
+  const SavedArrays arrays(gl_);
+  bind_corners(draw);
+  gl_.ColorPointer(4, GL_FLOAT, sizeof(Corner), offset(offsetof(Corner, weight)));
+  gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * ranges_[draw].primitive_count));
+}
+
+}  // namespace plumbline::osmesa

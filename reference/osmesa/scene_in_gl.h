@@ -1,0 +1,60 @@
+// A scene's meshes in GL's buffers, each draw's uploaded once, and what GL has to be told to draw them.
+#pragma once
+
+#include <vector>
+
+#include "reference/osmesa/buffer.h"
+#include "reference/osmesa/gl.h"
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::osmesa {
+
+class SceneInGl {
+ public:
+  /// Keeps a reference to the scene. Throws RendererFailed for meshes whose arrays do not fit each other.
+  SceneInGl(const Gl& gl, const Scene& scene);
+
+  const Scene& scene() const { return scene_; }
+  const std::vector<DrawRange>& ranges() const { return ranges_; }
+  const Matrices<double>& matrices(std::size_t draw) const { return matrices_[draw]; }
+
+  // What GL is told. Call within a SavedState.
+  void clear(const glm::vec4& color) const;  ///< to a colour and the frame's clear depth
+  void set_lights() const;                   ///< ambient light, lights; leaves MODELVIEW the identity
+  void set_matrices(std::size_t draw) const;
+  void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth
+  void set_fragments(std::size_t draw) const;  ///< culling and depth function
+
+  // The draw's mesh, under the state that is set.
+  void draw_triangles(std::size_t draw) const;  ///< with normals and colours
+  void draw_points(std::size_t draw) const;     ///< each vertex, with normals and colours
+  void draw_ids(std::size_t draw) const;        ///< each triangle in the colour whose four bytes are primitive + 1
+  void draw_weights(std::size_t draw) const;    ///< each triangle in the colour (1, id_weight_part 0, 1, 2)
+
+ private:
+  struct MeshVertex {
+    glm::vec3 position, normal;
+    glm::vec4 color;
+  };
+  struct Arrays {
+    std::vector<MeshVertex> vertices;
+    Buffer vertex_buffer;  ///< the same
+    Buffer indices;        ///< the mesh's triangles
+    Buffer corners;        ///< every triangle's three corners alone, so that it can have a colour of its own
+  };
+  static std::vector<MeshVertex> vertices_of(const Mesh& mesh);
+  void point_to_vertices(std::size_t draw, const MeshVertex* first) const;
+  void bind_corners(std::size_t draw) const;
+
+  const Gl& gl_;
+  const Scene& scene_;
+  std::vector<DrawRange> ranges_;
+  std::vector<Matrices<double>> matrices_;
+  std::vector<Arrays> arrays_;
+};
+
+/// The mesh's colour at a vertex, or white where it has none.
+glm::vec4 color_at(const Mesh& mesh, std::uint32_t vertex);
+
+}  // namespace plumbline::osmesa

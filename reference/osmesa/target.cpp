@@ -1,0 +1,135 @@
+#include "reference/osmesa/target.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "stages/renderer.h"
+
+namespace plumbline::osmesa {
+namespace {
+
+struct DepthBits {
+  GLenum format;
+  GLint bits;
+};
+
+DepthBits depth_bits(DepthFormat format) {
+  switch (format) {
+    case DepthFormat::z16: return {GL_DEPTH_COMPONENT16, 16};
+    case DepthFormat::z24: return {GL_DEPTH_COMPONENT24, 24};
+    case DepthFormat::z32f: break;
+  }
+  return {GL_DEPTH_COMPONENT32F, 32};
+}
+
+// GL may give a format of more bits than were asked for; then the codes would not be the frame's.
+void require_bits(const Gl& gl, GLenum name, GLint expected, std::string_view what) {
+  GLint bits = 0;
+  gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, name, &bits);
+  check(gl, "the render buffer's format");
+  if (bits != expected) throw RendererFailed(fmt::format("OpenGL: {} bits of {}, not {}", bits, what, expected));
+}
+
+void require_size(const Gl& gl, const FrameFormat& frame) {
+  const int largest = limit(gl, GL_MAX_RENDERBUFFER_SIZE);
+  GLint viewport[2] = {0, 0};
+  gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  if (frame.width <= std::min(largest, viewport[0]) && frame.height <= std::min(largest, viewport[1])) return;
+  throw RendererFailed(
+      fmt::format("OpenGL: a frame of {} x {} pixels; its largest render buffer is {} x {}, viewport {} x {}",
+                  frame.width, frame.height, largest, largest, viewport[0], viewport[1]));
+}
+
+}  // namespace
+
+Target::Target(const Gl& gl, const FrameFormat& frame, ColorFormat color) : gl_(gl), frame_(frame), color_(color) {
+  require_size(gl, frame);
+  gl.GenFramebuffers(1, &frame_buffer_);
+  gl.GenRenderbuffers(2, buffers_);
+  try {
+    const DepthBits depth = depth_bits(frame.depth);
+    gl.BindRenderbuffer(GL_RENDERBUFFER, buffers_[0]);
+    gl.RenderbufferStorage(GL_RENDERBUFFER, color == ColorFormat::rgba8 ? GL_RGBA8 : GL_RGBA32F, frame.width,
+                           frame.height);
+    check(gl, "the colour buffer's storage");
+    require_bits(gl, GL_RENDERBUFFER_RED_SIZE, color == ColorFormat::rgba8 ? 8 : 32, "red");
+    gl.BindRenderbuffer(GL_RENDERBUFFER, buffers_[1]);
+    gl.RenderbufferStorage(GL_RENDERBUFFER, depth.format, frame.width, frame.height);
+    check(gl, "the depth buffer's storage");
+    require_bits(gl, GL_RENDERBUFFER_DEPTH_SIZE, depth.bits, "depth");
+
+    gl.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[0]);
+    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
+    const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
+    check(gl, "the frame buffer's parts");
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+      throw RendererFailed(fmt::format("OpenGL: a frame buffer of {} x {} pixels is incomplete ({:#06x})", frame.width,
+                                       frame.height, status));
+    }
+  } catch (...) {
+    release();
+    throw;
+  }
+}
+
+Target::~Target() { release(); }
+
+void Target::release() {
+  gl_.DeleteFramebuffers(1, &frame_buffer_);
+  gl_.DeleteRenderbuffers(2, buffers_);
+}
+
+void Target::bind() const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+  gl_.Viewport(0, 0, frame_.width, frame_.height);
+}
+
+Plane<std::uint32_t> Target::read_codes() const {
+  Plane<std::uint32_t> codes(frame_.width, frame_.height);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+  gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_RGBA, GL_UNSIGNED_INT_8_8_8_8_REV, codes.values().data());
+  check(gl_, "reading colour codes");
+  return codes;
+}
+
+Plane<glm::vec4> Target::read_color() const {
+  Plane<glm::vec4> color(frame_.width, frame_.height);
+  if (color_ == ColorFormat::rgba32f) {
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+    gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_RGBA, GL_FLOAT, color.values().data());
+    check(gl_, "reading colours");
+    return color;
+  }
+  const Plane<std::uint32_t> codes = read_codes();
+  const auto channel = [](std::uint32_t code, int shift) { return static_cast<float>(code >> shift & 0xffu) / 255.0f; };
+  std::transform(codes.values().begin(), codes.values().end(), color.values().begin(), [&](std::uint32_t code) {
+    return glm::vec4(channel(code, 0), channel(code, 8), channel(code, 16), channel(code, 24));
+  });
+  return color;
+}
+
+Plane<double> Target::read_depth() const {
+  Plane<double> depth(frame_.width, frame_.height);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+  const auto read = [&](GLenum type, auto values, auto to_z) {
+    values.resize(depth.size());
+    gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_DEPTH_COMPONENT, type, values.data());
+    check(gl_, "reading depth");
+    std::transform(values.begin(), values.end(), depth.values().begin(), to_z);
+  };
+  if (frame_.depth == DepthFormat::z32f) {
+    read(GL_FLOAT, std::vector<float>(), [](float z) { return static_cast<double>(z); });
+  } else {
+    // GL spreads an n-bit code over 32 bits; its high n bits are the code itself.
+    const int spread = 32 - depth_bits(frame_.depth).bits;
+    const double scale = depth_scale(frame_.depth);
+    read(GL_UNSIGNED_INT, std::vector<GLuint>(), [=](GLuint z) { return static_cast<double>(z >> spread) / scale; });
+  }
+  return depth;
+}
+
+}  // namespace plumbline::osmesa

@@ -1,0 +1,41 @@
+// A frame buffer object to draw into and read from.
+#pragma once
+
+#include <cstdint>
+
+#include "reference/osmesa/gl.h"
+#include "scene/scene.h"
+#include "stages/plane.h"
+
+namespace plumbline::osmesa {
+
+class Target {
+ public:
+  /// Of the frame's size and depth format, with a colour format of the caller's. Throws RendererFailed where OpenGL
+  /// cannot give that, naming its limit.
+  Target(const Gl& gl, const FrameFormat& frame, ColorFormat color);
+  ~Target();
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+
+  /// Draws go here from now on, through a viewport of its whole size.
+  void bind() const;
+
+  /// One byte per channel: r in the low byte. For rgba8.
+  Plane<std::uint32_t> read_codes() const;
+  /// rgba8 as code / 255.
+  Plane<glm::vec4> read_color() const;
+  /// Window z: n-bit codes as code / (2^n - 1).
+  Plane<double> read_depth() const;
+
+ private:
+  void release();
+
+  const Gl& gl_;
+  FrameFormat frame_;
+  ColorFormat color_;
+  GLuint frame_buffer_ = 0;
+  GLuint buffers_[2] = {0, 0};  // colour, depth
+};
+
+}  // namespace plumbline::osmesa

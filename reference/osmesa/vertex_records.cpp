@@ -1,0 +1,171 @@
+#include "reference/osmesa/vertex_records.h"
+
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "reference/osmesa/feedback.h"
+#include "stages/renderer.h"
+
+namespace plumbline::osmesa {
+namespace {
+
+constexpr const char* kVertexSource =
+    "#version 120\n"
+    "varying vec4 p_eye;\n"
+    "varying vec3 n_eye;\n"
+    "void main() {\n"
+    "  gl_Position = ftransform();\n"
+    "  p_eye = gl_ModelViewMatrix * gl_Vertex;\n"
+    "  n_eye = normalize(gl_NormalMatrix * gl_Normal);\n"
+    "}\n";
+
+struct Varyings {
+  glm::vec4 p_clip, p_eye;
+  glm::vec3 n_eye;
+};
+
+std::string log_of(const Gl& gl, GLuint program) {
+  std::array<char, 1024> log{};
+  gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
+  return log.data();
+}
+
+glm::dmat4 read_matrix(const Gl& gl, GLenum name) {
+  glm::mat4 matrix;
+  gl.GetFloatv(name, glm::value_ptr(matrix));
+  return glm::dmat4(matrix);
+}
+
+// Nothing is drawn, and the program runs instead of the fixed function.
+class Captured {
+ public:
+  Captured(const Gl& gl, GLuint program) : gl_(gl) {
+    gl_.Enable(GL_RASTERIZER_DISCARD);
+    gl_.UseProgram(program);
+    gl_.GenQueries(1, &query_);
+  }
+  ~Captured() {
+    gl_.DeleteQueries(1, &query_);
+    gl_.UseProgram(0);
+    gl_.Disable(GL_RASTERIZER_DISCARD);
+  }
+  Captured(const Captured&) = delete;
+  Captured& operator=(const Captured&) = delete;
+  GLuint query() const { return query_; }
+
+ private:
+  const Gl& gl_;
+  GLuint query_ = 0;
+};
+
+// Feedback mode hands out one GL_3D_COLOR point as: token, x, y, z, r, g, b, a.
+constexpr std::size_t kPoint = 8;
+
+// Every vertex, its eye-space w being 1, goes to the middle of the view volume: none is clipped.
+void gather_vertices(const Gl& gl) {
+  glm::mat4 middle(0);
+  middle[3][3] = 1;
+  gl.MatrixMode(GL_PROJECTION);
+  gl.LoadMatrixf(glm::value_ptr(middle));
+}
+
+}  // namespace
+
+std::vector<Matrices<double>> read_matrices(const Gl& gl, const SceneInGl& scene) {
+  glm::vec4 viewport;
+  glm::vec2 depth;
+  gl.GetFloatv(GL_VIEWPORT, glm::value_ptr(viewport));
+  gl.GetFloatv(GL_DEPTH_RANGE, glm::value_ptr(depth));
+  const glm::dvec2 origin(viewport.x, viewport.y), half = glm::dvec2(viewport.z, viewport.w) / 2.0;
+  const double near = static_cast<double>(depth.x), far = static_cast<double>(depth.y);
+
+  std::vector<Matrices<double>> records;
+  for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+    scene.set_matrices(i);
+    Matrices<double>& m = records.emplace_back();
+    m.model_view = read_matrix(gl, GL_MODELVIEW_MATRIX);
+    m.projection = read_matrix(gl, GL_PROJECTION_MATRIX);
+    m.normal = glm::transpose(glm::inverse(glm::dmat3(m.model_view)));
+    m.win_scale = glm::dvec3(half, (far - near) / 2);
+    m.win_translate = glm::dvec3(origin + half, (far + near) / 2);
+  }
+  check(gl, "reading the matrices back");
+  return records;
+}
+
+VertexProgram::VertexProgram(const Gl& gl) : gl_(gl), program_(gl.CreateProgram()) {
+  const GLuint shader = gl_.CreateShader(GL_VERTEX_SHADER);
+  gl_.ShaderSource(shader, 1, &kVertexSource, nullptr);
+  gl_.CompileShader(shader);
+  gl_.AttachShader(program_, shader);
+  gl_.DeleteShader(shader);
+  const std::array<const GLchar*, 3> varyings = {"gl_Position", "p_eye", "n_eye"};
+  gl_.TransformFeedbackVaryings(program_, 3, varyings.data(), GL_INTERLEAVED_ATTRIBS);
+  gl_.LinkProgram(program_);
+  GLint linked = GL_FALSE;
+  gl_.GetProgramiv(program_, GL_LINK_STATUS, &linked);
+  if (linked != GL_TRUE) {
+    const std::string log = log_of(gl_, program_);
+    gl_.DeleteProgram(program_);
+    throw RendererFailed("OpenGL: the vertex program does not link: " + log);
+  }
+  check(gl, "making the vertex program");
+}
+
+VertexProgram::~VertexProgram() { gl_.DeleteProgram(program_); }
+
+std::vector<Vertex<double>> VertexProgram::run(const SceneInGl& scene) const {
+  std::vector<Vertex<double>> records;
+  const Captured captured(gl_, program_);
+  for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+    std::vector<Varyings> varyings(scene.ranges()[i].vertex_count);
+    if (varyings.empty()) continue;
+    const auto bytes = varyings.size() * sizeof(Varyings);
+    const Buffer buffer(gl_, bytes, nullptr);
+    scene.set_matrices(i);
+    gl_.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer.name());
+    gl_.BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, captured.query());
+    gl_.BeginTransformFeedback(GL_POINTS);
+    scene.draw_points(i);
+    gl_.EndTransformFeedback();
+    gl_.EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
+    GLuint written = 0;
+    gl_.GetQueryObjectuiv(captured.query(), GL_QUERY_RESULT, &written);
+    gl_.GetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, static_cast<GLsizeiptr>(bytes), varyings.data());
+    gl_.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    check(gl_, "transform feedback");
+    if (written != varyings.size()) {
+      throw RendererFailed(fmt::format("OpenGL: transform feedback of {} of {} vertices", written, varyings.size()));
+    }
+    for (const Varyings& v : varyings) records.push_back({v.p_eye, v.p_clip, v.n_eye});
+  }
+  return records;
+}
+
+std::vector<Lit<double>> read_lit(const Gl& gl, const SceneInGl& scene) {
+  std::vector<Lit<double>> records;
+  Feedback feedback(gl, GL_3D_COLOR);
+  scene.set_lights();
+  for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+    scene.set_matrices(i);
+    gather_vertices(gl);
+    scene.set_surface(i);
+    const std::size_t expected = kPoint * scene.ranges()[i].vertex_count;
+    const std::span<const float> values = feedback.run(expected, [&] { scene.draw_points(i); });
+    if (values.size() != expected) {
+      throw RendererFailed(fmt::format("OpenGL: feedback mode gave {} of {} vertices", values.size() / kPoint,
+                                       scene.ranges()[i].vertex_count));
+    }
+    for (std::size_t at = 0; at < values.size(); at += kPoint) {
+      if (values[at] != static_cast<float>(GL_POINT_TOKEN))
+        throw RendererFailed("OpenGL: feedback of what is no point");
+      records.push_back({glm::dvec4(values[at + 4], values[at + 5], values[at + 6], values[at + 7])});
+    }
+  }
+  return records;
+}
+
+}  // namespace plumbline::osmesa

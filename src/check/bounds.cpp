@@ -1,0 +1,118 @@
+#include "check/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace plumbline::check {
+
+namespace {
+
+// A triangle's barycentric planes through its unsnapped corners (stages.h, 6), or the snapped where those fail.
+struct Barycentrics {
+  Vec3<double> value, d_dx, d_dy;
+};
+
+Barycentrics barycentrics(const WindowTriangle<double>& t, double x, double y) {
+  Vec2<double> p[3];
+  for (std::size_t i = 0; i < 3; ++i) p[i] = Vec2<double>(t.v[i].p_win);
+  const auto area = [&] { return (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x); };
+  double a = area();
+  if (!(t.front ? a > 0 : a < 0)) {
+    for (std::size_t i = 0; i < 3; ++i) p[i] = Vec2<double>(t.v[i].snapped) / 256.0 + 0.5;
+    a = area();
+  }
+  Barycentrics out;
+  for (int i = 0; i < 3; ++i) {
+    const Vec2<double> from = p[(i + 1) % 3], to = p[(i + 2) % 3];
+    out.d_dx[i] = (from.y - to.y) / a;
+    out.d_dy[i] = (to.x - from.x) / a;
+    out.value[i] = out.d_dx[i] * (x - from.x) + out.d_dy[i] * (y - from.y);
+  }
+  return out;
+}
+
+}  // namespace
+
+Vec4<double> absolute(const Vec4<double>& p) { return glm::abs(p); }
+
+Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p) {
+  Vec4<double> out(0);
+  for (int column = 0; column < 4; ++column) out += glm::abs(m[column]) * std::abs(p[column]);
+  return out;
+}
+
+double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n) {
+  Vec3<double> sum(0);
+  for (int column = 0; column < 3; ++column) sum += glm::abs(n_matrix[column]) * std::abs(n[column]);
+  return glm::length(sum) / glm::length(n_matrix * n);
+}
+
+Vec3<double> light_magnitude(const Scene& scene, const Draw& draw, const Vec3<double>& p_eye) {
+  const Material& m = draw.material;
+  const glm::dmat4 view = glm::lookAt(scene.camera.eye, scene.camera.center, scene.camera.up);
+  Vec3<double> sum = Vec3<double>(m.emission) + Vec3<double>(m.ambient) * Vec3<double>(scene.ambient);
+  for (const Light& light : scene.lights) {
+    const bool point = light.kind == Light::Kind::point;
+    const Vec3<double> l_eye(view * glm::dvec4(light.vector, point ? 1.0 : 0.0));
+    const Vec3<double> to_light = point ? l_eye - p_eye : l_eye;
+    // A light near the vertex: the difference of two rounded positions.
+    const double condition = point ? 1 + (glm::length(l_eye) + glm::length(p_eye)) / glm::length(to_light) : 1;
+    const double half_length = glm::length(glm::normalize(to_light) + Vec3<double>(0, 0, 1));
+    const double highlight = 1 + static_cast<double>(m.shininess) * (1 + 1 / std::max(half_length, 1e-6));
+    sum += Vec3<double>(light.ambient * glm::vec3(m.ambient)) +
+           condition * Vec3<double>(light.diffuse * glm::vec3(m.diffuse)) +
+           condition * highlight * Vec3<double>(light.specular * glm::vec3(m.specular));
+  }
+  return glm::max(sum, Vec3<double>(1));
+}
+
+PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const auto& v = t.v;
+  double x0 = 0, y0 = 0, from_corner = 0;
+  for (const auto& corner : v) {
+    x0 = std::max(x0, std::abs(corner.p_win.x));
+    y0 = std::max(y0, std::abs(corner.p_win.y));
+    from_corner = std::max({from_corner, std::abs(x + 0.5 - corner.p_win.x), std::abs(y + 0.5 - corner.p_win.y)});
+  }
+  // Every gradient is a sum of products of differences over the area, in float: what cancels in them is at most the
+  // longest side times the window position, and grows with the inverse of the area.
+  const Vec2<double> e1 = Vec2<double>(v[1].p_win) - Vec2<double>(v[0].p_win);
+  const Vec2<double> e2 = Vec2<double>(v[2].p_win) - Vec2<double>(v[0].p_win);
+  const double longest = std::max({std::abs(e1.x), std::abs(e1.y), std::abs(e2.x), std::abs(e2.y)});
+  const double area = std::abs(e1.x * e2.y - e1.y * e2.x);
+  const double cancelled = (longest + std::max(x0, y0)) / area;
+  // {value at the pixel, bound} of the plane through the corners' values.
+  const auto plane = [&](double f0, double f1, double f2) {
+    const Vec3<double> f(f0, f1, f2);
+    const double d_dx = std::abs(glm::dot(b.d_dx, f)), d_dy = std::abs(glm::dot(b.d_dy, f));
+    const double range = std::max(std::abs(f1 - f0), std::abs(f2 - f0));
+    const double gradient_error = longest / area * range + cancelled * longest * std::max(d_dx, d_dy);
+    return std::pair(glm::dot(b.value, f), std::max({std::abs(f0), std::abs(f1), std::abs(f2)}) + d_dx * (x + x0) +
+                                               d_dy * (y + y0) + gradient_error * from_corner);
+  };
+  PlaneBounds out;
+  out.depth = 1 + plane(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z).second;
+  const auto [inv_w, e_inv_w] = plane(v[0].inv_w, v[1].inv_w, v[2].inv_w);
+  for (int c = 0; c < 4; ++c) {
+    const auto [q, e_q] = plane(v[0].color[c] * v[0].inv_w, v[1].color[c] * v[1].inv_w, v[2].color[c] * v[2].inv_w);
+    out.color[c] = (e_q + std::abs(q / inv_w) * e_inv_w) / std::abs(inv_w);
+  }
+  return out;
+}
+
+Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const Vec3<double> q = b.value * Vec3<double>(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
+  const double sum = q.x + q.y + q.z;
+  const double condition = (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) / std::abs(sum);
+  const double k1 = std::abs(q.y / sum), k2 = std::abs(q.z / sum);
+  const Vec4<double> d1 = t.v[1].color - t.v[0].color, d2 = t.v[2].color - t.v[0].color;
+  const Vec4<double> mean = t.v[0].color + (q.y / sum) * d1 + (q.z / sum) * d2;
+  return glm::abs(mean) + glm::abs(t.v[0].color) + condition * (k1 * glm::abs(d1) + k2 * glm::abs(d2));
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,41 @@
+// Error bounds, from the number format and the formula: what a stage in float arithmetic may differ by from the same
+// formula in double. u = 2^-24 is the unit roundoff of float. Factors stand in the ledger.
+#pragma once
+
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::check {
+
+inline constexpr double kUnitRoundoff = 1.0 / 16777216.0;
+
+/// |M| |p|: what the rounding errors of M p are proportional to.
+Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
+Vec4<double> absolute(const Vec4<double>& p);
+
+/// The same for a unit normal: |N| |n| / |N n|, in the largest component.
+double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
+
+/// Per channel, in units of u: how a lit colour in float may differ from the spec's equation in double: the sum over
+/// the lights of |ambient| + k |diffuse| + k (1 + s (1 + 1 / |L + z|)) |specular|, at least 1 (the clamped result).
+/// s: shininess, by which a power multiplies relative errors; |L + z|: the half vector's length before it is
+/// normalised; k: for a point light, (|light| + |p_eye|) / |light - p_eye| + 1.
+Vec3<double> light_magnitude(const Scene& scene, const Draw& draw, const Vec3<double>& p_eye);
+
+/// How a plane's value at a pixel centre depends on the triangle: depth, and the colour's four channels.
+struct PlaneBounds {
+  double depth;        ///< in window z, times u
+  Vec4<double> color;  ///< times u
+};
+
+/// For a renderer that evaluates a = a0 + da/dx x + da/dy y in float from the window's origin, as llvmpipe does:
+/// |a|max + |da/dx| (x + x0) + |da/dy| (y + y0), x0, y0 the triangle's farthest corner, and the gradients' own error,
+/// by the inverse of the area, times the distance from the corners; for colour the same of c/w and of 1/w, joined by
+/// the division: (E(c/w) + |c| E(1/w)) w.
+PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y);
+
+/// For a weighted mean of corners (pipeline's way, and any that works near the triangle): |c| + condition * (|k1| |c1 -
+/// c0| + |k2| |c2 - c0|), the condition being sum |q_i| / |sum q_i| of the perspective weights q_i.
+Vec4<double> bounds_of_mean(const WindowTriangle<double>& triangle, int x, int y);
+
+}  // namespace plumbline::check

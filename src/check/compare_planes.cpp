@@ -1,0 +1,228 @@
+#include "check/compare_planes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "check/bounds.h"
+#include "check/ledger.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double u = kUnitRoundoff;
+
+const LegalAnswer* find(std::span<const LegalAnswer> answers, std::int32_t primitive) {
+  const auto it = std::find_if(answers.begin(), answers.end(),
+                               [&](const LegalAnswer& answer) { return answer.primitive == primitive; });
+  return it == answers.end() ? nullptr : &*it;
+}
+
+// The bounds of the winning primitive at a pixel: the largest over its triangles.
+PlaneBounds winner_bounds(const Records<double>& r, std::int32_t primitive, int x, int y) {
+  PlaneBounds out{1, Vec4<double>(1)};
+  auto it = std::partition_point(r.triangles.begin(), r.triangles.end(), [&](const WindowTriangle<double>& t) {
+    return static_cast<std::int32_t>(t.primitive) < primitive;
+  });
+  for (; it != r.triangles.end() && static_cast<std::int32_t>(it->primitive) == primitive; ++it) {
+    const PlaneBounds b = bounds_from_origin(*it, x, y);
+    out.depth = std::max(out.depth, b.depth);
+    out.color = glm::max(out.color, b.color);
+  }
+  return out;
+}
+
+void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Vec4<double>& tolerance, double unit,
+               const Place& place) {
+  for (int c = 0; c < 4; ++c) {
+    const double x = a[c], y = b[c];
+    meter.value(difference(x, y) / unit, tolerance[c], place, x, y);
+  }
+}
+
+}  // namespace
+
+Measurement compare_coverage(const Planes& candidate, const Planes& reference) {
+  std::string why;
+  if (!same_size(candidate.id_sum, reference.id_sum, why)) return mismatch("fragments", why, candidate.id_sum.size());
+  return compare_planes(candidate.count, reference.count, "fragments", [&](Meter& meter, int x, int y) {
+    const double a = candidate.count(x, y), b = reference.count(x, y);
+    meter.value(difference(a, b), 0, {x, y, -1, "count"}, a, b);
+    // Other primitives, as many: reported as one fragment apart.
+    const bool same = candidate.id_sum(x, y) == reference.id_sum(x, y);
+    meter.value(same ? 0 : 1, 0, {x, y, -1, "id sum"}, a, b);
+  });
+}
+
+Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal) {
+  return compare_planes(candidate.id, reference.id, "pixels", [&](Meter& meter, int x, int y) {
+    const std::int32_t a = candidate.id(x, y), b = reference.id(x, y);
+    if (a == b) return;
+    if (!legal.empty() && find(legal.at(x, y), a) != nullptr) {
+      if (find(legal.at(x, y), b) != nullptr) {
+        meter.ambiguous();
+      } else {
+        meter.disputed();
+      }
+      return;
+    }
+    meter.value(1, 0, {x, y, -1, "primitive"}, a, b);
+  });
+}
+
+Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                 double factor) {
+  const Planes &a = candidate.planes, &b = reference.planes;
+  std::string why;
+  if (!same_size(a.id, b.id, why)) return mismatch("u", why, a.id.size());
+  return compare_planes(a.depth, b.depth, "u", [&](Meter& meter, int x, int y) {
+    const std::int32_t id = a.id(x, y);
+    const double z = a.depth(x, y), z_ref = b.depth(x, y);
+    const Place place{x, y, id, "z"};
+    if (id != b.id(x, y)) return;  // visibility's matter
+    if (id == kBackground) {
+      meter.value(difference(z, z_ref) / u, 0, place, z, z_ref);
+      return;
+    }
+    const double bound = winner_bounds(candidate.records, id, x, y).depth;
+    const double step = depth_step(scene.frame.depth, z_ref) / u;
+    // In units of the bound: `factor` of it, and a step for the two roundings.
+    meter.value(difference(z, z_ref) / u / (bound + step / factor), factor, place, z, z_ref);
+  });
+}
+
+Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                  double factor) {
+  const Planes &a = candidate.planes, &b = reference.planes;
+  std::string why;
+  if (!same_size(a.id, b.id, why)) return mismatch("u", why, a.id.size());
+  const double vertex_colors = check::tolerance("osmesa.light").factor;
+  const bool any_lit = std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.lit; });
+  return compare_planes(a.shaded, b.shaded, "u", [&](Meter& meter, int x, int y) {
+    const std::int32_t id = a.id(x, y);
+    if (id != b.id(x, y)) return;
+    const Vec4<double> bound =
+        id == kBackground ? Vec4<double>(0)
+                          : winner_bounds(candidate.records, id, x, y).color + (any_lit ? vertex_colors / factor : 0.0);
+    for (int c = 0; c < 4; ++c) {
+      const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c], diff = difference(v, w) / u;
+      meter.value(diff == 0 ? 0 : diff / bound[c], factor, {x, y, id, "color"}, v, w);
+    }
+  });
+}
+
+Measurement compare_codes(const Capture& candidate, const Capture& reference, double codes, double factor) {
+  const Planes &a = candidate.planes, &b = reference.planes;
+  std::string why;
+  if (!same_size(a.id, b.id, why)) return mismatch("1/255", why, a.id.size());
+  return compare_planes(a.color, b.color, "1/255", [&](Meter& meter, int x, int y) {
+    const std::int32_t id = a.id(x, y);
+    if (id != b.id(x, y)) return;
+    const Vec4<double> bound = id == kBackground ? Vec4<double>(0) : winner_bounds(candidate.records, id, x, y).color;
+    for (int c = 0; c < 4; ++c) {
+      const double v = std::round(255.0 * a.color(x, y)[c]), w = std::round(255.0 * b.color(x, y)[c]);
+      meter.value(difference(v, w), codes + std::floor(255 * factor * u * bound[c]), {x, y, id, "color"}, v, w);
+    }
+  });
+}
+
+Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor) {
+  std::string why;
+  if (!same_size(candidate.depth, exact.depth, why)) return mismatch("half 1/255", why, candidate.depth.size());
+  const bool codes = scene.frame.color == ColorFormat::rgba8;
+  const double unit = codes ? 0.5 / 255 + 4 * u : u;
+  return compare_planes(candidate.color, exact.color, codes ? "half 1/255" : "u", [&](Meter& meter, int x, int y) {
+    add_color(meter, candidate.color(x, y), Vec4<double>(exact.color(x, y)), Vec4<double>(codes ? factor : 0), unit,
+              {x, y, candidate.id(x, y), "color"});
+    const double z = candidate.depth(x, y), z_ref = exact.depth(x, y);
+    meter.value(difference(z, z_ref) == 0 ? 0 : kInfinite, 0, {x, y, candidate.id(x, y), "z"}, z, z_ref);
+  });
+}
+
+Measurement compare_legal_count(const Planes& candidate, const Legal& legal) {
+  return compare_planes(candidate.count, legal.certain, "fragments", [&](Meter& meter, int x, int y) {
+    const double count = candidate.count(x, y), low = legal.certain(x, y), high = legal.possible(x, y);
+    if (low != high) meter.ambiguous();
+    meter.value(std::max({low - count, count - high, 0.0}), 0, {x, y, -1, "count"}, count, count < low ? low : high);
+  });
+}
+
+Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
+  return compare_planes(candidate.id, legal.certain, "pixels", [&](Meter& meter, int x, int y) {
+    const auto answers = legal.at(x, y);
+    if (answers.size() > 1) meter.ambiguous();
+    const std::int32_t id = candidate.id(x, y);
+    meter.value(find(answers, id) != nullptr ? 0 : 1, 0, {x, y, -1, "primitive"}, id,
+                answers.empty() ? kBackground : answers.front().primitive);
+  });
+}
+
+namespace {
+
+// Depth and colour are judged against the answer of the pixel's own winner; a winner that is not legal is visibility's
+// matter, and its values are held to whichever legal answer is nearest.
+template <class Distance>
+const LegalAnswer* nearest(std::span<const LegalAnswer> answers, std::int32_t id, Distance distance) {
+  if (const LegalAnswer* own = find(answers, id)) return own;
+  const auto it = std::min_element(answers.begin(), answers.end(), [&](const LegalAnswer& a, const LegalAnswer& b) {
+    return distance(a) < distance(b);
+  });
+  return it == answers.end() ? nullptr : &*it;
+}
+
+double outside(double value, double low, double high) {
+  if (value >= low && value <= high) return 0;
+  return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
+}
+
+// `half_code`: what rounding to the frame's format adds to the oracle's bound.
+Measurement compare_legal_color(const Plane<glm::vec4>& color, const Plane<std::int32_t>& id, const Legal& legal,
+                                double half_code, bool clamped) {
+  return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
+    const auto answers = legal.at(x, y);
+    if (answers.size() > 1) meter.ambiguous();
+    const glm::vec4 c = color(x, y);
+    const auto expected = [&](const LegalAnswer& a) { return clamped ? glm::clamp(a.color, 0.0f, 1.0f) : a.color; };
+    const LegalAnswer* answer =
+        nearest(answers, id(x, y), [&](const LegalAnswer& a) { return glm::distance(expected(a), c); });
+    if (answer == nullptr) {
+      meter.value(kInfinite, 0, {x, y, -1, "no legal answer"}, 0, 0);
+      return;
+    }
+    const double bound = static_cast<double>(answer->color_bound) + half_code;
+    for (int i = 0; i < 4; ++i) {
+      const double v = c[i], w = expected(*answer)[i], diff = difference(v, w);
+      meter.value(diff == 0 ? 0 : diff / bound, 1, {x, y, answer->primitive, "color"}, v, w);
+    }
+  });
+}
+
+}  // namespace
+
+Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal) {
+  return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
+    const auto answers = legal.at(x, y);
+    if (answers.size() > 1) meter.ambiguous();
+    const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
+    const auto steps = [&](const LegalAnswer& a) { return outside(z, a.z_lo, a.z_hi) / step; };
+    const LegalAnswer* answer = nearest(answers, candidate.id(x, y), steps);
+    if (answer == nullptr) {
+      meter.value(kInfinite, 0, {x, y, -1, "no legal answer"}, z, 0);
+      return;
+    }
+    meter.value(steps(*answer), 1, {x, y, answer->primitive, "z"}, z, std::clamp(z, answer->z_lo, answer->z_hi));
+  });
+}
+
+Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal) {
+  return compare_legal_color(candidate.shaded, candidate.id, legal, 0, false);
+}
+
+Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal) {
+  const bool codes = scene.frame.color == ColorFormat::rgba8;
+  return compare_legal_color(candidate.color, candidate.id, legal, codes ? 0.5 / 255 + 4 * u : 0, codes);
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,37 @@
+// Comparators of planes, stages 5 to 11: against another renderer's planes, and against an oracle's legal answers.
+#pragma once
+
+#include "check/measure.h"
+#include "scene/scene.h"
+#include "stages/capture.h"
+
+namespace plumbline::check {
+
+/// Overdraw count and sum of weights, both with tolerance zero.
+Measurement compare_coverage(const Planes& candidate, const Planes& reference);
+
+/// Winners against winners. Where they differ, `legal` decides (empty: nothing is ambiguous): both among the legal
+/// answers: ambiguous; the reference alone outside: disputed; else different.
+Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal);
+
+/// Depth and colour where the winners are the same; the reference evaluates planes in float from the window's origin
+/// (bounds.h): `factor` u of that magnitude, one step of the depth format more. Elsewhere as compare_winners.
+Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, const Capture& reference, double factor);
+Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                  double factor);
+/// rgba8: in 1/255, at most `codes` where the winners are the same, and the whole codes that `factor` u of the
+/// magnitude come to (slivers).
+Measurement compare_codes(const Capture& candidate, const Capture& reference, double codes, double factor);
+
+/// The candidate's planes against the colours that exact made of its own fragments: rgba8, in halves of 1/255, against
+/// unrounded colours; rgba32f and depth: equal.
+Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor);
+
+/// Against legal answers. Pixels with more than one are counted as ambiguous.
+Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
+Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
+Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal);
+Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal);
+Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal);
+
+}  // namespace plumbline::check

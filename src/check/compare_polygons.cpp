@@ -1,0 +1,198 @@
+// Polygons as polygons: the vertices that a cut makes may slide along nearly parallel edges by more than any bound on
+// coordinates would allow, so each is held to what defines it: its triangle, and the planes that it was cut by.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "check/bounds.h"
+#include "check/compare_records.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double u = kUnitRoundoff;
+
+using Vec8 = std::array<double, 8>;  // clip position over the scale, and colour
+
+struct Corners {
+  std::array<Vec4<double>, 3> p_clip, color;
+  double scale;  // the largest coordinate
+};
+
+Corners corners_of(const Scene& scene, const std::vector<DrawRange>& ranges, std::size_t d, std::uint32_t primitive,
+                   const Records<double>& r) {
+  const Draw& draw = scene.draws[d];
+  const glm::uvec3 corners = scene.meshes[draw.mesh].triangles[primitive - ranges[d].first_primitive];
+  Corners out{};
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out.p_clip[k] = r.vertices[ranges[d].first_vertex + corners[i]].p_clip;
+    out.color[k] = r.lit[ranges[d].first_vertex + corners[draw.shading == Shading::flat ? 2 : i]].color;
+    for (int c = 0; c < 4; ++c) out.scale = std::max(out.scale, std::abs(out.p_clip[k][c]));
+  }
+  return out;
+}
+
+// Signed distances, in units of w, to right, left, top, bottom, near, far.
+std::array<double, 6> distances(const Vec4<double>& p) {
+  return {p.w - p.x, p.w + p.x, p.w - p.y, p.w + p.y, p.w + p.z, p.w - p.z};
+}
+
+Vec8 joined(const Vec4<double>& p_clip, const Vec4<double>& color, double scale) {
+  return {p_clip.x / scale, p_clip.y / scale, p_clip.z / scale, p_clip.w / scale, color.r, color.g, color.b, color.a};
+}
+
+double dot(const Vec8& a, const Vec8& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 8; ++i) sum += a[i] * b[i];
+  return sum;
+}
+Vec8 minus(const Vec8& a, const Vec8& b, double times = 1) {
+  Vec8 out;
+  for (std::size_t i = 0; i < 8; ++i) out[i] = a[i] - times * b[i];
+  return out;
+}
+
+// How far a vertex (position and colour together) is from being a weighted mean of the three corners: what remains of
+// it after the triangle's two directions are taken out (Gram-Schmidt), largest component.
+double distance_from_triangle(const ClipVertex<double>& v, const Corners& c) {
+  const Vec8 origin = joined(c.p_clip[0], c.color[0], c.scale);
+  Vec8 e1 = minus(joined(c.p_clip[1], c.color[1], c.scale), origin);
+  Vec8 e2 = minus(joined(c.p_clip[2], c.color[2], c.scale), origin);
+  if (dot(e2, e2) > dot(e1, e1)) std::swap(e1, e2);
+  if (dot(e1, e1) > 0) e2 = minus(e2, e1, dot(e1, e2) / dot(e1, e1));
+  Vec8 rest = minus(joined(v.p_clip, v.color, c.scale), origin);
+  if (dot(e1, e1) > 0) rest = minus(rest, e1, dot(rest, e1) / dot(e1, e1));
+  if (dot(e2, e2) > 1e-24 * dot(e1, e1)) rest = minus(rest, e2, dot(rest, e2) / dot(e2, e2));
+  double largest = 0;
+  for (double value : rest) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+// Whether the vertex count may differ: a corner, or a vertex of either polygon, is within rounding of a plane.
+bool near_a_plane(const Corners& c, double tolerance) {
+  for (const Vec4<double>& p : c.p_clip) {
+    for (double d : distances(p)) {
+      if (std::abs(d) <= tolerance * c.scale) return true;
+    }
+  }
+  return false;
+}
+
+bool more_than_on_one_plane(const ClipVertex<double>& v, double tolerance) {
+  const auto d = distances(v.p_clip);
+  return std::count_if(d.begin(), d.end(), [&](double x) { return std::abs(x) <= tolerance; }) > 1;
+}
+
+void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, const Records<double>& candidate,
+                     const Records<double>& reference, const Corners& corners, double factor) {
+  const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(a.primitive), field}; };
+  const double unit = u * corners.scale;
+  if (a.count != b.count) {
+    bool open = near_a_plane(corners, factor * u);
+    for (std::uint32_t i = 0; i < b.count; ++i) {
+      open |= more_than_on_one_plane(reference.polygons.vertices[b.first + i], factor * unit);
+    }
+    if (open) {
+      meter.ambiguous();
+    } else {
+      meter.value(kInfinite, 0, at("vertices of primitive"), a.count, b.count);
+    }
+    return;
+  }
+  for (std::uint32_t i = 0; i < a.count; ++i) {
+    const ClipVertex<double>& v = candidate.polygons.vertices[a.first + i];
+    const ClipVertex<double>& w = reference.polygons.vertices[b.first + i];
+    meter.value(v.cut == w.cut ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
+    if (!w.cut) {
+      for (int c = 0; c < 4; ++c) {
+        meter.value(difference(v.p_clip[c], w.p_clip[c]) / unit, 0, at("p_clip"), v.p_clip[c], w.p_clip[c]);
+        meter.value(difference(v.color[c], w.color[c]) / u, 0, at("color"), v.color[c], w.color[c]);
+      }
+      continue;
+    }
+    meter.value(distance_from_triangle(v, corners) / u, factor, at("off its triangle"), 0, 0);
+    const auto d = distances(v.p_clip), d_ref = distances(w.p_clip);
+    for (std::size_t p = 0; p < 6; ++p) {
+      const bool on = std::abs(d_ref[p]) <= 1e-12 * corners.scale;
+      const double off = on ? std::abs(d[p]) : std::max(-d[p], 0.0);
+      meter.value(off / unit, factor, at(on ? "off its plane" : "outside a plane"), d[p], d_ref[p]);
+    }
+  }
+}
+
+// Walks both lists by primitive: visit(a, b) with null for the one that lacks it.
+template <class Visit>
+void matched(const std::vector<ClipPolygon>& a, const std::vector<ClipPolygon>& b, Visit visit) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() || j < b.size()) {
+    const bool has_a = i < a.size() && (j == b.size() || a[i].primitive <= b[j].primitive);
+    const bool has_b = j < b.size() && (i == a.size() || b[j].primitive <= a[i].primitive);
+    visit(has_a ? &a[i] : nullptr, has_b ? &b[j] : nullptr);
+    i += has_a ? 1 : 0;
+    j += has_b ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                             double factor) {
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  std::size_t d = 0;
+  Meter meter("u");
+  matched(candidate.polygons.polygons, reference.polygons.polygons, [&](const ClipPolygon* a, const ClipPolygon* b) {
+    const std::uint32_t primitive = a != nullptr ? a->primitive : b->primitive;
+    while (primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
+    const Corners corners = corners_of(scene, ranges, d, primitive, candidate);
+    if (a != nullptr && b != nullptr) {
+      compare_polygon(meter, *a, *b, candidate, reference, corners, factor);
+    } else if (near_a_plane(corners, factor * u)) {
+      meter.ambiguous();
+    } else {
+      meter.value(kInfinite, 0, {-1, -1, primitive, a == nullptr ? "polygon lacking" : "polygon extra"}, 0, 0);
+    }
+    meter.item();
+  });
+  return meter.done();
+}
+
+Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
+                                      double factor) {
+  Meter meter("u");
+  matched(candidate.polygons.polygons, reference.polygons.polygons, [&](const ClipPolygon* a, const ClipPolygon* b) {
+    const ClipPolygon& any = a != nullptr ? *a : *b;
+    const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(any.primitive), field}; };
+    if (a == nullptr || b == nullptr) {
+      meter.value(kInfinite, 0, at(a == nullptr ? "polygon lacking" : "polygon extra"), 0, 0);
+    } else if (a->count != b->count) {
+      meter.value(kInfinite, 0, at("vertices of primitive"), a->count, b->count);
+    } else {
+      // Either may begin at any vertex: the turn that fits best counts.
+      const auto largest = [&](std::uint32_t turn) {
+        double most = 0;
+        for (std::uint32_t i = 0; i < a->count; ++i) {
+          const Vec4<double>& p = candidate.polygons.vertices[a->first + i].p_clip;
+          const Vec4<double>& q = reference.polygons.vertices[b->first + (i + turn) % a->count].p_clip;
+          for (int c = 0; c < 4; ++c) {
+            const double diff = difference(p[c], q[c]);
+            if (diff != 0) most = std::max(most, diff / (u * (std::abs(q[c]) + std::abs(q.w))));
+          }
+        }
+        return most;
+      };
+      double least = kInfinite;
+      for (std::uint32_t turn = 0; turn < a->count; ++turn) least = std::min(least, largest(turn));
+      meter.value(least, factor, at("p_clip of primitive"), 0, 0);
+    }
+    meter.item();
+  });
+  return meter.done();
+}
+
+}  // namespace plumbline::check

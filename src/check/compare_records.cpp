@@ -1,0 +1,264 @@
+#include "check/compare_records.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "check/bounds.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double u = kUnitRoundoff;
+
+double ulp(double value) {
+  const auto f = static_cast<float>(std::abs(value));
+  return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
+}
+
+// Compares each of n records by visit(meter, i); none if their numbers differ.
+template <class Visit>
+Measurement each(const char* what, const std::string& unit, std::size_t candidate, std::size_t reference, Visit visit) {
+  if (candidate != reference) {
+    return mismatch(unit, fmt::format("{} {}, the reference {}", candidate, what, reference),
+                    std::max(candidate, reference));
+  }
+  Meter meter(unit);
+  for (std::size_t i = 0; i < candidate; ++i) {
+    visit(meter, i);
+    meter.item();
+  }
+  return meter.done();
+}
+
+// All entries of two vectors, the difference in units of `unit[c]`.
+template <int n>
+void add(Meter& meter, const glm::vec<n, double>& a, const glm::vec<n, double>& b, const glm::vec<n, double>& unit,
+         double factor, const Place& place) {
+  for (int c = 0; c < n; ++c) {
+    const double diff = difference(a[c], b[c]);
+    meter.value(diff == 0 ? 0 : diff / unit[c], factor, place, a[c], b[c]);
+  }
+}
+
+template <class Matrix, class Unit>
+void add_entries(Meter& meter, const Matrix& a, const Matrix& b, Unit unit, double factor, const Place& place) {
+  double largest = 0;
+  for (int column = 0; column < Matrix::length(); ++column) {
+    for (int row = 0; row < Matrix::length(); ++row) largest = std::max(largest, std::abs(b[column][row]));
+  }
+  for (int column = 0; column < Matrix::length(); ++column) {
+    for (int row = 0; row < Matrix::length(); ++row) {
+      const double x = a[column][row], y = b[column][row], diff = difference(x, y);
+      meter.value(diff == 0 ? 0 : diff / unit(y, largest), factor, place, x, y);
+    }
+  }
+}
+
+Measurement compare_matrices_by(const Records<double>& candidate, const Records<double>& reference, bool normal,
+                                const std::string& name, double factor, double (*unit)(double, double)) {
+  return each("matrices", name, candidate.matrices.size(), reference.matrices.size(), [&](Meter& meter, std::size_t i) {
+    const Matrices<double>&a = candidate.matrices[i], &b = reference.matrices[i];
+    const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+    add_entries(meter, a.model_view, b.model_view, unit, factor, at("model_view"));
+    add_entries(meter, a.projection, b.projection, unit, factor, at("projection"));
+    if (normal) add_entries(meter, a.normal, b.normal, unit, factor, at("normal"));
+    const Vec3<double> unit_win(unit(b.win_scale.x, 0), unit(b.win_scale.y, 0), unit(b.win_scale.z, 0));
+    add(meter, a.win_scale, b.win_scale, unit_win, factor, at("win_scale"));
+    add(meter, a.win_translate, b.win_translate, unit_win, factor, at("win_translate"));
+  });
+}
+
+}  // namespace
+
+Measurement compare_matrices_equal(const Records<double>& candidate, const Records<double>& reference) {
+  return compare_matrices_by(candidate, reference, false, "ULP", 0, [](double value, double) { return ulp(value); });
+}
+
+Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor) {
+  // 1e-12, in proportion to the matrix, is what rounding in double and setting small entries to 0 may do.
+  return compare_matrices_by(candidate, reference, true, "half ULP", factor, [](double value, double largest) {
+    return 0.5 * ulp(value) + 1e-12 * std::max(1.0, largest);
+  });
+}
+
+Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                             double factor) {
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  std::size_t d = 0;
+  if (candidate.matrices.size() != scene.draws.size()) return mismatch("u", "no matrices", candidate.vertices.size());
+  return each("vertices", "u", candidate.vertices.size(), reference.vertices.size(), [&](Meter& meter, std::size_t i) {
+    while (i >= ranges[d].first_vertex + ranges[d].vertex_count) ++d;
+    const Matrices<double>& m = candidate.matrices[d];
+    const Mesh& mesh = scene.meshes[scene.draws[d].mesh];
+    const Vec4<double> p(mesh.positions[i - ranges[d].first_vertex], 1.0);
+    // Matrix entries below 1e-12 became 0.
+    const Vec4<double> eye =
+        magnitude(m.model_view, p) + 1e-12 / u * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + 1);
+    const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+    const Vertex<double>&a = candidate.vertices[i], &b = reference.vertices[i];
+    add(meter, a.p_eye, b.p_eye, u * eye, factor, at("p_eye"));
+    add(meter, a.p_clip, b.p_clip, u * magnitude(m.projection, eye), factor, at("p_clip"));
+    const double n = normal_magnitude(m.normal, Vec3<double>(mesh.normals[i - ranges[d].first_vertex]));
+    add(meter, a.n_eye, b.n_eye, Vec3<double>(u * n), factor, at("n_eye"));
+  });
+}
+
+Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                        double factor) {
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  std::size_t d = 0;
+  if (candidate.vertices.size() != candidate.lit.size()) return mismatch("u", "no vertices", candidate.lit.size());
+  return each("colours", "u", candidate.lit.size(), reference.lit.size(), [&](Meter& meter, std::size_t i) {
+    while (i >= ranges[d].first_vertex + ranges[d].vertex_count) ++d;
+    const Draw& draw = scene.draws[d];
+    const Place place{-1, -1, static_cast<std::int64_t>(i), "color"};
+    const Vec4<double>&a = candidate.lit[i].color, &b = reference.lit[i].color;
+    if (!draw.lit) {
+      add(meter, a, b, Vec4<double>(u), 0, place);
+      return;
+    }
+    const Vec3<double> m = light_magnitude(scene, draw, Vec3<double>(candidate.vertices[i].p_eye));
+    add(meter, a, b, u * Vec4<double>(m, 1), factor, place);
+  });
+}
+
+Measurement compare_window(const Records<double>& candidate, const Records<double>& reference, double factor) {
+  Meter meter("u");
+  // Triangles are matched by primitive, and within one by order where both have the same number.
+  std::size_t i = 0, j = 0;
+  const auto &a = candidate.triangles, &b = reference.triangles;
+  const auto run_end = [](const auto& t, std::size_t from) {
+    std::size_t end = from;
+    while (end < t.size() && t[end].primitive == t[from].primitive) ++end;
+    return end;
+  };
+  // Each corner snaps at most one unit elsewhere: the area changes by at most the perimeter.
+  const auto may_vanish = [](const WindowTriangle<double>& t) {
+    const glm::dvec2 p(t.v[0].snapped), q(t.v[1].snapped), r(t.v[2].snapped);
+    const double area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    return std::abs(area) <= 2 * (glm::distance(p, q) + glm::distance(q, r) + glm::distance(r, p)) + 4;
+  };
+  const auto unmatched = [&](const std::vector<WindowTriangle<double>>& t, std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) {
+      if (may_vanish(t[k])) {
+        meter.ambiguous();
+        meter.item();
+      } else {
+        meter.missing(1, {-1, -1, static_cast<std::int64_t>(t[k].primitive), "triangle of primitive"});
+      }
+    }
+  };
+  while (i < a.size() || j < b.size()) {
+    const bool only_a = j == b.size() || (i < a.size() && a[i].primitive < b[j].primitive);
+    const bool only_b = i == a.size() || (j < b.size() && b[j].primitive < a[i].primitive);
+    const std::size_t i_end = only_b ? i : run_end(a, i), j_end = only_a ? j : run_end(b, j);
+    if (only_a || only_b || i_end - i != j_end - j) {
+      unmatched(a, i, i_end);
+      unmatched(b, j, j_end);
+      i = i_end;
+      j = j_end;
+      continue;
+    }
+    for (; i < i_end; ++i, ++j) {
+      const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+      for (std::size_t k = 0; k < 3; ++k) {
+        const WindowVertex<double>&v = a[i].v[k], &w = b[j].v[k];
+        // |p_ndc * scale| + |translate|: the translation is at most the larger half of the frame, which p_win bounds.
+        const Vec3<double> size = glm::abs(w.p_win - candidate.matrices.front().win_translate) +
+                                  glm::abs(candidate.matrices.front().win_translate);
+        add(meter, v.p_win, w.p_win, u * size, factor, at("p_win"));
+        meter.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w)), factor, at("inv_w"), v.inv_w, w.inv_w);
+        for (int c = 0; c < 2; ++c) {
+          const double own = std::nearbyint((v.p_win[c] - 0.5) * kSubpixel);
+          meter.value(difference(v.snapped[c], own), 0, at("snapped"), v.snapped[c], own);
+        }
+        add(meter, v.color, w.color, Vec4<double>(u), 0, at("color"));
+      }
+      const bool flipped = a[i].front != b[j].front && !may_vanish(a[i]);
+      meter.value(flipped ? kInfinite : 0, 0, at("front"), a[i].front, b[j].front);
+      meter.item();
+    }
+  }
+  return meter.done();
+}
+
+Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference) {
+  return each("window triangles", "ULP", candidate.triangles.size(), reference.triangles.size(),
+              [&](Meter& meter, std::size_t i) {
+                const WindowTriangle<double>&a = candidate.triangles[i], &b = reference.triangles[i];
+                const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+                meter.value(a.primitive == b.primitive ? 0 : kInfinite, 0, at("primitive"), a.primitive, b.primitive);
+                meter.value(a.front == b.front ? 0 : kInfinite, 0, at("front"), a.front, b.front);
+                // A triangle may begin at any of its corners; the turn that fits best counts.
+                const auto apart = [&](std::size_t turn) {
+                  int n = 0;
+                  for (std::size_t k = 0; k < 3; ++k) n += a.v[k].p_win != b.v[(k + turn) % 3].p_win ? 1 : 0;
+                  return n;
+                };
+                const std::size_t turn = apart(0) == 0 ? 0 : apart(1) <= apart(2) ? 1 : 2;
+                for (std::size_t k = 0; k < 3; ++k) {
+                  const WindowVertex<double>&v = a.v[k], &w = b.v[(k + turn) % 3];
+                  for (int c = 0; c < 3; ++c) {
+                    const double diff = difference(v.p_win[c], w.p_win[c]);
+                    meter.value(diff == 0 ? 0 : diff / ulp(w.p_win[c]), 0, at("p_win"), v.p_win[c], w.p_win[c]);
+                  }
+                  for (int c = 0; c < 2; ++c) {
+                    const double x = v.snapped[c], y = w.snapped[c];
+                    meter.value(difference(x, y), 0, at("snapped"), x, y);
+                  }
+                }
+              });
+}
+
+Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference) {
+  Meter meter("fragments");
+  const auto key = [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); };
+  auto a = candidate.covered.begin();
+  auto b = reference.covered.begin();
+  while (a != candidate.covered.end() || b != reference.covered.end()) {
+    const bool extra = b == reference.covered.end() || (a != candidate.covered.end() && key(*a) < key(*b));
+    const bool lacks = a == candidate.covered.end() || (b != reference.covered.end() && key(*b) < key(*a));
+    const Covered& c = lacks ? *b : *a;
+    if (extra || lacks) {
+      meter.value(1, 0, {c.x, c.y, static_cast<std::int64_t>(c.triangle), extra ? "extra" : "lacking"}, extra, lacks);
+    }
+    if (!lacks) ++a;
+    if (!extra) ++b;
+    meter.item();
+  }
+  return meter.done();
+}
+
+Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                          double factor) {
+  return each("depths", "step", candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {
+    const double a = candidate.depth[i], b = reference.depth[i];
+    const Covered& c = candidate.covered[i];
+    meter.value(difference(a, b) / depth_step(scene.frame.depth, b), factor, {c.x, c.y, c.triangle, "z"}, a, b);
+  });
+}
+
+Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor) {
+  return each("attributes", "u", candidate.attributes.size(), reference.attributes.size(),
+              [&](Meter& meter, std::size_t i) {
+                const Covered& c = candidate.covered[i];
+                const Vec4<double> bound = bounds_of_mean(candidate.triangles[c.triangle], c.x, c.y);
+                add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound, factor,
+                    {c.x, c.y, c.triangle, "color"});
+              });
+}
+
+Measurement compare_shaded(const Records<double>& candidate, const Records<double>& reference) {
+  return each("colours", "u", candidate.shaded.size(), reference.shaded.size(), [&](Meter& meter, std::size_t i) {
+    const Covered& c = candidate.covered[i];
+    add(meter, candidate.shaded[i].color, reference.shaded[i].color, Vec4<double>(u), 0,
+        {c.x, c.y, c.triangle, "color"});
+  });
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,46 @@
+// Comparators of records, stages 0 to 9. `from` is the candidate's capture, which gives the magnitudes that tolerances
+// are proportional to; candidate and reference records are of the stage compared.
+#pragma once
+
+#include "check/measure.h"
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::check {
+
+/// Bit for bit, but for the normal matrix, which OpenGL keeps inside.
+Measurement compare_matrices_equal(const Records<double>& candidate, const Records<double>& reference);
+/// Against unrounded matrices.
+Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
+
+/// p_eye, p_clip, n_eye; `factor` u of their magnitudes.
+Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                             double factor);
+Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                        double factor);
+
+/// Polygons as polygons: the same primitives and numbers of vertices; vertices of the mesh in the same place; each cut
+/// one on the planes that its counterpart lies on, and in the plane of its triangle, colours included. Where a corner
+/// lies within `factor` u of a clip plane, the number of vertices is ambiguous.
+Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                             double factor);
+/// The same positions but for `factor` u of |p_clip| + w; for references that rebuild p_clip from the window.
+Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
+                                      double factor);
+
+/// p_win, 1/w and facing against the exact ones, `factor` u of the magnitudes; snapped positions are the rounding of
+/// the candidate's own p_win, exactly. Missing or extra triangles are legal where snapping may turn or empty them.
+Measurement compare_window(const Records<double>& candidate, const Records<double>& reference, double factor);
+/// Bit for bit (as floats).
+Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference);
+
+/// The same fragments.
+Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
+/// In steps of the depth format.
+Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                          double factor);
+Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor);
+/// Bit for bit (as floats).
+Measurement compare_shaded(const Records<double>& candidate, const Records<double>& reference);
+
+}  // namespace plumbline::check

@@ -1,0 +1,290 @@
+#include "check/judge.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "check/compare_planes.h"
+#include "check/compare_records.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr std::string_view kOverBudget = "the fragments do not fit the memory budget";
+
+// One scene's judgement of one candidate, as it grows.
+struct Case {
+  const Scene& scene;
+  const Capture& candidate;
+  const Legal& legal;  // an oracle's, or empty
+  Renderer* referee;   // runs stages, or null
+  std::vector<Comparison>& out;
+
+  void add(const std::string& reference, Stage stage, Measurement m, std::string_view row = "", std::string note = "") {
+    out.push_back(judged(scene.name, reference, stage, std::move(m), row, std::move(note)));
+  }
+  void skip(const std::string& reference, Stage stage, Outcome outcome, std::string_view note) {
+    out.push_back(not_judged(scene.name, reference, stage, outcome, std::string(note)));
+  }
+};
+
+double factor(std::string_view row) { return tolerance(row).factor; }
+
+bool has_fragments(const Records<double>& r) { return r.covered.size() == r.depth.size() && !r.covered.empty(); }
+
+// Of two measurements of one stage, the one that tells more: that with the larger share beyond tolerance.
+Measurement worse(Measurement a, Measurement b) {
+  const bool a_tells = a.differing != b.differing ? a.differing > b.differing : a.max_ratio >= b.max_ratio;
+  return a_tells ? std::move(a) : std::move(b);
+}
+
+// The stage as `referee` makes it of the candidate's own records, against the candidate's.
+void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
+  const Records<double>& mine = c.candidate.records;
+  const bool wants_fragments = stage >= Stage::depth;
+  if (wants_fragments && !has_fragments(mine) && c.candidate.planes.count.size() != 0) {
+    bool nothing_drawn = true;
+    for (std::uint32_t n : c.candidate.planes.count.values()) nothing_drawn &= n == 0;
+    if (!nothing_drawn) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+  }
+  const Capture made = referee.run_stage(c.scene, stage, c.candidate);
+  const Records<double>& theirs = made.records;
+  switch (stage) {
+    case Stage::matrices: break;
+    case Stage::vertex:
+      return c.add(name, stage, compare_vertices(c.scene, mine, theirs, factor("exact.vertex")), "exact.vertex");
+    case Stage::light:
+      return c.add(name, stage, compare_lit(c.scene, mine, theirs, factor("exact.light")), "exact.light");
+    case Stage::clip:
+      return c.add(name, stage, compare_polygons(c.scene, mine, theirs, factor("exact.clip")), "exact.clip");
+    case Stage::window: return c.add(name, stage, compare_window(mine, theirs, factor("exact.window")), "exact.window");
+    case Stage::coverage: {
+      Measurement planes = compare_coverage(c.candidate.planes, made.planes);
+      if (!has_fragments(mine)) return c.add(name, stage, std::move(planes), "", std::string(kOverBudget));
+      return c.add(name, stage, worse(std::move(planes), compare_covered(mine, theirs)));
+    }
+    case Stage::depth:
+      return c.add(name, stage, compare_depth(c.scene, mine, theirs, factor("exact.depth")), "exact.depth");
+    case Stage::attributes:
+      return c.add(name, stage, compare_attributes(mine, theirs, factor("exact.attributes")), "exact.attributes");
+    case Stage::texture: break;
+    case Stage::shade: return c.add(name, stage, compare_shaded(mine, theirs));
+    case Stage::visibility: return c.add(name, stage, compare_equal(c.candidate.planes.id, made.planes.id, "pixels"));
+    case Stage::merge: {
+      const bool codes = c.scene.frame.color == ColorFormat::rgba8;
+      return c.add(name, stage, compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.rgba8")),
+                   codes ? "exact.merge.rgba8" : "");
+    }
+  }
+}
+
+// The budget of ambiguity: a pixel is open where a snapping bound of an edge reaches its centre, which is predicted
+// from the edges' length. Twice the prediction, and a scatter of three standard deviations of such a count.
+std::string ambiguity_note(const Legal& legal, std::uint64_t ambiguous) {
+  return fmt::format("{} ambiguous, {:.1f} predicted", ambiguous, legal.predicted_ambiguous);
+}
+
+// Coverage, depth, colour and visibility against an oracle's legal answers.
+void ask_oracle(Case& c, const Legal& legal, Stage stage, const std::string& name) {
+  const Planes& planes = c.candidate.planes;
+  switch (stage) {
+    case Stage::coverage: return c.add(name, stage, compare_legal_count(planes, legal));
+    case Stage::depth: return c.add(name, stage, compare_legal_depth(c.scene, planes, legal), "legal.depth");
+    case Stage::attributes: return c.add(name, stage, compare_legal_shaded(planes, legal), "legal.attributes");
+    case Stage::visibility: {
+      Measurement m = compare_legal_winner(planes, legal);
+      const double budget = 2 * legal.predicted_ambiguous;
+      const double scatter = 3 * std::sqrt(budget + 1);
+      std::string note = ambiguity_note(legal, m.ambiguous);
+      if (static_cast<double>(m.ambiguous) > budget + scatter) {
+        note += ": more than twice as many";
+        m.differing += m.ambiguous;
+      }
+      return c.add(name, stage, std::move(m), "", std::move(note));
+    }
+    case Stage::merge: return c.add(name, stage, compare_legal_merge(c.scene, planes, legal), "legal.merge");
+    default: return;
+  }
+}
+
+// Whether a reference's coverage contradicts the window triangles that it hands out itself, and the candidate's follows
+// from them: exact arithmetic on the reference's own records is the third witness. (llvmpipe culls by the unsnapped
+// area as well, once anything in a batch is clipped.)
+bool contradicts_itself(Case& c, const Capture& theirs) {
+  if (c.referee == nullptr || theirs.records.triangles.empty()) return false;
+  const Capture settled = c.referee->run_stage(c.scene, Stage::coverage, theirs);
+  return compare_coverage(c.candidate.planes, settled.planes).differing == 0;
+}
+
+Comparison as_dispute(Comparison comparison, std::string_view why) {
+  Measurement& m = comparison.measurement;
+  m.disputed = std::exchange(m.differing, 0);
+  comparison.outcome = Outcome::dispute;
+  comparison.note = why;
+  return comparison;
+}
+
+// What the reference shows, beside the candidate's.
+void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+  const Records<double>& mine = c.candidate.records;
+  const bool codes = c.scene.frame.color == ColorFormat::rgba8;
+  switch (stage) {
+    case Stage::matrices: return c.add(name, stage, compare_matrices_equal(mine, theirs.records));
+    case Stage::vertex:
+      return c.add(name, stage, compare_vertices(c.scene, mine, theirs.records, factor("osmesa.vertex")),
+                   "osmesa.vertex");
+    case Stage::light:
+      return c.add(name, stage, compare_lit(c.scene, mine, theirs.records, factor("osmesa.light")), "osmesa.light");
+    case Stage::clip:
+      return c.add(name, stage, compare_polygon_positions(mine, theirs.records, factor("osmesa.clip")), "osmesa.clip");
+    case Stage::window: return c.add(name, stage, compare_window_equal(mine, theirs.records));
+    case Stage::coverage:
+      c.add(name, stage, compare_coverage(c.candidate.planes, theirs.planes));
+      if (c.out.back().outcome == Outcome::different && contradicts_itself(c, theirs)) {
+        c.out.back() = as_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
+      }
+      return;
+    case Stage::depth:
+      return c.add(name, stage, compare_depth_planes(c.scene, c.candidate, theirs, factor("osmesa.depth")),
+                   "osmesa.depth");
+    case Stage::attributes:
+      return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
+                   "osmesa.attributes");
+    case Stage::texture: return;
+    case Stage::shade: return;
+    case Stage::visibility: return c.add(name, stage, compare_winners(c.candidate.planes, theirs.planes, c.legal));
+    case Stage::merge:
+      if (codes) {
+        return c.add(name, stage,
+                     compare_codes(c.candidate, theirs, factor("osmesa.merge.rgba8"), factor("osmesa.attributes")),
+                     "osmesa.merge.rgba8");
+      }
+      return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
+  }
+}
+
+constexpr StageSet kOracleStages = {Stage::coverage, Stage::depth, Stage::attributes, Stage::visibility, Stage::merge};
+
+bool runs_stages(const RendererInfo& info) {
+  return std::any_of(info.stages.begin(), info.stages.end(), [](const Ability& a) { return a.runs; });
+}
+
+// What a reference says of the scene: records and planes side by side, coverage to colour by an oracle's answers.
+void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info) {
+  const bool exact = runs_stages(info);
+  const std::string name = exact ? info.name + " from scene" : info.name;
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (info.legal && kOracleStages.has(stage)) {
+      ask_oracle(c, theirs.legal, stage, name);
+    } else if (exact && stage == Stage::matrices) {
+      c.add(name, stage, compare_matrices(c.candidate.records, theirs.records, factor("exact.matrices")),
+            "exact.matrices");
+    } else if (exact && stage == Stage::vertex) {
+      c.add(name, stage, compare_vertices(c.scene, c.candidate.records, theirs.records, factor("exact.vertex.scene")),
+            "exact.vertex.scene");
+    } else if (!info[stage].shows) {
+      c.skip(name, stage, Outcome::unsupported, info[stage].reason);
+    } else if (stage == Stage::shade) {
+      c.skip(name, stage, Outcome::unsupported, "without textures, the same plane as attributes");
+    } else if (!exact) {
+      side_by_side(c, theirs, stage, name);
+    }  // An exact reference judges the other stages from the candidate's own records.
+  }
+}
+
+// Everything; where the fragments do not fit the budget, everything but them.
+Capture capture_all(const Scene& scene, Renderer& renderer, bool legal) {
+  Request request{StageSet::all(), legal, {}, {}};
+  try {
+    return renderer.capture(scene, request);
+  } catch (const OverBudget&) {
+    request.records = {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
+    return renderer.capture(scene, request);
+  }
+}
+
+// What the judgement wants of a reference: an oracle's answers, records of the vertices; its fragments are not
+// compared.
+Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal) {
+  return renderer.capture(scene,
+                          {{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window}, legal, {}, {}});
+}
+
+}  // namespace
+
+std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee) {
+  std::vector<Comparison> out;
+  const Legal none;
+  Case c{scene, candidate, none, &referee, out};
+  const RendererInfo info = referee.info();
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (stage != Stage::matrices && info[stage].runs) graft(c, referee, stage, info.name + " from its records");
+  }
+  return out;
+}
+
+SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Drawn* drawn) {
+  const auto start = std::chrono::steady_clock::now();
+  SceneVerdict verdict{scene.name, scene.path, {}, 0};
+  const auto nothing = [&](const std::string& name, Outcome outcome, const std::string& why) {
+    verdict.comparisons.push_back(not_judged(scene.name, name, Stage::merge, outcome, why));
+  };
+  std::optional<Capture> mine;
+  try {
+    mine = capture_all(scene, candidate, false);
+  } catch (const std::exception& e) {
+    nothing(candidate.info().name, Outcome::failed, e.what());
+  }
+  std::vector<Capture> theirs(references.size());
+  std::vector<std::string> failures(references.size());
+  const Legal none;
+  const Legal* legal = &none;
+  Renderer* referee = nullptr;
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (references[i].renderer == nullptr) {
+      failures[i] = "not built in";
+      continue;
+    }
+    try {
+      theirs[i] = capture_reference(scene, *references[i].renderer, references[i].renderer->info().legal);
+      if (legal->empty()) legal = &theirs[i].legal;
+      if (runs_stages(references[i].renderer->info())) referee = references[i].renderer;
+    } catch (const std::exception& e) {
+      failures[i] = e.what();
+    }
+  }
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (references[i].renderer == nullptr) {
+      nothing(references[i].name, Outcome::missing, failures[i]);
+    } else if (!failures[i].empty()) {
+      nothing(references[i].name, Outcome::failed, failures[i]);
+    } else if (mine) {
+      Case c{scene, *mine, *legal, referee, verdict.comparisons};
+      try {
+        const RendererInfo info = references[i].renderer->info();
+        judge_from_scene(c, theirs[i], info);
+        if (runs_stages(info)) {
+          std::ranges::move(judge_records(scene, *mine, *references[i].renderer),
+                            std::back_inserter(verdict.comparisons));
+        }
+      } catch (const std::exception& e) {
+        nothing(references[i].name, Outcome::failed, e.what());
+      }
+    }
+  }
+  verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (drawn != nullptr) {
+    if (mine) drawn->candidate = std::move(*mine);
+    drawn->references = std::move(theirs);
+  }
+  return verdict;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,35 @@
+// One scene, the candidate and its references: everything that can be compared is compared.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "check/verdict.h"
+#include "scene/scene.h"
+#include "stages/renderer.h"
+
+namespace plumbline::check {
+
+/// A reference, or its absence.
+struct Reference {
+  std::string name;
+  Renderer* renderer = nullptr;  ///< not owned; null: not built in
+};
+
+/// What both sides handed out, for a report's pictures.
+struct Drawn {
+  Capture candidate;
+  std::vector<Capture> references;  ///< in the references' order; empty captures where there is none
+};
+
+/// References are told apart by what they are able to do (renderer.h), not by name: one that runs stages is a judge of
+/// the candidate's own records, stage by stage ("from its records"); one that hands out legal answers is an oracle
+/// for coverage, depth, visibility and colour; of any, what it shows is compared side by side.
+SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                   Drawn* drawn = nullptr);
+
+/// The part of it that needs no scene but for what is drawn: each stage but the first as `referee` makes it of the
+/// candidate's own records, against the candidate's.
+std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee);
+
+}  // namespace plumbline::check

@@ -1,0 +1,76 @@
+// The tolerance ledger, written by hand. What is not here is compared with tolerance zero. Beside it stands
+// golden/tolerances.json, generated: the largest difference seen for each row over the full suite.
+//
+// u = 2^-24. "of the magnitude": times the sum of the absolute values of the terms (bounds.h), which is what rounding
+// errors are proportional to. A product of n factors with n - 1 sums has a relative error of at most about n u
+// (Higham, Accuracy and stability of numerical algorithms, section 3.1).
+#include "check/ledger.h"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr std::array kLedger = {
+    Tolerance{"exact.matrices", 1, "half ULP",
+              "Rounding once from double to float is within half an ULP; entries below 1e-12 become 0."},
+    Tolerance{"exact.vertex", 8, "u",
+              "Eye position: 4 products and 3 sums, 4 u of the magnitude |M||p|. Clip position: the same for the "
+              "product of matrices and again for the point: 8 u of |P||M||p|. Normal: 3 u of |N||n|, length and "
+              "division 4 more."},
+    Tolerance{"exact.vertex.scene", 12, "u",
+              "From the scene: as exact.vertex, and each matrix entry was rounded to float before: 1 u for the "
+              "eye position, 2 u for the clip position and the normal, 2 kept for the products of both."},
+    Tolerance{"exact.light", 16, "u",
+              "Per light a normalised vector (3 u), two dot products of unit vectors (3 u each), products and sums (4 "
+              "u), the power (below 1 u, times the shininess for its argument's error): 16 u of the magnitude of "
+              "bounds.h, light_magnitude."},
+    Tolerance{"osmesa.vertex", 16, "u", "Both sides are within exact.vertex of the exact value: twice that."},
+    Tolerance{"osmesa.light", 32, "u", "Both sides are within exact.light of the exact value: twice that."},
+    Tolerance{"exact.clip", 8, "u",
+              "A cut vertex lies on its edge and on its plane but for rounding: the plane's distance (3 u), t, and "
+              "a + t (b - a) (3 u), of the largest coordinate of the primitive's corners; repeated cuts add."},
+    Tolerance{"osmesa.clip", 8, "u",
+              "p_clip is rebuilt from window coordinates: division by w, product, scale and translation, 4 roundings "
+              "of |p_clip| + w, undone in double; cut points carry exact.clip's of their own."},
+    Tolerance{"exact.window", 4, "u", "1/w, product, and a fused or separate scale and translate: 4 roundings."},
+    Tolerance{"exact.depth", 0.501, "step",
+              "Rounding to the nearest code is half a step. The plane is evaluated in double: 2^-53 of its terms, "
+              "which slivers make large; 0.001 steps are kept for them. (Within one step would let truncation pass.)"},
+    Tolerance{"osmesa.depth", 64, "u",
+              "llvmpipe evaluates z0 + dz/dx x + dz/dy y in float from the window's origin: of the magnitude of "
+              "bounds.h, bounds_from_origin, 40 held on every pixel that was measured; one step of the format more."},
+    Tolerance{"exact.attributes", 12, "u",
+              "Weights: barycentrics rounded to float (1), times 1/w (1), sum (2), reciprocal and product (2), for "
+              "both numerator and denominator; differences of corners (1), two products and sums (3): 12 u of the "
+              "magnitude of bounds.h, bounds_of_mean."},
+    Tolerance{"osmesa.attributes", 64, "u",
+              "As osmesa.depth, for colour / w and 1 / w, joined by the division (bounds.h, bounds_from_origin); "
+              "vertex colours differ by osmesa.light."},
+    Tolerance{"osmesa.merge.rgba8", 1, "1/255",
+              "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
+              "most, where osmesa.attributes is below a code; for slivers its whole codes more."},
+    Tolerance{"exact.merge.rgba8", 1, "half 1/255",
+              "A code is at most half a code from the value that was rounded, and the product by 255 in float is 2 u "
+              "off."},
+    Tolerance{"legal.depth", 1, "step", "The legal interval, and one step of the depth format for the rounding."},
+    Tolerance{"legal.attributes", 1, "bound",
+              "The oracle's own bound of float arithmetic from the scene on (reference/math)."},
+    Tolerance{"legal.merge", 1, "bound", "legal.attributes' bound and, for rgba8, half a code for the rounding."},
+};
+
+}  // namespace
+
+std::span<const Tolerance> ledger() { return kLedger; }
+
+const Tolerance& tolerance(std::string_view name) {
+  for (const Tolerance& row : kLedger) {
+    if (row.name == name) return row;
+  }
+  throw std::logic_error("the tolerance ledger has no row " + std::string(name));
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,76 @@
+#include "check/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+std::size_t bucket(double diff) {
+  if (diff == 0) return 0;
+  if (!std::isfinite(diff)) return 19;
+  return static_cast<std::size_t>(std::clamp(std::ilogb(diff) + 13, 1, 18));
+}
+
+}  // namespace
+
+std::string to_string(const Place& place) {
+  std::string out;
+  if (place.x >= 0) out = fmt::format("pixel {},{}", place.x, place.y);
+  if (place.record >= 0) out += fmt::format("{}record {}", out.empty() ? "" : " ", place.record);
+  if (*place.field != '\0') out += fmt::format("{}{}", out.empty() ? "" : " ", place.field);
+  return out;
+}
+
+double difference(double a, double b) {
+  if (a == b) return 0;
+  const double d = std::abs(a - b);
+  return std::isfinite(a) && std::isfinite(b) ? d : kInfinite;
+}
+
+void Meter::value(double diff, double tolerance, const Place& place, double candidate, double reference) {
+  if (!(diff >= 0)) diff = kInfinite;
+  if (!(tolerance >= 0)) tolerance = 0;
+  item_difference_ = std::max(item_difference_, diff);
+  if (diff > tolerance || !std::isfinite(diff)) item_differs_ = true;
+  if (diff == 0) return;
+  const double ratio = tolerance > 0 ? diff / tolerance : kInfinite;
+  if (ratio > m_.max_ratio || (ratio == m_.max_ratio && diff > m_.worst.difference)) {
+    m_.max_ratio = ratio;
+    m_.worst = {place, candidate, reference, diff, tolerance};
+  }
+}
+
+void Meter::item() {
+  ++m_.items;
+  if (item_differs_) ++m_.differing;
+  m_.max_difference = std::max(m_.max_difference, item_difference_);
+  ++m_.histogram[bucket(item_difference_)];
+  item_difference_ = 0;
+  item_differs_ = false;
+}
+
+void Meter::missing(std::uint64_t items, const Place& place) {
+  for (std::uint64_t i = 0; i < items; ++i) {
+    value(kInfinite, 0, place, 0, 0);
+    item();
+  }
+}
+
+Measurement mismatch(std::string unit, std::string why, std::uint64_t items) {
+  Measurement m;
+  m.unit = std::move(unit);
+  m.mismatch = std::move(why);
+  m.items = m.differing = std::max<std::uint64_t>(items, 1);
+  m.max_difference = m.max_ratio = m.worst.difference = kInfinite;
+  m.histogram[19] = m.items;
+  return m;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,105 @@
+// Measurements: what a comparator returns. It measures; the verdict decides.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "stages/plane.h"
+
+namespace plumbline::check {
+
+/// Where in a capture: a pixel, or a record and its field.
+struct Place {
+  int x = -1, y = -1;        ///< pixel, or -1
+  std::int64_t record = -1;  ///< number of the record, or -1
+  const char* field = "";    ///< such as "p_clip.x"
+};
+std::string to_string(const Place& place);
+
+/// The item with the largest difference in proportion to its tolerance.
+struct Worst {
+  Place place;
+  double candidate = 0, reference = 0;
+  double difference = 0;  ///< in the measurement's unit
+  double tolerance = 0;   ///< likewise
+};
+
+struct Measurement {
+  std::string unit;
+  std::uint64_t items = 0;      ///< pixels or records compared
+  std::uint64_t differing = 0;  ///< items beyond their tolerance
+  std::uint64_t ambiguous = 0;  ///< items for which more than one answer is legal
+  std::uint64_t disputed = 0;   ///< items where the reference, not the candidate, is outside the legal answers
+  double max_difference = 0;    ///< in `unit`; infinite for NaN, a wrong size, a missing record
+  double max_ratio = 0;         ///< largest difference / tolerance over the items; above 1 something differs
+  Worst worst;
+  std::string mismatch;  ///< why nothing could be compared item by item (sizes differ), or empty
+  /// Items by difference: [0] none, [i] in [2^(i-13), 2^(i-12)) units, the ends open; [19]: not finite.
+  std::array<std::uint64_t, 20> histogram{};
+};
+
+/// |a - b|; 0 for equal numbers, equal infinities included; infinite where anything else is not finite.
+double difference(double a, double b);
+
+/// Gathers a measurement item by item.
+class Meter {
+ public:
+  explicit Meter(std::string unit) { m_.unit = std::move(unit); }
+
+  /// One value of an item: `diff` and `tolerance` in the meter's unit. A NaN diff counts as infinite, a NaN tolerance
+  /// as 0.
+  void value(double diff, double tolerance, const Place& place, double candidate, double reference);
+  /// Ends an item that has got its values.
+  void item();
+  void ambiguous() { ++m_.ambiguous; }
+  void disputed() { ++m_.disputed; }
+  /// Counts whole items as different, such as missing records.
+  void missing(std::uint64_t items, const Place& place);
+  Measurement done() { return std::move(m_); }
+
+ private:
+  Measurement m_;
+  double item_difference_ = 0;
+  bool item_differs_ = false;
+};
+
+/// A measurement that says that nothing fits: every item differs.
+Measurement mismatch(std::string unit, std::string why, std::uint64_t items);
+
+/// Whether two planes are of one size; if not, says so in `why`.
+template <class A, class B>
+bool same_size(const Plane<A>& a, const Plane<B>& b, std::string& why) {
+  if (a.width() == b.width() && a.height() == b.height()) return true;
+  why = std::to_string(a.width()) + " x " + std::to_string(a.height()) + " against " + std::to_string(b.width()) +
+        " x " + std::to_string(b.height());
+  return false;
+}
+
+/// Compares pixel by pixel: `visit(meter, x, y)` gives the meter that pixel's values.
+template <class A, class B, class Visit>
+Measurement compare_planes(const Plane<A>& a, const Plane<B>& b, const std::string& unit, Visit visit) {
+  std::string why;
+  if (!same_size(a, b, why)) return mismatch(unit, why, a.size());
+  Meter meter(unit);
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      visit(meter, x, y);
+      meter.item();
+    }
+  }
+  return meter.done();
+}
+
+/// Zero tolerance, for planes of integers.
+template <class T>
+Measurement compare_equal(const Plane<T>& candidate, const Plane<T>& reference, const std::string& unit) {
+  return compare_planes(candidate, reference, unit, [&](Meter& meter, int x, int y) {
+    const T a = candidate(x, y), b = reference(x, y);
+    // Subtracted as integers: 64-bit values do not fit a double.
+    const double diff = a > b ? static_cast<double>(a - b) : static_cast<double>(b - a);
+    meter.value(diff, 0, {x, y, -1, ""}, static_cast<double>(a), static_cast<double>(b));
+  });
+}
+
+}  // namespace plumbline::check

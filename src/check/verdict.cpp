@@ -1,0 +1,63 @@
+#include "check/verdict.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+namespace plumbline::check {
+
+std::string_view name_of(Outcome outcome) {
+  constexpr std::array<std::string_view, 8> kNames = {"equal",   "within",      "ambiguous_only", "different",
+                                                      "dispute", "unsupported", "missing",        "failed"};
+  return kNames[static_cast<std::size_t>(outcome)];
+}
+
+bool is_failure(Outcome outcome) {
+  return outcome == Outcome::different || outcome == Outcome::failed || outcome == Outcome::missing;
+}
+
+Comparison judged(std::string scene, std::string reference, Stage stage, Measurement m, std::string_view ledger_row,
+                  std::string note) {
+  Outcome outcome = Outcome::equal;
+  if (m.differing > 0) {
+    outcome = Outcome::different;
+  } else if (m.disputed > 0) {
+    outcome = Outcome::dispute;
+  } else if (m.ambiguous > 0) {
+    outcome = Outcome::ambiguous_only;
+  } else if (m.max_difference > 0) {
+    outcome = Outcome::within;
+  }
+  if (!m.mismatch.empty()) note = m.mismatch;
+  return {std::move(scene), std::move(reference),    stage,          outcome,
+          std::move(m),     std::string(ledger_row), std::move(note)};
+}
+
+Comparison not_judged(std::string scene, std::string reference, Stage stage, Outcome outcome, std::string note) {
+  return {std::move(scene), std::move(reference), stage, outcome, {}, "", std::move(note)};
+}
+
+const Comparison* first_different(const SceneVerdict& verdict) {
+  const Comparison* first = nullptr;
+  for (const Comparison& c : verdict.comparisons) {
+    if (c.outcome == Outcome::different && (first == nullptr || c.stage < first->stage)) first = &c;
+  }
+  return first;
+}
+
+std::vector<LedgerUse> ledger_use(std::span<const SceneVerdict> verdicts) {
+  std::vector<LedgerUse> uses;
+  for (const Tolerance& row : ledger()) uses.push_back({&row, -1, ""});
+  for (const SceneVerdict& verdict : verdicts) {
+    for (const Comparison& c : verdict.comparisons) {
+      for (LedgerUse& use : uses) {
+        if (c.ledger_row != use.row->name || c.measurement.max_ratio <= use.largest_ratio) continue;
+        use.largest_ratio = c.measurement.max_ratio;
+        use.where = fmt::format("{}, {}, {}", c.scene, c.reference, to_string(c.measurement.worst.place));
+      }
+    }
+  }
+  return uses;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,64 @@
+// A verdict: per scene, reference and stage, one comparison with its outcome.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "check/ledger.h"
+#include "check/measure.h"
+#include "stages/stages.h"
+
+namespace plumbline::check {
+
+enum class Outcome {
+  equal,           ///< not a bit apart
+  within,          ///< within the tolerance
+  ambiguous_only,  ///< apart only where more than one answer is legal, and among the legal ones
+  different,       ///< beyond the tolerance, or outside the legal answers
+  dispute,         ///< the reference, not the candidate, is outside the legal answers: listed, not our failure
+  unsupported,     ///< the reference does not show the stage
+  missing,         ///< the reference is not here
+  failed           ///< a renderer crashed, hung, or broke the protocol
+};
+std::string_view name_of(Outcome outcome);
+/// different, failed, missing.
+bool is_failure(Outcome outcome);
+
+struct Comparison {
+  std::string scene;
+  std::string reference;  ///< renderer, and for one that runs stages: "from scene" or "from its records"
+  Stage stage = Stage::matrices;
+  Outcome outcome = Outcome::equal;
+  Measurement measurement;
+  std::string ledger_row;  ///< of the tolerance, or empty: zero
+  std::string note;        ///< why unsupported, missing, failed; what is ambiguous
+};
+
+/// The outcome that a measurement comes to.
+Comparison judged(std::string scene, std::string reference, Stage stage, Measurement measurement,
+                  std::string_view ledger_row = "", std::string note = "");
+Comparison not_judged(std::string scene, std::string reference, Stage stage, Outcome outcome, std::string note);
+
+/// All comparisons of one scene, in stage order for each reference.
+struct SceneVerdict {
+  std::string scene;
+  std::string path;
+  std::vector<Comparison> comparisons;
+  double seconds = 0;
+};
+
+/// The first comparison, by stage, that is different; null if none. Of several at one stage, the first listed.
+const Comparison* first_different(const SceneVerdict& verdict);
+
+/// The largest ratio of difference to tolerance that a run saw for each row of the ledger; below 0: row not used.
+struct LedgerUse {
+  const Tolerance* row;
+  double largest_ratio;
+  std::string where;  ///< scene, reference, place
+};
+std::vector<LedgerUse> ledger_use(std::span<const SceneVerdict> verdicts);
+
+}  // namespace plumbline::check

@@ -1,0 +1,79 @@
+// plumb list: what there is.
+#include <memory>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.h"
+#include "cli/renderers.h"
+#include "cli/scene_arguments.h"
+#include "scene/scene_file.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+void list_stages() {
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) fmt::print("{:>2} {}\n", i, kStageNames[i]);
+}
+
+void list_renderers() {
+  for (const std::string& name : renderer_names()) {
+    if (name == "softpipe") {  // one Mesa driver a process
+      fmt::print("softpipe: as osmesa, by Mesa's other driver\n");
+      continue;
+    }
+    const std::unique_ptr<Renderer> renderer = make_renderer(name);
+    if (renderer == nullptr) {
+      fmt::print("{}: not built in\n", name);
+      continue;
+    }
+    const RendererInfo info = renderer->info();
+    fmt::print("{} ({}){}\n", name, info.version, info.legal ? ": an oracle of legal answers" : "");
+    for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+      const Ability& ability = info.stages[i];
+      fmt::print("  {:<10} {}{}{}\n", kStageNames[i], ability.shows ? "shown" : "not shown",
+                 ability.runs ? ", can be run alone" : "", ability.reason.empty() ? "" : ": " + ability.reason);
+    }
+  }
+}
+
+void list_faults() {
+  for (const FaultInfo& fault : fault_infos()) fmt::print("{:<32} {:<10} {}\n", fault.name, fault.stage, fault.changes);
+}
+
+void list_scenes(const std::vector<std::string>& folders, const SceneArguments& arguments) {
+  const std::vector<std::filesystem::path> paths(folders.begin(), folders.end());
+  for (const auto& file : find_scenes(paths)) {
+    const Scene scene = arguments.load(file);
+    fmt::print("{:<28} {} x {}: {}\n", scene.name, scene.frame.width, scene.frame.height, scene.description);
+  }
+}
+
+}  // namespace
+
+Command add_list(CLI::App& app) {
+  struct Arguments {
+    std::string what = "all";
+    std::vector<std::string> scenes;
+    SceneArguments scene_arguments;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("list", "Show the stages, renderers, faults and scenes that there are");
+  command->add_option("what", a->what, "all, stages, renderers, faults, scenes")
+      ->check(CLI::IsMember({"all", "stages", "renderers", "faults", "scenes"}));
+  command->add_option("folders", a->scenes, "Where to look for scenes");
+  a->scene_arguments.add_to(*command);
+  return [a, command] {
+    if (!command->parsed()) return -1;
+    if (a->what == "scenes" && a->scenes.empty()) throw std::invalid_argument("list scenes: name a folder");
+    const bool all = a->what == "all";
+    if (all || a->what == "stages") list_stages();
+    if (all || a->what == "renderers") list_renderers();
+    if (all || a->what == "faults") list_faults();
+    if (!a->scenes.empty()) list_scenes(a->scenes, a->scene_arguments);
+    return static_cast<int>(kHolds);
+  };
+}
+
+}  // namespace plumbline::cli

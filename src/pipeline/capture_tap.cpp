@@ -1,0 +1,67 @@
+#include "pipeline/capture_tap.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "pipeline/tiles.h"
+
+namespace plumbline::pipeline {
+
+CaptureTap::CaptureTap(const Scene& scene, const Request& request)
+    : scene_(scene),
+      request_(request),
+      keep_(request.records.has(Stage::coverage) || request.records.has(Stage::depth) ||
+            request.records.has(Stage::attributes) || request.records.has(Stage::shade)) {
+  const int w = scene.frame.width, h = scene.frame.height;
+  planes_.count = Plane<std::uint32_t>(w, h);
+  planes_.id_sum = Plane<std::uint64_t>(w, h);
+  planes_.id = Plane<std::int32_t>(w, h, kBackground);
+  planes_.shaded = Plane<glm::vec4>(w, h, scene.frame.clear_color);
+}
+
+bool CaptureTap::wanted(const Fragment& f) const {
+  const auto& primitives = request_.primitives;
+  const auto& pixels = request_.pixels;
+  return (primitives.empty() || std::binary_search(primitives.begin(), primitives.end(), f.primitive)) &&
+         (pixels.empty() || std::find(pixels.begin(), pixels.end(), glm::ivec2(f.x, f.y)) != pixels.end());
+}
+
+void CaptureTap::add(const Fragment& f, bool passes) {
+  // Blocks reach over the frame's edge; a triangle that covers pixels there is a fault, but no reason to crash.
+  if (f.x < 0 || f.y < 0 || f.x >= planes_.id.width() || f.y >= planes_.id.height()) return;
+  ++planes_.count(f.x, f.y);
+  planes_.id_sum(f.x, f.y) += id_weight(f.primitive);
+  if (passes) {
+    planes_.id(f.x, f.y) = static_cast<std::int32_t>(f.primitive);
+    planes_.shaded(f.x, f.y) = f.shaded;
+  }
+  if (!keep_ || !wanted(f)) return;
+  fragments_.push_back(f);
+  // The sorted records stand beside the fragments for a while.
+  constexpr std::size_t kBytes =
+      2 * sizeof(Fragment) + sizeof(Covered) + sizeof(double) + sizeof(Attributes<double>) + sizeof(Shaded<double>);
+  if (fragments_.size() % 65536 == 0) {
+    require_budget(scene_, plane_bytes(scene_) + fragments_.size() * kBytes, request_.memory_budget);
+  }
+}
+
+void CaptureTap::hand_out(Capture& capture) {
+  std::sort(fragments_.begin(), fragments_.end(), [](const Fragment& a, const Fragment& b) {
+    return std::tie(a.triangle, a.y, a.x) < std::tie(b.triangle, b.y, b.x);
+  });
+  const double scale = formats_of(scene_.frame).depth_scale;
+  Records<double>& r = capture.records;
+  for (const Fragment& f : fragments_) {
+    r.covered.push_back({f.triangle, static_cast<std::uint16_t>(f.x), static_cast<std::uint16_t>(f.y)});
+    if (request_.records.has(Stage::depth)) r.depth.push_back(scale == 0.0 ? f.z : f.z / scale);
+    if (request_.records.has(Stage::attributes)) r.attributes.push_back({f.attributes});
+    if (request_.records.has(Stage::shade)) r.shaded.push_back({f.shaded});
+  }
+  Planes& out = capture.planes;
+  out.count = std::move(planes_.count);
+  out.id_sum = std::move(planes_.id_sum);
+  out.id = std::move(planes_.id);
+  out.shaded = std::move(planes_.shaded);
+}
+
+}  // namespace plumbline::pipeline

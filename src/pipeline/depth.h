@@ -1,0 +1,62 @@
+// Stage 6: the depth of each fragment, and the depth test.
+//
+// Barycentric coordinates are affine in the window; two planes in double serve depth here and attributes in stage 7.
+// They go through the *unsnapped* positions: the snapped ones only decide coverage (through them, the colours of tiny
+// triangles would move visibly). Double, because for a sliver in float even the third bit of a depth may be wrong.
+#pragma once
+
+#include "pipeline/lanes.h"
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::pipeline {
+
+/// A triangle's barycentric planes, anchored at corner 0: l1 = dx * l1_x + dy * l1_y, l2 likewise, l0 = 1 - l1 - l2.
+struct BarycentricPlanes {
+  double x0, y0;  ///< corner 0, window
+  double l1_x, l1_y, l2_x, l2_y;
+};
+
+/// Where the unsnapped area is zero or of the other sign than the snapped, the planes go through the snapped corners.
+BarycentricPlanes planes_of(const WindowTriangle<float>& triangle);
+
+template <class R>
+struct Barycentric {
+  Wide<R> l0, l1, l2;
+};
+template <class R>
+Barycentric<R> barycentric(const BarycentricPlanes& planes, const Pixels<R>& p) {
+  const Wide<R> dx = p.x_win - planes.x0, dy = p.y_win - planes.y0;
+  const Wide<R> l1 = dx * planes.l1_x + dy * planes.l1_y;
+  const Wide<R> l2 = dx * planes.l2_x + dy * planes.l2_y;
+  return {1.0 - l1 - l2, l1, l2};
+}
+
+/// A triangle's window depths, as corner 0's and the differences from it, and the largest code of the depth format
+/// (scene.h, depth_scale; 0: float).
+struct DepthSetup {
+  double z0, dz1, dz2;
+  double scale;
+};
+DepthSetup depth_setup(const WindowTriangle<float>& triangle, double scale);
+
+/// In the depth format: a code, which a float holds exactly up to 2^24, or window z itself for z32f.
+template <class R>
+R depth(const DepthSetup& s, const Barycentric<R>& b) {
+  const Wide<R> z = clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
+  return to_float(s.scale == 0.0 ? z : round_even(z * s.scale));
+}
+
+template <DepthFunc func, class R>
+Mask<R> depth_passes(R incoming, R stored) {
+  if constexpr (func == DepthFunc::less) return incoming < stored;
+  if constexpr (func == DepthFunc::less_equal) return incoming <= stored;
+  if constexpr (func == DepthFunc::greater) return incoming > stored;
+  if constexpr (func == DepthFunc::greater_equal) return incoming >= stored;
+  if constexpr (func == DepthFunc::equal) return incoming == stored;
+  if constexpr (func == DepthFunc::not_equal) return incoming != stored;
+  if constexpr (func == DepthFunc::never) return incoming != incoming;
+  if constexpr (func == DepthFunc::always) return incoming == incoming;
+}
+
+}  // namespace plumbline::pipeline

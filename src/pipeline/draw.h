@@ -1,0 +1,37 @@
+// Stages 0 to 4 over arrays: every draw of a scene becomes window triangles.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::pipeline {
+
+struct Assembly;
+
+/// The functions of stages 0 to 4; each can be called alone, and a test can put another in the place of one.
+struct GeometryStages {
+  Matrices<float> (*matrices)(const Scene&, const Draw&);
+  void (*vertex)(const Matrices<float>&, const Mesh&, std::vector<Vertex<float>>&);
+  void (*light)(const Scene&, const Draw&, std::span<const Vertex<float>>, std::vector<Lit<float>>&);
+  void (*clip)(const Assembly&, ClipPolygons<float>&);
+  void (*window)(const Matrices<float>&, Cull, const ClipPolygons<float>&, std::span<const ClipPolygon>,
+                 std::vector<WindowTriangle<float>>&);
+};
+/// Those of this folder: matrices.h, vertex.h, light.h, clip.h, window.h.
+GeometryStages geometry_stages();
+
+/// What stages 0 to 4 hand on for a scene (records.covered and after stay empty).
+struct Geometry {
+  Records<float> records;
+  std::vector<std::uint32_t> first_triangle;  ///< draw d has the triangles [first_triangle[d], first_triangle[d + 1])
+};
+
+Geometry run_geometry(const Scene& scene, const GeometryStages& stages);
+
+/// The draws' shares of `triangles`, which are in draw order.
+std::vector<std::uint32_t> triangles_of_draws(const Scene& scene, std::span<const WindowTriangle<float>> triangles);
+
+}  // namespace plumbline::pipeline

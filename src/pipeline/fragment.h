@@ -1,0 +1,110 @@
+// Stages 5 to 11 for one triangle in one block of 4 x 4 pixels.
+//
+// Everything that does not change within a draw is a template parameter: the number type R (lanes.h), the depth
+// function, the stage functions (so that a test can put another in the place of one) and the Tap. NoTap ships: hidden
+// fragments are left as soon as that is known. A tap that wants every fragment sees them all, and the planes come out
+// the same, bit for bit.
+#pragma once
+
+#include "pipeline/attributes.h"
+#include "pipeline/coverage.h"
+#include "pipeline/depth.h"
+#include "pipeline/lanes.h"
+#include "pipeline/merge.h"
+#include "pipeline/shade.h"
+
+namespace plumbline::pipeline {
+
+/// The stage functions of the fragment half; a variant inherits them and hides some by its own.
+struct FragmentStages {
+  static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
+  template <class R>
+  static R depth(const DepthSetup& s, const Barycentric<R>& b) {
+    return pipeline::depth<R>(s, b);
+  }
+  template <DepthFunc func, class R>
+  static Mask<R> depth_passes(R incoming, R stored) {
+    return pipeline::depth_passes<func, R>(incoming, stored);
+  }
+  template <class R>
+  static Color<R> attributes(const AttributeSetup& s, const Barycentric<R>& b) {
+    return pipeline::attributes<R>(s, b);
+  }
+  template <class R>
+  static Color<R> shade(const Color<R>& attributes) {
+    return pipeline::shade<R>(attributes);
+  }
+  template <class R>
+  static Color<R> merge(const Color<R>& color, float scale) {
+    return pipeline::merge<R>(color, scale);
+  }
+};
+
+/// What a frame's formats come to.
+struct Formats {
+  double depth_scale;  ///< the largest depth code, or 0 for float
+  float color_scale;   ///< the largest colour code, or 0 for float
+};
+
+/// All that stages 5 to 11 want to know of a triangle.
+struct TriangleSetup {
+  std::uint32_t triangle;  ///< its place among the window triangles
+  std::uint32_t primitive;
+  PixelBounds bounds;
+  Edges edges;
+  BarycentricPlanes planes;
+  DepthSetup depth;
+  AttributeSetup attributes;
+};
+template <class Stages>
+TriangleSetup set_up(const WindowTriangle<float>& t, std::uint32_t triangle, const Formats& formats) {
+  return {triangle,          t.primitive,  pixel_bounds(t),
+          Stages::edges(t),  planes_of(t), depth_setup(t, formats.depth_scale),
+          attribute_setup(t)};
+}
+
+/// 64 x 64 pixels of the frame, stored block by block; colour and depth in the frame's formats, as floats.
+inline constexpr int kTile = 64;
+struct Tile {
+  int x0, y0;  ///< its lower left pixel
+  float depth[kTile * kTile];
+  float color[4][kTile * kTile];
+
+  /// Of the block whose lower left pixel is (x, y), its first pixel's place.
+  int offset(int x, int y) const { return ((y - y0) / kBlock * (kTile / kBlock) + (x - x0) / kBlock) * kBlockPixels; }
+};
+
+/// The tap that ships.
+struct NoTap {
+  static constexpr bool every_fragment = false;
+  template <class R>
+  void fragments(const TriangleSetup&, const Pixels<R>&, Mask<R>, Mask<R>, R, const Color<R>&, const Color<R>&) {}
+};
+
+template <class R, DepthFunc func, class Stages, class Tap>
+void fragment_block(const TriangleSetup& s, int block_x, int block_y, float color_scale, Tile& tile, Tap& tap) {
+  const int offset = tile.offset(block_x, block_y);
+  for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
+    const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
+    const Mask<R> covered = coverage<R>(s.edges, p);
+    if (!any(covered)) continue;
+    const Barycentric<R> b = barycentric<R>(s.planes, p);
+    const R z = Stages::template depth<R>(s.depth, b);
+    float* const stored_z = tile.depth + offset + i;
+    const Mask<R> passes = covered & Stages::template depth_passes<func, R>(z, load(stored_z));
+    if constexpr (!Tap::every_fragment) {
+      if (!any(passes)) continue;
+    }
+    const Color<R> attributes = Stages::template attributes<R>(s.attributes, b);
+    const Color<R> shaded = Stages::template shade<R>(attributes);
+    tap.template fragments<R>(s, p, covered, passes, z, attributes, shaded);
+    const Color<R> merged = Stages::template merge<R>(shaded, color_scale);
+    store(passes, z, stored_z);
+    store(passes, merged.r, tile.color[0] + offset + i);
+    store(passes, merged.g, tile.color[1] + offset + i);
+    store(passes, merged.b, tile.color[2] + offset + i);
+    store(passes, merged.a, tile.color[3] + offset + i);
+  }
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,19 @@
+#include "pipeline/frame.h"
+
+namespace plumbline::pipeline {
+
+Frame::Frame(const FrameFormat& format) {
+  const int w = format.width, h = format.height;
+  if (format.color == ColorFormat::rgba8) {
+    color_rgba8 = Plane<glm::u8vec4>(w, h);
+  } else {
+    color_rgba32f = Plane<glm::vec4>(w, h);
+  }
+  if (format.depth == DepthFormat::z32f) {
+    depth_z32f = Plane<float>(w, h);
+  } else {
+    depth_code = Plane<std::uint32_t>(w, h);
+  }
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,23 @@
+// The finished frame in its own formats, as a display or a file would take it.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+#include "stages/plane.h"
+
+namespace plumbline::pipeline {
+
+/// Row 0 at the bottom. Of the colour planes, and of the depth planes, that of the format is filled.
+struct Frame {
+  explicit Frame(const FrameFormat& format);
+
+  Plane<glm::u8vec4> color_rgba8;
+  Plane<glm::vec4> color_rgba32f;
+  Plane<std::uint32_t> depth_code;  ///< z16, z24
+  Plane<float> depth_z32f;
+};
+
+}  // namespace plumbline::pipeline

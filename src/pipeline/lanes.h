@@ -1,0 +1,72 @@
+// The words that the per-pixel kernels (stages 5 to 11) are written in, so that one source serves every width.
+//
+// A kernel is a template over its number type R. For R = float, below, each word is the plain operation on one pixel:
+// this is the definition. A SIMD type needs its own Lanes and the same words, each lane doing the same operation.
+#pragma once
+
+#include <cstdint>
+
+namespace plumbline::pipeline {
+
+inline constexpr int kBlock = 4;  ///< pixels a side: the unit in which triangles are walked and planes are stored
+inline constexpr int kBlockPixels = kBlock * kBlock;
+
+/// The companions of a number type: `width` pixels at a time, doubles (Wide), integers (Int) and a Mask of as many.
+template <class R>
+struct Lanes;
+template <>
+struct Lanes<float> {
+  static constexpr int width = 1;
+  using Wide = double;
+  using Int = std::int64_t;
+  using Mask = bool;
+};
+template <class R>
+using Wide = typename Lanes<R>::Wide;
+template <class R>
+using Int = typename Lanes<R>::Int;
+template <class R>
+using Mask = typename Lanes<R>::Mask;
+
+/// The next Lanes<R>::width pixels of the block at (block_x, block_y), from its i-th on, row by row.
+template <class R>
+struct Pixels {
+  Int<R> x, y;           ///< pixel
+  Wide<R> x_win, y_win;  ///< centre
+};
+template <class R>
+Pixels<R> block_pixels(int block_x, int block_y, int i);
+template <>
+inline Pixels<float> block_pixels<float>(int block_x, int block_y, int i) {
+  const int x = block_x + i % kBlock, y = block_y + i / kBlock;
+  return {x, y, x + 0.5, y + 0.5};
+}
+
+inline float to_float(double value) { return static_cast<float>(value); }
+inline double to_wide(float value) { return static_cast<double>(value); }
+inline bool any(bool mask) { return mask; }
+inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
+inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
+
+/// To [0,1]; NaN to 0.
+template <class T>
+T clamp01(T value) {
+  const T low = select(value > T(0), value, T(0));
+  return select(low < T(1), low, T(1));
+}
+
+/// Half to even, for |value| below 2^22 (float) or 2^51 (double): adding 1.5 * 2^mantissa leaves no fraction.
+inline float round_even(float value) { return (value + 12582912.0f) - 12582912.0f; }
+inline double round_even(double value) { return (value + 6755399441055744.0) - 6755399441055744.0; }
+
+inline float load(const float* from) { return *from; }
+inline void store(bool mask, float value, float* to) {
+  if (mask) *to = value;
+}
+
+/// The value of one lane, for taps.
+inline float lane(float value, int) { return value; }
+inline std::int64_t lane(std::int64_t value, int) { return value; }
+inline bool lane(bool mask, int) { return mask; }
+
+}  // namespace plumbline::pipeline

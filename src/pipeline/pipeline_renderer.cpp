@@ -1,0 +1,192 @@
+#include "pipeline/pipeline_renderer.h"
+
+#include <cmath>
+
+#include "pipeline/clip.h"
+#include "pipeline/convert.h"
+
+namespace plumbline::pipeline {
+
+namespace {
+
+Planes planes_of_frame(const Frame& frame, const Formats& formats) {
+  Planes out;
+  const int w = std::max(frame.color_rgba8.width(), frame.color_rgba32f.width());
+  const int h = std::max(frame.color_rgba8.height(), frame.color_rgba32f.height());
+  out.color = frame.color_rgba32f.empty() ? Plane<glm::vec4>(w, h) : frame.color_rgba32f;
+  for (std::size_t i = 0; i < frame.color_rgba8.size(); ++i) {
+    out.color.values()[i] = glm::vec4(frame.color_rgba8.values()[i]) / 255.0f;
+  }
+  out.depth = Plane<double>(w, h);
+  for (std::size_t i = 0; i < out.depth.size(); ++i) {
+    out.depth.values()[i] = frame.depth_z32f.empty() ? frame.depth_code.values()[i] / formats.depth_scale
+                                                     : static_cast<double>(frame.depth_z32f.values()[i]);
+  }
+  return out;
+}
+
+class PipelineRenderer : public Renderer {
+ public:
+  explicit PipelineRenderer(const Stages& stages) : stages_(stages) {}
+
+  RendererInfo info() const override {
+    RendererInfo info{"ours", PLUMBLINE_VERSION, {}, false};
+    for (Ability& ability : info.stages) ability = {true, true, ""};
+    info[Stage::texture] = {false, false, "no scene has textures yet"};
+    return info;
+  }
+
+  Capture capture(const Scene& scene, const Request& request) override {
+    require_budget(scene, plane_bytes(scene), request.memory_budget);
+    Capture out;
+    out.renderer = "ours";
+    out.version = PLUMBLINE_VERSION;
+    out.width = scene.frame.width;
+    out.height = scene.frame.height;
+    const Geometry geometry = run_geometry(scene, stages_.geometry);
+    Frame frame(scene.frame);
+    CaptureTap tap(scene, request);
+    stages_.fragment.draw_tapped({geometry.records.triangles, geometry.first_triangle, scene.draws}, scene.frame, frame,
+                                 tap);
+    out.planes = planes_of_frame(frame, formats_of(scene.frame));
+    tap.hand_out(out);
+    widen_geometry(geometry.records, request, out.records);
+    return out;
+  }
+
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
+    if (!info()[stage].runs) return Renderer::run_stage(scene, stage, in);
+    Capture out;
+    out.renderer = "ours";
+    out.version = PLUMBLINE_VERSION;
+    out.width = scene.frame.width;
+    out.height = scene.frame.height;
+    if (stage <= Stage::window) {
+      run_geometry_stage(scene, stage, narrow(in.records), out);
+    } else if (stage == Stage::coverage) {
+      run_coverage(scene, narrow(in.records), out);
+    } else if (stage <= Stage::shade) {
+      run_fragment_stage(scene, stage, in.records, out);
+    } else {
+      run_planes(scene, stage, in.records, out);
+    }
+    return out;
+  }
+
+ private:
+  void run_geometry_stage(const Scene& scene, Stage stage, const Records<float>& in, Capture& out) {
+    Records<float> made;
+    const std::vector<DrawRange> ranges = draw_ranges(scene);
+    auto polygon = in.polygons.polygons.begin();
+    for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+      const Draw& draw = scene.draws[d];
+      const Mesh& mesh = scene.meshes[draw.mesh];
+      const DrawRange& range = ranges[d];
+      switch (stage) {
+        case Stage::matrices: made.matrices.push_back(stages_.geometry.matrices(scene, draw)); break;
+        case Stage::vertex: stages_.geometry.vertex(in.matrices.at(d), mesh, made.vertices); break;
+        case Stage::light:
+          stages_.geometry.light(scene, draw, std::span(in.vertices).subspan(range.first_vertex, range.vertex_count),
+                                 made.lit);
+          break;
+        case Stage::clip:
+          stages_.geometry.clip({std::span(in.vertices).subspan(range.first_vertex, range.vertex_count),
+                                 std::span(in.lit).subspan(range.first_vertex, range.vertex_count), mesh.triangles,
+                                 range.first_primitive, draw.shading},
+                                made.polygons);
+          break;
+        default: {
+          const auto first = polygon;
+          while (polygon != in.polygons.polygons.end() &&
+                 polygon->primitive < range.first_primitive + range.primitive_count) {
+            ++polygon;
+          }
+          stages_.geometry.window(in.matrices.at(d), draw.cull, in.polygons, std::span(first, polygon), made.triangles);
+        }
+      }
+    }
+    widen_geometry(made, {StageSet{stage}, false, {}, {}}, out.records);
+  }
+
+  void run_coverage(const Scene& scene, const Records<float>& in, Capture& out) {
+    const std::vector<std::uint32_t> first_triangle = triangles_of_draws(scene, in.triangles);
+    Frame frame(scene.frame);
+    const Request request{StageSet{Stage::coverage}, false, {}, {}};
+    CaptureTap tap(scene, request);
+    stages_.fragment.draw_tapped({in.triangles, first_triangle, scene.draws}, scene.frame, frame, tap);
+    Capture all;
+    tap.hand_out(all);
+    out.records.covered = std::move(all.records.covered);
+    out.planes.count = std::move(all.planes.count);
+    out.planes.id_sum = std::move(all.planes.id_sum);
+  }
+
+  void run_fragment_stage(const Scene& scene, Stage stage, const Records<double>& in, Capture& out) {
+    const Formats formats = formats_of(scene.frame);
+    TriangleSetup setup{};
+    setup.triangle = ~0u;
+    for (std::size_t i = 0; i < in.covered.size(); ++i) {
+      if (stage == Stage::shade) {
+        out.records.shaded.push_back({widen(stages_.fragment.shade(color_of(in.attributes.at(i).color)))});
+        continue;
+      }
+      const Covered& c = in.covered[i];
+      if (setup.triangle != c.triangle) {
+        setup = stages_.fragment.set_up(narrow(in.triangles.at(c.triangle)), c.triangle, formats);
+      }
+      const Pixels<float> p{c.x, c.y, c.x + 0.5, c.y + 0.5};
+      if (stage == Stage::depth) {
+        const double z = stages_.fragment.depth(setup, p);
+        out.records.depth.push_back(formats.depth_scale == 0.0 ? z : z / formats.depth_scale);
+      } else {
+        out.records.attributes.push_back({widen(stages_.fragment.attributes(setup, p))});
+      }
+    }
+  }
+
+  // Visibility and merge: the recorded fragments, in draw order, through the depth test into the planes.
+  void run_planes(const Scene& scene, Stage stage, const Records<double>& in, Capture& out) {
+    const Formats formats = formats_of(scene.frame);
+    const std::vector<DrawRange> ranges = draw_ranges(scene);
+    Tile cleared{};
+    clear(cleared, scene.frame, formats);
+    const int w = scene.frame.width, h = scene.frame.height;
+    Plane<float> depth(w, h, cleared.depth[0]);
+    Plane<std::int32_t> id(w, h, kBackground);
+    Plane<glm::vec4> color(w, h, {cleared.color[0][0], cleared.color[1][0], cleared.color[2][0], cleared.color[3][0]});
+    std::size_t draw = 0;
+    for (std::size_t i = 0; i < in.covered.size(); ++i) {
+      const Covered& c = in.covered[i];
+      const std::uint32_t primitive = in.triangles.at(c.triangle).primitive;
+      while (primitive >= ranges[draw].first_primitive + ranges[draw].primitive_count) ++draw;
+      const double z = in.depth.at(i);
+      const auto incoming = static_cast<float>(formats.depth_scale == 0.0 ? z : round_even(z * formats.depth_scale));
+      if (!stages_.fragment.depth_passes(scene.draws[draw].depth_func, incoming, depth(c.x, c.y))) continue;
+      depth(c.x, c.y) = incoming;
+      id(c.x, c.y) = static_cast<std::int32_t>(primitive);
+      if (stage == Stage::merge) {
+        const Color<float> merged = stages_.fragment.merge(color_of(in.shaded.at(i).color), formats.color_scale);
+        color(c.x, c.y) = {merged.r, merged.g, merged.b, merged.a};
+      }
+    }
+    if (stage == Stage::visibility) {
+      out.planes.id = std::move(id);
+      return;
+    }
+    out.planes.depth = Plane<double>(w, h);
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      const double z = depth.values()[i];
+      out.planes.depth.values()[i] = formats.depth_scale == 0.0 ? z : z / formats.depth_scale;
+      if (formats.color_scale != 0.0f) color.values()[i] /= formats.color_scale;
+    }
+    out.planes.color = std::move(color);
+  }
+
+  Stages stages_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_pipeline(const Stages& stages) { return std::make_unique<PipelineRenderer>(stages); }
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,17 @@
+#include "pipeline/render.h"
+
+namespace plumbline::pipeline {
+
+Stages production_stages() { return {geometry_stages(), fragment_functions<FragmentStages>()}; }
+
+Frame render(const Scene& scene) { return render(scene, production_stages()); }
+
+Frame render(const Scene& scene, const Stages& stages) {
+  const Geometry geometry = run_geometry(scene, stages.geometry);
+  Frame frame(scene.frame);
+  NoTap tap;
+  stages.fragment.draw({geometry.records.triangles, geometry.first_triangle, scene.draws}, scene.frame, frame, tap);
+  return frame;
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,69 @@
+// A scene in, a frame out: the whole pipeline, stages 0 to 11.
+#pragma once
+
+#include "pipeline/capture_tap.h"
+#include "pipeline/draw.h"
+#include "pipeline/tiles.h"
+
+namespace plumbline::pipeline {
+
+/// Stages 5 to 11 as functions, instantiated from a set of fragment stages (fragment.h).
+struct FragmentFunctions {
+  void (*draw)(const DrawList&, const FrameFormat&, Frame&, NoTap&);
+  void (*draw_tapped)(const DrawList&, const FrameFormat&, Frame&, CaptureTap&);
+  // One stage at one pixel, for calling it alone.
+  float (*depth)(const TriangleSetup&, const Pixels<float>&);
+  Color<float> (*attributes)(const TriangleSetup&, const Pixels<float>&);
+  Color<float> (*shade)(const Color<float>&);
+  Color<float> (*merge)(const Color<float>&, float scale);
+  bool (*depth_passes)(DepthFunc, float incoming, float stored);
+  TriangleSetup (*set_up)(const WindowTriangle<float>&, std::uint32_t, const Formats&);
+};
+
+template <class S>
+bool depth_passes_for(DepthFunc func, float incoming, float stored) {
+  switch (func) {
+    case DepthFunc::never: return S::template depth_passes<DepthFunc::never, float>(incoming, stored);
+    case DepthFunc::less: return S::template depth_passes<DepthFunc::less, float>(incoming, stored);
+    case DepthFunc::equal: return S::template depth_passes<DepthFunc::equal, float>(incoming, stored);
+    case DepthFunc::less_equal: return S::template depth_passes<DepthFunc::less_equal, float>(incoming, stored);
+    case DepthFunc::greater: return S::template depth_passes<DepthFunc::greater, float>(incoming, stored);
+    case DepthFunc::not_equal: return S::template depth_passes<DepthFunc::not_equal, float>(incoming, stored);
+    case DepthFunc::greater_equal: return S::template depth_passes<DepthFunc::greater_equal, float>(incoming, stored);
+    case DepthFunc::always: return S::template depth_passes<DepthFunc::always, float>(incoming, stored);
+  }
+  return false;
+}
+
+template <class S>
+FragmentFunctions fragment_functions() {
+  FragmentFunctions f;
+  f.draw = draw_tiles<float, S, NoTap>;
+  f.draw_tapped = draw_tiles<float, S, CaptureTap>;
+  f.depth = [](const TriangleSetup& s, const Pixels<float>& p) {
+    return S::template depth<float>(s.depth, barycentric<float>(s.planes, p));
+  };
+  f.attributes = [](const TriangleSetup& s, const Pixels<float>& p) {
+    return S::template attributes<float>(s.attributes, barycentric<float>(s.planes, p));
+  };
+  f.shade = S::template shade<float>;
+  f.merge = S::template merge<float>;
+  f.depth_passes = depth_passes_for<S>;
+  f.set_up = set_up<S>;
+  return f;
+}
+
+/// Every stage function of the pipeline.
+struct Stages {
+  GeometryStages geometry;
+  FragmentFunctions fragment;
+};
+/// Those of this folder.
+Stages production_stages();
+
+/// Draws the scene.
+Frame render(const Scene& scene);
+/// Draws it with other stage functions.
+Frame render(const Scene& scene, const Stages& stages);
+
+}  // namespace plumbline::pipeline

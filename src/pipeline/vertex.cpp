@@ -1,0 +1,40 @@
+#include "pipeline/vertex.h"
+
+#include <cmath>
+
+namespace plumbline::pipeline {
+
+namespace {
+
+Mat4<float> product(const Mat4<float>& p, const Mat4<float>& m) {
+  Mat4<float> out;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      out[column][row] =
+          ((p[0][row] * m[column][0] + p[1][row] * m[column][1]) + p[2][row] * m[column][2]) + p[3][row] * m[column][3];
+    }
+  }
+  return out;
+}
+
+Vec4<float> product(const Mat4<float>& m, const Vec3<float>& p) {
+  Vec4<float> out;
+  for (int row = 0; row < 4; ++row) {
+    out[row] = ((m[0][row] * p.x + m[1][row] * p.y) + m[2][row] * p.z) + m[3][row];
+  }
+  return out;
+}
+
+}  // namespace
+
+void transform(const Matrices<float>& matrices, const Mesh& mesh, std::vector<Vertex<float>>& out) {
+  const Mat4<float> to_clip = product(matrices.projection, matrices.model_view);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Vec3<float> p_model = mesh.positions[i];
+    const Vec3<float> n = matrices.normal * mesh.normals[i];
+    const float length = std::sqrt((n.x * n.x + n.y * n.y) + n.z * n.z);
+    out.push_back({product(matrices.model_view, p_model), product(to_clip, p_model), n / length});
+  }
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,18 @@
+// Stage 1: each vertex of the mesh, once, from model space to eye and clip space.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::pipeline {
+
+/// Appends one record per vertex of the mesh.
+///
+/// clip = (P M) p, both products in float, summed left to right without FMA: the recipe of a common OpenGL driver, so
+/// that positions, and with them coverage, can be compared bit for bit. Normals go by the inverse transpose and are
+/// brought to unit length (GL_NORMALIZE).
+void transform(const Matrices<float>& matrices, const Mesh& mesh, std::vector<Vertex<float>>& out);
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,62 @@
+#include "pipeline/window.h"
+
+#include <cmath>
+
+namespace plumbline::pipeline {
+
+namespace {
+
+WindowVertex<float> window_vertex(const Matrices<float>& m, const ClipVertex<float>& in) {
+  WindowVertex<float> out{};
+  out.inv_w = 1.0f / in.p_clip.w;
+  for (int i = 0; i < 3; ++i) {
+    const float p_ndc = in.p_clip[i] * out.inv_w;
+    out.p_win[i] =
+        in.cut ? p_ndc * m.win_scale[i] + m.win_translate[i] : std::fma(p_ndc, m.win_scale[i], m.win_translate[i]);
+  }
+  out.color = in.color;
+  return out;
+}
+
+// Finite, and near enough to be snapped to an int; after clipping all are, unless w is 0.
+bool drawable(const WindowVertex<float>& v) {
+  constexpr float kFarthest = 1 << 20;
+  return std::abs(v.p_win.x) <= kFarthest && std::abs(v.p_win.y) <= kFarthest && std::isfinite(v.p_win.z) &&
+         std::isfinite(v.inv_w);
+}
+
+}  // namespace
+
+// The sum is exact in double, so that its fraction is; adding 1.5 * 2^52 rounds half to even.
+int snap(float win) {
+  constexpr double kRound = 6755399441055744.0;
+  return static_cast<int>(((static_cast<double>(win) - 0.5) * kSubpixel + kRound) - kRound);
+}
+
+std::int64_t snapped_area(const WindowTriangle<float>& t) {
+  const glm::i64vec2 a(t.v[0].snapped), b(t.v[1].snapped), c(t.v[2].snapped);
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+void to_window(const Matrices<float>& matrices, Cull cull, const ClipPolygons<float>& polygons,
+               std::span<const ClipPolygon> of_draw, std::vector<WindowTriangle<float>>& out) {
+  for (const ClipPolygon& polygon : of_draw) {
+    std::array<WindowVertex<float>, 9> v;
+    bool drop = false;
+    for (std::uint32_t i = 0; i < polygon.count; ++i) {
+      v[i] = window_vertex(matrices, polygons.vertices[polygon.first + i]);
+      drop |= !drawable(v[i]);
+      if (!drop) v[i].snapped = {snap(v[i].p_win.x), snap(v[i].p_win.y)};
+    }
+    if (drop) continue;
+    for (std::uint32_t i = 2; i < polygon.count; ++i) {
+      WindowTriangle<float> triangle{{v[i - 1], v[i], v[0]}, polygon.primitive, false};
+      const std::int64_t area = snapped_area(triangle);
+      triangle.front = area > 0;
+      const bool culled = cull != Cull::none && triangle.front == (cull == Cull::front);
+      if (area != 0 && !culled) out.push_back(triangle);
+    }
+  }
+}
+
+}  // namespace plumbline::pipeline

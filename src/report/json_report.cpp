@@ -1,0 +1,76 @@
+#include "report/json_report.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "report/text_file.h"
+
+namespace plumbline::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return value;
+}
+
+Json worst_of(const check::Worst& worst) {
+  Json out{{"place", check::to_string(worst.place)},
+           {"candidate", number(worst.candidate)},
+           {"reference", number(worst.reference)},
+           {"difference", number(worst.difference)}};
+  if (worst.place.x >= 0) out["pixel"] = {worst.place.x, worst.place.y};
+  return out;
+}
+
+Json comparison(const check::Comparison& c) {
+  const check::Measurement& m = c.measurement;
+  Json out{{"scene", c.scene},
+           {"reference", c.reference},
+           {"stage", name_of(c.stage)},
+           {"outcome", name_of(c.outcome)},
+           {"pixels", m.items},
+           {"differing", m.differing},
+           {"ambiguous", m.ambiguous},
+           {"max_difference", number(m.max_difference)},
+           {"unit", m.unit},
+           {"tolerance", number(m.worst.tolerance)},
+           {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
+           {"max_ratio", number(m.max_ratio)},
+           {"histogram", m.histogram}};
+  if (!c.ledger_row.empty()) out["ledger"] = c.ledger_row;
+  if (!c.note.empty()) out["note"] = c.note;
+  return out;
+}
+
+}  // namespace
+
+void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
+                const std::map<std::string, std::string>& versions) {
+  Json out{{"versions", versions}, {"scenes", Json::array()}, {"comparisons", Json::array()}};
+  for (const check::SceneVerdict& verdict : verdicts) {
+    out["scenes"].push_back({{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}});
+    for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison(c));
+  }
+  write_text(file, out.dump(1) + "\n");
+}
+
+void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts) {
+  Json rows = Json::array();
+  for (const check::LedgerUse& use : check::ledger_use(verdicts)) {
+    // Two digits: enough to judge a tolerance by, and the same from one run to the next.
+    const double seen = std::round(use.largest_ratio * 100) / 100;
+    rows.push_back({{"name", use.row->name},
+                    {"factor", use.row->factor},
+                    {"unit", use.row->unit},
+                    {"largest_seen", use.largest_ratio < 0 ? Json(nullptr) : number(seen)},
+                    {"where", use.where}});
+  }
+  write_text(file, Json{{"tolerances", rows}}.dump(1) + "\n");
+}
+
+}  // namespace plumbline::report

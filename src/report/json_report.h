@@ -1,0 +1,22 @@
+// The verdict as JSON, for programs.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+#include "check/verdict.h"
+
+namespace plumbline::report {
+
+/// {"versions": {renderer: version}, "comparisons": [{scene, reference, stage, outcome, pixels, differing, ambiguous,
+/// max_difference, unit, tolerance, worst, ...}]}. Numbers that JSON cannot hold are the strings "inf" and "nan".
+/// Written whole or not at all. Throws std::runtime_error naming the file.
+void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
+                const std::map<std::string, std::string>& versions);
+
+/// The ledger with the largest difference seen for each row, as a share of its tolerance, and where.
+void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts);
+
+}  // namespace plumbline::report

@@ -1,0 +1,105 @@
+#include "report/table.h"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace plumbline::report {
+
+using check::Comparison;
+using check::Outcome;
+using check::SceneVerdict;
+
+namespace {
+
+constexpr const char* kRow = "{:<28} {:<24} {:<10} {:<14} {:>9} {:>9} {:>9}  {:<24} {}\n";
+
+bool was_judged(const Comparison& c) {
+  return c.outcome != Outcome::unsupported && c.outcome != Outcome::missing && c.outcome != Outcome::failed;
+}
+
+std::string largest(const Comparison& c) {
+  const check::Measurement& m = c.measurement;
+  if (m.max_difference == 0) return "0";
+  return fmt::format("{:.4g} {} (tolerance {:.4g})", m.worst.difference, m.unit, m.worst.tolerance);
+}
+
+std::string remark(const Comparison& c) {
+  std::string out = c.note;
+  if (c.measurement.max_difference > 0) {
+    const std::string place = check::to_string(c.measurement.worst.place);
+    out = out.empty() ? place : place.empty() ? out : place + "; " + out;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string table_head() {
+  return fmt::format(kRow, "scene", "reference", "stage", "outcome", "pixels", "differing", "ambiguous", "largest",
+                     "worst");
+}
+
+std::string table_rows(const SceneVerdict& verdict) {
+  std::string out;
+  for (const Comparison& c : verdict.comparisons) {
+    const check::Measurement& m = c.measurement;
+    if (was_judged(c)) {
+      out += fmt::format(kRow, c.scene, c.reference, name_of(c.stage), name_of(c.outcome), m.items, m.differing,
+                         m.ambiguous, largest(c), remark(c));
+    } else {
+      out += fmt::format(kRow, c.scene, c.reference, name_of(c.stage), name_of(c.outcome), "-", "-", "-", "-", c.note);
+    }
+  }
+  return out;
+}
+
+std::string failure_lines(const SceneVerdict& verdict, const std::string& repeat_command) {
+  std::string out;
+  for (const Comparison& c : verdict.comparisons) {
+    if (c.outcome == Outcome::failed || c.outcome == Outcome::missing) {
+      out += fmt::format("{} {}: {}: {}\n", name_of(c.outcome), c.scene, c.reference, c.note);
+    }
+  }
+  if (const Comparison* first = check::first_different(verdict)) {
+    const check::Worst& w = first->measurement.worst;
+    out += fmt::format("different {}: first different stage: {} (against {}): {} of {} beyond tolerance", first->scene,
+                       name_of(first->stage), first->reference, first->measurement.differing, first->measurement.items);
+    if (!first->note.empty()) out += "; " + first->note;
+    if (w.difference > 0) {
+      out += fmt::format("\n  worst: {}: {:.9g}, the reference {:.9g}, {:.4g} {} apart, tolerance {:.4g}",
+                         check::to_string(w.place), w.candidate, w.reference, w.difference, first->measurement.unit,
+                         w.tolerance);
+    }
+    out += '\n';
+  }
+  if (!out.empty()) out += fmt::format("  repeat: {}\n", repeat_command);
+  return out;
+}
+
+std::string summary(std::span<const SceneVerdict> verdicts, double seconds) {
+  std::array<std::size_t, 8> counts{};
+  std::size_t comparisons = 0;
+  bool failed = false;
+  for (const SceneVerdict& verdict : verdicts) {
+    for (const Comparison& c : verdict.comparisons) {
+      ++counts[static_cast<std::size_t>(c.outcome)];
+      ++comparisons;
+      failed |= check::is_failure(c.outcome);
+    }
+  }
+  std::string parts;
+  bool complete = true;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const auto outcome = static_cast<Outcome>(i);
+    complete &= outcome != Outcome::unsupported && outcome != Outcome::missing && outcome != Outcome::dispute;
+    parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", counts[i], name_of(outcome));
+  }
+  const char* word = failed ? "FAILED" : complete ? "ok" : "nothing different, but not all was judged";
+  return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, verdicts.size(), comparisons, seconds,
+                     parts);
+}
+
+}  // namespace plumbline::report

@@ -1,0 +1,105 @@
+// JSON that knows its place: whatever is refused is refused with the file, the JSON pointer, what was expected and what
+// was found.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace plumbline {
+
+/// The message is: file: at "JSON pointer": expected ..., found ...
+struct JsonError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct JsonValue {
+  enum class Kind { null, boolean, integer, real, text, array, object };
+  Kind kind = Kind::null;
+  bool boolean = false;
+  std::int64_t integer = 0;
+  double real = 0;  ///< of an integer, too
+  std::string text{};
+  std::vector<JsonValue> items{};                           ///< of an array
+  std::map<std::string, JsonValue, std::less<>> members{};  ///< of an object
+
+  bool operator==(const JsonValue&) const = default;
+};
+
+/// A value at its place in a file; refers to the JsonFile that it came from. Every reader throws JsonError.
+class JsonNode {
+ public:
+  JsonNode(const JsonValue& value, const std::string& file, std::string pointer)
+      : value_(&value), file_(&file), pointer_(std::move(pointer)) {}
+
+  const JsonValue& value() const { return *value_; }
+
+  /// Refuses anything but an object all of whose keys are among these.
+  void only(std::initializer_list<std::string_view> keys) const;
+  /// Refuses anything but an object that holds exactly one key, one of these; returns it.
+  std::string_view one_of(std::initializer_list<std::string_view> keys) const;
+  JsonNode operator[](std::string_view key) const;
+  std::optional<JsonNode> find(std::string_view key) const;
+
+  std::size_t size() const;  ///< of an array
+  JsonNode operator[](std::size_t index) const;
+  /// An array's elements, from `least` to `most` of them.
+  std::vector<JsonNode> elements(std::size_t least, std::size_t most) const;
+
+  double number(double lo, double hi) const;
+  std::int64_t integer(std::int64_t lo, std::int64_t hi) const;
+  bool boolean() const;
+  const std::string& text() const;  ///< not empty
+  template <int N>
+  glm::vec<N, double> vector(double lo, double hi) const {
+    const std::vector<JsonNode> parts = elements(N, N);
+    glm::vec<N, double> v;
+    for (int i = 0; i < N; ++i) v[i] = parts[static_cast<std::size_t>(i)].number(lo, hi);
+    return v;
+  }
+  template <class E>
+  E choice(std::initializer_list<std::pair<std::string_view, E>> choices) const {
+    std::string names;
+    for (const auto& [name, e] : choices) {
+      if (value_->kind == JsonValue::Kind::text && value_->text == name) return e;
+      names.append(names.empty() ? "one of " : ", ").append(name);
+    }
+    refuse(names);
+  }
+
+  /// Refuses the value as found.
+  [[noreturn]] void refuse(std::string_view expected) const;
+  [[noreturn]] void refuse(std::string_view expected, std::string_view found) const;
+
+ private:
+  std::string pointer_to(std::string_view key) const;
+
+  const JsonValue* value_;
+  const std::string* file_;
+  std::string pointer_;
+};
+
+/// A JSON file (comments allowed) as a tree. Refused: what is not JSON, duplicate keys, numbers beyond double's range,
+/// nesting deeper than 64.
+class JsonFile {
+ public:
+  explicit JsonFile(const std::filesystem::path& path);
+  JsonFile(const JsonFile&) = delete;
+  JsonFile& operator=(const JsonFile&) = delete;
+  JsonNode root() const { return {value_, name_, ""}; }
+
+ private:
+  std::string name_;
+  JsonValue value_;
+};
+
+}  // namespace plumbline

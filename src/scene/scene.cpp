@@ -1,0 +1,28 @@
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline {
+
+std::vector<DrawRange> draw_ranges(const Scene& scene) {
+  std::vector<DrawRange> ranges;
+  std::uint32_t vertex = 0, primitive = 0;
+  for (const Draw& draw : scene.draws) {
+    const Mesh& mesh = scene.meshes[draw.mesh];
+    const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto primitives = static_cast<std::uint32_t>(mesh.triangles.size());
+    ranges.push_back({vertex, vertices, primitive, primitives});
+    vertex += vertices;
+    primitive += primitives;
+  }
+  return ranges;
+}
+
+double depth_step(DepthFormat format, double z_win) {
+  if (format != DepthFormat::z32f) return 1.0 / depth_scale(format);
+  const auto z = static_cast<float>(std::abs(z_win));
+  return std::max(static_cast<double>(std::nextafter(z, 2.0f)) - static_cast<double>(z), std::ldexp(1.0, -24));
+}
+
+}  // namespace plumbline

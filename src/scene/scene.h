@@ -1,0 +1,137 @@
+// What to draw. Plain data that knows no renderer; every renderer reads the same numbers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace plumbline {
+
+/// The conventions under which a scene's numbers are read (window origin, pixel centre, handedness...).
+enum class Dialect { gl };
+
+/// An indexed triangle mesh in model space.
+struct Mesh {
+  std::vector<glm::vec3> positions;   ///< model space, finite
+  std::vector<glm::vec3> normals;     ///< unit length, as many as positions
+  std::vector<glm::vec4> colors;      ///< empty, or as many as positions: rgba, nominally [0,1]
+  std::vector<glm::uvec3> triangles;  ///< indices of positions; the last corner is the provoking vertex
+};
+
+struct Translate {
+  glm::dvec3 by;
+};
+/// Counter-clockwise about `axis` (looked at from its tip), which need not be of unit length but not zero.
+struct Rotate {
+  double degrees;
+  glm::dvec3 axis;
+};
+struct Scale {
+  glm::dvec3 by;
+};
+using Transform = std::variant<Translate, Rotate, Scale>;
+
+/// gluLookAt's camera.
+struct Camera {
+  glm::dvec3 eye{0, 0, 5};
+  glm::dvec3 center{0, 0, 0};
+  glm::dvec3 up{0, 1, 0};
+};
+
+/// gluPerspective; the aspect is the frame's width / height. 0 < near < far.
+struct Perspective {
+  double fov_y_degrees;  ///< (0, 180)
+  double near;
+  double far;
+};
+/// glOrtho.
+struct Orthographic {
+  double left, right, bottom, top, near, far;
+};
+using Projection = std::variant<Perspective, Orthographic>;
+
+struct Light {
+  enum class Kind { directional, point };
+  Kind kind = Kind::directional;
+  glm::dvec3 vector{0, 0, 1};  ///< world space: towards the light (directional; any length), or its place (point)
+  glm::vec3 ambient{0};
+  glm::vec3 diffuse{1};
+  glm::vec3 specular{1};
+};
+
+/// glMaterial, both faces.
+struct Material {
+  glm::vec4 ambient{0.2f, 0.2f, 0.2f, 1};
+  glm::vec4 diffuse{0.8f, 0.8f, 0.8f, 1};  ///< also the colour of an unlit mesh without vertex colours
+  glm::vec4 specular{0, 0, 0, 1};
+  glm::vec4 emission{0, 0, 0, 1};
+  float shininess = 0;  ///< [0, 128]
+};
+
+enum class Shading { flat, gouraud };
+enum class Cull { none, back, front };
+enum class DepthFunc { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
+enum class ColorFormat { rgba8, rgba32f };
+enum class DepthFormat { z16, z24, z32f };
+
+/// A mesh, placed, with the state it is drawn under. Counter-clockwise in the window is the front.
+struct Draw {
+  std::uint32_t mesh = 0;             ///< index into Scene::meshes
+  std::vector<Transform> transforms;  ///< in the order written, as glTranslate... would be: the last acts first
+  Material material;
+  bool lit = true;  ///< false: the mesh's colours, or the material's diffuse
+  Shading shading = Shading::gouraud;
+  Cull cull = Cull::none;
+  DepthFunc depth_func = DepthFunc::less;
+};
+
+struct FrameFormat {
+  int width = 256;   ///< pixels, [1, 16384]
+  int height = 256;  ///< pixels, [1, 16384]
+  ColorFormat color = ColorFormat::rgba8;
+  DepthFormat depth = DepthFormat::z24;
+  glm::vec4 clear_color{0, 0, 0, 1};
+  double clear_depth = 1;  ///< window z, [0,1]
+};
+
+struct Scene {
+  std::string name;         ///< group/file, without the ending
+  std::string path;         ///< the file it was read from, empty if made in memory
+  std::string description;  ///< what must be seen, and why
+  Dialect dialect = Dialect::gl;
+  FrameFormat frame;
+  Camera camera;
+  Projection projection = Perspective{45, 1, 100};
+  glm::vec3 ambient{0};       ///< the light model's ambient light
+  std::vector<Light> lights;  ///< at most 8
+  std::vector<Mesh> meshes;
+  std::vector<Draw> draws;  ///< in draw order
+};
+
+/// Where one draw's vertices and triangles lie in arrays that run over all draws, in draw order.
+/// A **primitive** is numbered so, over the whole scene: `first_primitive + index of the mesh's triangle`.
+struct DrawRange {
+  std::uint32_t first_vertex, vertex_count;
+  std::uint32_t first_primitive, primitive_count;
+};
+
+/// One range per draw.
+std::vector<DrawRange> draw_ranges(const Scene& scene);
+
+/// The largest depth code of a unorm format (2^16-1, 2^24-1); 0 for z32f.
+constexpr double depth_scale(DepthFormat format) {
+  switch (format) {
+    case DepthFormat::z16: return 65535.0;
+    case DepthFormat::z24: return 16777215.0;
+    case DepthFormat::z32f: return 0.0;
+  }
+  return 0.0;
+}
+
+/// One step of the depth format at window depth z: 1/(2^n - 1); for z32f the larger of z's ULP and 2^-24.
+double depth_step(DepthFormat format, double z_win);
+
+}  // namespace plumbline

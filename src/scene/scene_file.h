@@ -1,0 +1,58 @@
+// Scenes from JSON files.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace plumbline {
+
+/// The message is: file: at "JSON pointer": expected ..., found ...
+struct SceneError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct SceneFileOptions {
+  /// Where mesh files are looked for, after the scene's own folder; by default where the build was told.
+  std::vector<std::filesystem::path> asset_folders = {PLUMBLINE_ASSETS};
+};
+
+/// Reads a scene: one JSON object (comments allowed). Every key but those marked * may be left out and then has
+/// scene.h's default; nothing else may be in the file.
+///
+///   description *  what must be seen, and why
+///   dialect        "gl"
+///   frame          width, height: 1 to 16384; color: "rgba8", "rgba32f"; depth: "z16", "z24", "z32f";
+///                  clear_color: [r, g, b, a]; clear_depth
+///   camera         eye, center, up: [x, y, z]
+///   projection     {"perspective": {fov_y *: degrees, near *, far *}} or
+///                  {"orthographic": {left *, right *, bottom *, top *, near *, far *}}
+///   ambient        [r, g, b], the light model's
+///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]}
+///   draws *        one or more of
+///     mesh *       one of  "file": "bunny.obj", below the scene's folder or below an asset folder
+///                          "triangle": {positions *: [[x, y, z] x 3], colors: [[r, g, b, a] x 3]}
+///                          "triangles": {positions *, indices *: [[i, j, k], ...], colors}
+///                          "grid": {columns *, rows *}, "uv_sphere": {slices *, stacks *}   (mesh_shapes.h)
+///                          "soup": {triangles *, seed *, extent *, size *}
+///     transforms   a list of {"translate": [x, y, z]}, {"rotate": {degrees *, axis *: [x, y, z]}},
+///                  {"scale": [x, y, z]}
+///     material     ambient, diffuse, specular, emission: [r, g, b, a]; shininess: 0 to 128
+///     lit          true, false
+///     shading      "flat", "gouraud"
+///     cull         "none", "back", "front"
+///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"
+///
+/// Colours are in [0,1], lights' and ambient 0 or more. Coordinates go up to +-1e6. Numbers that scene.h holds as float
+/// are rounded here, once. Draws of an equal mesh share it. The scene's name is "folder/file", without the ending.
+/// Throws SceneError.
+Scene load_scene(const std::filesystem::path& file, const SceneFileOptions& options = {});
+
+/// The scene files that `paths` name: files as they are; of folders all *.json in them and below, sorted.
+/// Throws SceneError if a path does not exist, or nothing is found.
+std::vector<std::filesystem::path> find_scenes(std::span<const std::filesystem::path> paths);
+
+}  // namespace plumbline

@@ -1,0 +1,150 @@
+#include "stages/legal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "stages/capture.h"
+
+namespace plumbline {
+
+namespace {
+
+/// More combinations of "which member of each group is the certain one" than this are not told apart.
+constexpr std::size_t kMostCombinations = 256;
+
+struct Interval {
+  double lo, hi;
+};
+
+/// What a depth test may come to, over all depths that the intervals allow.
+struct Test {
+  bool may_pass, may_fail;
+  Interval passed;  ///< the hit's depths under which it passes
+  Interval failed;  ///< the held depths under which the hit fails
+};
+
+/// `hit` against the depth that the frame holds; depths no more than `step` apart may compare either way, so that
+/// "less" and "less or equal" allow the same.
+Test depth_test(DepthFunc func, Interval hit, Interval held, double step) {
+  const bool may_be_less = hit.lo <= held.hi + step, may_be_greater = hit.hi >= held.lo - step;
+  const Interval hit_if_less{hit.lo, std::min(hit.hi, held.hi + step)};
+  const Interval hit_if_greater{std::max(hit.lo, held.lo - step), hit.hi};
+  const Interval held_if_less{std::max(held.lo, hit.lo - step), held.hi};  // the hit is less: what is held is greater
+  const Interval held_if_greater{held.lo, std::min(held.hi, hit.hi + step)};
+  switch (func) {
+    case DepthFunc::never: return {false, true, hit, held};
+    case DepthFunc::always: return {true, false, hit, held};
+    case DepthFunc::less:
+    case DepthFunc::less_equal: return {may_be_less, may_be_greater, hit_if_less, held_if_greater};
+    case DepthFunc::greater:
+    case DepthFunc::greater_equal: return {may_be_greater, may_be_less, hit_if_greater, held_if_less};
+    case DepthFunc::equal: return {may_be_less && may_be_greater, true, {hit_if_greater.lo, hit_if_less.hi}, held};
+    case DepthFunc::not_equal: return {true, may_be_less && may_be_greater, hit, {held_if_less.lo, held_if_greater.hi}};
+  }
+  return {true, true, hit, held};
+}
+
+double frame_depth(const FrameFormat& frame, double z_win) {
+  const double scale = depth_scale(frame.depth);
+  return scale > 0 ? std::nearbyint(z_win * scale) / scale : static_cast<double>(static_cast<float>(z_win));
+}
+
+LegalAnswer background(const FrameFormat& frame) {
+  const double z = frame_depth(frame, frame.clear_depth);
+  return {kBackground, 0, z, z, frame.clear_color};
+}
+
+LegalAnswer answer(const Hit& hit, Interval z) {
+  return {static_cast<std::int32_t>(hit.primitive), static_cast<float>(hit.color_bound), z.lo, z.hi, hit.color};
+}
+
+/// Draws one hit over every winner so far. A winner's interval is the hull of the depths that it may hold.
+void draw(const Hit& hit, bool certain, DepthFormat format, std::vector<LegalAnswer>& winners) {
+  bool may_win = false;
+  Interval won{0, 0};
+  std::size_t kept = 0;
+  for (LegalAnswer& held : winners) {
+    const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
+    const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {held.z_lo, held.z_hi}, step);
+    if (test.may_pass) {
+      won = may_win ? Interval{std::min(won.lo, test.passed.lo), std::max(won.hi, test.passed.hi)} : test.passed;
+      may_win = true;
+    }
+    if (certain && !test.may_fail) continue;
+    if (certain) {  // it stays only by the hit's failing
+      held.z_lo = test.failed.lo;
+      held.z_hi = test.failed.hi;
+    }
+    winners[kept++] = held;
+  }
+  winners.resize(kept);
+  if (may_win) winners.push_back(answer(hit, won));
+}
+
+/// `chosen`: per hit, whether it counts as certain besides those that are.
+void fold(std::span<const Hit> hits, const std::vector<bool>& chosen, const FrameFormat& frame,
+          std::vector<LegalAnswer>& winners) {
+  winners.assign(1, background(frame));
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    draw(hits[i], hits[i].certain || (!chosen.empty() && chosen[i]), frame.depth, winners);
+  }
+}
+
+/// The members of each group, as indices into `hits`.
+std::vector<std::vector<std::size_t>> groups_of(std::span<const Hit> hits) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].group < 0) continue;
+    const auto same = [&](const std::vector<std::size_t>& g) { return hits[g.front()].group == hits[i].group; };
+    const auto found = std::find_if(groups.begin(), groups.end(), same);
+    if (found == groups.end()) {
+      groups.push_back({i});
+    } else {
+      found->push_back(i);
+    }
+  }
+  return groups;
+}
+
+void unite(const std::vector<LegalAnswer>& more, std::vector<LegalAnswer>& all) {
+  for (const LegalAnswer& a : more) {
+    const auto before = [](const LegalAnswer& l, const LegalAnswer& r) { return l.primitive < r.primitive; };
+    const auto at = std::lower_bound(all.begin(), all.end(), a, before);
+    if (at == all.end() || at->primitive != a.primitive) {
+      all.insert(at, a);
+    } else {
+      at->z_lo = std::min(at->z_lo, a.z_lo);
+      at->z_hi = std::max(at->z_hi, a.z_hi);
+    }
+  }
+}
+
+}  // namespace
+
+void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out) {
+  out.clear();
+  const bool grouped = std::any_of(hits.begin(), hits.end(), [](const Hit& hit) { return hit.group >= 0; });
+  if (!grouped) return fold(hits, {}, frame, out);
+
+  std::vector<std::vector<std::size_t>> groups = groups_of(hits);
+  std::size_t combinations = 1, told_apart = 0;
+  while (told_apart < groups.size() && combinations * groups[told_apart].size() <= kMostCombinations) {
+    combinations *= groups[told_apart++].size();
+  }
+  groups.resize(told_apart);  // the members of the others are merely possible
+  std::vector<LegalAnswer> winners;
+  std::vector<bool> chosen(hits.size());
+  for (std::size_t combination = 0; combination < combinations; ++combination) {
+    chosen.assign(hits.size(), false);
+    std::size_t rest = combination;
+    for (const std::vector<std::size_t>& group : groups) {
+      chosen[group[rest % group.size()]] = true;
+      rest /= group.size();
+    }
+    fold(hits, chosen, frame, winners);
+    unite(winners, out);
+  }
+}
+
+}  // namespace plumbline

@@ -1,0 +1,60 @@
+// Legal answers: where the rules leave open what a pixel shows (a centre within the snapping bound of an edge, two
+// surfaces closer than the depth format can tell apart), the set of all answers that they allow.
+//
+// An oracle finds every triangle that is, or may be, at a pixel: its *hits*. fold_hits() runs them in draw order
+// through the scene's depth functions, following every outcome that the intervals allow, and returns the winners that
+// may remain. The set may be wider than the truth, never narrower.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+#include "stages/plane.h"
+
+namespace plumbline {
+
+/// One triangle at one pixel.
+struct Hit {
+  std::uint32_t primitive = 0;
+  DepthFunc depth_func = DepthFunc::less;
+  bool certain = false;  ///< every legal renderer covers the pixel with it; else some may
+  int group = -1;        ///< possible hits of one group (>= 0): at least one of them covers the pixel
+  double z_lo = 0;       ///< window z, clamped to [0,1]: the depths that a legal renderer may give it
+  double z_hi = 0;
+  glm::dvec4 color{0};     ///< its colour at the pixel's centre
+  double color_bound = 0;  ///< and how far, per channel, float arithmetic from the scene on may be from that
+};
+
+/// One winner that the rules allow.
+struct LegalAnswer {
+  std::int32_t primitive = -1;  ///< or kBackground
+  float color_bound = 0;
+  double z_lo = 0, z_hi = 0;  ///< window z
+  glm::vec4 color{0};
+};
+
+/// All legal winners of a pixel, in draw order, the background first. `hits` in draw order (ascending primitive).
+/// A depth within `step` of another may compare either way. `out` is emptied first.
+void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
+
+/// The legal answers of a whole frame. Empty: not asked for, or not shown.
+struct Legal {
+  Plane<std::uint32_t> certain;      ///< number of certain hits at the pixel; a group counts as one
+  Plane<std::uint32_t> possible;     ///< and of all hits: count must lie within [certain, possible]
+  std::vector<std::uint32_t> first;  ///< pixel y * width + x has answers [first[i], first[i + 1])
+  std::vector<LegalAnswer> answers;
+  double predicted_ambiguous = 0;  ///< pixels, from the visible edges' length and the snapping bound
+
+  bool empty() const { return first.empty(); }
+  std::span<const LegalAnswer> at(int x, int y) const {
+    const std::size_t i =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(certain.width()) + static_cast<std::size_t>(x);
+    return {answers.data() + first[i], answers.data() + first[i + 1]};
+  }
+};
+
+}  // namespace plumbline

@@ -1,0 +1,44 @@
+// A rectangle of values, row 0 at the bottom, as GL counts.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <vector>
+
+namespace plumbline {
+
+/// width x height values, stored row by row from the bottom, without padding.
+template <class T>
+class Plane {
+ public:
+  Plane() = default;
+  Plane(int width, int height, T fill = T{})
+      : width_(width),
+        height_(height),
+        values_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool empty() const { return values_.empty(); }
+  std::size_t size() const { return values_.size(); }
+
+  T& operator()(int x, int y) { return values_[index(x, y)]; }
+  const T& operator()(int x, int y) const { return values_[index(x, y)]; }
+  T* row(int y) { return values_.data() + index(0, y); }
+  const T* row(int y) const { return values_.data() + index(0, y); }
+
+  std::vector<T>& values() { return values_; }
+  const std::vector<T>& values() const { return values_; }
+
+ private:
+  std::size_t index(int x, int y) const {
+    assert(x >= 0 && x < width_ && y >= 0 && y < height_);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<T> values_;
+};
+
+}  // namespace plumbline

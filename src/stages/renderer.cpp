@@ -1,0 +1,23 @@
+#include "stages/renderer.h"
+
+#include <fmt/format.h>
+
+namespace plumbline {
+
+Capture Renderer::run_stage(const Scene&, Stage stage, const Capture&) {
+  throw Unsupported(fmt::format("{} cannot run stage {} alone", info().name, name_of(stage)));
+}
+
+std::size_t plane_bytes(const Scene& scene) {
+  constexpr std::size_t kPixel =
+      sizeof(std::uint32_t) + sizeof(std::uint64_t) + sizeof(std::int32_t) + 2 * sizeof(glm::vec4) + sizeof(double);
+  return static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height) * kPixel;
+}
+
+void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget) {
+  if (bytes <= budget) return;
+  throw OverBudget(fmt::format("{}: a capture of {} x {} pixels would take {} MiB, over the budget of {} MiB",
+                               scene.name, scene.frame.width, scene.frame.height, bytes >> 20, budget >> 20));
+}
+
+}  // namespace plumbline

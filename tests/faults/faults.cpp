@@ -1,0 +1,143 @@
+#include "faults/faults.h"
+
+#include <array>
+
+#include "pipeline/clip.h"
+#include "pipeline/light.h"
+#include "pipeline/matrices.h"
+#include "pipeline/vertex.h"
+#include "pipeline/window.h"
+
+namespace plumbline::faults {
+
+namespace {
+
+using pipeline::production_stages;
+using pipeline::Stages;
+
+Matrices<float> fov_taken_horizontally(const Scene& scene, const Draw& draw) {
+  Matrices<float> m = pipeline::matrices(scene, draw);
+  if (std::holds_alternative<Perspective>(scene.projection)) {
+    const float aspect = static_cast<float>(scene.frame.width) / static_cast<float>(scene.frame.height);
+    m.projection[0][0] *= aspect;
+    m.projection[1][1] *= aspect;
+  }
+  return m;
+}
+
+void normals_by_model_view(const Matrices<float>& matrices, const Mesh& mesh, std::vector<Vertex<float>>& out) {
+  Matrices<float> wrong = matrices;
+  wrong.normal = Mat3<float>(matrices.model_view);
+  pipeline::transform(wrong, mesh, out);
+}
+
+void lights_in_world_space(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
+                           std::vector<Lit<float>>& out) {
+  Scene wrong = scene;
+  wrong.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};  // eye space is the world
+  pipeline::light(wrong, draw, vertices, out);
+}
+
+void no_near_plane(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
+  const auto planes = pipeline::view_volume();
+  const std::array<Vec4<float>, 5> kept = {planes[0], planes[1], planes[2], planes[3], planes[5]};
+  pipeline::clip_at(kept, assembly, out);
+}
+
+void snapped_by_truncation(const Matrices<float>& matrices, Cull cull, const ClipPolygons<float>& polygons,
+                           std::span<const ClipPolygon> of_draw, std::vector<WindowTriangle<float>>& out) {
+  const std::size_t first = out.size();
+  pipeline::to_window(matrices, cull, polygons, of_draw, out);
+  for (std::size_t i = first; i < out.size(); ++i) {
+    for (WindowVertex<float>& v : out[i].v) v.snapped = glm::ivec2((glm::vec2(v.p_win) - 0.5f) * 256.0f);
+    out[i].front = pipeline::snapped_area(out[i]) > 0;
+  }
+}
+
+struct InclusiveEdges : pipeline::FragmentStages {
+  static pipeline::Edges edges(const WindowTriangle<float>& triangle) {
+    pipeline::Edges e = pipeline::edges_of(triangle);
+    for (int i = 0; i < 3; ++i) {
+      const bool owned = e.step_x[i] > 0 || (e.step_x[i] == 0 && e.step_y[i] > 0);
+      if (!owned) ++e.at_origin[i];
+    }
+    return e;
+  }
+};
+
+struct TruncatedDepth : pipeline::FragmentStages {
+  template <class R>
+  static R depth(const pipeline::DepthSetup& s, const pipeline::Barycentric<R>& b) {
+    const double z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
+    return s.scale == 0.0 ? static_cast<float>(z) : static_cast<float>(static_cast<std::int64_t>(z * s.scale));
+  }
+};
+
+struct AffineAttributes : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Color<R> attributes(const pipeline::AttributeSetup& s, const pipeline::Barycentric<R>& b) {
+    pipeline::AttributeSetup affine = s;
+    for (float& inv_w : affine.inv_w) inv_w = 1;
+    return pipeline::attributes<R>(affine, b);
+  }
+};
+
+struct LessEqualForLess : pipeline::FragmentStages {
+  template <DepthFunc func, class R>
+  static pipeline::Mask<R> depth_passes(R incoming, R stored) {
+    constexpr DepthFunc kWrong = func == DepthFunc::less ? DepthFunc::less_equal : func;
+    return pipeline::depth_passes<kWrong, R>(incoming, stored);
+  }
+};
+
+struct TruncatedColor : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Color<R> merge(const pipeline::Color<R>& color, float scale) {
+    if (scale == 0.0f) return color;
+    const auto code = [&](R v) { return static_cast<R>(static_cast<int>(pipeline::clamp01(v) * scale)); };
+    return {code(color.r), code(color.g), code(color.b), code(color.a)};
+  }
+};
+
+template <auto member, auto function>
+Stages with_geometry() {
+  Stages stages = production_stages();
+  stages.geometry.*member = function;
+  return stages;
+}
+
+template <class Fragment>
+Stages with_fragment() {
+  Stages stages = production_stages();
+  stages.fragment = pipeline::fragment_functions<Fragment>();
+  return stages;
+}
+
+using Geometry = pipeline::GeometryStages;
+constexpr std::array kFaults = {
+    Fault{"matrices.fov_horizontal", "the vertical field of view is taken for the horizontal one", Stage::matrices,
+          with_geometry<&Geometry::matrices, fov_taken_horizontally>},
+    Fault{"vertex.normals_by_model_view", "normals go by the model-view matrix, not its inverse transpose",
+          Stage::vertex, with_geometry<&Geometry::vertex, normals_by_model_view>},
+    Fault{"light.world_space", "lights are not brought to eye space", Stage::light,
+          with_geometry<&Geometry::light, lights_in_world_space>},
+    Fault{"clip.no_near_plane", "nothing is cut at the near plane", Stage::clip,
+          with_geometry<&Geometry::clip, no_near_plane>},
+    Fault{"window.snap_truncates", "window positions are truncated to 1/256 pixel, not rounded", Stage::window,
+          with_geometry<&Geometry::window, snapped_by_truncation>},
+    Fault{"coverage.inclusive_edges", "pixels on any edge are covered: shared edges are painted twice", Stage::coverage,
+          with_fragment<InclusiveEdges>},
+    Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth, with_fragment<TruncatedDepth>},
+    Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
+          with_fragment<AffineAttributes>},
+    Fault{"visibility.less_equal", "an equal depth passes where only a smaller one may", Stage::visibility,
+          with_fragment<LessEqualForLess>},
+    Fault{"merge.truncated", "colours are truncated to 8 bits, not rounded", Stage::merge,
+          with_fragment<TruncatedColor>},
+};
+
+}  // namespace
+
+std::span<const Fault> all() { return kFaults; }
+
+}  // namespace plumbline::faults

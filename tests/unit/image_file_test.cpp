@@ -1,0 +1,158 @@
+// Image files: values, rows, straight alpha, and clear errors.
+#include "stages/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+
+class ImageFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_image_file_") + info->name());
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+  template <class Act>
+  void refused(Act act, const std::string& file, const std::string& text) {
+    try {
+      act();
+      ADD_FAILURE() << "not refused: " << file;
+    } catch (const ImageError& error) {
+      EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+    }
+  }
+  fs::path root_;
+};
+
+/// 3 x 2, every pixel another; row 0 is the bottom.
+Plane<glm::vec4> make_plane() {
+  Plane<glm::vec4> plane(3, 2);
+  plane(0, 0) = {0, 0, 0, 1};
+  plane(1, 0) = {1, 0.5f, 0.25f, 0.5f};  // straight alpha: stays as it is
+  plane(2, 0) = {10 / 255.0f, 20 / 255.0f, 30 / 255.0f, 0};
+  plane(0, 1) = {1, 0, 0, 1};
+  plane(1, 1) = {0, 1, 0, 1};
+  plane(2, 1) = {254.49f / 255, 254.51f / 255, 0.49f / 255, 0.51f / 255};
+  return plane;
+}
+
+TEST_F(ImageFile, PngHoldsRoundedCodes) {
+  write_png(root_ / "a.png", make_plane());
+  const Plane<glm::vec4> back = read_image(root_ / "a.png");
+  ASSERT_EQ(back.width(), 3);
+  ASSERT_EQ(back.height(), 2);
+  const auto code = [](int r, int g, int b, int a) { return glm::vec4(glm::dvec4(r, g, b, a) / 255.0); };
+  EXPECT_EQ(back(0, 0), code(0, 0, 0, 255));
+  EXPECT_EQ(back(1, 0), code(255, 128, 64, 128));
+  EXPECT_EQ(back(2, 0), code(10, 20, 30, 0));
+  EXPECT_EQ(back(0, 1), code(255, 0, 0, 255));
+  EXPECT_EQ(back(1, 1), code(0, 255, 0, 255));
+  EXPECT_EQ(back(2, 1), code(254, 255, 0, 1));
+}
+
+TEST_F(ImageFile, EveryCodeSurvives) {
+  Plane<glm::vec4> plane(256, 1);
+  for (int i = 0; i < 256; ++i) plane(i, 0) = glm::vec4(glm::dvec4(i, 255 - i, i / 2, i) / 255.0);
+  write_png(root_ / "a.png", plane);
+  EXPECT_EQ(read_image(root_ / "a.png").values(), plane.values());
+}
+
+TEST_F(ImageFile, PngClampsWhatHasNoCode) {
+  Plane<glm::vec4> plane(1, 1, {-1, 7, kNan, kInf});
+  write_png(root_ / "a.png", plane);
+  EXPECT_EQ(read_image(root_ / "a.png")(0, 0), glm::vec4(0, 1, 0, 1));
+}
+
+/// The first row of a PNG's own bytes is the top: read without our reader, by the file's first pixel alone.
+TEST_F(ImageFile, EncodesTheSameInMemory) {
+  write_png(root_ / "a.png", make_plane());
+  std::ifstream in(root_ / "a.png", std::ios::binary);
+  const std::string file{std::istreambuf_iterator<char>(in), {}};
+  const std::vector<std::uint8_t> memory = encode_png(make_plane());
+  ASSERT_EQ(memory.size(), file.size());
+  EXPECT_EQ(std::memcmp(memory.data(), file.data(), file.size()), 0);
+  EXPECT_EQ(std::memcmp(memory.data(), "\x89PNG\r\n\x1a\n", 8), 0);
+}
+
+/// The only test of what is up that does not go through read_image, which flips as well: a file made elsewhere, 1 x 2
+/// (grey, uncompressed), white on top of black.
+TEST_F(ImageFile, TheTopRowIsTheLast) {
+  const unsigned char pgm[] = {'P', '5', '\n', '1', ' ', '2', '\n', '2', '5', '5', '\n', 255, 0};
+  std::ofstream(root_ / "a.pgm", std::ios::binary).write(reinterpret_cast<const char*>(pgm), sizeof pgm);
+  const Plane<glm::vec4> plane = read_image(root_ / "a.pgm");
+  EXPECT_EQ(plane(0, 1), glm::vec4(1));
+  EXPECT_EQ(plane(0, 0), glm::vec4(0, 0, 0, 1));
+}
+
+TEST_F(ImageFile, ExrHoldsFloatsBitForBit) {
+  Plane<glm::vec4> plane = make_plane();
+  plane(1, 1) = {kNan, kInf, -kInf, -0.0f};
+  plane(2, 1) = {1e30f, -1e-40f, 0.1f, 0.3f};
+  write_exr(root_ / "a.exr", plane);
+  const Plane<glm::vec4> back = read_image(root_ / "a.exr");
+  ASSERT_EQ(back.size(), plane.size());
+  EXPECT_EQ(std::memcmp(back.values().data(), plane.values().data(), plane.size() * sizeof(glm::vec4)), 0);
+}
+
+TEST_F(ImageFile, DepthExrHoldsFloats) {
+  Plane<double> plane(2, 2);
+  plane(0, 0) = 0.1;
+  plane(1, 0) = 1;
+  plane(0, 1) = 1e-10;
+  plane(1, 1) = static_cast<double>(kNan);
+  write_depth_exr(root_ / "z.exr", plane);
+  const Plane<glm::vec4> back = read_image(root_ / "z.exr");
+  EXPECT_EQ(back(0, 0), glm::vec4(0.1f, 0.1f, 0.1f, 1));
+  EXPECT_EQ(back(1, 0).r, 1);
+  EXPECT_EQ(back(0, 1).r, 1e-10f);
+  EXPECT_TRUE(std::isnan(back(1, 1).r));
+  std::ifstream in(root_ / "z.exr", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const char channels[] = "channels\0chlist\0\x13\0\0\0Z\0\x02\0\0\0";  // one channel, "Z", of type 2 (FLOAT)
+  EXPECT_NE(bytes.find(std::string(channels, sizeof channels - 1)), bytes.npos);
+}
+
+TEST_F(ImageFile, ChoosesByEndingAndLeavesNothingBehind) {
+  write_image(root_ / "a.PNG", make_plane());
+  write_image(root_ / "a.exr", make_plane());
+  write_image(root_ / "a.exr", make_plane());  // over the old one
+  EXPECT_EQ(read_image(root_ / "a.exr").values(), make_plane().values());
+  refused([&] { write_image(root_ / "a.jpg", make_plane()); }, "a.jpg", "expected a file name ending in .png or .exr");
+  refused([&] { write_image(root_ / "a", make_plane()); }, "/a", ".png or .exr");
+  refused([&] { write_exr(root_ / "a.png", make_plane()); }, "a.png", ".exr");
+  refused([&] { write_image(root_ / "none/a.png", make_plane()); }, "none/a.png", "cannot be written");
+  refused([&] { write_image(root_ / "e.png", {}); }, "e.png", "empty");
+  fs::create_directories(root_ / "folder.png");
+  refused([&] { write_image(root_ / "folder.png", make_plane()); }, "folder.png", "cannot be written");
+  std::size_t entries = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(root_)) ++entries;
+  EXPECT_EQ(entries, 3u);
+}
+
+TEST_F(ImageFile, RefusesWhatIsNoImage) {
+  refused([&] { read_image(root_ / "none.png"); }, "none.png", "found none");
+  std::ofstream(root_ / "text.png") << "not an image";
+  refused([&] { read_image(root_ / "text.png"); }, "text.png", "cannot be read");
+  write_png(root_ / "a.png", Plane<glm::vec4>(64, 64, glm::vec4(0.3f)));
+  fs::resize_file(root_ / "a.png", fs::file_size(root_ / "a.png") / 2);
+  refused([&] { read_image(root_ / "a.png"); }, "a.png", "cannot be read");
+  write_exr(root_ / "a.exr", Plane<glm::vec4>(64, 64, glm::vec4(0.3f)));
+  fs::resize_file(root_ / "a.exr", fs::file_size(root_ / "a.exr") / 2);
+  refused([&] { read_image(root_ / "a.exr"); }, "a.exr", "cannot be read");
+}
+
+}  // namespace
+}  // namespace plumbline
