@@ -54,7 +54,10 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
     case Stage::texture: return Renderer::run_stage(scene, stage, in);
     case Stage::shade: out.records.shaded = shade_fragments(records.attributes); break;
     case Stage::visibility: out.planes.id = visible_primitives(scene, records); break;
-    case Stage::merge: merge_fragments(scene, records, out.planes); break;
+    case Stage::merge:
+      merge_fragments(scene, records, in.planes.id.empty() ? visible_primitives(scene, records) : in.planes.id,
+                      out.planes);
+      break;
   }
   return out;
 }

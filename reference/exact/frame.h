@@ -34,8 +34,9 @@ glm::vec4 kept_color(ColorFormat format, glm::dvec4 color);
 /// Throws std::invalid_argument where the records do not fit the scene or each other.
 Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>& records);
 
-/// Stage 11: planes.color and planes.depth into `out`, from records.triangles, covered, depth and shaded.
+/// Stage 11: planes.color and planes.depth into `out`, from records.triangles, covered, depth and shaded, and the
+/// winning primitives `id`.
 /// Throws std::invalid_argument where the records do not fit the scene or each other.
-void merge_fragments(const Scene& scene, const Records<double>& records, Planes& out);
+void merge_fragments(const Scene& scene, const Records<double>& records, const Plane<std::int32_t>& id, Planes& out);
 
 }  // namespace plumbline::exact

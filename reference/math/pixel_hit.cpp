@@ -106,9 +106,10 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   const std::array<const Corner*, 3> c{&projected.corners[t.corner[0]], &projected.corners[t.corner[1]], &last};
   const glm::dvec3 e(glm::dot(t.n[0], d), glm::dot(t.n[1], d), glm::dot(t.n[2], d));
   const double weight = snap_weight(t, out.hit.certain), sum = e.x + e.y + e.z;
-  if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0)) {  // no plane to rely on: any colour
+  if (t.flat || !std::isfinite(weight) ||
+      !(sum * t.sign > 0)) {  // no plane to rely on: any colour, and not only of [0,1]
     out.hit.color = (c[0]->color + c[1]->color + c[2]->color) / 3.0;
-    out.hit.color_bound = 1;
+    out.hit.color_bound = kInfinity;
     return;
   }
   glm::dvec4 color(0), slope_x(0), slope_y(0);
@@ -132,9 +133,8 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   const double color_weight = 1 + (weight - 1) * near_end;
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
   out.hit.color = color;
-  out.hit.color_bound =
-      std::min(1.0, weight * (largest(slope_x) * moved.x + largest(slope_y) * moved.y) +
-                        color_weight * (error + 2 * w_error * spread) + 32 * kFloatRounding * near_end * color_weight);
+  out.hit.color_bound = weight * (largest(slope_x) * moved.x + largest(slope_y) * moved.y) +
+                        color_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end);
 }
 
 }  // namespace

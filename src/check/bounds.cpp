@@ -112,7 +112,7 @@ Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
   const double k1 = std::abs(q.y / sum), k2 = std::abs(q.z / sum);
   const Vec4<double> d1 = t.v[1].color - t.v[0].color, d2 = t.v[2].color - t.v[0].color;
   const Vec4<double> mean = t.v[0].color + (q.y / sum) * d1 + (q.z / sum) * d2;
-  return glm::abs(mean) + glm::abs(t.v[0].color) + condition * (k1 * glm::abs(d1) + k2 * glm::abs(d2));
+  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + condition * (k1 * glm::abs(d1) + k2 * glm::abs(d2));
 }
 
 }  // namespace plumbline::check

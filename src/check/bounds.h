@@ -34,8 +34,10 @@ struct PlaneBounds {
 /// the division: (E(c/w) + |c| E(1/w)) w.
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y);
 
-/// For a weighted mean of corners (pipeline's way, and any that works near the triangle): |c| + condition * (|k1| |c1 -
-/// c0| + |k2| |c2 - c0|), the condition being sum |q_i| / |sum q_i| of the perspective weights q_i.
+/// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
+/// (c2
+/// - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
+/// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|).
 Vec4<double> bounds_of_mean(const WindowTriangle<double>& triangle, int x, int y);
 
 }  // namespace plumbline::check

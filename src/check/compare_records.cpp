@@ -87,7 +87,7 @@ Measurement compare_matrices(const Records<double>& candidate, const Records<dou
 }
 
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                             double factor) {
+                             double positions, double normals) {
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   std::size_t d = 0;
   if (candidate.matrices.size() != scene.draws.size()) return mismatch("u", "no matrices", candidate.vertices.size());
@@ -101,10 +101,10 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
         magnitude(m.model_view, p) + 1e-12 / u * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + 1);
     const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
     const Vertex<double>&a = candidate.vertices[i], &b = reference.vertices[i];
-    add(meter, a.p_eye, b.p_eye, u * eye, factor, at("p_eye"));
-    add(meter, a.p_clip, b.p_clip, u * magnitude(m.projection, eye), factor, at("p_clip"));
+    add(meter, a.p_eye, b.p_eye, u * eye, positions, at("p_eye"));
+    add(meter, a.p_clip, b.p_clip, u * magnitude(m.projection, eye), positions, at("p_clip"));
     const double n = normal_magnitude(m.normal, Vec3<double>(mesh.normals[i - ranges[d].first_vertex]));
-    add(meter, a.n_eye, b.n_eye, Vec3<double>(u * n), factor, at("n_eye"));
+    add(meter, a.n_eye, b.n_eye, Vec3<double>(u * n), normals, at("n_eye"));
   });
 }
 

@@ -13,9 +13,9 @@ Measurement compare_matrices_equal(const Records<double>& candidate, const Recor
 /// Against unrounded matrices.
 Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
 
-/// p_eye, p_clip, n_eye; `factor` u of their magnitudes.
+/// p_eye, p_clip: `positions` u of their magnitudes; n_eye: `normals` u.
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                             double factor);
+                             double positions, double normals);
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                         double factor);
 

@@ -57,7 +57,8 @@ void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
   switch (stage) {
     case Stage::matrices: break;
     case Stage::vertex:
-      return c.add(name, stage, compare_vertices(c.scene, mine, theirs, factor("exact.vertex")), "exact.vertex");
+      return c.add(name, stage, compare_vertices(c.scene, mine, theirs, factor("exact.vertex"), factor("exact.vertex")),
+                   "exact.vertex");
     case Stage::light:
       return c.add(name, stage, compare_lit(c.scene, mine, theirs, factor("exact.light")), "exact.light");
     case Stage::clip:
@@ -136,7 +137,7 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
   switch (stage) {
     case Stage::matrices: return c.add(name, stage, compare_matrices_equal(mine, theirs.records));
     case Stage::vertex:
-      return c.add(name, stage, compare_vertices(c.scene, mine, theirs.records, factor("osmesa.vertex")),
+      return c.add(name, stage, compare_vertices(c.scene, mine, theirs.records, 0, factor("osmesa.vertex")),
                    "osmesa.vertex");
     case Stage::light:
       return c.add(name, stage, compare_lit(c.scene, mine, theirs.records, factor("osmesa.light")), "osmesa.light");
@@ -186,7 +187,9 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info) 
       c.add(name, stage, compare_matrices(c.candidate.records, theirs.records, factor("exact.matrices")),
             "exact.matrices");
     } else if (exact && stage == Stage::vertex) {
-      c.add(name, stage, compare_vertices(c.scene, c.candidate.records, theirs.records, factor("exact.vertex.scene")),
+      c.add(name, stage,
+            compare_vertices(c.scene, c.candidate.records, theirs.records, factor("exact.vertex.scene"),
+                             factor("exact.vertex.scene")),
             "exact.vertex.scene");
     } else if (!info[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, info[stage].reason);

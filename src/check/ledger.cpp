@@ -21,21 +21,28 @@ constexpr std::array kLedger = {
               "Eye position: 4 products and 3 sums, 4 u of the magnitude |M||p|. Clip position: the same for the "
               "product of matrices and again for the point: 8 u of |P||M||p|. Normal: 3 u of |N||n|, length and "
               "division 4 more."},
-    Tolerance{"exact.vertex.scene", 12, "u",
-              "From the scene: as exact.vertex, and each matrix entry was rounded to float before: 1 u for the "
-              "eye position, 2 u for the clip position and the normal, 2 kept for the products of both."},
+    Tolerance{
+        "exact.vertex.scene", 10, "u",
+        "From the scene: as exact.vertex, and the entries of both matrices were rounded to float before, 1 u each."},
     Tolerance{"exact.light", 16, "u",
               "Per light a normalised vector (3 u), two dot products of unit vectors (3 u each), products and sums (4 "
               "u), the power (below 1 u, times the shininess for its argument's error): 16 u of the magnitude of "
-              "bounds.h, light_magnitude."},
-    Tolerance{"osmesa.vertex", 16, "u", "Both sides are within exact.vertex of the exact value: twice that."},
-    Tolerance{"osmesa.light", 32, "u", "Both sides are within exact.light of the exact value: twice that."},
-    Tolerance{"exact.clip", 8, "u",
-              "A cut vertex lies on its edge and on its plane but for rounding: the plane's distance (3 u), t, and "
-              "a + t (b - a) (3 u), of the largest coordinate of the primitive's corners; repeated cuts add."},
-    Tolerance{"osmesa.clip", 8, "u",
-              "p_clip is rebuilt from window coordinates: division by w, product, scale and translation, 4 roundings "
-              "of |p_clip| + w, undone in double; cut points carry exact.clip's of their own."},
+              "bounds.h, light_magnitude.",
+              "A chain of some 20 roundings: they do not all go one way, and where the power multiplies them it is "
+              "also small."},
+    Tolerance{"osmesa.vertex", 8, "u",
+              "Positions: 0, both sides follow one float recipe. Normals: either side is within 3 u of |N||n| before, "
+              "and 1 u after normalising."},
+    Tolerance{"osmesa.light", 32, "u", "Both sides are within exact.light of the exact value: twice that.",
+              "As exact.light."},
+    Tolerance{
+        "exact.clip", 8, "u",
+        "A cut vertex lies on its edge and on its plane but for rounding: the plane's distance (2 u), t (3 u), and "
+        "a + t (b - a) (3 u), of the largest coordinate of the primitive's corners; repeated cuts add.",
+        "The distance is taken from the nearer end, so that t and its error are at most a half, mostly far less."},
+    Tolerance{"osmesa.clip", 4, "u",
+              "p_clip is rebuilt from window coordinates: 1/w, product, scale and translation, at most 4 roundings of "
+              "|p_clip| + w, undone in double. The cuts themselves follow one recipe."},
     Tolerance{"exact.window", 4, "u", "1/w, product, and a fused or separate scale and translate: 4 roundings."},
     Tolerance{"exact.depth", 0.501, "step",
               "Rounding to the nearest code is half a step. The plane is evaluated in double: 2^-53 of its terms, "
@@ -43,10 +50,11 @@ constexpr std::array kLedger = {
     Tolerance{"osmesa.depth", 64, "u",
               "llvmpipe evaluates z0 + dz/dx x + dz/dy y in float from the window's origin: of the magnitude of "
               "bounds.h, bounds_from_origin, 40 held on every pixel that was measured; one step of the format more."},
-    Tolerance{"exact.attributes", 12, "u",
-              "Weights: barycentrics rounded to float (1), times 1/w (1), sum (2), reciprocal and product (2), for "
-              "both numerator and denominator; differences of corners (1), two products and sums (3): 12 u of the "
-              "magnitude of bounds.h, bounds_of_mean."},
+    Tolerance{
+        "exact.attributes", 10, "u",
+        "Barycentrics rounded to float (1), times 1/w (1), the sum of three such (4), reciprocal and product (2), "
+        "the corners' difference and its product (2): 10 u of the magnitude of bounds.h, bounds_of_mean, which "
+        "counts the two last sums at a fifth."},
     Tolerance{"osmesa.attributes", 64, "u",
               "As osmesa.depth, for colour / w and 1 / w, joined by the division (bounds.h, bounds_from_origin); "
               "vertex colours differ by osmesa.light."},
@@ -58,7 +66,8 @@ constexpr std::array kLedger = {
               "off."},
     Tolerance{"legal.depth", 1, "step", "The legal interval, and one step of the depth format for the rounding."},
     Tolerance{"legal.attributes", 1, "bound",
-              "The oracle's own bound of float arithmetic from the scene on (reference/math)."},
+              "The oracle's own bound of float arithmetic from the scene on (reference/math, color_error.h).",
+              "It adds the worst cases of vertex, light and interpolation, which no one vertex has all at once."},
     Tolerance{"legal.merge", 1, "bound", "legal.attributes' bound and, for rgba8, half a code for the rounding."},
 };
 

@@ -68,7 +68,7 @@ class PipelineRenderer : public Renderer {
     } else if (stage <= Stage::shade) {
       run_fragment_stage(scene, stage, in.records, out);
     } else {
-      run_planes(scene, stage, in.records, out);
+      run_planes(scene, stage, in, out);
     }
     return out;
   }
@@ -145,7 +145,9 @@ class PipelineRenderer : public Renderer {
   }
 
   // Visibility and merge: the recorded fragments, in draw order, through the depth test into the planes.
-  void run_planes(const Scene& scene, Stage stage, const Records<double>& in, Capture& out) {
+  void run_planes(const Scene& scene, Stage stage, const Capture& capture, Capture& out) {
+    const Records<double>& in = capture.records;
+    const bool winners_known = stage == Stage::merge && !capture.planes.id.empty();
     const Formats formats = formats_of(scene.frame);
     const std::vector<DrawRange> ranges = draw_ranges(scene);
     Tile cleared{};
@@ -159,9 +161,12 @@ class PipelineRenderer : public Renderer {
       const Covered& c = in.covered[i];
       const std::uint32_t primitive = in.triangles.at(c.triangle).primitive;
       while (primitive >= ranges[draw].first_primitive + ranges[draw].primitive_count) ++draw;
+      if (winners_known && capture.planes.id(c.x, c.y) != static_cast<std::int32_t>(primitive)) continue;
       const double z = in.depth.at(i);
       const auto incoming = static_cast<float>(formats.depth_scale == 0.0 ? z : round_even(z * formats.depth_scale));
-      if (!stages_.fragment.depth_passes(scene.draws[draw].depth_func, incoming, depth(c.x, c.y))) continue;
+      // The winner itself passes; a cut primitive may have two triangles at a pixel.
+      const bool first = winners_known && id(c.x, c.y) == kBackground;
+      if (!first && !stages_.fragment.depth_passes(scene.draws[draw].depth_func, incoming, depth(c.x, c.y))) continue;
       depth(c.x, c.y) = incoming;
       id(c.x, c.y) = static_cast<std::int32_t>(primitive);
       if (stage == Stage::merge) {

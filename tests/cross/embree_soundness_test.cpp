@@ -42,7 +42,7 @@ void judge(const Scene& scene, const Legal& legal, const Habits& habits, Outside
         depth_legal = z >= found->z_lo - step && z <= found->z_hi + step;
         const glm::dvec4 off = glm::abs(drawn.color(x, y) - glm::dvec4(found->color));
         // Colours through snapped positions are another renderer's than the bound is for.
-        const bool any_color = found->color_bound >= 1 || habits.snapped_planes;
+        const bool any_color = habits.snapped_planes;
         color_legal = any_color || std::max({off.r, off.g, off.b, off.a}) <= static_cast<double>(found->color_bound);
         out.depths += depth_legal ? 0 : 1;
         out.colors += color_legal ? 0 : 1;

@@ -2,6 +2,7 @@
 #include "stages/legal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>

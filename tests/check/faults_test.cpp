@@ -1,0 +1,81 @@
+// Every fault is caught, and its stage named, on the scenes of the suite: as the first stage that differs, and as the
+// one stage that is wrong by itself.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "check/judge.h"
+#include "faults/faults.h"
+#include "pipeline/pipeline_renderer.h"
+#include "reference/exact/exact.h"
+#include "scene/scene_file.h"
+
+namespace plumbline {
+namespace {
+
+// All but the big models.
+const std::vector<Scene>& scenes() {
+  static const std::vector<Scene> kScenes = [] {
+    const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
+    std::vector<Scene> out;
+    for (const auto& file : find_scenes(folder)) {
+      if (file.parent_path().stem() != "models") out.push_back(load_scene(file, {}));
+    }
+    return out;
+  }();
+  return kScenes;
+}
+
+class Faults : public testing::TestWithParam<faults::Fault> {};
+
+TEST_P(Faults, is_caught_and_its_stage_named) {
+  const faults::Fault fault = GetParam();
+  const auto candidate = pipeline::make_pipeline(fault.stages());
+  const auto exact = exact::make_exact();
+  const check::Reference references[] = {{"exact", exact.get()}};
+  int caught = 0;
+  for (const Scene& scene : scenes()) {
+    const check::SceneVerdict verdict = check::judge(scene, *candidate, references);
+    const check::Comparison* first = check::first_different(verdict);
+    if (first == nullptr) continue;  // a scene that the fault does not affect
+    ++caught;
+    EXPECT_EQ(name_of(first->stage), name_of(fault.stage)) << scene.name << ", against " << first->reference;
+    for (const check::Comparison& c : verdict.comparisons) {
+      EXPECT_NE(c.outcome, check::Outcome::failed) << c.note;
+      if (c.reference == "exact from its records" && c.outcome == check::Outcome::different) {
+        EXPECT_EQ(name_of(c.stage), name_of(fault.stage)) << scene.name << ": not wrong by itself";
+      }
+    }
+  }
+  EXPECT_GT(caught, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(all, Faults, testing::ValuesIn(faults::all().begin(), faults::all().end()),
+                         [](const auto& fault) {
+                           std::string name(fault.param.name);
+                           for (char& c : name) c = c == '.' ? '_' : c;
+                           return name;
+                         });
+
+TEST(Faults, there_is_one_in_each_stage_that_has_records) {
+  std::map<Stage, int> count;
+  for (const faults::Fault& fault : faults::all()) {
+    ++count[fault.stage];
+    EXPECT_TRUE(std::string(fault.name).starts_with(name_of(fault.stage))) << fault.name;
+  }
+  for (Stage stage : {Stage::vertex, Stage::light, Stage::clip, Stage::window, Stage::coverage, Stage::depth}) {
+    EXPECT_GT(count[stage], 0) << name_of(stage);
+  }
+}
+
+TEST(Faults, production_is_not_caught) {
+  const auto candidate = pipeline::make_pipeline();
+  const auto exact = exact::make_exact();
+  const check::Reference references[] = {{"exact", exact.get()}};
+  for (const Scene& scene : scenes()) {
+    EXPECT_EQ(check::first_different(check::judge(scene, *candidate, references)), nullptr) << scene.name;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

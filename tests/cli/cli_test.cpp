@@ -1,0 +1,170 @@
+// The program as a user meets it: arguments in, exit code, text and files out.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "stages/capture_folder.h"
+#include "stages/image_file.h"
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code;
+  std::string text;  // stdout and stderr
+};
+
+Outcome plumb(const std::string& arguments) {
+  const std::string command = std::string(PLUMBLINE_PLUMB) + " " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  Outcome run{-1, ""};
+  std::array<char, 4096> buffer;
+  while (std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) run.text.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) run.code = WEXITSTATUS(status);
+  return run;
+}
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
+
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              ("plumb-cli-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
+               std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  std::string scene_file(const std::string& json) const {
+    std::ofstream(folder_ / "scene.json") << json;
+    return at("scene.json");
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
+  EXPECT_EQ(plumb("--help").code, 0);
+  EXPECT_EQ(plumb("--version").code, 0);
+  EXPECT_EQ(plumb("").code, 2);
+  EXPECT_EQ(plumb("chekc").code, 2);
+  EXPECT_EQ(plumb("check").code, 2);
+  EXPECT_EQ(plumb("check " + kScenes + "cull --against mesa").code, 2);
+  EXPECT_EQ(plumb("check " + kScenes + "cull --no-such-flag").code, 2);
+}
+
+TEST_F(Cli, check_holds_and_prints_a_row_for_each_reference_and_stage) {
+  const Outcome run = plumb("check " + kScenes + "cull/both_windings.json --against exact");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_NE(run.text.find("exact from its records"), std::string::npos);
+  EXPECT_NE(run.text.find("exact from scene"), std::string::npos);
+  for (const char* stage :
+       {"matrices", "vertex", "light", "clip", "window", "coverage", "depth", "attributes", "merge"}) {
+    EXPECT_NE(run.text.find(stage), std::string::npos) << stage;
+  }
+  EXPECT_EQ(run.text.find("\nok:"), std::string::npos) << "something is unsupported: no bare ok";
+}
+
+TEST_F(Cli, a_fault_ends_1_and_names_scene_reference_stage_and_the_command_that_repeats_it) {
+  const std::string scene = kScenes + "clip/each_plane.json";
+  const Outcome run = plumb("check " + scene + " --against exact --fault clip.no_near_plane");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_NE(run.text.find("different clip/each_plane: first different stage: clip (against exact"), std::string::npos)
+      << run.text;
+  const std::string repeat = "check " + scene + " --against exact --fault clip.no_near_plane";
+  EXPECT_NE(run.text.find("repeat: plumb " + repeat), std::string::npos) << run.text;
+}
+
+TEST_F(Cli, an_unknown_fault_or_renderer_ends_2) {
+  const Outcome fault = plumb("check " + kScenes + "cull --fault vertex.nonsense");
+  EXPECT_EQ(fault.code, 2);
+  EXPECT_NE(fault.text.find("vertex.nonsense"), std::string::npos);
+  const Outcome renderer = plumb("render " + kScenes + "cull/both_windings.json --with d3d -o " + at("x.png"));
+  EXPECT_EQ(renderer.code, 2);
+  EXPECT_NE(renderer.text.find("d3d"), std::string::npos);
+  EXPECT_FALSE(fs::exists(at("x.png")));
+}
+
+TEST_F(Cli, a_bad_scene_ends_2_and_names_file_and_place) {
+  const std::string file = scene_file(R"({"description": "x", "frame": {"width": 0}, "draws": []})");
+  for (const std::string& command : {"check " + file, "render " + file + " -o " + at("x.png")}) {
+    const Outcome run = plumb(command);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_NE(run.text.find(file), std::string::npos) << run.text;
+    EXPECT_NE(run.text.find("/frame/width"), std::string::npos) << run.text;
+  }
+  EXPECT_FALSE(fs::exists(at("x.png")));
+  EXPECT_EQ(plumb("check " + at("no_such.json")).code, 2);
+  EXPECT_EQ(plumb("check " + folder_.string() + "/empty").code, 2);
+}
+
+TEST_F(Cli, a_bad_scene_among_good_ones_leaves_no_report_half_written) {
+  fs::copy(kScenes + "cull/both_windings.json", folder_ / "a.json");
+  scene_file("{");
+  const Outcome run = plumb("check " + folder_.string() + " --against exact --json " + at("out.json"));
+  EXPECT_EQ(run.code, 2) << run.text;
+  EXPECT_FALSE(fs::exists(at("out.json")));
+}
+
+TEST_F(Cli, render_writes_pictures_and_depth) {
+  const std::string scene = kScenes + "cull/both_windings.json";
+  const Outcome run = plumb("render " + scene + " -o " + at("c.png") + " --depth " + at("d.exr"));
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_GT(read_image(at("c.png")).size(), 0u);
+  EXPECT_TRUE(fs::exists(at("d.exr")));
+  EXPECT_EQ(plumb("render " + scene + " -o " + at("c.bmp")).code, 2);
+  EXPECT_EQ(plumb("render " + scene + " -o " + at("no/such/folder/c.png")).code, 2);
+  EXPECT_EQ(plumb("render " + scene + " -o " + at("e.png") + " --depth " + at("d.png")).code, 2);
+  EXPECT_FALSE(fs::exists(at("e.png")));
+}
+
+TEST_F(Cli, json_and_page_are_written) {
+  const Outcome run =
+      plumb("check " + kScenes + "cull --against exact --json " + at("out.json") + " --report " + at("page"));
+  EXPECT_EQ(run.code, 0) << run.text;
+  const std::string json = read(at("out.json"));
+  for (const char* key :
+       {"\"versions\"", "\"comparisons\"", "\"scene\"", "\"reference\"", "\"stage\"", "\"outcome\"", "\"pixels\"",
+        "\"differing\"", "\"ambiguous\"", "\"max_difference\"", "\"unit\"", "\"tolerance\"", "\"worst\""}) {
+    EXPECT_NE(json.find(key), std::string::npos) << key;
+  }
+  EXPECT_NE(read(at("page/index.html")).find("cull/both_windings"), std::string::npos);
+  EXPECT_TRUE(fs::exists(at("page/cull/both_windings/ours.png")));
+  EXPECT_EQ(plumb("check " + kScenes + "cull --against exact --json " + at("no/such/out.json")).code, 2);
+}
+
+TEST_F(Cli, capture_writes_a_folder_that_reads_back) {
+  const Outcome run = plumb("capture " + kScenes + "cull/both_windings.json " + at("capture") + " --with exact");
+  EXPECT_EQ(run.code, 0) << run.text;
+  const Capture capture = read_capture(at("capture"));
+  EXPECT_EQ(capture.renderer, "exact");
+  EXPECT_GT(capture.records.triangles.size(), 0u);
+}
+
+TEST_F(Cli, list_names_what_there_is) {
+  const Outcome run = plumb("list");
+  EXPECT_EQ(run.code, 0);
+  for (const char* word : {"coverage", "ours", "exact", "window.snap_truncates"}) {
+    EXPECT_NE(run.text.find(word), std::string::npos) << word;
+  }
+  EXPECT_NE(plumb("list scenes " + kScenes).text.find("models/bunny"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumbline
