@@ -144,6 +144,11 @@ void matched(const std::vector<ClipPolygon>& a, const std::vector<ClipPolygon>& 
 Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double factor) {
   const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const std::uint32_t primitives = ranges.back().first_primitive + ranges.back().primitive_count;
+  for (const auto* list : {&candidate.polygons.polygons, &reference.polygons.polygons}) {
+    const bool fits = std::all_of(list->begin(), list->end(), [&](const auto& p) { return p.primitive < primitives; });
+    if (!fits) return mismatch("u", "a polygon of a primitive that the scene does not have", list->size());
+  }
   std::size_t d = 0;
   Meter meter("u");
   matched(candidate.polygons.polygons, reference.polygons.polygons, [&](const ClipPolygon* a, const ClipPolygon* b) {

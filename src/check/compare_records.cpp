@@ -47,16 +47,19 @@ void add(Meter& meter, const glm::vec<n, double>& a, const glm::vec<n, double>& 
 
 template <class Matrix, class Unit>
 void add_entries(Meter& meter, const Matrix& a, const Matrix& b, Unit unit, double factor, const Place& place) {
-  double largest = 0;
   for (int column = 0; column < Matrix::length(); ++column) {
+    double largest = 0;  // of the column: a far translation is no excuse for a rotation
     for (int row = 0; row < Matrix::length(); ++row) largest = std::max(largest, std::abs(b[column][row]));
-  }
-  for (int column = 0; column < Matrix::length(); ++column) {
     for (int row = 0; row < Matrix::length(); ++row) {
       const double x = a[column][row], y = b[column][row], diff = difference(x, y);
       meter.value(diff == 0 ? 0 : diff / unit(y, largest), factor, place, x, y);
     }
   }
+}
+
+// Whether there is one record for each vertex of the scene.
+bool one_per_vertex(const std::vector<DrawRange>& ranges, std::size_t records) {
+  return records == (ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count);
 }
 
 Measurement compare_matrices_by(const Records<double>& candidate, const Records<double>& reference, bool normal,
@@ -80,7 +83,7 @@ Measurement compare_matrices_equal(const Records<double>& candidate, const Recor
 }
 
 Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor) {
-  // 1e-12, in proportion to the matrix, is what rounding in double and setting small entries to 0 may do.
+  // 1e-12, in proportion to the column, is what rounding in double and setting small entries to 0 may do.
   return compare_matrices_by(candidate, reference, true, "half ULP", factor, [](double value, double largest) {
     return 0.5 * ulp(value) + 1e-12 * std::max(1.0, largest);
   });
@@ -90,7 +93,12 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
                              double positions, double normals) {
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   std::size_t d = 0;
-  if (candidate.matrices.size() != scene.draws.size()) return mismatch("u", "no matrices", candidate.vertices.size());
+  if (candidate.matrices.size() != scene.draws.size()) {
+    return mismatch("u", "no matrices", std::max(candidate.vertices.size(), reference.vertices.size()));
+  }
+  if (candidate.vertices.size() == reference.vertices.size() && !one_per_vertex(ranges, candidate.vertices.size())) {
+    return mismatch("u", "not one record for each vertex", candidate.vertices.size());
+  }
   return each("vertices", "u", candidate.vertices.size(), reference.vertices.size(), [&](Meter& meter, std::size_t i) {
     while (i >= ranges[d].first_vertex + ranges[d].vertex_count) ++d;
     const Matrices<double>& m = candidate.matrices[d];
@@ -112,7 +120,12 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
                         double factor) {
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   std::size_t d = 0;
-  if (candidate.vertices.size() != candidate.lit.size()) return mismatch("u", "no vertices", candidate.lit.size());
+  if (candidate.vertices.size() != candidate.lit.size()) {
+    return mismatch("u", "not a colour for each vertex", std::max(candidate.lit.size(), reference.lit.size()));
+  }
+  if (candidate.lit.size() == reference.lit.size() && !one_per_vertex(ranges, candidate.lit.size())) {
+    return mismatch("u", "not one record for each vertex", candidate.lit.size());
+  }
   return each("colours", "u", candidate.lit.size(), reference.lit.size(), [&](Meter& meter, std::size_t i) {
     while (i >= ranges[d].first_vertex + ranges[d].vertex_count) ++d;
     const Draw& draw = scene.draws[d];
@@ -248,6 +261,10 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
               [&](Meter& meter, std::size_t i) {
                 const Covered& c = candidate.covered[i];
                 const Vec4<double> bound = bounds_of_mean(candidate.triangles[c.triangle], c.x, c.y);
+                if (!std::isfinite(bound.x + bound.y + bound.z + bound.w)) {  // extrapolated to the horizon: any colour
+                  meter.ambiguous();
+                  return;
+                }
                 add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound, factor,
                     {c.x, c.y, c.triangle, "color"});
               });

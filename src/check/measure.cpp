@@ -36,7 +36,7 @@ double difference(double a, double b) {
 
 void Meter::value(double diff, double tolerance, const Place& place, double candidate, double reference) {
   if (!(diff >= 0)) diff = kInfinite;
-  if (!(tolerance >= 0)) tolerance = 0;
+  if (!(tolerance >= 0) || !std::isfinite(tolerance)) tolerance = 0;
   item_difference_ = std::max(item_difference_, diff);
   if (diff > tolerance || !std::isfinite(diff)) item_differs_ = true;
   if (diff == 0) return;

@@ -47,8 +47,8 @@ class Meter {
  public:
   explicit Meter(std::string unit) { m_.unit = std::move(unit); }
 
-  /// One value of an item: `diff` and `tolerance` in the meter's unit. A NaN diff counts as infinite, a NaN tolerance
-  /// as 0.
+  /// One value of an item: `diff` and `tolerance` in the meter's unit. A NaN diff counts as infinite, a tolerance
+  /// that is not finite as 0.
   void value(double diff, double tolerance, const Place& place, double candidate, double reference);
   /// Ends an item that has got its values.
   void item();
@@ -96,8 +96,9 @@ template <class T>
 Measurement compare_equal(const Plane<T>& candidate, const Plane<T>& reference, const std::string& unit) {
   return compare_planes(candidate, reference, unit, [&](Meter& meter, int x, int y) {
     const T a = candidate(x, y), b = reference(x, y);
-    // Subtracted as integers: 64-bit values do not fit a double.
-    const double diff = a > b ? static_cast<double>(a - b) : static_cast<double>(b - a);
+    // Subtracted as 64-bit integers, modulo 2^64: they do not all fit a double, nor a signed difference its type.
+    const auto wide_a = static_cast<std::uint64_t>(a), wide_b = static_cast<std::uint64_t>(b);
+    const auto diff = static_cast<double>(a > b ? wide_a - wide_b : wide_b - wide_a);
     meter.value(diff, 0, {x, y, -1, ""}, static_cast<double>(a), static_cast<double>(b));
   });
 }
