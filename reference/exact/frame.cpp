@@ -4,8 +4,13 @@
 #include <cmath>
 
 #include "reference/exact/input.h"
+#include "reference/math/depth_format.h"
 
 namespace plumbline::exact {
+
+using math::in_format;
+using math::passes;
+
 namespace {
 
 /// Calls visit(index of the fragment, its depth function, its primitive) for each fragment in draw order.
@@ -21,25 +26,6 @@ void for_each_fragment(const Scene& scene, const Records<double>& records, Visit
 }
 
 }  // namespace
-
-double in_format(DepthFormat format, double z_win) {
-  const double z = std::clamp(z_win, 0.0, 1.0), scale = depth_scale(format);
-  return scale > 0 ? std::round(z * scale) / scale : static_cast<double>(static_cast<float>(z));
-}
-
-bool passes(DepthFunc func, double incoming, double stored) {
-  switch (func) {
-    case DepthFunc::never: return false;
-    case DepthFunc::less: return incoming < stored;
-    case DepthFunc::equal: return incoming == stored;
-    case DepthFunc::less_equal: return incoming <= stored;
-    case DepthFunc::greater: return incoming > stored;
-    case DepthFunc::not_equal: return incoming != stored;
-    case DepthFunc::greater_equal: return incoming >= stored;
-    case DepthFunc::always: return true;
-  }
-  return false;
-}
 
 DepthBuffer::DepthBuffer(const FrameFormat& frame)
     : format_(frame.depth), plane_(frame.width, frame.height, in_format(frame.depth, frame.clear_depth)) {}

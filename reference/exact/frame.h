@@ -8,12 +8,6 @@
 
 namespace plumbline::exact {
 
-/// Window z, clamped to [0,1], as the format's number: code / (2^n - 1), rounded to nearest; z32f: as float.
-double in_format(DepthFormat format, double z_win);
-
-/// Whether `incoming func stored` holds, as glDepthFunc has it.
-bool passes(DepthFunc func, double incoming, double stored);
-
 /// The depth plane in the frame's format, cleared.
 class DepthBuffer {
  public:

@@ -6,34 +6,16 @@
 #include <vector>
 
 #include "reference/math/ambiguity.h"
+#include "reference/math/depth_format.h"
 #include "reference/math/pixel_hit.h"
 
 namespace plumbline::math {
 
 namespace {
 
-double to_format(DepthFormat format, double z) {
-  const double scale = depth_scale(format);
-  return scale > 0 ? std::nearbyint(z * scale) / scale : static_cast<double>(static_cast<float>(z));
-}
-
 glm::vec4 to_format(ColorFormat format, glm::vec4 color) {
   if (format == ColorFormat::rgba32f) return color;
   return glm::round(glm::clamp(color, 0.0f, 1.0f) * 255.0f) / 255.0f;
-}
-
-bool passes(DepthFunc func, double z, double held) {
-  switch (func) {
-    case DepthFunc::never: return false;
-    case DepthFunc::less: return z < held;
-    case DepthFunc::equal: return z == held;
-    case DepthFunc::less_equal: return z <= held;
-    case DepthFunc::greater: return z > held;
-    case DepthFunc::not_equal: return z != held;
-    case DepthFunc::greater_equal: return z >= held;
-    case DepthFunc::always: return true;
-  }
-  return false;
 }
 
 /// The candidates' primitives by pixel, each pixel's ascending and without duplicates.
@@ -64,7 +46,7 @@ Planes empty_planes(const FrameFormat& frame) {
   planes.id = {frame.width, frame.height, kBackground};
   planes.shaded = {frame.width, frame.height, frame.clear_color};
   planes.color = {frame.width, frame.height, to_format(frame.color, frame.clear_color)};
-  planes.depth = {frame.width, frame.height, to_format(frame.depth, frame.clear_depth)};
+  planes.depth = {frame.width, frame.height, in_format(frame.depth, frame.clear_depth)};
   return planes;
 }
 
@@ -74,7 +56,7 @@ void draw_inside(const FrameFormat& frame, std::span<const PixelHit> hits, int x
     if (!h.inside) continue;
     ++planes.count(x, y);
     planes.id_sum(x, y) += id_weight(h.hit.primitive);
-    const double z = to_format(frame.depth, std::clamp(h.z, 0.0, 1.0));
+    const double z = in_format(frame.depth, std::clamp(h.z, 0.0, 1.0));
     if (!passes(h.hit.depth_func, z, planes.depth(x, y))) continue;
     planes.id(x, y) = static_cast<std::int32_t>(h.hit.primitive);
     planes.depth(x, y) = z;

@@ -137,7 +137,8 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
     add_color(meter, candidate.color(x, y), Vec4<double>(exact.color(x, y)), Vec4<double>(codes ? factor : 0), unit,
               {x, y, candidate.id(x, y), "color"});
     const double z = candidate.depth(x, y), z_ref = exact.depth(x, y);
-    meter.value(difference(z, z_ref) == 0 ? 0 : kInfinite, 0, {x, y, candidate.id(x, y), "z"}, z, z_ref);
+    meter.value(difference(z, z_ref) / depth_step(scene.frame.depth, z_ref), 0,
+                {x, y, candidate.id(x, y), "z, in steps"}, z, z_ref);
   });
 }
 

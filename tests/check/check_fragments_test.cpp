@@ -1,0 +1,183 @@
+// Comparators of fragments, stages 5 to 9: what each triangle covers, and the depth and colours there.
+#include <functional>
+
+#include "check/compare_records.h"
+#include "check_fixtures.h"
+
+namespace plumbline::check {
+namespace {
+
+using Change = std::function<void(Records<double>&)>;
+constexpr auto kUnchanged = [](Records<double>&) {};
+
+// Six fragments of two triangles.
+struct Fragments : testing::Test {
+  Fragments() {
+    records.triangles = {triangle_of({{{2, 2, 0.25}, {8, 2, 0.5}, {2, 8, 0.75}}}, {1, 0.5, 0.25}, 0),
+                         triangle_of({{{2, 2, 0.25}, {8, 2, 0.5}, {2, 8, 0.75}}}, {1, 1, 1}, 1)};
+    records.covered = {{0, 2, 2}, {0, 3, 2}, {0, 2, 3}, {1, 2, 2}, {1, 4, 2}, {1, 3, 3}};
+    for (std::size_t i = 0; i < 6; ++i) {
+      records.depth.push_back(0.25);
+      records.attributes.push_back({{0.5, 0.25, 0.25, 1}});
+      records.shaded.push_back({{0.5, 0.25, 0.25, 1}});
+    }
+  }
+  using Compare = std::function<Measurement(const Records<double>&, const Records<double>&)>;
+  Measurement run(const Compare& compare, const Change& candidate, const Change& reference = kUnchanged) const {
+    Records<double> a = records, b = records;
+    candidate(a);
+    reference(b);
+    return compare(a, b);
+  }
+  Compare depth() const {
+    return [this](const auto& a, const auto& b) { return compare_depth(scene, a, b, 0.501); };
+  }
+  static Compare attributes() {
+    return [](const auto& a, const auto& b) { return compare_attributes(a, b, 10); };
+  }
+  Scene scene;
+  Records<double> records;
+};
+
+TEST_F(Fragments, CoveredEqualOnesPass) {
+  EXPECT_TRUE(passes(run(compare_covered, kUnchanged)));
+  EXPECT_EQ(run(compare_covered, kUnchanged).items, 6u);
+}
+
+TEST_F(Fragments, CoveredOnePixelLackingOrMoreFails) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Change erase = [&](auto& r) { r.covered.erase(r.covered.begin() + static_cast<std::ptrdiff_t>(i)); };
+    const Measurement lacking = run(compare_covered, erase), extra = run(compare_covered, kUnchanged, erase);
+    for (const Measurement& m : {lacking, extra}) {
+      EXPECT_TRUE(fails(m)) << i;
+      EXPECT_EQ(m.items, 6u);
+      EXPECT_EQ(m.max_difference, 1);
+      EXPECT_EQ(m.worst.place.x, records.covered[i].x);
+      EXPECT_EQ(m.worst.place.y, records.covered[i].y);
+      EXPECT_EQ(m.worst.place.record, records.covered[i].triangle);
+    }
+    EXPECT_STREQ(lacking.worst.place.field, "lacking");
+    EXPECT_EQ(lacking.worst.candidate, 0);
+    EXPECT_EQ(lacking.worst.reference, 1);
+    EXPECT_STREQ(extra.worst.place.field, "extra");
+    EXPECT_EQ(extra.worst.candidate, 1);
+    EXPECT_EQ(extra.worst.reference, 0);
+  }
+}
+
+TEST_F(Fragments, CoveredElsewhereFailsTwice) {
+  EXPECT_TRUE(fails(run(compare_covered, [](auto& r) { r.covered[1].x = 4; }), 2));
+  EXPECT_TRUE(fails(run(compare_covered, [](auto& r) { r.covered[2].y = 4; }), 2));
+  EXPECT_TRUE(fails(run(compare_covered, [](auto& r) { r.covered[5].triangle = 2; }), 2));
+  EXPECT_TRUE(fails(run(compare_covered, [](auto& r) { std::swap(r.covered[1].x, r.covered[1].y); }), 2))
+      << "x and y exchanged";
+  EXPECT_TRUE(fails(run(compare_covered, [](auto& r) { r.covered.clear(); }), 6));
+  EXPECT_TRUE(fails(run(compare_covered, kUnchanged, [](auto& r) { r.covered.clear(); }), 6));
+  EXPECT_TRUE(fails(run(compare_covered, [](auto& r) { r.covered.push_back(r.covered.back()); }))) << "drawn twice";
+  EXPECT_FALSE(passes(run(compare_covered, [](auto& r) { std::swap(r.covered[0], r.covered[1]); })))
+      << "in another order";
+}
+
+TEST_F(Fragments, DepthInStepsOfEachFormat) {
+  for (DepthFormat format : {DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
+    scene.frame.depth = format;
+    EXPECT_TRUE(passes(run(depth(), kUnchanged)));
+    const double step = depth_step(format, 0.25);
+    const auto moved = [&](double steps) { return [=](auto& r) { r.depth[4] += steps * step; }; };
+    for (double sign : {-1.0, 1.0}) {
+      EXPECT_TRUE(passes(run(depth(), moved(sign * 0.5)))) << "rounding";
+      EXPECT_TRUE(fails(run(depth(), moved(sign * 0.502))));
+      EXPECT_TRUE(fails(run(depth(), moved(sign)))) << "one step";
+      EXPECT_TRUE(fails(run(depth(), kUnchanged, moved(sign))));
+    }
+    const Measurement m = run(depth(), moved(3));
+    EXPECT_NEAR(m.max_difference, 3, 1e-9);
+    EXPECT_EQ(m.unit, "step");
+    EXPECT_EQ(m.worst.place.x, 4);
+    EXPECT_EQ(m.worst.place.y, 2);
+    EXPECT_EQ(m.worst.place.record, 1);
+  }
+  EXPECT_EQ(depth_step(DepthFormat::z16, 0.25), 1 / 65535.0);
+  EXPECT_EQ(depth_step(DepthFormat::z24, 0.25), 1 / 16777215.0);
+  EXPECT_EQ(depth_step(DepthFormat::z32f, 0.25), 0x1p-24);
+  EXPECT_EQ(depth_step(DepthFormat::z32f, 0.75), 0x1p-24);
+  EXPECT_EQ(depth_step(DepthFormat::z32f, 1), 0x1p-23);
+}
+
+TEST_F(Fragments, AttributesAreHeldToTheirBound) {
+  const Vec4<double> bound = bounds_of_mean(records.triangles[1], 3, 3);
+  for (int c = 0; c < 4; ++c) {
+    const auto moved = [&](double by) { return [=](auto& r) { r.attributes[5].color[c] += by * 10 * kU * bound[c]; }; };
+    EXPECT_TRUE(passes(run(attributes(), moved(0.99))));
+    EXPECT_TRUE(fails(run(attributes(), moved(1.01))));
+    EXPECT_TRUE(fails(run(attributes(), moved(-1.01))));
+    EXPECT_TRUE(fails(run(attributes(), moved(255 / 255.0 / (10 * kU * bound[c]) / 255)))) << "1/255";
+    EXPECT_NEAR(run(attributes(), moved(0.5)).max_difference, 5, 1e-6);
+    EXPECT_EQ(run(attributes(), moved(2)).worst.place.x, 3);
+    EXPECT_EQ(run(attributes(), moved(2)).worst.place.y, 3);
+    EXPECT_EQ(run(attributes(), moved(2)).worst.place.record, 1);
+  }
+}
+
+TEST_F(Fragments, ABoundThatCannotBeComputedAllowsNothing) {
+  // 1/w cancels over the triangle: the weights' sum is 0 at this pixel, and what they are divided by.
+  for (auto& v : records.triangles[1].v) v.inv_w = 0;
+  EXPECT_FALSE(passes(run(attributes(), [](auto& r) { r.attributes[5].color.r += 0.5; })));
+}
+
+TEST_F(Fragments, ShadedAreEqual) {
+  EXPECT_TRUE(passes(run(compare_shaded, kUnchanged)));
+  EXPECT_EQ(run(compare_shaded, kUnchanged).items, 6u);
+  for (int c = 0; c < 4; ++c) {
+    const Change ulp = [&](auto& r) { r.shaded[3].color[c] = float_above(r.shaded[3].color[c]); };
+    EXPECT_TRUE(fails(run(compare_shaded, ulp)));
+    EXPECT_TRUE(fails(run(compare_shaded, kUnchanged, ulp)));
+    EXPECT_EQ(run(compare_shaded, ulp).worst.place.x, 2);
+    EXPECT_EQ(run(compare_shaded, ulp).worst.place.record, 1);
+    EXPECT_LE(run(compare_shaded, ulp).max_difference, 2) << "in u";
+  }
+}
+
+TEST_F(Fragments, WhatIsNoNumberFails) {
+  for (double bad : not_numbers()) {
+    const Change z = [&](auto& r) { r.depth[2] = bad; };
+    EXPECT_TRUE(fails(run(depth(), z)));
+    EXPECT_TRUE(fails(run(depth(), kUnchanged, z)));
+    for (int c = 0; c < 4; ++c) {
+      const Change color = [&](auto& r) { r.attributes[2].color[c] = r.shaded[2].color[c] = bad; };
+      for (const Compare& compare : {attributes(), Compare(compare_shaded)}) {
+        EXPECT_TRUE(fails(run(compare, color)));
+        EXPECT_TRUE(fails(run(compare, kUnchanged, color)));
+        if (std::isnan(bad)) {
+          EXPECT_TRUE(fails(run(compare, color, color)));
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Fragments, OtherNumbersOfRecordsFail) {
+  const Change fewer = [](auto& r) { r.depth.pop_back(), r.attributes.pop_back(), r.shaded.pop_back(); };
+  const Change none = [](auto& r) { r.depth.clear(), r.attributes.clear(), r.shaded.clear(); };
+  for (const Compare& compare : {depth(), attributes(), Compare(compare_shaded)}) {
+    for (const Change& change : {fewer, none}) {
+      EXPECT_TRUE(fails(run(compare, change), 6));
+      EXPECT_TRUE(fails(run(compare, kUnchanged, change), 6));
+    }
+  }
+}
+
+TEST_F(Fragments, WithoutThePixelsTheyLieAtFailsAndDoesNotCrash) {
+  const Change lost = [](auto& r) { r.covered = {}; };
+  const Change fewer = [](auto& r) { r.covered = {r.covered[0]}; };
+  const Change no_triangles = [](auto& r) { r.triangles = {}; };
+  for (const Change& change : {lost, fewer}) {
+    EXPECT_FALSE(passes(run(depth(), change)));
+    EXPECT_FALSE(passes(run(attributes(), change)));
+    EXPECT_FALSE(passes(run(compare_shaded, change)));
+  }
+  EXPECT_FALSE(passes(run(attributes(), no_triangles)));
+}
+
+}  // namespace
+}  // namespace plumbline::check

@@ -1,0 +1,355 @@
+// Comparators of planes against another renderer's planes, stages 5 to 11.
+#include <functional>
+
+#include "check/compare_planes.h"
+#include "check_fixtures.h"
+
+namespace plumbline::check {
+namespace {
+
+using Change = std::function<void(Planes&)>;
+constexpr auto kUnchanged = [](Planes&) {};
+
+// A frame of 7 x 4 pixels, two of them drawn, each pixel with one answer but where a test opens it.
+struct PlanePairs : testing::Test {
+  PlanePairs() {
+    scene.frame.width = kWidth;
+    scene.frame.height = kHeight;
+    capture.planes = planes_of(kWidth, kHeight);
+    capture.records.triangles = {triangle_of({{{1, 0.5, 0.25}, {6.5, 1, 0.5}, {2, 3.75, 0.75}}}, {1, 0.5, 0.25}, 3),
+                                 triangle_of({{{1, 0.5, 0.25}, {6.5, 1, 0.5}, {2, 3.75, 0.75}}}, {1, 1, 1}, 5)};
+    Planes& p = capture.planes;
+    p.id(3, 1) = 3;
+    p.id(2, 2) = 5;
+    p.depth(3, 1) = p.depth(2, 2) = 0.5;
+    p.shaded(3, 1) = p.shaded(2, 2) = p.color(3, 1) = p.color(2, 2) = glm::vec4(code(100), code(50), code(0), 1);
+  }
+  static float code(int c) { return static_cast<float>(c) / 255.0f; }
+  static Planes planes_of(int width, int height) {
+    Planes p;
+    p.count = Plane<std::uint32_t>(width, height, 1);
+    p.id_sum = Plane<std::uint64_t>(width, height, 7);
+    p.id = Plane<std::int32_t>(width, height, kBackground);
+    p.shaded = p.color = Plane<glm::vec4>(width, height, glm::vec4(0, 0, 0, 1));
+    p.depth = Plane<double>(width, height, 1);
+    return p;
+  }
+  using Compare = std::function<Measurement(const Capture&, const Capture&)>;
+  Measurement run(const Compare& compare, const Change& candidate, const Change& reference = kUnchanged) const {
+    Capture a = capture, b = capture;
+    candidate(a.planes);
+    reference(b.planes);
+    return compare(a, b);
+  }
+  Compare coverage() const {
+    return [](const auto& a, const auto& b) { return compare_coverage(a.planes, b.planes); };
+  }
+  Compare winners() const {
+    return [this](const auto& a, const auto& b) { return compare_winners(a.planes, b.planes, legal); };
+  }
+  Compare depth() const {
+    return [this](const auto& a, const auto& b) { return compare_depth_planes(scene, a, b, 64); };
+  }
+  Compare shaded() const {
+    return [this](const auto& a, const auto& b) { return compare_shaded_planes(scene, a, b, 64); };
+  }
+  Compare codes() const {
+    return [](const auto& a, const auto& b) { return compare_codes(a, b, 1, 64); };
+  }
+  Compare merge() const {
+    return [this](const auto& a, const auto& b) { return compare_merge(scene, a.planes, b.planes, 1); };
+  }
+  std::vector<Compare> all() const { return {coverage(), winners(), depth(), shaded(), codes(), merge()}; }
+
+  // At (x, y) these answers, elsewhere the background.
+  void allow(int x, int y, const std::vector<std::int32_t>& answers) {
+    legal.certain = legal.possible = Plane<std::uint32_t>(kWidth, kHeight);
+    legal.first = {0};
+    for (int row = 0; row < kHeight; ++row) {
+      for (int column = 0; column < kWidth; ++column) {
+        const bool here = column == x && row == y;
+        for (std::int32_t id : here ? answers : std::vector{kBackground}) legal.answers.push_back({id, 0, 0, 1, {}});
+        legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
+      }
+    }
+  }
+  static constexpr int kWidth = 7, kHeight = 4;
+  Scene scene;
+  Capture capture;
+  Legal legal;
+};
+
+TEST_F(PlanePairs, EqualOnesPass) {
+  for (const Compare& compare : all()) {
+    const Measurement m = run(compare, kUnchanged);
+    EXPECT_TRUE(passes(m)) << m.unit;
+    EXPECT_EQ(m.max_difference, 0) << m.unit;
+    EXPECT_EQ(m.items, 28u) << m.unit;
+    EXPECT_EQ(histogram_sum(m), m.items);
+  }
+}
+
+TEST_F(PlanePairs, OtherSizesFail) {
+  const Change turned = [](Planes& p) { p = planes_of(kHeight, kWidth); };
+  const Change higher = [](Planes& p) { p = planes_of(kWidth, kHeight + 1); };
+  const Change empty = [](Planes& p) { p = {}; };
+  for (const Compare& compare : all()) {
+    for (const Change& change : {turned, higher, empty}) {
+      EXPECT_FALSE(passes(run(compare, change)));
+      EXPECT_FALSE(passes(run(compare, kUnchanged, change)));
+      EXPECT_NE(run(compare, kUnchanged, change).mismatch, "");
+    }
+  }
+}
+
+TEST_F(PlanePairs, OnePlaneOfAnotherSizeFails) {
+  for (const auto& compare : {coverage(), merge()}) {
+    const Change sum_and_depth = [](Planes& p) {
+      p.id_sum = Plane<std::uint64_t>(kHeight, kWidth, 7);
+      p.depth = Plane<double>(kHeight, kWidth, 1);
+    };
+    EXPECT_FALSE(passes(run(compare, sum_and_depth)));
+    EXPECT_FALSE(passes(run(compare, kUnchanged, sum_and_depth)));
+  }
+  for (const auto& compare : {depth(), shaded(), codes()}) {
+    const Change id = [](Planes& p) { p.id = Plane<std::int32_t>(kHeight, kWidth, kBackground); };
+    EXPECT_FALSE(passes(run(compare, id)));
+    EXPECT_FALSE(passes(run(compare, kUnchanged, id)));
+  }
+}
+
+TEST_F(PlanePairs, WithoutThePlaneThatDecidesFailsAndDoesNotCrash) {
+  const Change no_id = [](Planes& p) { p.id = {}; };
+  for (const auto& compare : {winners(), depth(), shaded(), codes()}) {
+    EXPECT_FALSE(passes(run(compare, no_id, no_id))) << "nothing was compared";
+  }
+  EXPECT_TRUE(passes(run(merge(), no_id, no_id))) << "merge needs no winners";
+  const Change no_sum = [](Planes& p) { p.id_sum = {}; };
+  EXPECT_FALSE(passes(run(coverage(), no_sum, no_sum)));
+}
+
+TEST_F(PlanePairs, CoverageOneFragmentMoreFails) {
+  const Measurement m = run(coverage(), [](Planes& p) { p.count(4, 3) += 1; });
+  EXPECT_TRUE(fails(m));
+  EXPECT_EQ(m.worst.place.x, 4);
+  EXPECT_EQ(m.worst.place.y, 3);
+  EXPECT_STREQ(m.worst.place.field, "count");
+  EXPECT_TRUE(fails(run(coverage(), kUnchanged, [](Planes& p) { p.count(4, 3) += 1; })));
+  EXPECT_EQ(run(
+                coverage(), [](Planes& p) { p.count(0, 0) = UINT32_MAX; }, [](Planes& p) { p.count(0, 0) = 0; })
+                .max_difference,
+            4294967295.0);
+  EXPECT_TRUE(fails(run(
+      coverage(), [](Planes& p) { p.count(0, 0) = UINT32_MAX; }, [](Planes& p) { p.count(0, 0) = UINT32_MAX - 1; })));
+}
+
+TEST_F(PlanePairs, CoverageByAnotherPrimitiveFails) {
+  const Measurement m = run(coverage(), [](Planes& p) { p.id_sum(6, 0) += 1; });
+  EXPECT_TRUE(fails(m));
+  EXPECT_EQ(m.max_difference, 1);
+  EXPECT_EQ(m.worst.place.x, 6);
+  EXPECT_STREQ(m.worst.place.field, "id sum");
+  const std::uint64_t big = std::uint64_t{1} << 60;
+  EXPECT_TRUE(fails(run(
+      coverage(), [=](Planes& p) { p.id_sum(6, 0) = big; }, [=](Planes& p) { p.id_sum(6, 0) = big + 1; })))
+      << "equal as doubles";
+  EXPECT_NE(id_weight(1) + id_weight(4), id_weight(2) + id_weight(3)) << "pairs of the same sum are told apart";
+}
+
+TEST_F(PlanePairs, WinnersDifferWithoutLegalAnswers) {
+  const Measurement m = run(winners(), [](Planes& p) { p.id(3, 1) = 5; });
+  EXPECT_TRUE(fails(m));
+  EXPECT_EQ(m.max_difference, 1) << "a pixel, whatever the numbers";
+  EXPECT_EQ(m.worst.place.x, 3);
+  EXPECT_EQ(m.worst.place.y, 1);
+  EXPECT_EQ(m.worst.candidate, 5);
+  EXPECT_EQ(m.worst.reference, 3);
+  EXPECT_TRUE(fails(run(winners(), [](Planes& p) { p.id(3, 1) = kBackground; })));
+  EXPECT_TRUE(fails(run(winners(), [](Planes& p) { p.id(0, 0) = INT32_MAX; })));
+}
+
+TEST_F(PlanePairs, LegalAnswersDecideBetweenWinners) {
+  const Change ours = [](Planes& p) { p.id(3, 1) = 5; };  // the reference has 3
+  const auto counts = [&](const std::vector<std::int32_t>& answers) {
+    legal = {};
+    allow(3, 1, answers);
+    const Measurement m = run(winners(), ours);
+    EXPECT_EQ(m.items, 28u);
+    return std::array{m.differing, m.ambiguous, m.disputed};
+  };
+  using Counts = std::array<std::uint64_t, 3>;
+  EXPECT_EQ(counts({3, 5}), (Counts{0, 1, 0})) << "both are legal";
+  EXPECT_EQ(counts({kBackground, 5}), (Counts{0, 0, 1})) << "ours alone";
+  EXPECT_EQ(counts({kBackground, 3}), (Counts{1, 0, 0})) << "theirs alone";
+  EXPECT_EQ(counts({kBackground, 4}), (Counts{1, 0, 0})) << "neither";
+  EXPECT_EQ(counts({}), (Counts{1, 0, 0})) << "nothing is legal there";
+  // And the same by the background.
+  capture.planes.id(3, 1) = kBackground;
+  EXPECT_EQ(counts({kBackground, 5}), (Counts{0, 1, 0}));
+  EXPECT_EQ(counts({5}), (Counts{0, 0, 1}));
+}
+
+TEST_F(PlanePairs, LegalAnswersOfAnotherPixelDecideNothing) {
+  allow(1, 3, {3, 5});  // x and y exchanged
+  EXPECT_TRUE(fails(run(winners(), [](Planes& p) { p.id(3, 1) = 5; })));
+}
+
+TEST_F(PlanePairs, DepthIsHeldToTheBoundAndOneStep) {
+  for (DepthFormat format : {DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
+    scene.frame.depth = format;
+    for (const auto& [x, y, triangle] : {std::tuple(3, 1, 0u), std::tuple(2, 2, 1u)}) {
+      const double bound = bounds_from_origin(capture.records.triangles[triangle], x, y).depth;
+      ASSERT_GE(bound, 1);
+      const double tolerance = 64 * kU * bound + depth_step(format, 0.5);
+      for (double by : {0.999, -0.999, 1.001, -1.001}) {
+        const Change moved = [&](Planes& p) { p.depth(x, y) += by * tolerance; };
+        EXPECT_EQ(passes(run(depth(), moved)), std::abs(by) < 1) << by;
+        EXPECT_EQ(passes(run(depth(), kUnchanged, moved)), std::abs(by) < 1) << by;
+        if (by > 1) {
+          EXPECT_EQ(run(depth(), moved).worst.place.x, x);
+          EXPECT_EQ(run(depth(), moved).worst.place.y, y);
+          EXPECT_NEAR(run(depth(), moved).max_ratio, 1.001, 1e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(PlanePairs, TheBackgroundsDepthAndColoursAreEqual) {
+  EXPECT_TRUE(fails(run(depth(), [](Planes& p) { p.depth(0, 3) = std::nextafter(1.0, 0.0); })));
+  EXPECT_TRUE(fails(run(shaded(), [](Planes& p) { p.shaded(0, 3).g = 1e-30f; })));
+  EXPECT_TRUE(fails(run(codes(), [](Planes& p) { p.color(0, 3).g = code(2); })));
+}
+
+TEST_F(PlanePairs, ShadedIsHeldToTheBound) {
+  scene.draws.resize(1);
+  for (bool lit : {false, true}) {
+    scene.draws[0].lit = lit;
+    const double vertex_colors = lit ? tolerance("osmesa.light").factor : 0;
+    const Vec4<double> bound = bounds_from_origin(capture.records.triangles[0], 3, 1).color;
+    for (int c = 0; c < 4; ++c) {
+      const double limit = (64 * bound[c] + vertex_colors) * kU;
+      for (double by : {0.99, 1.01}) {
+        const Change moved = [&](Planes& p) { p.shaded(3, 1)[c] += static_cast<float>(by * limit); };
+        EXPECT_EQ(passes(run(shaded(), moved)), by < 1) << c;
+        if (by > 1) {
+          EXPECT_EQ(run(shaded(), moved).worst.place.y, 1);
+          EXPECT_EQ(run(shaded(), moved).worst.place.x, 3);
+        }
+      }
+      EXPECT_TRUE(fails(run(shaded(), [&](Planes& p) { p.shaded(3, 1)[c] -= code(1); }))) << "1/255";
+    }
+  }
+}
+
+TEST_F(PlanePairs, CodesMayBeNeighbours) {
+  const auto moved = [&](int c, int by) {
+    return [=](Planes& p) { p.color(2, 2)[c] += static_cast<float>(by) / 255; };
+  };
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_TRUE(passes(run(codes(), moved(c, 1))));
+    EXPECT_TRUE(fails(run(codes(), moved(c, 2))));
+    EXPECT_EQ(run(codes(), moved(c, 1)).max_difference, 1);
+    EXPECT_EQ(run(codes(), moved(c, 3)).max_difference, 3);
+    EXPECT_EQ(run(codes(), moved(c, 2)).worst.place.x, 2);
+    EXPECT_EQ(run(codes(), moved(c, 2)).worst.place.y, 2);
+  }
+  EXPECT_TRUE(fails(run(codes(), moved(3, -2)))) << "alpha";
+}
+
+TEST_F(PlanePairs, SliversMayHaveTheWholeCodesOfTheirBound) {
+  // A needle: x differs by 2^-10 px over 3 px of height.
+  capture.records.triangles[1] =
+      triangle_of({{{2.5, 0.5, 0.25}, {2.5 + 0x1p-10, 3.75, 0.5}, {2.5, 3.5, 0.75}}}, {1, 1, 1}, 5);
+  const double bound = bounds_from_origin(capture.records.triangles[1], 2, 2).color.r;
+  const double whole = std::floor(255 * 64 * kU * bound);
+  ASSERT_GT(whole, 1);
+  ASSERT_LT(whole, 100);
+  const auto moved = [&](double by) { return [=](Planes& p) { p.color(2, 2).r += static_cast<float>(by / 255); }; };
+  EXPECT_TRUE(passes(run(codes(), moved(1 + whole))));
+  EXPECT_TRUE(fails(run(codes(), moved(2 + whole))));
+}
+
+TEST_F(PlanePairs, ATriangleOfNoAreaExcusesNothing) {
+  // Its corners lie on a line, the snapped ones not: there is no gradient to take a bound from.
+  auto& t = capture.records.triangles[1];
+  t = triangle_of({{{1, 1, 0.25}, {3, 2, 0.5}, {5, 3, 0.75}}}, {1, 1, 1}, 5);
+  t.v[1].snapped.y += 1;
+  EXPECT_FALSE(passes(run(depth(), [](Planes& p) { p.depth(2, 2) = 0; })));
+  EXPECT_FALSE(passes(run(codes(), [](Planes& p) { p.color(2, 2).r = 1; })));
+  scene.draws.clear();
+  EXPECT_FALSE(passes(run(shaded(), [](Planes& p) { p.shaded(2, 2).r = 1; })));
+}
+
+TEST_F(PlanePairs, WhereTheWinnersDifferValuesAreVisibilitysMatter) {
+  const Change other = [](Planes& p) {
+    p.id(3, 1) = 5;
+    p.depth(3, 1) = 0;
+    p.shaded(3, 1) = p.color(3, 1) = glm::vec4(1);
+  };
+  for (const auto& compare : {depth(), shaded(), codes()}) {
+    EXPECT_TRUE(passes(run(compare, other)));
+  }
+  EXPECT_TRUE(fails(run(winners(), other)));
+}
+
+TEST_F(PlanePairs, MergedCodesAreRoundingsOfTheExactColour) {
+  // Exact hands out unrounded colours; 100.5 lies between two codes.
+  const auto exactly = [&](double value) {
+    return [=](Planes& p) { p.color(3, 1).r = static_cast<float>(value / 255); };
+  };
+  EXPECT_TRUE(passes(run(merge(), kUnchanged, exactly(100.3))));
+  EXPECT_TRUE(passes(run(merge(), kUnchanged, exactly(100.5))));
+  EXPECT_TRUE(passes(run(merge(), kUnchanged, exactly(99.5))));
+  EXPECT_TRUE(fails(run(merge(), kUnchanged, exactly(100.501)))) << "truncated";
+  EXPECT_TRUE(fails(run(merge(), kUnchanged, exactly(99.499))));
+  EXPECT_TRUE(fails(run(merge(), kUnchanged, exactly(101)))) << "1/255";
+  EXPECT_EQ(run(merge(), kUnchanged, exactly(99)).worst.place.x, 3);
+  EXPECT_NEAR(run(merge(), kUnchanged, exactly(99)).max_difference, 2, 1e-3) << "in halves of 1/255";
+}
+
+TEST_F(PlanePairs, WhatIsNoCodeFailsInA8BitFrame) {
+  const Change between = [](Planes& p) { p.color(3, 1).r = 100.4f / 255; };
+  EXPECT_FALSE(passes(run(merge(), between, between))) << "never rounded to the format";
+  const Change beyond = [](Planes& p) { p.color(3, 1).r = 256 / 255.0f; };
+  EXPECT_FALSE(passes(run(merge(), beyond, beyond))) << "never clamped";
+}
+
+TEST_F(PlanePairs, MergedFloatsAndDepthsAreEqual) {
+  const Change depth_ulp = [](Planes& p) { p.depth(3, 1) = above(p.depth(3, 1)); };
+  EXPECT_TRUE(fails(run(merge(), depth_ulp)));
+  EXPECT_STREQ(run(merge(), depth_ulp).worst.place.field, "z");
+  scene.frame.color = ColorFormat::rgba32f;
+  for (int c = 0; c < 4; ++c) {
+    const Change ulp = [&](Planes& p) { p.color(0, 2)[c] = static_cast<float>(float_above(p.color(0, 2)[c])); };
+    EXPECT_TRUE(fails(run(merge(), ulp)));
+    EXPECT_TRUE(fails(run(merge(), kUnchanged, ulp)));
+  }
+  EXPECT_TRUE(fails(run(merge(), depth_ulp)));
+}
+
+TEST_F(PlanePairs, WhatIsNoNumberFails) {
+  for (double bad : not_numbers()) {
+    const auto number = static_cast<float>(bad);
+    for (const auto& [x, y] : {std::pair(3, 1), std::pair(0, 0)}) {  // drawn, and the background
+      const Change z = [&](Planes& p) { p.depth(x, y) = bad; };
+      for (const auto& compare : {depth(), merge()}) {
+        EXPECT_TRUE(fails(run(compare, z)));
+        EXPECT_TRUE(fails(run(compare, kUnchanged, z)));
+      }
+      for (int c = 0; c < 4; ++c) {
+        const Change color = [&](Planes& p) { p.shaded(x, y)[c] = p.color(x, y)[c] = number; };
+        for (const auto& compare : {shaded(), codes(), merge()}) {
+          EXPECT_TRUE(fails(run(compare, color)));
+          EXPECT_TRUE(fails(run(compare, kUnchanged, color)));
+          if (std::isnan(bad)) {
+            EXPECT_TRUE(fails(run(compare, color, color))) << "NaN on both sides";
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::check

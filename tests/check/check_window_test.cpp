@@ -1,0 +1,267 @@
+// The comparators of stage 4: window triangles against exact ones, and against another renderer's, bit for bit.
+#include <functional>
+
+#include "check/compare_records.h"
+#include "check_fixtures.h"
+
+namespace plumbline::check {
+namespace {
+
+using Change = std::function<void(Records<double>&)>;
+constexpr auto kUnchanged = [](Records<double>&) {};
+
+// Snapped again from its own position, as stage 4 does.
+void snap(WindowVertex<double>& v) {
+  for (int c = 0; c < 2; ++c) v.snapped[c] = static_cast<int>(std::nearbyint((v.p_win[c] - 0.5) * kSubpixel));
+}
+
+// Three triangles of a 96 x 64 frame: of one primitive, of one that was cut to two triangles, and a thin one.
+struct Window : testing::Test {
+  Window() {
+    records.matrices.resize(1);
+    records.matrices[0].win_scale = {48, 32, 0.5};
+    records.matrices[0].win_translate = {48, 32, 0.5};
+    records.triangles = {triangle_of({{{10, 10, 0.25}, {40, 12, 0.5}, {20, 30, 0.75}}}, {1, 0.5, 0.25}, 0),
+                         triangle_of({{{50, 10, 0.25}, {80, 12, 0.5}, {60, 30, 0.75}}}, {1, 0.5, 0.25}, 2),
+                         triangle_of({{{80, 12, 0.5}, {85, 40, 0.5}, {60, 30, 0.75}}}, {0.5, 0.5, 0.25}, 2),
+                         triangle_of({{{1, 50, 0.25}, {90, 50, 0.5}, {45, 50.001, 0.75}}}, {1, 1, 1}, 3)};
+    records.triangles[3].v[2].snapped.y += 1;  // one step above its base: it has an area
+    records.triangles[3].v[2].p_win.y = 50 + 0.6 / 256;
+    records.triangles[3].front = true;
+  }
+  Measurement compare(const Change& candidate, const Change& reference = kUnchanged) const {
+    Records<double> a = records, b = records;
+    candidate(a);
+    reference(b);
+    return compare_window(a, b, kFactor);
+  }
+  Measurement equal(const Change& candidate, const Change& reference = kUnchanged) const {
+    Records<double> a = records, b = records;
+    candidate(a);
+    reference(b);
+    return compare_window_equal(a, b);
+  }
+  static Change erase(std::size_t i) {
+    return [i](auto& r) { r.triangles.erase(r.triangles.begin() + static_cast<std::ptrdiff_t>(i)); };
+  }
+  static constexpr double kFactor = 4;
+  Records<double> records;
+};
+
+TEST_F(Window, EqualOnesPass) {
+  EXPECT_TRUE(passes(compare(kUnchanged)));
+  EXPECT_EQ(compare(kUnchanged).max_difference, 0);
+  EXPECT_EQ(compare(kUnchanged).items, 4u);
+  EXPECT_EQ(compare(kUnchanged).ambiguous, 0u);
+  EXPECT_TRUE(passes(compare([](auto& r) { r.triangles.clear(); }, [](auto& r) { r.triangles.clear(); })));
+}
+
+TEST_F(Window, PositionsAreHeldToTheirRounding) {
+  // |p_ndc scale| + |translate|, in u.
+  const double size[] = {std::abs(80.0 - 48) + 48, std::abs(12.0 - 32) + 32, std::abs(0.5 - 0.5) + 0.5};
+  for (int c = 0; c < 3; ++c) {
+    const auto moved = [&](double by) {
+      return [=](auto& r) {
+        r.triangles[1].v[1].p_win[c] += by * kFactor * kU * size[c];
+        snap(r.triangles[1].v[1]);
+      };
+    };
+    for (double sign : {-1.0, 1.0}) {
+      EXPECT_TRUE(passes(compare(moved(0.99 * sign)))) << c;
+      EXPECT_TRUE(fails(compare(moved(1.01 * sign)))) << c;
+    }
+    EXPECT_EQ(compare(moved(1.01)).worst.place.record, 1);
+    EXPECT_STREQ(compare(moved(1.01)).worst.place.field, "p_win");
+    EXPECT_NEAR(compare(moved(0.5)).max_difference, 2, 1e-3) << "in u of its size";
+  }
+}
+
+TEST_F(Window, InverseWIsHeldToItself) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto scaled = [k](double by) { return [k, by](auto& r) { r.triangles[2].v[k].inv_w *= 1 + by * kU; }; };
+    EXPECT_TRUE(passes(compare(scaled(3.99))));
+    EXPECT_TRUE(fails(compare(scaled(4.01))));
+    EXPECT_TRUE(fails(compare(scaled(-4.01))));
+    EXPECT_STREQ(compare(scaled(9)).worst.place.field, "inv_w");
+  }
+}
+
+TEST_F(Window, SnappedIsTheRoundingOfItsOwnPosition) {
+  for (int c = 0; c < 2; ++c) {
+    for (int by : {-1, 1}) {
+      const Change moved = [&](auto& r) { r.triangles[0].v[2].snapped[c] += by; };
+      EXPECT_TRUE(fails(compare(moved)));
+      EXPECT_STREQ(compare(moved).worst.place.field, "snapped");
+      EXPECT_EQ(compare(moved).max_difference, 1);
+      EXPECT_TRUE(passes(compare(kUnchanged, moved))) << "only the candidate's is judged";
+    }
+  }
+}
+
+TEST_F(Window, SnappingByTruncationFails) {
+  const auto at = [](double steps, int snapped) {
+    return [=](auto& r) {
+      r.triangles[0].v[0].p_win.x = 10 + steps / 256;
+      r.triangles[0].v[0].snapped.x = (10 * 256 - 128) + snapped;
+    };
+  };
+  const auto snapped_to = [&](double steps, int snapped) { return compare(at(steps, snapped), at(steps, snapped)); };
+  EXPECT_TRUE(passes(snapped_to(0.75, 1)));
+  EXPECT_TRUE(fails(snapped_to(0.75, 0))) << "truncated";
+  EXPECT_TRUE(passes(snapped_to(0.25, 0)));
+  EXPECT_TRUE(fails(snapped_to(0.25, 1))) << "rounded up";
+  EXPECT_TRUE(passes(snapped_to(0.5, 0))) << "half to even";
+  EXPECT_TRUE(fails(snapped_to(0.5, 1)));
+  EXPECT_TRUE(passes(snapped_to(1.5, 2)));
+  EXPECT_TRUE(fails(snapped_to(1.5, 1)));
+  EXPECT_TRUE(passes(snapped_to(-0.75, -1)));
+  EXPECT_TRUE(fails(snapped_to(-0.75, 0))) << "truncated towards zero";
+}
+
+TEST_F(Window, FacingFlippedFailsUnlessSnappingMayTurnTheTriangle) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Change flipped = [&](auto& r) { r.triangles[i].front = !r.triangles[i].front; };
+    EXPECT_TRUE(fails(compare(flipped)));
+    EXPECT_TRUE(fails(compare(kUnchanged, flipped)));
+    EXPECT_STREQ(compare(flipped).worst.place.field, "front");
+  }
+  EXPECT_TRUE(passes(compare([](auto& r) { r.triangles[3].front = false; })));
+}
+
+TEST_F(Window, ColoursAreHandedOnAsTheyAre) {
+  for (int c = 0; c < 4; ++c) {
+    EXPECT_TRUE(fails(compare([&](auto& r) { r.triangles[1].v[2].color[c] += kU; })));
+  }
+}
+
+TEST_F(Window, WhatIsNoNumberFails) {
+  for (double bad : not_numbers()) {
+    for (int c = 0; c < 4; ++c) {
+      for (const Change& change : std::vector<Change>{[&](auto& r) { r.triangles[1].v[1].p_win[c % 3] = bad; },
+                                                      [&](auto& r) { r.triangles[1].v[1].inv_w = bad; },
+                                                      [&](auto& r) { r.triangles[1].v[1].color[c] = bad; }}) {
+        EXPECT_TRUE(fails(compare(change)));
+        EXPECT_TRUE(fails(compare(kUnchanged, change)));
+        if (std::isnan(bad)) {
+          EXPECT_TRUE(fails(compare(change, change)));
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Window, MissingAndExtraTrianglesFail) {
+  for (std::size_t i : {0u, 1u, 2u}) {
+    EXPECT_FALSE(passes(compare(erase(i)))) << i;
+    EXPECT_FALSE(passes(compare(kUnchanged, erase(i)))) << i;
+    const auto primitive = static_cast<std::int64_t>(records.triangles[i].primitive);
+    EXPECT_EQ(compare(erase(i)).worst.place.record, primitive);
+    EXPECT_EQ(compare(erase(i)).max_difference, kInf);
+  }
+  EXPECT_TRUE(fails(compare(erase(0))));
+  EXPECT_TRUE(fails(compare([](auto& r) { r.triangles.clear(); }), 3));
+  EXPECT_TRUE(fails(compare(kUnchanged, [](auto& r) { r.triangles.clear(); }), 3));
+  EXPECT_TRUE(fails(compare([](auto& r) { r.triangles.push_back(r.triangles[0]); }))) << "drawn twice";
+  EXPECT_FALSE(passes(compare([](auto& r) { r.triangles[0].primitive = 1; })));
+  EXPECT_FALSE(passes(compare([](auto& r) { std::swap(r.triangles[1], r.triangles[2]); }))) << "the fan out of order";
+}
+
+TEST_F(Window, ATriangleThatSnappingMayEmptyMayBeMissing) {
+  for (const Measurement& m : {compare(erase(3)), compare(kUnchanged, erase(3))}) {
+    EXPECT_TRUE(passes(m));
+    EXPECT_EQ(m.ambiguous, 1u);
+    EXPECT_EQ(m.items, 4u);
+  }
+  // Of about a pixel's height: nothing that snapping could do.
+  const Change higher = [](auto& r) {
+    r.triangles[3].v[2].p_win.y = 51;
+    snap(r.triangles[3].v[2]);
+  };
+  EXPECT_TRUE(fails(compare(
+      [&](auto& r) {
+        higher(r);
+        erase(3)(r);
+      },
+      higher)));
+}
+
+TEST_F(Window, AVanishedTriangleOfAFanDoesNotExcuseOrBlameTheOthers) {
+  // Primitive 2 has a third, thin triangle on one side alone.
+  const auto thin = triangle_of({{{85, 40, 0.5}, {85, 40 + 1.0 / 256, 0.5}, {60, 30, 0.75}}}, {0.5, 0.5, 0.25}, 2);
+  for (std::ptrdiff_t place : {1, 2, 3}) {
+    const Change more = [&](auto& r) { r.triangles.insert(r.triangles.begin() + place, thin); };
+    EXPECT_TRUE(passes(compare(kUnchanged, more))) << "the two others are as they were, place " << place;
+    EXPECT_TRUE(passes(compare(more, kUnchanged)));
+    EXPECT_EQ(compare(more, kUnchanged).ambiguous, 1u);
+    const Change bad = [&](auto& r) {
+      more(r);
+      for (auto& t : r.triangles) t.v[0].inv_w *= 1.001;
+    };
+    EXPECT_TRUE(fails(compare(bad, kUnchanged), 4)) << "and are still compared";
+  }
+}
+
+TEST_F(Window, WithoutMatricesFailsAndDoesNotCrash) {
+  EXPECT_FALSE(passes(compare([](auto& r) { r.matrices.clear(); })));
+}
+
+TEST_F(Window, EqualBitForBit) {
+  EXPECT_TRUE(passes(equal(kUnchanged)));
+  EXPECT_EQ(equal(kUnchanged).items, 4u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (int c = 0; c < 3; ++c) {
+      const Change ulp = [&](auto& r) { r.triangles[1].v[k].p_win[c] = float_above(r.triangles[1].v[k].p_win[c]); };
+      EXPECT_TRUE(fails(equal(ulp)));
+      EXPECT_TRUE(fails(equal(kUnchanged, ulp)));
+      EXPECT_EQ(equal(ulp).max_difference, 1) << "ULP, corner " << k;
+      EXPECT_EQ(equal(ulp).worst.place.record, 1);
+    }
+    for (int c = 0; c < 2; ++c) {
+      const Change step = [&](auto& r) { r.triangles[2].v[k].snapped[c] -= 1; };
+      EXPECT_TRUE(fails(equal(step)));
+      EXPECT_EQ(equal(step).worst.place.record, 2);
+    }
+  }
+}
+
+TEST_F(Window, AnyCornerMayBeTheFirstButNotMirrored) {
+  for (std::size_t turn : {1u, 2u}) {
+    const Change turned = [&](auto& r) {
+      for (auto& t : r.triangles) std::rotate(t.v.begin(), t.v.begin() + turn, t.v.end());
+    };
+    EXPECT_TRUE(passes(equal(turned))) << turn;
+    EXPECT_TRUE(passes(equal(kUnchanged, turned))) << turn;
+    EXPECT_TRUE(fails(equal([&](auto& r) {
+      turned(r);
+      r.triangles[0].v[0].p_win.x = float_above(r.triangles[0].v[0].p_win.x);
+    })));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Change mirrored = [&](auto& r) { std::swap(r.triangles[0].v[i], r.triangles[0].v[(i + 1) % 3]); };
+    EXPECT_TRUE(fails(equal(mirrored)));
+    EXPECT_TRUE(fails(equal(kUnchanged, mirrored)));
+  }
+}
+
+TEST_F(Window, BitForBitInEverythingButPosition) {
+  EXPECT_TRUE(fails(equal([](auto& r) { r.triangles[0].front = false; })));
+  EXPECT_TRUE(fails(equal([](auto& r) { r.triangles[0].primitive = 1; })));
+  EXPECT_TRUE(fails(equal(erase(0)), 4));
+  EXPECT_TRUE(fails(equal(kUnchanged, erase(3)), 4));
+  EXPECT_TRUE(fails(equal([](auto& r) { r.triangles.clear(); }), 4));
+  EXPECT_TRUE(fails(equal([](auto& r) { std::swap(r.triangles[0], r.triangles[2]); }), 2)) << "in another order";
+  for (double bad : not_numbers()) {
+    const Change change = [&](auto& r) { r.triangles[0].v[1].p_win.y = bad; };
+    EXPECT_TRUE(fails(equal(change)));
+    EXPECT_TRUE(fails(equal(kUnchanged, change)));
+  }
+}
+
+TEST_F(Window, BitForBitIncludesTheInverseW) {
+  // Depth and colour hang on it; it may be twice as large without a bit of p_win changing.
+  EXPECT_TRUE(fails(equal([](auto& r) { r.triangles[0].v[1].inv_w *= 2; })));
+  EXPECT_TRUE(fails(equal(kUnchanged, [](auto& r) { r.triangles[0].v[1].inv_w = kNaN; })));
+}
+
+}  // namespace
+}  // namespace plumbline::check
