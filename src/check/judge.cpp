@@ -28,6 +28,15 @@ struct Case {
   void add(const std::string& reference, Stage stage, Measurement m, std::string_view row = "", std::string note = "") {
     out.push_back(judged(scene.name, reference, stage, std::move(m), row, std::move(note)));
   }
+  // The row of stage `of` once more, for another stage that the same plane shows.
+  void repeat(const std::string& reference, Stage of, Stage stage) {
+    const auto same = [&](const Comparison& c) { return c.reference == reference && c.stage == of; };
+    const auto row = std::find_if(out.begin(), out.end(), same);
+    if (row == out.end()) return;
+    Comparison copy = *row;
+    copy.stage = stage;
+    out.push_back(std::move(copy));
+  }
   void skip(const std::string& reference, Stage stage, Outcome outcome, std::string_view note) {
     out.push_back(not_judged(scene.name, reference, stage, outcome, std::string(note)));
   }
@@ -181,7 +190,9 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info) 
   const std::string name = exact ? info.name + " from scene" : info.name;
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    if (info.legal && kOracleStages.has(stage)) {
+    if (info.legal && kOracleStages.has(stage) && theirs.legal.empty()) {
+      c.skip(name, stage, Outcome::unsupported, "the legal answers do not fit the memory budget");
+    } else if (info.legal && kOracleStages.has(stage)) {
       ask_oracle(c, theirs.legal, stage, name);
     } else if (exact && stage == Stage::matrices) {
       c.add(name, stage, compare_matrices(c.candidate.records, theirs.records, factor("exact.matrices")),
@@ -193,8 +204,8 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info) 
             "exact.vertex.scene");
     } else if (!info[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, info[stage].reason);
-    } else if (stage == Stage::shade) {
-      c.skip(name, stage, Outcome::unsupported, "without textures, the same plane as attributes");
+    } else if (stage == Stage::shade && !exact) {
+      c.repeat(name, Stage::attributes, stage);  // without textures, both are the one plane of the winners' colours
     } else if (!exact) {
       side_by_side(c, theirs, stage, name);
     }  // An exact reference judges the other stages from the candidate's own records.
@@ -202,8 +213,8 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info) 
 }
 
 // Everything; where the fragments do not fit the budget, everything but them.
-Capture capture_all(const Scene& scene, Renderer& renderer, bool legal) {
-  Request request{StageSet::all(), legal, {}, {}};
+Capture capture_all(const Scene& scene, Renderer& renderer) {
+  Request request{StageSet::all(), false, {}, {}};
   try {
     return renderer.capture(scene, request);
   } catch (const OverBudget&) {
@@ -212,11 +223,17 @@ Capture capture_all(const Scene& scene, Renderer& renderer, bool legal) {
   }
 }
 
-// What the judgement wants of a reference: an oracle's answers, records of the vertices; its fragments are not
-// compared.
-Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal) {
-  return renderer.capture(scene,
-                          {{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window}, legal, {}, {}});
+// What the judgement wants of a reference: an oracle's answers, if they fit the budget, and records of the vertices;
+// its fragments are not compared.
+Capture capture_reference(const Scene& scene, Renderer& renderer) {
+  Request request{
+      {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window}, renderer.info().legal, {}, {}};
+  try {
+    return renderer.capture(scene, request);
+  } catch (const OverBudget&) {
+    request.legal = false;
+    return renderer.capture(scene, request);
+  }
 }
 
 }  // namespace
@@ -241,33 +258,36 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
   };
   std::optional<Capture> mine;
   try {
-    mine = capture_all(scene, candidate, false);
+    mine = capture_all(scene, candidate);
   } catch (const std::exception& e) {
     nothing(candidate.info().name, Outcome::failed, e.what());
   }
   std::vector<Capture> theirs(references.size());
   std::vector<std::string> failures(references.size());
+  std::vector<Outcome> outcomes(references.size(), Outcome::failed);
   const Legal none;
   const Legal* legal = &none;
   Renderer* referee = nullptr;
   for (std::size_t i = 0; i < references.size(); ++i) {
     if (references[i].renderer == nullptr) {
       failures[i] = "not built in";
+      outcomes[i] = Outcome::missing;
       continue;
     }
     try {
-      theirs[i] = capture_reference(scene, *references[i].renderer, references[i].renderer->info().legal);
+      theirs[i] = capture_reference(scene, *references[i].renderer);
       if (legal->empty()) legal = &theirs[i].legal;
       if (runs_stages(references[i].renderer->info())) referee = references[i].renderer;
+    } catch (const OverBudget& e) {
+      failures[i] = e.what();
+      outcomes[i] = Outcome::unsupported;
     } catch (const std::exception& e) {
       failures[i] = e.what();
     }
   }
   for (std::size_t i = 0; i < references.size(); ++i) {
-    if (references[i].renderer == nullptr) {
-      nothing(references[i].name, Outcome::missing, failures[i]);
-    } else if (!failures[i].empty()) {
-      nothing(references[i].name, Outcome::failed, failures[i]);
+    if (!failures[i].empty()) {
+      nothing(references[i].name, outcomes[i], failures[i]);
     } else if (mine) {
       Case c{scene, *mine, *legal, referee, verdict.comparisons};
       try {

@@ -1,5 +1,6 @@
 #include "check/verdict.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -43,6 +44,19 @@ const Comparison* first_different(const SceneVerdict& verdict) {
     if (c.outcome == Outcome::different && (first == nullptr || c.stage < first->stage)) first = &c;
   }
   return first;
+}
+
+std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
+  std::vector<Stage> out;
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    const auto& all = verdict.comparisons;
+    const auto of_stage = [&](const Comparison& c) { return c.stage == stage; };
+    const auto judged_it = [&](const Comparison& c) { return c.stage == stage && c.outcome != Outcome::unsupported; };
+    if (stage == Stage::texture || std::none_of(all.begin(), all.end(), of_stage)) continue;  // no scene has textures
+    if (std::none_of(all.begin(), all.end(), judged_it)) out.push_back(stage);
+  }
+  return out;
 }
 
 std::vector<LedgerUse> ledger_use(std::span<const SceneVerdict> verdicts) {

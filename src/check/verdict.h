@@ -53,6 +53,9 @@ struct SceneVerdict {
 /// The first comparison, by stage, that is different; null if none. Of several at one stage, the first listed.
 const Comparison* first_different(const SceneVerdict& verdict);
 
+/// The stages, but texture, for which there are comparisons and all are `unsupported`: nobody judged them.
+std::vector<Stage> unjudged_stages(const SceneVerdict& verdict);
+
 /// The largest ratio of difference to tolerance that a run saw for each row of the ledger; below 0: row not used.
 struct LedgerUse {
   const Tolerance* row;

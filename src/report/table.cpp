@@ -62,6 +62,9 @@ std::string failure_lines(const SceneVerdict& verdict, const std::string& repeat
       out += fmt::format("{} {}: {}: {}\n", name_of(c.outcome), c.scene, c.reference, c.note);
     }
   }
+  for (Stage stage : check::unjudged_stages(verdict)) {
+    out += fmt::format("unjudged {}: no reference judged {}\n", verdict.scene, name_of(stage));
+  }
   if (const Comparison* first = check::first_different(verdict)) {
     const check::Worst& w = first->measurement.worst;
     out += fmt::format("different {}: first different stage: {} (against {}): {} of {} beyond tolerance", first->scene,
@@ -97,7 +100,7 @@ std::string summary(std::span<const SceneVerdict> verdicts, double seconds) {
     complete &= outcome != Outcome::unsupported && outcome != Outcome::missing && outcome != Outcome::dispute;
     parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", counts[i], name_of(outcome));
   }
-  const char* word = failed ? "FAILED" : complete ? "ok" : "nothing different, but not all was judged";
+  const char* word = failed ? "FAILED" : complete ? "ok" : "ok where judged";
   return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, verdicts.size(), comparisons, seconds,
                      parts);
 }
