@@ -42,11 +42,24 @@ void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Ve
   }
 }
 
+// Whether both sides' winners are there, and of the size of the plane that they decide about.
+template <class T>
+bool has_winners(const Planes& a, const Planes& b, const Plane<T>& plane, std::string& why) {
+  return same_size(a.id, b.id, why) && same_size(a.id, plane, why);
+}
+
+// No bound can be computed (a triangle of no area): any number is legal, and none is proven.
+void open_value(Meter& meter, double value, const Place& place, double reference) {
+  meter.ambiguous();
+  meter.value(std::isfinite(value) && std::isfinite(reference) ? 0 : kInfinite, 0, place, value, reference);
+}
+
 }  // namespace
 
 Measurement compare_coverage(const Planes& candidate, const Planes& reference) {
   std::string why;
-  if (!same_size(candidate.id_sum, reference.id_sum, why)) return mismatch("fragments", why, candidate.id_sum.size());
+  if (!same_size(candidate.id_sum, reference.id_sum, why) || !same_size(candidate.id_sum, candidate.count, why))
+    return mismatch("fragments", why, candidate.id_sum.size());
   return compare_planes(candidate.count, reference.count, "fragments", [&](Meter& meter, int x, int y) {
     const double a = candidate.count(x, y), b = reference.count(x, y);
     meter.value(difference(a, b), 0, {x, y, -1, "count"}, a, b);
@@ -76,7 +89,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
                                  double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   std::string why;
-  if (!same_size(a.id, b.id, why)) return mismatch("u", why, a.id.size());
+  if (!has_winners(a, b, a.depth, why)) return mismatch("u", why, a.id.size());
   return compare_planes(a.depth, b.depth, "u", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     const double z = a.depth(x, y), z_ref = b.depth(x, y);
@@ -87,6 +100,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
       return;
     }
     const double bound = winner_bounds(candidate.records, id, x, y).depth;
+    if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
     const double step = depth_step(scene.frame.depth, z_ref) / u;
     // In units of the bound: `factor` of it, and a step for the two roundings.
     meter.value(difference(z, z_ref) / u / (bound + step / factor), factor, place, z, z_ref);
@@ -97,7 +111,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
                                   double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   std::string why;
-  if (!same_size(a.id, b.id, why)) return mismatch("u", why, a.id.size());
+  if (!has_winners(a, b, a.shaded, why)) return mismatch("u", why, a.id.size());
   const double vertex_colors = check::tolerance("osmesa.light").factor;
   const bool any_lit = std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.lit; });
   return compare_planes(a.shaded, b.shaded, "u", [&](Meter& meter, int x, int y) {
@@ -108,7 +122,11 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
                           : winner_bounds(candidate.records, id, x, y).color + (any_lit ? vertex_colors / factor : 0.0);
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c], diff = difference(v, w) / u;
-      meter.value(diff == 0 ? 0 : diff / bound[c], factor, {x, y, id, "color"}, v, w);
+      if (!std::isfinite(bound[c])) {
+        open_value(meter, v, {x, y, id, "color"}, w);
+      } else {
+        meter.value(diff == 0 ? 0 : diff / bound[c], factor, {x, y, id, "color"}, v, w);
+      }
     }
   });
 }
@@ -116,7 +134,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
 Measurement compare_codes(const Capture& candidate, const Capture& reference, double codes, double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   std::string why;
-  if (!same_size(a.id, b.id, why)) return mismatch("1/255", why, a.id.size());
+  if (!has_winners(a, b, a.color, why)) return mismatch("1/255", why, a.id.size());
   return compare_planes(a.color, b.color, "1/255", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
@@ -130,15 +148,22 @@ Measurement compare_codes(const Capture& candidate, const Capture& reference, do
 
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor) {
   std::string why;
-  if (!same_size(candidate.depth, exact.depth, why)) return mismatch("half 1/255", why, candidate.depth.size());
+  if (!same_size(candidate.depth, exact.depth, why) || !same_size(candidate.depth, candidate.color, why)) {
+    return mismatch("half 1/255", why, candidate.depth.size());
+  }
   const bool codes = scene.frame.color == ColorFormat::rgba8;
   const double unit = codes ? 0.5 / 255 + 4 * u : u;
   return compare_planes(candidate.color, exact.color, codes ? "half 1/255" : "u", [&](Meter& meter, int x, int y) {
+    const std::int64_t id = candidate.id.size() == candidate.color.size() ? candidate.id(x, y) : -1;
     add_color(meter, candidate.color(x, y), Vec4<double>(exact.color(x, y)), Vec4<double>(codes ? factor : 0), unit,
-              {x, y, candidate.id(x, y), "color"});
+              {x, y, id, "color"});
+    for (int c = 0; codes && c < 4; ++c) {
+      const double v = 255.0 * static_cast<double>(candidate.color(x, y)[c]),
+                   code = std::clamp(std::round(v), 0.0, 255.0);
+      meter.value(std::abs(v - code) <= 255 * 2 * u ? 0 : kInfinite, 0, {x, y, id, "no code"}, v, code);
+    }
     const double z = candidate.depth(x, y), z_ref = exact.depth(x, y);
-    meter.value(difference(z, z_ref) / depth_step(scene.frame.depth, z_ref), 0,
-                {x, y, candidate.id(x, y), "z, in steps"}, z, z_ref);
+    meter.value(difference(z, z_ref) / depth_step(scene.frame.depth, z_ref), 0, {x, y, id, "z, in steps"}, z, z_ref);
   });
 }
 
@@ -181,6 +206,8 @@ double outside(double value, double low, double high) {
 // `half_code`: what rounding to the frame's format adds to the oracle's bound.
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Plane<std::int32_t>& id, const Legal& legal,
                                 double half_code, bool clamped) {
+  std::string why;
+  if (!same_size(id, legal.certain, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
     const auto answers = legal.at(x, y);
     if (answers.size() > 1) meter.ambiguous();
@@ -203,6 +230,8 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Plane<std::
 }  // namespace
 
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal) {
+  std::string why;
+  if (!same_size(candidate.id, legal.certain, why)) return mismatch("step", why, candidate.depth.size());
   return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
     const auto answers = legal.at(x, y);
     if (answers.size() > 1) meter.ambiguous();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -58,6 +59,12 @@ Vec8 minus(const Vec8& a, const Vec8& b, double times = 1) {
   return out;
 }
 
+double largest(const Vec8& v) {
+  double out = 0;
+  for (double value : v) out = std::max(out, std::isfinite(value) ? std::abs(value) : kInfinite);
+  return out;
+}
+
 // How far a vertex (position and colour together) is from being a weighted mean of the three corners: what remains of
 // it after the triangle's two directions are taken out (Gram-Schmidt), largest component.
 double distance_from_triangle(const ClipVertex<double>& v, const Corners& c) {
@@ -69,45 +76,73 @@ double distance_from_triangle(const ClipVertex<double>& v, const Corners& c) {
   Vec8 rest = minus(joined(v.p_clip, v.color, c.scale), origin);
   if (dot(e1, e1) > 0) rest = minus(rest, e1, dot(rest, e1) / dot(e1, e1));
   if (dot(e2, e2) > 1e-24 * dot(e1, e1)) rest = minus(rest, e2, dot(rest, e2) / dot(e2, e2));
-  double largest = 0;
-  for (double value : rest) largest = std::max(largest, std::abs(value));
-  return largest;
+  return largest(rest);
 }
 
-// Whether the vertex count may differ: a corner, or a vertex of either polygon, is within rounding of a plane.
-bool near_a_plane(const Corners& c, double tolerance) {
-  for (const Vec4<double>& p : c.p_clip) {
-    for (double d : distances(p)) {
-      if (std::abs(d) <= tolerance * c.scale) return true;
+// Distance from the line through two corners, likewise.
+double distance_from_edge(const ClipVertex<double>& v, const Corners& c, std::size_t i) {
+  const std::size_t j = (i + 1) % 3;
+  const Vec8 origin = joined(c.p_clip[i], c.color[i], c.scale);
+  const Vec8 e = minus(joined(c.p_clip[j], c.color[j], c.scale), origin);
+  Vec8 rest = minus(joined(v.p_clip, v.color, c.scale), origin);
+  if (dot(e, e) > 0) rest = minus(rest, e, dot(rest, e) / dot(e, e));
+  return largest(rest);
+}
+
+bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance) {
+  return std::abs(distances(v.p_clip)[plane]) <= tolerance;
+}
+
+// The planes whose cuts rounding decides about: a corner lies on one, or a vertex on several.
+std::array<bool, 6> open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, double tolerance) {
+  std::array<bool, 6> open{};
+  for (std::size_t p = 0; p < 6; ++p) {
+    for (const Vec4<double>& corner : c.p_clip) open[p] |= std::abs(distances(corner)[p]) <= tolerance;
+    for (const ClipVertex<double>& v : polygon) {
+      std::size_t planes = 0;
+      for (std::size_t q = 0; q < 6; ++q) planes += on_plane(v, q, tolerance) ? 1 : 0;
+      open[p] |= planes > 1 && on_plane(v, p, tolerance);
     }
   }
-  return false;
+  return open;
 }
 
-bool more_than_on_one_plane(const ClipVertex<double>& v, double tolerance) {
-  const auto d = distances(v.p_clip);
-  return std::count_if(d.begin(), d.end(), [&](double x) { return std::abs(x) <= tolerance; }) > 1;
+std::span<const ClipVertex<double>> vertices_of(const ClipPolygon& polygon, const Records<double>& r) {
+  return {r.polygons.vertices.data() + polygon.first, polygon.count};
+}
+
+// A polygon that lies within rounding of one plane may be there or not.
+bool may_vanish(std::span<const ClipVertex<double>> polygon, double tolerance) {
+  for (std::size_t p = 0; p < 6; ++p) {
+    if (std::all_of(polygon.begin(), polygon.end(), [&](const auto& v) { return on_plane(v, p, tolerance); }))
+      return true;
+  }
+  return false;
 }
 
 void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, const Records<double>& candidate,
                      const Records<double>& reference, const Corners& corners, double factor) {
   const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(a.primitive), field}; };
   const double unit = u * corners.scale;
-  if (a.count != b.count) {
-    bool open = near_a_plane(corners, factor * u);
-    for (std::uint32_t i = 0; i < b.count; ++i) {
-      open |= more_than_on_one_plane(reference.polygons.vertices[b.first + i], factor * unit);
+  std::vector<ClipVertex<double>> mine, theirs;  // without those that rounding decides about, where the numbers differ
+  const auto all_mine = vertices_of(a, candidate), all_theirs = vertices_of(b, reference);
+  const std::array<bool, 6> open =
+      a.count == b.count ? std::array<bool, 6>{} : open_planes(corners, all_theirs, factor * unit);
+  const auto settled = [&](const ClipVertex<double>& v) {
+    for (std::size_t p = 0; p < 6; ++p) {
+      if (open[p] && on_plane(v, p, factor * unit)) return false;
     }
-    if (open) {
-      meter.ambiguous();
-    } else {
-      meter.value(kInfinite, 0, at("vertices of primitive"), a.count, b.count);
-    }
+    return true;
+  };
+  std::copy_if(all_mine.begin(), all_mine.end(), std::back_inserter(mine), settled);
+  std::copy_if(all_theirs.begin(), all_theirs.end(), std::back_inserter(theirs), settled);
+  if (mine.size() != theirs.size()) {
+    meter.value(kInfinite, 0, at("vertices of primitive"), a.count, b.count);
     return;
   }
-  for (std::uint32_t i = 0; i < a.count; ++i) {
-    const ClipVertex<double>& v = candidate.polygons.vertices[a.first + i];
-    const ClipVertex<double>& w = reference.polygons.vertices[b.first + i];
+  if (a.count != b.count) meter.ambiguous();
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    const ClipVertex<double>&v = mine[i], &w = theirs[i];
     meter.value(v.cut == w.cut ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
     if (!w.cut) {
       for (int c = 0; c < 4; ++c) {
@@ -118,11 +153,20 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
     }
     meter.value(distance_from_triangle(v, corners) / u, factor, at("off its triangle"), 0, 0);
     const auto d = distances(v.p_clip), d_ref = distances(w.p_clip);
+    int planes = 0;
     for (std::size_t p = 0; p < 6; ++p) {
       const bool on = std::abs(d_ref[p]) <= 1e-12 * corners.scale;
+      planes += on ? 1 : 0;
       const double off = on ? std::abs(d[p]) : std::max(-d[p], 0.0);
       meter.value(off / unit, factor, at(on ? "off its plane" : "outside a plane"), d[p], d_ref[p]);
     }
+    if (planes > 1) continue;
+    // One plane cut it out of an edge: the one that its counterpart lies on.
+    std::size_t edge = 0;
+    for (std::size_t i_edge : {1u, 2u}) {
+      if (distance_from_edge(w, corners, i_edge) < distance_from_edge(w, corners, edge)) edge = i_edge;
+    }
+    meter.value(distance_from_edge(v, corners, edge) / u, factor, at("off its edge"), 0, 0);
   }
 }
 
@@ -148,6 +192,12 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
   for (const auto* list : {&candidate.polygons.polygons, &reference.polygons.polygons}) {
     const bool fits = std::all_of(list->begin(), list->end(), [&](const auto& p) { return p.primitive < primitives; });
     if (!fits) return mismatch("u", "a polygon of a primitive that the scene does not have", list->size());
+    const auto before = [](const ClipPolygon& a, const ClipPolygon& b) { return a.primitive < b.primitive; };
+    if (!std::is_sorted(list->begin(), list->end(), before)) return mismatch("u", "not in draw order", list->size());
+  }
+  const std::size_t vertices = ranges.back().first_vertex + ranges.back().vertex_count;
+  if (candidate.vertices.size() != vertices || candidate.lit.size() != vertices) {
+    return mismatch("u", "not one vertex and colour for each of the scene's", reference.polygons.polygons.size());
   }
   std::size_t d = 0;
   Meter meter("u");
@@ -157,7 +207,8 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
     const Corners corners = corners_of(scene, ranges, d, primitive, candidate);
     if (a != nullptr && b != nullptr) {
       compare_polygon(meter, *a, *b, candidate, reference, corners, factor);
-    } else if (near_a_plane(corners, factor * u)) {
+    } else if (may_vanish(a != nullptr ? vertices_of(*a, candidate) : vertices_of(*b, reference),
+                          factor * u * corners.scale)) {
       meter.ambiguous();
     } else {
       meter.value(kInfinite, 0, {-1, -1, primitive, a == nullptr ? "polygon lacking" : "polygon extra"}, 0, 0);
@@ -186,7 +237,8 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
           const Vec4<double>& q = reference.polygons.vertices[b->first + (i + turn) % a->count].p_clip;
           for (int c = 0; c < 4; ++c) {
             const double diff = difference(p[c], q[c]);
-            if (diff != 0) most = std::max(most, diff / (u * (std::abs(q[c]) + std::abs(q.w))));
+            const double ratio = diff == 0 ? 0 : diff / (u * (std::abs(q[c]) + std::abs(q.w)));
+            most = std::isnan(ratio) ? kInfinite : std::max(most, ratio);
           }
         }
         return most;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "check/bounds.h"
+#include "check/ledger.h"
 
 namespace plumbline::check {
 
@@ -141,6 +142,9 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
 }
 
 Measurement compare_window(const Records<double>& candidate, const Records<double>& reference, double factor) {
+  if (candidate.matrices.empty()) {
+    return mismatch("u", "no matrices", std::max(candidate.triangles.size(), reference.triangles.size()));
+  }
   Meter meter("u");
   // Triangles are matched by primitive, and within one by order where both have the same number.
   std::size_t i = 0, j = 0;
@@ -156,31 +160,32 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
     const double area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     return std::abs(area) <= 2 * (glm::distance(p, q) + glm::distance(q, r) + glm::distance(r, p)) + 4;
   };
-  const auto unmatched = [&](const std::vector<WindowTriangle<double>>& t, std::size_t from, std::size_t to) {
-    for (std::size_t k = from; k < to; ++k) {
-      if (may_vanish(t[k])) {
-        meter.ambiguous();
-        meter.item();
-      } else {
-        meter.missing(1, {-1, -1, static_cast<std::int64_t>(t[k].primitive), "triangle of primitive"});
-      }
-    }
-  };
   while (i < a.size() || j < b.size()) {
     const bool only_a = j == b.size() || (i < a.size() && a[i].primitive < b[j].primitive);
     const bool only_b = i == a.size() || (j < b.size() && b[j].primitive < a[i].primitive);
     const std::size_t i_end = only_b ? i : run_end(a, i), j_end = only_a ? j : run_end(b, j);
-    if (only_a || only_b || i_end - i != j_end - j) {
-      unmatched(a, i, i_end);
-      unmatched(b, j, j_end);
-      i = i_end;
-      j = j_end;
+    // Of a fan that lacks triangles on one side, those that may vanish are set aside.
+    std::vector<std::size_t> from_a, from_b;
+    const bool differ = i_end - i != j_end - j;
+    const auto keep = [&](const auto& t, std::size_t k, std::vector<std::size_t>& kept) {
+      if (!differ || !may_vanish(t[k])) return kept.push_back(k);
+      meter.ambiguous();
+      meter.item();
+    };
+    for (; i < i_end; ++i) keep(a, i, from_a);
+    for (; j < j_end; ++j) keep(b, j, from_b);
+    if (from_a.size() != from_b.size()) {
+      const auto& more = from_a.size() > from_b.size() ? from_a : from_b;
+      const auto& of = from_a.size() > from_b.size() ? a : b;
+      meter.missing(more.size(),
+                    {-1, -1, static_cast<std::int64_t>(of[more.front()].primitive), "triangle of primitive"});
       continue;
     }
-    for (; i < i_end; ++i, ++j) {
-      const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+    for (std::size_t n = 0; n < from_a.size(); ++n) {
+      const std::size_t i_now = from_a[n], j_now = from_b[n];
+      const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i_now), field}; };
       for (std::size_t k = 0; k < 3; ++k) {
-        const WindowVertex<double>&v = a[i].v[k], &w = b[j].v[k];
+        const WindowVertex<double>&v = a[i_now].v[k], &w = b[j_now].v[k];
         // |p_ndc * scale| + |translate|: the translation is at most the larger half of the frame, which p_win bounds.
         const Vec3<double> size = glm::abs(w.p_win - candidate.matrices.front().win_translate) +
                                   glm::abs(candidate.matrices.front().win_translate);
@@ -192,8 +197,8 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
         }
         add(meter, v.color, w.color, Vec4<double>(u), 0, at("color"));
       }
-      const bool flipped = a[i].front != b[j].front && !may_vanish(a[i]);
-      meter.value(flipped ? kInfinite : 0, 0, at("front"), a[i].front, b[j].front);
+      const bool flipped = a[i_now].front != b[j_now].front && !may_vanish(a[i_now]);
+      meter.value(flipped ? kInfinite : 0, 0, at("front"), a[i_now].front, b[j_now].front);
       meter.item();
     }
   }
@@ -201,6 +206,7 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
 }
 
 Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference) {
+  const double inv_w = tolerance("osmesa.window").factor;
   return each("window triangles", "ULP", candidate.triangles.size(), reference.triangles.size(),
               [&](Meter& meter, std::size_t i) {
                 const WindowTriangle<double>&a = candidate.triangles[i], &b = reference.triangles[i];
@@ -213,13 +219,16 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
                   for (std::size_t k = 0; k < 3; ++k) n += a.v[k].p_win != b.v[(k + turn) % 3].p_win ? 1 : 0;
                   return n;
                 };
-                const std::size_t turn = apart(0) == 0 ? 0 : apart(1) <= apart(2) ? 1 : 2;
+                const int n[] = {apart(0), apart(1), apart(2)};
+                const std::size_t turn = n[0] <= n[1] && n[0] <= n[2] ? 0 : n[1] <= n[2] ? 1 : 2;
                 for (std::size_t k = 0; k < 3; ++k) {
                   const WindowVertex<double>&v = a.v[k], &w = b.v[(k + turn) % 3];
                   for (int c = 0; c < 3; ++c) {
                     const double diff = difference(v.p_win[c], w.p_win[c]);
                     meter.value(diff == 0 ? 0 : diff / ulp(w.p_win[c]), 0, at("p_win"), v.p_win[c], w.p_win[c]);
                   }
+                  const double diff_w = difference(v.inv_w, w.inv_w);
+                  meter.value(diff_w == 0 ? 0 : diff_w / ulp(w.inv_w), inv_w, at("inv_w"), v.inv_w, w.inv_w);
                   for (int c = 0; c < 2; ++c) {
                     const double x = v.snapped[c], y = w.snapped[c];
                     meter.value(difference(x, y), 0, at("snapped"), x, y);
@@ -247,35 +256,60 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
   return meter.done();
 }
 
+namespace {
+
+// each(), of records that lie beside the candidate's fragments.
+template <class Visit>
+Measurement each_fragment(const char* what, const std::string& unit, const Records<double>& candidate, std::size_t own,
+                          std::size_t reference, Visit visit) {
+  if (own == reference && own != candidate.covered.size()) {
+    return mismatch(unit, fmt::format("{} {} of {} fragments", own, what, candidate.covered.size()), own);
+  }
+  return each(what, unit, own, reference, visit);
+}
+
+}  // namespace
+
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor) {
-  return each("depths", "step", candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {
-    const double a = candidate.depth[i], b = reference.depth[i];
-    const Covered& c = candidate.covered[i];
-    meter.value(difference(a, b) / depth_step(scene.frame.depth, b), factor, {c.x, c.y, c.triangle, "z"}, a, b);
-  });
+  return each_fragment(
+      "depths", "step", candidate, candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {
+        const double a = candidate.depth[i], b = reference.depth[i];
+        const Covered& c = candidate.covered[i];
+        meter.value(difference(a, b) / depth_step(scene.frame.depth, b), factor, {c.x, c.y, c.triangle, "z"}, a, b);
+      });
 }
 
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor) {
-  return each("attributes", "u", candidate.attributes.size(), reference.attributes.size(),
-              [&](Meter& meter, std::size_t i) {
-                const Covered& c = candidate.covered[i];
-                const Vec4<double> bound = bounds_of_mean(candidate.triangles[c.triangle], c.x, c.y);
-                if (!std::isfinite(bound.x + bound.y + bound.z + bound.w)) {  // extrapolated to the horizon: any colour
-                  meter.ambiguous();
-                  return;
-                }
-                add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound, factor,
-                    {c.x, c.y, c.triangle, "color"});
-              });
+  return each_fragment(
+      "attributes", "u", candidate, candidate.attributes.size(), reference.attributes.size(),
+      [&](Meter& meter, std::size_t i) {
+        const Covered& c = candidate.covered[i];
+        if (c.triangle >= candidate.triangles.size()) {
+          meter.value(kInfinite, 0, {c.x, c.y, c.triangle, "triangle"}, 0, 0);
+          return;
+        }
+        const Vec4<double> bound = bounds_of_mean(candidate.triangles[c.triangle], c.x, c.y);
+        if (!std::isfinite(bound.x + bound.y + bound.z + bound.w)) {  // extrapolated to the horizon: any colour
+          meter.ambiguous();
+          for (int k = 0; k < 4; ++k) {
+            const double v = candidate.attributes[i].color[k];
+            meter.value(std::isfinite(v) ? 0 : kInfinite, 0, {c.x, c.y, c.triangle, "color"}, v, 0);
+          }
+          return;
+        }
+        add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound, factor,
+            {c.x, c.y, c.triangle, "color"});
+      });
 }
 
 Measurement compare_shaded(const Records<double>& candidate, const Records<double>& reference) {
-  return each("colours", "u", candidate.shaded.size(), reference.shaded.size(), [&](Meter& meter, std::size_t i) {
-    const Covered& c = candidate.covered[i];
-    add(meter, candidate.shaded[i].color, reference.shaded[i].color, Vec4<double>(u), 0,
-        {c.x, c.y, c.triangle, "color"});
-  });
+  return each_fragment("colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(),
+                       [&](Meter& meter, std::size_t i) {
+                         const Covered& c = candidate.covered[i];
+                         add(meter, candidate.shaded[i].color, reference.shaded[i].color, Vec4<double>(u), 0,
+                             {c.x, c.y, c.triangle, "color"});
+                       });
 }
 
 }  // namespace plumbline::check

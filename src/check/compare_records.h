@@ -31,7 +31,8 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
 /// p_win, 1/w and facing against the exact ones, `factor` u of the magnitudes; snapped positions are the rounding of
 /// the candidate's own p_win, exactly. Missing or extra triangles are legal where snapping may turn or empty them.
 Measurement compare_window(const Records<double>& candidate, const Records<double>& reference, double factor);
-/// Bit for bit (as floats).
+/// Bit for bit (as floats), but 1/w, which has the tolerance osmesa.window. Colours are not compared: feedback has none
+/// of flat draws.
 Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference);
 
 /// The same fragments.

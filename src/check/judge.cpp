@@ -44,7 +44,11 @@ struct Case {
 
 double factor(std::string_view row) { return tolerance(row).factor; }
 
-bool has_fragments(const Records<double>& r) { return r.covered.size() == r.depth.size() && !r.covered.empty(); }
+// Fragments were drawn, but none are recorded.
+bool over_budget(const Capture& c) {
+  const std::vector<std::uint32_t>& count = c.planes.count.values();
+  return c.records.covered.empty() && std::any_of(count.begin(), count.end(), [](std::uint32_t n) { return n != 0; });
+}
 
 // Of two measurements of one stage, the one that tells more: that with the larger share beyond tolerance.
 Measurement worse(Measurement a, Measurement b) {
@@ -55,12 +59,7 @@ Measurement worse(Measurement a, Measurement b) {
 // The stage as `referee` makes it of the candidate's own records, against the candidate's.
 void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
   const Records<double>& mine = c.candidate.records;
-  const bool wants_fragments = stage >= Stage::depth;
-  if (wants_fragments && !has_fragments(mine) && c.candidate.planes.count.size() != 0) {
-    bool nothing_drawn = true;
-    for (std::uint32_t n : c.candidate.planes.count.values()) nothing_drawn &= n == 0;
-    if (!nothing_drawn) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
-  }
+  if (stage >= Stage::depth && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
   const Capture made = referee.run_stage(c.scene, stage, c.candidate);
   const Records<double>& theirs = made.records;
   switch (stage) {
@@ -75,7 +74,7 @@ void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
     case Stage::window: return c.add(name, stage, compare_window(mine, theirs, factor("exact.window")), "exact.window");
     case Stage::coverage: {
       Measurement planes = compare_coverage(c.candidate.planes, made.planes);
-      if (!has_fragments(mine)) return c.add(name, stage, std::move(planes), "", std::string(kOverBudget));
+      if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), "", std::string(kOverBudget));
       return c.add(name, stage, worse(std::move(planes), compare_covered(mine, theirs)));
     }
     case Stage::depth:
@@ -84,7 +83,7 @@ void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
       return c.add(name, stage, compare_attributes(mine, theirs, factor("exact.attributes")), "exact.attributes");
     case Stage::texture: break;
     case Stage::shade: return c.add(name, stage, compare_shaded(mine, theirs));
-    case Stage::visibility: return c.add(name, stage, compare_equal(c.candidate.planes.id, made.planes.id, "pixels"));
+    case Stage::visibility: return c.add(name, stage, compare_winners(c.candidate.planes, made.planes, Legal{}));
     case Stage::merge: {
       const bool codes = c.scene.frame.color == ColorFormat::rgba8;
       return c.add(name, stage, compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.rgba8")),
@@ -111,9 +110,9 @@ void ask_oracle(Case& c, const Legal& legal, Stage stage, const std::string& nam
       const double budget = 2 * legal.predicted_ambiguous;
       const double scatter = 3 * std::sqrt(budget + 1);
       std::string note = ambiguity_note(legal, m.ambiguous);
-      if (static_cast<double>(m.ambiguous) > budget + scatter) {
+      if (!(static_cast<double>(m.ambiguous) <= budget + scatter)) {
         note += ": more than twice as many";
-        m.differing += m.ambiguous;
+        m.differing = std::max(m.differing, m.ambiguous);
       }
       return c.add(name, stage, std::move(m), "", std::move(note));
     }
@@ -127,8 +126,12 @@ void ask_oracle(Case& c, const Legal& legal, Stage stage, const std::string& nam
 // area as well, once anything in a batch is clipped.)
 bool contradicts_itself(Case& c, const Capture& theirs) {
   if (c.referee == nullptr || theirs.records.triangles.empty()) return false;
-  const Capture settled = c.referee->run_stage(c.scene, Stage::coverage, theirs);
-  return compare_coverage(c.candidate.planes, settled.planes).differing == 0;
+  try {
+    const Capture settled = c.referee->run_stage(c.scene, Stage::coverage, theirs);
+    return compare_coverage(c.candidate.planes, settled.planes).differing == 0;
+  } catch (const std::exception&) {
+    return false;  // nobody settled it; the referee's failure shows under its own name
+  }
 }
 
 Comparison as_dispute(Comparison comparison, std::string_view why) {
@@ -152,7 +155,7 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       return c.add(name, stage, compare_lit(c.scene, mine, theirs.records, factor("osmesa.light")), "osmesa.light");
     case Stage::clip:
       return c.add(name, stage, compare_polygon_positions(mine, theirs.records, factor("osmesa.clip")), "osmesa.clip");
-    case Stage::window: return c.add(name, stage, compare_window_equal(mine, theirs.records));
+    case Stage::window: return c.add(name, stage, compare_window_equal(mine, theirs.records), "osmesa.window");
     case Stage::coverage:
       c.add(name, stage, compare_coverage(c.candidate.planes, theirs.planes));
       if (c.out.back().outcome == Outcome::different && contradicts_itself(c, theirs)) {
@@ -184,13 +187,23 @@ bool runs_stages(const RendererInfo& info) {
   return std::any_of(info.stages.begin(), info.stages.end(), [](const Ability& a) { return a.runs; });
 }
 
+// The first stage up to `stage` whose records or planes the candidate does not show, or null.
+const Ability* first_hidden(const RendererInfo& candidate, Stage stage) {
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(stage); ++i) {
+    if (static_cast<Stage>(i) != Stage::texture && !candidate.stages[i].shows) return &candidate.stages[i];
+  }
+  return nullptr;
+}
+
 // What a reference says of the scene: records and planes side by side, coverage to colour by an oracle's answers.
-void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info) {
+void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, const RendererInfo& candidate) {
   const bool exact = runs_stages(info);
   const std::string name = exact ? info.name + " from scene" : info.name;
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    if (info.legal && kOracleStages.has(stage) && theirs.legal.empty()) {
+    if (stage != Stage::texture && !candidate[stage].shows) {
+      c.skip(name, stage, Outcome::unsupported, candidate[stage].reason);
+    } else if (info.legal && kOracleStages.has(stage) && theirs.legal.empty()) {
       c.skip(name, stage, Outcome::unsupported, "the legal answers do not fit the memory budget");
     } else if (info.legal && kOracleStages.has(stage)) {
       ask_oracle(c, theirs.legal, stage, name);
@@ -238,14 +251,25 @@ Capture capture_reference(const Scene& scene, Renderer& renderer) {
 
 }  // namespace
 
-std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee) {
+std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
+                                      const RendererInfo* shown) {
   std::vector<Comparison> out;
   const Legal none;
   Case c{scene, candidate, none, &referee, out};
   const RendererInfo info = referee.info();
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    if (stage != Stage::matrices && info[stage].runs) graft(c, referee, stage, info.name + " from its records");
+    if (stage == Stage::matrices || !info[stage].runs) continue;
+    const std::string name = info.name + " from its records";
+    if (const Ability* hidden = shown != nullptr ? first_hidden(*shown, stage) : nullptr) {
+      c.skip(name, stage, Outcome::unsupported, hidden->reason);
+      continue;
+    }
+    try {
+      graft(c, referee, stage, name);
+    } catch (const std::exception& e) {
+      c.skip(name, stage, Outcome::failed, e.what());
+    }
   }
   return out;
 }
@@ -278,6 +302,9 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
       theirs[i] = capture_reference(scene, *references[i].renderer);
       if (legal->empty()) legal = &theirs[i].legal;
       if (runs_stages(references[i].renderer->info())) referee = references[i].renderer;
+    } catch (const Unsupported& e) {
+      failures[i] = e.what();
+      outcomes[i] = Outcome::unsupported;
     } catch (const OverBudget& e) {
       failures[i] = e.what();
       outcomes[i] = Outcome::unsupported;
@@ -291,10 +318,10 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
     } else if (mine) {
       Case c{scene, *mine, *legal, referee, verdict.comparisons};
       try {
-        const RendererInfo info = references[i].renderer->info();
-        judge_from_scene(c, theirs[i], info);
+        const RendererInfo info = references[i].renderer->info(), mine_info = candidate.info();
+        judge_from_scene(c, theirs[i], info, mine_info);
         if (runs_stages(info)) {
-          std::ranges::move(judge_records(scene, *mine, *references[i].renderer),
+          std::ranges::move(judge_records(scene, *mine, *references[i].renderer, &mine_info),
                             std::back_inserter(verdict.comparisons));
         }
       } catch (const std::exception& e) {

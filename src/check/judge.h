@@ -30,6 +30,7 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
 
 /// The part of it that needs no scene but for what is drawn: each stage but the first as `referee` makes it of the
 /// candidate's own records, against the candidate's.
-std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee);
+std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
+                                      const RendererInfo* shown = nullptr);
 
 }  // namespace plumbline::check

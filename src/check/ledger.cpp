@@ -44,20 +44,24 @@ constexpr std::array kLedger = {
               "p_clip is rebuilt from window coordinates: 1/w, product, scale and translation, at most 4 roundings of "
               "|p_clip| + w, undone in double. The cuts themselves follow one recipe."},
     Tolerance{"exact.window", 4, "u", "1/w, product, and a fused or separate scale and translate: 4 roundings."},
+    Tolerance{"osmesa.window", 1, "ULP", "1/w: feedback hands out w, the reciprocal of the reciprocal; p_win: 0."},
     Tolerance{"exact.depth", 0.501, "step",
               "Rounding to the nearest code is half a step. The plane is evaluated in double: 2^-53 of its terms, "
               "which slivers make large; 0.001 steps are kept for them. (Within one step would let truncation pass.)"},
-    Tolerance{"osmesa.depth", 64, "u",
-              "llvmpipe evaluates z0 + dz/dx x + dz/dy y in float from the window's origin: of the magnitude of "
-              "bounds.h, bounds_from_origin, 40 held on every pixel that was measured; one step of the format more."},
+    Tolerance{
+        "osmesa.depth", 4, "u",
+        "llvmpipe evaluates z0 + dz/dx x + dz/dy y in float from the window's origin: each term is a product and a "
+        "sum, once to bring z0 to the origin and once at the pixel: 4 u of the magnitude of bounds.h, "
+        "bounds_from_origin, which counts the gradients' own error; one step of the format more."},
     Tolerance{
         "exact.attributes", 10, "u",
         "Barycentrics rounded to float (1), times 1/w (1), the sum of three such (4), reciprocal and product (2), "
         "the corners' difference and its product (2): 10 u of the magnitude of bounds.h, bounds_of_mean, which "
         "counts the two last sums at a fifth."},
-    Tolerance{"osmesa.attributes", 64, "u",
-              "As osmesa.depth, for colour / w and 1 / w, joined by the division (bounds.h, bounds_from_origin); "
-              "vertex colours differ by osmesa.light."},
+    Tolerance{
+        "osmesa.attributes", 8, "u",
+        "As osmesa.depth, 4 u for colour / w and for 1 / w, which the magnitude joins, and 4 more for the products by "
+        "1/w at the corners and the division; vertex colours differ by osmesa.light."},
     Tolerance{"osmesa.merge.rgba8", 1, "1/255",
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},

@@ -67,9 +67,13 @@ class Meter {
 /// A measurement that says that nothing fits: every item differs.
 Measurement mismatch(std::string unit, std::string why, std::uint64_t items);
 
-/// Whether two planes are of one size; if not, says so in `why`.
+/// Whether two planes are of one size, and there; if not, says so in `why`.
 template <class A, class B>
 bool same_size(const Plane<A>& a, const Plane<B>& b, std::string& why) {
+  if (a.empty() && b.empty()) {
+    why = "not handed out by either";
+    return false;
+  }
   if (a.width() == b.width() && a.height() == b.height()) return true;
   why = std::to_string(a.width()) + " x " + std::to_string(a.height()) + " against " + std::to_string(b.width()) +
         " x " + std::to_string(b.height());

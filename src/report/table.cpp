@@ -100,7 +100,7 @@ std::string summary(std::span<const SceneVerdict> verdicts, double seconds) {
     complete &= outcome != Outcome::unsupported && outcome != Outcome::missing && outcome != Outcome::dispute;
     parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", counts[i], name_of(outcome));
   }
-  const char* word = failed ? "FAILED" : complete ? "ok" : "ok where judged";
+  const char* word = failed ? "FAILED" : comparisons == 0 ? "nothing was judged" : complete ? "ok" : "ok where judged";
   return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, verdicts.size(), comparisons, seconds,
                      parts);
 }

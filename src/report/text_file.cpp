@@ -11,6 +11,7 @@ namespace plumbline::report {
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
   try {
+    if (std::filesystem::is_directory(file)) throw std::runtime_error("it is a folder");
     AtomicPath target(file);
     std::ofstream out(target.path(), std::ios::binary | std::ios::trunc);
     out << text;

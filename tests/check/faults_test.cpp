@@ -11,6 +11,11 @@
 #include "scene/scene_file.h"
 
 namespace plumbline {
+
+namespace faults {
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+}  // namespace faults
+
 namespace {
 
 // All but the big models.

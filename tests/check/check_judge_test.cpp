@@ -1,0 +1,395 @@
+// judge(), with made-up renderers: what each of them may do wrong, and who is blamed.
+#include "check/judge.h"
+
+#include <functional>
+#include <map>
+#include <stdexcept>
+
+#include "check_fixtures.h"
+#include "pipeline/pipeline_renderer.h"
+
+namespace plumbline::check {
+namespace {
+
+// A renderer whose answers are changed on the way.
+class Changed : public Renderer {
+ public:
+  explicit Changed(std::unique_ptr<Renderer> inner) : inner_(std::move(inner)) {}
+  RendererInfo info() const override {
+    RendererInfo out = inner_->info();
+    on_info(out);
+    return out;
+  }
+  Capture capture(const Scene& scene, const Request& request) override {
+    before_capture(request);
+    Capture out = inner_->capture(scene, request);
+    on_capture(out);
+    return out;
+  }
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
+    before_run(stage);
+    return inner_->run_stage(scene, stage, in);
+  }
+  std::function<void(RendererInfo&)> on_info = [](auto&) {};
+  std::function<void(const Request&)> before_capture = [](auto&) {};
+  std::function<void(Capture&)> on_capture = [](auto&) {};
+  std::function<void(Stage)> before_run = [](auto) {};
+
+ private:
+  std::unique_ptr<Renderer> inner_;
+};
+
+struct Judge : testing::Test {
+  Judge() {
+    witness.on_info = [](RendererInfo& info) {
+      info.name = "witness";
+      for (Ability& a : info.stages) a.runs = false;
+      info.legal = false;
+    };
+    oracle.on_info = [](RendererInfo& info) {
+      info.name = "oracle";
+      for (Ability& a : info.stages) a = {false, false, "an oracle sees planes alone"};
+    };
+    referee.on_info = [](RendererInfo& info) { info.legal = false; };
+    scene.frame.depth = DepthFormat::z32f;
+  }
+  using Results = std::map<std::pair<std::string, Stage>, Comparison>;
+  Results run(const std::vector<Reference>& references, Drawn* drawn = nullptr) {
+    verdict = judge(scene, candidate, references, drawn);
+    Results out;
+    for (const Comparison& c : verdict.comparisons) {
+      EXPECT_EQ(c.scene, scene.name);
+      EXPECT_TRUE(out.emplace(std::pair(c.reference, c.stage), c).second)
+          << c.reference << " judged " << name_of(c.stage) << " twice";
+    }
+    return out;
+  }
+  Results run() { return run({{"witness", &witness}, {"oracle", &oracle}, {"exact", &referee}}); }
+  static std::size_t count(const Results& results, Outcome outcome) {
+    return static_cast<std::size_t>(
+        std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.second.outcome == outcome; }));
+  }
+  // A pixel that something covers, and its number in the legal answers.
+  static glm::ivec2 covered_pixel(const Planes& planes) {
+    for (int y = 1; y < planes.id.height(); ++y) {
+      for (int x = 0; x < planes.id.width(); ++x) {
+        if (planes.id(x, y) != kBackground && planes.count(x, y) == 1) return {x, y};
+      }
+    }
+    return {-1, -1};
+  }
+
+  Scene scene = two_draws();
+  Changed candidate{pipeline::make_pipeline()}, witness{pipeline::make_pipeline()}, oracle{exact::make_exact()},
+      referee{exact::make_exact()};
+  SceneVerdict verdict;
+};
+
+TEST_F(Judge, WhereAllAgreeEveryStageIsJudgedAndNothingFails) {
+  Drawn drawn;
+  const Results results = run({{"witness", &witness}, {"oracle", &oracle}, {"exact", &referee}}, &drawn);
+  for (const auto& [key, c] : results) EXPECT_FALSE(is_failure(c.outcome)) << key.first << " " << name_of(key.second);
+  EXPECT_EQ(first_different(verdict), nullptr);
+  EXPECT_EQ(verdict.scene, scene.name);
+  using enum Stage;
+  for (Stage stage : {matrices, vertex}) EXPECT_TRUE(results.contains({"exact from scene", stage}));
+  for (Stage stage : {vertex, light, clip, window, coverage, depth, attributes, shade, visibility, merge}) {
+    ASSERT_TRUE(results.contains({"exact from its records", stage})) << name_of(stage);
+    const Comparison& c = results.at({"exact from its records", stage});
+    EXPECT_GT(c.measurement.items, 0u) << name_of(stage) << ": nothing was compared";
+    EXPECT_NE(c.outcome, Outcome::unsupported) << name_of(stage) << ": " << c.note;
+  }
+  for (Stage stage : {coverage, depth, attributes, visibility, merge}) {
+    ASSERT_TRUE(results.contains({"oracle", stage})) << name_of(stage);
+    EXPECT_EQ(results.at({"oracle", stage}).measurement.items, 24u * 16u) << name_of(stage);
+  }
+  for (Stage stage : {matrices, vertex, light, clip, window, coverage, depth, attributes, visibility, merge}) {
+    ASSERT_TRUE(results.contains({"witness", stage})) << name_of(stage);
+    EXPECT_EQ(results.at({"witness", stage}).outcome, Outcome::equal) << name_of(stage);
+    EXPECT_GT(results.at({"witness", stage}).measurement.items, 0u) << name_of(stage);
+  }
+  EXPECT_EQ(drawn.candidate.planes.color.width(), 24);
+  ASSERT_EQ(drawn.references.size(), 3u);
+  for (const Capture& c : drawn.references) EXPECT_EQ(c.planes.color.height(), 16);
+}
+
+TEST_F(Judge, ACandidateThatThrowsHasFailed) {
+  candidate.before_capture = [](auto&) { throw RendererFailed("it fell over"); };
+  Drawn drawn;
+  const Results results = run({{"witness", &witness}}, &drawn);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results.begin()->second.outcome, Outcome::failed);
+  EXPECT_EQ(results.begin()->second.reference, "ours");
+  EXPECT_EQ(results.begin()->second.note, "it fell over");
+  EXPECT_TRUE(drawn.candidate.planes.color.empty());
+  EXPECT_FALSE(drawn.references[0].planes.color.empty());
+}
+
+TEST_F(Judge, AReferenceThatIsAbsentIsMissing) {
+  const Results results = run({{"embree", nullptr}, {"witness", &witness}});
+  EXPECT_EQ(count(results, Outcome::missing), 1u);
+  EXPECT_EQ(verdict.comparisons.front().reference, "embree");
+  EXPECT_EQ(verdict.comparisons.front().note, "not built in");
+  EXPECT_TRUE(results.contains({"witness", Stage::merge})) << "the others go on";
+}
+
+TEST_F(Judge, AReferenceThatThrowsHasFailedAndTheOthersGoOn) {
+  oracle.before_capture = [](auto&) { throw std::runtime_error("no device"); };
+  const Results results = run();
+  EXPECT_EQ(count(results, Outcome::failed), 1u);
+  EXPECT_EQ(results.at({"oracle", Stage::merge}).note, "no device");
+  EXPECT_TRUE(results.contains({"witness", Stage::merge}));
+  EXPECT_TRUE(results.contains({"exact from its records", Stage::merge}));
+}
+
+TEST_F(Judge, AReferenceThatCannotDrawTheSceneIsUnsupported) {
+  witness.before_capture = [](auto&) { throw Unsupported("no scene file"); };
+  const Results results = run({{"witness", &witness}});
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results.begin()->second.outcome, Outcome::unsupported) << "renderer.h says so";
+  EXPECT_EQ(results.begin()->second.note, "no scene file");
+}
+
+TEST_F(Judge, WhatAReferenceDoesNotShowIsUnsupportedWithItsReason) {
+  witness.on_info = [](RendererInfo& info) {
+    info.name = "witness";
+    info.legal = false;
+    for (Ability& a : info.stages) a = {false, false, "it shows nothing"};
+  };
+  witness.on_capture = [](Capture& c) { c.records = {}, c.planes = {}; };
+  const Results results = run({{"witness", &witness}});
+  EXPECT_EQ(count(results, Outcome::unsupported), results.size());
+  EXPECT_GE(results.size(), 10u);
+  for (const auto& [key, c] : results) {
+    if (c.stage == Stage::shade) continue;  // the plane of attributes
+    EXPECT_EQ(c.note, "it shows nothing") << name_of(c.stage);
+  }
+}
+
+TEST_F(Judge, WhatTheCandidateDoesNotShowIsUnsupportedAndNotEqual) {
+  candidate.on_info = [](RendererInfo& info) {
+    info.name = "theirs";
+    for (Ability& a : info.stages) a = {false, false, "it shows nothing"};
+  };
+  candidate.on_capture = [](Capture& c) { c.records = {}, c.planes = {}; };
+  for (const std::vector<Reference>& references :
+       {std::vector<Reference>{{"witness", &witness}}, {{"oracle", &oracle}}, {{"exact", &referee}}}) {
+    const Results results = run(references);
+    EXPECT_GT(results.size(), 0u);
+    for (const auto& [key, c] : results) {
+      EXPECT_EQ(name_of(c.outcome), name_of(Outcome::unsupported)) << key.first << " " << name_of(key.second) << c.note;
+    }
+  }
+}
+
+TEST_F(Judge, ACandidateOfPlanesAloneIsJudgedByThem) {
+  using enum Stage;
+  const StageSet shown = {coverage, depth, attributes, visibility, merge};
+  candidate.on_info = [&](RendererInfo& info) {
+    for (std::size_t i = 0; i < info.stages.size(); ++i) {
+      if (!shown.has(static_cast<Stage>(i))) info.stages[i] = {false, false, "planes alone"};
+    }
+  };
+  candidate.on_capture = [](Capture& c) { c.records = {}; };
+  const Results results = run();
+  for (Stage stage : {coverage, depth, attributes, visibility, merge}) {
+    EXPECT_FALSE(is_failure(results.at({"oracle", stage}).outcome)) << name_of(stage);
+    EXPECT_NE(results.at({"oracle", stage}).outcome, Outcome::unsupported) << name_of(stage);
+    EXPECT_EQ(results.at({"witness", stage}).outcome, Outcome::equal) << name_of(stage);
+  }
+  for (Stage stage : {matrices, vertex, light, clip, window}) {
+    EXPECT_EQ(name_of(results.at({"witness", stage}).outcome), "unsupported") << name_of(stage);
+  }
+  EXPECT_EQ(count(results, Outcome::different), 0u) << "what is not shown is not different";
+}
+
+TEST_F(Judge, ACandidateOfAnotherSizeIsDifferentAndDoesNotCrash) {
+  candidate.on_capture = [](Capture& c) {
+    const Scene turned = two_draws(16, 24);
+    c = pipeline::make_pipeline()->capture(turned, {StageSet::all(), false, {}, {}});
+  };
+  for (const Reference& reference : {Reference{"witness", &witness}, Reference{"oracle", &oracle}}) {
+    const Results results = run({reference});
+    EXPECT_EQ(results.at({reference.name, Stage::merge}).outcome, Outcome::different);
+    EXPECT_EQ(results.at({reference.name, Stage::visibility}).outcome, Outcome::different);
+  }
+  EXPECT_GT(count(run({{"exact", &referee}}), Outcome::different), 0u);
+}
+
+TEST_F(Judge, FragmentsBeyondTheBudgetAreUnsupportedTheRestIsJudged) {
+  int tries = 0;
+  candidate.before_capture = [&](const Request& request) {
+    ++tries;
+    if (request.records.has(Stage::coverage)) throw OverBudget("too many fragments");
+    EXPECT_TRUE(request.records.has(Stage::window));
+  };
+  const Results results = run();
+  EXPECT_EQ(tries, 2);
+  EXPECT_EQ(count(results, Outcome::different) + count(results, Outcome::failed), 0u);
+  for (Stage stage : {Stage::depth, Stage::attributes, Stage::shade}) {
+    const Comparison& c = results.at({"exact from its records", stage});
+    EXPECT_EQ(c.outcome, Outcome::unsupported) << name_of(stage);
+    EXPECT_NE(c.note.find("budget"), std::string::npos) << c.note;
+  }
+  for (Stage stage : {Stage::vertex, Stage::light, Stage::clip, Stage::window, Stage::coverage}) {
+    EXPECT_GT(results.at({"exact from its records", stage}).measurement.items, 0u) << name_of(stage);
+  }
+  EXPECT_EQ(results.at({"witness", Stage::merge}).outcome, Outcome::equal);
+}
+
+TEST_F(Judge, ACandidateBeyondEveryBudgetHasFailed) {
+  candidate.before_capture = [](auto&) { throw OverBudget("too large"); };
+  const Results results = run({{"witness", &witness}});
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results.begin()->second.outcome, Outcome::failed);
+  EXPECT_EQ(results.begin()->second.note, "too large");
+}
+
+TEST_F(Judge, FragmentsThatDoNotFitEachOtherAreDifferentNotOverBudget) {
+  candidate.on_capture = [](Capture& c) { c.records.depth.pop_back(); };
+  const Results results = run({{"exact", &referee}});
+  EXPECT_EQ(name_of(results.at({"exact from its records", Stage::depth}).outcome), "different");
+}
+
+TEST_F(Judge, AnOracleWhoseAnswersExcludeOursIsDifferent) {
+  glm::ivec2 where(0);
+  oracle.on_capture = [&](Capture& c) {
+    where = covered_pixel(c.planes);
+    const auto i = static_cast<std::size_t>(where.y * 24 + where.x);
+    ASSERT_EQ(c.legal.first[i + 1] - c.legal.first[i], 1u);
+    c.legal.answers[c.legal.first[i]] = {kBackground, 0, 1, 1, glm::vec4(1, 0, 1, 1)};
+    c.legal.certain(where.x, where.y) = c.legal.possible(where.x, where.y) = 0;
+  };
+  const Results results = run();
+  for (Stage stage : {Stage::coverage, Stage::depth, Stage::attributes, Stage::visibility, Stage::merge}) {
+    const Comparison& c = results.at({"oracle", stage});
+    EXPECT_EQ(c.outcome, Outcome::different) << name_of(stage);
+    EXPECT_EQ(c.measurement.differing, 1u) << name_of(stage);
+    EXPECT_EQ(glm::ivec2(c.measurement.worst.place.x, c.measurement.worst.place.y), where) << name_of(stage);
+  }
+  EXPECT_EQ(first_different(verdict)->stage, Stage::coverage);
+  EXPECT_EQ(first_different(verdict)->reference, "oracle");
+}
+
+TEST_F(Judge, MoreAmbiguityThanPredictedIsDifferent) {
+  double predicted = 0;
+  oracle.on_capture = [&](Capture& c) {
+    c.legal.predicted_ambiguous = predicted;
+    Legal open = c.legal;  // every pixel has two answers
+    open.answers.clear();
+    open.first = {0};
+    for (int y = 0; y < 16; ++y) {
+      for (int x = 0; x < 24; ++x) {
+        open.answers.push_back(c.legal.at(x, y)[0]);
+        open.answers.push_back(c.legal.at(x, y)[0]);
+        open.first.push_back(static_cast<std::uint32_t>(open.answers.size()));
+      }
+    }
+    c.legal = open;
+  };
+  const auto visibility = [&](double p) {
+    predicted = p;
+    return run({{"oracle", &oracle}}).at({"oracle", Stage::visibility});
+  };
+  // Of 384 pixels twice the prediction and three standard deviations: 2 p + 3 sqrt(2 p + 1).
+  EXPECT_EQ(visibility(384).outcome, Outcome::ambiguous_only);
+  EXPECT_EQ(visibility(165).outcome, Outcome::ambiguous_only) << "384.6";
+  EXPECT_EQ(visibility(164).outcome, Outcome::different) << "382.4";
+  EXPECT_EQ(visibility(kNaN).outcome, Outcome::different) << "no prediction is no budget";
+  const Comparison none = visibility(0);
+  EXPECT_EQ(none.outcome, Outcome::different);
+  EXPECT_EQ(none.measurement.ambiguous, 384u);
+  EXPECT_LE(none.measurement.differing, none.measurement.items);
+  EXPECT_NE(none.note.find("384 ambiguous, 0.0 predicted"), std::string::npos) << none.note;
+}
+
+TEST_F(Judge, ARefereeThatThrowsFailsAndWhatItSaidBeforeStays) {
+  referee.before_run = [](Stage stage) {
+    if (stage == Stage::window) throw std::runtime_error("out of range");
+  };
+  candidate.on_capture = [](Capture& c) { c.records.vertices[0].p_eye.x += 1; };
+  const Results results = run({{"exact", &referee}, {"witness", &witness}});
+  EXPECT_EQ(count(results, Outcome::failed), 1u);
+  EXPECT_TRUE(results.contains({"witness", Stage::merge})) << "the others go on";
+  ASSERT_TRUE(results.contains({"exact from its records", Stage::vertex})) << "judged before it threw";
+  EXPECT_EQ(results.at({"exact from its records", Stage::vertex}).outcome, Outcome::different);
+}
+
+TEST_F(Judge, ARefereeThatThrowsOverADisputeDoesNotFailTheWitness) {
+  referee.before_run = [](Stage stage) {
+    if (stage == Stage::coverage) throw std::runtime_error("out of range");
+  };
+  witness.on_capture = [](Capture& c) { c.planes.count(5, 5) += 1; };
+  const Results results = run();
+  EXPECT_EQ(results.at({"witness", Stage::coverage}).outcome, Outcome::different) << "nobody settled it";
+  EXPECT_TRUE(results.contains({"witness", Stage::depth})) << "its other stages are still judged";
+  for (const auto& [key, c] : results) {
+    EXPECT_FALSE(key.first == "witness" && c.outcome == Outcome::failed) << "the referee failed, not the witness";
+  }
+}
+
+TEST_F(Judge, AWitnessThatContradictsItsOwnTrianglesIsADispute) {
+  witness.on_capture = [](Capture& c) {
+    c.planes.count(5, 5) += 1;
+    c.planes.id_sum(5, 5) += id_weight(0);
+  };
+  const Results results = run();
+  const Comparison& c = results.at({"witness", Stage::coverage});
+  EXPECT_EQ(c.outcome, Outcome::dispute);
+  EXPECT_EQ(c.measurement.disputed, 1u);
+  EXPECT_EQ(c.measurement.differing, 0u);
+  EXPECT_NE(c.note, "");
+  EXPECT_EQ(first_different(verdict), nullptr);
+  // Nobody to settle it.
+  EXPECT_EQ(run({{"witness", &witness}}).at({"witness", Stage::coverage}).outcome, Outcome::different);
+  // Nor without its triangles.
+  witness.on_capture = [](Capture& capture) { capture.planes.count(5, 5) += 1, capture.records.triangles.clear(); };
+  EXPECT_EQ(run().at({"witness", Stage::coverage}).outcome, Outcome::different);
+}
+
+TEST_F(Judge, ACandidateThatIsWrongIsDifferentNotADispute) {
+  candidate.on_capture = [](Capture& c) { c.planes.count(5, 5) += 1; };
+  const Results results = run();
+  for (const char* reference : {"witness", "oracle", "exact from its records"}) {
+    EXPECT_EQ(results.at({reference, Stage::coverage}).outcome, Outcome::different) << reference;
+  }
+  EXPECT_EQ(first_different(verdict)->stage, Stage::coverage);
+  // Both wrong, at different pixels: still our failure.
+  witness.on_capture = [](Capture& c) { c.planes.count(6, 6) += 1; };
+  EXPECT_EQ(run().at({"witness", Stage::coverage}).outcome, Outcome::different);
+}
+
+TEST_F(Judge, EveryStageOfTheCandidateIsHeldToItsOwnRecords) {
+  using enum Stage;
+  const std::vector<std::pair<Stage, std::function<void(Capture&)>>> faults = {
+      {vertex, [](Capture& c) { c.records.vertices[3].n_eye.y += 1e-3; }},
+      {light, [](Capture& c) { c.records.lit[3].color.g += 1e-3; }},
+      {clip, [](Capture& c) { c.records.polygons.vertices[0].color.g += 1e-3; }},
+      {window, [](Capture& c) { c.records.triangles[0].v[1].snapped.x += 1; }},
+      {coverage, [](Capture& c) { c.planes.id_sum(5, 5) += 1; }},
+      {coverage, [](Capture& c) { std::swap(c.records.covered[0].x, c.records.covered[0].y); }},
+      {depth, [](Capture& c) { c.records.depth[7] += 1e-4; }},
+      {attributes, [](Capture& c) { c.records.attributes[7].color.r += 1e-3; }},
+      {shade, [](Capture& c) { c.records.shaded[7].color.r += 1e-3; }},
+      {visibility, [](Capture& c) { c.planes.id(5, 5) += 1; }},
+      {merge, [](Capture& c) { c.planes.color(5, 5).r += 1 / 255.0f; }},
+      {merge, [](Capture& c) { c.planes.depth(5, 5) -= 1e-6; }}};
+  for (const auto& [stage, fault] : faults) {
+    candidate.on_capture = fault;
+    const Results results = run({{"exact", &referee}});
+    EXPECT_EQ(results.at({"exact from its records", stage}).outcome, Outcome::different) << name_of(stage);
+    EXPECT_EQ(first_different(verdict)->stage, stage);
+  }
+}
+
+TEST_F(Judge, AWinnerApartIsOnePixelApart) {
+  candidate.on_capture = [](Capture& c) { c.planes.id(5, 5) = 1'000'000; };
+  const Measurement m = run({{"exact", &referee}}).at({"exact from its records", Stage::visibility}).measurement;
+  EXPECT_EQ(m.unit, "pixels");
+  EXPECT_EQ(m.max_difference, 1) << "the difference of two numbers of primitives means nothing";
+}
+
+TEST_F(Judge, WithoutReferencesThereIsNoVerdict) { EXPECT_TRUE(run(std::vector<Reference>{}).empty()); }
+
+}  // namespace
+}  // namespace plumbline::check

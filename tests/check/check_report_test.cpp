@@ -1,0 +1,312 @@
+// Reports: what a person or a program reads of a verdict.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include "check_fixtures.h"
+#include "report/html_report.h"
+#include "report/json_report.h"
+#include "report/table.h"
+#include "report/text_file.h"
+#include "stages/image_file.h"
+
+namespace plumbline::report {
+namespace {
+
+namespace fs = std::filesystem;
+using check::Comparison;
+using check::kInf;
+using check::kNaN;
+using check::Measurement;
+using check::Outcome;
+using check::SceneVerdict;
+
+// A folder of its own, gone afterwards.
+struct Reports : testing::Test {
+  Reports() {
+    std::string name = (fs::temp_directory_path() / "plumbline-report-XXXXXX").string();
+    folder = mkdtemp(name.data());
+  }
+  ~Reports() override { fs::remove_all(folder); }
+  static std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  static std::size_t entries(const fs::path& of) {
+    return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(of), {}));
+  }
+  nlohmann::json json(const std::vector<SceneVerdict>& verdicts) const {
+    write_json(folder / "out.json", verdicts, {{"ours", "0.1"}, {"osmesa", "Mesa \"22\""}});
+    return nlohmann::json::parse(text_of(folder / "out.json"));
+  }
+  fs::path folder;
+};
+
+Comparison compared(Outcome outcome, double difference = 0, double tolerance = 0) {
+  Measurement m;
+  m.unit = "u";
+  m.items = 1536;
+  m.differing = outcome == Outcome::different ? 17 : 0;
+  m.ambiguous = outcome == Outcome::ambiguous_only ? 5 : 0;
+  m.max_difference = m.worst.difference = difference;
+  m.max_ratio = tolerance > 0 ? difference / tolerance : difference;
+  m.worst.place = {12, 34, 56, "p_clip"};
+  m.worst.tolerance = tolerance;
+  m.worst.candidate = 0.5;
+  m.worst.reference = 0.25;
+  m.histogram[0] = 1536;
+  return {"group/scene", "osmesa", Stage::clip, outcome, m, "exact.clip", ""};
+}
+Comparison not_compared(Outcome outcome, std::string why) {
+  return check::not_judged("group/scene", "embree", Stage::light, outcome, std::move(why));
+}
+SceneVerdict verdict_of(std::vector<Comparison> comparisons) {
+  return {"group/scene", "scenes/group/scene.json", std::move(comparisons), 0.5};
+}
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(Reports, ATableRowSaysAll) {
+  const std::string rows = table_rows(verdict_of({compared(Outcome::different, 3.5, 8)}));
+  for (const char* part : {"group/scene ", "osmesa ", "clip ", "different ", " 1536 ", " 17 ", " 0 ",
+                           "3.5 u (tolerance 8)", "pixel 12,34 record 56 p_clip"}) {
+    EXPECT_TRUE(contains(rows, part)) << part << " in " << rows;
+  }
+  EXPECT_TRUE(contains(table_rows(verdict_of({compared(Outcome::ambiguous_only)})), " 5 "));
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1);
+  for (const char* part : {"scene", "reference", "stage", "outcome", "pixels", "differing", "ambiguous"}) {
+    EXPECT_TRUE(contains(table_head(), part)) << part;
+  }
+}
+
+TEST_F(Reports, ARowOfWhatWasNotJudgedShowsNoNumbersButTheReason) {
+  for (Outcome outcome : {Outcome::unsupported, Outcome::missing, Outcome::failed}) {
+    const std::string row = table_rows(verdict_of({not_compared(outcome, "because of this")}));
+    EXPECT_TRUE(contains(row, std::string(name_of(outcome))));
+    EXPECT_TRUE(contains(row, "because of this"));
+    EXPECT_FALSE(contains(row, " 0")) << "not judged is not zero differences: " << row;
+  }
+}
+
+TEST_F(Reports, EqualShowsNoPlace) {
+  const std::string row = table_rows(verdict_of({compared(Outcome::equal)}));
+  EXPECT_FALSE(contains(row, "pixel 12,34"));
+  EXPECT_TRUE(contains(row, " 0 "));
+  Comparison noted = compared(Outcome::within, 2, 8);
+  noted.note = "a note";
+  EXPECT_TRUE(contains(table_rows(verdict_of({noted})), "pixel 12,34 record 56 p_clip; a note"));
+}
+
+TEST_F(Reports, FailuresNameStagePlaceNumbersAndCommand) {
+  Comparison first = compared(Outcome::different, 4, 1), later = compared(Outcome::different, 9, 1);
+  later.stage = Stage::merge;
+  const std::string lines = failure_lines(verdict_of({later, first}), "plumb check 'a b.json'");
+  for (const char* part : {"group/scene", "first different stage: clip", "osmesa", "17 of 1536", "pixel 12,34", "0.5",
+                           "0.25", "4 u apart", "tolerance 1", "repeat: plumb check 'a b.json'"}) {
+    EXPECT_TRUE(contains(lines, part)) << part << " in " << lines;
+  }
+  EXPECT_FALSE(contains(lines, "merge"));
+  EXPECT_EQ(failure_lines(verdict_of({compared(Outcome::equal), compared(Outcome::within, 1, 2),
+                                      compared(Outcome::ambiguous_only), compared(Outcome::dispute)}),
+                          "repeat"),
+            "");
+  const std::string unjudged = failure_lines(verdict_of({not_compared(Outcome::unsupported, "")}), "again");
+  EXPECT_TRUE(contains(unjudged, "no reference judged light")) << unjudged;
+  for (Outcome outcome : {Outcome::missing, Outcome::failed}) {
+    const std::string why = failure_lines(verdict_of({not_compared(outcome, "no such thing")}), "again");
+    EXPECT_TRUE(contains(why, "embree: no such thing")) << why;
+    EXPECT_TRUE(contains(why, "repeat: again"));
+  }
+}
+
+TEST_F(Reports, SummaryIsOkOnlyWhereAllWasJudged) {
+  const auto of = [](std::vector<Comparison> c) { return summary(std::vector{verdict_of(std::move(c))}, 1.5); };
+  const std::string fine =
+      of({compared(Outcome::equal), compared(Outcome::within, 1, 2), compared(Outcome::ambiguous_only)});
+  EXPECT_TRUE(fine.starts_with("ok: 1 scenes, 3 comparisons in 1.50 s: 1 equal, 1 within, 1 ambiguous_only")) << fine;
+  for (Outcome outcome : {Outcome::unsupported, Outcome::dispute}) {
+    const std::string text = of({compared(Outcome::equal), not_compared(outcome, "")});
+    EXPECT_FALSE(text.starts_with("ok:")) << "a bare ok: " << text;
+    EXPECT_FALSE(contains(text, "FAILED")) << text;
+    EXPECT_TRUE(contains(text, "1 " + std::string(name_of(outcome)))) << text;
+  }
+  for (Outcome outcome : {Outcome::different, Outcome::failed, Outcome::missing}) {
+    const std::string text =
+        of({compared(Outcome::equal), not_compared(outcome, ""), not_compared(Outcome::unsupported, "")});
+    EXPECT_TRUE(text.starts_with("FAILED")) << text;
+    EXPECT_FALSE(contains(text, "ok"));
+    EXPECT_TRUE(contains(text, "1 " + std::string(name_of(outcome)))) << text;
+  }
+}
+
+TEST_F(Reports, ASummaryOfNothingIsNotOk) {
+  EXPECT_FALSE(summary({}, 0).starts_with("ok:")) << summary({}, 0);
+  EXPECT_FALSE(summary(std::vector{verdict_of({})}, 0).starts_with("ok:")) << "a scene that nothing was compared for";
+}
+
+TEST_F(Reports, JsonHasAllKeys) {
+  const auto out = json({verdict_of({compared(Outcome::different, 3.5, 8)})});
+  EXPECT_EQ(out["versions"]["osmesa"], "Mesa \"22\"");
+  ASSERT_EQ(out["comparisons"].size(), 1u);
+  const auto& c = out["comparisons"][0];
+  EXPECT_EQ(c["scene"], "group/scene");
+  EXPECT_EQ(c["reference"], "osmesa");
+  EXPECT_EQ(c["stage"], "clip");
+  EXPECT_EQ(c["outcome"], "different");
+  EXPECT_EQ(c["pixels"], 1536);
+  EXPECT_EQ(c["differing"], 17);
+  EXPECT_EQ(c["ambiguous"], 0);
+  EXPECT_EQ(c["max_difference"], 3.5);
+  EXPECT_EQ(c["unit"], "u");
+  EXPECT_EQ(c["tolerance"], 8);
+  EXPECT_EQ(c["worst"]["place"], "pixel 12,34 record 56 p_clip");
+  EXPECT_EQ(c["worst"]["pixel"], nlohmann::json({12, 34}));
+  EXPECT_EQ(c["worst"]["candidate"], 0.5);
+  EXPECT_EQ(c["worst"]["reference"], 0.25);
+  EXPECT_EQ(c["histogram"].size(), 20u);
+  EXPECT_EQ(c["ledger"], "exact.clip");
+  EXPECT_EQ(out["scenes"][0]["file"], "scenes/group/scene.json");
+}
+
+TEST_F(Reports, JsonHasAnObjectPerComparison) {
+  const auto out = json({verdict_of({compared(Outcome::equal), not_compared(Outcome::missing, "not built in")}),
+                         verdict_of({compared(Outcome::within, 1, 2)})});
+  ASSERT_EQ(out["comparisons"].size(), 3u);
+  EXPECT_EQ(out["scenes"].size(), 2u);
+  EXPECT_TRUE(out["comparisons"][0]["worst"].is_null());
+  EXPECT_EQ(out["comparisons"][1]["outcome"], "missing");
+  EXPECT_EQ(out["comparisons"][1]["note"], "not built in");
+  for (const auto& c : out["comparisons"]) {
+    for (const char* key : {"scene", "reference", "stage", "outcome", "pixels", "differing", "ambiguous",
+                            "max_difference", "unit", "tolerance", "worst"}) {
+      EXPECT_TRUE(c.contains(key)) << key;
+    }
+  }
+  const auto nothing = json({});
+  EXPECT_TRUE(nothing["comparisons"].is_array());
+  EXPECT_EQ(nothing["comparisons"].size(), 0u);
+}
+
+TEST_F(Reports, JsonOfWhatIsNoNumberStillParses) {
+  Comparison c = compared(Outcome::different, kInf, 0);
+  c.measurement.worst.candidate = kNaN;
+  c.measurement.worst.reference = -kInf;
+  const auto out = json({verdict_of({c})})["comparisons"][0];
+  EXPECT_EQ(out["max_difference"], "inf");
+  EXPECT_EQ(out["max_ratio"], "inf");
+  EXPECT_EQ(out["worst"]["difference"], "inf");
+  EXPECT_EQ(out["worst"]["candidate"], "nan");
+  EXPECT_EQ(out["worst"]["reference"], "-inf");
+}
+
+TEST_F(Reports, JsonOfAnyTextStillParses) {
+  const std::string odd = "quote \" backslash \\ newline \n tab \t bell \a umlaut \xc3\xa4";
+  EXPECT_EQ(json({verdict_of({not_compared(Outcome::failed, odd)})})["comparisons"][0]["note"], odd);
+  const auto broken = json({verdict_of({not_compared(Outcome::failed, "no UTF-8: \xff\xfe")})});
+  EXPECT_TRUE(contains(broken["comparisons"][0]["note"].get<std::string>(), "no UTF-8: "));
+}
+
+TEST_F(Reports, LedgerFileHasEveryRow) {
+  Comparison c = compared(Outcome::within, 1.234, 8);
+  c.measurement.max_ratio = 0.15425;
+  write_ledger(folder / "ledger.json", std::vector{verdict_of({c})});
+  const auto out = nlohmann::json::parse(text_of(folder / "ledger.json"));
+  ASSERT_EQ(out["tolerances"].size(), check::ledger().size());
+  for (const auto& row : out["tolerances"]) {
+    if (row["name"] == "exact.clip") {
+      EXPECT_EQ(row["largest_seen"], 0.15);
+      EXPECT_TRUE(contains(row["where"], "group/scene"));
+    } else {
+      EXPECT_TRUE(row["largest_seen"].is_null()) << row["name"];
+    }
+    EXPECT_EQ(row["factor"], check::tolerance(row["name"].get<std::string>()).factor);
+  }
+}
+
+TEST_F(Reports, HtmlEscapesAllText) {
+  const std::string odd = "<script>\"a\" & 'b'</script>";
+  Comparison c = not_compared(Outcome::failed, odd);
+  c.reference = odd;
+  SceneVerdict verdict = verdict_of({c, compared(Outcome::within, 2, 8)});
+  verdict.scene = "group/<a & \"b\">";
+  HtmlReport page(folder / "page");
+  page.add(verdict, {}, {}, odd);
+  page.write(odd);
+  const std::string text = text_of(folder / "page/index.html");
+  EXPECT_FALSE(contains(text, "<script>"));
+  EXPECT_FALSE(contains(text, "<a &"));
+  EXPECT_FALSE(contains(text, "\"b\""));
+  std::size_t escaped = 0;
+  for (std::size_t at = 0; (at = text.find("&lt;script&gt;&quot;a&quot; &amp; ", at)) != std::string::npos; ++at)
+    ++escaped;
+  EXPECT_EQ(escaped, 4u) << "description, reference, note and summary";
+  EXPECT_TRUE(contains(text, "id=\"group/&lt;a &amp; &quot;b&quot;&gt;\""));
+  EXPECT_TRUE(contains(text, "pixel 12,34 record 56 p_clip"));
+  EXPECT_TRUE(contains(text, "class=\"failed\""));
+}
+
+TEST_F(Reports, HtmlShowsOursTheReferenceAndTheDifference) {
+  check::Drawn drawn;
+  drawn.candidate.planes.color = Plane<glm::vec4>(3, 2, glm::vec4(0.5, 0.5, 0.5, 1));
+  drawn.references.resize(3);
+  Plane<glm::vec4>& theirs = drawn.references[0].planes.color = drawn.candidate.planes.color;
+  theirs(2, 0).r += 0.1f;
+  theirs(0, 1).g = std::numeric_limits<float>::quiet_NaN();
+  drawn.references[2].planes.color = Plane<glm::vec4>(2, 3);  // as many pixels, of another shape
+  const check::Reference references[] = {{"osmesa", nullptr}, {"embree", nullptr}, {"exact", nullptr}};
+  HtmlReport page(folder);
+  page.add(verdict_of({}), references, drawn, "");
+  page.write("");
+  const std::string text = text_of(folder / "index.html");
+  for (const char* name : {"ours", "osmesa", "osmesa-difference", "exact"}) {
+    const std::string file = std::string("group/scene/") + name + ".png";
+    EXPECT_TRUE(fs::exists(folder / file)) << file;
+    EXPECT_TRUE(contains(text, "src=\"" + file + "\"")) << file;
+  }
+  EXPECT_FALSE(fs::exists(folder / "group/scene/embree.png")) << "it drew nothing";
+  EXPECT_FALSE(fs::exists(folder / "group/scene/exact-difference.png"));
+  const Plane<glm::vec4> difference = read_image(folder / "group/scene/osmesa-difference.png");
+  EXPECT_NEAR(difference(2, 0).r, 0.8, 0.01) << "times 8";
+  EXPECT_EQ(difference(0, 1).g, 1) << "white where it is no number";
+  EXPECT_EQ(difference(1, 0), glm::vec4(0, 0, 0, 1));
+}
+
+TEST_F(Reports, TextIsWrittenWholeOrNotAtAll) {
+  write_text(folder / "a.txt", std::string("first\0line\r\n", 12));
+  EXPECT_EQ(text_of(folder / "a.txt"), std::string("first\0line\r\n", 12));
+  write_text(folder / "a.txt", "x");
+  EXPECT_EQ(text_of(folder / "a.txt"), "x") << "replaced";
+  EXPECT_EQ(entries(folder), 1u) << "nothing beside it";
+}
+
+TEST_F(Reports, WhereItCannotBeWrittenTheErrorNamesTheFile) {
+  write_text(folder / "file", "kept");
+  for (const fs::path& target : {folder / "no such folder" / "a.txt", folder / "file" / "a.txt"}) {
+    try {
+      write_text(target, "text");
+      FAIL() << target;
+    } catch (const std::runtime_error& e) {
+      EXPECT_TRUE(contains(e.what(), target.string())) << e.what();
+    }
+    EXPECT_THROW(write_json(target, {}, {}), std::runtime_error);
+    EXPECT_THROW(write_ledger(target, {}), std::runtime_error);
+  }
+  EXPECT_EQ(entries(folder), 1u) << "nothing is left behind";
+  EXPECT_EQ(text_of(folder / "file"), "kept");
+}
+
+TEST_F(Reports, AFolderIsNotReplacedByAFile) {
+  fs::create_directories(folder / "results");
+  write_text(folder / "results" / "of years.txt", "precious");
+  for (const fs::path& target : {folder / "results", folder / "results/"}) {
+    EXPECT_THROW(write_text(target, "text"), std::runtime_error) << target;
+    EXPECT_EQ(text_of(folder / "results" / "of years.txt"), "precious") << "the folder's files are gone";
+    EXPECT_EQ(entries(folder), 2u);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::report

@@ -1,0 +1,161 @@
+// Outcomes, the first different stage, and the tolerance ledger.
+#include "check/verdict.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <stdexcept>
+
+#include "check_fixtures.h"
+
+namespace plumbline::check {
+namespace {
+
+Measurement measured(std::uint64_t differing, std::uint64_t disputed, std::uint64_t ambiguous, double difference) {
+  Measurement m;
+  m.items = 10;
+  m.differing = differing;
+  m.disputed = disputed;
+  m.ambiguous = ambiguous;
+  m.max_difference = difference;
+  return m;
+}
+Outcome outcome(const Measurement& m) { return judged("s", "r", Stage::clip, m).outcome; }
+
+TEST(Judged, EachOutcome) {
+  EXPECT_EQ(outcome(measured(0, 0, 0, 0)), Outcome::equal);
+  EXPECT_EQ(outcome(measured(0, 0, 0, 1e-300)), Outcome::within);
+  EXPECT_EQ(outcome(measured(0, 0, 1, 0)), Outcome::ambiguous_only);
+  EXPECT_EQ(outcome(measured(0, 0, 1, 3)), Outcome::ambiguous_only);
+  EXPECT_EQ(outcome(measured(0, 1, 0, 0)), Outcome::dispute);
+  EXPECT_EQ(outcome(measured(0, 1, 1, 3)), Outcome::dispute) << "a dispute is always listed";
+  EXPECT_EQ(outcome(measured(1, 0, 0, 3)), Outcome::different);
+  EXPECT_EQ(outcome(measured(1, 1, 1, 3)), Outcome::different) << "nothing excuses a difference";
+  EXPECT_EQ(outcome(mismatch("u", "sizes", 0)), Outcome::different);
+}
+
+TEST(Judged, KeepsWhatItIsAbout) {
+  const Comparison c = judged("scene", "ref", Stage::window, measured(1, 0, 0, 3), "exact.window", "a note");
+  EXPECT_EQ(c.scene, "scene");
+  EXPECT_EQ(c.reference, "ref");
+  EXPECT_EQ(c.stage, Stage::window);
+  EXPECT_EQ(c.ledger_row, "exact.window");
+  EXPECT_EQ(c.note, "a note");
+  EXPECT_EQ(c.measurement.max_difference, 3);
+  EXPECT_EQ(judged("s", "r", Stage::clip, mismatch("u", "3 against 4", 4)).note, "3 against 4");
+  const std::string both = judged("s", "r", Stage::clip, mismatch("u", "3 against 4", 4), "", "a note").note;
+  EXPECT_NE(both.find("3 against 4"), std::string::npos);
+}
+
+TEST(Judged, NotJudgedSaysWhy) {
+  const Comparison c = not_judged("scene", "ref", Stage::merge, Outcome::missing, "not built in");
+  EXPECT_EQ(c.outcome, Outcome::missing);
+  EXPECT_EQ(c.note, "not built in");
+  EXPECT_EQ(c.measurement.items, 0u);
+}
+
+TEST(Outcomes, NamesAndFailures) {
+  const std::vector<std::pair<Outcome, std::string>> names = {
+      {Outcome::equal, "equal"},         {Outcome::within, "within"},   {Outcome::ambiguous_only, "ambiguous_only"},
+      {Outcome::different, "different"}, {Outcome::dispute, "dispute"}, {Outcome::unsupported, "unsupported"},
+      {Outcome::missing, "missing"},     {Outcome::failed, "failed"}};
+  for (const auto& [value, name] : names) {
+    EXPECT_EQ(name_of(value), name);
+    EXPECT_EQ(is_failure(value), name == "different" || name == "missing" || name == "failed") << name;
+  }
+}
+
+TEST(FirstDifferent, IsTheFirstStageNotTheFirstListed) {
+  const Measurement bad = measured(1, 0, 0, 3), good = measured(0, 0, 0, 0);
+  SceneVerdict verdict;
+  EXPECT_EQ(first_different(verdict), nullptr);
+  verdict.comparisons = {judged("s", "a", Stage::matrices, good),
+                         judged("s", "a", Stage::merge, bad),
+                         judged("s", "a", Stage::coverage, bad),
+                         judged("s", "b", Stage::coverage, bad),
+                         judged("s", "b", Stage::vertex, measured(0, 1, 0, 0)),
+                         not_judged("s", "c", Stage::matrices, Outcome::failed, ""),
+                         not_judged("s", "c", Stage::matrices, Outcome::missing, "")};
+  EXPECT_EQ(first_different(verdict), &verdict.comparisons[2]) << "of several at one stage, the first listed";
+  verdict.comparisons[4] = judged("s", "b", Stage::vertex, bad);
+  EXPECT_EQ(first_different(verdict), &verdict.comparisons[4]);
+  verdict.comparisons.resize(1);
+  EXPECT_EQ(first_different(verdict), nullptr);
+}
+
+TEST(UnjudgedStages, AreThoseThatAllReferencesDeclined) {
+  const auto declined = [](Stage stage) { return not_judged("s", "a", stage, Outcome::unsupported, "why"); };
+  SceneVerdict verdict;
+  verdict.comparisons = {declined(Stage::light),  judged("s", "b", Stage::light, measured(0, 0, 0, 0)),
+                         declined(Stage::window), declined(Stage::window),
+                         declined(Stage::clip),   judged("s", "b", Stage::clip, measured(1, 0, 0, 1)),
+                         declined(Stage::merge),  declined(Stage::texture)};
+  EXPECT_EQ(unjudged_stages(verdict), (std::vector{Stage::window, Stage::merge}));
+  verdict.comparisons.clear();
+  EXPECT_TRUE(unjudged_stages(verdict).empty());
+}
+
+TEST(Ledger, RowsAreUniqueAndSayWhy) {
+  std::set<std::string_view> names;
+  for (const Tolerance& row : ledger()) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name << " stands twice";
+    EXPECT_GT(row.factor, 0) << row.name << ": what is zero is not here";
+    EXPECT_TRUE(std::isfinite(row.factor)) << row.name;
+    EXPECT_FALSE(row.unit.empty()) << row.name;
+    EXPECT_GT(row.derivation.size(), 20u) << row.name;
+    EXPECT_EQ(&tolerance(row.name), &row);
+  }
+  EXPECT_FALSE(names.empty());
+  EXPECT_THROW(tolerance("exact.nothing"), std::logic_error);
+  EXPECT_THROW(tolerance(""), std::logic_error);
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Ledger, RowsAndUsesAreTheSame) {
+  std::string code;
+  for (const char* file : {"judge.cpp", "compare_planes.cpp", "compare_records.cpp", "compare_polygons.cpp"}) {
+    const std::string text = text_of(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "src/check" / file);
+    ASSERT_FALSE(text.empty()) << file;
+    code += text;
+  }
+  std::set<std::string> used, rows;
+  const std::regex name("\"((exact|osmesa|embree|legal)\\.[a-z0-9.]+)\"");
+  for (std::sregex_iterator it(code.begin(), code.end(), name), end; it != end; ++it) used.insert((*it)[1]);
+  for (const Tolerance& row : ledger()) rows.emplace(row.name);
+  EXPECT_EQ(used, rows);
+}
+
+TEST(LedgerUse, KeepsTheLargestRatioOfEachRow) {
+  const auto compared = [](double ratio, std::int64_t record, std::string_view row) {
+    Measurement m = measured(0, 0, 0, ratio);
+    m.max_ratio = ratio;
+    m.worst.place.record = record;
+    return judged("scene" + std::to_string(record), "ref", Stage::clip, m, row);
+  };
+  std::vector<SceneVerdict> verdicts(2);
+  verdicts[0].comparisons = {compared(0.25, 1, "exact.clip"), compared(0.75, 2, "exact.clip"), compared(9, 3, "")};
+  verdicts[1].comparisons = {compared(0.5, 4, "exact.clip"), compared(0, 5, "exact.light")};
+  std::size_t seen = 0;
+  for (const LedgerUse& use : ledger_use(verdicts)) {
+    ++seen;
+    if (use.row->name == "exact.clip") {
+      EXPECT_EQ(use.largest_ratio, 0.75);
+      EXPECT_EQ(use.where, "scene2, ref, record 2");
+    } else if (use.row->name == "exact.light") {
+      EXPECT_EQ(use.largest_ratio, 0) << "used, though nothing was apart";
+    } else {
+      EXPECT_LT(use.largest_ratio, 0) << use.row->name << " was not used";
+    }
+  }
+  EXPECT_EQ(seen, ledger().size());
+}
+
+}  // namespace
+}  // namespace plumbline::check

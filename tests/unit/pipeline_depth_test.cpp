@@ -1,0 +1,260 @@
+// Stage 6: planes against long double, codes of each format, and the depth test.
+#include "pipeline/depth.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/coverage.h"
+#include "pipeline/render.h"
+#include "window_triangles.h"
+
+namespace plumbline::pipeline {
+namespace {
+
+using testing_words::window_triangle;
+using testing_words::window_vertex;
+using Triangle = WindowTriangle<float>;
+constexpr double kZ16 = 65535, kZ24 = 16777215, kZ32f = 0;
+
+Pixels<float> pixel(int x, int y) { return {x, y, x + 0.5, y + 0.5}; }
+float depth_at(const Triangle& t, int x, int y, double scale) {
+  return depth<float>(depth_setup(t, scale), barycentric<float>(planes_of(t), pixel(x, y)));
+}
+Triangle with_depths(Triangle t, float z0, float z1, float z2) {
+  t.v[0].p_win.z = z0;
+  t.v[1].p_win.z = z1;
+  t.v[2].p_win.z = z2;
+  return t;
+}
+
+/// The plane through the unsnapped corners. Corners on a grid of 2^-16 pixels, up to 2^15: all but the quotient is
+/// exact (products of 2^31 grid steps, sums of those; a long double has 64 bits).
+long double plane_at(const Triangle& t, int x, int y) {
+  using Wide = glm::vec<2, long double>;
+  const Wide p0(t.v[0].p_win), e1 = Wide(t.v[1].p_win) - p0, e2 = Wide(t.v[2].p_win) - p0;
+  const Wide d = Wide(x + 0.5L, y + 0.5L) - p0;
+  const long double area = e1.x * e2.y - e1.y * e2.x;
+  const long double l1 = (d.x * e2.y - d.y * e2.x) / area, l2 = (e1.x * d.y - e1.y * d.x) / area;
+  const long double z0 = t.v[0].p_win.z;
+  return z0 + l1 * (t.v[1].p_win.z - z0) + l2 * (t.v[2].p_win.z - z0);
+}
+
+/// Calls visit(x, y) for each pixel that the triangle covers in a frame of that size, looking only near line 0-1.
+template <class Visit>
+void for_each_covered(const Triangle& t, int size, int reach, Visit visit) {
+  const Edges edges = edges_of(t);
+  const PixelBounds b = pixel_bounds(t);
+  const glm::dvec2 p(t.v[0].p_win), q(t.v[1].p_win);
+  for (int y = std::max(b.y0, 0); y < std::min(b.y1, size); ++y) {
+    const double middle = p.x + (y + 0.5 - p.y) * (q.x - p.x) / (q.y - p.y);
+    const int around = reach + static_cast<int>(std::min(std::abs((q.x - p.x) / (q.y - p.y)), 64.0));
+    const int x0 = std::max({b.x0, 0, static_cast<int>(std::clamp(middle, -1e6, 1e6)) - around});
+    const int x1 = std::min({b.x1, size, static_cast<int>(std::clamp(middle, -1e6, 1e6)) + around + 1});
+    for (int x = x0; x < x1; ++x) {
+      if (coverage<float>(edges, pixel(x, y))) visit(x, y);
+    }
+  }
+}
+
+TEST(PipelineDepth, BarycentricsByHand) {
+  const Triangle t = window_triangle(glm::vec2(1, 1), {5, 1}, {1, 9});
+  const BarycentricPlanes planes = planes_of(t);
+  for (const auto& [x, y, l1, l2] : {std::tuple{0, 0, -0.125, -0.0625}, {1, 1, 0.125, 0.0625}, {2, 4, 0.375, 0.4375}}) {
+    const Barycentric<float> b = barycentric<float>(planes, pixel(x, y));
+    EXPECT_EQ(b.l1, l1);
+    EXPECT_EQ(b.l2, l2);
+    EXPECT_EQ(b.l0, 1 - l1 - l2);
+  }
+  // The other winding: corners 1 and 2 change places.
+  const Barycentric<float> b = barycentric<float>(planes_of(window_triangle(glm::vec2(1, 1), {1, 9}, {5, 1})), pixel(2, 4));
+  EXPECT_EQ(b.l1, 0.4375);
+  EXPECT_EQ(b.l2, 0.375);
+}
+
+TEST(PipelineDepth, CornersHaveTheirOwnDepths) {
+  const Triangle t = with_depths(window_triangle(glm::vec2(2.5f, 1.5f), {10.5f, 1.5f}, {2.5f, 9.5f}), 0.25f, 0.5f, 0.875f);
+  EXPECT_EQ(depth_at(t, 2, 1, kZ32f), 0.25f);
+  EXPECT_EQ(depth_at(t, 10, 1, kZ32f), 0.5f);
+  EXPECT_EQ(depth_at(t, 2, 9, kZ32f), 0.875f);
+  EXPECT_EQ(depth_at(t, 6, 1, kZ32f), 0.375f);
+  EXPECT_EQ(depth_at(t, 2, 5, kZ32f), 0.5625f);
+}
+
+TEST(PipelineDepth, AFlatTriangleHasItsDepthEverywhere) {
+  const float z = 0.3f;
+  const Triangle t = with_depths(window_triangle(glm::vec2(0.1f, 0.3f), {30.7f, 3.3f}, {11.9f, 27.1f}), z, z, z);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(depth_at(t, i, 20 - i, kZ32f), z);
+    EXPECT_EQ(depth_at(t, i, 20 - i, kZ24), static_cast<float>(std::nearbyint(static_cast<double>(z) * kZ24)));
+  }
+}
+
+TEST(PipelineDepth, CodesAreRoundedHalfToEven) {
+  // One step per two pixels: every other pixel's depth is half way between two codes.
+  for (double scale : {kZ16, kZ24}) {
+    const double z0 = 1000 / scale, z1 = 1032 / scale;
+    Triangle t = window_triangle(glm::vec2(0.5f, 0.5f), {64.5f, 0.5f}, {0.5f, 8.5f});
+    const DepthSetup setup{z0, z1 - z0, 0, scale};
+    for (int x = 0; x < 64; ++x) {
+      const Barycentric<float> b = barycentric<float>(planes_of(t), pixel(x, 0));
+      const double z = (z0 + b.l1 * (z1 - z0)) * scale;
+      EXPECT_EQ(depth<float>(setup, b), static_cast<float>(std::nearbyint(z))) << "x " << x;
+      EXPECT_NEAR(depth<float>(setup, b), 1000 + x / 2.0, 0.5001);
+    }
+  }
+  const Barycentric<float> corner{1, 0, 0};
+  for (int k : {0, 1, 2, 3, 65533, 65534}) {
+    const double half = (k + 0.5) / kZ16;
+    if (half * kZ16 == k + 0.5) {
+      EXPECT_EQ(depth<float>({half, 0, 0, kZ16}, corner), static_cast<float>(k + k % 2)) << "half way from " << k;
+    }
+    EXPECT_EQ(depth<float>({half * (1 - 1e-13), 0, 0, kZ16}, corner), static_cast<float>(k));
+    EXPECT_EQ(depth<float>({half * (1 + 1e-13), 0, 0, kZ16}, corner), static_cast<float>(k + 1));
+  }
+}
+
+TEST(PipelineDepth, EveryCodeOfZ24IsHeldByAFloat) {
+  const Barycentric<float> corner{1, 0, 0};
+  for (int k : {0, 1, 8388607, 8388608, 16777213, 16777214, 16777215}) {
+    EXPECT_EQ(depth<float>({k / kZ24, 0, 0, kZ24}, corner), static_cast<float>(k));
+  }
+}
+
+TEST(PipelineDepth, IsClamped) {
+  const Triangle t = with_depths(window_triangle(glm::vec2(0.5f, 0.5f), {16.5f, 0.5f}, {0.5f, 16.5f}), -1, 1, 3);
+  EXPECT_EQ(depth_at(t, 0, 0, kZ32f), 0);
+  EXPECT_EQ(depth_at(t, 7, 0, kZ24), 0);
+  EXPECT_EQ(depth_at(t, 12, 0, kZ32f), 0.5f) << "clamped after interpolation, not before";
+  EXPECT_EQ(depth_at(t, 0, 12, kZ32f), 1);
+  EXPECT_EQ(depth_at(t, 0, 15, kZ16), 65535);
+  EXPECT_EQ(depth_at(t, 0, 15, kZ24), 16777215);
+}
+
+TEST(PipelineDepth, GoesThroughTheUnsnappedPositions) {
+  // Half a step off, the snapped corners would give 2^-12 more.
+  Triangle t = window_triangle(glm::vec2(0.5f, 0.5f), {8.5f, 0.5f}, {0.5f, 8.5f});
+  t = with_depths(t, 0, 1, 0);
+  t.v[0].p_win.x += 1.0f / 512;
+  t.v[2].p_win.x += 1.0f / 512;
+  const double l1 = (4 - 1.0 / 512) / (8 - 1.0 / 512);
+  EXPECT_EQ(depth_at(t, 4, 0, kZ32f), static_cast<float>(l1));
+}
+
+TEST(PipelineDepth, GoesThroughTheSnappedOnesWhereTheUnsnappedHaveNoArea) {
+  // Unsnapped: on one line; snapped, the last corner is one step off it, to either side.
+  for (int side : {-1, 1}) {
+    Triangle t = with_depths(window_triangle(glm::vec2(0.5f, 0.5f), {8.5f, 0.5f}, {4.5f, 0.5f}), 0, 1, 0);
+    t.v[2].snapped.y += side;
+    t.front = side > 0;
+    ASSERT_NE(snapped_area(t), 0);
+    EXPECT_EQ(depth_at(t, 0, 0, kZ32f), 0);
+    EXPECT_EQ(depth_at(t, 2, 0, kZ32f), 0.25f);
+    EXPECT_EQ(depth_at(t, 8, 0, kZ32f), 1);
+  }
+}
+
+TEST(PipelineDepth, GoesThroughTheSnappedOnesWhereTheUnsnappedAreaIsOfTheOtherSign) {
+  for (int side : {-1, 1}) {
+    const auto lean = static_cast<float>(side) / 1024;
+    Triangle t = with_depths(window_triangle(glm::vec2(0.5f, 0.5f), {8.5f, 0.5f}, {4.5f, 0.5f - lean}), 0, 1, 0.75f);
+    t.v[2].snapped = {1024, side};
+    t.front = side > 0;
+    // At pixel (4, 1), 256 steps up from the line: l2 is 256 by the snapped corners, -1024 by the others.
+    const Barycentric<float> b = barycentric<float>(planes_of(t), pixel(4, 1));
+    EXPECT_EQ(b.l2, 256 * side);
+    EXPECT_EQ(b.l1, 0.5 - 128 * side);
+    // Of the same sign as the snapped: the unsnapped ones.
+    t.v[2].p_win.y = 0.5f + lean;
+    EXPECT_EQ(barycentric<float>(planes_of(t), pixel(4, 1)).l2, 1024 * side);
+  }
+}
+
+TEST(PipelineDepth, AgainstLongDouble) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> place(0, 64), z(-0.1f, 1.1f);
+  int codes = 0;
+  for (int i = 0; i < 200; ++i) {
+    glm::vec2 p[] = {{place(random), place(random)}, {place(random), place(random)}, {place(random), place(random)}};
+    for (glm::vec2& q : p) q = glm::round(q * 65536.0f) / 65536.0f;
+    const Triangle t = with_depths(window_triangle(p[0], p[1], p[2]), z(random), z(random), z(random));
+    if (std::abs(snapped_area(t)) < 65536) continue;  // slivers are below
+    for_each_covered(t, 64, 64, [&](int x, int y) {
+      const long double exact = std::clamp(plane_at(t, x, y), 0.0L, 1.0L);
+      const float single = depth_at(t, x, y, kZ32f);
+      ASSERT_LE(std::abs(single - exact), std::ldexp(1.0L, -25) + 1e-12L);
+      for (double scale : {kZ16, kZ24}) {
+        const long double code = exact * scale;
+        // Correctly rounded, but for what double precision leaves open at a half.
+        ASSERT_LE(std::abs(depth_at(t, x, y, scale) - code), 0.5L + 1e-6L) << "triangle " << i << " at " << x << "," << y;
+        ++codes;
+      }
+    });
+  }
+  EXPECT_GT(codes, 50000);
+}
+
+/// Slivers thinner than a float's step: the third corner is on the line of the others, rounded to float and to the
+/// grid. The largest error, in codes of z24.
+double worst_on_slivers(int size, int count, float grid, int& fragments) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> place(0, static_cast<float>(size)), unit(0, 1);
+  long double worst = 0;
+  for (int i = 0; i < count; ++i) {
+    const glm::vec2 a(place(random), place(random)), b(place(random), place(random));
+    glm::vec2 p[] = {a, b, a + unit(random) * (b - a)};
+    for (glm::vec2& q : p) q = glm::round(q * grid) / grid;
+    const Triangle t = with_depths(window_triangle(p[0], p[1], p[2]), unit(random), unit(random), unit(random));
+    const glm::dvec2 e1(p[1] - p[0]), e2(p[2] - p[0]);
+    const double area = e1.x * e2.y - e1.y * e2.x;
+    if (snapped_area(t) == 0 || area == 0 || (area > 0) != t.front) continue;
+    for_each_covered(t, size, 3, [&](int x, int y) {
+      const long double code = std::clamp(plane_at(t, x, y), 0.0L, 1.0L) * kZ24;
+      worst = std::max(worst, std::abs(depth_at(t, x, y, kZ24) - code));
+      ++fragments;
+    });
+  }
+  return static_cast<double>(worst);
+}
+
+TEST(PipelineDepth, SliversAreWithinAStep) {
+  int fragments = 0;
+  EXPECT_LE(worst_on_slivers(1024, 8000, 16384, fragments), 1.0);
+  EXPECT_GT(fragments, 500);
+}
+
+TEST(PipelineDepth, SliversOfTheLargestFrameAreWithinAStep) {
+  int fragments = 0;
+  EXPECT_LE(worst_on_slivers(16384, 8000, 1024, fragments), 1.0);
+  EXPECT_GT(fragments, 5000);
+}
+
+template <DepthFunc func>
+void expect_passes(bool less, bool equal, bool greater) {
+  const auto passes = [](float incoming, float stored) {
+    const bool inner = depth_passes<func, float>(incoming, stored);
+    EXPECT_EQ(depth_passes_for<FragmentStages>(func, incoming, stored), inner) << "the switch over depth functions";
+    return inner;
+  };
+  const float values[] = {0, std::numeric_limits<float>::denorm_min(), 0.25f, std::nextafter(0.25f, 1.0f), 1, 16777214,
+                          16777215};
+  for (float a : values) {
+    for (float b : values) EXPECT_EQ(passes(a, b), a < b ? less : a > b ? greater : equal) << a << " against " << b;
+  }
+}
+
+TEST(PipelineDepth, TheEightDepthFunctions) {
+  expect_passes<DepthFunc::never>(false, false, false);
+  expect_passes<DepthFunc::less>(true, false, false);
+  expect_passes<DepthFunc::equal>(false, true, false);
+  expect_passes<DepthFunc::less_equal>(true, true, false);
+  expect_passes<DepthFunc::greater>(false, false, true);
+  expect_passes<DepthFunc::not_equal>(true, false, true);
+  expect_passes<DepthFunc::greater_equal>(false, true, true);
+  expect_passes<DepthFunc::always>(true, true, true);
+}
+
+}  // namespace
+}  // namespace plumbline::pipeline
