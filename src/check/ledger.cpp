@@ -32,7 +32,8 @@ constexpr std::array kLedger = {
               "also small."},
     Tolerance{"osmesa.vertex", 8, "u",
               "Positions: 0, both sides follow one float recipe. Normals: either side is within 3 u of |N||n| before, "
-              "and 1 u after normalising."},
+              "and 1 u after normalising.",
+              "Some eight roundings, which do not all go one way."},
     Tolerance{"osmesa.light", 32, "u", "Both sides are within exact.light of the exact value: twice that.",
               "As exact.light."},
     Tolerance{
