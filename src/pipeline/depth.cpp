@@ -15,26 +15,22 @@ double difference_of_products(double a, double b, double c, double d) {
   return std::fma(a, b, -cd) + error;
 }
 
-double area(const glm::dvec2 (&p)[3]) {
-  return difference_of_products(p[1].x - p[0].x, p[2].y - p[0].y, p[1].y - p[0].y, p[2].x - p[0].x);
-}
+double cross(glm::dvec2 a, glm::dvec2 b) { return difference_of_products(a.x, b.y, a.y, b.x); }
 
 }  // namespace
 
-BarycentricPlanes planes_of(const WindowTriangle<float>& triangle) {
+BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y0) {
   glm::dvec2 p[3];
   for (int i = 0; i < 3; ++i) p[i] = glm::dvec2(triangle.v[static_cast<std::size_t>(i)].p_win);
-  double twice_area = area(p);
+  double twice_area = cross(p[1] - p[0], p[2] - p[0]);
   if (!(triangle.front ? twice_area > 0 : twice_area < 0)) {
     for (int i = 0; i < 3; ++i) p[i] = glm::dvec2(triangle.v[static_cast<std::size_t>(i)].snapped) / 256.0 + 0.5;
-    twice_area = area(p);
+    twice_area = cross(p[1] - p[0], p[2] - p[0]);
   }
-  return {p[0].x,
-          p[0].y,
-          (p[2].y - p[0].y) / twice_area,
-          (p[0].x - p[2].x) / twice_area,
-          (p[0].y - p[1].y) / twice_area,
-          (p[1].x - p[0].x) / twice_area};
+  const glm::dvec2 anchor(x0 + 0.5, y0 + 0.5), d1 = p[1] - p[0], d2 = p[2] - p[0], d = anchor - p[0];
+  return {anchor.x,           anchor.y,           cross(d, d2) / twice_area,
+          d2.y / twice_area,  -d2.x / twice_area, cross(d1, d) / twice_area,
+          -d1.y / twice_area, d1.x / twice_area};
 }
 
 DepthSetup depth_setup(const WindowTriangle<float>& triangle, double scale) {

@@ -11,14 +11,18 @@
 
 namespace plumbline::pipeline {
 
-/// A triangle's barycentric planes, anchored at corner 0: l1 = dx * l1_x + dy * l1_y, l2 likewise, l0 = 1 - l1 - l2.
+/// A triangle's barycentric planes, anchored at a pixel centre nearby: l1 = l1_0 + dx * l1_x + dy * l1_y, l2 likewise,
+/// l0 = 1 - l1 - l2.
 struct BarycentricPlanes {
-  double x0, y0;  ///< corner 0, window
-  double l1_x, l1_y, l2_x, l2_y;
+  double x0, y0;  ///< the anchor, window
+  double l1_0, l1_x, l1_y;
+  double l2_0, l2_x, l2_y;
 };
 
 /// Where the unsnapped area is zero or of the other sign than the snapped, the planes go through the snapped corners.
-BarycentricPlanes planes_of(const WindowTriangle<float>& triangle);
+/// (x0, y0): a pixel at most a tile away from those that are wanted. From a far anchor, the terms of a sliver's sum
+/// would be so large that double itself is too coarse.
+BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y0);
 
 template <class R>
 struct Barycentric {
@@ -27,8 +31,8 @@ struct Barycentric {
 template <class R>
 Barycentric<R> barycentric(const BarycentricPlanes& planes, const Pixels<R>& p) {
   const Wide<R> dx = p.x_win - planes.x0, dy = p.y_win - planes.y0;
-  const Wide<R> l1 = dx * planes.l1_x + dy * planes.l1_y;
-  const Wide<R> l2 = dx * planes.l2_x + dy * planes.l2_y;
+  const Wide<R> l1 = planes.l1_0 + (dx * planes.l1_x + dy * planes.l1_y);
+  const Wide<R> l2 = planes.l2_0 + (dx * planes.l2_x + dy * planes.l2_y);
   return {1.0 - l1 - l2, l1, l2};
 }
 

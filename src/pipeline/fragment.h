@@ -56,10 +56,11 @@ struct TriangleSetup {
   DepthSetup depth;
   AttributeSetup attributes;
 };
+/// (x0, y0): the lower left pixel of the tile.
 template <class Stages>
-TriangleSetup set_up(const WindowTriangle<float>& t, std::uint32_t triangle, const Formats& formats) {
-  return {triangle,          t.primitive,  pixel_bounds(t),
-          Stages::edges(t),  planes_of(t), depth_setup(t, formats.depth_scale),
+TriangleSetup set_up(const WindowTriangle<float>& t, std::uint32_t triangle, const Formats& formats, int x0, int y0) {
+  return {triangle,          t.primitive,          pixel_bounds(t),
+          Stages::edges(t),  planes_of(t, x0, y0), depth_setup(t, formats.depth_scale),
           attribute_setup(t)};
 }
 

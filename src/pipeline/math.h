@@ -36,7 +36,7 @@ inline double exp2_of(double x) {
 /// x^y for x in [0, 1] and y in [0, 128]; 0^0 = 1. Relative error below 1e-9 where the result is above 1e-300.
 inline float power(float x, float y) {
   if (y == 0.0f) return 1.0f;
-  if (!(x >= 1.1754944e-38f)) return 0.0f;
+  if (!(x > 0.0f)) return 0.0f;
   return static_cast<float>(exp2_of(static_cast<double>(y) * log2_of(static_cast<double>(x))));
 }
 

@@ -125,14 +125,18 @@ class PipelineRenderer : public Renderer {
     const Formats formats = formats_of(scene.frame);
     TriangleSetup setup{};
     setup.triangle = ~0u;
+    int setup_x = 0, setup_y = 0;
     for (std::size_t i = 0; i < in.covered.size(); ++i) {
       if (stage == Stage::shade) {
         out.records.shaded.push_back({widen(stages_.fragment.shade(color_of(in.attributes.at(i).color)))});
         continue;
       }
       const Covered& c = in.covered[i];
-      if (setup.triangle != c.triangle) {
-        setup = stages_.fragment.set_up(narrow(in.triangles.at(c.triangle)), c.triangle, formats);
+      const int tile_x = c.x / kTile * kTile, tile_y = c.y / kTile * kTile;
+      if (setup.triangle != c.triangle || tile_x != setup_x || tile_y != setup_y) {
+        setup = stages_.fragment.set_up(narrow(in.triangles.at(c.triangle)), c.triangle, formats, tile_x, tile_y);
+        setup_x = tile_x;
+        setup_y = tile_y;
       }
       const Pixels<float> p{c.x, c.y, c.x + 0.5, c.y + 0.5};
       if (stage == Stage::depth) {

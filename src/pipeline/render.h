@@ -17,7 +17,7 @@ struct FragmentFunctions {
   Color<float> (*shade)(const Color<float>&);
   Color<float> (*merge)(const Color<float>&, float scale);
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
-  TriangleSetup (*set_up)(const WindowTriangle<float>&, std::uint32_t, const Formats&);
+  TriangleSetup (*set_up)(const WindowTriangle<float>&, std::uint32_t, const Formats&, int x0, int y0);
 };
 
 template <class S>

@@ -77,7 +77,7 @@ void draw_tiles(const DrawList& list, const FrameFormat& format, Frame& frame, T
          ++i) {
       const std::uint32_t number = bins.numbers[i];
       while (number >= list.first_triangle[draw + 1]) ++draw;
-      draw_of[draw](set_up<Stages>(list.triangles[number], number, formats), formats, tile, tap);
+      draw_of[draw](set_up<Stages>(list.triangles[number], number, formats, tile.x0, tile.y0), formats, tile, tap);
     }
     write_out(tile, frame);
   }

@@ -1,86 +1,8 @@
-// The comparators of stage 3: polygons as polygons, and polygon positions rebuilt from the window.
-#include <functional>
-
-#include "check/compare_records.h"
-#include "check_fixtures.h"
+// The comparator of stage 3: polygons as polygons.
+#include "check_polygons.h"
 
 namespace plumbline::check {
 namespace {
-
-using Change = std::function<void(Records<double>&)>;
-constexpr auto kUnchanged = [](Records<double>&) {};
-
-struct ClipTriangle {
-  glm::dvec4 a, b, c;
-};
-
-// One draw of triangles given in clip space. Primitive 0 lies inside, 1 has one corner behind the near plane and is cut
-// to four vertices, 2 sticks out at the right and is cut to four, 3 lies inside.
-struct Polygons : testing::Test {
-  Polygons() {
-    set({{{-0.5, -0.5, 0, 1}, {0.5, -0.25, 0.25, 1}, {0, 0.75, 0.5, 2}},
-         {{-1, -1, -1, 2}, {1, -0.5, 0, 2}, {0.25, 0.5, -4, 3}},
-         {{0, 0, 0, 1}, {3, 0.25, 0.5, 1}, {0.25, 0.75, 0.25, 1}},
-         {{0.25, 0.25, 0, 1}, {0.5, 0.25, 0, 1}, {0.25, 0.5, 0, 1}}});
-  }
-  void set(const std::vector<ClipTriangle>& triangles) {
-    scene = {};
-    scene.meshes.resize(1);
-    scene.draws.resize(1);
-    records = {};
-    for (const auto& [a, b, c] : triangles) {
-      const auto first = static_cast<std::uint32_t>(records.vertices.size());
-      scene.meshes[0].triangles.emplace_back(first, first + 1, first + 2);
-      for (int i = 0; i < 3; ++i) {
-        scene.meshes[0].positions.emplace_back(0);
-        records.vertices.push_back({{}, i == 0 ? a : i == 1 ? b : c, {}});
-        records.lit.push_back({glm::dvec4(0.25 * i, 0.5, 0.75 - 0.25 * i, 1)});
-      }
-    }
-    Capture in;
-    in.records = records;
-    records.polygons = exact::make_exact()->run_stage(scene, Stage::clip, in).records.polygons;
-  }
-  Measurement compare(const Change& candidate, const Change& reference = kUnchanged) const {
-    Records<double> a = records, b = records;
-    candidate(a);
-    reference(b);
-    return compare_polygons(scene, a, b, kFactor);
-  }
-  // Vertex i of a primitive's polygon.
-  static ClipVertex<double>& at(Records<double>& r, std::size_t primitive, std::uint32_t i) {
-    return r.polygons.vertices[r.polygons.polygons[primitive].first + i];
-  }
-  // The numbers, within a polygon, of its vertices that a cut made.
-  std::vector<std::uint32_t> cuts(std::size_t primitive) {
-    std::vector<std::uint32_t> out;
-    for (std::uint32_t i = 0; i < records.polygons.polygons[primitive].count; ++i) {
-      if (at(records, primitive, i).cut) out.push_back(i);
-    }
-    return out;
-  }
-  static void erase_vertex(Records<double>& r, std::size_t primitive, std::uint32_t i) {
-    auto& [vertices, polygons] = r.polygons;
-    vertices.erase(vertices.begin() + polygons[primitive].first + i);
-    --polygons[primitive].count;
-    for (std::size_t p = primitive + 1; p < polygons.size(); ++p) --polygons[p].first;
-  }
-  static void repeat_vertex(Records<double>& r, std::size_t primitive, std::uint32_t i) {
-    auto& [vertices, polygons] = r.polygons;
-    const auto place = vertices.begin() + polygons[primitive].first + i;
-    vertices.insert(place, *place);
-    ++polygons[primitive].count;
-    for (std::size_t p = primitive + 1; p < polygons.size(); ++p) ++polygons[p].first;
-  }
-  // Moves a vertex a share of the way to another one, colour and all.
-  static void slide(ClipVertex<double>& v, const ClipVertex<double>& to, double share) {
-    v.p_clip += share * (to.p_clip - v.p_clip);
-    v.color += share * (to.color - v.color);
-  }
-  static constexpr double kFactor = 8;
-  Scene scene;
-  Records<double> records;
-};
 
 TEST_F(Polygons, EqualOnesPass) {
   ASSERT_EQ(cuts(1).size(), 2u);
@@ -156,8 +78,7 @@ TEST_F(Polygons, ACutVertexOffItsTriangleFails) {
 TEST_F(Polygons, ACutVertexWithTheColourOfAnotherPlaceFails) {
   for (std::size_t p : {1u, 2u}) {
     EXPECT_TRUE(fails(compare([&](auto& r) { std::swap(at(r, p, cuts(p)[0]).color, at(r, p, cuts(p)[1]).color); })));
-    EXPECT_TRUE(fails(compare([&](auto& r) { at(r, p, cuts(p)[0]).color = records.lit[3 * p].color; })))
-        << "not interpolated at the cut";
+    EXPECT_TRUE(fails(compare([&](auto& r) { at(r, p, cuts(p)[0]).color = records.lit[3 * p].color; })));
   }
 }
 
@@ -197,6 +118,12 @@ TEST_F(Polygons, OutsideAnotherPlaneFails) {
     EXPECT_TRUE(fails(compare([&](auto& r) { at(r, 0, i).p_clip[on_right ? 1 : 0] = 1.001; })));
     EXPECT_TRUE(fails(compare([&](auto& r) { at(r, 0, i).p_clip[on_right ? 0 : 1] = 1.001; })));
   }
+}
+
+TEST_F(Polygons, NearAnotherPlaneIsNotOnIt) {
+  set({{{0, 0.9985, 0, 1}, {2, 0.9995, 0, 1}, {0, 0, 0, 1}}});
+  EXPECT_TRUE(passes(compare(kUnchanged)));
+  EXPECT_TRUE(fails(compare([&](auto& r) { slide(at(r, 0, cuts(0)[0]), at(r, 0, cuts(0)[1]), 1e-4); })));
 }
 
 TEST_F(Polygons, ALostOrAnExtraVertexFails) {
@@ -299,6 +226,20 @@ TEST_F(Polygons, ACornerOnAPlaneLeavesTheNumberOfVerticesOpen) {
   }
 }
 
+TEST_F(Polygons, AnEdgeThroughTheMeetingOfTwoPlanesLeavesTheNumberOpen) {
+  // Through (1, 1): cut by the right plane there, and by the top one in the same place, or not again.
+  set({{{0.5, 1.5, 0, 1}, {1.5, 0.5, 0, 1}, {0, 0, 0, 1}}});
+  const auto on_both = [&](std::uint32_t i) {
+    const glm::dvec4 p = at(records, 0, i).p_clip;
+    return p.x == p.w && p.y == p.w;
+  };
+  for (std::uint32_t i = 0; i < records.polygons.polygons[0].count; ++i) {
+    const Measurement m = compare([&](auto& r) { erase_vertex(r, 0, i); });
+    EXPECT_EQ(passes(m), on_both(i)) << i;
+    EXPECT_EQ(m.ambiguous, on_both(i) ? 1u : 0u) << i;
+  }
+}
+
 TEST_F(Polygons, ACornerOnAPlaneIsNoExcuseForALostPolygon) {
   // The corner that is on the near plane is legal either way; the triangle is there all the same.
   set({{{-0.5, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, -1, 1}}});
@@ -325,73 +266,6 @@ TEST_F(Polygons, ATriangleWithinRoundingOfAPlaneMayVanish) {
   const Measurement m = compare([](auto& r) { r.polygons = {}; });
   EXPECT_TRUE(passes(m));
   EXPECT_EQ(m.ambiguous, 1u);
-}
-
-// The same records, with vertices in other turns, as a reference rebuilds them.
-struct PolygonPositions : Polygons {
-  Measurement positions(const Change& candidate, const Change& reference = kUnchanged) const {
-    Records<double> a = records, b = records;
-    candidate(a);
-    reference(b);
-    return compare_polygon_positions(a, b, kFactor);
-  }
-  static void rotate(Records<double>& r, std::size_t p, std::uint32_t by) {
-    const auto first = r.polygons.vertices.begin() + r.polygons.polygons[p].first;
-    std::rotate(first, first + by, first + r.polygons.polygons[p].count);
-  }
-};
-
-TEST_F(PolygonPositions, MayBeginAnywhereButNotGoRoundTheOtherWay) {
-  EXPECT_TRUE(passes(positions(kUnchanged)));
-  EXPECT_EQ(positions(kUnchanged).max_difference, 0);
-  for (std::size_t p = 0; p < 4; ++p) {
-    for (std::uint32_t by = 1; by < records.polygons.polygons[p].count; ++by) {
-      EXPECT_TRUE(passes(positions([&](auto& r) { rotate(r, p, by); }))) << p << " " << by;
-      EXPECT_TRUE(passes(positions(kUnchanged, [&](auto& r) { rotate(r, p, by); }))) << p << " " << by;
-    }
-    EXPECT_TRUE(fails(positions([&](auto& r) {
-      const auto first = r.polygons.vertices.begin() + r.polygons.polygons[p].first;
-      std::reverse(first, first + r.polygons.polygons[p].count);
-    }))) << p;
-  }
-}
-
-TEST_F(PolygonPositions, EveryCoordinateIsHeldToItsSizeAndThatOfW) {
-  for (std::size_t p : {0u, 1u}) {
-    for (std::uint32_t i = 0; i < records.polygons.polygons[p].count; ++i) {
-      for (int c = 0; c < 4; ++c) {
-        const glm::dvec4 q = at(records, p, i).p_clip;
-        const double unit = kU * (std::abs(q[c]) + std::abs(q.w));
-        const auto moved = [&](double by) { return [&, by](auto& r) { at(r, p, i).p_clip[c] += by * unit; }; };
-        EXPECT_TRUE(passes(positions(moved(0.99 * kFactor))));
-        EXPECT_TRUE(fails(positions(moved(-1.01 * kFactor))));
-        EXPECT_NEAR(positions(moved(5)).max_difference, 5, 1e-6);
-      }
-    }
-  }
-}
-
-TEST_F(PolygonPositions, OtherNumbersOfPolygonsOrVerticesFail) {
-  for (std::size_t p = 0; p < 4; ++p) {
-    const Change lost = [&](auto& r) { erase_vertex(r, p, 1); };
-    const Change gone = [&](auto& r) { r.polygons.polygons.erase(r.polygons.polygons.begin() + static_cast<int>(p)); };
-    for (const Change& change : {lost, gone}) {
-      EXPECT_TRUE(fails(positions(change)));
-      EXPECT_TRUE(fails(positions(kUnchanged, change)));
-      EXPECT_EQ(positions(change).worst.place.record, static_cast<std::int64_t>(p));
-    }
-  }
-  EXPECT_TRUE(fails(positions([](auto& r) { r = {}; }), 4));
-}
-
-TEST_F(PolygonPositions, WhatIsNoNumberFailsOnEitherSide) {
-  for (double bad : not_numbers()) {
-    for (int c = 0; c < 4; ++c) {
-      const Change change = [&](auto& r) { at(r, 1, 2).p_clip[c] = bad; };
-      EXPECT_TRUE(fails(positions(change))) << bad << " " << c;
-      EXPECT_TRUE(fails(positions(kUnchanged, change))) << "the reference: " << bad << " " << c;
-    }
-  }
 }
 
 }  // namespace

@@ -71,7 +71,8 @@ TEST(PipelineClip, TheViewVolumeInTheDriversOrder) {
 
 TEST(PipelineClip, InsideStaysAsItIs) {
   const Corners p = {{{1, -1, 1, 1}, {-2, 2, -2, 2}, {0, 0.1f, 0.25f, 0.5f}}};  // two corners of the volume itself
-  expect_polygon(clipped(p), {{p[0], {1, 0, 0, 1}, false}, {p[1], {0, 1, 0, 0.5f}, false}, {p[2], {0, 0, 1, 0}, false}});
+  expect_polygon(clipped(p),
+                 {{p[0], {1, 0, 0, 1}, false}, {p[1], {0, 1, 0, 0.5f}, false}, {p[2], {0, 0, 1, 0}, false}});
 }
 
 TEST(PipelineClip, EachPlaneCutsOneCornerOff) {
@@ -186,7 +187,8 @@ TEST(PipelineClip, ATieIsTakenFromTheInsideEnd) {
   int other_end_differs = 0;
   for (int i = 0; i < 1000; ++i) {
     const glm::vec4 inside(0.5f, random(-1, 1), random(-1, 1), 1), outside(1.5f, random(-1, 1), random(-1, 1), 1);
-    const glm::vec4 from_inside = inside + 0.5f * (outside - inside), from_outside = outside + 0.5f * (inside - outside);
+    const glm::vec4 from_inside = inside + 0.5f * (outside - inside),
+                    from_outside = outside + 0.5f * (inside - outside);
     other_end_differs += from_inside != from_outside;
     for (const Corners& p : {Corners{{inside, outside, inside}}, Corners{{outside, inside, outside}}}) {
       for (const auto& v : clipped(p)) {
@@ -278,7 +280,9 @@ TEST(PipelineClip, AlongTheVolumesEdgesNoMoreThanNineCorners) {
     const float sides[2] = {random.below(2) == 0 ? 1.0f : -1.0f, random.below(2) == 0 ? 1.0f : -1.0f};
     for (glm::vec4& corner : p) {
       const float w = random(0.1f, 2);
-      const auto nearly = [&](float side) { return side * (w + static_cast<float>(random.below(7) - 3) * w * 0x1p-23f); };
+      const auto nearly = [&](float side) {
+        return side * (w + static_cast<float>(random.below(7) - 3) * w * 0x1p-23f);
+      };
       corner = {w * random(-3, 3), nearly(sides[0]), nearly(sides[1]), w};
     }
     most = std::max(most, clipped(p).size());
@@ -316,8 +320,11 @@ TEST(PipelineClip, WhatIsNotFiniteIsDropped) {
 }
 
 TEST(PipelineClip, AppendsOnePolygonPerTriangleThatIsLeft) {
-  const Vertex<float> vertices[] = {{{}, {0, 0, 0, 1}, {}}, {{}, {4, 0, 0, 1}, {}}, {{}, {0, 0.5f, 0, 1}, {}},
-                                    {{}, {9, 9, 9, 1}, {}}, {{}, {0.5f, 0, 0, 1}, {}}};
+  const Vertex<float> vertices[] = {{{}, {0, 0, 0, 1}, {}},
+                                    {{}, {4, 0, 0, 1}, {}},
+                                    {{}, {0, 0.5f, 0, 1}, {}},
+                                    {{}, {9, 9, 9, 1}, {}},
+                                    {{}, {0.5f, 0, 0, 1}, {}}};
   std::vector<Lit<float>> lit;
   for (int i = 0; i < 5; ++i) lit.push_back({glm::vec4(static_cast<float>(i))});
   const glm::uvec3 triangles[] = {{0, 4, 2}, {1, 3, 1}, {2, 0, 1}};

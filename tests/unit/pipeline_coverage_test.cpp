@@ -13,16 +13,14 @@
 namespace plumbline::pipeline {
 namespace {
 
-using testing_words::picture_of;
 using testing_words::Picture;
+using testing_words::picture_of;
 using testing_words::same_picture;
 using testing_words::snapped_triangle;
 using testing_words::window_triangle;
 using Triangle = WindowTriangle<float>;
 
-bool covers(const Triangle& t, int x, int y) {
-  return coverage<float>(edges_of(t), {x, y, x + 0.5, y + 0.5});
-}
+bool covers(const Triangle& t, int x, int y) { return coverage<float>(edges_of(t), {x, y, x + 0.5, y + 0.5}); }
 Picture picture(const Triangle& t, int width, int height) {
   return picture_of(width, height, [&](int x, int y) { return covers(t, x, y); });
 }
@@ -174,7 +172,7 @@ TEST(PipelineCoverage, SharedEdgesArePaintedOnce) {
   std::mt19937 random(2);
   std::uniform_int_distribution<int> coarse(0, 11), fine(0, 12 * 256);
   int ties = 0;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < 6000; ++i) {
     const auto point = [&] {
       return i % 2 == 0 ? glm::ivec2(coarse(random), coarse(random)) * 256 : glm::ivec2(fine(random), fine(random));
     };
@@ -205,7 +203,8 @@ TEST(PipelineCoverage, AFanIsPaintedOnceItsHubIncluded) {
     const int corners = 4 + i % 9;
     for (int k = 0; k < corners; ++k) {
       const double angle = (k + std::uniform_real_distribution<double>(0, 0.9)(random)) * 2 * M_PI / corners;
-      border.push_back(hub + glm::ivec2(std::round(std::cos(angle) * 60) * 256, std::round(std::sin(angle) * 60) * 256));
+      border.push_back(hub +
+                       glm::ivec2(std::round(std::cos(angle) * 60) * 256, std::round(std::sin(angle) * 60) * 256));
     }
     std::vector<Triangle> fan;
     for (std::size_t k = 0; k < border.size(); ++k) {
@@ -288,7 +287,8 @@ TEST(PipelineCoverage, PixelBoundsAreTightAndLoseNothing) {
   std::mt19937 random(5);
   std::uniform_int_distribution<int> place(-1024, 3072);
   for (int i = 0; i < 2000; ++i) {
-    const glm::ivec2 corner[] = {{place(random), place(random)}, {place(random), place(random)}, {place(random), place(random)}};
+    const glm::ivec2 corner[] = {
+        {place(random), place(random)}, {place(random), place(random)}, {place(random), place(random)}};
     const Triangle t = snapped_triangle(corner[0], corner[1], corner[2]);
     const PixelBounds b = pixel_bounds(t);
     const glm::ivec2 lo = glm::min(corner[0], glm::min(corner[1], corner[2]));

@@ -42,7 +42,8 @@ TEST(PipelineMath, Exp2OverItsWholeRange) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> whole(-1022, 1023), small(-1, 1);
   for (int i = 0; i < 40000; ++i) {
-    for (double x : {whole(random), small(random), std::floor(whole(random)) + 0.5, std::ldexp(small(random), -i % 60)}) {
+    for (double x :
+         {whole(random), small(random), std::floor(whole(random)) + 0.5, std::ldexp(small(random), -i % 60)}) {
       if (x < -1022 || x > 1023) continue;
       ASSERT_LT(relative_error(exp2_of(x), std::exp2(static_cast<long double>(x))), 1e-13L) << x;
     }
@@ -102,9 +103,7 @@ class PipelineLight : public testing::Test {
     return out.at(0).color;
   }
   /// The normal and the light at that angle, towards +x.
-  void tilt(double degrees) {
-    vertex_.n_eye = {std::sin(degrees * M_PI / 180), 0, std::cos(degrees * M_PI / 180)};
-  }
+  void tilt(double degrees) { vertex_.n_eye = {std::sin(degrees * M_PI / 180), 0, std::cos(degrees * M_PI / 180)}; }
 
   Scene scene_;
   Draw draw_;

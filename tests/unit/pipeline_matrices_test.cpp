@@ -1,4 +1,5 @@
-// Stage 0. Expected numbers are worked out by hand from the definitions of gluLookAt, gluPerspective, glOrtho, glRotate.
+// Stage 0. Expected numbers are worked out by hand from the definitions of gluLookAt, gluPerspective, glOrtho,
+// glRotate.
 #include "pipeline/matrices.h"
 
 #include <cmath>
@@ -23,11 +24,11 @@ glm::vec4 placed(const std::vector<Transform>& transforms, glm::vec3 p_model) {
 
 TEST(PipelineMatrices, LookAtFromTheSide) {
   const glm::dmat4 view = look_at({{5, 1, 0}, {0, 1, 0}, {0, 3, 0}});
-  expect_near(view * glm::dvec4(5, 1, 0, 1), {0, 0, 0, 1});    // the eye
-  expect_near(view * glm::dvec4(0, 1, 0, 1), {0, 0, -5, 1});   // the centre, straight ahead
-  expect_near(view * glm::dvec4(5, 2, 0, 1), {0, 1, 0, 1});    // up
-  expect_near(view * glm::dvec4(5, 1, -1, 1), {1, 0, 0, 1});   // looking down -x, -z is on the right
-  expect_near(view * glm::dvec4(0, 0, -1, 0), {1, 0, 0, 0});   // a direction does not move
+  expect_near(view * glm::dvec4(5, 1, 0, 1), {0, 0, 0, 1});   // the eye
+  expect_near(view * glm::dvec4(0, 1, 0, 1), {0, 0, -5, 1});  // the centre, straight ahead
+  expect_near(view * glm::dvec4(5, 2, 0, 1), {0, 1, 0, 1});   // up
+  expect_near(view * glm::dvec4(5, 1, -1, 1), {1, 0, 0, 1});  // looking down -x, -z is on the right
+  expect_near(view * glm::dvec4(0, 0, -1, 0), {1, 0, 0, 0});  // a direction does not move
 }
 
 TEST(PipelineMatrices, LookAtStraightensUp) {

@@ -45,7 +45,8 @@ TEST(PipelineMerge, JustBelowAndJustAboveTheHalf) {
 TEST(PipelineMerge, IsClamped) {
   const float infinity = std::numeric_limits<float>::infinity();
   for (float below : {-0.0f, -1e-30f, -0.5f, -3.0f, -infinity}) EXPECT_EQ(code_of(below), 0) << below;
-  for (float above : {1.0f, std::nextafter(1.0f, 2.0f), 1.01f, 77.0f, infinity}) EXPECT_EQ(code_of(above), 255) << above;
+  for (float above : {1.0f, std::nextafter(1.0f, 2.0f), 1.01f, 77.0f, infinity})
+    EXPECT_EQ(code_of(above), 255) << above;
   EXPECT_EQ(code_of(std::numeric_limits<float>::quiet_NaN()), 0);
   EXPECT_EQ(code_of(-std::numeric_limits<float>::quiet_NaN()), 0);
 }

@@ -10,7 +10,6 @@
 namespace plumbline::pipeline {
 namespace {
 
-
 /// Sums of float products, each rounded: from the left, as the recipe has it.
 float left_to_right(std::array<float, 4> a, std::array<float, 4> b) {
   float sum = a[0] * b[0];
@@ -43,9 +42,7 @@ glm::mat4 times(Dot dot, const glm::mat4& a, const glm::mat4& b) {
   return out;
 }
 
-Matrices<float> identity() {
-  return {Mat4<float>(1), Mat4<float>(1), Mat3<float>(1), Vec3<float>(1), Vec3<float>(0)};
-}
+Matrices<float> identity() { return {Mat4<float>(1), Mat4<float>(1), Mat3<float>(1), Vec3<float>(1), Vec3<float>(0)}; }
 
 TEST(PipelineVertex, ByHand) {
   Matrices<float> m = identity();

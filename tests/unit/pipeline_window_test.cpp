@@ -51,8 +51,8 @@ class PipelineWindow : public testing::Test {
   /// A viewport of that size, its lower left corner at the origin.
   void scale_to(glm::vec2 size) { matrices_.win_scale = matrices_.win_translate = glm::vec3(size / 2.0f, 0.5f); }
   void add(std::vector<glm::vec4> corners, std::uint32_t primitive = 0, bool cut = false) {
-    polygons_.polygons.push_back({primitive, static_cast<std::uint32_t>(polygons_.vertices.size()),
-                                  static_cast<std::uint32_t>(corners.size())});
+    polygons_.polygons.push_back(
+        {primitive, static_cast<std::uint32_t>(polygons_.vertices.size()), static_cast<std::uint32_t>(corners.size())});
     for (std::size_t i = 0; i < corners.size(); ++i) {
       polygons_.vertices.push_back({corners[i], glm::vec4(static_cast<float>(i), 0, 0, 1), cut});
     }
@@ -171,9 +171,9 @@ TEST_F(PipelineWindow, CornersOutOfReachDropTheWholePolygon) {
     add({good[0], good[1], good[2], corner});
     EXPECT_EQ(run().size(), 2u) << corner.x << " " << corner.y;
   }
-  const glm::vec4 out_of_reach[] = {{farther, 2, 0, 1}, {-farther, 2, 0, 1}, {0, farther, 0, 1},    {-2, -farther, 0, 1},
-                                    {0, 1, 0, 0},       {0, 0, 0, 0},        {0, 1, 0, -0.0f},      {0, 1, 0, 1e-42f},
-                                    {nan, 1, 0, 1},     {0, nan, 0, 1},      {0, 1, kInfinity, 1},  {0, 1, nan, 1},
+  const glm::vec4 out_of_reach[] = {{farther, 2, 0, 1}, {-farther, 2, 0, 1}, {0, farther, 0, 1},   {-2, -farther, 0, 1},
+                                    {0, 1, 0, 0},       {0, 0, 0, 0},        {0, 1, 0, -0.0f},     {0, 1, 0, 1e-42f},
+                                    {nan, 1, 0, 1},     {0, nan, 0, 1},      {0, 1, kInfinity, 1}, {0, 1, nan, 1},
                                     {0, 1, 0, nan},     {kInfinity, 1, 0, 1}};
   for (const glm::vec4& corner : out_of_reach) {
     for (std::size_t place = 0; place < 4; ++place) {

@@ -1,0 +1,126 @@
+// Each stage of the pipeline run alone through the interface of all renderers.
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/pipeline_renderer.h"
+#include "pipeline_boxes.h"
+
+namespace plumbline::pipeline {
+namespace {
+
+using testing_words::boxes;
+using testing_words::everything;
+using testing_words::expect_same;
+
+/// What a capture of everything holds of one stage.
+Capture of_stage(const Capture& whole, Stage stage) {
+  Capture c;
+  const Records<double>& r = whole.records;
+  switch (stage) {
+    case Stage::matrices: c.records.matrices = r.matrices; break;
+    case Stage::vertex: c.records.vertices = r.vertices; break;
+    case Stage::light: c.records.lit = r.lit; break;
+    case Stage::clip: c.records.polygons = r.polygons; break;
+    case Stage::window: c.records.triangles = r.triangles; break;
+    case Stage::coverage:
+      c.records.covered = r.covered;
+      c.planes.count = whole.planes.count;
+      c.planes.id_sum = whole.planes.id_sum;
+      break;
+    case Stage::depth: c.records.depth = r.depth; break;
+    case Stage::attributes: c.records.attributes = r.attributes; break;
+    case Stage::texture: break;
+    case Stage::shade: c.records.shaded = r.shaded; break;
+    case Stage::visibility: c.planes.id = whole.planes.id; break;
+    case Stage::merge:
+      c.planes.color = whole.planes.color;
+      c.planes.depth = whole.planes.depth;
+      break;
+  }
+  return c;
+}
+
+constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {{ColorFormat::rgba8, DepthFormat::z24},
+                                                            {ColorFormat::rgba8, DepthFormat::z16},
+                                                            {ColorFormat::rgba32f, DepthFormat::z32f},
+                                                            {ColorFormat::rgba32f, DepthFormat::z24}};
+
+TEST(PipelineRenderer, EachStageAloneOnTheRecordsBeforeItIsTheWhole) {
+  for (const auto& [color, depth] : kFormats) {
+    const Scene scene = boxes(color, depth);
+    const auto pipeline = make_pipeline();
+    const Capture whole = pipeline->capture(scene, everything());
+    for (std::size_t k = 0; k < kStageNames.size(); ++k) {
+      const auto stage = static_cast<Stage>(k);
+      if (stage == Stage::texture) continue;
+      SCOPED_TRACE(kStageNames[k]);
+      // Of the records, only those of the stages before it.
+      Capture before;
+      for (std::size_t i = 0; i < k && i <= static_cast<std::size_t>(Stage::shade); ++i) {
+        const Capture one = of_stage(whole, static_cast<Stage>(i));
+        const Records<double>& r = one.records;
+        if (!r.matrices.empty()) before.records.matrices = r.matrices;
+        if (!r.vertices.empty()) before.records.vertices = r.vertices;
+        if (!r.lit.empty()) before.records.lit = r.lit;
+        if (!r.polygons.polygons.empty()) before.records.polygons = r.polygons;
+        if (!r.triangles.empty()) before.records.triangles = r.triangles;
+        if (!r.covered.empty()) before.records.covered = r.covered;
+        if (!r.depth.empty()) before.records.depth = r.depth;
+        if (!r.attributes.empty()) before.records.attributes = r.attributes;
+        if (!r.shaded.empty()) before.records.shaded = r.shaded;
+      }
+      const Capture alone = pipeline->run_stage(scene, stage, before);
+      const Capture expected = of_stage(whole, stage);
+      EXPECT_EQ(alone.renderer, "ours");
+      EXPECT_EQ(alone.width, 90);
+      EXPECT_EQ(alone.height, 70);
+      expect_same(alone.records, expected.records);
+      expect_same(alone.planes, expected.planes);
+    }
+  }
+}
+
+TEST(PipelineRenderer, HandsOutTheRecordsAskedForAndNoOthers) {
+  const Scene scene = boxes();
+  const auto pipeline = make_pipeline();
+  const Capture whole = pipeline->capture(scene, everything());
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(Stage::shade); ++k) {
+    const auto stage = static_cast<Stage>(k);
+    SCOPED_TRACE(kStageNames[k]);
+    Request one;
+    one.records = {stage};
+    expect_same(pipeline->capture(scene, one).records, of_stage(whole, stage).records);
+  }
+}
+
+TEST(PipelineRenderer, RecordsThatDoNotFitAreRefused) {
+  const Scene scene = boxes();
+  const auto pipeline = make_pipeline();
+  const Capture whole = pipeline->capture(scene, everything());
+  const auto refused = [&](Stage stage, auto spoil) {
+    SCOPED_TRACE(name_of(stage));
+    Capture in = whole;
+    spoil(in.records);
+    EXPECT_THROW(pipeline->run_stage(scene, stage, in), std::logic_error);
+  };
+  refused(Stage::vertex, [](auto& r) { r.matrices.pop_back(); });
+  refused(Stage::light, [](auto& r) { r.vertices.pop_back(); });
+  refused(Stage::clip, [](auto& r) { r.vertices.clear(); });
+  refused(Stage::clip, [](auto& r) { r.lit.pop_back(); });
+  refused(Stage::window, [](auto& r) { r.matrices.clear(); });
+  refused(Stage::window, [](auto& r) { r.polygons.vertices.pop_back(); });
+  refused(Stage::window, [](auto& r) { r.polygons.polygons[0].count = 10; });
+  refused(Stage::window, [](auto& r) { r.polygons.polygons.back().primitive = 66; });
+  refused(Stage::coverage, [](auto& r) { r.triangles.back().primitive = 66; });
+  refused(Stage::depth, [](auto& r) { r.triangles.pop_back(); });
+  refused(Stage::attributes, [](auto& r) { r.triangles.clear(); });
+  refused(Stage::shade, [](auto& r) { r.attributes.pop_back(); });
+  refused(Stage::visibility, [](auto& r) { r.depth.pop_back(); });
+  refused(Stage::visibility, [](auto& r) { r.covered[5].x = 90; });
+  refused(Stage::visibility, [](auto& r) { r.triangles[0].primitive = 66; });
+  refused(Stage::merge, [](auto& r) { r.shaded.pop_back(); });
+}
+
+}  // namespace
+}  // namespace plumbline::pipeline
