@@ -7,9 +7,10 @@
 
 namespace plumbline::pipeline {
 
-CaptureTap::CaptureTap(const Scene& scene, const Request& request)
+CaptureTap::CaptureTap(const Scene& scene, const Request& request, std::size_t bytes)
     : scene_(scene),
       request_(request),
+      bytes_(bytes),
       keep_(request.records.has(Stage::coverage) || request.records.has(Stage::depth) ||
             request.records.has(Stage::attributes) || request.records.has(Stage::shade)) {
   const int w = scene.frame.width, h = scene.frame.height;
@@ -19,11 +20,16 @@ CaptureTap::CaptureTap(const Scene& scene, const Request& request)
   planes_.shaded = Plane<glm::vec4>(w, h, scene.frame.clear_color);
 }
 
-bool CaptureTap::wanted(const Fragment& f) const {
+bool CaptureTap::wanted(std::uint32_t primitive) const {
   const auto& primitives = request_.primitives;
-  const auto& pixels = request_.pixels;
-  return (primitives.empty() || std::binary_search(primitives.begin(), primitives.end(), f.primitive)) &&
-         (pixels.empty() || std::find(pixels.begin(), pixels.end(), glm::ivec2(f.x, f.y)) != pixels.end());
+  return primitives.empty() || std::binary_search(primitives.begin(), primitives.end(), primitive);
+}
+
+void CaptureTap::keep_budget() const {
+  // The sorted records stand beside the fragments for a while.
+  constexpr std::size_t kBytes =
+      sizeof(Fragment) + sizeof(Covered) + sizeof(double) + sizeof(Attributes<double>) + sizeof(Shaded<double>);
+  require_budget(scene_, bytes_ + fragments_.size() * kBytes, request_.memory_budget);
 }
 
 void CaptureTap::add(const Fragment& f, bool passes) {
@@ -35,24 +41,28 @@ void CaptureTap::add(const Fragment& f, bool passes) {
     planes_.id(f.x, f.y) = static_cast<std::int32_t>(f.primitive);
     planes_.shaded(f.x, f.y) = f.shaded;
   }
-  if (!keep_ || !wanted(f)) return;
+  const auto& pixels = request_.pixels;
+  const bool pixel_wanted =
+      pixels.empty() || std::find(pixels.begin(), pixels.end(), glm::ivec2(f.x, f.y)) != pixels.end();
+  if (!keep_ || !pixel_wanted || !wanted(f.primitive)) return;
   fragments_.push_back(f);
-  // The sorted records stand beside the fragments for a while.
-  constexpr std::size_t kBytes =
-      2 * sizeof(Fragment) + sizeof(Covered) + sizeof(double) + sizeof(Attributes<double>) + sizeof(Shaded<double>);
-  if (fragments_.size() % 65536 == 0) {
-    require_budget(scene_, plane_bytes(scene_) + fragments_.size() * kBytes, request_.memory_budget);
-  }
+  if (fragments_.size() % 65536 == 0) keep_budget();
 }
 
-void CaptureTap::hand_out(Capture& capture) {
+void CaptureTap::hand_out(std::span<const WindowTriangle<float>> triangles, Capture& capture) {
+  keep_budget();
+  // A triangle's number among those handed out.
+  std::vector<std::uint32_t> number(triangles.size());
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i) number[i] = wanted(triangles[i].primitive) ? next++ : next;
   std::sort(fragments_.begin(), fragments_.end(), [](const Fragment& a, const Fragment& b) {
     return std::tie(a.triangle, a.y, a.x) < std::tie(b.triangle, b.y, b.x);
   });
   const double scale = formats_of(scene_.frame).depth_scale;
   Records<double>& r = capture.records;
   for (const Fragment& f : fragments_) {
-    r.covered.push_back({f.triangle, static_cast<std::uint16_t>(f.x), static_cast<std::uint16_t>(f.y)});
+    if (request_.records.has(Stage::coverage))
+      r.covered.push_back({number[f.triangle], static_cast<std::uint16_t>(f.x), static_cast<std::uint16_t>(f.y)});
     if (request_.records.has(Stage::depth)) r.depth.push_back(scale == 0.0 ? f.z : f.z / scale);
     if (request_.records.has(Stage::attributes)) r.attributes.push_back({f.attributes});
     if (request_.records.has(Stage::shade)) r.shaded.push_back({f.shaded});

@@ -1,6 +1,7 @@
 // The tap that records: every fragment as it passes, into a capture.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "pipeline/fragment.h"
@@ -12,8 +13,9 @@ class CaptureTap {
  public:
   static constexpr bool every_fragment = true;
 
-  /// Planes always; fragments where the request asks for a stage from coverage to shade.
-  CaptureTap(const Scene& scene, const Request& request);
+  /// Planes always; fragments where the request asks for a stage from coverage to shade. `bytes`: what else counts
+  /// against the request's budget; the fragments that go beyond it throw OverBudget.
+  CaptureTap(const Scene& scene, const Request& request, std::size_t bytes);
 
   template <class R>
   void fragments(const TriangleSetup& s, const Pixels<R>& p, Mask<R> covered, Mask<R> passes, R z,
@@ -31,8 +33,9 @@ class CaptureTap {
     }
   }
 
-  /// The planes of stages 5, 7, 9 and 10, and the fragments' records, sorted by triangle, y, x.
-  void hand_out(Capture& capture);
+  /// The planes of stages 5, 7, 9 and 10, and the fragments' records that the request names, sorted by triangle, y, x.
+  /// Of `triangles`, those of requested primitives count.
+  void hand_out(std::span<const WindowTriangle<float>> triangles, Capture& capture);
 
  private:
   struct Fragment {
@@ -42,10 +45,12 @@ class CaptureTap {
     glm::vec4 attributes, shaded;
   };
   void add(const Fragment& f, bool passes);
-  bool wanted(const Fragment& f) const;
+  bool wanted(std::uint32_t primitive) const;
+  void keep_budget() const;
 
   const Scene& scene_;
   const Request& request_;
+  std::size_t bytes_;
   bool keep_;  // fragments, not planes alone
   Planes planes_;
   std::vector<Fragment> fragments_;

@@ -67,6 +67,17 @@ void widen_geometry(const Records<float>& from, const Request& request, Records<
   }
 }
 
+std::size_t widened_bytes(const Records<float>& from, const Request& request) {
+  const auto bytes = [&](Stage stage, std::size_t n, std::size_t size) {
+    return request.records.has(stage) ? n * size : 0;
+  };
+  return bytes(Stage::vertex, from.vertices.size(), sizeof(Vertex<double>)) +
+         bytes(Stage::light, from.lit.size(), sizeof(Lit<double>)) +
+         bytes(Stage::clip, from.polygons.vertices.size(), sizeof(ClipVertex<double>)) +
+         bytes(Stage::clip, from.polygons.polygons.size(), sizeof(ClipPolygon)) +
+         bytes(Stage::window, from.triangles.size(), sizeof(WindowTriangle<double>));
+}
+
 WindowTriangle<float> narrow(const WindowTriangle<double>& from) { return converted<float>(from); }
 
 Records<float> narrow(const Records<double>& from) {

@@ -9,6 +9,9 @@ namespace plumbline::pipeline {
 /// Copies the records of stages 0 to 4 that the request names, of the primitives that it names.
 void widen_geometry(const Records<float>& from, const Request& request, Records<double>& to);
 
+/// The bytes that those copies take, if all primitives are named.
+std::size_t widened_bytes(const Records<float>& from, const Request& request);
+
 /// Stages 0 to 4 (each value was a float before, or is rounded to one now).
 Records<float> narrow(const Records<double>& from);
 WindowTriangle<float> narrow(const WindowTriangle<double>& from);

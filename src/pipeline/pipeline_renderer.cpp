@@ -4,6 +4,7 @@
 
 #include "pipeline/clip.h"
 #include "pipeline/convert.h"
+#include "pipeline/input.h"
 
 namespace plumbline::pipeline {
 
@@ -38,29 +39,24 @@ class PipelineRenderer : public Renderer {
 
   Capture capture(const Scene& scene, const Request& request) override {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
-    Capture out;
-    out.renderer = "ours";
-    out.version = PLUMBLINE_VERSION;
-    out.width = scene.frame.width;
-    out.height = scene.frame.height;
+    Capture out = empty_capture(scene);
     const Geometry geometry = run_geometry(scene, stages_.geometry);
+    const std::size_t bytes = plane_bytes(scene) + widened_bytes(geometry.records, request);
+    require_budget(scene, bytes, request.memory_budget);
     Frame frame(scene.frame);
-    CaptureTap tap(scene, request);
+    CaptureTap tap(scene, request, bytes);
     stages_.fragment.draw_tapped({geometry.records.triangles, geometry.first_triangle, scene.draws}, scene.frame, frame,
                                  tap);
     out.planes = planes_of_frame(frame, formats_of(scene.frame));
-    tap.hand_out(out);
+    tap.hand_out(geometry.records.triangles, out);
     widen_geometry(geometry.records, request, out.records);
     return out;
   }
 
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
     if (!info()[stage].runs) return Renderer::run_stage(scene, stage, in);
-    Capture out;
-    out.renderer = "ours";
-    out.version = PLUMBLINE_VERSION;
-    out.width = scene.frame.width;
-    out.height = scene.frame.height;
+    require_fitting(scene, stage, in);
+    Capture out = empty_capture(scene);
     if (stage <= Stage::window) {
       run_geometry_stage(scene, stage, narrow(in.records), out);
     } else if (stage == Stage::coverage) {
@@ -74,6 +70,15 @@ class PipelineRenderer : public Renderer {
   }
 
  private:
+  static Capture empty_capture(const Scene& scene) {
+    Capture out;
+    out.renderer = "ours";
+    out.version = PLUMBLINE_VERSION;
+    out.width = scene.frame.width;
+    out.height = scene.frame.height;
+    return out;
+  }
+
   void run_geometry_stage(const Scene& scene, Stage stage, const Records<float>& in, Capture& out) {
     Records<float> made;
     const std::vector<DrawRange> ranges = draw_ranges(scene);
@@ -112,10 +117,10 @@ class PipelineRenderer : public Renderer {
     const std::vector<std::uint32_t> first_triangle = triangles_of_draws(scene, in.triangles);
     Frame frame(scene.frame);
     const Request request{StageSet{Stage::coverage}, false, {}, {}};
-    CaptureTap tap(scene, request);
+    CaptureTap tap(scene, request, 0);
     stages_.fragment.draw_tapped({in.triangles, first_triangle, scene.draws}, scene.frame, frame, tap);
     Capture all;
-    tap.hand_out(all);
+    tap.hand_out(in.triangles, all);
     out.records.covered = std::move(all.records.covered);
     out.planes.count = std::move(all.planes.count);
     out.planes.id_sum = std::move(all.planes.id_sum);

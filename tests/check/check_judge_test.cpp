@@ -1,89 +1,8 @@
 // judge(), with made-up renderers: what each of them may do wrong, and who is blamed.
-#include "check/judge.h"
-
-#include <functional>
-#include <map>
-#include <stdexcept>
-
-#include "check_fixtures.h"
-#include "pipeline/pipeline_renderer.h"
+#include "check_judge.h"
 
 namespace plumbline::check {
 namespace {
-
-// A renderer whose answers are changed on the way.
-class Changed : public Renderer {
- public:
-  explicit Changed(std::unique_ptr<Renderer> inner) : inner_(std::move(inner)) {}
-  RendererInfo info() const override {
-    RendererInfo out = inner_->info();
-    on_info(out);
-    return out;
-  }
-  Capture capture(const Scene& scene, const Request& request) override {
-    before_capture(request);
-    Capture out = inner_->capture(scene, request);
-    on_capture(out);
-    return out;
-  }
-  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
-    before_run(stage);
-    return inner_->run_stage(scene, stage, in);
-  }
-  std::function<void(RendererInfo&)> on_info = [](auto&) {};
-  std::function<void(const Request&)> before_capture = [](auto&) {};
-  std::function<void(Capture&)> on_capture = [](auto&) {};
-  std::function<void(Stage)> before_run = [](auto) {};
-
- private:
-  std::unique_ptr<Renderer> inner_;
-};
-
-struct Judge : testing::Test {
-  Judge() {
-    witness.on_info = [](RendererInfo& info) {
-      info.name = "witness";
-      for (Ability& a : info.stages) a.runs = false;
-      info.legal = false;
-    };
-    oracle.on_info = [](RendererInfo& info) {
-      info.name = "oracle";
-      for (Ability& a : info.stages) a = {false, false, "an oracle sees planes alone"};
-    };
-    referee.on_info = [](RendererInfo& info) { info.legal = false; };
-    scene.frame.depth = DepthFormat::z32f;
-  }
-  using Results = std::map<std::pair<std::string, Stage>, Comparison>;
-  Results run(const std::vector<Reference>& references, Drawn* drawn = nullptr) {
-    verdict = judge(scene, candidate, references, drawn);
-    Results out;
-    for (const Comparison& c : verdict.comparisons) {
-      EXPECT_EQ(c.scene, scene.name);
-      EXPECT_TRUE(out.emplace(std::pair(c.reference, c.stage), c).second)
-          << c.reference << " judged " << name_of(c.stage) << " twice";
-    }
-    return out;
-  }
-  Results run() { return run({{"witness", &witness}, {"oracle", &oracle}, {"exact", &referee}}); }
-  static std::size_t count(const Results& results, Outcome outcome) {
-    return static_cast<std::size_t>(
-        std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.second.outcome == outcome; }));
-  }
-  // A pixel that something covers, and its number in the legal answers.
-  static glm::ivec2 covered_pixel(const Planes& planes) {
-    for (int y = 1; y < planes.id.height(); ++y) {
-      for (int x = 0; x < planes.id.width(); ++x) {
-        if (planes.id(x, y) != kBackground && planes.count(x, y) == 1) return {x, y};
-      }
-    }
-    return {-1, -1};
-  }
-
-  Scene scene = two_draws();
-  Changed candidate{pipeline::make_pipeline()}, witness{pipeline::make_pipeline()}, oracle{exact::make_exact()},
-      referee{exact::make_exact()};
-  SceneVerdict verdict;
-};
 
 TEST_F(Judge, WhereAllAgreeEveryStageIsJudgedAndNothingFails) {
   Drawn drawn;
@@ -251,58 +170,6 @@ TEST_F(Judge, FragmentsThatDoNotFitEachOtherAreDifferentNotOverBudget) {
   EXPECT_EQ(name_of(results.at({"exact from its records", Stage::depth}).outcome), "different");
 }
 
-TEST_F(Judge, AnOracleWhoseAnswersExcludeOursIsDifferent) {
-  glm::ivec2 where(0);
-  oracle.on_capture = [&](Capture& c) {
-    where = covered_pixel(c.planes);
-    const auto i = static_cast<std::size_t>(where.y * 24 + where.x);
-    ASSERT_EQ(c.legal.first[i + 1] - c.legal.first[i], 1u);
-    c.legal.answers[c.legal.first[i]] = {kBackground, 0, 1, 1, glm::vec4(1, 0, 1, 1)};
-    c.legal.certain(where.x, where.y) = c.legal.possible(where.x, where.y) = 0;
-  };
-  const Results results = run();
-  for (Stage stage : {Stage::coverage, Stage::depth, Stage::attributes, Stage::visibility, Stage::merge}) {
-    const Comparison& c = results.at({"oracle", stage});
-    EXPECT_EQ(c.outcome, Outcome::different) << name_of(stage);
-    EXPECT_EQ(c.measurement.differing, 1u) << name_of(stage);
-    EXPECT_EQ(glm::ivec2(c.measurement.worst.place.x, c.measurement.worst.place.y), where) << name_of(stage);
-  }
-  EXPECT_EQ(first_different(verdict)->stage, Stage::coverage);
-  EXPECT_EQ(first_different(verdict)->reference, "oracle");
-}
-
-TEST_F(Judge, MoreAmbiguityThanPredictedIsDifferent) {
-  double predicted = 0;
-  oracle.on_capture = [&](Capture& c) {
-    c.legal.predicted_ambiguous = predicted;
-    Legal open = c.legal;  // every pixel has two answers
-    open.answers.clear();
-    open.first = {0};
-    for (int y = 0; y < 16; ++y) {
-      for (int x = 0; x < 24; ++x) {
-        open.answers.push_back(c.legal.at(x, y)[0]);
-        open.answers.push_back(c.legal.at(x, y)[0]);
-        open.first.push_back(static_cast<std::uint32_t>(open.answers.size()));
-      }
-    }
-    c.legal = open;
-  };
-  const auto visibility = [&](double p) {
-    predicted = p;
-    return run({{"oracle", &oracle}}).at({"oracle", Stage::visibility});
-  };
-  // Of 384 pixels twice the prediction and three standard deviations: 2 p + 3 sqrt(2 p + 1).
-  EXPECT_EQ(visibility(384).outcome, Outcome::ambiguous_only);
-  EXPECT_EQ(visibility(165).outcome, Outcome::ambiguous_only) << "384.6";
-  EXPECT_EQ(visibility(164).outcome, Outcome::different) << "382.4";
-  EXPECT_EQ(visibility(kNaN).outcome, Outcome::different) << "no prediction is no budget";
-  const Comparison none = visibility(0);
-  EXPECT_EQ(none.outcome, Outcome::different);
-  EXPECT_EQ(none.measurement.ambiguous, 384u);
-  EXPECT_LE(none.measurement.differing, none.measurement.items);
-  EXPECT_NE(none.note.find("384 ambiguous, 0.0 predicted"), std::string::npos) << none.note;
-}
-
 TEST_F(Judge, ARefereeThatThrowsFailsAndWhatItSaidBeforeStays) {
   referee.before_run = [](Stage stage) {
     if (stage == Stage::window) throw std::runtime_error("out of range");
@@ -313,50 +180,6 @@ TEST_F(Judge, ARefereeThatThrowsFailsAndWhatItSaidBeforeStays) {
   EXPECT_TRUE(results.contains({"witness", Stage::merge})) << "the others go on";
   ASSERT_TRUE(results.contains({"exact from its records", Stage::vertex})) << "judged before it threw";
   EXPECT_EQ(results.at({"exact from its records", Stage::vertex}).outcome, Outcome::different);
-}
-
-TEST_F(Judge, ARefereeThatThrowsOverADisputeDoesNotFailTheWitness) {
-  referee.before_run = [](Stage stage) {
-    if (stage == Stage::coverage) throw std::runtime_error("out of range");
-  };
-  witness.on_capture = [](Capture& c) { c.planes.count(5, 5) += 1; };
-  const Results results = run();
-  EXPECT_EQ(results.at({"witness", Stage::coverage}).outcome, Outcome::different) << "nobody settled it";
-  EXPECT_TRUE(results.contains({"witness", Stage::depth})) << "its other stages are still judged";
-  for (const auto& [key, c] : results) {
-    EXPECT_FALSE(key.first == "witness" && c.outcome == Outcome::failed) << "the referee failed, not the witness";
-  }
-}
-
-TEST_F(Judge, AWitnessThatContradictsItsOwnTrianglesIsADispute) {
-  witness.on_capture = [](Capture& c) {
-    c.planes.count(5, 5) += 1;
-    c.planes.id_sum(5, 5) += id_weight(0);
-  };
-  const Results results = run();
-  const Comparison& c = results.at({"witness", Stage::coverage});
-  EXPECT_EQ(c.outcome, Outcome::dispute);
-  EXPECT_EQ(c.measurement.disputed, 1u);
-  EXPECT_EQ(c.measurement.differing, 0u);
-  EXPECT_NE(c.note, "");
-  EXPECT_EQ(first_different(verdict), nullptr);
-  // Nobody to settle it.
-  EXPECT_EQ(run({{"witness", &witness}}).at({"witness", Stage::coverage}).outcome, Outcome::different);
-  // Nor without its triangles.
-  witness.on_capture = [](Capture& capture) { capture.planes.count(5, 5) += 1, capture.records.triangles.clear(); };
-  EXPECT_EQ(run().at({"witness", Stage::coverage}).outcome, Outcome::different);
-}
-
-TEST_F(Judge, ACandidateThatIsWrongIsDifferentNotADispute) {
-  candidate.on_capture = [](Capture& c) { c.planes.count(5, 5) += 1; };
-  const Results results = run();
-  for (const char* reference : {"witness", "oracle", "exact from its records"}) {
-    EXPECT_EQ(results.at({reference, Stage::coverage}).outcome, Outcome::different) << reference;
-  }
-  EXPECT_EQ(first_different(verdict)->stage, Stage::coverage);
-  // Both wrong, at different pixels: still our failure.
-  witness.on_capture = [](Capture& c) { c.planes.count(6, 6) += 1; };
-  EXPECT_EQ(run().at({"witness", Stage::coverage}).outcome, Outcome::different);
 }
 
 TEST_F(Judge, EveryStageOfTheCandidateIsHeldToItsOwnRecords) {

@@ -257,12 +257,25 @@ TEST_F(PlanePairs, CodesMayBeNeighbours) {
   EXPECT_TRUE(fails(run(codes(), moved(3, -2)))) << "alpha";
 }
 
+TEST_F(PlanePairs, EveryCodeIsItself) {
+  for (int c = 0; c < 256; ++c) {
+    const auto shows = [&](int other) { return [this, other](Planes& p) { p.color(0, 3).b = code(other); }; };
+    EXPECT_EQ(run(codes(), shows(c), shows(c)).max_difference, 0) << c;
+    EXPECT_EQ(run(codes(), shows(c), shows(c ^ 1)).max_difference, 1) << c;
+    EXPECT_TRUE(fails(run(codes(), shows(c), shows(c ^ 2)))) << c;
+  }
+}
+
 TEST_F(PlanePairs, SliversMayHaveTheWholeCodesOfTheirBound) {
-  // A needle: 2^-6 px wide, 3 px high.
-  capture.records.triangles[1] =
-      triangle_of({{{2.5, 0.5, 0.25}, {2.5 + 0x1p-6, 3.75, 0.5}, {2.5, 3.5, 0.75}}}, {1, 1, 1}, 5);
-  const double bound = bounds_from_origin(capture.records.triangles[1], 2, 2).color.r;
-  const double whole = std::floor(255 * 64 * kU * bound);
+  // Needles 3 px high and about 2^-6 px wide, until one's bound is just short of a whole code.
+  double in_codes = 0;
+  for (double width = 0x1p-6; in_codes - std::floor(in_codes) < 0.995; width *= 0.9999) {
+    ASSERT_GT(width, 0x1p-7);
+    capture.records.triangles[1] =
+        triangle_of({{{2.5, 0.5, 0.25}, {2.5 + width, 3.75, 0.5}, {2.5, 3.5, 0.75}}}, {1, 1, 1}, 5);
+    in_codes = 255 * 64 * kU * bounds_from_origin(capture.records.triangles[1], 2, 2).color.r;
+  }
+  const double whole = std::floor(in_codes);
   ASSERT_GT(whole, 1);
   ASSERT_LT(whole, 100);
   const auto moved = [&](double by) { return [=](Planes& p) { p.color(2, 2).r += static_cast<float>(by / 255); }; };

@@ -299,6 +299,32 @@ TEST(PipelineClip, OnAPlaneIsInside) {
   for (const auto& v : clipped({{{1, 0, 0, 1}, {2, 0.5f, 0, 1}, {2, 0, 0.5f, 1}}})) EXPECT_EQ(v.p_clip.x, 1);
 }
 
+TEST(PipelineClip, ACornerOnThePlaneIsKeptAndCutAtTheSamePlace) {
+  const glm::vec4 on(1, 0, 0, 1), out(3, 1, 0, 1), in(0, 0.5f, 0, 1);
+  expect_polygon(clipped_at(view_volume().first<1>(), {{on, out, in}}),
+                 {{on, {1, 0, 0, 1}, false},
+                  {on, {1, 0, 0, 1}, true},
+                  {{1, 0.66666667f, 0, 1}, {0, 0.33333334f, 0.66666667f, 0.16666667f}, true},
+                  {in, {0, 0, 1, 0}, false}});
+}
+
+TEST(PipelineClip, BeyondAPlaneByALastPlaceIsWhollyOutside) {
+  // Cut at the sides first, roundings would bring some cuts back inside of the top plane.
+  Random random(8);
+  int returns = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Corners p;
+    for (glm::vec4& corner : p) {
+      const float w = random(0.25f, 2);
+      corner = {w * random(-3, 3), std::nextafter(w, 9.0f), w * random(-0.9f, 0.9f), w};
+    }
+    ASSERT_TRUE(clipped(p).empty());
+    for (const auto& v : clipped_at(view_volume().first<2>(), p))
+      returns += distance_to(view_volume()[2], v.p_clip) >= 0;
+  }
+  EXPECT_GT(returns, 10);
+}
+
 TEST(PipelineClip, FlatTakesTheLastCornersColour) {
   const glm::vec4 blue(0, 0, 1, 0);
   const Polygon p = clipped({{{0, 0, 0, 1}, {4, 0, 0, 1}, {0, 0.5f, 0, 1}}}, Shading::flat);

@@ -93,6 +93,13 @@ TEST(PipelineCoverage, ASliverCoversTheCentresThatItMeets) {
                   "#......."});
 }
 
+TEST(PipelineCoverage, TheSmallestTriangleMayCoverACentre) {
+  // Half a square of one step, its lower left corner on a centre: all three edge functions are at their border there.
+  EXPECT_TRUE(covers(snapped_triangle({512, 512}, {513, 512}, {512, 513}), 2, 2));
+  EXPECT_FALSE(covers(snapped_triangle({512, 512}, {511, 512}, {512, 511}), 2, 2));
+  EXPECT_FALSE(covers(snapped_triangle({512, 512}, {513, 512}, {513, 511}), 2, 2));
+}
+
 /// The tie rule from its definition: inside, or on an edge whose interior lies to +x, or (horizontal) to +y.
 bool covers_by_definition(const Triangle& t, int x, int y) {
   const glm::dvec2 p(256 * x, 256 * y);

@@ -230,6 +230,34 @@ TEST_F(PipelineLight, UnlitIsTheMeshColourOrTheMaterialsDiffuse) {
   EXPECT_EQ(lit(), glm::vec4(0.5f, 0, 1, 0.25f));
 }
 
+TEST_F(PipelineLight, EachUnlitVertexHasItsOwnColour) {
+  draw_.lit = false;
+  scene_.meshes.resize(1);
+  scene_.meshes[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
+  std::vector<Lit<float>> out;
+  light(scene_, draw_, std::vector(3, vertex_), out);
+  ASSERT_EQ(out.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(out[i].color, scene_.meshes[0].colors[i]);
+}
+
+TEST_F(PipelineLight, RoundingDoesNotTakeACosineBeyondOne) {
+  // The normal is the half vector, but for its last places: the specular term is the whole light, never more.
+  scene_.lights[0].specular = glm::vec3(0.5f);
+  draw_.material.specular = glm::vec4(1);
+  draw_.material.shininess = 128;
+  int above_one = 0;
+  for (int degrees = -80; degrees <= 80; ++degrees) {
+    const double half = degrees * M_PI / 360;
+    scene_.lights[0].vector = {std::sin(2 * half), 0.1, std::cos(2 * half)};
+    const glm::vec3 to_light = glm::normalize(glm::vec3(scene_.lights[0].vector));
+    vertex_.n_eye = glm::normalize(to_light + glm::vec3(0, 0, 1));
+    above_one += glm::dot(vertex_.n_eye, vertex_.n_eye) > 1;
+    EXPECT_LE(lit().r, 0.5f);
+    EXPECT_NEAR(lit().r, 0.5, 1e-4);
+  }
+  EXPECT_GT(above_one, 10);
+}
+
 TEST_F(PipelineLight, LitMeshesLeaveTheirColoursAside) {
   scene_.meshes.resize(1);
   scene_.meshes[0].colors = {{1, 1, 1, 1}};

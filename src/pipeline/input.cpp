@@ -1,0 +1,60 @@
+#include "pipeline/input.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace plumbline::pipeline {
+
+namespace {
+
+void require(bool fits, const std::string& records) {
+  if (!fits) throw std::invalid_argument("records." + records + " does not fit the scene or the other records");
+}
+
+// In draw order, and of primitives that the scene has.
+template <class Record>
+bool in_draw_order(const std::vector<Record>& records, std::uint32_t primitives) {
+  return std::is_sorted(records.begin(), records.end(),
+                        [](const auto& a, const auto& b) { return a.primitive < b.primitive; }) &&
+         (records.empty() || records.back().primitive < primitives);
+}
+
+}  // namespace
+
+void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
+  const Records<double>& r = in.records;
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const DrawRange end = ranges.empty() ? DrawRange{0, 0, 0, 0} : ranges.back();
+  const std::size_t vertices = end.first_vertex + end.vertex_count;
+  const std::uint32_t primitives = end.first_primitive + end.primitive_count;
+  if (stage == Stage::vertex || stage == Stage::window) require(r.matrices.size() == scene.draws.size(), "matrices");
+  if (stage == Stage::light || stage == Stage::clip) require(r.vertices.size() == vertices, "vertices");
+  if (stage == Stage::clip) require(r.lit.size() == vertices, "lit");
+  if (stage == Stage::window) {
+    const std::size_t n = r.polygons.vertices.size();
+    const auto fits = [&](const ClipPolygon& p) {
+      return p.count >= 3 && p.count <= 9 && p.first <= n && p.count <= n - p.first;
+    };
+    const auto& polygons = r.polygons.polygons;
+    require(in_draw_order(polygons, primitives) && std::all_of(polygons.begin(), polygons.end(), fits), "polygons");
+  }
+  if (stage <= Stage::window) return;
+  require(in_draw_order(r.triangles, primitives), "triangles");
+  if (stage == Stage::coverage) return;
+  const auto inside = [&](const Covered& c) {
+    return c.triangle < r.triangles.size() && c.x < scene.frame.width && c.y < scene.frame.height;
+  };
+  const auto before = [](const Covered& a, const Covered& b) { return a.triangle < b.triangle; };
+  require(std::all_of(r.covered.begin(), r.covered.end(), inside), "covered");
+  require(std::is_sorted(r.covered.begin(), r.covered.end(), before), "covered");
+  if (stage == Stage::shade) require(r.attributes.size() == r.covered.size(), "attributes");
+  if (stage < Stage::visibility) return;
+  require(r.depth.size() == r.covered.size(), "depth");
+  if (stage != Stage::merge) return;
+  require(r.shaded.size() == r.covered.size(), "shaded");
+  const bool winners_fit = in.planes.id.width() == scene.frame.width && in.planes.id.height() == scene.frame.height;
+  if (!in.planes.id.empty() && !winners_fit) throw std::invalid_argument("planes.id is not of the frame's size");
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,11 @@
+// Whether records from outside fit a scene and each other, so that a stage can be run on them.
+#pragma once
+
+#include "stages/capture.h"
+
+namespace plumbline::pipeline {
+
+/// What the stage reads of `in`. Throws std::invalid_argument naming the records that do not fit.
+void require_fitting(const Scene& scene, Stage stage, const Capture& in);
+
+}  // namespace plumbline::pipeline
