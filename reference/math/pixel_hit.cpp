@@ -13,18 +13,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A centre exactly on an edge belongs to the triangle on its right (+x); on a horizontal one, above (+y).
 bool takes_ties(glm::dvec2 inward) { return inward.x > 0 || (inward.x == 0 && inward.y > 0); }
 
-/// S: by how much the errors of a plane's corners may be enlarged at a pixel of its triangle; infinite: without bound.
-double snap_weight(const Triangle& t, bool certain) {
-  // A plane is set up through vertices within delta_E of their places, and evaluated at the pixel. With b' the pixel's
-  // barycentrics in the moved triangle, it comes to z at sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel.
-  // Inside, that sum is 1. Outside by at most a snapping step (coverage is snapped, the plane is not), at most two b'
-  // are negative, each by no more than the step over the altitude. A triangle that is cut is drawn in pieces, which
-  // have such borders inside it too.
-  if (certain && !t.cut) return 1;
-  const double altitude = t.altitude - 2 * (t.reach - kSnap);
-  return altitude > 0 ? 1 + 4 * kSnap / altitude : kInfinity;
-}
-
 struct Place {
   bool inside = false;    ///< in the closed triangle, in double
   bool by_ties = false;   ///< and by the tie rule
@@ -32,6 +20,24 @@ struct Place {
   glm::dvec3 nearest{0};  ///< the point of the triangle nearest to d
   double w = 0;           ///< there
 };
+
+/// S: by how much the errors of a plane's corners may be enlarged at a pixel of its triangle; infinite: without bound.
+double snap_weight(const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
+  // A plane is set up through vertices within delta_E of their places, and evaluated at the pixel. With b' the pixel's
+  // barycentrics in the moved triangle, it comes to z at sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel.
+  // Inside, that sum is 1. Outside by at most a snapping step (coverage is snapped, the plane is not), at most two b'
+  // are negative, each by no more than the step over the altitude. A triangle that is cut is drawn in pieces, which
+  // have such borders inside it too.
+  if (certain && !t.cut) return 1;
+  // Three corners of a convex polygon that are nearly in line lie along its border: such a piece reaches no pixel that
+  // is deep inside, which is: from the triangle's edges, from the cuts by near and far, and half a pixel from the
+  // frame's.
+  const double margin = 4 * t.reach, z = 0.5 + glm::dot(t.z_plane, d);
+  const bool deep =
+      certain && at.border > margin && margin < 0.5 && std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
+  const double altitude = (deep ? t.fat_altitude : t.altitude) - 2 * (t.reach - kSnap);
+  return altitude > 0 ? 1 + 4 * kSnap / altitude : kInfinity;
+}
 
 Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
   Place out;
@@ -67,7 +73,7 @@ Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
 /// The depth interval: the plane's z at the pixel, moved by at most h + delta_E where coverage and plane are snapped
 /// alike, or by the plane's own error where only coverage is; then the corners' own depth error.
 void set_depth(const Triangle& t, glm::dvec3 d, const Place& at, glm::dvec2 moved, PixelHit& out) {
-  const double weight = snap_weight(t, out.hit.certain);
+  const double weight = snap_weight(t, at, d, out.hit.certain);
   const double w = std::clamp(at.w, t.w_min, t.w_max);
   if (t.flat || !std::isfinite(weight)) {
     out.z = t.ahead ? std::clamp(0.5 * (t.z_min + t.z_max), 0.0, 1.0) : 0.5;
@@ -105,7 +111,7 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   }
   const std::array<const Corner*, 3> c{&projected.corners[t.corner[0]], &projected.corners[t.corner[1]], &last};
   const glm::dvec3 e(glm::dot(t.n[0], d), glm::dot(t.n[1], d), glm::dot(t.n[2], d));
-  const double weight = snap_weight(t, out.hit.certain), sum = e.x + e.y + e.z;
+  const double weight = snap_weight(t, at, d, out.hit.certain), sum = e.x + e.y + e.z;
   if (t.flat || !std::isfinite(weight) ||
       !(sum * t.sign > 0)) {  // no plane to rely on: any colour, and not only of [0,1]
     out.hit.color = (c[0]->color + c[1]->color + c[2]->color) / 3.0;

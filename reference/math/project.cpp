@@ -145,9 +145,11 @@ double altitude(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
 struct Widths {
   double whole;   ///< the polygon's width: its smallest extent across any direction
   double pieces;  ///< the smallest altitude of any triangle of its corners
+  double fat;     ///< and of those above `thin`
 };
-Widths widths(const std::array<glm::dvec2, 9>& p, std::size_t count) {
-  Widths out{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+Widths widths(const std::array<glm::dvec2, 9>& p, std::size_t count, double thin) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Widths out{kNone, kNone, kNone};
   for (std::size_t a = 0; a < count; ++a) {
     const glm::dvec2 along = p[(a + 1) % count] - p[a];
     if (const double length = glm::length(along); length > 0) {
@@ -158,7 +160,11 @@ Widths widths(const std::array<glm::dvec2, 9>& p, std::size_t count) {
       out.whole = std::min(out.whole, extent);
     }
     for (std::size_t b = a + 1; b < count; ++b) {
-      for (std::size_t c = b + 1; c < count; ++c) out.pieces = std::min(out.pieces, altitude(p[a], p[b], p[c]));
+      for (std::size_t c = b + 1; c < count; ++c) {
+        const double height = altitude(p[a], p[b], p[c]);
+        out.pieces = std::min(out.pieces, height);
+        if (height > thin) out.fat = std::min(out.fat, height);
+      }
     }
   }
   if (!std::isfinite(out.whole)) out.whole = 0;
@@ -222,8 +228,9 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
     farthest = glm::max(farthest, glm::abs(part.v[i] / w));
   }
   t.reach = displacement(scene, t, farthest, t.w_min);
-  const Widths width = widths(p_window, part.count);
+  const Widths width = widths(p_window, part.count, 2 * t.reach);
   t.altitude = t.cut ? width.pieces : width.whole;
+  t.fat_altitude = t.cut ? width.fat : width.whole;
   t.thin = t.flat || width.whole <= 2 * t.reach;
   const bool front = t.sign > 0;
   t.facing_kept = draw.cull == Cull::none || front == (draw.cull == Cull::back);

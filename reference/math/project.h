@@ -52,7 +52,8 @@ struct Triangle {
   double w_min = 0, w_max = 0;      ///< over its visible part
   double z_min = 0, z_max = 0;      ///< window z over its corners, where `ahead`
   double altitude = 0;              ///< pixels: the smallest one of all planes a renderer may set up for it
-  double reach = 0;                 ///< pixels: the largest vertex displacement over its visible part
+  double fat_altitude = 0;  ///< of those that are thicker than snapping may turn; thinner ones lie along its border
+  double reach = 0;         ///< pixels: the largest vertex displacement over its visible part
 };
 
 /// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange).

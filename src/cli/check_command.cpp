@@ -61,7 +61,8 @@ bool holds(const check::SceneVerdict& verdict, const CheckArguments& a) {
 int run(const CheckArguments& a) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<std::filesystem::path> paths(a.scenes.begin(), a.scenes.end());
-  const std::vector<std::filesystem::path> files = find_scenes(paths);
+  std::vector<Scene> scenes;  // all of them first: a bad one ends the run before anything is written
+  for (const auto& file : find_scenes(paths)) scenes.push_back(a.scene_arguments.load(file));
   const std::unique_ptr<Renderer> candidate = make_candidate(a.fault);
   const References references = make_references(a.against);
   std::map<std::string, std::string> versions{{candidate->info().name, candidate->info().version}};
@@ -75,9 +76,9 @@ int run(const CheckArguments& a) {
   std::string failures;
   bool all_hold = true;
   fmt::print("{}", report::table_head());
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (terminal) fmt::print(stderr, "\r\x1b[K[{}/{}] {}\r", i + 1, files.size(), files[i].string());
-    const Scene scene = a.scene_arguments.load(files[i]);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Scene& scene = scenes[i];
+    if (terminal) fmt::print(stderr, "\r\x1b[K[{}/{}] {}\r", i + 1, scenes.size(), scene.path);
     check::Drawn drawn;
     verdicts.push_back(check::judge(scene, *candidate, references.list, page ? &drawn : nullptr));
     fmt::print("{}", report::table_rows(verdicts.back()));

@@ -31,7 +31,12 @@ AtomicPath::~AtomicPath() {
 }
 
 void AtomicPath::commit() {
-  if (!fs::is_directory(target_)) return fs::rename(path_, target_);
+  const bool writes_folder = fs::is_directory(path_);
+  if (fs::exists(target_) && (writes_folder ? !fs::is_directory(target_) : !fs::is_regular_file(target_))) {
+    throw fs::filesystem_error(writes_folder ? "it is no folder" : "it is no regular file", target_,
+                               std::make_error_code(std::errc::file_exists));
+  }
+  if (!writes_folder || !fs::exists(target_)) return fs::rename(path_, target_);
   const fs::path old = beside(target_);
   fs::rename(target_, old);
   fs::rename(path_, target_);

@@ -15,7 +15,8 @@ class AtomicPath {
   AtomicPath& operator=(const AtomicPath&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Replaces a file; of folders also one that is not empty. Throws std::filesystem::filesystem_error.
+  /// A file replaces a regular file, never a folder or a device; a folder replaces a folder, even one that is not
+  /// empty. Throws std::filesystem::filesystem_error.
   void commit();
 
  private:
