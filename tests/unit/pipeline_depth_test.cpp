@@ -253,7 +253,7 @@ TEST(PipelineDepth, SliversWithACornerWhereFloatsAreFineAreRoundedRightly) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(1000, 16000), unit(0, 1);
   std::vector<Triangle> triangles;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const glm::dvec2 fine(unit(random) * 0.5, unit(random) * 0.5);
     const glm::vec2 b(glm::dvec2(place(random), place(random))),
         c(fine + (0.2 + 0.6 * unit(random)) * (glm::dvec2(b) - fine));
