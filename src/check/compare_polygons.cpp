@@ -93,7 +93,7 @@ bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance) 
   return std::abs(distances(v.p_clip)[plane]) <= tolerance;
 }
 
-// The planes whose cuts rounding decides about: a corner lies on one, or a vertex on several.
+// The planes whose cuts rounding decides about: a corner lies on one, or an edge goes through the meeting of several.
 std::array<bool, 6> open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, double tolerance) {
   std::array<bool, 6> open{};
   for (std::size_t p = 0; p < 6; ++p) {
@@ -101,7 +101,9 @@ std::array<bool, 6> open_planes(const Corners& c, std::span<const ClipVertex<dou
     for (const ClipVertex<double>& v : polygon) {
       std::size_t planes = 0;
       for (std::size_t q = 0; q < 6; ++q) planes += on_plane(v, q, tolerance) ? 1 : 0;
-      open[p] |= planes > 1 && on_plane(v, p, tolerance);
+      double to_edge = kInfinite;
+      for (std::size_t i = 0; i < 3; ++i) to_edge = std::min(to_edge, distance_from_edge(v, c, i));
+      open[p] |= planes > 1 && to_edge <= tolerance / c.scale && on_plane(v, p, tolerance);
     }
   }
   return open;
