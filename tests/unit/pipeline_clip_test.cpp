@@ -304,7 +304,7 @@ TEST(PipelineClip, ACornerOnThePlaneIsKeptAndCutAtTheSamePlace) {
   expect_polygon(clipped_at(view_volume().first<1>(), {{on, out, in}}),
                  {{on, {1, 0, 0, 1}, false},
                   {on, {1, 0, 0, 1}, true},
-                  {{1, 0.66666667f, 0, 1}, {0, 0.33333334f, 0.66666667f, 0.16666667f}, true},
+                  {{1, 0.66666667f, 0, 1}, {0, 0.33333334f, 1 - 0.33333334f, 0.16666667f}, true},
                   {in, {0, 0, 1, 0}, false}});
 }
 
