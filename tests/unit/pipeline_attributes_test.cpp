@@ -114,6 +114,12 @@ TEST(PipelineAttributes, OnTheHorizonThereIsNoDivisionByZero) {
   EXPECT_TRUE(std::isfinite(near.r) && std::isfinite(near.g) && std::isfinite(near.b) && std::isfinite(near.a));
 }
 
+TEST(PipelineAttributes, BeyondTheHorizonTheMeanGoesOn) {
+  // Weights -1 and 2 / 4: of their sum, -1/2, they are 2 and -1.
+  const Color<float> c = at(triangle(1, 4, 1), -1.0, 2.0, 0.0);
+  EXPECT_EQ(glm::vec4(c.r, c.g, c.b, c.a), 2.0f * kA - kB);
+}
+
 TEST(PipelineAttributes, BesideTheHorizonOfTheFarthestCornersToo) {
   // w near the largest float: the sum of the weights is subnormal, and 1 over it beyond every float.
   Triangle t = triangle(3e38f, 1.5e38f, 3e38f);

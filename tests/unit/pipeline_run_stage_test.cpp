@@ -81,6 +81,66 @@ TEST(PipelineRenderer, EachStageAloneOnTheRecordsBeforeItIsTheWhole) {
   }
 }
 
+TEST(PipelineRenderer, DepthsOfAnotherRendererAreRoundedToTheFormat) {
+  const Scene scene = boxes(ColorFormat::rgba8, DepthFormat::z16);
+  const auto pipeline = make_pipeline();
+  const Capture whole = pipeline->capture(scene, everything());
+  for (double off : {-0.49, 0.49}) {
+    Capture in;
+    in.records = whole.records;
+    for (double& z : in.records.depth) z += off / 65535;
+    expect_same(pipeline->run_stage(scene, Stage::visibility, in).planes, of_stage(whole, Stage::visibility).planes);
+    expect_same(pipeline->run_stage(scene, Stage::merge, in).planes, of_stage(whole, Stage::merge).planes);
+  }
+}
+
+TEST(PipelineRenderer, MergeTakesTheWinnersThatItIsGiven) {
+  const Scene scene = boxes();
+  const auto pipeline = make_pipeline();
+  const Capture whole = pipeline->capture(scene, everything());
+  expect_same(pipeline->run_stage(scene, Stage::merge, whole).planes, of_stage(whole, Stage::merge).planes);
+
+  Capture none = whole;
+  none.planes.id = Plane<std::int32_t>(90, 70, kBackground);
+  const Capture cleared = pipeline->run_stage(scene, Stage::merge, none);
+  for (const glm::vec4& c : cleared.planes.color.values()) {
+    ASSERT_EQ(c, glm::round(scene.frame.clear_color * 255.0f) / 255.0f);
+  }
+
+  // One pixel's winner is another of its triangles, though that is farther away.
+  const auto& r = whole.records;
+  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+    const Covered& c = r.covered[i];
+    const auto primitive = static_cast<std::int32_t>(r.triangles[c.triangle].primitive);
+    if (c.x != 40 || c.y != 30 || primitive == whole.planes.id(40, 30)) continue;
+    Capture other = whole;
+    other.planes.id(40, 30) = primitive;
+    const Planes planes = pipeline->run_stage(scene, Stage::merge, other).planes;
+    EXPECT_EQ(planes.depth(40, 30), r.depth[i]);
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(planes.color(40, 30)[k], r.shaded[i].color[k], 0.501 / 255);
+    EXPECT_EQ(planes.color(41, 30), whole.planes.color(41, 30));
+    return;
+  }
+  FAIL() << "the pixel has one triangle only";
+}
+
+TEST(PipelineRenderer, TrianglesBeyondTheFrameAreCutOff) {
+  // A triangle over the whole frame and far beyond each of its sides, none of which is a block's.
+  const Scene scene = boxes();
+  const auto pipeline = make_pipeline();
+  Capture in;
+  WindowTriangle<double> t{{}, 5, true};
+  const glm::dvec2 corners[] = {{-500, -500}, {2000, -500}, {-500, 2000}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    t.v[i] = {glm::dvec3(corners[i], 0.5), 1, glm::ivec2(corners[i] * 256.0) - 128, glm::dvec4(1)};
+  }
+  in.records.triangles = {t};
+  const Capture out = pipeline->run_stage(scene, Stage::coverage, in);
+  EXPECT_EQ(out.planes.count.values(), std::vector<std::uint32_t>(90 * 70, 1));
+  EXPECT_EQ(out.planes.id_sum.values(), std::vector<std::uint64_t>(90 * 70, id_weight(5)));
+  EXPECT_EQ(out.records.covered.size(), 90u * 70u);
+}
+
 TEST(PipelineRenderer, HandsOutTheRecordsAskedForAndNoOthers) {
   const Scene scene = boxes();
   const auto pipeline = make_pipeline();
@@ -119,7 +179,17 @@ TEST(PipelineRenderer, RecordsThatDoNotFitAreRefused) {
   refused(Stage::visibility, [](auto& r) { r.depth.pop_back(); });
   refused(Stage::visibility, [](auto& r) { r.covered[5].x = 90; });
   refused(Stage::visibility, [](auto& r) { r.triangles[0].primitive = 66; });
+  refused(Stage::visibility, [](auto& r) { r.covered[5].y = 70; });
+  refused(Stage::visibility, [](auto& r) { std::swap(r.triangles.front(), r.triangles.back()); });
+  refused(Stage::depth, [](auto& r) { std::swap(r.covered.front(), r.covered.back()); });
+  refused(Stage::window, [](auto& r) { r.polygons.polygons.back().first += 1; });
+  refused(Stage::window, [](auto& r) { r.polygons.polygons.back().first = 0xffffffffu; });
+  refused(Stage::window, [](auto& r) { r.polygons.polygons[0].count = 2; });
+  refused(Stage::window, [](auto& r) { std::swap(r.polygons.polygons.front(), r.polygons.polygons.back()); });
   refused(Stage::merge, [](auto& r) { r.shaded.pop_back(); });
+  Capture in = whole;
+  in.planes.id = Plane<std::int32_t>(70, 90, kBackground);
+  EXPECT_THROW(pipeline->run_stage(scene, Stage::merge, in), std::logic_error) << "winners of another frame";
 }
 
 }  // namespace
