@@ -33,7 +33,7 @@ using Handle = std::unique_ptr<std::remove_pointer_t<T>, Release>;
 void require_no_error(RTCDevice device, const char* what) {
   const RTCError error = rtcGetDeviceError(device);
   if (error != RTC_ERROR_NONE) {
-    throw RendererFailed(fmt::format("embree: {} failed with error {}", what, static_cast<int>(error)));
+    throw Unsupported(fmt::format("embree: {} failed with error {}", what, static_cast<int>(error)));
   }
 }
 
@@ -115,7 +115,7 @@ void require_in_range(const Projected& projected) {
     const glm::dvec3 p = place(projected, projected.corners[i]);
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(p[axis]) <= kRange) continue;  // not for NaN
-      throw RendererFailed(
+      throw Unsupported(
           fmt::format("embree: vertex {} of the scene is at ({}, {}, {}) in homogeneous window "
                       "coordinates; expected finite ones of at most {}",
                       i, p.x, p.y, p.z, kRange));

@@ -27,6 +27,17 @@ namespace plumbline::math {
 
 namespace {
 
+/// Whether all of them look for the nearest surface, or all for the farthest: then only what meets the winner matters.
+/// Else what one function keeps decides what the next compares with, and hidden surfaces matter too.
+template <class Range, class FuncOf>
+bool one_sense(const Range& range, FuncOf func_of) {
+  const auto all = [&](DepthFunc func, DepthFunc or_equal) {
+    return std::all_of(range.begin(), range.end(),
+                       [&](const auto& item) { return func_of(item) == func || func_of(item) == or_equal; });
+  };
+  return all(DepthFunc::less, DepthFunc::less_equal) || all(DepthFunc::greater, DepthFunc::greater_equal);
+}
+
 struct Edge {
   std::uint32_t from, to;  // points, from < to
   std::uint32_t j, k;      // corners
@@ -67,22 +78,14 @@ bool seen(const Scene& scene, const Projected& projected, std::uint32_t primitiv
     held = z_at(w, d);
     slack += slope_of(w);
   }
-  switch (scene.draws[t.draw].depth_func) {
-    case DepthFunc::never: return false;
-    case DepthFunc::always:
-    case DepthFunc::not_equal:
-      return winner == kBackground || t.draw >= projected.triangles[static_cast<std::size_t>(winner)].draw;
-    case DepthFunc::less:
-    case DepthFunc::less_equal: return z <= held + slack;
-    case DepthFunc::greater:
-    case DepthFunc::greater_equal: return z >= held - slack;
-    case DepthFunc::equal: return std::abs(z - held) <= slack;
-  }
-  return false;
+  const DepthFunc func = scene.draws[t.draw].depth_func;
+  const bool nearest = func == DepthFunc::less || func == DepthFunc::less_equal;
+  return nearest ? z <= held + slack : z >= held - slack;
 }
 
 /// The bands along the edges: their area, and the pixels whose centres they hold.
 struct Bands {
+  bool all_seen = false;  ///< hidden edges count as well
   double area = 0;
   Plane<char> near;
 };
@@ -109,7 +112,7 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
     const double inv_w = (1 - s) / a.z + s / b.z, z = 0.5 + 0.5 * ((1 - s) * a.w / a.z + s * b.w / b.z);
     const int x = std::clamp(static_cast<int>(d.x + 0.5 * id.width()), 0, id.width() - 1);
     const int y = std::clamp(static_cast<int>(d.y + 0.5 * id.height()), 0, id.height() - 1);
-    return Sample{seen(scene, projected, edge.primitive, id(x, y), d, z), x, y,
+    return Sample{bands.all_seen || seen(scene, projected, edge.primitive, id(x, y), d, z), x, y,
                   displacement(projected, t, d, 1 / inv_w)};
   };
   const double length = glm::length(along);
@@ -122,7 +125,9 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
   const int major = std::abs(along.x) >= std::abs(along.y) ? 0 : 1, minor = 1 - major;
   const glm::dvec2 half(0.5 * id.width(), 0.5 * id.height());
   const double cosine = std::abs(along[major]) / length;
-  const double lo = std::min(from[major], to[major]) + half[major], hi = std::max(from[major], to[major]) + half[major];
+  // The piece is within the window but for rounding, which may be large.
+  const auto in_window = [&](double at) { return std::clamp(at + half[major], 0.0, 2 * half[major]); };
+  const double lo = in_window(std::min(from[major], to[major])), hi = in_window(std::max(from[major], to[major]));
   for (double centre = std::ceil(lo - 0.5) + 0.5; centre <= hi; centre += 1) {
     const double s = (centre - half[major] - from[major]) / along[major];
     const double across = from[minor] + s * along[minor] + half[minor];
@@ -135,7 +140,8 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
 }  // namespace
 
 double ambiguous_by_edges(const Scene& scene, const Projected& projected, const Plane<std::int32_t>& id) {
-  Bands bands{0, {id.width(), id.height(), 0}};
+  const bool all_seen = !one_sense(scene.draws, [](const Draw& draw) { return draw.depth_func; });
+  Bands bands{all_seen, 0, {id.width(), id.height(), 0}};
   for (const Edge& edge : drawn_edges(projected)) add_band(scene, projected, edge, id, bands);
   const auto centres = std::count(bands.near.values().begin(), bands.near.values().end(), char{1});
   return std::max(std::min(bands.area, static_cast<double>(id.size())), static_cast<double>(centres));
@@ -172,16 +178,6 @@ double cut(const Surface& surface, double plane) {
   return visible && apart <= kStandsFor * slope ? 2 * surface.half / slope / kStandsFor : 0;
 }
 
-/// Whether all of them look for the nearest surface, or all for the farthest: then only what meets the winner matters.
-/// Else what one function keeps decides what the next compares with.
-bool one_sense(std::span<const PixelHit> hits) {
-  const auto all = [&](DepthFunc func, DepthFunc or_equal) {
-    return std::all_of(hits.begin(), hits.end(),
-                       [&](const PixelHit& h) { return h.hit.depth_func == func || h.hit.depth_func == or_equal; });
-  };
-  return all(DepthFunc::less, DepthFunc::less_equal) || all(DepthFunc::greater, DepthFunc::greater_equal);
-}
-
 }  // namespace
 
 double ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hits, std::int32_t winner) {
@@ -200,7 +196,7 @@ double ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hi
   }
   double share = 0;
   for (const Surface& other : others) share += meeting(frame, won, other);
-  if (!one_sense(hits)) {
+  if (!one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; })) {
     for (std::size_t i = 0; i < others.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) share += meeting(frame, others[i], others[j]);
     }

@@ -120,6 +120,14 @@ class ToClip {
 
 // Neighbouring triangles of one primitive are the fan (1, 2, 0), (2, 3, 0) ... of the polygon that clipping left.
 void add_polygons(std::span<const FedTriangle> triangles, const ToClip& to_clip, ClipPolygons<double>& out) {
+  for (const FedTriangle& t : triangles) {
+    for (const FedVertex& v : t.v) {
+      const glm::vec4 p = v.p_win_w;
+      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w)) continue;
+      throw Unsupported(
+          fmt::format("OpenGL's clipping of primitive {} goes beyond the range of float", primitive_of(t)));
+    }
+  }
   for (std::size_t i = 0; i < triangles.size();) {
     const std::uint32_t primitive = primitive_of(triangles[i]);
     const auto first = static_cast<std::uint32_t>(out.vertices.size());

@@ -2,6 +2,7 @@
 // volume and on pixel centres, in line, far apart in size, at the eye and behind it.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include <rapidcheck.h>
@@ -14,10 +15,16 @@ namespace plumbline::test {
 inline rc::Gen<float> coordinate() {
   using namespace rc;
   return gen::weightedOneOf<float>(
-      {{6, gen::map(gen::inRange(-4096, 4097), [](int i) { return float(i) / 1024; })},
-       {3, gen::map(gen::inRange(-8, 9), [](int i) { return float(i) / 2; })},
+      {{6, gen::map(gen::inRange(-4096, 4097), [](int i) { return static_cast<float>(i) / 1024; })},
+       {3, gen::map(gen::inRange(-8, 9), [](int i) { return static_cast<float>(i) / 2; })},
        {1, gen::map(gen::pair(gen::inRange(-1000, 1001), gen::inRange(-30, 21)),
-                    [](std::pair<int, int> p) { return std::ldexp(float(p.first) / 1000, p.second); })}});
+                    [](std::pair<int, int> p) { return std::ldexp(static_cast<float>(p.first) / 1000, p.second); })}});
+}
+
+/// Any finite float, of any size.
+inline rc::Gen<float> any_float() {
+  return rc::gen::map(rc::gen::pair(rc::gen::inRange(-1000, 1001), rc::gen::inRange(-140, 118)),
+                      [](std::pair<int, int> p) { return std::ldexp(static_cast<float>(p.first), p.second); });
 }
 
 inline rc::Gen<glm::vec3> point(const rc::Gen<float>& of) {
@@ -26,12 +33,12 @@ inline rc::Gen<glm::vec3> point(const rc::Gen<float>& of) {
 }
 
 inline rc::Gen<glm::vec3> unit_vector() {
-  return rc::gen::map(point(rc::gen::map(rc::gen::inRange(-4, 5), [](int i) { return float(i); })),
+  return rc::gen::map(point(rc::gen::map(rc::gen::inRange(-4, 5), [](int i) { return static_cast<float>(i); })),
                       [](glm::vec3 v) { return v == glm::vec3(0) ? glm::vec3(0, 0, 1) : glm::normalize(v); });
 }
 
 inline rc::Gen<glm::vec4> color() {
-  const auto channel = rc::gen::map(rc::gen::inRange(0, 256), [](int i) { return float(i) / 255; });
+  const auto channel = rc::gen::map(rc::gen::inRange(0, 256), [](int i) { return static_cast<float>(i) / 255; });
   return rc::gen::map(rc::gen::tuple(channel, channel, channel, channel), [](const auto& t) {
     return glm::vec4(std::get<0>(t), std::get<1>(t), std::get<2>(t), std::get<3>(t));
   });
@@ -79,7 +86,7 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
   for (int i = 0; i < lights; ++i) {
     Light light;
     light.kind = one_of<Light::Kind>(2);
-    light.vector = glm::dvec3(*point(gen::map(gen::inRange(-6, 7), [](int k) { return float(k) / 2; })));
+    light.vector = glm::dvec3(*point(gen::map(gen::inRange(-6, 7), [](int k) { return static_cast<float>(k) / 2; })));
     if (light.vector == glm::dvec3(0) && light.kind == Light::Kind::directional) light.vector.z = 1;
     light.specular = glm::vec3(0.5f);
     scene.lights.push_back(light);
@@ -102,10 +109,11 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
                                                         {1, DepthFunc::equal},
                                                         {1, DepthFunc::not_equal},
                                                         {1, DepthFunc::always}});
-    if (*gen::inRange(0, 3) == 0) draw.transforms.push_back(Rotate{double(*gen::inRange(-180, 181)), {1, 2, 3}});
+    if (*gen::inRange(0, 3) == 0)
+      draw.transforms.push_back(Rotate{static_cast<double>(*gen::inRange(-180, 181)), {1, 2, 3}});
     if (*gen::inRange(0, 3) == 0)
       draw.transforms.push_back(
-          Scale{glm::dvec3(*point(gen::map(gen::inRange(1, 5), [](int k) { return float(k) / 2; })))});
+          Scale{glm::dvec3(*point(gen::map(gen::inRange(1, 5), [](int k) { return static_cast<float>(k) / 2; })))});
     scene.draws.push_back(draw);
   }
   return scene;

@@ -28,16 +28,37 @@ std::string failures(const check::SceneVerdict& verdict) {
   return out;
 }
 
-RC_GTEST_PROP(RandomScenes, HoldAgainstAllReferences, ()) {
+check::SceneVerdict judge_by_all(const Scene& scene) {
   static const auto ours = pipeline::make_pipeline();
   static const auto osmesa = make_osmesa();
   static const auto embree = embree::make_embree();
   static const auto exact = exact::make_exact();
   const check::Reference references[] = {{"osmesa", osmesa.get()}, {"embree", embree.get()}, {"exact", exact.get()}};
-  const Scene scene = test::random_scene();
-  const check::SceneVerdict verdict = check::judge(scene, *ours, references);
-  const std::string failed = failures(verdict);
+  return check::judge(scene, *ours, references);
+}
+
+RC_GTEST_PROP(RandomScenes, HoldAgainstAllReferences, ()) {
+  const std::string failed = failures(judge_by_all(test::random_scene()));
   if (!failed.empty()) RC_FAIL(failed);
+}
+
+bool finite(const glm::vec4& v) { return std::isfinite(v.x + v.y + v.z + v.w); }
+
+RC_GTEST_PROP(RandomScenes, OfNumbersOfAnySizeLeaveNoNaN, ()) {
+  const Scene scene = test::random_scene(test::any_float());
+  for (const auto& renderer : {pipeline::make_pipeline(), exact::make_exact()}) {
+    const Capture drawn = renderer->capture(scene, {});
+    for (const glm::vec4& c : drawn.planes.color.values()) RC_ASSERT(finite(c));
+    for (double z : drawn.planes.depth.values()) RC_ASSERT(z >= 0 && z <= 1);
+  }
+}
+
+// The references may decline such scenes; none may crash or hang.
+RC_GTEST_PROP(RandomScenes, OfNumbersOfAnySizeAreJudged, ()) {
+  const Scene scene = test::random_scene(test::any_float());
+  for (const check::Comparison& c : judge_by_all(scene).comparisons) {
+    if (c.outcome == check::Outcome::failed) RC_FAIL(c.reference + ": " + c.note);
+  }
 }
 
 }  // namespace
