@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/text_file.h"
+#include "stages/atomic_path.h"
 
 namespace plumbline::report {
 
@@ -56,7 +56,7 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
     out["scenes"].push_back({{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}});
     for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison(c));
   }
-  write_text(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts) {
@@ -70,7 +70,7 @@ void write_ledger(const std::filesystem::path& file, std::span<const check::Scen
                     {"largest_seen", use.largest_ratio < 0 ? Json(nullptr) : number(seen)},
                     {"where", use.where}});
   }
-  write_text(file, Json{{"tolerances", rows}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(file, Json{{"tolerances", rows}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace plumbline::report

@@ -12,7 +12,7 @@ namespace plumbline::report {
 
 /// {"versions": {renderer: version}, "comparisons": [{scene, reference, stage, outcome, pixels, differing, ambiguous,
 /// max_difference, unit, tolerance, worst, ...}]}. Numbers that JSON cannot hold are the strings "inf" and "nan".
-/// Written whole or not at all. Throws std::runtime_error naming the file.
+/// Text that is no UTF-8 has U+FFFD for each byte. Written whole or not at all. Throws OutputError (atomic_path.h).
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
                 const std::map<std::string, std::string>& versions);
 

@@ -55,14 +55,15 @@ std::string table_rows(const SceneVerdict& verdict) {
   return out;
 }
 
-std::string failure_lines(const SceneVerdict& verdict, const std::string& repeat_command) {
+std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> unjudged,
+                          const std::string& repeat_command) {
   std::string out;
   for (const Comparison& c : verdict.comparisons) {
     if (c.outcome == Outcome::failed || c.outcome == Outcome::missing) {
       out += fmt::format("{} {}: {}: {}\n", name_of(c.outcome), c.scene, c.reference, c.note);
     }
   }
-  for (Stage stage : check::unjudged_stages(verdict)) {
+  for (Stage stage : unjudged) {
     out += fmt::format("unjudged {}: no reference judged {}\n", verdict.scene, name_of(stage));
   }
   if (const Comparison* first = check::first_different(verdict)) {
@@ -81,26 +82,28 @@ std::string failure_lines(const SceneVerdict& verdict, const std::string& repeat
   return out;
 }
 
-std::string summary(std::span<const SceneVerdict> verdicts, double seconds) {
+std::string summary(std::span<const SceneVerdict> verdicts, bool all_hold, double seconds) {
   std::array<std::size_t, 8> counts{};
   std::size_t comparisons = 0;
-  bool failed = false;
+  bool complete = true;
   for (const SceneVerdict& verdict : verdicts) {
     for (const Comparison& c : verdict.comparisons) {
       ++counts[static_cast<std::size_t>(c.outcome)];
       ++comparisons;
-      failed |= check::is_failure(c.outcome);
     }
+    complete &= check::unjudged_stages(verdict).empty();
   }
   std::string parts;
-  bool complete = true;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
     const auto outcome = static_cast<Outcome>(i);
     complete &= outcome != Outcome::unsupported && outcome != Outcome::missing && outcome != Outcome::dispute;
     parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", counts[i], name_of(outcome));
   }
-  const char* word = failed ? "FAILED" : comparisons == 0 ? "nothing was judged" : complete ? "ok" : "ok where judged";
+  const char* word = !all_hold          ? "FAILED"
+                     : comparisons == 0 ? "nothing was judged"
+                     : complete         ? "ok"
+                                        : "ok where judged";
   return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, verdicts.size(), comparisons, seconds,
                      parts);
 }

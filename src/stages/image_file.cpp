@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -16,7 +17,6 @@ namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
-using Bytes = std::vector<std::uint8_t>;
 
 /// Calls add(value) for each pixel in a file's order: from the top row down.
 template <class T, class Add>
@@ -38,16 +38,17 @@ OIIO::ImageSpec spec_of(int width, int height, int channels, OIIO::TypeDesc type
   return spec;
 }
 
-/// The file's bytes; `name`, for the message, also says the format by its ending.
-Bytes encode(const std::string& name, const OIIO::ImageSpec& spec, const void* pixels) {
-  Bytes bytes;
+/// The file's bytes; its ending says the format.
+Bytes encode(const fs::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
+  const std::string name = file.string();
+  std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput proxy(bytes);
   const auto out = OIIO::ImageOutput::create(name, &proxy);
-  if (!out) throw ImageError(fmt::format("{}: cannot be written: {}", name, OIIO::geterror()));
+  if (!out) throw ImageError(fmt::format("{}: cannot be encoded: {}", name, OIIO::geterror()));
   if (!out->open(name, spec) || !out->write_image(spec.format, pixels) || !out->close()) {
-    throw ImageError(fmt::format("{}: cannot be written: {}", name, out->geterror()));
+    throw ImageError(fmt::format("{}: cannot be encoded: {}", name, out->geterror()));
   }
-  return bytes;
+  return {bytes.begin(), bytes.end()};
 }
 
 std::string ending_of(const fs::path& file) {
@@ -61,33 +62,10 @@ void require_ending(const fs::path& file, std::string_view ending) {
   throw ImageError(fmt::format("{}: expected a file name ending in {}", file.string(), ending));
 }
 
-void write_file(const fs::path& file, const Bytes& bytes) {
-  try {
-    AtomicPath atomic(file);
-    std::ofstream out(atomic.path(), std::ios::binary);
-    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) throw ImageError(fmt::format("{}: cannot be written", file.string()));
-    if (fs::is_directory(file)) throw ImageError(fmt::format("{}: cannot be written: a folder", file.string()));
-    atomic.commit();
-  } catch (const fs::filesystem_error& error) {
-    throw ImageError(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
-  }
-}
-
 template <class T>
-void require_pixels(const std::string& name, const Plane<T>& plane) {
-  if (plane.empty()) throw ImageError(fmt::format("{}: expected an image with pixels, found an empty plane", name));
-}
-
-Bytes encode_png(const std::string& name, const Plane<glm::vec4>& plane) {
-  require_pixels(name, plane);
-  Bytes pixels;
-  pixels.reserve(4 * plane.size());
-  top_down(plane, [&](const glm::vec4& p) {
-    for (int c = 0; c < 4; ++c) pixels.push_back(code(p[c]));
-  });
-  return encode(name, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::UINT8), pixels.data());
+void require_pixels(const fs::path& file, const Plane<T>& plane) {
+  if (!plane.empty()) return;
+  throw ImageError(fmt::format("{}: expected an image with pixels, found an empty plane", file.string()));
 }
 
 /// The pixels of an open file in type T, all channels, from the top down.
@@ -120,41 +98,52 @@ Plane<glm::vec4> plane_of(const std::vector<T>& pixels, const OIIO::ImageSpec& s
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const Plane<glm::vec4>& plane) { return encode_png("image.png", plane); }
-
-void write_png(const fs::path& file, const Plane<glm::vec4>& plane) {
+Bytes encode_png(const fs::path& file, const Plane<glm::vec4>& plane) {
   require_ending(file, ".png");
-  write_file(file, encode_png(file.string(), plane));
+  require_pixels(file, plane);
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(4 * plane.size());
+  top_down(plane, [&](const glm::vec4& p) {
+    for (int c = 0; c < 4; ++c) pixels.push_back(code(p[c]));
+  });
+  return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::UINT8), pixels.data());
 }
 
-void write_exr(const fs::path& file, const Plane<glm::vec4>& plane) {
+Bytes encode_exr(const fs::path& file, const Plane<glm::vec4>& plane) {
   require_ending(file, ".exr");
-  require_pixels(file.string(), plane);
+  require_pixels(file, plane);
   std::vector<glm::vec4> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](const glm::vec4& p) { pixels.push_back(p); });
-  const OIIO::ImageSpec spec = spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::FLOAT);
-  write_file(file, encode(file.string(), spec, pixels.data()));
+  return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::FLOAT), pixels.data());
 }
 
-void write_depth_exr(const fs::path& file, const Plane<double>& plane) {
-  require_ending(file, ".exr");
-  require_pixels(file.string(), plane);
+Bytes encode_depth_exr(const fs::path& file, const Plane<double>& plane) {
+  require_depth_name(file);
+  require_pixels(file, plane);
   std::vector<float> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](double z) { pixels.push_back(static_cast<float>(z)); });
   OIIO::ImageSpec spec = spec_of(plane.width(), plane.height(), 1, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"Z"};
   spec.z_channel = 0;
-  write_file(file, encode(file.string(), spec, pixels.data()));
+  return encode(file, spec, pixels.data());
 }
 
-void write_image(const fs::path& file, const Plane<glm::vec4>& plane) {
+Bytes encode_image(const fs::path& file, const Plane<glm::vec4>& plane) {
+  require_image_name(file);
+  return ending_of(file) == ".png" ? encode_png(file, plane) : encode_exr(file, plane);
+}
+
+void require_image_name(const fs::path& file) {
   const std::string ending = ending_of(file);
-  if (ending == ".png") return write_png(file, plane);
-  if (ending == ".exr") return write_exr(file, plane);
+  if (ending == ".png" || ending == ".exr") return;
   throw ImageError(fmt::format("{}: expected a file name ending in .png or .exr", file.string()));
 }
+
+void require_depth_name(const fs::path& file) { require_ending(file, ".exr"); }
+
+void write_image(const fs::path& file, const Plane<glm::vec4>& plane) { write_file(file, encode_image(file, plane)); }
 
 Plane<glm::vec4> read_image(const fs::path& file) {
   constexpr int kLargest = 16384;
