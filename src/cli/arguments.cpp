@@ -54,6 +54,17 @@ void add(CLI::App& command, CaptureOptions& o) {
   text(command, "folder", o.folder, "Folder for the manifest and its arrays")->required();
 }
 
+void add(CLI::App& command, CompareOptions& o) {
+  text(command, "A", o.a, "An image (anything that OpenImageIO reads), or a capture's folder")->required();
+  text(command, "B", o.b, "The same")->required();
+  text(command, "--tolerance", o.tolerance, "Largest difference of a channel that holds, such as 0.001 or 1/255")
+      ->capture_default_str();
+  text(command, "-o,--output", o.output, "Write the difference of two images as .png or .exr");
+  text(command, "--amplify", o.amplify, "By what the difference is multiplied (default: the largest is white)");
+  text(command, "--json", o.json, "Write one object per comparison");
+  command.add_flag("--allow-missing", o.allow_missing, "What one capture alone holds is no failure");
+}
+
 void add(CLI::App& command, ListOptions& o) {
   command.add_option("what", o.what, "all, stages, renderers, faults, scenes")
       ->check(CLI::IsMember({"all", "stages", "renderers", "faults", "scenes"}));
@@ -85,6 +96,8 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "check", "Compare our renderer with the references, stage by stage", check,
               check_options);
   add_command(app, out.command, "capture", "Write what a renderer hands out at every stage into a folder", capture);
+  add_command(app, out.command, "compare",
+              "Compare two images, or two captures, number by number; pixels count from the lower left", compare);
   add_command(app, out.command, "list", "Show the stages, renderers, faults and scenes that there are", list);
   try {
     app.parse(argc, argv);

@@ -43,6 +43,17 @@ struct CaptureOptions {
 };
 int capture(const CaptureOptions& options);
 
+/// Two images or two captures, as they are stored.
+struct CompareOptions {
+  std::string a, b;             ///< two files or two folders
+  std::string tolerance = "0";  ///< a number, or a fraction such as 1/255
+  std::string output;           ///< of images: an amplified difference picture, or empty
+  std::string amplify;          ///< by what; empty: the largest difference is white
+  std::string json;
+  bool allow_missing = false;  ///< what one capture alone holds is no failure
+};
+int compare(const CompareOptions& options);
+
 /// What there is.
 struct ListOptions {
   std::string what = "all";

@@ -59,6 +59,25 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,
+                std::span<const check::StoredComparison> comparisons) {
+  Json out{{"a", a}, {"b", b}, {"tolerance", tolerance}, {"comparisons", Json::array()}};
+  for (const check::StoredComparison& c : comparisons) {
+    const check::Measurement& m = c.measurement;
+    Json row{{"what", c.what},
+             {"outcome", name_of(c.outcome)},
+             {"items", m.items},
+             {"differing", m.differing},
+             {"max_difference", number(m.max_difference)},
+             {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
+             {"histogram", m.histogram}};
+    if (c.codes > 0) row["codes"] = c.codes;
+    if (!c.note.empty()) row["note"] = c.note;
+    out["comparisons"].push_back(std::move(row));
+  }
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
 void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts) {
   Json rows = Json::array();
   for (const check::LedgerUse& use : check::ledger_use(verdicts)) {

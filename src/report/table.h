@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "check/compare_stored.h"
 #include "check/verdict.h"
 
 namespace plumbline::report {
@@ -17,5 +18,8 @@ std::string failure_lines(const check::SceneVerdict& verdict, std::span<const St
                           const std::string& repeat_command);
 /// The last lines: how many comparisons came to what. "ok" where all hold, bare only where every stage was judged.
 std::string summary(std::span<const check::SceneVerdict> verdicts, bool all_hold, double seconds);
+
+/// A comparison of two images or captures: a line each, under a head.
+std::string stored_table(std::span<const check::StoredComparison> comparisons, double tolerance);
 
 }  // namespace plumbline::report

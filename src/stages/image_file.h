@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -38,8 +39,26 @@ void require_depth_name(const std::filesystem::path& file);
 /// Encodes and writes; the file appears whole or not at all. Throws OutputError (atomic_path.h) as well.
 void write_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
 
-/// A PNG, EXR, or another format that OpenImageIO knows, of up to 16384 x 16384: 8- and 16-bit codes as
-/// code / (2^n - 1), float as it is. One channel comes as red, green and blue, a missing alpha as 1.
+/// An image as it is stored: no alpha multiplied or divided, no colour converted, no tag obeyed.
+struct StoredImage {
+  struct Channel {
+    std::string name;      ///< such as "R", "A", "Z"
+    double scale = 1;      ///< a value is values / scale: 2^n - 1 for n-bit codes, 1 for floats
+    Plane<double> values;  ///< all of one size; floats of any kind, NaN and infinities included
+  };
+  struct Window {
+    int x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Window&) const = default;
+  };
+  std::vector<Channel> channels;  ///< at least one
+  Window data, display;  ///< what is stored, and the frame that it is a part of; y from the top, as in the file
+};
+
+/// Any one image that OpenImageIO knows, of up to 16384 x 16384 pixels and 2^28 values. Refused: parts, MIP levels,
+/// deep pixels, volumes.
+StoredImage read_stored(const std::filesystem::path& file);
+
+/// The same of 1 to 4 channels, in float. One channel comes as red, green and blue, a missing alpha as 1.
 Plane<glm::vec4> read_image(const std::filesystem::path& file);
 
 }  // namespace plumbline
