@@ -10,7 +10,9 @@
 // s the slope of z1 - z2 that is a band of half width w/s along the line where the surfaces meet. That line passes at
 // |z1 - z2|/s from the centre. A pixel whose centre is within r = max(1, w/s) pixels of it stands for a share of the
 // band as large as (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such
-// line; within w of each other, they are ambiguous everywhere.
+// line; within w of each other, they are ambiguous everywhere. The near and far planes are met likewise, w the half
+// interval, by the winner and by whatever would win were it not cut off. Where a triangle has no plane to rely on, the
+// pixel is ambiguous whatever else is there.
 #include "reference/math/ambiguity.h"
 
 #include <algorithm>
@@ -18,6 +20,7 @@
 #include <cmath>
 #include <vector>
 
+#include "reference/math/depth_format.h"
 #include "stages/capture.h"
 
 namespace plumbline::math {
@@ -140,6 +143,8 @@ double ambiguous_by_edges(const Scene& scene, const Projected& projected, const 
 
 namespace {
 
+constexpr double kStandsFor = 1;  // r, in pixels
+
 /// A surface at a pixel, or the cleared depth buffer.
 struct Surface {
   std::int64_t order;
@@ -150,7 +155,6 @@ struct Surface {
 
 /// The share of the band where the two meet, that this pixel stands for.
 double meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
-  constexpr double kStandsFor = 1;                              // r, in pixels
   const DepthFunc later = a.order > b.order ? a.func : b.func;  // compares the two, or does not care
   if (later == DepthFunc::always || later == DepthFunc::never) return 0;
   const double width = a.half + b.half + depth_step(frame.depth, std::clamp(std::max(a.z, b.z), 0.0, 1.0));
@@ -159,13 +163,33 @@ double meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
   return apart <= kStandsFor * slope ? width / slope / kStandsFor : 0;
 }
 
+/// The share of the band along the line where the near or far plane, at window depth `plane`, cuts the surface. Only
+/// pixels on the visible side have the surface as a hit, so each stands for the other side as well.
+double cut(const Surface& surface, double plane) {
+  const double apart = std::abs(surface.z - plane), slope = glm::length(surface.slope);
+  if (slope * kStandsFor <= surface.half) return apart <= surface.half ? 1 : 0;
+  const bool visible = surface.z >= 0 && surface.z <= 1;
+  return visible && apart <= kStandsFor * slope ? 2 * surface.half / slope / kStandsFor : 0;
+}
+
+/// Whether all of them look for the nearest surface, or all for the farthest: then only what meets the winner matters.
+/// Else what one function keeps decides what the next compares with.
+bool one_sense(std::span<const PixelHit> hits) {
+  const auto all = [&](DepthFunc func, DepthFunc or_equal) {
+    return std::all_of(hits.begin(), hits.end(),
+                       [&](const PixelHit& h) { return h.hit.depth_func == func || h.hit.depth_func == or_equal; });
+  };
+  return all(DepthFunc::less, DepthFunc::less_equal) || all(DepthFunc::greater, DepthFunc::greater_equal);
+}
+
 }  // namespace
 
 double ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hits, std::int32_t winner) {
   std::vector<Surface> others;
   Surface won{kBackground, DepthFunc::always, frame.clear_depth, 0, glm::dvec2(0)};
   for (const PixelHit& h : hits) {
-    if (!std::isfinite(h.z_half) || h.hit.depth_func == DepthFunc::never) continue;
+    if (h.hit.depth_func == DepthFunc::never) continue;
+    if (!std::isfinite(h.z_half)) return 1;
     const Surface surface{h.hit.primitive, h.hit.depth_func, h.z, h.z_half, h.z_slope};
     if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
       others.push_back(won);
@@ -176,6 +200,15 @@ double ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hi
   }
   double share = 0;
   for (const Surface& other : others) share += meeting(frame, won, other);
+  if (!one_sense(hits)) {
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) share += meeting(frame, others[i], others[j]);
+    }
+  }
+  for (const Surface& other : others) {
+    if (other.order != kBackground && passes(other.func, other.z, won.z)) share += cut(other, 0) + cut(other, 1);
+  }
+  if (won.order != kBackground) share += cut(won, 0) + cut(won, 1);
   return std::min(1.0, share);
 }
 

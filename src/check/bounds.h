@@ -16,11 +16,19 @@ Vec4<double> absolute(const Vec4<double>& p);
 /// The same for a unit normal: |N| |n| / |N n|, in the largest component.
 double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
 
-/// Per channel, in units of u: how a lit colour in float may differ from the spec's equation in double: the sum over
-/// the lights of |ambient| + k |diffuse| + k (1 + s (1 + 1 / |L + z|)) |specular|, at least 1 (the clamped result).
-/// s: shininess, by which a power multiplies relative errors; |L + z|: the half vector's length before it is
-/// normalised; k: for a point light, (|light| + |p_eye|) / |light - p_eye| + 1.
-Vec3<double> light_magnitude(const Scene& scene, const Draw& draw, const Vec3<double>& p_eye);
+/// What rounding may do to a lit colour.
+struct LightBounds {
+  /// Per channel, in units of u, how it may differ in float from the spec's equation in double: the sum over the lights
+  /// of |ambient| + k |diffuse| + k (1 + s (1 + 1 / |L + z|)) |specular|, at least 1 (the clamped result).
+  /// s: shininess, by which a power multiplies relative errors; |L + z|: the half vector's length before it is
+  /// normalised; k: for a point light, (|light| + |p_eye|) / |light - p_eye| + 1. Infinite where no direction is left
+  /// (a light at the vertex).
+  Vec3<double> magnitude{0};
+  /// Per channel, what may come or go: the specular terms of lights whose N.L is within rounding of 0, the equation's
+  /// only jump.
+  Vec3<double> jump{0};
+};
+LightBounds light_bounds(const Scene& scene, const Draw& draw, const Vertex<double>& vertex);
 
 /// How a plane's value at a pixel centre depends on the triangle: depth, and the colour's four channels.
 struct PlaneBounds {
@@ -35,8 +43,7 @@ struct PlaneBounds {
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y);
 
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
-/// (c2
-/// - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
+/// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
 /// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|).
 Vec4<double> bounds_of_mean(const WindowTriangle<double>& triangle, int x, int y);
 

@@ -54,6 +54,40 @@ void open_value(Meter& meter, double value, const Place& place, double reference
   meter.value(std::isfinite(value) && std::isfinite(reference) ? 0 : kInfinite, 0, place, value, reference);
 }
 
+// What the two sides' colours of a primitive's vertices differ by, per channel. Where the reference shows none, what
+// osmesa.light grants.
+class LitApart {
+ public:
+  LitApart(const Scene& scene, const Records<double>& a, const Records<double>& b)
+      : scene_(scene),
+        ranges_(draw_ranges(scene)),
+        apart_(a.lit.size(), Vec4<double>(u * tolerance("osmesa.light").factor)) {
+    if (b.lit.size() != a.lit.size()) return;
+    for (std::size_t i = 0; i < apart_.size(); ++i) apart_[i] = glm::abs(a.lit[i].color - b.lit[i].color);
+  }
+  Vec4<double> of(std::int32_t primitive) const {
+    const auto p = static_cast<std::uint32_t>(primitive);
+    const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
+                                            [&](const DrawRange& r) { return r.first_primitive <= p; });
+    if (after == ranges_.begin()) return Vec4<double>(0);
+    const DrawRange& range = *(after - 1);
+    const Draw& draw = scene_.draws[static_cast<std::size_t>(after - 1 - ranges_.begin())];
+    if (p - range.first_primitive >= range.primitive_count) return Vec4<double>(0);  // no primitive of the scene
+    const glm::uvec3 corner = scene_.meshes[draw.mesh].triangles[p - range.first_primitive];
+    Vec4<double> out(0);
+    for (int i = draw.shading == Shading::flat ? 2 : 0; i < 3; ++i) {
+      const std::size_t vertex = range.first_vertex + corner[i];
+      if (vertex < apart_.size()) out = glm::max(out, apart_[vertex]);
+    }
+    return out;
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<DrawRange> ranges_;
+  std::vector<Vec4<double>> apart_;
+};
+
 }  // namespace
 
 Measurement compare_coverage(const Planes& candidate, const Planes& reference) {
@@ -102,8 +136,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
     const double bound = winner_bounds(candidate.records, id, x, y).depth;
     if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
     const double step = depth_step(scene.frame.depth, z_ref) / u;
-    // In units of the bound: `factor` of it, and a step for the two roundings.
-    meter.value(difference(z, z_ref) / u / (bound + step / factor), factor, place, z, z_ref);
+    meter.value(difference(z, z_ref) / u, factor * bound, place, z, z_ref, step);
   });
 }
 
@@ -112,36 +145,41 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
   const Planes &a = candidate.planes, &b = reference.planes;
   std::string why;
   if (!has_winners(a, b, a.shaded, why)) return mismatch("u", why, a.id.size());
-  const double vertex_colors = check::tolerance("osmesa.light").factor;
-  const bool any_lit = std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.lit; });
+  const LitApart lit(scene, candidate.records, reference.records);
   return compare_planes(a.shaded, b.shaded, "u", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
-    const Vec4<double> bound =
-        id == kBackground ? Vec4<double>(0)
-                          : winner_bounds(candidate.records, id, x, y).color + (any_lit ? vertex_colors / factor : 0.0);
+    const Place place{x, y, id, "color"};
+    if (id == kBackground) {
+      return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
+    }
+    const Vec4<double> bound = winner_bounds(candidate.records, id, x, y).color, apart = lit.of(id);
     for (int c = 0; c < 4; ++c) {
-      const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c], diff = difference(v, w) / u;
+      const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
       if (!std::isfinite(bound[c])) {
-        open_value(meter, v, {x, y, id, "color"}, w);
+        open_value(meter, v, place, w);
       } else {
-        meter.value(diff == 0 ? 0 : diff / bound[c], factor, {x, y, id, "color"}, v, w);
+        meter.value(difference(v, w) / u, factor * bound[c], place, v, w, apart[c] / u);
       }
     }
   });
 }
 
-Measurement compare_codes(const Capture& candidate, const Capture& reference, double codes, double factor) {
+Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
+                          double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   std::string why;
   if (!has_winners(a, b, a.color, why)) return mismatch("1/255", why, a.id.size());
+  const LitApart lit(scene, candidate.records, reference.records);
   return compare_planes(a.color, b.color, "1/255", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
-    const Vec4<double> bound = id == kBackground ? Vec4<double>(0) : winner_bounds(candidate.records, id, x, y).color;
+    const bool cleared = id == kBackground;
+    const Vec4<double> bound =
+        cleared ? Vec4<double>(0) : factor * u * winner_bounds(candidate.records, id, x, y).color + lit.of(id);
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(255.0 * a.color(x, y)[c]), w = std::round(255.0 * b.color(x, y)[c]);
-      meter.value(difference(v, w), codes + std::floor(255 * factor * u * bound[c]), {x, y, id, "color"}, v, w);
+      meter.value(difference(v, w), cleared ? 0 : codes, {x, y, id, "color"}, v, w, std::floor(255 * bound[c]));
     }
   });
 }
@@ -187,17 +225,6 @@ Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
 
 namespace {
 
-// Depth and colour are judged against the answer of the pixel's own winner; a winner that is not legal is visibility's
-// matter, and its values are held to whichever legal answer is nearest.
-template <class Distance>
-const LegalAnswer* nearest(std::span<const LegalAnswer> answers, std::int32_t id, Distance distance) {
-  if (const LegalAnswer* own = find(answers, id)) return own;
-  const auto it = std::min_element(answers.begin(), answers.end(), [&](const LegalAnswer& a, const LegalAnswer& b) {
-    return distance(a) < distance(b);
-  });
-  return it == answers.end() ? nullptr : &*it;
-}
-
 double outside(double value, double low, double high) {
   if (value >= low && value <= high) return 0;
   return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
@@ -205,54 +232,54 @@ double outside(double value, double low, double high) {
 
 // `half_code`: what rounding to the frame's format adds to the oracle's bound.
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Plane<std::int32_t>& id, const Legal& legal,
-                                double half_code, bool clamped) {
+                                double half_code, bool clamped, double factor) {
   std::string why;
   if (!same_size(id, legal.certain, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
     const auto answers = legal.at(x, y);
     if (answers.size() > 1) meter.ambiguous();
     const glm::vec4 c = color(x, y);
-    const auto expected = [&](const LegalAnswer& a) { return clamped ? glm::clamp(a.color, 0.0f, 1.0f) : a.color; };
-    const LegalAnswer* answer =
-        nearest(answers, id(x, y), [&](const LegalAnswer& a) { return glm::distance(expected(a), c); });
-    if (answer == nullptr) {
-      meter.value(kInfinite, 0, {x, y, -1, "no legal answer"}, 0, 0);
+    const LegalAnswer* answer = find(answers, id(x, y));
+    if (answer == nullptr) {  // visibility's matter, but for what is no number
+      for (int i = 0; i < 4; ++i) {
+        meter.value(std::isfinite(c[i]) ? 0 : kInfinite, 0, {x, y, id(x, y), "color"}, c[i], 0);
+      }
       return;
     }
     const double bound = static_cast<double>(answer->color_bound) + half_code;
     for (int i = 0; i < 4; ++i) {
-      const double v = c[i], w = expected(*answer)[i], diff = difference(v, w);
-      meter.value(diff == 0 ? 0 : diff / bound, 1, {x, y, answer->primitive, "color"}, v, w);
+      const double v = c[i], w = clamped ? glm::clamp(answer->color[i], 0.0f, 1.0f) : answer->color[i],
+                   diff = difference(v, w);
+      meter.value(diff == 0 ? 0 : diff / bound, factor, {x, y, answer->primitive, "color"}, v, w);
     }
   });
 }
 
 }  // namespace
 
-Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal) {
+Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
   std::string why;
   if (!same_size(candidate.id, legal.certain, why)) return mismatch("step", why, candidate.depth.size());
   return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
     const auto answers = legal.at(x, y);
     if (answers.size() > 1) meter.ambiguous();
     const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
-    const auto steps = [&](const LegalAnswer& a) { return outside(z, a.z_lo, a.z_hi) / step; };
-    const LegalAnswer* answer = nearest(answers, candidate.id(x, y), steps);
+    const LegalAnswer* answer = find(answers, candidate.id(x, y));
     if (answer == nullptr) {
-      meter.value(kInfinite, 0, {x, y, -1, "no legal answer"}, z, 0);
-      return;
+      return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, candidate.id(x, y), "z"}, z, 0);
     }
-    meter.value(steps(*answer), 1, {x, y, answer->primitive, "z"}, z, std::clamp(z, answer->z_lo, answer->z_hi));
+    meter.value(outside(z, answer->z_lo, answer->z_hi) / step, factor, {x, y, answer->primitive, "z"}, z,
+                std::clamp(z, answer->z_lo, answer->z_hi));
   });
 }
 
-Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal) {
-  return compare_legal_color(candidate.shaded, candidate.id, legal, 0, false);
+Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor) {
+  return compare_legal_color(candidate.shaded, candidate.id, legal, 0, false, factor);
 }
 
-Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal) {
+Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
   const bool codes = scene.frame.color == ColorFormat::rgba8;
-  return compare_legal_color(candidate.color, candidate.id, legal, codes ? 0.5 / 255 + 4 * u : 0, codes);
+  return compare_legal_color(candidate.color, candidate.id, legal, codes ? 0.5 / 255 + 4 * u : 0, codes, factor);
 }
 
 }  // namespace plumbline::check

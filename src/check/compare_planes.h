@@ -15,23 +15,26 @@ Measurement compare_coverage(const Planes& candidate, const Planes& reference);
 Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal);
 
 /// Depth and colour where the winners are the same; the reference evaluates planes in float from the window's origin
-/// (bounds.h): `factor` u of that magnitude, one step of the depth format more. Elsewhere as compare_winners.
+/// (bounds.h): `factor` u of that magnitude, and for depth one step of the format, for colour what the two sides'
+/// colours of the triangle's vertices differ by, which is light's matter. Elsewhere as compare_winners.
 Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, const Capture& reference, double factor);
 Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   double factor);
-/// rgba8: in 1/255, at most `codes` where the winners are the same, and the whole codes that `factor` u of the
-/// magnitude come to (slivers).
-Measurement compare_codes(const Capture& candidate, const Capture& reference, double codes, double factor);
+/// rgba8, in 1/255: at most `codes` where the winners are the same, and the whole codes that the bound of
+/// compare_shaded_planes comes to (slivers).
+Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
+                          double factor);
 
 /// The candidate's planes against the colours that exact made of its own fragments: rgba8, in halves of 1/255, against
 /// unrounded colours; rgba32f and depth: equal.
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor);
 
-/// Against legal answers. Pixels with more than one are counted as ambiguous.
+/// Against legal answers. Pixels with more than one are counted as ambiguous. Depth and colour are held to the answer
+/// of the pixel's own winner, `factor` times its bound; where that is not legal, it is visibility's matter alone.
 Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
-Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal);
-Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal);
-Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal);
+Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);
+Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor);
+Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);
 
 }  // namespace plumbline::check

@@ -136,8 +136,17 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
       add(meter, a, b, Vec4<double>(u), 0, place);
       return;
     }
-    const Vec3<double> m = light_magnitude(scene, draw, Vec3<double>(candidate.vertices[i].p_eye));
-    add(meter, a, b, u * Vec4<double>(m, 1), factor, place);
+    const LightBounds bounds = light_bounds(scene, draw, candidate.vertices[i]);
+    if (bounds.jump != Vec3<double>(0) || !std::isfinite(bounds.magnitude.x)) meter.ambiguous();
+    for (int c = 0; c < 4; ++c) {
+      const double magnitude = c < 3 ? bounds.magnitude[c] : 1, jump = c < 3 ? bounds.jump[c] : 0;
+      if (std::isfinite(magnitude)) {
+        const double unit = u * magnitude;
+        meter.value(difference(a[c], b[c]) / unit, factor, place, a[c], b[c], jump / unit);
+      } else {
+        meter.value(a[c] >= 0 && a[c] <= 1 ? 0 : kInfinite, 0, place, a[c], b[c]);
+      }
+    }
   });
 }
 

@@ -103,8 +103,10 @@ void ask_oracle(Case& c, const Legal& legal, Stage stage, const std::string& nam
   const Planes& planes = c.candidate.planes;
   switch (stage) {
     case Stage::coverage: return c.add(name, stage, compare_legal_count(planes, legal));
-    case Stage::depth: return c.add(name, stage, compare_legal_depth(c.scene, planes, legal), "legal.depth");
-    case Stage::attributes: return c.add(name, stage, compare_legal_shaded(planes, legal), "legal.attributes");
+    case Stage::depth:
+      return c.add(name, stage, compare_legal_depth(c.scene, planes, legal, factor("legal.depth")), "legal.depth");
+    case Stage::attributes:
+      return c.add(name, stage, compare_legal_shaded(planes, legal, factor("legal.attributes")), "legal.attributes");
     case Stage::visibility: {
       Measurement m = compare_legal_winner(planes, legal);
       const double budget = 2 * legal.predicted_ambiguous;
@@ -116,7 +118,8 @@ void ask_oracle(Case& c, const Legal& legal, Stage stage, const std::string& nam
       }
       return c.add(name, stage, std::move(m), "", std::move(note));
     }
-    case Stage::merge: return c.add(name, stage, compare_legal_merge(c.scene, planes, legal), "legal.merge");
+    case Stage::merge:
+      return c.add(name, stage, compare_legal_merge(c.scene, planes, legal, factor("legal.merge")), "legal.merge");
     default: return;
   }
 }
@@ -173,9 +176,10 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
     case Stage::visibility: return c.add(name, stage, compare_winners(c.candidate.planes, theirs.planes, c.legal));
     case Stage::merge:
       if (codes) {
-        return c.add(name, stage,
-                     compare_codes(c.candidate, theirs, factor("osmesa.merge.rgba8"), factor("osmesa.attributes")),
-                     "osmesa.merge.rgba8");
+        return c.add(
+            name, stage,
+            compare_codes(c.scene, c.candidate, theirs, factor("osmesa.merge.rgba8"), factor("osmesa.attributes")),
+            "osmesa.merge.rgba8");
       }
       return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
   }

@@ -27,7 +27,7 @@ constexpr std::array kLedger = {
     Tolerance{"exact.light", 16, "u",
               "Per light a normalised vector (3 u), two dot products of unit vectors (3 u each), products and sums (4 "
               "u), the power (below 1 u, times the shininess for its argument's error): 16 u of the magnitude of "
-              "bounds.h, light_magnitude.",
+              "bounds.h, light_bounds.",
               "A chain of some 20 roundings: they do not all go one way, and where the power multiplies them it is "
               "also small."},
     Tolerance{"osmesa.vertex", 8, "u",
@@ -53,7 +53,8 @@ constexpr std::array kLedger = {
         "osmesa.depth", 4, "u",
         "llvmpipe evaluates z0 + dz/dx x + dz/dy y in float from the window's origin: each term is a product and a "
         "sum, once to bring z0 to the origin and once at the pixel: 4 u of the magnitude of bounds.h, "
-        "bounds_from_origin, which counts the gradients' own error; one step of the format more."},
+        "bounds_from_origin, which counts the gradients' own error; one step of the format more.",
+        "Four roundings and the gradients', which do not all go one way."},
     Tolerance{
         "exact.attributes", 10, "u",
         "Barycentrics rounded to float (1), times 1/w (1), the sum of three such (4), reciprocal and product (2), "
@@ -62,7 +63,7 @@ constexpr std::array kLedger = {
     Tolerance{
         "osmesa.attributes", 8, "u",
         "As osmesa.depth, 4 u for colour / w and for 1 / w, which the magnitude joins, and 4 more for the products by "
-        "1/w at the corners and the division; vertex colours differ by osmesa.light."},
+        "1/w at the corners and the division; besides, what the two sides' vertex colours differ by."},
     Tolerance{"osmesa.merge.rgba8", 1, "1/255",
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},

@@ -34,16 +34,18 @@ double difference(double a, double b) {
   return std::isfinite(a) && std::isfinite(b) ? d : kInfinite;
 }
 
-void Meter::value(double diff, double tolerance, const Place& place, double candidate, double reference) {
+void Meter::value(double diff, double tolerance, const Place& place, double candidate, double reference,
+                  double allowance) {
   if (!(diff >= 0)) diff = kInfinite;
-  if (!(tolerance >= 0) || !std::isfinite(tolerance)) tolerance = 0;
+  if (!(tolerance >= 0) || !std::isfinite(tolerance + allowance)) tolerance = allowance = 0;
   item_difference_ = std::max(item_difference_, diff);
-  if (diff > tolerance || !std::isfinite(diff)) item_differs_ = true;
+  const double beyond = std::max(diff - allowance, 0.0);
+  if (beyond > tolerance) item_differs_ = true;
   if (diff == 0) return;
-  const double ratio = tolerance > 0 ? diff / tolerance : kInfinite;
+  const double ratio = beyond == 0 ? 0 : tolerance > 0 ? beyond / tolerance : kInfinite;
   if (ratio > m_.max_ratio || (ratio == m_.max_ratio && diff > m_.worst.difference)) {
     m_.max_ratio = ratio;
-    m_.worst = {place, candidate, reference, diff, tolerance};
+    m_.worst = {place, candidate, reference, diff, tolerance + allowance};
   }
 }
 

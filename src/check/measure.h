@@ -32,7 +32,7 @@ struct Measurement {
   std::uint64_t ambiguous = 0;  ///< items for which more than one answer is legal
   std::uint64_t disputed = 0;   ///< items where the reference, not the candidate, is outside the legal answers
   double max_difference = 0;    ///< in `unit`; infinite for NaN, a wrong size, a missing record
-  double max_ratio = 0;         ///< largest difference / tolerance over the items; above 1 something differs
+  double max_ratio = 0;         ///< largest share of a tolerance that was used; above 1 something differs
   Worst worst;
   std::string mismatch;  ///< why nothing could be compared item by item (sizes differ), or empty
   /// Items by difference: [0] none, [i] in [2^(i-13), 2^(i-12)) units, the ends open; [19]: not finite.
@@ -48,8 +48,9 @@ class Meter {
   explicit Meter(std::string unit) { m_.unit = std::move(unit); }
 
   /// One value of an item: `diff` and `tolerance` in the meter's unit. A NaN diff counts as infinite, a tolerance
-  /// that is not finite as 0.
-  void value(double diff, double tolerance, const Place& place, double candidate, double reference);
+  /// that is not finite as 0. `allowance`: of another row, granted before this tolerance is touched.
+  void value(double diff, double tolerance, const Place& place, double candidate, double reference,
+             double allowance = 0);
   /// Ends an item that has got its values.
   void item();
   void ambiguous() { ++m_.ambiguous; }

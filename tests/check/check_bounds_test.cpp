@@ -2,6 +2,8 @@
 #include "check/bounds.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "check_fixtures.h"
 #include "reference/exact/barycentric.h"
@@ -224,8 +226,8 @@ TEST(Magnitude, OfANormalIsRelative) {
   EXPECT_NEAR(normal_magnitude(m, {1, 1, 0}), 2.5 / 0.5, 1e-12);
 }
 
-struct LightMagnitude : testing::Test {
-  LightMagnitude() {
+struct LightBoundsTest : testing::Test {
+  LightBoundsTest() {
     scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
     draw.material.ambient = {0.5, 0.5, 0.5, 1};
     draw.material.diffuse = {0.5, 1, 0, 1};
@@ -236,41 +238,67 @@ struct LightMagnitude : testing::Test {
     light.diffuse = {4, 2, 1};
     light.specular = {2, 2, 0.5};
   }
+  LightBounds at(glm::dvec3 p_eye, glm::dvec3 n_eye) const {
+    return light_bounds(scene, draw, {glm::dvec4(p_eye, 1), glm::dvec4(0), n_eye});
+  }
+  glm::dvec3 magnitude_at(glm::dvec3 p_eye) const { return at(p_eye, {0, 0, 1}).magnitude; }
   Scene scene;
   Draw draw;
   Light light;
 };
 
-TEST_F(LightMagnitude, IsAtLeastTheClampedResult) { EXPECT_EQ(light_magnitude(scene, draw, {0, 0, 0}), glm::dvec3(1)); }
+TEST_F(LightBoundsTest, IsAtLeastTheClampedResult) { EXPECT_EQ(magnitude_at({0, 0, 0}), glm::dvec3(1)); }
 
-TEST_F(LightMagnitude, SumsEmissionSceneAndLights) {
+TEST_F(LightBoundsTest, SumsEmissionSceneAndLights) {
   draw.material.emission = {2, 0, 3, 1};
   scene.ambient = {1, 1, 4};
-  EXPECT_EQ(light_magnitude(scene, draw, {0, 0, 0}), glm::dvec3(2.5, 1, 5));
+  EXPECT_EQ(magnitude_at({0, 0, 0}), glm::dvec3(2.5, 1, 5));
   scene.lights = {light};
   // Along z the half vector's length is 2: the highlight counts 1 + 10 (1 + 1/2) times.
   const glm::dvec3 one(0.5 + 2 + 16 * 0.5, 1 + 2 + 16 * 1, 1.5 + 0 + 16 * 0.5);
   for (int c = 0; c < 3; ++c) {
-    EXPECT_NEAR(light_magnitude(scene, draw, {0, 0, 0})[c], glm::dvec3(2.5, 0.5, 5)[c] + one[c], 1e-9);
+    EXPECT_NEAR(magnitude_at({0, 0, 0})[c], glm::dvec3(2.5, 0.5, 5)[c] + one[c], 1e-9);
   }
   scene.lights = {light, light};
-  EXPECT_NEAR(light_magnitude(scene, draw, {7, 8, 9}).r, 2.5 + 2 * one.r, 1e-9) << "wherever the vertex is";
+  EXPECT_NEAR(magnitude_at({7, 8, 9}).r, 2.5 + 2 * one.r, 1e-9) << "wherever the vertex is";
 }
 
-TEST_F(LightMagnitude, OfAPointLightGrowsNearIt) {
+TEST_F(LightBoundsTest, OfAPointLightGrowsNearIt) {
   light.kind = Light::Kind::point;
   light.vector = {0, 0, 3};  // eye space: (0, 0, -2)
   scene.lights = {light};
   // From (0, 0, -6): (2 + 6) / 4 + 1 = 3 times.
-  EXPECT_NEAR(light_magnitude(scene, draw, {0, 0, -6}).r, 0.5 + 3 * 2 + 3 * 16 * 0.5, 1e-9);
-  EXPECT_GT(light_magnitude(scene, draw, {0, 0, -2.01}).r, 100 * light_magnitude(scene, draw, {0, 0, -6}).r / 3);
+  EXPECT_NEAR(magnitude_at({0, 0, -6}).r, 0.5 + 3 * 2 + 3 * 16 * 0.5, 1e-9);
+  EXPECT_GT(magnitude_at({0, 0, -2.01}).r, 100 * magnitude_at({0, 0, -6}).r / 3);
 }
 
-TEST_F(LightMagnitude, OfAHighlightSeenAgainstTheLightGrows) {
+TEST_F(LightBoundsTest, OfALightAtTheVertexAreInfinite) {
+  light.kind = Light::Kind::point;
+  light.vector = {0, 0, 3};
+  scene.lights = {light};
+  EXPECT_EQ(magnitude_at({0, 0, -2}).r, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isfinite(magnitude_at({0, 0, -2.0001}).r));
+}
+
+TEST_F(LightBoundsTest, TheHighlightMayComeOrGoWhereTheLightGrazes) {
+  light.vector = {1, 0, 0};
+  scene.lights = {light};
+  // N.H = 1 / sqrt 2, to the 10th: 1/32 of the term.
+  EXPECT_NEAR(at({0, 0, 0}, {0, 0, 1}).jump.r, 2 * 0.25 / 32, 1e-12);
+  EXPECT_NEAR(at({0, 0, 0}, {0, 0, 1}).jump.b, 0.5 * 1 / 32.0, 1e-12);
+  const auto tilted = [&](double sine) { return at({0, 0, 0}, {sine, 0, std::sqrt(1 - sine * sine)}).jump.r; };
+  constexpr double kU = kUnitRoundoff;
+  EXPECT_GT(tilted(15 * kU), 0);
+  EXPECT_GT(tilted(-15 * kU), 0);
+  EXPECT_EQ(tilted(17 * kU), 0);
+  EXPECT_EQ(tilted(-17 * kU), 0);
+}
+
+TEST_F(LightBoundsTest, OfAHighlightSeenAgainstTheLightGrows) {
   light.vector = {0, 0.1, -1};
   scene.lights = {light};
   // |L + z| is about 0.1: 1 + 10 (1 + 10).
-  EXPECT_NEAR(light_magnitude(scene, draw, {0, 0, 0}).r, 0.5 + 2 + 0.5 * (11 + 10 / 0.0997), 0.5);
+  EXPECT_NEAR(magnitude_at({0, 0, 0}).r, 0.5 + 2 + 0.5 * (11 + 10 / 0.0997), 0.5);
 }
 
 }  // namespace

@@ -15,6 +15,11 @@ struct PlanePairs : testing::Test {
   PlanePairs() {
     scene.frame.width = kWidth;
     scene.frame.height = kHeight;
+    scene.meshes.resize(1);  // eight triangles, each of three vertices of its own
+    scene.draws.resize(1);
+    for (unsigned i = 0; i < 8; ++i) scene.meshes[0].triangles.push_back(glm::uvec3(0, 1, 2) + 3u * i);
+    scene.meshes[0].positions.resize(24);
+    capture.records.lit.resize(24, {Vec4<double>(0.5)});
     capture.planes = planes_of(kWidth, kHeight);
     capture.records.triangles = {triangle_of({{{1, 0.5, 0.25}, {6.5, 1, 0.5}, {2, 3.75, 0.75}}}, {1, 0.5, 0.25}, 3),
                                  triangle_of({{{1, 0.5, 0.25}, {6.5, 1, 0.5}, {2, 3.75, 0.75}}}, {1, 1, 1}, 5)};
@@ -54,7 +59,7 @@ struct PlanePairs : testing::Test {
     return [this](const auto& a, const auto& b) { return compare_shaded_planes(scene, a, b, 64); };
   }
   Compare codes() const {
-    return [](const auto& a, const auto& b) { return compare_codes(a, b, 1, 64); };
+    return [this](const auto& a, const auto& b) { return compare_codes(scene, a, b, 1, 64); };
   }
   Compare merge() const {
     return [this](const auto& a, const auto& b) { return compare_merge(scene, a.planes, b.planes, 1); };
@@ -200,9 +205,9 @@ TEST_F(PlanePairs, DepthIsHeldToTheBoundAndOneStep) {
     for (const auto& [x, y, triangle] : {std::tuple(3, 1, 0u), std::tuple(2, 2, 1u)}) {
       const double bound = bounds_from_origin(capture.records.triangles[triangle], x, y).depth;
       ASSERT_GE(bound, 1);
-      const double tolerance = 64 * kU * bound + depth_step(format, 0.5);
+      const double step = depth_step(format, 0.5);
       for (double by : {0.999, -0.999, 1.001, -1.001}) {
-        const Change moved = [&](Planes& p) { p.depth(x, y) += by * tolerance; };
+        const Change moved = [&](Planes& p) { p.depth(x, y) += by * 64 * kU * bound + std::copysign(step, by); };
         EXPECT_EQ(passes(run(depth(), moved)), std::abs(by) < 1) << by;
         EXPECT_EQ(passes(run(depth(), kUnchanged, moved)), std::abs(by) < 1) << by;
         if (by > 1) {
@@ -222,24 +227,60 @@ TEST_F(PlanePairs, TheBackgroundsDepthAndColoursAreEqual) {
 }
 
 TEST_F(PlanePairs, ShadedIsHeldToTheBound) {
-  scene.draws.resize(1);
-  for (bool lit : {false, true}) {
-    scene.draws[0].lit = lit;
-    const double vertex_colors = lit ? tolerance("osmesa.light").factor : 0;
-    const Vec4<double> bound = bounds_from_origin(capture.records.triangles[0], 3, 1).color;
-    for (int c = 0; c < 4; ++c) {
-      const double limit = (64 * bound[c] + vertex_colors) * kU;
-      for (double by : {0.99, 1.01}) {
-        const Change moved = [&](Planes& p) { p.shaded(3, 1)[c] += static_cast<float>(by * limit); };
-        EXPECT_EQ(passes(run(shaded(), moved)), by < 1) << c;
-        if (by > 1) {
-          EXPECT_EQ(run(shaded(), moved).worst.place.y, 1);
-          EXPECT_EQ(run(shaded(), moved).worst.place.x, 3);
-        }
+  const Vec4<double> bound = bounds_from_origin(capture.records.triangles[0], 3, 1).color;
+  for (int c = 0; c < 4; ++c) {
+    const double limit = 64 * bound[c] * kU;
+    for (double by : {0.99, 1.01}) {
+      const Change moved = [&](Planes& p) { p.shaded(3, 1)[c] += static_cast<float>(by * limit); };
+      EXPECT_EQ(passes(run(shaded(), moved)), by < 1) << c;
+      if (by > 1) {
+        EXPECT_EQ(run(shaded(), moved).worst.place.y, 1);
+        EXPECT_EQ(run(shaded(), moved).worst.place.x, 3);
       }
-      EXPECT_TRUE(fails(run(shaded(), [&](Planes& p) { p.shaded(3, 1)[c] -= code(1); }))) << "1/255";
     }
+    EXPECT_TRUE(fails(run(shaded(), [&](Planes& p) { p.shaded(3, 1)[c] -= code(1); }))) << "1/255";
   }
+}
+
+TEST_F(PlanePairs, WhatTheVerticesColoursDifferByIsLightsMatter) {
+  const double limit = 64 * bounds_from_origin(capture.records.triangles[0], 3, 1).color.g * kU;
+  const auto apart = [&](std::size_t vertex, double by) {
+    Capture a = capture, b = capture;
+    a.records.lit[vertex].color.g += 0.125;
+    for (auto* plane : {&a.planes.shaded, &a.planes.color}) (*plane)(3, 1).g += static_cast<float>(0.125 + by * limit);
+    return std::pair(compare_shaded_planes(scene, a, b, 64), compare_codes(scene, a, b, 1, 64));
+  };
+  // The pixel shows primitive 3: vertices 9 to 11.
+  for (std::size_t vertex : {9u, 10u, 11u}) {
+    EXPECT_TRUE(passes(apart(vertex, 0.99).first));
+    EXPECT_TRUE(fails(apart(vertex, 1.01).first));
+    EXPECT_TRUE(passes(apart(vertex, 0.99).second));
+  }
+  for (std::size_t vertex : {8u, 12u}) {
+    EXPECT_TRUE(fails(apart(vertex, 0).first)) << "another primitive's";
+    EXPECT_TRUE(fails(apart(vertex, 0).second));
+  }
+  scene.draws[0].shading = Shading::flat;
+  EXPECT_TRUE(passes(apart(11, 0.99).first));
+  EXPECT_TRUE(fails(apart(10, 0).first)) << "not the provoking vertex";
+}
+
+TEST_F(PlanePairs, AReferenceWithoutColoursOfVerticesIsGrantedLightsTolerance) {
+  const auto moved = [&](double by) {
+    Capture a = capture, b = capture;
+    b.records.lit.clear();
+    const double limit =
+        (64 * bounds_from_origin(capture.records.triangles[0], 3, 1).color.r + tolerance("osmesa.light").factor) * kU;
+    a.planes.shaded(3, 1).r += static_cast<float>(by * limit);
+    return compare_shaded_planes(scene, a, b, 64);
+  };
+  EXPECT_TRUE(passes(moved(0.99)));
+  EXPECT_TRUE(fails(moved(1.01)));
+}
+
+TEST_F(PlanePairs, AWinnerThatTheSceneDoesNotHaveDoesNotCrash) {
+  const Change far_off = [](Planes& p) { p.id(3, 1) = 1 << 30; };
+  EXPECT_TRUE(passes(run(shaded(), far_off, far_off)));
 }
 
 TEST_F(PlanePairs, CodesMayBeNeighbours) {

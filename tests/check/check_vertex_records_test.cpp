@@ -298,6 +298,33 @@ TEST_F(VertexRecords, LitColoursAreHeldToTheLights) {
   EXPECT_TRUE(fails(moved(3, 1.01))) << "alpha is the material's";
 }
 
+TEST_F(VertexRecords, AHighlightMayComeOrGoWhereTheLightGrazes) {
+  const glm::dvec3 n = records.vertices[5].n_eye;
+  scene.camera = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};  // directions are the world's
+  scene.lights = {{Light::Kind::directional, glm::cross(n, glm::dvec3(0.3, 0.5, -0.7)), {}, {}, glm::vec3(0.5)}};
+  scene.draws[0].material.specular = glm::vec4(1);  // shininess 0: the whole 0.5, or nothing
+  records.lit[5].color = glm::dvec4(0.25);
+  const auto moved = [&](double by) { return lit([=](auto& a) { a.lit[5].color.g += by; }); };
+  EXPECT_TRUE(passes(moved(0.5)));
+  EXPECT_GE(moved(0.5).ambiguous, 1u);
+  EXPECT_TRUE(passes(moved(-0.5)));
+  EXPECT_TRUE(fails(moved(0.5001)));
+  scene.lights[0].vector = glm::cross(n, glm::dvec3(0.3, 0.5, -0.7)) + 1e-4 * n;
+  EXPECT_TRUE(fails(moved(0.5))) << "it does not graze";
+}
+
+TEST_F(VertexRecords, ALightAtTheVertexGivesAnyColour) {
+  scene.camera = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};
+  scene.lights = {{Light::Kind::point, glm::dvec3(records.vertices[5].p_eye) + glm::dvec3(0, 0, 1), {}, {}, {}}};
+  const auto becomes = [&](double value) { return lit([=](auto& a) { a.lit[5].color.g = value; }); };
+  EXPECT_TRUE(passes(becomes(0)));
+  EXPECT_TRUE(passes(becomes(1)));
+  EXPECT_EQ(becomes(1).ambiguous, 1u);
+  EXPECT_TRUE(fails(becomes(1.001)));
+  EXPECT_TRUE(fails(becomes(-0.001)));
+  EXPECT_TRUE(fails(becomes(std::nan(""))));
+}
+
 TEST_F(VertexRecords, ALightAtAVertexExcusesOnlyThatVertex) {
   scene.lights[0].kind = Light::Kind::point;
   scene.lights[0].vector = scene.meshes[0].positions[2];

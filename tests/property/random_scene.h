@@ -1,0 +1,114 @@
+// Random scenes for property tests: every format and state, and vertices where pipelines break: on planes of the view
+// volume and on pixel centres, in line, far apart in size, at the eye and behind it.
+#pragma once
+
+#include <vector>
+
+#include <rapidcheck.h>
+
+#include "scene/scene.h"
+
+namespace plumbline::test {
+
+/// A number of the sort that breaks things, of a size near 1.
+inline rc::Gen<float> coordinate() {
+  using namespace rc;
+  return gen::weightedOneOf<float>(
+      {{6, gen::map(gen::inRange(-4096, 4097), [](int i) { return float(i) / 1024; })},
+       {3, gen::map(gen::inRange(-8, 9), [](int i) { return float(i) / 2; })},
+       {1, gen::map(gen::pair(gen::inRange(-1000, 1001), gen::inRange(-30, 21)),
+                    [](std::pair<int, int> p) { return std::ldexp(float(p.first) / 1000, p.second); })}});
+}
+
+inline rc::Gen<glm::vec3> point(const rc::Gen<float>& of) {
+  return rc::gen::map(rc::gen::tuple(of, of, of),
+                      [](const auto& t) { return glm::vec3(std::get<0>(t), std::get<1>(t), std::get<2>(t)); });
+}
+
+inline rc::Gen<glm::vec3> unit_vector() {
+  return rc::gen::map(point(rc::gen::map(rc::gen::inRange(-4, 5), [](int i) { return float(i); })),
+                      [](glm::vec3 v) { return v == glm::vec3(0) ? glm::vec3(0, 0, 1) : glm::normalize(v); });
+}
+
+inline rc::Gen<glm::vec4> color() {
+  const auto channel = rc::gen::map(rc::gen::inRange(0, 256), [](int i) { return float(i) / 255; });
+  return rc::gen::map(rc::gen::tuple(channel, channel, channel, channel), [](const auto& t) {
+    return glm::vec4(std::get<0>(t), std::get<1>(t), std::get<2>(t), std::get<3>(t));
+  });
+}
+
+/// Between 1 and `most` triangles over fewer corners; coordinates by `of`.
+inline Mesh random_mesh(int most, const rc::Gen<float>& of) {
+  using namespace rc;
+  Mesh mesh;
+  mesh.positions =
+      *gen::suchThat(gen::container<std::vector<glm::vec3>>(point(of)), [](const auto& v) { return v.size() >= 3; });
+  const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.normals = *gen::container<std::vector<glm::vec3>>(n, unit_vector());
+  if (*gen::arbitrary<bool>()) mesh.colors = *gen::container<std::vector<glm::vec4>>(n, color());
+  const int count = *gen::inRange(1, most + 1);
+  const auto corner = gen::inRange<std::uint32_t>(0, n);
+  for (int i = 0; i < count; ++i) mesh.triangles.push_back({*corner, *corner, *corner});
+  return mesh;
+}
+
+template <class E>
+E one_of(int count) {
+  return static_cast<E>(*rc::gen::inRange(0, count));
+}
+
+/// To be called within a property.
+inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
+  using namespace rc;
+  Scene scene;
+  scene.name = "random";
+  scene.frame.width = *gen::inRange(1, 80);
+  scene.frame.height = *gen::inRange(1, 80);
+  scene.frame.color = one_of<ColorFormat>(2);
+  scene.frame.depth = one_of<DepthFormat>(3);
+  scene.frame.clear_color = *color();
+  scene.frame.clear_depth = *gen::weightedElement<double>({{6, 1.0}, {1, 0.0}, {1, 0.5}, {1, 0.7}});
+  scene.camera.eye = glm::dvec3(*gen::elementOf(std::vector<glm::vec3>{{0, 0, 4}, {0, 0, 5}, {3, 1, 4}, {-2, 5, 1}}));
+  if (*gen::inRange(0, 3) == 0) {
+    scene.projection = Orthographic{-2, 2, -2, 2, 1, 8};
+  } else {
+    scene.projection = Perspective{static_cast<double>(*gen::elementOf(std::vector<int>{30, 60, 90, 150})), 1, 8};
+  }
+  scene.ambient = glm::vec3(0.125f);
+  const int lights = *gen::inRange(0, 3);
+  for (int i = 0; i < lights; ++i) {
+    Light light;
+    light.kind = one_of<Light::Kind>(2);
+    light.vector = glm::dvec3(*point(gen::map(gen::inRange(-6, 7), [](int k) { return float(k) / 2; })));
+    if (light.vector == glm::dvec3(0) && light.kind == Light::Kind::directional) light.vector.z = 1;
+    light.specular = glm::vec3(0.5f);
+    scene.lights.push_back(light);
+  }
+  const int draws = *gen::inRange(1, 4);
+  for (int i = 0; i < draws; ++i) {
+    scene.meshes.push_back(random_mesh(8, of));
+    Draw draw;
+    draw.mesh = static_cast<std::uint32_t>(i);
+    draw.material.diffuse = *color();
+    draw.material.specular = *color();
+    draw.material.shininess = static_cast<float>(*gen::elementOf(std::vector<int>{0, 1, 20, 128}));
+    draw.lit = *gen::arbitrary<bool>();
+    draw.shading = one_of<Shading>(2);
+    draw.cull = *gen::weightedElement<Cull>({{3, Cull::none}, {1, Cull::back}, {1, Cull::front}});
+    draw.depth_func = *gen::weightedElement<DepthFunc>({{4, DepthFunc::less},
+                                                        {1, DepthFunc::less_equal},
+                                                        {1, DepthFunc::greater},
+                                                        {1, DepthFunc::greater_equal},
+                                                        {1, DepthFunc::equal},
+                                                        {1, DepthFunc::not_equal},
+                                                        {1, DepthFunc::always}});
+    if (*gen::inRange(0, 3) == 0) draw.transforms.push_back(Rotate{double(*gen::inRange(-180, 181)), {1, 2, 3}});
+    if (*gen::inRange(0, 3) == 0)
+      draw.transforms.push_back(
+          Scale{glm::dvec3(*point(gen::map(gen::inRange(1, 5), [](int k) { return float(k) / 2; })))});
+    scene.draws.push_back(draw);
+  }
+  return scene;
+}
+
+}  // namespace plumbline::test
