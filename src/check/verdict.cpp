@@ -50,12 +50,24 @@ std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
   std::vector<Stage> out;
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    const auto& all = verdict.comparisons;
-    const auto of_stage = [&](const Comparison& c) { return c.stage == stage; };
-    const auto judged_it = [&](const Comparison& c) { return c.stage == stage && c.outcome != Outcome::unsupported; };
-    if (stage == Stage::texture || std::none_of(all.begin(), all.end(), of_stage)) continue;  // no scene has textures
-    if (std::none_of(all.begin(), all.end(), judged_it)) out.push_back(stage);
+    const bool judged_by_any = std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
+      return c.stage == stage && c.outcome != Outcome::unsupported && c.outcome != Outcome::missing &&
+             c.outcome != Outcome::failed;
+    });
+    if (stage != Stage::texture && !judged_by_any) out.push_back(stage);  // no scene has textures
   }
+  return out;
+}
+
+std::vector<Stage> stages_lost_to_missing(const SceneVerdict& verdict) {
+  const auto is = [&](Outcome outcome) { return [=](const Comparison& c) { return c.outcome == outcome; }; };
+  if (std::ranges::none_of(verdict.comparisons, is(Outcome::missing))) return {};
+  std::vector<Stage> out = unjudged_stages(verdict);
+  std::erase_if(out, [&](Stage stage) {
+    return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
+      return c.stage == stage && (c.outcome == Outcome::unsupported || c.outcome == Outcome::failed);
+    });
+  });
   return out;
 }
 

@@ -53,8 +53,10 @@ struct SceneVerdict {
 /// The first comparison, by stage, that is different; null if none. Of several at one stage, the first listed.
 const Comparison* first_different(const SceneVerdict& verdict);
 
-/// The stages, but texture, for which there are comparisons and all are `unsupported`: nobody judged them.
+/// The stages, but texture, that nobody judged: none compared them, or all that are there declined (`unsupported`).
 std::vector<Stage> unjudged_stages(const SceneVerdict& verdict);
+/// Those of them that a reference which is missing may have judged: none that is there declined them.
+std::vector<Stage> stages_lost_to_missing(const SceneVerdict& verdict);
 
 /// The largest ratio of difference to tolerance that a run saw for each row of the ledger; below 0: row not used.
 struct LedgerUse {

@@ -1,18 +1,17 @@
 // plumb check: scenes against references, stage by stage.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 
 #include "check/judge.h"
 #include "cli/commands.h"
-#include "cli/renderers.h"
-#include "cli/scene_arguments.h"
+#include "cli/outputs.h"
 #include "report/html_report.h"
 #include "report/json_report.h"
 #include "report/table.h"
@@ -21,13 +20,6 @@
 namespace plumbline::cli {
 
 namespace {
-
-struct CheckArguments {
-  std::vector<std::string> scenes, against = reference_names();
-  std::string json, report, ledger, fault;
-  bool allow_missing = false;
-  SceneArguments scene_arguments;
-};
 
 struct References {
   std::vector<std::unique_ptr<Renderer>> owned;
@@ -43,34 +35,59 @@ References make_references(const std::vector<std::string>& names) {
   return out;
 }
 
-std::string repeat_command(const CheckArguments& a, const check::SceneVerdict& verdict) {
-  std::string out = "plumb check " + shell_word(verdict.path);
-  if (a.against != reference_names()) out += fmt::format(" --against {}", fmt::join(a.against, ","));
-  if (!a.fault.empty()) out += " --fault " + shell_word(a.fault);
-  return out + a.scene_arguments.repeated();
+std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& verdict) {
+  std::string out = shell_word(o.program) + " check " + shell_word(verdict.path);
+  if (o.against != reference_names()) out += fmt::format(" --against {}", fmt::join(o.against, ","));
+  if (!o.fault.empty()) out += " --fault " + shell_word(o.fault);
+  if (o.allow_missing) out += " --allow-missing";
+  return out + o.scene_arguments.repeated();
 }
 
-// With all references asked, a stage that none of them judged is a failure as well.
-bool holds(const check::SceneVerdict& verdict, const CheckArguments& a) {
-  for (const check::Comparison& c : verdict.comparisons) {
-    if (is_failure(c.outcome) && !(a.allow_missing && c.outcome == check::Outcome::missing)) return false;
-  }
-  return a.against != reference_names() || a.allow_missing || check::unjudged_stages(verdict).empty();
+// The stages whose lack of a judge is a failure: with all references asked, all but what --allow-missing forgives.
+// Where a renderer failed, that is the failure.
+std::vector<Stage> unjudged(const check::SceneVerdict& verdict, const CheckOptions& o) {
+  const auto failed = [](const check::Comparison& c) { return c.outcome == check::Outcome::failed; };
+  if (o.against != reference_names() || std::ranges::any_of(verdict.comparisons, failed)) return {};
+  std::vector<Stage> out = check::unjudged_stages(verdict);
+  if (!o.allow_missing) return out;
+  const std::vector<Stage> forgiven = check::stages_lost_to_missing(verdict);
+  std::erase_if(out, [&](Stage stage) { return std::ranges::count(forgiven, stage) > 0; });
+  return out;
 }
 
-int run(const CheckArguments& a) {
+bool holds(const check::SceneVerdict& verdict, const CheckOptions& o) {
+  return unjudged(verdict, o).empty() && std::ranges::none_of(verdict.comparisons, [&](const check::Comparison& c) {
+           return is_failure(c.outcome) && !(o.allow_missing && c.outcome == check::Outcome::missing);
+         });
+}
+
+// Each reference once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
+std::vector<std::string> without_repeats(const std::vector<std::string>& against) {
+  std::vector<std::string> out = reference_names();
+  std::erase_if(out, [&](const std::string& name) { return std::ranges::count(against, name) == 0; });
+  return out;
+}
+
+}  // namespace
+
+int check(const CheckOptions& given) {
+  CheckOptions o = given;
+  o.against = without_repeats(given.against);
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<std::filesystem::path> paths(a.scenes.begin(), a.scenes.end());
+  const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
+  const std::vector<std::filesystem::path> files = find_scenes(paths);
   std::vector<Scene> scenes;  // all of them first: a bad one ends the run before anything is written
-  for (const auto& file : find_scenes(paths)) scenes.push_back(a.scene_arguments.load(file));
-  const std::unique_ptr<Renderer> candidate = make_candidate(a.fault);
-  const References references = make_references(a.against);
+  for (const auto& file : files) scenes.push_back(o.scene_arguments.load(file));
+  const Output outputs[] = {{"--json", o.json}, {"--ledger", o.ledger}};
+  require_outputs(outputs, {"--report", o.report}, files);
+  const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
+  const References references = make_references(o.against);
   std::map<std::string, std::string> versions{{candidate->info().name, candidate->info().version}};
   for (const check::Reference& r : references.list) {
     if (r.renderer != nullptr) versions[r.name] = r.renderer->info().version;
   }
   std::optional<report::HtmlReport> page;
-  if (!a.report.empty()) page.emplace(a.report);
+  if (!o.report.empty()) page.emplace(o.report);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   std::vector<check::SceneVerdict> verdicts;
   std::string failures;
@@ -83,37 +100,20 @@ int run(const CheckArguments& a) {
     verdicts.push_back(check::judge(scene, *candidate, references.list, page ? &drawn : nullptr));
     fmt::print("{}", report::table_rows(verdicts.back()));
     std::fflush(stdout);
-    if (!holds(verdicts.back(), a)) {
+    if (!holds(verdicts.back(), o)) {
       all_hold = false;
-      failures += report::failure_lines(verdicts.back(), repeat_command(a, verdicts.back()));
+      failures +=
+          report::failure_lines(verdicts.back(), unjudged(verdicts.back(), o), repeat_command(o, verdicts.back()));
     }
     if (page) page->add(verdicts.back(), references.list, drawn, scene.description);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string summary = report::summary(verdicts, seconds);
+  const std::string summary = report::summary(verdicts, all_hold, seconds);
   fmt::print("\n{}{}", failures, summary);
-  if (!a.json.empty()) report::write_json(a.json, verdicts, versions);
-  if (!a.ledger.empty()) report::write_ledger(a.ledger, verdicts);
+  if (!o.json.empty()) report::write_json(o.json, verdicts, versions);
+  if (!o.ledger.empty()) report::write_ledger(o.ledger, verdicts);
   if (page) page->write(summary);
   return all_hold ? kHolds : kDiffers;
-}
-
-}  // namespace
-
-Command add_check(CLI::App& app) {
-  auto a = std::make_shared<CheckArguments>();
-  CLI::App* command = app.add_subcommand("check", "Compare our renderer with the references, stage by stage");
-  command->add_option("scenes", a->scenes, "Scene files, and folders of them")->required();
-  command->add_option("--against", a->against, "References: osmesa, embree, exact (default: all three)")
-      ->check(CLI::IsMember(reference_names()))
-      ->delimiter(',');
-  command->add_option("--json", a->json, "Write one object per comparison");
-  command->add_option("--report", a->report, "Write a page with pictures into this folder");
-  command->add_option("--ledger", a->ledger, "Write the largest difference seen for each tolerance");
-  command->add_option("--fault", a->fault, "Put a bug into our renderer (plumb list faults)");
-  command->add_flag("--allow-missing", a->allow_missing, "A reference that is not built in is no failure");
-  a->scene_arguments.add_to(*command);
-  return [a, command] { return command->parsed() ? run(*a) : -1; };
 }
 
 }  // namespace plumbline::cli

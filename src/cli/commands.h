@@ -1,24 +1,65 @@
-// plumb's subcommands: each adds itself to the program's arguments, and runs if it was named.
+// plumb's subcommands as functions of their options. arguments.cpp makes the options of a command line.
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <string>
+#include <vector>
 
-namespace CLI {
-class App;
-}
+#include "cli/renderers.h"
+#include "cli/scene_arguments.h"
 
 namespace plumbline::cli {
 
-/// Exit codes of every subcommand; bad input and bad usage throw, which main() turns into 2.
+/// Exit codes of every subcommand; bad input and bad usage throw, which main() turns into 2. What will be written is
+/// known to be writable before any work.
 enum Exit { kHolds = 0, kDiffers = 1, kBadInput = 2 };
 
-/// To be run after parsing: the exit code, or -1 where another subcommand was chosen.
-using Command = std::function<int()>;
-Command add_render(CLI::App& app);
-Command add_check(CLI::App& app);
-Command add_capture(CLI::App& app);
-Command add_list(CLI::App& app);
+/// Scenes against references, stage by stage. Paths may be empty: not wanted.
+struct CheckOptions {
+  std::vector<std::string> scenes;  ///< files, and folders of them
+  std::vector<std::string> against = reference_names();
+  std::string json, report, ledger;
+  std::string fault;  ///< a bug to put into our renderer, or empty
+  bool allow_missing = false;
+  SceneArguments scene_arguments;
+  std::string program = "plumb";  ///< as it was called, for the command that repeats a failure
+};
+int check(const CheckOptions& options);
+
+/// A scene to a picture.
+struct RenderOptions {
+  std::string scene;
+  std::string output;  ///< .png or .exr
+  std::string depth;   ///< .exr, or empty
+  std::string with = "ours", fault;
+  SceneArguments scene_arguments;
+};
+int render(const RenderOptions& options);
+
+/// What a renderer hands out at every stage, to a folder.
+struct CaptureOptions {
+  std::string scene, folder;
+  std::string with = "ours", fault;
+  SceneArguments scene_arguments;
+};
+int capture(const CaptureOptions& options);
+
+/// Two images or two captures, as they are stored.
+struct CompareOptions {
+  std::string a, b;             ///< two files or two folders
+  std::string tolerance = "0";  ///< a number, or a fraction such as 1/255
+  std::string output;           ///< of images: an amplified difference picture, or empty
+  std::string amplify;          ///< by what; empty: the largest difference is white
+  std::string json;
+  bool allow_missing = false;  ///< what one capture alone holds is no failure
+};
+int compare(const CompareOptions& options);
+
+/// What there is.
+struct ListOptions {
+  std::string what = "all";
+  std::vector<std::string> folders;  ///< of scenes
+  SceneArguments scene_arguments;
+};
+int list(const ListOptions& options);
 
 }  // namespace plumbline::cli

@@ -1,12 +1,10 @@
 // plumb list: what there is.
 #include <memory>
+#include <stdexcept>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
-#include "cli/renderers.h"
-#include "cli/scene_arguments.h"
 #include "scene/scene_file.h"
 
 namespace plumbline::cli {
@@ -52,28 +50,14 @@ void list_scenes(const std::vector<std::string>& folders, const SceneArguments& 
 
 }  // namespace
 
-Command add_list(CLI::App& app) {
-  struct Arguments {
-    std::string what = "all";
-    std::vector<std::string> scenes;
-    SceneArguments scene_arguments;
-  };
-  auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("list", "Show the stages, renderers, faults and scenes that there are");
-  command->add_option("what", a->what, "all, stages, renderers, faults, scenes")
-      ->check(CLI::IsMember({"all", "stages", "renderers", "faults", "scenes"}));
-  command->add_option("folders", a->scenes, "Where to look for scenes");
-  a->scene_arguments.add_to(*command);
-  return [a, command] {
-    if (!command->parsed()) return -1;
-    if (a->what == "scenes" && a->scenes.empty()) throw std::invalid_argument("list scenes: name a folder");
-    const bool all = a->what == "all";
-    if (all || a->what == "stages") list_stages();
-    if (all || a->what == "renderers") list_renderers();
-    if (all || a->what == "faults") list_faults();
-    if (!a->scenes.empty()) list_scenes(a->scenes, a->scene_arguments);
-    return static_cast<int>(kHolds);
-  };
+int list(const ListOptions& o) {
+  if (o.what == "scenes" && o.folders.empty()) throw std::invalid_argument("list scenes: name a folder");
+  const bool all = o.what == "all";
+  if (all || o.what == "stages") list_stages();
+  if (all || o.what == "renderers") list_renderers();
+  if (all || o.what == "faults") list_faults();
+  if (!o.folders.empty()) list_scenes(o.folders, o.scene_arguments);
+  return kHolds;
 }
 
 }  // namespace plumbline::cli

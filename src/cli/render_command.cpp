@@ -1,12 +1,12 @@
 // plumb render: a scene to a picture. plumb capture: a scene to a capture folder.
 #include <memory>
+#include <stdexcept>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
-#include "cli/renderers.h"
-#include "cli/scene_arguments.h"
+#include "cli/outputs.h"
+#include "stages/atomic_path.h"
 #include "stages/capture_folder.h"
 #include "stages/image_file.h"
 
@@ -14,58 +14,42 @@ namespace plumbline::cli {
 
 namespace {
 
-struct RenderArguments {
-  std::string scene, output, depth, with = "ours", fault;
-  SceneArguments scenes;
-};
-
-std::unique_ptr<Renderer> renderer_of(const RenderArguments& a) {
-  if (!a.fault.empty() && a.with != "ours") throw std::invalid_argument("--fault goes with our renderer alone");
-  if (a.with == "ours") return make_candidate(a.fault);
-  std::unique_ptr<Renderer> renderer = make_renderer(a.with);
-  if (renderer == nullptr) throw std::invalid_argument(fmt::format("this plumb was built without {}", a.with));
+std::unique_ptr<Renderer> renderer_of(const std::string& with, const std::string& fault) {
+  if (!fault.empty() && with != "ours") throw std::invalid_argument("--fault goes with our renderer alone");
+  if (with == "ours") return make_candidate(fault);
+  std::unique_ptr<Renderer> renderer = make_renderer(with);
+  if (renderer == nullptr) throw std::invalid_argument(fmt::format("this plumb was built without {}", with));
   return renderer;
-}
-
-void add_common(CLI::App& command, RenderArguments& a) {
-  command.add_option("scene", a.scene, "Scene file")->required();
-  command.add_option("--with", a.with, "Renderer: ours, osmesa, softpipe, embree, exact")->capture_default_str();
-  command.add_option("--fault", a.fault, "Put a bug into our renderer (plumb list faults)");
-  a.scenes.add_to(command);
 }
 
 }  // namespace
 
-Command add_render(CLI::App& app) {
-  auto a = std::make_shared<RenderArguments>();
-  CLI::App* command = app.add_subcommand("render", "Draw a scene into a picture");
-  add_common(*command, *a);
-  command->add_option("-o,--output", a->output, "Colour: .png, or .exr for float")->required();
-  command->add_option("--depth", a->depth, "Window depth: .exr");
-  return [a, command] {
-    if (!command->parsed()) return -1;
-    if (!a->depth.empty() && std::filesystem::path(a->depth).extension() != ".exr") {
-      throw std::invalid_argument(fmt::format("{}: depth is written as .exr", a->depth));
-    }
-    const Scene scene = a->scenes.load(a->scene);
-    const Capture capture = renderer_of(*a)->capture(scene, {});
-    write_image(a->output, capture.planes.color);
-    if (!a->depth.empty()) write_depth_exr(a->depth, capture.planes.depth);
-    return static_cast<int>(kHolds);
-  };
+int render(const RenderOptions& o) {
+  require_image_name(o.output);
+  if (!o.depth.empty()) require_depth_name(o.depth);
+  const std::filesystem::path inputs[] = {o.scene};
+  const Output files[] = {{"--output", o.output}, {"--depth", o.depth}};
+  require_outputs(files, {}, inputs);
+  const std::unique_ptr<Renderer> renderer = renderer_of(o.with, o.fault);
+  Request request;
+  request.picture = true;
+  const Capture drawn = renderer->capture(o.scene_arguments.load(o.scene), request);
+  const Bytes color = encode_image(o.output, drawn.planes.color);
+  if (o.depth.empty()) {
+    write_file(o.output, color);
+    return kHolds;
+  }
+  const Bytes depth = encode_depth_exr(o.depth, drawn.planes.depth);
+  const OutputFile both[] = {{o.output, color}, {o.depth, depth}};
+  write_files(both);
+  return kHolds;
 }
 
-Command add_capture(CLI::App& app) {
-  auto a = std::make_shared<RenderArguments>();
-  CLI::App* command = app.add_subcommand("capture", "Write what a renderer hands out at every stage into a folder");
-  add_common(*command, *a);
-  command->add_option("folder", a->output, "Folder for the manifest and its arrays")->required();
-  return [a, command] {
-    if (!command->parsed()) return -1;
-    const Scene scene = a->scenes.load(a->scene);
-    write_capture(renderer_of(*a)->capture(scene, {StageSet::all(), false, {}, {}}), a->output);
-    return static_cast<int>(kHolds);
-  };
+int capture(const CaptureOptions& o) {
+  require_writable_capture(o.folder);
+  const std::unique_ptr<Renderer> renderer = renderer_of(o.with, o.fault);
+  write_capture(renderer->capture(o.scene_arguments.load(o.scene), {StageSet::all(), false, {}, {}}), o.folder);
+  return kHolds;
 }
 
 }  // namespace plumbline::cli

@@ -1,25 +1,18 @@
 #include "cli/scene_arguments.h"
 
-#include <CLI/CLI.hpp>
-
 #include "scene/scene_file.h"
 
 namespace plumbline::cli {
 
-void SceneArguments::add_to(CLI::App& app) {
-  app.add_option("--assets", assets_, "Folders where mesh files are looked for, after the scene's own")
-      ->check(CLI::ExistingDirectory);
-}
-
 Scene SceneArguments::load(const std::filesystem::path& file) const {
   SceneFileOptions options;
-  options.asset_folders.insert(options.asset_folders.begin(), assets_.begin(), assets_.end());
+  options.asset_folders.insert(options.asset_folders.begin(), assets.begin(), assets.end());
   return load_scene(file, options);
 }
 
 std::string SceneArguments::repeated() const {
   std::string out;
-  for (const std::string& folder : assets_) out += " --assets " + shell_word(folder);
+  for (const std::string& folder : assets) out += " --assets " + shell_word(folder);
   return out;
 }
 

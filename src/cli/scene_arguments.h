@@ -7,21 +7,14 @@
 
 #include "scene/scene.h"
 
-namespace CLI {
-class App;
-}
-
 namespace plumbline::cli {
 
-class SceneArguments {
- public:
-  void add_to(CLI::App& app);
+struct SceneArguments {
+  std::vector<std::string> assets;  ///< folders where mesh files are looked for, after the scene's own
+
   Scene load(const std::filesystem::path& file) const;
   /// As they were given, for a command that repeats a run.
   std::string repeated() const;
-
- private:
-  std::vector<std::string> assets_;
 };
 
 /// The word as a shell takes it back: quoted if it has to be.

@@ -40,6 +40,10 @@ class PipelineRenderer : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     Capture out = empty_capture(scene);
+    if (request.picture && !request.records.any()) {
+      out.planes = planes_of_frame(render(scene, stages_), formats_of(scene.frame));
+      return out;
+    }
     const Geometry geometry = run_geometry(scene, stages_.geometry);
     const std::size_t bytes = plane_bytes(scene) + widened_bytes(geometry.records, request);
     require_budget(scene, bytes, request.memory_budget);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include <fmt/format.h>
 
-#include "report/text_file.h"
 #include "stages/image_file.h"
 
 namespace plumbline::report {
@@ -27,16 +27,57 @@ tr.dispute td { background: #d3a03233; }
 tr.unsupported td { opacity: .55; }
 )";
 
+// The page's own list of its files; the first line says whose it is.
+constexpr const char* kList = "plumb-report.txt";
+constexpr std::string_view kListHead = "This page was made by plumb check, and may be replaced by it. Its files:";
+
+std::set<std::filesystem::path> files_of_page(const std::filesystem::path& folder) {
+  std::set<std::filesystem::path> files;
+  std::ifstream in(folder / kList);
+  std::string line;
+  if (!std::getline(in, line) || line != kListHead) return files;
+  while (std::getline(in, line)) files.insert(line);
+  return files;
+}
+
+// The length of the UTF-8 sequence that the text begins with; 0: none, or one that UTF-8 forbids.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) < 0xc2 ? 0 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
+  if (length == 0 || byte(0) > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  }
+  const bool overlong = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xf0 && byte(1) < 0x90);
+  const bool no_character = (byte(0) == 0xed && byte(1) > 0x9f) || (byte(0) == 0xf4 && byte(1) > 0x8f);
+  return overlong || no_character ? 0 : length;
+}
+
 std::string escaped(std::string_view text) {
   std::string out;
-  for (char c : text) {
-    switch (c) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const std::string_view one = text.substr(0, std::max<std::size_t>(length, 1));
+    switch (one[0]) {
       case '&': out += "&amp;"; break;
       case '<': out += "&lt;"; break;
       case '>': out += "&gt;"; break;
       case '"': out += "&quot;"; break;
-      default: out += c;
+      default: out += length == 0 ? "\xef\xbf\xbd" : one;  // U+FFFD: what was no character
     }
+    text.remove_prefix(one.size());
+  }
+  return out;
+}
+
+// A relative path that any file system takes and a link may hold as it is.
+std::string file_name(std::string_view text) {
+  std::string out;
+  for (char c : text) {
+    const bool hidden = c == '.' && (out.empty() || out.back() == '/');  // ".." as well
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '/';
+    out += plain && !hidden ? c : '_';
   }
   return out;
 }
@@ -71,21 +112,38 @@ std::string row(const check::Comparison& c) {
 
 }  // namespace
 
-HtmlReport::HtmlReport(std::filesystem::path folder) : folder_(std::move(folder)) {}
+HtmlReport::HtmlReport(const std::filesystem::path& folder) : folder_(folder) {
+  require_writable_folder(folder, files_of_page(folder));
+  folder_.make_folder();
+}
+
+// Scenes of two folders may have one name.
+std::string HtmlReport::free_folder(const std::string& scene) {
+  const std::string name = file_name(scene);
+  std::string free = name;
+  for (int i = 2; !folders_.insert(free).second; ++i) free = fmt::format("{}-{}", name, i);
+  return free;
+}
+
+void HtmlReport::write_file(const std::string& name, std::string_view bytes) {
+  folder_.write_inside(name, bytes);
+  files_ += name + "\n";
+}
 
 void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
                      const check::Drawn& drawn, const std::string& description) {
-  const std::filesystem::path scene_folder = folder_ / verdict.scene;
-  std::filesystem::create_directories(scene_folder);
+  const std::string scene_folder = free_folder(verdict.scene);
   const auto picture = [&](const Plane<glm::vec4>& plane, const std::string& name, const std::string& caption) {
     if (plane.empty()) return;
-    write_png(scene_folder / (name + ".png"), plane);
+    const std::string file = fmt::format("{}/{}.png", scene_folder, file_name(name));
+    write_file(file, encode_png(file, plane));
     body_ += fmt::format(
-        "<figure><a href=\"{0}/{1}.png\"><img src=\"{0}/{1}.png\" alt=\"{2}\" loading=lazy></a>"
-        "<figcaption>{2}</figcaption></figure>\n",
-        escaped(verdict.scene), escaped(name), escaped(caption));
+        "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" loading=lazy></a>"
+        "<figcaption>{1}</figcaption></figure>\n",
+        file, escaped(caption));
   };
-  body_ += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n", escaped(verdict.scene), escaped(description));
+  body_ +=
+      fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n", scene_folder, escaped(verdict.scene), escaped(description));
   const Plane<glm::vec4>& ours = drawn.candidate.planes.color;
   picture(ours, "ours", "ours");
   for (std::size_t i = 0; i < references.size() && i < drawn.references.size(); ++i) {
@@ -102,12 +160,12 @@ void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::
   body_ += "</table>\n";
 }
 
-void HtmlReport::write(const std::string& summary) const {
-  std::filesystem::create_directories(folder_);
-  write_text(folder_ / "index.html",
-             fmt::format("<!doctype html>\n<html lang=en><meta charset=utf-8><title>plumbline</title>\n"
-                         "<style>{}</style>\n<h1>plumbline check</h1>\n<p>{}</p>\n{}</html>\n",
-                         kStyle, escaped(summary), body_));
+void HtmlReport::write(const std::string& summary) {
+  write_file("index.html", fmt::format("<!doctype html>\n<html lang=en><meta charset=utf-8><title>plumbline</title>\n"
+                                       "<style>{}</style>\n<h1>plumbline check</h1>\n<p>{}</p>\n{}</html>\n",
+                                       kStyle, escaped(summary), body_));
+  folder_.write_inside(kList, fmt::format("{}\n{}\n{}", kListHead, kList, files_));
+  folder_.commit();
 }
 
 }  // namespace plumbline::report

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/text_file.h"
+#include "stages/atomic_path.h"
 
 namespace plumbline::report {
 
@@ -56,7 +56,26 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
     out["scenes"].push_back({{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}});
     for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison(c));
   }
-  write_text(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,
+                std::span<const check::StoredComparison> comparisons) {
+  Json out{{"a", a}, {"b", b}, {"tolerance", tolerance}, {"comparisons", Json::array()}};
+  for (const check::StoredComparison& c : comparisons) {
+    const check::Measurement& m = c.measurement;
+    Json row{{"what", c.what},
+             {"outcome", name_of(c.outcome)},
+             {"items", m.items},
+             {"differing", m.differing},
+             {"max_difference", number(m.max_difference)},
+             {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
+             {"histogram", m.histogram}};
+    if (c.codes > 0) row["codes"] = c.codes;
+    if (!c.note.empty()) row["note"] = c.note;
+    out["comparisons"].push_back(std::move(row));
+  }
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts) {
@@ -70,7 +89,7 @@ void write_ledger(const std::filesystem::path& file, std::span<const check::Scen
                     {"largest_seen", use.largest_ratio < 0 ? Json(nullptr) : number(seen)},
                     {"where", use.where}});
   }
-  write_text(file, Json{{"tolerances", rows}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(file, Json{{"tolerances", rows}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace plumbline::report

@@ -6,15 +6,20 @@
 #include <span>
 #include <string>
 
+#include "check/compare_stored.h"
 #include "check/verdict.h"
 
 namespace plumbline::report {
 
 /// {"versions": {renderer: version}, "comparisons": [{scene, reference, stage, outcome, pixels, differing, ambiguous,
 /// max_difference, unit, tolerance, worst, ...}]}. Numbers that JSON cannot hold are the strings "inf" and "nan".
-/// Written whole or not at all. Throws std::runtime_error naming the file.
+/// Text that is no UTF-8 has U+FFFD for each byte. Written whole or not at all. Throws OutputError (atomic_path.h).
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
                 const std::map<std::string, std::string>& versions);
+
+/// {"a", "b", "tolerance", "comparisons": [{what, outcome, items, differing, max_difference, codes, worst, ...}]}
+void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,
+                std::span<const check::StoredComparison> comparisons);
 
 /// The ledger with the largest difference seen for each row, as a share of its tolerance, and where.
 void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts);

@@ -1,5 +1,6 @@
 #include "report/table.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -55,14 +56,15 @@ std::string table_rows(const SceneVerdict& verdict) {
   return out;
 }
 
-std::string failure_lines(const SceneVerdict& verdict, const std::string& repeat_command) {
+std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> unjudged,
+                          const std::string& repeat_command) {
   std::string out;
   for (const Comparison& c : verdict.comparisons) {
     if (c.outcome == Outcome::failed || c.outcome == Outcome::missing) {
       out += fmt::format("{} {}: {}: {}\n", name_of(c.outcome), c.scene, c.reference, c.note);
     }
   }
-  for (Stage stage : check::unjudged_stages(verdict)) {
+  for (Stage stage : unjudged) {
     out += fmt::format("unjudged {}: no reference judged {}\n", verdict.scene, name_of(stage));
   }
   if (const Comparison* first = check::first_different(verdict)) {
@@ -81,28 +83,68 @@ std::string failure_lines(const SceneVerdict& verdict, const std::string& repeat
   return out;
 }
 
-std::string summary(std::span<const SceneVerdict> verdicts, double seconds) {
+std::string summary(std::span<const SceneVerdict> verdicts, bool all_hold, double seconds) {
   std::array<std::size_t, 8> counts{};
   std::size_t comparisons = 0;
-  bool failed = false;
+  bool complete = true;
   for (const SceneVerdict& verdict : verdicts) {
     for (const Comparison& c : verdict.comparisons) {
       ++counts[static_cast<std::size_t>(c.outcome)];
       ++comparisons;
-      failed |= check::is_failure(c.outcome);
     }
+    complete &= check::unjudged_stages(verdict).empty();
   }
   std::string parts;
-  bool complete = true;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
     const auto outcome = static_cast<Outcome>(i);
     complete &= outcome != Outcome::unsupported && outcome != Outcome::missing && outcome != Outcome::dispute;
     parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", counts[i], name_of(outcome));
   }
-  const char* word = failed ? "FAILED" : comparisons == 0 ? "nothing was judged" : complete ? "ok" : "ok where judged";
+  const char* word = !all_hold          ? "FAILED"
+                     : comparisons == 0 ? "nothing was judged"
+                     : complete         ? "ok"
+                                        : "ok where judged";
   return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, verdicts.size(), comparisons, seconds,
                      parts);
+}
+
+std::string stored_table(std::span<const check::StoredComparison> comparisons, double tolerance) {
+  constexpr const char* kStoredRow = "{:<24} {:<10} {:>9} {:>9}  {:<24} {}\n";
+  std::string out = fmt::format(kStoredRow, "what", "outcome", "items", "differing", "largest", "worst");
+  for (const check::StoredComparison& c : comparisons) {
+    const check::Measurement& m = c.measurement;
+    if (c.outcome == Outcome::missing) {
+      out += fmt::format(kStoredRow, c.what, name_of(c.outcome), "-", "-", "-", c.note);
+      continue;
+    }
+    std::string size = "0", place;
+    if (m.max_difference > 0) {
+      size = fmt::format("{:.4g}", m.max_difference);
+      if (c.codes > 0) size += fmt::format(" ({:.6g}/{:.0f})", m.max_difference * c.codes, c.codes);
+    }
+    if (m.max_difference > 0 && m.mismatch.empty()) {
+      place = fmt::format("{}: {:.9g} against {:.9g}", check::to_string(m.worst.place), m.worst.candidate,
+                          m.worst.reference);
+    }
+    const char* between = place.empty() || c.note.empty() ? "" : "; ";
+    out += fmt::format(kStoredRow, c.what, name_of(c.outcome), m.items, m.differing, size, place + between + c.note);
+  }
+  std::size_t differ = 0, missing = 0;
+  for (const check::StoredComparison& c : comparisons) {
+    differ += c.outcome == Outcome::different ? 1 : 0;
+    missing += c.outcome == Outcome::missing ? 1 : 0;
+  }
+  const auto first = std::ranges::find(comparisons, Outcome::different, &check::StoredComparison::outcome);
+  if (comparisons.size() == missing) {
+    out += "nothing was compared\n";
+  } else if (first != comparisons.end()) {
+    out += fmt::format("different: {} of {} beyond tolerance {}; first: {}\n", differ, comparisons.size(), tolerance,
+                       first->what);
+  } else {
+    out += fmt::format("{} of {} hold, tolerance {}\n", comparisons.size() - missing, comparisons.size(), tolerance);
+  }
+  return out;
 }
 
 }  // namespace plumbline::report

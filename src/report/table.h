@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "check/compare_stored.h"
 #include "check/verdict.h"
 
 namespace plumbline::report {
@@ -11,9 +12,14 @@ namespace plumbline::report {
 std::string table_head();
 /// A line per comparison.
 std::string table_rows(const check::SceneVerdict& verdict);
-/// For a scene that failed: the first different stage, its worst item, and the command that repeats it; else empty.
-std::string failure_lines(const check::SceneVerdict& verdict, const std::string& repeat_command);
-/// The last lines: how many comparisons came to what. Never a bare "ok" where anything is unsupported or missing.
-std::string summary(std::span<const check::SceneVerdict> verdicts, double seconds);
+/// For a scene that failed: the first different stage, its worst item, the stages whose lack of a judge is a failure,
+/// and the command that repeats it; else empty.
+std::string failure_lines(const check::SceneVerdict& verdict, std::span<const Stage> unjudged,
+                          const std::string& repeat_command);
+/// The last lines: how many comparisons came to what. "ok" where all hold, bare only where every stage was judged.
+std::string summary(std::span<const check::SceneVerdict> verdicts, bool all_hold, double seconds);
+
+/// A comparison of two images or captures: a line each, under a head.
+std::string stored_table(std::span<const check::StoredComparison> comparisons, double tolerance);
 
 }  // namespace plumbline::report

@@ -1,8 +1,13 @@
 #include "stages/atomic_path.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -11,36 +16,155 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that no other process or call uses.
+/// A name that no other process or call uses, short whatever the target's.
 fs::path beside(const fs::path& target) {
   const auto ticks = std::chrono::steady_clock::now().time_since_epoch().count();
-  return target.parent_path() /
-         fmt::format(".{}.tmp-{}-{}{}", target.stem().string(), ::getpid(), ticks, target.extension().string());
+  return target.parent_path() / fmt::format(".plumb-{}-{}", ::getpid(), ticks);
+}
+
+/// Turns the errors of <filesystem>, which name other paths than the user did, into ours.
+template <class Act>
+auto reported(const fs::path& named, Act act) {
+  try {
+    return act();
+  } catch (const fs::filesystem_error& error) {
+    throw OutputError(named, error.code().message());
+  }
+}
+
+void make_file(const fs::path& path, const fs::path& named, std::string_view bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) throw OutputError(named, std::strerror(errno));
+  int error = 0;
+  while (!bytes.empty() && error == 0) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written >= 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (written < 0 && errno != EINTR) error = errno;
+  }
+  if (::close(file) != 0 && error == 0) error = errno;
+  if (error != 0) throw OutputError(named, std::strerror(error));
 }
 
 }  // namespace
 
-AtomicPath::AtomicPath(const fs::path& target) : target_(fs::absolute(target).lexically_normal()) {
-  if (!target_.has_filename()) target_ = target_.parent_path();  // "folder/"
-  path_ = beside(target_);
+OutputError::OutputError(const fs::path& path, std::string_view reason)
+    : std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), reason)) {}
+
+fs::path resolved(const fs::path& path) {
+  constexpr int kMostLinks = 40;  // as Linux follows
+  if (path.empty()) throw OutputError(path, "the name is empty");
+  return reported(path, [&] {
+    fs::path at = fs::absolute(path);
+    if (!at.has_filename()) at = at.parent_path();  // "folder/"
+    for (int links = 0; fs::is_symlink(at); ++links) {
+      if (links == kMostLinks) throw OutputError(path, std::strerror(ELOOP));
+      at = at.parent_path() / fs::read_symlink(at);
+    }
+    if (at.filename() == "." || at.filename() == "..") return fs::weakly_canonical(at);
+    return fs::weakly_canonical(at.parent_path()) / at.filename();
+  });
 }
+
+AtomicPath::AtomicPath(const fs::path& target) : named_(target), target_(resolved(target)), path_(beside(target_)) {}
 
 AtomicPath::~AtomicPath() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
+  while (!made_.empty()) {  // those that stayed empty
+    fs::remove(made_.back(), ignored);
+    made_.pop_back();
+  }
+}
+
+void AtomicPath::require_file() const {
+  const fs::file_status status = fs::status(target_);
+  if (fs::is_directory(status) || !named_.has_filename()) throw OutputError(named_, std::strerror(EISDIR));
+  if (!fs::exists(status)) return;
+  if (!fs::is_regular_file(status)) throw OutputError(named_, "it is no regular file");
+  if (::access(target_.c_str(), W_OK) != 0) throw OutputError(named_, std::strerror(errno));
+}
+
+void AtomicPath::require_folder() const {
+  if (fs::exists(target_) && !fs::is_directory(target_)) throw OutputError(named_, std::strerror(ENOTDIR));
+}
+
+void AtomicPath::write(std::string_view bytes) {
+  reported(named_, [&] { require_file(); });
+  make_file(path_, named_, bytes);
+}
+
+void AtomicPath::write_inside(const fs::path& name, std::string_view bytes) {
+  const fs::path file = path_ / name;
+  reported(named_ / name, [&] { fs::create_directories(file.parent_path()); });
+  make_file(file, named_ / name, bytes);
+}
+
+void AtomicPath::make_folder() {
+  is_folder_ = true;
+  reported(named_, [&] {
+    require_folder();
+    std::vector<fs::path> missing;
+    for (fs::path above = path_.parent_path(); !fs::exists(above); above = above.parent_path())
+      missing.push_back(above);
+    std::reverse(missing.begin(), missing.end());
+    for (const fs::path& folder : missing) {
+      if (fs::create_directory(folder)) made_.push_back(folder);
+    }
+    fs::create_directory(path_);
+  });
 }
 
 void AtomicPath::commit() {
-  const bool writes_folder = fs::is_directory(path_);
-  if (fs::exists(target_) && (writes_folder ? !fs::is_directory(target_) : !fs::is_regular_file(target_))) {
-    throw fs::filesystem_error(writes_folder ? "it is no folder" : "it is no regular file", target_,
-                               std::make_error_code(std::errc::file_exists));
+  reported(named_, [&] {
+    is_folder_ ? require_folder() : require_file();
+    if (!is_folder_ || !fs::exists(target_)) {
+      fs::rename(path_, target_);
+    } else {
+      const fs::path old = beside(target_);
+      fs::rename(target_, old);
+      try {
+        fs::rename(path_, target_);
+      } catch (...) {
+        fs::rename(old, target_);
+        throw;
+      }
+      std::error_code ignored;
+      fs::remove_all(old, ignored);
+    }
+    made_.clear();
+  });
+}
+
+void require_writable_file(const fs::path& file) { AtomicPath(file).write(""); }
+
+void require_writable_folder(const fs::path& folder, const std::set<fs::path>& may_hold) {
+  AtomicPath(folder).make_folder();
+  reported(folder, [&] {
+    const fs::path target = resolved(folder);
+    if (!fs::exists(target)) return;
+    if (::access(target.c_str(), W_OK) != 0) throw OutputError(folder, std::strerror(errno));
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(target)) {
+      if (fs::is_directory(entry.symlink_status())) continue;
+      const fs::path file = entry.path().lexically_relative(target);
+      if (may_hold.contains(file)) continue;
+      throw OutputError(folder,
+                        fmt::format("the folder holds what plumb did not write ({}); it is left alone", file.string()));
+    }
+  });
+}
+
+void write_files(std::span<const OutputFile> files) {
+  std::vector<std::unique_ptr<AtomicPath>> written;
+  for (const OutputFile& file : files) {
+    written.push_back(std::make_unique<AtomicPath>(file.path));
+    written.back()->write(file.bytes);
   }
-  if (!writes_folder || !fs::exists(target_)) return fs::rename(path_, target_);
-  const fs::path old = beside(target_);
-  fs::rename(target_, old);
-  fs::rename(path_, target_);
-  fs::remove_all(old);
+  for (const auto& file : written) file->commit();
+}
+
+void write_file(const fs::path& file, std::string_view bytes) {
+  const OutputFile one[] = {{file, bytes}};
+  write_files(one);
 }
 
 }  // namespace plumbline

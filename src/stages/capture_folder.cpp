@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,7 +49,7 @@ Shape plane_shape(int width, int height) {
 
 class Writer {
  public:
-  Writer(const Capture& capture, fs::path folder) : folder_(std::move(folder)) {
+  Writer(const Capture& capture, AtomicPath& folder) : folder_(folder) {
     manifest_["format"] = kFormat;
     manifest_["version"] = kVersion;
     manifest_["renderer"] = capture.renderer;
@@ -97,13 +98,10 @@ class Writer {
   }
 
   void write(const std::string& file, const void* bytes, std::size_t size) {
-    std::ofstream out(folder_ / file, std::ios::binary);
-    out.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-    out.close();
-    if (!out) throw CaptureError(fmt::format("{}: cannot be written", (folder_ / file).string()));
+    folder_.write_inside(file, {static_cast<const char*>(bytes), size});
   }
 
-  fs::path folder_;
+  AtomicPath& folder_;
   nlohmann::ordered_json manifest_;
 };
 
@@ -155,6 +153,13 @@ class Reader {
     check_size(*array, pixels, sizeof(T));
     plane = Plane<T>(capture_.width, capture_.height);
     read_bytes(*array, plane.values().data(), pixels * sizeof(T));
+  }
+
+  /// Of the manifest, itself included, before anything else is read.
+  std::set<fs::path> files() const {
+    std::set<fs::path> names{"manifest.json"};
+    for (const auto& [name, array] : arrays_) names.insert(array["file"].text());
+    return names;
   }
 
   /// After all groups and planes: refuses an array that none of them is.
@@ -311,22 +316,28 @@ void check_indices(const Capture& capture, const fs::path& folder) {
 
 }  // namespace
 
-void write_capture(const Capture& capture, const fs::path& folder) {
-  try {
-    if (fs::exists(folder) &&
-        !(fs::is_directory(folder) && (fs::is_empty(folder) || fs::exists(folder / "manifest.json")))) {
-      throw CaptureError(fmt::format(
-          "{}: expected a capture's folder or nothing, found something else; it is left alone", folder.string()));
+void require_writable_capture(const fs::path& folder) {
+  std::set<fs::path> files;
+  std::error_code none;
+  if (fs::exists(folder / "manifest.json", none)) {
+    try {
+      Capture header;
+      files = Reader(folder, header).files();
+    } catch (const std::exception& error) {
+      throw OutputError(folder, fmt::format("the folder holds no capture ({}); it is left alone", error.what()));
     }
-    AtomicPath atomic(folder);
-    fs::create_directories(atomic.path());
-    Writer writer(capture, atomic.path());
-    visit_capture(capture, writer);
-    writer.finish();
-    atomic.commit();
-  } catch (const fs::filesystem_error& error) {
-    throw CaptureError(fmt::format("{}: cannot be written: {}", folder.string(), error.what()));
   }
+  require_writable_folder(folder, files);
+}
+
+void write_capture(const Capture& capture, const fs::path& folder) {
+  require_writable_capture(folder);
+  AtomicPath atomic(folder);
+  atomic.make_folder();
+  Writer writer(capture, atomic);
+  visit_capture(capture, writer);
+  writer.finish();
+  atomic.commit();
 }
 
 Capture read_capture(const fs::path& folder) {

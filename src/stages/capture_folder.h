@@ -24,9 +24,12 @@ struct CaptureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes all of a capture but its legal answers. A folder that holds a capture, or nothing, is replaced, in one
-/// moment; its parents are made. Throws CaptureError.
+/// Writes all of a capture but its legal answers. A folder that holds a capture and nothing else, or nothing, is
+/// replaced, in one moment; its parents are made. Throws OutputError (atomic_path.h).
 void write_capture(const Capture& capture, const std::filesystem::path& folder);
+
+/// What write_capture would throw of the folder, before there is a capture; leaves nothing behind.
+void require_writable_capture(const std::filesystem::path& folder);
 
 /// Reads a capture back, bit for bit; values may be anything, NaN included. Throws CaptureError on what is missing, of
 /// another size, type or shape than the manifest or the format says, of a version or name not known, or points outside

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -16,7 +20,6 @@ namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
-using Bytes = std::vector<std::uint8_t>;
 
 /// Calls add(value) for each pixel in a file's order: from the top row down.
 template <class T, class Add>
@@ -38,16 +41,17 @@ OIIO::ImageSpec spec_of(int width, int height, int channels, OIIO::TypeDesc type
   return spec;
 }
 
-/// The file's bytes; `name`, for the message, also says the format by its ending.
-Bytes encode(const std::string& name, const OIIO::ImageSpec& spec, const void* pixels) {
-  Bytes bytes;
+/// The file's bytes; its ending says the format.
+Bytes encode(const fs::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
+  const std::string name = file.string();
+  std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput proxy(bytes);
   const auto out = OIIO::ImageOutput::create(name, &proxy);
-  if (!out) throw ImageError(fmt::format("{}: cannot be written: {}", name, OIIO::geterror()));
+  if (!out) throw ImageError(fmt::format("{}: cannot be encoded: {}", name, OIIO::geterror()));
   if (!out->open(name, spec) || !out->write_image(spec.format, pixels) || !out->close()) {
-    throw ImageError(fmt::format("{}: cannot be written: {}", name, out->geterror()));
+    throw ImageError(fmt::format("{}: cannot be encoded: {}", name, out->geterror()));
   }
-  return bytes;
+  return {bytes.begin(), bytes.end()};
 }
 
 std::string ending_of(const fs::path& file) {
@@ -61,119 +65,148 @@ void require_ending(const fs::path& file, std::string_view ending) {
   throw ImageError(fmt::format("{}: expected a file name ending in {}", file.string(), ending));
 }
 
-void write_file(const fs::path& file, const Bytes& bytes) {
-  try {
-    AtomicPath atomic(file);
-    std::ofstream out(atomic.path(), std::ios::binary);
-    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) throw ImageError(fmt::format("{}: cannot be written", file.string()));
-    if (fs::is_directory(file)) throw ImageError(fmt::format("{}: cannot be written: a folder", file.string()));
-    atomic.commit();
-  } catch (const fs::filesystem_error& error) {
-    throw ImageError(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
+template <class T>
+void require_pixels(const fs::path& file, const Plane<T>& plane) {
+  if (!plane.empty()) return;
+  throw ImageError(fmt::format("{}: expected an image with pixels, found an empty plane", file.string()));
+}
+
+/// Adds the channels from `first` to before `last`, read as `type`, which is T.
+template <class T>
+void add_channels(OIIO::TypeDesc type, OIIO::ImageInput& in, const OIIO::ImageSpec& spec, int first, int last,
+                  const fs::path& file, StoredImage& image) {
+  const auto count = static_cast<std::size_t>(last - first);
+  std::vector<T> pixels(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * count);
+  if (!in.read_image(0, 0, first, last, type, pixels.data())) {
+    throw ImageError(fmt::format("{}: cannot be read: {}", file.string(), in.geterror()));
   }
-}
-
-template <class T>
-void require_pixels(const std::string& name, const Plane<T>& plane) {
-  if (plane.empty()) throw ImageError(fmt::format("{}: expected an image with pixels, found an empty plane", name));
-}
-
-Bytes encode_png(const std::string& name, const Plane<glm::vec4>& plane) {
-  require_pixels(name, plane);
-  Bytes pixels;
-  pixels.reserve(4 * plane.size());
-  top_down(plane, [&](const glm::vec4& p) {
-    for (int c = 0; c < 4; ++c) pixels.push_back(code(p[c]));
-  });
-  return encode(name, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::UINT8), pixels.data());
-}
-
-/// The pixels of an open file in type T, all channels, from the top down.
-template <class T>
-std::vector<T> read_pixels(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const fs::path& file) {
-  std::vector<T> pixels(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                        static_cast<std::size_t>(spec.nchannels));
-  if (in.read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<T>::value, pixels.data())) return pixels;
-  throw ImageError(fmt::format("{}: cannot be read: {}", file.string(), in.geterror()));
-}
-
-template <class T>
-Plane<glm::vec4> plane_of(const std::vector<T>& pixels, const OIIO::ImageSpec& spec, double scale) {
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  const bool grey = channels < 3;
-  Plane<glm::vec4> plane(spec.width, spec.height, glm::vec4(1));
-  auto pixel = pixels.begin();
-  for (int y = spec.height - 1; y >= 0; --y) {
-    for (int x = 0; x < spec.width; ++x, pixel += static_cast<std::ptrdiff_t>(channels)) {
-      const auto channel = [&](std::size_t c) {
-        return static_cast<float>(static_cast<double>(pixel[static_cast<std::ptrdiff_t>(c)]) / scale);
-      };
-      glm::vec4& to = plane(x, y);
-      for (std::size_t c = 0; c < 3; ++c) to[static_cast<int>(c)] = channel(grey ? 0 : c);
-      if (channels == 2 || channels == 4) to.a = channel(channels - 1);
+  constexpr double kScale = std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1.0;
+  for (std::size_t c = 0; c < count; ++c) {
+    Plane<double> values(spec.width, spec.height);
+    auto from = pixels.begin() + static_cast<std::ptrdiff_t>(c);
+    for (int y = spec.height - 1; y >= 0; --y) {
+      for (int x = 0; x < spec.width; ++x, from += last - first) values(x, y) = static_cast<double>(*from);
     }
+    image.channels.push_back({spec.channelnames.at(static_cast<std::size_t>(first) + c), kScale, std::move(values)});
   }
-  return plane;
+}
+
+void add_channels_of_type(OIIO::TypeDesc type, OIIO::ImageInput& in, const OIIO::ImageSpec& spec, int first, int last,
+                          const fs::path& file, StoredImage& image) {
+  switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8: return add_channels<std::uint8_t>(type, in, spec, first, last, file, image);
+    case OIIO::TypeDesc::INT8: return add_channels<std::int8_t>(type, in, spec, first, last, file, image);
+    case OIIO::TypeDesc::UINT16: return add_channels<std::uint16_t>(type, in, spec, first, last, file, image);
+    case OIIO::TypeDesc::INT16: return add_channels<std::int16_t>(type, in, spec, first, last, file, image);
+    case OIIO::TypeDesc::UINT32: return add_channels<std::uint32_t>(type, in, spec, first, last, file, image);
+    case OIIO::TypeDesc::INT32: return add_channels<std::int32_t>(type, in, spec, first, last, file, image);
+    case OIIO::TypeDesc::HALF:
+    case OIIO::TypeDesc::FLOAT:
+    case OIIO::TypeDesc::DOUBLE:
+      return add_channels<double>(OIIO::TypeDesc::DOUBLE, in, spec, first, last, file, image);
+    default:
+      throw ImageError(
+          fmt::format("{}: expected integers of up to 32 bits or floats, found {}", file.string(), type.c_str()));
+  }
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const Plane<glm::vec4>& plane) { return encode_png("image.png", plane); }
-
-void write_png(const fs::path& file, const Plane<glm::vec4>& plane) {
+Bytes encode_png(const fs::path& file, const Plane<glm::vec4>& plane) {
   require_ending(file, ".png");
-  write_file(file, encode_png(file.string(), plane));
+  require_pixels(file, plane);
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(4 * plane.size());
+  top_down(plane, [&](const glm::vec4& p) {
+    for (int c = 0; c < 4; ++c) pixels.push_back(code(p[c]));
+  });
+  return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::UINT8), pixels.data());
 }
 
-void write_exr(const fs::path& file, const Plane<glm::vec4>& plane) {
+Bytes encode_exr(const fs::path& file, const Plane<glm::vec4>& plane) {
   require_ending(file, ".exr");
-  require_pixels(file.string(), plane);
+  require_pixels(file, plane);
   std::vector<glm::vec4> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](const glm::vec4& p) { pixels.push_back(p); });
-  const OIIO::ImageSpec spec = spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::FLOAT);
-  write_file(file, encode(file.string(), spec, pixels.data()));
+  return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::FLOAT), pixels.data());
 }
 
-void write_depth_exr(const fs::path& file, const Plane<double>& plane) {
-  require_ending(file, ".exr");
-  require_pixels(file.string(), plane);
+Bytes encode_depth_exr(const fs::path& file, const Plane<double>& plane) {
+  require_depth_name(file);
+  require_pixels(file, plane);
   std::vector<float> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](double z) { pixels.push_back(static_cast<float>(z)); });
   OIIO::ImageSpec spec = spec_of(plane.width(), plane.height(), 1, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"Z"};
   spec.z_channel = 0;
-  write_file(file, encode(file.string(), spec, pixels.data()));
+  return encode(file, spec, pixels.data());
 }
 
-void write_image(const fs::path& file, const Plane<glm::vec4>& plane) {
+Bytes encode_image(const fs::path& file, const Plane<glm::vec4>& plane) {
+  require_image_name(file);
+  return ending_of(file) == ".png" ? encode_png(file, plane) : encode_exr(file, plane);
+}
+
+void require_image_name(const fs::path& file) {
   const std::string ending = ending_of(file);
-  if (ending == ".png") return write_png(file, plane);
-  if (ending == ".exr") return write_exr(file, plane);
+  if (ending == ".png" || ending == ".exr") return;
   throw ImageError(fmt::format("{}: expected a file name ending in .png or .exr", file.string()));
 }
 
-Plane<glm::vec4> read_image(const fs::path& file) {
+void require_depth_name(const fs::path& file) { require_ending(file, ".exr"); }
+
+void write_image(const fs::path& file, const Plane<glm::vec4>& plane) { write_file(file, encode_image(file, plane)); }
+
+StoredImage read_stored(const fs::path& file) {
   constexpr int kLargest = 16384;
-  if (!fs::is_regular_file(file))
-    throw ImageError(fmt::format("{}: expected an image file, found none", file.string()));
+  constexpr std::int64_t kMostValues = std::int64_t{1} << 28;
+  const std::string name = file.string();
+  if (!fs::is_regular_file(file)) throw ImageError(fmt::format("{}: expected an image file, found none", name));
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
-  const auto in = OIIO::ImageInput::open(file.string(), &config);
-  if (!in) throw ImageError(fmt::format("{}: cannot be read: {}", file.string(), OIIO::geterror()));
-  const OIIO::ImageSpec& spec = in->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.width > kLargest || spec.height > kLargest ||
-      spec.nchannels < 1 || spec.nchannels > 4) {
-    throw ImageError(fmt::format("{}: expected 1 to 4 channels of up to {} x {} pixels, found {} of {} x {} x {}",
-                                 file.string(), kLargest, kLargest, spec.nchannels, spec.width, spec.height,
-                                 spec.depth));
+  config.attribute("oiio:RawColor", 1);
+  const auto in = OIIO::ImageInput::open(name, &config);
+  if (!in) throw ImageError(fmt::format("{}: cannot be read: {}", name, OIIO::geterror()));
+  if (in->seek_subimage(0, 1) || in->seek_subimage(1, 0) || !in->seek_subimage(0, 0)) {
+    throw ImageError(fmt::format("{}: expected one image, found several (parts, frames or MIP levels)", name));
   }
-  if (spec.format == OIIO::TypeDesc::UINT8) return plane_of(read_pixels<std::uint8_t>(*in, spec, file), spec, 255);
-  if (spec.format == OIIO::TypeDesc::UINT16) return plane_of(read_pixels<std::uint16_t>(*in, spec, file), spec, 65535);
-  return plane_of(read_pixels<float>(*in, spec, file), spec, 1);
+  const OIIO::ImageSpec spec = in->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.deep || spec.width > kLargest ||
+      spec.height > kLargest || spec.nchannels < 1 ||
+      spec.nchannels > kMostValues / (std::int64_t{spec.width} * spec.height)) {
+    throw ImageError(fmt::format(
+        "{}: expected flat pixels, up to {} x {} of them and 2^28 values, found {} channels of {} x {} x {}{}", name,
+        kLargest, kLargest, spec.nchannels, spec.width, spec.height, spec.depth, spec.deep ? ", deep" : ""));
+  }
+  StoredImage image;
+  image.data = {spec.x, spec.y, spec.width, spec.height};
+  image.display = {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+  if (spec.channelformats.empty()) {
+    add_channels_of_type(spec.format, *in, spec, 0, spec.nchannels, file, image);
+  } else {
+    for (int c = 0; c < spec.nchannels; ++c) {
+      add_channels_of_type(spec.channelformat(c), *in, spec, c, c + 1, file, image);
+    }
+  }
+  return image;
+}
+
+Plane<glm::vec4> read_image(const fs::path& file) {
+  const StoredImage image = read_stored(file);
+  const std::size_t channels = image.channels.size();
+  if (channels > 4) throw ImageError(fmt::format("{}: expected 1 to 4 channels, found {}", file.string(), channels));
+  Plane<glm::vec4> plane(image.data.width, image.data.height, glm::vec4(1));
+  const auto copy = [&](std::size_t from, int to) {
+    const StoredImage::Channel& c = image.channels[from];
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      plane.values()[i][to] = static_cast<float>(c.values.values()[i] / c.scale);
+    }
+  };
+  for (int c = 0; c < 3; ++c) copy(channels < 3 ? 0 : static_cast<std::size_t>(c), c);
+  if (channels == 2 || channels == 4) copy(channels - 1, 3);
+  return plane;
 }
 
 }  // namespace plumbline

@@ -2,9 +2,9 @@
 // stays straight, colours are numbers: nothing is multiplied, no colour space converted.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -18,22 +18,47 @@ struct ImageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// 8-bit RGBA: value * 255 rounded to nearest, values clamped to [0,1], NaN 0. The file appears whole or not at all.
-/// Throws ImageError, as all below do.
-void write_png(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
-/// The same, in memory.
-std::vector<std::uint8_t> encode_png(const Plane<glm::vec4>& plane);
+using Bytes = std::string;
 
-/// 32-bit float RGBA, bit for bit, lossless compression.
-void write_exr(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
-/// One channel "Z": window z rounded to 32-bit float.
-void write_depth_exr(const std::filesystem::path& file, const Plane<double>& plane);
+/// Each encodes a plane as the bytes of a file whose name it is given. All throw ImageError: for an empty plane, or an
+/// ending that is not theirs.
+///
+/// .png: 8-bit RGBA: value * 255 rounded to nearest, values clamped to [0,1], NaN 0.
+Bytes encode_png(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
+/// .exr: 32-bit float RGBA, bit for bit, lossless compression.
+Bytes encode_exr(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
+/// .exr, one channel "Z": window z rounded to 32-bit float.
+Bytes encode_depth_exr(const std::filesystem::path& file, const Plane<double>& plane);
+/// encode_png or encode_exr, by the ending.
+Bytes encode_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
 
-/// write_png or write_exr, by the ending .png or .exr.
+/// Throw what encode_image and encode_depth_exr would of the name, before there is a plane.
+void require_image_name(const std::filesystem::path& file);
+void require_depth_name(const std::filesystem::path& file);
+
+/// Encodes and writes; the file appears whole or not at all. Throws OutputError (atomic_path.h) as well.
 void write_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
 
-/// A PNG, EXR, or another format that OpenImageIO knows, of up to 16384 x 16384: 8- and 16-bit codes as
-/// code / (2^n - 1), float as it is. One channel comes as red, green and blue, a missing alpha as 1.
+/// An image as it is stored: no alpha multiplied or divided, no colour converted, no tag obeyed.
+struct StoredImage {
+  struct Channel {
+    std::string name;      ///< such as "R", "A", "Z"
+    double scale = 1;      ///< a value is values / scale: 2^n - 1 for n-bit codes, 1 for floats
+    Plane<double> values;  ///< all of one size; floats of any kind, NaN and infinities included
+  };
+  struct Window {
+    int x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Window&) const = default;
+  };
+  std::vector<Channel> channels;  ///< at least one
+  Window data, display;  ///< what is stored, and the frame that it is a part of; y from the top, as in the file
+};
+
+/// Any one image that OpenImageIO knows, of up to 16384 x 16384 pixels and 2^28 values. Refused: parts, MIP levels,
+/// deep pixels, volumes.
+StoredImage read_stored(const std::filesystem::path& file);
+
+/// The same of 1 to 4 channels, in float. One channel comes as red, green and blue, a missing alpha as 1.
 Plane<glm::vec4> read_image(const std::filesystem::path& file);
 
 }  // namespace plumbline

@@ -41,6 +41,7 @@ struct Request {
   std::vector<std::uint32_t> primitives;  ///< only these primitives' records, ascending; empty: all. Planes show all.
   std::vector<glm::ivec2> pixels;         ///< only these pixels' fragments (stages 5 to 9); empty: all
   std::size_t memory_budget = std::size_t{512} << 20;  ///< bytes a capture may take
+  bool picture = false;  ///< planes.color and planes.depth are enough: drawn as it ships, nothing is watched
 };
 
 /// What a renderer is able to show of one stage.

@@ -11,7 +11,7 @@
 #include "report/html_report.h"
 #include "report/json_report.h"
 #include "report/table.h"
-#include "report/text_file.h"
+#include "stages/atomic_path.h"
 #include "stages/image_file.h"
 
 namespace plumbline::report {
@@ -103,7 +103,7 @@ TEST_F(Reports, EqualShowsNoPlace) {
 TEST_F(Reports, FailuresNameStagePlaceNumbersAndCommand) {
   Comparison first = compared(Outcome::different, 4, 1), later = compared(Outcome::different, 9, 1);
   later.stage = Stage::merge;
-  const std::string lines = failure_lines(verdict_of({later, first}), "plumb check 'a b.json'");
+  const std::string lines = failure_lines(verdict_of({later, first}), {}, "plumb check 'a b.json'");
   for (const char* part : {"group/scene", "first different stage: clip", "osmesa", "17 of 1536", "pixel 12,34", "0.5",
                            "0.25", "4 u apart", "tolerance 1", "repeat: plumb check 'a b.json'"}) {
     EXPECT_TRUE(contains(lines, part)) << part << " in " << lines;
@@ -111,40 +111,47 @@ TEST_F(Reports, FailuresNameStagePlaceNumbersAndCommand) {
   EXPECT_FALSE(contains(lines, "merge"));
   EXPECT_EQ(failure_lines(verdict_of({compared(Outcome::equal), compared(Outcome::within, 1, 2),
                                       compared(Outcome::ambiguous_only), compared(Outcome::dispute)}),
-                          "repeat"),
+                          {}, "repeat"),
             "");
-  const std::string unjudged = failure_lines(verdict_of({not_compared(Outcome::unsupported, "")}), "again");
+  const std::string unjudged = failure_lines(verdict_of({}), std::vector{Stage::light}, "again");
   EXPECT_TRUE(contains(unjudged, "no reference judged light")) << unjudged;
+  EXPECT_TRUE(contains(unjudged, "repeat: again")) << unjudged;
   for (Outcome outcome : {Outcome::missing, Outcome::failed}) {
-    const std::string why = failure_lines(verdict_of({not_compared(outcome, "no such thing")}), "again");
+    const std::string why = failure_lines(verdict_of({not_compared(outcome, "no such thing")}), {}, "again");
     EXPECT_TRUE(contains(why, "embree: no such thing")) << why;
     EXPECT_TRUE(contains(why, "repeat: again"));
   }
 }
 
 TEST_F(Reports, SummaryIsOkOnlyWhereAllWasJudged) {
-  const auto of = [](std::vector<Comparison> c) { return summary(std::vector{verdict_of(std::move(c))}, 1.5); };
-  const std::string fine =
-      of({compared(Outcome::equal), compared(Outcome::within, 1, 2), compared(Outcome::ambiguous_only)});
-  EXPECT_TRUE(fine.starts_with("ok: 1 scenes, 3 comparisons in 1.50 s: 1 equal, 1 within, 1 ambiguous_only")) << fine;
-  for (Outcome outcome : {Outcome::unsupported, Outcome::dispute}) {
-    const std::string text = of({compared(Outcome::equal), not_compared(outcome, "")});
-    EXPECT_FALSE(text.starts_with("ok:")) << "a bare ok: " << text;
-    EXPECT_FALSE(contains(text, "FAILED")) << text;
-    EXPECT_TRUE(contains(text, "1 " + std::string(name_of(outcome)))) << text;
+  const auto of = [](std::vector<Comparison> c, bool all_hold) {
+    return summary(std::vector{verdict_of(std::move(c))}, all_hold, 1.5);
+  };
+  std::vector<Comparison> all;  // each stage, by somebody
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    if (static_cast<Stage>(i) == Stage::texture) continue;
+    all.push_back(i == 2 ? compared(Outcome::within, 1, 2)
+                         : compared(i == 3 ? Outcome::ambiguous_only : Outcome::equal));
+    all.back().stage = static_cast<Stage>(i);
   }
-  for (Outcome outcome : {Outcome::different, Outcome::failed, Outcome::missing}) {
-    const std::string text =
-        of({compared(Outcome::equal), not_compared(outcome, ""), not_compared(Outcome::unsupported, "")});
-    EXPECT_TRUE(text.starts_with("FAILED")) << text;
-    EXPECT_FALSE(contains(text, "ok"));
+  const std::string fine = of(all, true);
+  EXPECT_TRUE(fine.starts_with("ok: 1 scenes, 11 comparisons in 1.50 s: 9 equal, 1 within, 1 ambiguous_only")) << fine;
+  EXPECT_TRUE(of(all, false).starts_with("FAILED"));
+  for (Outcome outcome : {Outcome::unsupported, Outcome::dispute, Outcome::missing}) {
+    std::vector<Comparison> more = all;
+    more.push_back(not_compared(outcome, ""));
+    const std::string text = of(more, true);
+    EXPECT_TRUE(text.starts_with("ok where judged:")) << "a bare ok: " << text;
     EXPECT_TRUE(contains(text, "1 " + std::string(name_of(outcome)))) << text;
+    EXPECT_TRUE(of(more, false).starts_with("FAILED")) << "--allow-missing was not given, or a stage is unjudged";
   }
+  all.pop_back();
+  EXPECT_TRUE(of(all, true).starts_with("ok where judged:")) << "nobody compared merge";
 }
 
 TEST_F(Reports, ASummaryOfNothingIsNotOk) {
-  EXPECT_FALSE(summary({}, 0).starts_with("ok:")) << summary({}, 0);
-  EXPECT_FALSE(summary(std::vector{verdict_of({})}, 0).starts_with("ok:")) << "a scene that nothing was compared for";
+  EXPECT_FALSE(summary({}, true, 0).starts_with("ok")) << summary({}, true, 0);
+  EXPECT_FALSE(summary(std::vector{verdict_of({})}, true, 0).starts_with("ok")) << "nothing was compared for a scene";
 }
 
 TEST_F(Reports, JsonHasAllKeys) {
@@ -243,7 +250,7 @@ TEST_F(Reports, HtmlEscapesAllText) {
   for (std::size_t at = 0; (at = text.find("&lt;script&gt;&quot;a&quot; &amp; ", at)) != std::string::npos; ++at)
     ++escaped;
   EXPECT_EQ(escaped, 4u) << "description, reference, note and summary";
-  EXPECT_TRUE(contains(text, "id=\"group/&lt;a &amp; &quot;b&quot;&gt;\""));
+  EXPECT_TRUE(contains(text, "id=\"group/_a____b__\">group/&lt;a &amp; &quot;b&quot;&gt;</h2>"));
   EXPECT_TRUE(contains(text, "pixel 12,34 record 56 p_clip"));
   EXPECT_TRUE(contains(text, "class=\"failed\""));
 }
@@ -274,38 +281,63 @@ TEST_F(Reports, HtmlShowsOursTheReferenceAndTheDifference) {
   EXPECT_EQ(difference(1, 0), glm::vec4(0, 0, 0, 1));
 }
 
-TEST_F(Reports, TextIsWrittenWholeOrNotAtAll) {
-  write_text(folder / "a.txt", std::string("first\0line\r\n", 12));
-  EXPECT_EQ(text_of(folder / "a.txt"), std::string("first\0line\r\n", 12));
-  write_text(folder / "a.txt", "x");
-  EXPECT_EQ(text_of(folder / "a.txt"), "x") << "replaced";
-  EXPECT_EQ(entries(folder), 1u) << "nothing beside it";
+TEST_F(Reports, HtmlReplacesWhatIsNoUtf8AndNothingElse) {
+  // Overlong, surrogate, beyond U+10FFFF, a lone continuation, cut short; the others are characters.
+  const std::string odd = "\xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80 \x80 \xe2\x82";
+  const std::string fine = "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x98\x80 \xed\x9f\xbf \xf4\x8f\xbf\xbf";
+  HtmlReport page(folder);
+  page.add(verdict_of({}), {}, {}, odd + "|" + fine);
+  page.write("");
+  const std::string r = "\xef\xbf\xbd";
+  const std::string text = text_of(folder / "index.html");
+  EXPECT_TRUE(contains(text, r + r + " " + r + r + r + " " + r + r + r + r + " " + r + " " + r + r + "|" + fine))
+      << text;
+}
+
+TEST_F(Reports, ScenesOfOneNameHaveFoldersOfTheirOwn) {
+  check::Drawn drawn;
+  HtmlReport page(folder);
+  std::size_t i = 0;
+  for (const char* name : {"g/s", "g/s", "g/s-2", "../../s", "g/.s", "g/s"}) {
+    drawn.candidate.planes.color = Plane<glm::vec4>(static_cast<int>(++i), 1, glm::vec4(1));
+    SceneVerdict verdict = verdict_of({});
+    verdict.scene = name;
+    page.add(verdict, {}, drawn, "");
+  }
+  page.write("");
+  const std::string text = text_of(folder / "index.html");
+  i = 0;
+  for (const std::string name : {"g/s", "g/s-2", "g/s-2-2", "_./_./s", "g/_s", "g/s-3"}) {
+    EXPECT_EQ(read_image(folder / name / "ours.png").width(), static_cast<int>(++i)) << name;
+    EXPECT_TRUE(contains(text, "src=\"" + name + "/ours.png\"")) << name;
+  }
+}
+
+TEST_F(Reports, APageAppearsWholeOrNotAtAll) {
+  {
+    HtmlReport page(folder / "a/b");
+    page.add(verdict_of({}), {}, {}, "");
+    EXPECT_FALSE(fs::exists(folder / "a/b"));
+  }
+  EXPECT_EQ(entries(folder), 0u) << "not written, so nothing is left";
+  HtmlReport page(folder / "a/b");
+  page.write("");
+  EXPECT_TRUE(fs::exists(folder / "a/b/index.html"));
 }
 
 TEST_F(Reports, WhereItCannotBeWrittenTheErrorNamesTheFile) {
-  write_text(folder / "file", "kept");
+  write_file(folder / "file", "kept");
   for (const fs::path& target : {folder / "no such folder" / "a.txt", folder / "file" / "a.txt"}) {
     try {
-      write_text(target, "text");
+      write_json(target, {}, {});
       FAIL() << target;
-    } catch (const std::runtime_error& e) {
+    } catch (const OutputError& e) {
       EXPECT_TRUE(contains(e.what(), target.string())) << e.what();
     }
-    EXPECT_THROW(write_json(target, {}, {}), std::runtime_error);
-    EXPECT_THROW(write_ledger(target, {}), std::runtime_error);
+    EXPECT_THROW(write_ledger(target, {}), OutputError);
   }
   EXPECT_EQ(entries(folder), 1u) << "nothing is left behind";
   EXPECT_EQ(text_of(folder / "file"), "kept");
-}
-
-TEST_F(Reports, AFolderIsNotReplacedByAFile) {
-  fs::create_directories(folder / "results");
-  write_text(folder / "results" / "of years.txt", "precious");
-  for (const fs::path& target : {folder / "results", folder / "results/"}) {
-    EXPECT_THROW(write_text(target, "text"), std::runtime_error) << target;
-    EXPECT_EQ(text_of(folder / "results" / "of years.txt"), "precious") << "the folder's files are gone";
-    EXPECT_EQ(entries(folder), 2u);
-  }
 }
 
 }  // namespace

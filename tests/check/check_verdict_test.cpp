@@ -86,16 +86,41 @@ TEST(FirstDifferent, IsTheFirstStageNotTheFirstListed) {
   EXPECT_EQ(first_different(verdict), nullptr);
 }
 
-TEST(UnjudgedStages, AreThoseThatAllReferencesDeclined) {
-  const auto declined = [](Stage stage) { return not_judged("s", "a", stage, Outcome::unsupported, "why"); };
+Comparison declined(Stage stage) { return not_judged("s", "a", stage, Outcome::unsupported, "why"); }
+Comparison compared(Stage stage, std::uint64_t differing = 0) {
+  return judged("s", "b", stage, measured(differing, 0, 0, static_cast<double>(differing)));
+}
+
+TEST(UnjudgedStages, AreThoseThatNobodyComparedOrAllDeclined) {
   SceneVerdict verdict;
-  verdict.comparisons = {declined(Stage::light),  judged("s", "b", Stage::light, measured(0, 0, 0, 0)),
-                         declined(Stage::window), declined(Stage::window),
-                         declined(Stage::clip),   judged("s", "b", Stage::clip, measured(1, 0, 0, 1)),
-                         declined(Stage::merge),  declined(Stage::texture)};
-  EXPECT_EQ(unjudged_stages(verdict), (std::vector{Stage::window, Stage::merge}));
+  for (Stage stage : {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::coverage, Stage::attributes,
+                      Stage::shade, Stage::visibility}) {
+    verdict.comparisons.push_back(declined(stage));
+    verdict.comparisons.push_back(compared(stage, stage == Stage::clip ? 1 : 0));
+  }
+  verdict.comparisons.push_back(declined(Stage::window));
+  verdict.comparisons.push_back(declined(Stage::window));
+  EXPECT_EQ(unjudged_stages(verdict), (std::vector{Stage::window, Stage::depth, Stage::merge})) << "depth has no row";
+  for (Outcome outcome : {Outcome::missing, Outcome::failed}) {
+    verdict.comparisons.push_back(not_judged("s", "c", Stage::merge, outcome, ""));
+    EXPECT_EQ(unjudged_stages(verdict), (std::vector{Stage::window, Stage::depth, Stage::merge}))
+        << "who is missing or failed judged nothing";
+  }
   verdict.comparisons.clear();
-  EXPECT_TRUE(unjudged_stages(verdict).empty());
+  EXPECT_EQ(unjudged_stages(verdict).size(), kStageNames.size() - 1) << "all but texture";
+}
+
+TEST(UnjudgedStages, AreLostToAMissingReferenceWhereNobodyElseDeclined) {
+  SceneVerdict verdict;
+  verdict.comparisons = {declined(Stage::depth), compared(Stage::vertex), compared(Stage::merge)};
+  EXPECT_TRUE(stages_lost_to_missing(verdict).empty()) << "none is missing: nothing is forgiven";
+  verdict.comparisons.push_back(not_judged("s", "c", Stage::merge, Outcome::missing, "not built in"));
+  const std::vector<Stage> lost = stages_lost_to_missing(verdict);
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    const bool judged_or_declined = stage == Stage::depth || stage == Stage::vertex || stage == Stage::merge;
+    EXPECT_EQ(std::ranges::count(lost, stage), judged_or_declined || stage == Stage::texture ? 0 : 1) << name_of(stage);
+  }
 }
 
 TEST(Ledger, RowsAreUniqueAndSayWhy) {

@@ -1,63 +1,10 @@
 // The program as a user meets it: arguments in, exit code, text and files out.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
+#include "run_plumb.h"
 #include "stages/capture_folder.h"
 #include "stages/image_file.h"
 
 namespace plumbline {
 namespace {
-
-namespace fs = std::filesystem;
-
-struct Outcome {
-  int code;
-  std::string text;  // stdout and stderr
-};
-
-Outcome plumb(const std::string& arguments) {
-  const std::string command = std::string(PLUMBLINE_PLUMB) + " " + arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  Outcome run{-1, ""};
-  std::array<char, 4096> buffer;
-  while (std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) run.text.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) run.code = WEXITSTATUS(status);
-  return run;
-}
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
-
-class Cli : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("plumb-cli-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
-               std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
-  std::string scene_file(const std::string& json) const {
-    std::ofstream(folder_ / "scene.json") << json;
-    return at("scene.json");
-  }
-
-  fs::path folder_;
-};
 
 TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
   EXPECT_EQ(plumb("--help").code, 0);
@@ -88,7 +35,32 @@ TEST_F(Cli, a_fault_ends_1_and_names_scene_reference_stage_and_the_command_that_
   EXPECT_NE(run.text.find("different clip/each_plane: first different stage: clip (against exact"), std::string::npos)
       << run.text;
   const std::string repeat = "check " + scene + " --against exact --fault clip.no_near_plane";
-  EXPECT_NE(run.text.find("repeat: plumb " + repeat), std::string::npos) << run.text;
+  EXPECT_NE(run.text.find("repeat: " PLUMBLINE_PLUMB " " + repeat), std::string::npos) << run.text;
+}
+
+TEST_F(Cli, the_command_that_repeats_works_as_it_stands) {
+  fs::create_directories(folder_ / "a b");
+  fs::create_symlink(PLUMBLINE_PLUMB, folder_ / "a b/it's plumb");
+  const std::string scene = kScenes + "coverage/shared_edges.json";
+  const Outcome run = shell("cd '" + at("a b") + "' && \"./it's plumb\" check " + scene +
+                            " --against exact,exact --fault coverage.inclusive_edges --allow-missing");
+  EXPECT_EQ(run.code, 1) << run.text;
+  const std::string word = "repeat: ";
+  const std::size_t from = run.text.find(word) + word.size();
+  const std::string repeat = run.text.substr(from, run.text.find('\n', from) - from);
+  EXPECT_TRUE(repeat.ends_with(" check " + scene + " --against exact --fault coverage.inclusive_edges --allow-missing"))
+      << repeat;
+  const Outcome again = shell("cd '" + at("a b") + "' && " + repeat);
+  EXPECT_EQ(again.code, 1) << again.text;
+  EXPECT_TRUE(again.says("repeat: " + repeat)) << again.text;
+}
+
+TEST_F(Cli, a_reference_asked_for_twice_is_asked_once) {
+  const std::string scene = kScenes + "cull/both_windings.json";
+  const auto rows = [](std::string text) { return text.substr(0, text.rfind("comparisons in ")); };  // without times
+  const Outcome once = plumb("check " + scene + " --against exact");
+  EXPECT_EQ(rows(plumb("check " + scene + " --against exact,exact").text), rows(once.text));
+  EXPECT_EQ(rows(plumb("check " + scene + " --against exact --against exact").text), rows(once.text));
 }
 
 TEST_F(Cli, an_unknown_fault_or_renderer_ends_2) {

@@ -12,6 +12,8 @@
 #include <iterator>
 #include <limits>
 
+#include "stages/atomic_path.h"
+
 namespace plumbline {
 namespace {
 
@@ -248,10 +250,19 @@ TEST_F(CaptureFolder, ReplacesACaptureAndNothingElse) {
 
   fs::create_directories(root_ / "mine");
   write(root_ / "mine/thesis.txt", "text");
-  EXPECT_THROW(write_capture(a, root_ / "mine"), CaptureError);
-  EXPECT_THROW(write_capture(a, root_ / "mine/thesis.txt"), CaptureError);
-  EXPECT_THROW(write_capture(a, root_ / "mine/thesis.txt/a"), CaptureError);
+  EXPECT_THROW(write_capture(a, root_ / "mine"), OutputError);
+  EXPECT_THROW(write_capture(a, root_ / "mine/thesis.txt"), OutputError);
+  EXPECT_THROW(write_capture(a, root_ / "mine/thesis.txt/a"), OutputError);
   EXPECT_EQ(read(root_ / "mine/thesis.txt"), "text");
+  write(root_ / "empty/notes.txt", "text");  // beside a capture's files
+  EXPECT_THROW(write_capture(a, root_ / "empty"), OutputError);
+  EXPECT_THROW(require_writable_capture(root_ / "empty"), OutputError);
+  EXPECT_EQ(read(root_ / "empty/notes.txt"), "text");
+  write(root_ / "mine/manifest.json", R"({"name": "a web app's"})");
+  fs::remove(root_ / "mine/thesis.txt");
+  EXPECT_THROW(write_capture(a, root_ / "mine"), OutputError);
+  EXPECT_NO_THROW(require_writable_capture(root_ / "none/yet"));
+  EXPECT_FALSE(fs::exists(root_ / "none")) << "asking writes nothing";
   for (const auto& entry : fs::recursive_directory_iterator(root_)) {
     EXPECT_NE(entry.path().filename().string().front(), '.') << "left behind: " << entry.path();
   }

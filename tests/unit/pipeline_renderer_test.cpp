@@ -59,6 +59,24 @@ TEST(PipelineRenderer, PlanesDoNotDependOnTheRecordsAskedFor) {
   }
 }
 
+TEST(PipelineRenderer, APictureIsDrawnAsItShips) {
+  Stages unwatched = production_stages();
+  unwatched.fragment.draw_tapped = nullptr;  // would crash
+  Request picture;
+  picture.picture = true;
+  for (const auto& [color, depth] : kFormats) {
+    const Scene scene = boxes(color, depth);
+    const Capture drawn = make_pipeline(unwatched)->capture(scene, picture);
+    const Capture tapped = make_pipeline()->capture(scene, {});
+    EXPECT_EQ(drawn.planes.color.values(), tapped.planes.color.values());
+    EXPECT_EQ(drawn.planes.depth.values(), tapped.planes.depth.values());
+    EXPECT_TRUE(drawn.planes.count.empty()) << "nobody watched";
+  }
+  Request more = everything();
+  more.picture = true;
+  EXPECT_FALSE(make_pipeline()->capture(boxes(), more).records.covered.empty()) << "records need watching";
+}
+
 TEST(PipelineRenderer, PlanesAreThoseOfTheFrameThatShips) {
   for (const auto& [color, depth] : kFormats) {
     const Scene scene = boxes(color, depth);

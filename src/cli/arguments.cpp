@@ -1,0 +1,111 @@
+#include "cli/arguments.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+// An option of text: given, it says something.
+template <class Value>
+CLI::Option* text(CLI::App& command, const std::string& names, Value& value, const std::string& help) {
+  const auto not_empty = [](std::string& given) { return std::string(given.empty() ? "it is empty" : ""); };
+  return command.add_option(names, value, help)->check(CLI::Validator(not_empty, ""));
+}
+
+void add_assets(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("--assets", arguments.assets, "Folders where mesh files are looked for, after the scene's own")
+      ->check(CLI::ExistingDirectory);
+}
+
+template <class Options>
+void add_drawing(CLI::App& command, Options& o) {
+  text(command, "scene", o.scene, "Scene file")->required();
+  text(command, "--with", o.with, "Renderer: ours, osmesa, softpipe, embree, exact")->capture_default_str();
+  text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  add_assets(command, o.scene_arguments);
+}
+
+void add(CLI::App& command, RenderOptions& o) {
+  add_drawing(command, o);
+  text(command, "-o,--output", o.output, "Colour: .png, or .exr for float")->required();
+  text(command, "--depth", o.depth, "Window depth: .exr");
+}
+
+void add(CLI::App& command, CheckOptions& o) {
+  text(command, "scenes", o.scenes, "Scene files, and folders of them")->required();
+  command.add_option("--against", o.against, "References: osmesa, embree, exact (default: all three)")
+      ->check(CLI::IsMember(reference_names()))
+      ->delimiter(',');
+  text(command, "--json", o.json, "Write one object per comparison");
+  text(command, "--report", o.report, "Write a page with pictures into this folder");
+  text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
+  text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
+  add_assets(command, o.scene_arguments);
+}
+
+void add(CLI::App& command, CaptureOptions& o) {
+  add_drawing(command, o);
+  text(command, "folder", o.folder, "Folder for the manifest and its arrays")->required();
+}
+
+void add(CLI::App& command, CompareOptions& o) {
+  text(command, "A", o.a, "An image (anything that OpenImageIO reads), or a capture's folder")->required();
+  text(command, "B", o.b, "The same")->required();
+  text(command, "--tolerance", o.tolerance, "Largest difference of a channel that holds, such as 0.001 or 1/255")
+      ->capture_default_str();
+  text(command, "-o,--output", o.output, "Write the difference of two images as .png or .exr");
+  text(command, "--amplify", o.amplify, "By what the difference is multiplied (default: the largest is white)");
+  text(command, "--json", o.json, "Write one object per comparison");
+  command.add_flag("--allow-missing", o.allow_missing, "What one capture alone holds is no failure");
+}
+
+void add(CLI::App& command, ListOptions& o) {
+  command.add_option("what", o.what, "all, stages, renderers, faults, scenes")
+      ->check(CLI::IsMember({"all", "stages", "renderers", "faults", "scenes"}));
+  text(command, "folders", o.folders, "Where to look for scenes");
+  add_assets(command, o.scene_arguments);
+}
+
+// A subcommand whose options, once parsed, `run` is called with.
+template <class Options>
+void add_command(CLI::App& app, std::function<int()>& chosen, const std::string& name, const std::string& help,
+                 int (*run)(const Options&), Options options = {}) {
+  const auto o = std::make_shared<Options>(std::move(options));
+  CLI::App* command = app.add_subcommand(name, help);
+  add(*command, *o);
+  command->callback([&chosen, run, o] { chosen = [run, o] { return run(*o); }; });
+}
+
+}  // namespace
+
+Parsed parse(int argc, char** argv) {
+  CLI::App app("Draws scenes, and compares every stage of the drawing with independent references.", "plumb");
+  app.set_version_flag("--version", "plumb " PLUMBLINE_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit code: 0 all hold, 1 something differs or failed, 2 bad input or usage.");
+  Parsed out;
+  add_command(app, out.command, "render", "Draw a scene into a picture", render);
+  CheckOptions check_options;
+  if (argc > 0) check_options.program = argv[0];
+  add_command(app, out.command, "check", "Compare our renderer with the references, stage by stage", check,
+              check_options);
+  add_command(app, out.command, "capture", "Write what a renderer hands out at every stage into a folder", capture);
+  add_command(app, out.command, "compare",
+              "Compare two images, or two captures, number by number; pixels count from the lower left", compare);
+  add_command(app, out.command, "list", "Show the stages, renderers, faults and scenes that there are", list);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    out.command = nullptr;
+    out.exit = app.exit(e) == 0 ? kHolds : kBadInput;
+  }
+  return out;
+}
+
+}  // namespace plumbline::cli

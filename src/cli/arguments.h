@@ -1,0 +1,15 @@
+// The command line: the one place that knows CLI11, which takes long to compile.
+#pragma once
+
+#include <functional>
+
+namespace plumbline::cli {
+
+/// The command that the arguments name, ready to run. None: `exit` says how the program ends, all has been said.
+struct Parsed {
+  std::function<int()> command;
+  int exit = 0;
+};
+Parsed parse(int argc, char** argv);
+
+}  // namespace plumbline::cli

@@ -1,0 +1,21 @@
+// What a run will write, proven writable before the work.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace plumbline::cli {
+
+/// An option that names a file or folder to be written, and its value; empty: not wanted.
+struct Output {
+  std::string option;
+  std::filesystem::path path;
+};
+
+/// Refuses files that cannot be written, that are one of `inputs`, or of each other, or lie in `folder`, which will be
+/// replaced. Throws std::runtime_error naming option and path. Leaves nothing behind.
+void require_outputs(std::span<const Output> files, const Output& folder,
+                     std::span<const std::filesystem::path> inputs);
+
+}  // namespace plumbline::cli

@@ -1,0 +1,237 @@
+// What plumb writes: proven writable before the work, whole or not at all, and never over what is not its own.
+#include <nlohmann/json.hpp>
+
+#include "run_plumb.h"
+#include "stages/capture_folder.h"
+#include "stages/image_file.h"
+
+namespace plumbline {
+namespace {
+
+using Outputs = Cli;
+using Names = std::set<std::string>;
+
+const std::string kScene = kScenes + "cull/both_windings.json";
+const std::string kCheck = "check " + kScene + " --against exact";
+
+// An output that cannot be: its option and path, and the reason that must be told.
+struct Bad {
+  std::string path, reason;
+};
+
+TEST_F(Outputs, that_cannot_be_written_end_the_run_before_the_work) {
+  fs::create_directories(folder_ / "folder.exr/");
+  fs::create_directories(folder_ / "folder.png/");
+  write(folder_ / "file", "kept");
+  fs::create_symlink("b.exr", folder_ / "a.exr");
+  fs::create_symlink("a.exr", folder_ / "b.exr");
+  const Names before = entries();
+  const auto refused = [&](const std::string& arguments, const Bad& bad) {
+    const Outcome run = plumb(arguments);
+    EXPECT_EQ(run.code, 2) << arguments << "\n" << run.text;
+    EXPECT_TRUE(run.says(bad.path)) << arguments << "\n" << run.text;
+    EXPECT_TRUE(run.says(bad.reason)) << bad.reason << " in " << run.text;
+    EXPECT_FALSE(run.says("filesystem error")) << run.text;
+    EXPECT_FALSE(run.says("exact from")) << "refused after the work";
+    EXPECT_EQ(entries(), before) << arguments;
+  };
+  const std::string long_name(300, 'n');
+  for (const Bad& bad :
+       {Bad{at("no/such/out.exr"), "No such file or directory"}, Bad{at("file/out.exr"), "Not a directory"},
+        Bad{at("folder.exr"), "Is a directory"}, Bad{at("folder.exr") + "/", "Is a directory"},
+        Bad{"/proc/out.exr", "cannot be written"}, Bad{at("a.exr"), "Too many levels of symbolic links"},
+        Bad{at(long_name + ".exr"), "File name too long"}}) {
+    refused(kCheck + " --json " + bad.path, bad);
+    if (bad.path.back() != '/') refused("render " + kScene + " -o " + bad.path, bad);
+  }
+  const Bad bad{at("no/such/out.exr"), "No such file or directory"};
+  refused(kCheck + " --ledger " + bad.path, bad);
+  refused("render " + kScene + " -o " + at("c.png") + " --depth " + bad.path, bad);
+  refused(kCheck + " --json /dev/full", {"/dev/full", "no regular file"});
+  refused(kCheck + " --report " + at("file"), {at("file"), "Not a directory"});
+  refused(kCheck + " --report " + at("file/page"), {at("file/page"), "Not a directory"});
+  refused(kCheck + " --report /proc/page", {"/proc/page", "cannot be written"});
+  refused("capture " + kScene + " " + at("file"), {at("file"), "Not a directory"});
+  refused("capture " + kScene + " /proc/capture", {"/proc/capture", "cannot be written"});
+  EXPECT_EQ(read(at("file")), "kept");
+}
+
+TEST_F(Outputs, are_not_empty_names) {
+  for (const char* option : {"--json", "--ledger", "--report", "--fault"}) {
+    const Outcome run = plumb(kCheck + " " + option + " ''");
+    EXPECT_EQ(run.code, 2) << option << "\n" << run.text;
+    EXPECT_TRUE(run.says(option)) << run.text;
+  }
+  EXPECT_EQ(plumb(kCheck + " --json=''").code, 2);
+  EXPECT_EQ(plumb("render " + kScene + " -o ''").code, 2);
+  EXPECT_EQ(plumb("render " + kScene + " -o " + at("c.png") + " --depth ''").code, 2);
+  EXPECT_EQ(plumb("render '' -o " + at("c.png")).code, 2);
+  EXPECT_EQ(plumb("capture " + kScene + " ''").code, 2);
+  EXPECT_EQ(plumb("check ''").code, 2);
+  EXPECT_TRUE(entries().empty());
+}
+
+TEST_F(Outputs, never_overwrite_a_scene_that_is_read_by_any_name_of_it) {
+  fs::copy(kScene, folder_ / "scene.json");
+  fs::create_symlink("scene.json", folder_ / "link.json");
+  fs::create_hard_link(folder_ / "scene.json", folder_ / "hard.txt");
+  fs::copy(kScene, folder_ / "scene.png");
+  const std::string text = read(folder_ / "scene.json");
+  const Names before = entries();
+  for (const char* name : {"scene.json", "link.json", "hard.txt", "no/../scene.json"}) {
+    const Outcome run = plumb("check " + at("scene.json") + " --against exact --ledger " + at(name));
+    EXPECT_EQ(run.code, 2) << name << "\n" << run.text;
+    EXPECT_TRUE(run.says("is read by this run") && run.says(name)) << run.text;
+  }
+  EXPECT_EQ(plumb("check " + folder_.string() + " --against exact --json " + at("scene.json")).code, 2) << "by folder";
+  EXPECT_EQ(plumb("render " + at("scene.png") + " -o " + at("scene.png")).code, 2);
+  EXPECT_EQ(read(folder_ / "scene.json"), text);
+  EXPECT_EQ(read(folder_ / "scene.png"), text);
+  EXPECT_EQ(entries(), before);
+}
+
+TEST_F(Outputs, never_overwrite_each_other) {
+  fs::create_symlink("a.json", folder_ / "link.json");
+  for (const char* other : {"a.json", "./a.json", "link.json"}) {
+    const Outcome run = plumb(kCheck + " --json " + at("a.json") + " --ledger " + at(other));
+    EXPECT_EQ(run.code, 2) << other;
+    EXPECT_TRUE(run.says("--ledger") && run.says("--json")) << run.text;
+  }
+  EXPECT_EQ(plumb(kCheck + " --report " + at("page") + " --json " + at("page")).code, 2);
+  fs::create_directories(folder_ / "page");
+  EXPECT_EQ(plumb(kCheck + " --report " + at("page") + " --json " + at("page/out.json")).code, 2);
+  EXPECT_EQ(plumb("render " + kScene + " -o " + at("c.exr") + " --depth " + at("c.exr")).code, 2);
+  EXPECT_EQ(entries(), (Names{"link.json", "page"}));
+}
+
+TEST_F(Outputs, through_a_link_replace_what_it_points_to) {
+  fs::create_directories(folder_ / "far");
+  write(folder_ / "far/old.json", "old");
+  fs::create_symlink("far/old.json", folder_ / "old.json");
+  fs::create_symlink("far/new.png", folder_ / "new.png");  // to nothing yet
+  fs::create_directories(folder_ / "far/captures");
+  fs::create_symlink("far/captures", folder_ / "captures");
+  EXPECT_EQ(plumb(kCheck + " --json " + at("old.json")).code, 0);
+  EXPECT_EQ(plumb("render " + kScene + " -o " + at("new.png")).code, 0);
+  EXPECT_EQ(plumb("capture " + kScene + " " + at("captures")).code, 0);
+  for (const char* link : {"old.json", "new.png", "captures"}) EXPECT_TRUE(fs::is_symlink(folder_ / link)) << link;
+  EXPECT_TRUE(nlohmann::json::accept(read(folder_ / "far/old.json")));
+  EXPECT_GT(read_image(folder_ / "far/new.png").size(), 0u);
+  EXPECT_EQ(read_capture(folder_ / "far/captures").renderer, "ours");
+}
+
+TEST_F(Outputs, of_render_appear_both_or_not_at_all) {
+  // A small picture, a large depth.
+  const std::string both = "render " + kScenes + "depth/grazing.json -o " + at("c.png") + " --depth ";
+  EXPECT_EQ(plumb(both + at("no/such/d.exr")).code, 2);
+  fs::create_directories(folder_ / "d.exr");
+  EXPECT_EQ(plumb(both + at("d.exr")).code, 2);
+  fs::remove(folder_ / "d.exr");
+  EXPECT_TRUE(entries().empty());
+  // A full disk, found out by the second file: the first, small enough, must not appear.
+  write(folder_ / "c.png", "old");
+  const Outcome full = shell("trap '' XFSZ; ulimit -f 8; " PLUMBLINE_PLUMB " " + both + at("d.exr"));
+  EXPECT_EQ(full.code, 2) << full.text;
+  EXPECT_TRUE(full.says(at("d.exr") + ": cannot be written: File too large")) << full.text;
+  EXPECT_EQ(entries(), Names{"c.png"});
+  EXPECT_EQ(read(at("c.png")), "old");
+  EXPECT_EQ(plumb(both + at("d.exr")).code, 0);
+  EXPECT_EQ(entries(), (Names{"c.png", "d.exr"}));
+}
+
+TEST_F(Outputs, that_fill_the_disk_leave_nothing_behind) {
+  const std::string limited = "trap '' XFSZ; ulimit -f 1; " PLUMBLINE_PLUMB " ";
+  for (const std::string& arguments : {kCheck + " --json " + at("o.json"), kCheck + " --report " + at("deep/page"),
+                                       "capture " + kScene + " " + at("capture"),
+                                       "render " + kScene + " --depth " + at("d.exr") + " -o " + at("c.exr")}) {
+    const Outcome run = shell(limited + arguments);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_TRUE(run.says("File too large") && run.says(folder_.string())) << run.text;
+    EXPECT_TRUE(entries().empty()) << arguments;
+  }
+  EXPECT_EQ(plumb("list stages > /dev/full").code, 2) << "standard output is an output as well";
+}
+
+TEST_F(Outputs, capture_and_report_replace_an_empty_folder_and_their_own) {
+  for (const std::string& command : {"capture " + kScene + " " + at("it"), kCheck + " --report " + at("it")}) {
+    fs::create_directories(folder_ / "it");
+    EXPECT_EQ(plumb(command).code, 0);
+    const Names made = entries();
+    EXPECT_GT(made.size(), 3u);
+    const Outcome again = plumb(command);
+    EXPECT_EQ(again.code, 0) << again.text;
+    EXPECT_EQ(entries(), made);
+    write(folder_ / "it/thesis.txt", "mine");
+    const Outcome mine = plumb(command);
+    EXPECT_EQ(mine.code, 2) << "a folder of ours with a file of the user's";
+    EXPECT_TRUE(mine.says("thesis.txt") && mine.says("left alone")) << mine.text;
+    EXPECT_EQ(read(at("it/thesis.txt")), "mine");
+    fs::remove_all(folder_ / "it");
+  }
+}
+
+TEST_F(Outputs, capture_and_report_leave_other_folders_alone) {
+  const std::string capture = "capture " + kScene + " " + at("it"), report = kCheck + " --report " + at("it");
+  const auto refused = [&](const std::string& command, const std::string& why) {
+    const Names before = entries();
+    const Outcome run = plumb(command);
+    EXPECT_EQ(run.code, 2) << why << "\n" << run.text;
+    EXPECT_TRUE(run.says(at("it")) && run.says("left alone")) << run.text;
+    EXPECT_FALSE(run.says("exact from")) << "refused after the work";
+    EXPECT_EQ(entries(), before) << why;
+  };
+  EXPECT_EQ(plumb(capture).code, 0);
+  refused(report, "a capture is no report");
+  const std::string manifest = read(at("it/manifest.json"));
+  for (const char* text : {"{}", "", "{\"format\": \"web app\", \"name\": \"plumbline capture\"}", "[1, 2]"}) {
+    write(folder_ / "it/manifest.json", text);
+    refused(capture, "somebody else's manifest");
+  }
+  fs::remove_all(folder_ / "it");
+  fs::create_directories(folder_ / "it/src");
+  write(folder_ / "it/manifest.json", manifest);
+  write(folder_ / "it/src/main.c", "mine");
+  refused(capture, "a file in a folder beside a capture's manifest");
+  fs::remove_all(folder_ / "it");
+  EXPECT_EQ(plumb(report).code, 0);
+  refused(capture, "a report is no capture");
+  write(folder_ / "it/plumb-report.txt", "index.html\n");
+  refused(report, "a list that does not say whose it is");
+  fs::remove(folder_ / "it/plumb-report.txt");
+  refused(report, "somebody's page");
+}
+
+TEST_F(Outputs, keep_scenes_of_one_name_apart_and_take_any_name) {
+  const std::string odd = "a b#c?d%&\"<>'\xff\xfe\xc3\xa4";
+  for (const char* top : {"x", "y"}) {
+    fs::create_directories(folder_ / top / "cull");
+    fs::copy(kScene, folder_ / top / "cull/both_windings.json");
+  }
+  fs::create_directories(folder_ / "x" / odd);
+  fs::copy(kScene, folder_ / "x" / odd / (odd + ".json"));
+  // A scene named "../scene", which must not leave the page's folder.
+  const Outcome run =
+      shell("cd '" + at("x/cull") + "' && cp both_windings.json ../z.json && " PLUMBLINE_PLUMB " check '" +
+            at("x/cull") + "' '" + at("y") + "' '" + at("x") + "' ../z.json --against exact --json '" + at("out.json") +
+            "' --report '" + at("page") + "'");
+  EXPECT_EQ(run.code, 0) << run.text;
+  std::set<std::string> shown;
+  const std::string page = read(at("page/index.html"));
+  EXPECT_FALSE(page.find("\xff") != page.npos || page.find("\"<>") != page.npos) << "not escaped";
+  EXPECT_NE(page.find("a b#c?d%&amp;&quot;&lt;&gt;'\xef\xbf\xbd\xef\xbf\xbd\xc3\xa4"), page.npos);
+  std::size_t pictures = 0;
+  for (std::size_t from = 0; (from = page.find("src=\"", from)) != page.npos; ++pictures) {
+    from += 5;
+    const std::string link = page.substr(from, page.find('"', from) - from);
+    EXPECT_TRUE(fs::is_regular_file(folder_ / "page" / link)) << link;
+    EXPECT_EQ(link.find_first_of("%#?& "), link.npos) << link;
+    EXPECT_EQ(link.find(".."), link.npos) << link;
+    EXPECT_TRUE(shown.insert(link).second) << link << " is shown for two scenes";
+  }
+  EXPECT_EQ(pictures, 6u * 3) << "ours, exact, difference; x/cull, y/cull, x of three, ../z";
+  const auto json = nlohmann::json::parse(read(at("out.json")));  // throws on what is no UTF-8
+  EXPECT_EQ(json["scenes"].size(), 6u);
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,77 @@
+// Runs the program as a user does.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace plumbline {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code;
+  std::string text;  // stdout and stderr
+  bool says(const std::string& part) const { return text.find(part) != std::string::npos; }
+};
+
+// A line for the shell.
+inline Outcome shell(const std::string& line) {
+  FILE* pipe = popen(("{ " + line + "\n} 2>&1").c_str(), "r");
+  Outcome run{-1, ""};
+  std::array<char, 4096> buffer;
+  while (std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) run.text.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) run.code = WEXITSTATUS(status);
+  return run;
+}
+
+inline Outcome plumb(const std::string& arguments) { return shell(PLUMBLINE_PLUMB " " + arguments); }
+
+inline std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+inline void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+inline const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
+
+// A folder of its own for each test, gone afterwards.
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              ("plumb-cli-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
+               std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  std::string scene_file(const std::string& json) const {
+    write(folder_ / "scene.json", json);
+    return at("scene.json");
+  }
+  // The names of all that is in the folder, hidden ones and those in folders included.
+  std::set<std::string> entries() const {
+    std::set<std::string> out;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+      out.insert(entry.path().lexically_relative(folder_).string());
+    }
+    return out;
+  }
+
+  fs::path folder_;
+};
+
+}  // namespace plumbline
