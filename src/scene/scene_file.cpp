@@ -67,27 +67,32 @@ void read_depths(const JsonNode& node, double least, double& near, double& far) 
   }
 }
 
+/// A view's box; right may be left of left, top below bottom: that mirrors. near is at least `least`.
+template <class Box>
+Box read_box(const JsonNode& node, double least) {
+  node.only({"left", "right", "bottom", "top", "near", "far"});
+  Box box{};
+  const auto read_side = [&](const char* key) { return node[key].number(-kFar, kFar); };
+  box.left = read_side("left");
+  box.right = read_side("right");
+  box.bottom = read_side("bottom");
+  box.top = read_side("top");
+  if (std::abs(box.right - box.left) < kTiny) node["right"].refuse("a number other than left");
+  if (std::abs(box.top - box.bottom) < kTiny) node["top"].refuse("a number other than bottom");
+  read_depths(node, least, box.near, box.far);
+  return box;
+}
+
 Projection read_projection(const JsonNode& node) {
-  if (node.one_of({"perspective", "orthographic"}) == "perspective") {
-    const JsonNode n = node["perspective"];
-    n.only({"fov_y", "near", "far"});
-    Perspective p{};
-    p.fov_y_degrees = n["fov_y"].number(1e-3, 180 - 1e-3);
-    read_depths(n, kTiny, p.near, p.far);
-    return p;
-  }
-  const JsonNode n = node["orthographic"];
-  n.only({"left", "right", "bottom", "top", "near", "far"});
-  Orthographic o{};
-  const auto read_side = [&](const char* key) { return n[key].number(-kFar, kFar); };
-  o.left = read_side("left");
-  o.right = read_side("right");
-  o.bottom = read_side("bottom");
-  o.top = read_side("top");
-  if (std::abs(o.right - o.left) < kTiny) n["right"].refuse("a number other than left");
-  if (std::abs(o.top - o.bottom) < kTiny) n["top"].refuse("a number other than bottom");
-  read_depths(n, -kFar, o.near, o.far);
-  return o;
+  const std::string_view kind = node.one_of({"perspective", "orthographic", "frustum"});
+  const JsonNode n = node[kind];
+  if (kind == "orthographic") return read_box<Orthographic>(n, -kFar);
+  if (kind == "frustum") return read_box<Frustum>(n, kTiny);
+  n.only({"fov_y", "near", "far"});
+  Perspective p{};
+  p.fov_y_degrees = n["fov_y"].number(1e-3, 180 - 1e-3);
+  read_depths(n, kTiny, p.near, p.far);
+  return p;
 }
 
 Light read_light(const JsonNode& node) {

@@ -28,8 +28,8 @@ struct SceneFileOptions {
 ///   frame          width, height: 1 to 16384; color: "rgba8", "rgba32f"; depth: "z16", "z24", "z32f";
 ///                  clear_color: [r, g, b, a]; clear_depth
 ///   camera         eye, center, up: [x, y, z]
-///   projection     {"perspective": {fov_y *: degrees, near *, far *}} or
-///                  {"orthographic": {left *, right *, bottom *, top *, near *, far *}}
+///   projection     {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right *, bottom *,
+///                  top *, near *, far *}} or {"frustum": {the same six, the sides on the near plane}}
 ///   ambient        [r, g, b], the light model's
 ///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]}
 ///   draws *        one or more of
