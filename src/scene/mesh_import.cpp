@@ -122,7 +122,8 @@ void check_part(const aiMesh& part) {
     if (part.HasNormals()) {
       const aiVector3D& n = part.mNormals[i];
       if (!std::isnormal(n.SquareLength())) {
-        fail("normals that are finite and not zero", fmt::format("({}, {}, {}) in vertex {}", n.x, n.y, n.z, i));
+        fail("finite normals that are not zero, for all corners or for none",
+             fmt::format("({}, {}, {}) in vertex {}", n.x, n.y, n.z, i));
       }
     }
     if (part.HasVertexColors(0)) {

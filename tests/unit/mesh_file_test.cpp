@@ -151,8 +151,10 @@ TEST_F(MeshFile, RefusesObj) {
   refused(write(triangle + "f 1 2 x\n"), "expected a corner such as 1, 1/2, 1//3 or 1/2/3, found \"x\" in line 4");
   refused(write(triangle + "f 1 2\n"), "expected a face of three corners or more, found 2 in line 4");
   refused(write(triangle + "l 1 2\nf 1 2 3\n"), "found \"l\" in line 4");
-  refused(write(triangle + "vn 0 0 0\nf 1//1 2//1 3//1\n"), "expected normals that are finite and not zero");
-  refused(write(triangle + "vn nan 0 0\nf 1//1 2//1 3//1\n"), "expected normals that are finite and not zero");
+  refused(write(triangle + "vn 0 0 0\nf 1//1 2//1 3//1\n"),
+          "expected finite normals that are not zero, for all corners or for none");
+  refused(write(triangle + "vn nan 0 0\nf 1//1 2//1 3//1\n"),
+          "expected finite normals that are not zero, for all corners or for none");
   refused(write("v 0 0 0 9 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n"), "expected colours from 0 to 1, found 9");
   refused(root_ / "none.obj", "expected a mesh file, found none");
   refused(write(triangle, "mesh.stl"), "ending in .obj, .3ds, .ply, .gltf or .glb");
