@@ -20,7 +20,8 @@ glm::dmat4 projection_matrix(const Scene& scene) {
                    const double aspect = static_cast<double>(scene.frame.width) / scene.frame.height;
                    return glm::perspective(glm::radians(p.fov_y_degrees), aspect, p.near, p.far);
                  },
-                 [](const Orthographic& o) { return glm::ortho(o.left, o.right, o.bottom, o.top, o.near, o.far); }},
+                 [](const Orthographic& o) { return glm::ortho(o.left, o.right, o.bottom, o.top, o.near, o.far); },
+                 [](const Frustum& f) { return glm::frustum(f.left, f.right, f.bottom, f.top, f.near, f.far); }},
       scene.projection);
 }
 

@@ -264,7 +264,7 @@ Projected project(const Scene& scene) {
   Projected out;
   out.width = scene.frame.width;
   out.height = scene.frame.height;
-  out.perspective = std::holds_alternative<Perspective>(scene.projection);
+  out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];

@@ -75,6 +75,14 @@ glm::dmat4 project(const Projection& projection, double aspect) {
     m[3][2] = 2.0 * p->far * p->near / (p->near - p->far);
     return m;
   }
+  if (const auto* p = std::get_if<Frustum>(&projection)) {
+    m[0][0] = 2.0 * p->near / (p->right - p->left);
+    m[1][1] = 2.0 * p->near / (p->top - p->bottom);
+    m[2] = {(p->right + p->left) / (p->right - p->left), (p->top + p->bottom) / (p->top - p->bottom),
+            (p->near + p->far) / (p->near - p->far), -1.0};
+    m[3][2] = 2.0 * p->far * p->near / (p->near - p->far);
+    return m;
+  }
   const auto& o = std::get<Orthographic>(projection);
   m[0][0] = 2.0 / (o.right - o.left);
   m[1][1] = 2.0 / (o.top - o.bottom);

@@ -9,8 +9,8 @@ namespace plumbline::pipeline {
 /// World to eye space (gluLookAt): the eye at the origin, looking down -z.
 glm::dmat4 look_at(const Camera& camera);
 
-/// Eye to clip space. Perspective: glFrustum's matrix by the vertical field of view (gluPerspective; GL 2.1 spec
-/// 2.11.2); orthographic: glOrtho's. `aspect` = width / height.
+/// Eye to clip space (GL 2.1 spec 2.11.2). Perspective: glFrustum's matrix by the vertical field of view
+/// (gluPerspective); frustum: glFrustum's; orthographic: glOrtho's. `aspect` = width / height.
 glm::dmat4 project(const Projection& projection, double aspect);
 
 /// Built in double, rounded once to float (entries below 1e-12 become 0).

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -19,7 +18,7 @@ namespace plumbline {
 
 /// The message is: file: at "JSON pointer": expected ..., found ...
 struct JsonError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  JsonError(const std::string& file, const std::string& pointer, std::string_view expected, std::string_view found);
 };
 
 struct JsonValue {
@@ -31,15 +30,22 @@ struct JsonValue {
   std::string text{};
   std::vector<JsonValue> items{};                           ///< of an array
   std::map<std::string, JsonValue, std::less<>> members{};  ///< of an object
+  const std::string* file = nullptr;                        ///< where it was written; owned by who read it
 
-  bool operator==(const JsonValue&) const = default;
+  /// Equal in content, wherever written.
+  bool operator==(const JsonValue& other) const;
 };
 
-/// A value at its place in a file; refers to the JsonFile that it came from. Every reader throws JsonError.
+/// For messages: in quotes, control characters as JSON writes them.
+std::string in_quotes(std::string_view text);
+
+/// One reference token of a JSON pointer, with its slash (RFC 6901).
+std::string pointer_token(std::string_view key);
+
+/// A value at its place in a file; refers to the tree that it came from. Every reader throws JsonError.
 class JsonNode {
  public:
-  JsonNode(const JsonValue& value, const std::string& file, std::string pointer)
-      : value_(&value), file_(&file), pointer_(std::move(pointer)) {}
+  JsonNode(const JsonValue& value, std::string pointer) : value_(&value), pointer_(std::move(pointer)) {}
 
   const JsonValue& value() const { return *value_; }
 
@@ -68,12 +74,12 @@ class JsonNode {
   }
   template <class E>
   E choice(std::initializer_list<std::pair<std::string_view, E>> choices) const {
-    std::string names;
+    std::vector<std::string_view> names;
     for (const auto& [name, e] : choices) {
       if (value_->kind == JsonValue::Kind::text && value_->text == name) return e;
-      names.append(names.empty() ? "one of " : ", ").append(name);
+      names.push_back(name);
     }
-    refuse(names);
+    refuse_choice(names);
   }
 
   /// Refuses the value as found.
@@ -82,24 +88,10 @@ class JsonNode {
 
  private:
   std::string pointer_to(std::string_view key) const;
+  [[noreturn]] void refuse_choice(const std::vector<std::string_view>& names) const;
 
   const JsonValue* value_;
-  const std::string* file_;
   std::string pointer_;
-};
-
-/// A JSON file (comments allowed) as a tree. Refused: what is not JSON, duplicate keys, numbers beyond double's range,
-/// nesting deeper than 64.
-class JsonFile {
- public:
-  explicit JsonFile(const std::filesystem::path& path);
-  JsonFile(const JsonFile&) = delete;
-  JsonFile& operator=(const JsonFile&) = delete;
-  JsonNode root() const { return {value_, name_, ""}; }
-
- private:
-  std::string name_;
-  JsonValue value_;
 };
 
 }  // namespace plumbline

@@ -1,103 +1,89 @@
 #include "scene/mesh_file.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
-#include <assimp/Importer.hpp>
 
-#include "scene/mesh_shapes.h"
+#include "scene/child_process.h"
+#include "scene/mesh_import.h"
 
 namespace plumbline {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string_view what) {
-  throw MeshError(fmt::format("{}: {}", file.string(), what));
+/// Plain arrays as bytes, and back, in the order in which they are named.
+class Bytes {
+ public:
+  explicit Bytes(std::string bytes = "") : bytes_(std::move(bytes)) {}
+  std::string take() { return std::move(bytes_); }
+
+  template <class T>
+  void put(std::span<const T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::size_t count = values.size();
+    bytes_.append(reinterpret_cast<const char*>(&count), sizeof count);
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  }
+  template <class T>
+  std::vector<T> get() {
+    std::size_t count = 0;
+    copy(&count, sizeof count);
+    std::vector<T> values(count);
+    copy(values.data(), count * sizeof(T));
+    return values;
+  }
+
+ private:
+  void copy(void* to, std::size_t size) {
+    if (size == 0) return;
+    std::memcpy(to, bytes_.data() + at_, size);
+    at_ += size;
+  }
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+std::string packed(const std::vector<MeshPart>& parts) {
+  Bytes bytes;
+  bytes.put(std::span<const std::size_t>(std::array{parts.size()}));
+  for (const MeshPart& part : parts) {
+    bytes.put(std::span<const glm::vec3>(part.mesh.positions));
+    bytes.put(std::span<const glm::vec3>(part.mesh.normals));
+    bytes.put(std::span<const glm::vec4>(part.mesh.colors));
+    bytes.put(std::span<const glm::uvec3>(part.mesh.triangles));
+    bytes.put(part.material ? std::span<const Material>(&*part.material, 1) : std::span<const Material>());
+  }
+  return bytes.take();
 }
 
-/// Appends one of the file's meshes, placed by `placement`.
-void append(Mesh& mesh, const aiMesh& part, const aiMatrix4x4& placement, const std::filesystem::path& file) {
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  const aiMatrix3x3 linear(placement);
-  const bool mirrors = linear.Determinant() < 0;
-  const aiMatrix3x3 for_normals = aiMatrix3x3(linear).Inverse().Transpose();
-
-  for (unsigned i = 0; i < part.mNumVertices; ++i) {
-    const aiVector3D p = placement * part.mVertices[i];
-    for (const float x : {p.x, p.y, p.z}) {
-      if (!(std::abs(x) <= kLargestCoordinate)) {
-        fail(file, fmt::format("expected coordinates from {} to {}, found {} in vertex {}", -kLargestCoordinate,
-                               kLargestCoordinate, x, first + i));
-      }
-    }
-    mesh.positions.emplace_back(p.x, p.y, p.z);
-    const aiVector3D n = part.HasNormals() ? for_normals * part.mNormals[i] : aiVector3D(0);
-    mesh.normals.emplace_back(n.x, n.y, n.z);
-    const aiColor4D c = part.HasVertexColors(0) ? part.mColors[0][i] : aiColor4D(1);
-    mesh.colors.emplace_back(c.r, c.g, c.b, c.a);
+std::vector<MeshPart> unpacked(std::string packed_parts) {
+  Bytes bytes(std::move(packed_parts));
+  std::vector<MeshPart> parts(bytes.get<std::size_t>().front());
+  for (MeshPart& part : parts) {
+    part.mesh.positions = bytes.get<glm::vec3>();
+    part.mesh.normals = bytes.get<glm::vec3>();
+    part.mesh.colors = bytes.get<glm::vec4>();
+    part.mesh.triangles = bytes.get<glm::uvec3>();
+    for (const Material& material : bytes.get<Material>()) part.material = material;
   }
-  for (unsigned f = 0; f < part.mNumFaces; ++f) {
-    const aiFace& face = part.mFaces[f];
-    if (face.mNumIndices != 3) continue;
-    glm::uvec3 t(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
-    for (int k = 0; k < 3; ++k) {
-      if (t[k] >= part.mNumVertices) {
-        fail(file, fmt::format("expected vertices below {}, found {} in triangle {}", part.mNumVertices, t[k], f));
-      }
-    }
-    if (mirrors) std::swap(t.x, t.y);
-    if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t + first);
-  }
-}
-
-/// Appends what hangs below a node. (aiProcess_PreTransformVertices would leave mirrored parts inside out.)
-void append(Mesh& mesh, const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent,
-            const std::filesystem::path& file) {
-  const aiMatrix4x4 placement = parent * node.mTransformation;
-  for (unsigned m = 0; m < node.mNumMeshes; ++m) append(mesh, *scene.mMeshes[node.mMeshes[m]], placement, file);
-  for (unsigned c = 0; c < node.mNumChildren; ++c) append(mesh, scene, *node.mChildren[c], placement, file);
-}
-
-void repair_normals(Mesh& mesh) {
-  std::vector<glm::vec3> spare;
-  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
-    const glm::dvec3 n(mesh.normals[i]);
-    const double length = glm::length(n);
-    if (std::isfinite(length) && length > 1e-12) {
-      mesh.normals[i] = glm::vec3(n / length);
-    } else {
-      if (spare.empty()) spare = area_weighted_normals(mesh.positions, mesh.triangles);
-      mesh.normals[i] = spare[i];
-    }
-  }
+  return parts;
 }
 
 }  // namespace
 
-Mesh load_mesh(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (ending != ".obj" && ending != ".3ds") {
-    fail(file, fmt::format("expected a mesh file ending in .obj or .3ds, found \"{}\"", ending));
+std::vector<MeshPart> load_mesh(const std::filesystem::path& file, const AssetFolders& folders,
+                                std::size_t most_triangles) {
+  constexpr unsigned kSeconds = 60;
+  try {
+    return unpacked(in_child_process([&] { return packed(import_mesh(file, folders, most_triangles)); }, kSeconds));
+  } catch (const ChildFailed& error) {
+    throw MeshError(fmt::format("{}: expected a mesh, found {}", file.string(), error.what()));
+  } catch (const std::runtime_error& error) {
+    throw MeshError(fmt::format("{}: {}", file.string(), error.what()));
   }
-  if (!std::filesystem::is_regular_file(file)) fail(file, "expected a mesh file, found none");
-
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(
-      file.string(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_GenSmoothNormals);
-  if (scene == nullptr) fail(file, fmt::format("expected a mesh, found: {}", importer.GetErrorString()));
-
-  Mesh mesh;
-  append(mesh, *scene, *scene->mRootNode, aiMatrix4x4(), file);
-  if (mesh.triangles.empty()) fail(file, "expected triangles, found none");
-  const aiMesh* const* parts = scene->mMeshes;
-  if (std::none_of(parts, parts + scene->mNumMeshes, [](const aiMesh* part) { return part->HasVertexColors(0); })) {
-    mesh.colors.clear();
-  }
-  repair_normals(mesh);
-  return mesh;
 }
 
 }  // namespace plumbline

@@ -1,9 +1,13 @@
 // Meshes from files.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
+#include "scene/asset_folders.h"
 #include "scene/scene.h"
 
 namespace plumbline {
@@ -13,16 +17,31 @@ struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The largest coordinate that a scene may hold: the products of three such numbers stay far within float's range.
-inline constexpr double kLargestCoordinate = 1e6;
+/// A mesh and the material that its file gives it, if it does.
+struct MeshPart {
+  Mesh mesh;
+  std::optional<Material> material;
+};
 
-/// An OBJ or 3DS file as one mesh in the file's world space: placed parts are moved there and put together, polygons
-/// cut into triangles, equal vertices joined; lines, points and triangles of fewer than three vertices are left out.
-/// The winding stays as it is in the file (a mirroring placement turns it, so that what was outside stays outside).
-/// A normal that is missing, zero or not finite is made from the adjacent triangles. 3DS files are taken to be z-up and
-/// turned to y-up: (x, y, z) becomes (x, z, -y).
-/// Throws MeshError: not readable, not one of the two formats, no triangles, a position not finite or beyond
-/// kLargestCoordinate, an index out of range.
-Mesh load_mesh(const std::filesystem::path& file);
+/// An OBJ, 3DS, PLY, glTF or GLB file in the file's world space: parts are moved to where its nodes place them, in its
+/// order; neighbours of one material are put together, so that a file of one material is one part. Polygons are cut
+/// into triangles, equal vertices joined, triangles that have a vertex twice left out. The winding stays as it is in
+/// the file (a mirroring placement turns it, so that what was outside stays outside). Normals that the file does not
+/// give are made from the adjacent triangles. 3DS files are taken to be z-up and turned to y-up: (x, y, z) becomes (x,
+/// z, -y).
+///
+/// Materials are those of OBJ (Ka, Kd, Ks, Ke, Ns, d) and 3DS as they are, Ns above 128, OpenGL's limit, as 128; of
+/// glTF the base colour (as ambient and diffuse) and the emission. Textures are not read.
+///
+/// The library that reads the files crashes, hangs and guesses on some bad ones: it runs in a process of its own, for
+/// at most a minute, what it would guess is checked before, and what it complains about is refused. It opens files
+/// (materials, buffers) that `folders` allow, and no others.
+///
+/// Throws MeshError: not readable, longer than 256 MiB, not one of the formats, truncated; no triangles, or more than
+/// `most_triangles`; faces of fewer than three corners, polygons that are not flat or cross themselves (polygon.h);
+/// an index out of range; a position not finite or beyond kLargestCoordinate (scene_values.h); a normal zero or not
+/// finite; a colour beyond [0,1]; another file that it names and that is missing or not allowed.
+std::vector<MeshPart> load_mesh(const std::filesystem::path& file, const AssetFolders& folders,
+                                std::size_t most_triangles);
 
 }  // namespace plumbline

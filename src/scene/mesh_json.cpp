@@ -1,41 +1,41 @@
 #include "scene/mesh_json.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
-#include "scene/mesh_file.h"
 #include "scene/mesh_shapes.h"
+#include "scene/mesh_solids.h"
+#include "scene/polygon.h"
+#include "scene/scene_values.h"
 
 namespace plumbline {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr int kMostCells = 2048;  // along one side of a generator's mesh
 
-Mesh read_file(const JsonNode& node, std::span<const fs::path> folders) {
-  const fs::path name = node.text();
-  const bool climbs = std::find(name.begin(), name.end(), "..") != name.end();
-  if (name.is_absolute() || climbs) node.refuse("a path below the scene's folder or an asset folder, without \"..\"");
-  for (const fs::path& folder : folders) {
-    if (!fs::is_regular_file(folder / name)) continue;
-    try {
-      return load_mesh(folder / name);
-    } catch (const MeshError& error) {
-      node.refuse("a mesh file that can be used", error.what());
-    }
+int read_count(const JsonNode& node, int least, int most) { return static_cast<int>(node.integer(least, most)); }
+
+void allow_triangles(const JsonNode& node, std::size_t count, std::size_t most) {
+  if (count <= most) return;
+  node.refuse(fmt::format("at most {} triangles in all, of which {} are left", kMostTriangles, most),
+              fmt::format("{} more", count));
+}
+
+std::vector<MeshPart> read_file(const JsonNode& node, const AssetFolders& folders, std::size_t most_triangles) {
+  const std::filesystem::path file =
+      folders.find(node, "a mesh file (scripts/setup installs those of the package glmark2-data)");
+  try {
+    return load_mesh(file, folders, most_triangles);
+  } catch (const MeshError& error) {
+    node.refuse("a mesh file that can be used", error.what());
   }
-  std::string looked;
-  for (const fs::path& folder : folders) looked += fmt::format("{}{}", looked.empty() ? "" : ", ", folder.string());
-  node.refuse("a mesh file", fmt::format("no file \"{}\" in {} (scripts/setup installs the package glmark2-data, whose "
-                                         "models the scenes use)",
-                                         name.string(), looked));
 }
 
 std::vector<glm::vec3> read_positions(const JsonNode& node, std::size_t least, std::size_t most) {
   std::vector<glm::vec3> positions;
-  for (const JsonNode& p : node.elements(least, most)) {
-    positions.emplace_back(p.vector<3>(-kLargestCoordinate, kLargestCoordinate));
-  }
+  for (const JsonNode& p : node.elements(least, most)) positions.emplace_back(read_point(p));
   return positions;
 }
 
@@ -72,31 +72,115 @@ Mesh read_triangles(const JsonNode& node) {
   return make_triangles(std::move(positions), std::move(triangles), std::move(colors));
 }
 
-int read_count(const JsonNode& node, int least, int most) { return static_cast<int>(node.integer(least, most)); }
+Mesh read_quad(const JsonNode& node) {
+  node.only({"positions", "colors"});
+  std::vector<glm::vec3> p{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  if (const auto given = node.find("positions")) {
+    p = read_positions(*given, 4, 4);
+    const std::vector<glm::dvec3> corners(p.begin(), p.end());
+    if (const std::string fault = polygon_fault(corners); !fault.empty()) {
+      given->refuse("a flat quad that does not cross itself", fault);
+    }
+  }
+  // A diagonal on whose sides the two halves lie: the other one of an arrowhead leaves it.
+  const auto half = [&](int a, int b, int c) {
+    const auto at = [&](int i) { return glm::dvec3(p[static_cast<std::size_t>(i)]); };
+    return glm::cross(at(b) - at(a), at(c) - at(a));
+  };
+  std::vector<glm::uvec3> triangles{{0, 1, 2}, {0, 2, 3}};
+  if (!(glm::dot(half(0, 1, 2), half(0, 2, 3)) > 0)) triangles = {{1, 2, 3}, {1, 3, 0}};
+  return make_triangles(std::move(p), std::move(triangles), read_colors(node, 4));
+}
 
-Mesh read_soup(const JsonNode& node) {
+Mesh read_soup(const JsonNode& node, std::size_t most_triangles) {
   node.only({"triangles", "seed", "extent", "size"});
-  return make_soup(read_count(node["triangles"], 1, 1'000'000),
-                   static_cast<std::uint64_t>(node["seed"].integer(0, INT64_MAX)),
+  const int triangles = read_count(node["triangles"], 1, 4'000'000);
+  allow_triangles(node, static_cast<std::size_t>(triangles), most_triangles);
+  return make_soup(triangles, static_cast<std::uint64_t>(node["seed"].integer(0, INT64_MAX)),
                    node["extent"].number(0, kLargestCoordinate / 2), node["size"].number(0, kLargestCoordinate / 2));
+}
+
+Mesh read_grid(const JsonNode& node, std::size_t most_triangles) {
+  node.only({"columns", "rows"});
+  const int columns = read_count(node["columns"], 1, kMostCells), rows = read_count(node["rows"], 1, kMostCells);
+  allow_triangles(node, 2u * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), most_triangles);
+  return make_grid(columns, rows);
+}
+
+Mesh read_uv_sphere(const JsonNode& node, std::size_t most_triangles) {
+  node.only({"slices", "stacks"});
+  const int slices = read_count(node["slices"], 3, kMostCells), stacks = read_count(node["stacks"], 2, kMostCells);
+  allow_triangles(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(stacks - 1), most_triangles);
+  return make_uv_sphere(slices, stacks);
+}
+
+Mesh read_icosphere(const JsonNode& node, std::size_t most_triangles) {
+  node.only({"subdivisions"});
+  const int subdivisions = read_count(node["subdivisions"], 0, 8);
+  allow_triangles(node, 20u << 2 * subdivisions, most_triangles);
+  return make_icosphere(subdivisions);
+}
+
+Mesh read_torus_knot(const JsonNode& node, std::size_t most_triangles) {
+  constexpr int kMostTurns = 64;
+  node.only({"p", "q", "segments", "sides", "tube"});
+  TorusKnot knot;
+  if (const auto n = node.find("p")) knot.p = read_count(*n, 1, kMostTurns);
+  if (const auto n = node.find("q")) knot.q = read_count(*n, 1, kMostTurns);
+  if (const auto n = node.find("tube")) knot.tube = n->number(1e-3, 0.25);
+  knot.segments = read_count(node["segments"], 3, kMostCells);
+  knot.sides = read_count(node["sides"], 3, kMostCells);
+  if (std::gcd(knot.p, knot.q) != 1) {
+    node.refuse("p and q without a common divisor", fmt::format("{} and {}", knot.p, knot.q));
+  }
+  allow_triangles(node, 2u * static_cast<std::size_t>(knot.segments) * static_cast<std::size_t>(knot.sides),
+                  most_triangles);
+  return make_torus_knot(knot);
+}
+
+Mesh read_revolution(const JsonNode& node, std::size_t most_triangles) {
+  constexpr std::size_t kMostCurves = 64;
+  node.only({"profile", "steps", "slices"});
+  const JsonNode profile = node["profile"];
+  std::vector<glm::dvec2> control;
+  for (const JsonNode& point : profile.elements(4, 3 * kMostCurves + 1)) {
+    control.push_back(point.vector<2>(-kLargestCoordinate, kLargestCoordinate));
+    if (control.back().x < 0) point[0u].refuse("a radius of 0 or more");
+  }
+  if (control.size() % 3 != 1) profile.refuse("3 n + 1 points: cubic Bézier curves, neighbours sharing one");
+  const int steps = read_count(node["steps"], 1, kMostCells), slices = read_count(node["slices"], 3, kMostCells);
+  const std::size_t curves = control.size() / 3;
+  allow_triangles(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(steps) * curves,
+                  most_triangles);
+  const std::vector<glm::dvec2> points = bezier_profile(control, steps);
+  if (std::any_of(points.begin() + 1, points.end() - 1, [](const glm::dvec2& p) { return p.x < kSmallestLength; })) {
+    profile.refuse("radii over 0 between the profile's ends", "one of 0");
+  }
+  if (points.size() == 2 && points[0].x <= 0 && points[1].x <= 0) profile.refuse("a radius over 0", "none");
+  return make_revolution(points, slices);
+}
+
+Mesh make(std::string_view kind, const JsonNode& node, std::size_t most_triangles) {
+  if (kind == "triangle") return read_triangle(node);
+  if (kind == "triangles") return read_triangles(node);
+  if (kind == "quad") return read_quad(node);
+  if (kind == "grid") return read_grid(node, most_triangles);
+  if (kind == "uv_sphere") return read_uv_sphere(node, most_triangles);
+  if (kind == "icosphere") return read_icosphere(node, most_triangles);
+  if (kind == "torus_knot") return read_torus_knot(node, most_triangles);
+  if (kind == "revolution") return read_revolution(node, most_triangles);
+  if (kind == "soup") return read_soup(node, most_triangles);
+  node.only({});
+  return make_cube();
 }
 
 }  // namespace
 
-Mesh read_mesh(const JsonNode& node, std::span<const fs::path> folders) {
-  constexpr int kMost = 2048;
-  const std::string_view kind = node.one_of({"file", "triangle", "triangles", "grid", "uv_sphere", "soup"});
-  const JsonNode what = node[kind];
-  if (kind == "file") return read_file(what, folders);
-  if (kind == "triangle") return read_triangle(what);
-  if (kind == "triangles") return read_triangles(what);
-  if (kind == "soup") return read_soup(what);
-  if (kind == "grid") {
-    what.only({"columns", "rows"});
-    return make_grid(read_count(what["columns"], 1, kMost), read_count(what["rows"], 1, kMost));
-  }
-  what.only({"slices", "stacks"});
-  return make_uv_sphere(read_count(what["slices"], 3, kMost), read_count(what["stacks"], 2, kMost));
+std::vector<MeshPart> read_mesh(const JsonNode& node, const AssetFolders& folders, std::size_t most_triangles) {
+  const std::string_view kind = node.one_of({"file", "triangle", "triangles", "quad", "grid", "cube", "uv_sphere",
+                                             "icosphere", "torus_knot", "revolution", "soup"});
+  if (kind == "file") return read_file(node[kind], folders, most_triangles);
+  return {{make(kind, node[kind], most_triangles), std::nullopt}};
 }
 
 }  // namespace plumbline

@@ -51,7 +51,11 @@ struct Perspective {
 struct Orthographic {
   double left, right, bottom, top, near, far;
 };
-using Projection = std::variant<Perspective, Orthographic>;
+/// glFrustum: left, right, bottom and top on the near plane. 0 < near < far.
+struct Frustum {
+  double left, right, bottom, top, near, far;
+};
+using Projection = std::variant<Perspective, Orthographic, Frustum>;
 
 struct Light {
   enum class Kind { directional, point };

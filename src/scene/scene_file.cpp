@@ -5,26 +5,17 @@
 
 #include <fmt/format.h>
 
-#include "scene/json_tree.h"
-#include "scene/mesh_file.h"
+#include "scene/draw_json.h"
 #include "scene/mesh_json.h"
+#include "scene/scene_json.h"
+#include "scene/scene_values.h"
 
 namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFar = kLargestCoordinate;
-constexpr double kTiny = 1e-6;  // the shortest vector and the smallest scale: their reciprocals are harmless in float
 constexpr double kBrightest = 1e6;
-
-glm::dvec3 read_point(const JsonNode& node) { return node.vector<3>(-kFar, kFar); }
-
-glm::dvec3 read_direction(const JsonNode& node) {
-  const glm::dvec3 v = read_point(node);
-  if (glm::length(v) < kTiny) node.refuse("a direction that is not zero", fmt::format("[{}, {}, {}]", v.x, v.y, v.z));
-  return v;
-}
 
 FrameFormat read_frame(const JsonNode& node) {
   constexpr int kLargestFrame = 16384;
@@ -51,8 +42,8 @@ Camera read_camera(const JsonNode& node) {
   if (const auto n = node.find("center")) camera.center = read_point(*n);
   if (const auto n = node.find("up")) camera.up = read_direction(*n);
   const glm::dvec3 view = camera.center - camera.eye;
-  if (glm::length(view) < kTiny) node.refuse("eye and center to differ", "them equal");
-  if (glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up))) < kTiny) {
+  if (glm::length(view) < kSmallestLength) node.refuse("eye and center to differ", "them equal");
+  if (glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up))) < kSmallestLength) {
     node.refuse("up not to be parallel to the view direction", "it parallel");
   }
   return camera;
@@ -60,34 +51,39 @@ Camera read_camera(const JsonNode& node) {
 
 /// Near and far, the one before the other by more than float's rounding.
 void read_depths(const JsonNode& node, double least, double& near, double& far) {
-  near = node["near"].number(least, kFar);
-  far = node["far"].number(least, kFar);
-  if (far - near <= kTiny * std::max(std::abs(near), std::abs(far))) {
+  near = node["near"].number(least, kLargestCoordinate);
+  far = node["far"].number(least, kLargestCoordinate);
+  if (far - near <= kSmallestLength * std::max(std::abs(near), std::abs(far))) {
     node["far"].refuse(fmt::format("a number greater than near, {}", near));
   }
 }
 
+/// A view's box; right may be left of left, top below bottom: that mirrors. near is at least `least`.
+template <class Box>
+Box read_box(const JsonNode& node, double least) {
+  node.only({"left", "right", "bottom", "top", "near", "far"});
+  Box box{};
+  const auto read_side = [&](const char* key) { return node[key].number(-kLargestCoordinate, kLargestCoordinate); };
+  box.left = read_side("left");
+  box.right = read_side("right");
+  box.bottom = read_side("bottom");
+  box.top = read_side("top");
+  if (std::abs(box.right - box.left) < kSmallestLength) node["right"].refuse("a number other than left");
+  if (std::abs(box.top - box.bottom) < kSmallestLength) node["top"].refuse("a number other than bottom");
+  read_depths(node, least, box.near, box.far);
+  return box;
+}
+
 Projection read_projection(const JsonNode& node) {
-  if (node.one_of({"perspective", "orthographic"}) == "perspective") {
-    const JsonNode n = node["perspective"];
-    n.only({"fov_y", "near", "far"});
-    Perspective p{};
-    p.fov_y_degrees = n["fov_y"].number(1e-3, 180 - 1e-3);
-    read_depths(n, kTiny, p.near, p.far);
-    return p;
-  }
-  const JsonNode n = node["orthographic"];
-  n.only({"left", "right", "bottom", "top", "near", "far"});
-  Orthographic o{};
-  const auto read_side = [&](const char* key) { return n[key].number(-kFar, kFar); };
-  o.left = read_side("left");
-  o.right = read_side("right");
-  o.bottom = read_side("bottom");
-  o.top = read_side("top");
-  if (std::abs(o.right - o.left) < kTiny) n["right"].refuse("a number other than left");
-  if (std::abs(o.top - o.bottom) < kTiny) n["top"].refuse("a number other than bottom");
-  read_depths(n, -kFar, o.near, o.far);
-  return o;
+  const std::string_view kind = node.one_of({"perspective", "orthographic", "frustum"});
+  const JsonNode n = node[kind];
+  if (kind == "orthographic") return read_box<Orthographic>(n, -kLargestCoordinate);
+  if (kind == "frustum") return read_box<Frustum>(n, kSmallestLength);
+  n.only({"fov_y", "near", "far"});
+  Perspective p{};
+  p.fov_y_degrees = n["fov_y"].number(1e-3, 180 - 1e-3);
+  read_depths(n, kSmallestLength, p.near, p.far);
+  return p;
 }
 
 Light read_light(const JsonNode& node) {
@@ -105,98 +101,45 @@ Light read_light(const JsonNode& node) {
   return light;
 }
 
-Transform read_transform(const JsonNode& node) {
-  const std::string_view kind = node.one_of({"translate", "rotate", "scale"});
-  const JsonNode what = node[kind];
-  if (kind == "translate") return Translate{read_point(what)};
-  if (kind == "rotate") {
-    what.only({"degrees", "axis"});
-    return Rotate{what["degrees"].number(-kFar, kFar), read_direction(what["axis"])};
-  }
-  const glm::dvec3 by = read_point(what);
-  for (int k = 0; k < 3; ++k) {
-    if (std::abs(by[k]) < kTiny) what[static_cast<std::size_t>(k)].refuse("a scale that is not zero");
-  }
-  return Scale{by};
-}
+/// A draw's mesh, or the meshes of a file of several materials, in the scene.
+struct KnownMesh {
+  const JsonValue* json;
+  std::uint32_t first;  ///< index into Scene::meshes
+  std::vector<std::optional<Material>> materials;
+};
 
-std::vector<Transform> read_transforms(const JsonNode& node) {
-  constexpr std::size_t kMost = 64;
-  std::vector<Transform> transforms;
-  double largest = 1, smallest = 1;  // bounds of the product's scale
-  for (const JsonNode& n : node.elements(0, kMost)) {
-    transforms.push_back(read_transform(n));
-    if (const Scale* scale = std::get_if<Scale>(&transforms.back())) {
-      const glm::dvec3 by = glm::abs(scale->by);
-      largest *= std::max({by.x, by.y, by.z});
-      smallest *= std::min({by.x, by.y, by.z});
-      if (largest > kFar || smallest < kTiny) {
-        n.refuse(fmt::format("scales whose product is from {} to {}", kTiny, kFar), "one beyond");
-      }
-    }
-  }
-  return transforms;
-}
-
-Material read_material(const JsonNode& node) {
-  node.only({"ambient", "diffuse", "specular", "emission", "shininess"});
-  Material material;
-  if (const auto n = node.find("ambient")) material.ambient = glm::vec4(n->vector<4>(0, 1));
-  if (const auto n = node.find("diffuse")) material.diffuse = glm::vec4(n->vector<4>(0, 1));
-  if (const auto n = node.find("specular")) material.specular = glm::vec4(n->vector<4>(0, 1));
-  if (const auto n = node.find("emission")) material.emission = glm::vec4(n->vector<4>(0, 1));
-  if (const auto n = node.find("shininess")) material.shininess = static_cast<float>(n->number(0, 128));
-  return material;
-}
-
-/// A draw without its mesh.
-Draw read_draw(const JsonNode& node) {
-  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "depth_func"});
-  Draw draw;
-  if (const auto n = node.find("transforms")) draw.transforms = read_transforms(*n);
-  if (const auto n = node.find("material")) draw.material = read_material(*n);
-  if (const auto n = node.find("lit")) draw.lit = n->boolean();
-  if (const auto n = node.find("shading")) {
-    draw.shading = n->choice<Shading>({{"flat", Shading::flat}, {"gouraud", Shading::gouraud}});
-  }
-  if (const auto n = node.find("cull")) {
-    draw.cull = n->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
-  }
-  if (const auto n = node.find("depth_func")) {
-    draw.depth_func = n->choice<DepthFunc>({{"never", DepthFunc::never},
-                                            {"less", DepthFunc::less},
-                                            {"equal", DepthFunc::equal},
-                                            {"less_equal", DepthFunc::less_equal},
-                                            {"greater", DepthFunc::greater},
-                                            {"not_equal", DepthFunc::not_equal},
-                                            {"greater_equal", DepthFunc::greater_equal},
-                                            {"always", DepthFunc::always}});
-  }
-  return draw;
-}
-
-void read_draws(const JsonNode& node, std::span<const fs::path> folders, Scene& scene) {
-  constexpr std::size_t kMostPrimitives = 1u << 24;  // a primitive's number is exact in float
-  std::vector<const JsonValue*> meshes;              // beside scene.meshes
-  std::size_t primitives = 0;
-  for (const JsonNode& n : node.elements(1, SIZE_MAX)) {
-    Draw draw = read_draw(n);
+void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFolders& folders, Scene& scene) {
+  constexpr std::size_t kMostDraws = 4096;
+  std::vector<KnownMesh> known;
+  std::size_t left = kMostTriangles;
+  for (const JsonNode& n : node.elements(1, kMostDraws)) {
+    const DrawState state = read_draw(n, defaults);
     const JsonNode mesh = n["mesh"];
-    const auto same =
-        std::find_if(meshes.begin(), meshes.end(), [&](const JsonValue* m) { return *m == mesh.value(); });
-    draw.mesh = static_cast<std::uint32_t>(same - meshes.begin());
-    if (same == meshes.end()) {
-      meshes.push_back(&mesh.value());
-      scene.meshes.push_back(read_mesh(mesh, folders));
+    auto same = std::find_if(known.begin(), known.end(), [&](const KnownMesh& k) { return *k.json == mesh.value(); });
+    if (same == known.end()) {
+      KnownMesh read{&mesh.value(), static_cast<std::uint32_t>(scene.meshes.size()), {}};
+      for (MeshPart& part : read_mesh(mesh, folders, left)) {
+        scene.meshes.push_back(std::move(part.mesh));
+        read.materials.push_back(part.material);
+      }
+      same = known.insert(known.end(), std::move(read));
     }
-    primitives += scene.meshes[draw.mesh].triangles.size();
-    if (primitives > kMostPrimitives) n.refuse(fmt::format("at most {} triangles in all", kMostPrimitives), "more");
-    scene.draws.push_back(std::move(draw));
+    for (std::uint32_t i = 0; i < same->materials.size(); ++i) {
+      Draw draw = state.draw;
+      draw.mesh = same->first + i;
+      if (!state.has_material && same->materials[i]) draw.material = *same->materials[i];
+      const std::size_t triangles = scene.meshes[draw.mesh].triangles.size();
+      if (triangles > left) n.refuse(fmt::format("at most {} triangles in all", kMostTriangles), "more");
+      left -= triangles;
+      scene.draws.push_back(std::move(draw));
+    }
   }
 }
 
-Scene read_scene(const JsonNode& root, std::span<const fs::path> folders) {
-  root.only({"description", "dialect", "frame", "camera", "projection", "ambient", "lights", "draws"});
+Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
+  root.only({"$schema", "include", "description", "dialect", "frame", "camera", "projection", "ambient", "lights",
+             "defaults", "draws"});
+  if (const auto n = root.find("$schema")) n->text();
   Scene scene;
   scene.description = root["description"].text();
   if (const auto n = root.find("dialect")) scene.dialect = n->choice<Dialect>({{"gl", Dialect::gl}});
@@ -207,8 +150,16 @@ Scene read_scene(const JsonNode& root, std::span<const fs::path> folders) {
   if (const auto n = root.find("lights")) {
     for (const JsonNode& light : n->elements(0, 8)) scene.lights.push_back(read_light(light));
   }
-  read_draws(root["draws"], folders, scene);
+  DrawState defaults;
+  if (const auto n = root.find("defaults")) defaults = read_defaults(*n);
+  read_draws(root["draws"], defaults, folders, scene);
   return scene;
+}
+
+/// x.json, but neither the schema nor a part that scenes include.
+bool is_scene(const fs::path& file) {
+  const fs::path second = file.stem().extension();
+  return file.extension() == ".json" && second != ".schema" && second != ".part";
 }
 
 }  // namespace
@@ -218,8 +169,9 @@ Scene load_scene(const fs::path& file, const SceneFileOptions& options) {
   std::vector<fs::path> folders = options.asset_folders;
   folders.insert(folders.begin(), whole.parent_path());
   try {
-    const JsonFile json(file);
-    Scene scene = read_scene(json.root(), folders);
+    const AssetFolders assets(std::move(folders));
+    const SceneJson json(file, assets);
+    Scene scene = read_scene(json.root(), assets);
     scene.name = (whole.parent_path().filename() / whole.stem()).generic_string();
     scene.path = file.string();
     return scene;
@@ -239,7 +191,7 @@ std::vector<fs::path> find_scenes(std::span<const fs::path> paths) {
         if (fs::exists(path)) found.push_back(path);
       } else {
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path)) {
-          if (entry.is_regular_file() && entry.path().extension() == ".json") found.push_back(entry.path());
+          if (entry.is_regular_file() && is_scene(entry.path())) found.push_back(entry.path());
         }
       }
     } catch (const fs::filesystem_error& error) {

@@ -21,37 +21,52 @@ struct SceneFileOptions {
 };
 
 /// Reads a scene: one JSON object (comments allowed). Every key but those marked * may be left out and then has
-/// scene.h's default; nothing else may be in the file.
+/// scene.h's default; nothing else may be in the file. Editors find the same in tests/scenes/scene.schema.json.
 ///
+///   $schema        the schema's place, for editors
+///   include        files that this one builds on, below
 ///   description *  what must be seen, and why
 ///   dialect        "gl"
 ///   frame          width, height: 1 to 16384; color: "rgba8", "rgba32f"; depth: "z16", "z24", "z32f";
 ///                  clear_color: [r, g, b, a]; clear_depth
 ///   camera         eye, center, up: [x, y, z]
-///   projection     {"perspective": {fov_y *: degrees, near *, far *}} or
-///                  {"orthographic": {left *, right *, bottom *, top *, near *, far *}}
+///   projection     {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right *, bottom *,
+///                  top *, near *, far *}} or {"frustum": {the same six, the sides on the near plane}}
 ///   ambient        [r, g, b], the light model's
 ///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]}
-///   draws *        one or more of
-///     mesh *       one of  "file": "bunny.obj", below the scene's folder or below an asset folder
+///   defaults       of all draws: any of a draw's keys but mesh. A draw's own count before them, of a material one by
+///   one draws *        1 to 4096 of
+///     mesh *       one of  "file": "bunny.obj", an OBJ, 3DS, PLY, glTF or GLB file (mesh_file.h)
 ///                          "triangle": {positions *: [[x, y, z] x 3], colors: [[r, g, b, a] x 3]}
 ///                          "triangles": {positions *, indices *: [[i, j, k], ...], colors}
+///                          "quad": {positions: [[x, y, z] x 4], else the square of grid; colors}
 ///                          "grid": {columns *, rows *}, "uv_sphere": {slices *, stacks *}   (mesh_shapes.h)
 ///                          "soup": {triangles *, seed *, extent *, size *}
+///                          "cube": {}, "icosphere": {subdivisions *: 0 to 8}                (mesh_solids.h)
+///                          "torus_knot": {segments *, sides *, p, q, tube}
+///                          "revolution": {profile *: [[radius, y] x (3 n + 1)], Bézier curves; steps *, slices *}
 ///     transforms   a list of {"translate": [x, y, z]}, {"rotate": {degrees *, axis *: [x, y, z]}},
 ///                  {"scale": [x, y, z]}
-///     material     ambient, diffuse, specular, emission: [r, g, b, a]; shininess: 0 to 128
+///     material     ambient, diffuse, specular, emission: [r, g, b, a]; shininess: 0 to 128. Where neither the draw nor
+///                  the defaults have one, a mesh file's materials count; a file of several becomes several draws
 ///     lit          true, false
 ///     shading      "flat", "gouraud"
 ///     cull         "none", "back", "front"
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"
 ///
-/// Colours are in [0,1], lights' and ambient 0 or more. Coordinates go up to +-1e6. Numbers that scene.h holds as float
-/// are rounded here, once. Draws of an equal mesh share it. The scene's name is "folder/file", without the ending.
-/// Throws SceneError.
+/// Colours are in [0,1], lights' and ambient 0 or more. Coordinates go up to +-1e6, all draws' triangles to 2^24.
+/// Numbers that scene.h holds as float are rounded here, once. Draws of an equal mesh share it.
+///
+/// What a file says is a patch of what it includes (RFC 7396, JSON merge patch; scene_json.h): objects are merged key
+/// by key, null takes a key away, everything else, arrays too, is replaced. Parts that are no scenes are called
+/// *.part.json. Names of meshes and included files are looked for in the scene's folder, then in the asset folders.
+/// They may lead into these and below, and nowhere else, whatever links and ".." they go through.
+///
+/// The scene's name is "folder/file", without the ending. Throws SceneError.
 Scene load_scene(const std::filesystem::path& file, const SceneFileOptions& options = {});
 
-/// The scene files that `paths` name: files as they are; of folders all *.json in them and below, sorted.
+/// The scene files that `paths` name: files as they are; of folders all *.json in them and below, sorted, but for
+/// *.part.json (what scenes include) and *.schema.json.
 /// Throws SceneError if a path does not exist, or nothing is found.
 std::vector<std::filesystem::path> find_scenes(std::span<const std::filesystem::path> paths);
 

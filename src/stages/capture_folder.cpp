@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "scene/json_tree.h"
+#include "scene/json_file.h"
 #include "stages/atomic_path.h"
 #include "stages/capture_columns.h"
 

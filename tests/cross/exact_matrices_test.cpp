@@ -52,6 +52,14 @@ TEST(Matrices, OrthographicIsGlOrtho) {
               rows({0.5, 0, 0, -0.5, 0, 0.5, 0, -2, 0, 0, -0.5, -1.5, 0, 0, 0, 1}), 1e-15);
 }
 
+TEST(Matrices, FrustumIsGlFrustum) {
+  Scene scene = scene_with({});
+  scene.projection = Frustum{-1, 3, 2, 6, 1, 3};
+  // 2 near / (right - left) = 1/2; (right + left) / (right - left) = 1/2; (top + bottom) / (top - bottom) = 2.
+  expect_near(math::double_matrices(scene, scene.draws[0]).projection,
+              rows({0.5, 0, 0.5, 0, 0, 0.5, 2, 0, 0, 0, -2, -3, 0, 0, -1, 0}), 1e-15);
+}
+
 TEST(Matrices, TransformsActLastFirst) {
   // Scaled, then turned from +x to +y, then moved.
   const Scene scene = scene_with({Translate{{10, 0, 0}}, Rotate{90, {0, 0, 5}}, Scale{{2, 3, 4}}});

@@ -55,6 +55,14 @@ TEST(PipelineMatrices, PerspectiveTakesTheFrustumToTheCube) {
   expect_near(narrow * glm::dvec4(std::sqrt(1.0 / 3) / 2, 0, -1, 1), {1, 0, -1, 1});
 }
 
+TEST(PipelineMatrices, FrustumTakesItsCornersToTheCube) {
+  const glm::dmat4 p = project(Frustum{-1, 3, 2, 10, 2, 8}, 7.0);
+  expect_near(p * glm::dvec4(-1, 2, -2, 1), {-2, -2, -2, 2});
+  expect_near(p * glm::dvec4(3, 10, -2, 1), {2, 2, -2, 2});
+  expect_near(p * glm::dvec4(-4, 8, -8, 1), {-8, -8, 8, 8});
+  expect_near(p * glm::dvec4(12, 40, -8, 1), {8, 8, 8, 8});
+}
+
 TEST(PipelineMatrices, OrthographicTakesTheBoxToTheCube) {
   const glm::dmat4 p = project(Orthographic{-1, 3, 2, 10, 0.5, 4.5}, 7.0);
   expect_near(p * glm::dvec4(-1, 2, -0.5, 1), {-1, -1, -1, 1});

@@ -1,0 +1,98 @@
+#include "scene/draw_json.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scene/scene_values.h"
+
+namespace plumbline {
+namespace {
+
+Transform read_transform(const JsonNode& node) {
+  const std::string_view kind = node.one_of({"translate", "rotate", "scale"});
+  const JsonNode what = node[kind];
+  if (kind == "translate") return Translate{read_point(what)};
+  if (kind == "rotate") {
+    what.only({"degrees", "axis"});
+    return Rotate{what["degrees"].number(-kLargestCoordinate, kLargestCoordinate), read_direction(what["axis"])};
+  }
+  const glm::dvec3 by = read_point(what);
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(by[k]) < kSmallestLength) what[static_cast<std::size_t>(k)].refuse("a scale that is not zero");
+  }
+  return Scale{by};
+}
+
+std::vector<Transform> read_transforms(const JsonNode& node) {
+  constexpr std::size_t kMost = 64;
+  std::vector<Transform> transforms;
+  double largest = 1, smallest = 1;  // bounds of the product's scale
+  for (const JsonNode& n : node.elements(0, kMost)) {
+    transforms.push_back(read_transform(n));
+    if (const Scale* scale = std::get_if<Scale>(&transforms.back())) {
+      const glm::dvec3 by = glm::abs(scale->by);
+      largest *= std::max({by.x, by.y, by.z});
+      smallest *= std::min({by.x, by.y, by.z});
+      if (largest > kLargestCoordinate || smallest < kSmallestLength) {
+        n.refuse(fmt::format("scales whose product is from {} to {}", kSmallestLength, kLargestCoordinate),
+                 "one beyond");
+      }
+    }
+  }
+  return transforms;
+}
+
+void read_material(const JsonNode& node, Material& material) {
+  node.only({"ambient", "diffuse", "specular", "emission", "shininess"});
+  if (const auto n = node.find("ambient")) material.ambient = glm::vec4(n->vector<4>(0, 1));
+  if (const auto n = node.find("diffuse")) material.diffuse = glm::vec4(n->vector<4>(0, 1));
+  if (const auto n = node.find("specular")) material.specular = glm::vec4(n->vector<4>(0, 1));
+  if (const auto n = node.find("emission")) material.emission = glm::vec4(n->vector<4>(0, 1));
+  if (const auto n = node.find("shininess")) material.shininess = static_cast<float>(n->number(0, 128));
+}
+
+/// What the node gives, over what the state is.
+void read_state(const JsonNode& node, DrawState& state) {
+  Draw& draw = state.draw;
+  if (const auto n = node.find("transforms")) draw.transforms = read_transforms(*n);
+  if (const auto n = node.find("material")) {
+    read_material(*n, draw.material);
+    state.has_material = true;
+  }
+  if (const auto n = node.find("lit")) draw.lit = n->boolean();
+  if (const auto n = node.find("shading")) {
+    draw.shading = n->choice<Shading>({{"flat", Shading::flat}, {"gouraud", Shading::gouraud}});
+  }
+  if (const auto n = node.find("cull")) {
+    draw.cull = n->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
+  }
+  if (const auto n = node.find("depth_func")) {
+    draw.depth_func = n->choice<DepthFunc>({{"never", DepthFunc::never},
+                                            {"less", DepthFunc::less},
+                                            {"equal", DepthFunc::equal},
+                                            {"less_equal", DepthFunc::less_equal},
+                                            {"greater", DepthFunc::greater},
+                                            {"not_equal", DepthFunc::not_equal},
+                                            {"greater_equal", DepthFunc::greater_equal},
+                                            {"always", DepthFunc::always}});
+  }
+}
+
+}  // namespace
+
+DrawState read_defaults(const JsonNode& node) {
+  node.only({"transforms", "material", "lit", "shading", "cull", "depth_func"});
+  DrawState state;
+  read_state(node, state);
+  return state;
+}
+
+DrawState read_draw(const JsonNode& node, const DrawState& defaults) {
+  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "depth_func"});
+  DrawState state = defaults;
+  read_state(node, state);
+  return state;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,282 @@
+#include "scene/mesh_import.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
+
+#include "scene/mesh_check.h"
+#include "scene/mesh_shapes.h"
+#include "scene/polygon.h"
+#include "scene/scene_values.h"
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(std::string_view expected, std::string_view found) {
+  throw std::runtime_error(fmt::format("expected {}, found {}", expected, found));
+}
+
+std::string read_bytes(const fs::path& file) {
+  constexpr std::uintmax_t kLargest = 256u << 20;
+  if (!fs::is_regular_file(file)) fail("a mesh file", "none");
+  const std::uintmax_t size = fs::file_size(file);
+  if (size > kLargest) fail(fmt::format("a mesh file of at most {} bytes", kLargest), fmt::format("{}", size));
+  std::string bytes(size, '\0');
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) fail("a mesh file", "one that cannot be read");
+  return bytes;
+}
+
+/// Opens only regular files that the folders allow, and notes what it did not open.
+class AllowedFiles : public Assimp::DefaultIOSystem {
+ public:
+  /// `refused` becomes what is wrong with the first file that is not opened.
+  AllowedFiles(const AssetFolders& folders, std::string& refused) : folders_(folders), refused_(refused) {}
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    std::error_code error;
+    const bool there = fs::is_regular_file(file, error);
+    if (there && mode[0] == 'r' && folders_.allow(file)) return DefaultIOSystem::Open(file, mode);
+    if (refused_.empty()) refused_ = fmt::format("\"{}\", {}", file, there ? "which is elsewhere" : "which is no file");
+    return nullptr;
+  }
+
+ private:
+  const AssetFolders& folders_;
+  std::string& refused_;
+};
+
+/// Complaints after which nothing of the shape is guessed: parts without nodes, an OBJ without "o", animations.
+constexpr std::array<std::string_view, 5> kHarmless = {"No hierarchy information", "No object detected to attach",
+                                                       "animation", "roll track", "Skipping pivot"};
+
+/// What assimp complains about while this lives: what it then does is guess.
+class Complaints {
+ public:
+  Complaints() {
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(new Stream(first_), Assimp::Logger::Err | Assimp::Logger::Warn);
+  }
+  ~Complaints() { Assimp::DefaultLogger::kill(); }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+  const std::string& first() const { return first_; }
+
+ private:
+  struct Stream : Assimp::LogStream {
+    explicit Stream(std::string& to) : first(to) {}
+    void write(const char* message) override {
+      const std::string_view text = message;
+      const bool harmless = std::any_of(kHarmless.begin(), kHarmless.end(),
+                                        [&](std::string_view part) { return text.find(part) != text.npos; });
+      if (first.empty() && !harmless) first = text.substr(0, text.find('\n'));
+      if (const std::size_t head = first.find(": "); head < 12) first.erase(0, head + 2);  // "Warn,  T0: "
+    }
+    std::string& first;
+  };
+  std::string first_;
+};
+
+/// Before anything is made of it: a post-processing step would trust the numbers.
+void check_part(const aiMesh& part) {
+  for (unsigned f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices < 3) {
+      fail("faces of three corners or more (lines and points are not drawn)",
+           fmt::format("{} in face {}", face.mNumIndices, f));
+    }
+    constexpr unsigned kMostCorners = 1024;
+    if (face.mNumIndices > kMostCorners) {
+      fail(fmt::format("polygons of at most {} corners", kMostCorners),
+           fmt::format("{} in face {}", face.mNumIndices, f));
+    }
+    std::vector<glm::dvec3> corners;
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      const unsigned i = face.mIndices[k];
+      if (i >= part.mNumVertices) {
+        fail(fmt::format("vertices below {}", part.mNumVertices), fmt::format("{} in face {}", i, f));
+      }
+      const aiVector3D& p = part.mVertices[i];
+      if (face.mNumIndices > 3) corners.emplace_back(p.x, p.y, p.z);
+    }
+    if (const std::string fault = polygon_fault(corners); !fault.empty()) {
+      fail("flat polygons that do not cross themselves", fmt::format("in face {} {}", f, fault));
+    }
+  }
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& p = part.mVertices[i];
+    for (const float x : {p.x, p.y, p.z}) {
+      if (!std::isfinite(x)) fail("coordinates that are finite", fmt::format("{} in vertex {}", x, i));
+    }
+    if (part.HasNormals()) {
+      const aiVector3D& n = part.mNormals[i];
+      if (!std::isnormal(n.SquareLength())) {
+        fail("finite normals that are not zero, for all corners or for none",
+             fmt::format("({}, {}, {}) in vertex {}", n.x, n.y, n.z, i));
+      }
+    }
+    if (part.HasVertexColors(0)) {
+      const aiColor4D& c = part.mColors[0][i];
+      for (const float x : {c.r, c.g, c.b, c.a}) {
+        if (!(x >= 0 && x <= 1)) fail("colours from 0 to 1", fmt::format("{} in vertex {}", x, i));
+      }
+    }
+  }
+}
+
+glm::vec4 read_color(const aiMaterial& from, const char* key, float alpha) {
+  aiColor4D c(0);
+  if (from.Get(key, 0, 0, c) != aiReturn_SUCCESS) return {0, 0, 0, alpha};
+  for (const float x : {c.r, c.g, c.b}) {
+    if (!(x >= 0 && x <= 1))
+      fail("colours from 0 to 1", fmt::format("{} in the material {}", x, from.GetName().C_Str()));
+  }
+  return {c.r, c.g, c.b, alpha};
+}
+
+std::optional<Material> read_material(const aiMaterial& from, std::string_view ending) {
+  const std::string_view name = from.GetName().C_Str();
+  // What assimp invents where a file has no material; a PLY file never has one.
+  if (ending == ".ply" || name == AI_DEFAULT_MATERIAL_NAME || name == "%%%DEFAULT") return std::nullopt;
+  float opacity = 1, shininess = 0;
+  from.Get(AI_MATKEY_OPACITY, opacity);
+  from.Get(AI_MATKEY_SHININESS, shininess);
+  if (!(opacity >= 0 && opacity <= 1))
+    fail("an opacity from 0 to 1", fmt::format("{} in the material {}", opacity, name));
+  if (!(shininess >= 0)) fail("a shininess of 0 or more", fmt::format("{} in the material {}", shininess, name));
+  Material to;
+  to.diffuse = read_color(from, "$clr.diffuse", opacity);
+  to.emission = read_color(from, "$clr.emissive", 1);
+  if (ending == ".gltf" || ending == ".glb") {
+    to.ambient = glm::vec4(glm::vec3(to.diffuse), 1);
+    return to;
+  }
+  to.ambient = read_color(from, "$clr.ambient", 1);
+  to.specular = read_color(from, "$clr.specular", 1);
+  to.shininess = std::min(shininess, 128.0f);
+  return to;
+}
+
+/// Puts the file's parts, placed, one after the other.
+class Assembly {
+ public:
+  Assembly(const aiScene& scene, std::string_view ending, std::size_t most_triangles)
+      : scene_(scene), ending_(ending), most_triangles_(most_triangles) {}
+
+  void add(const aiNode& node, const aiMatrix4x4& parent, int depth = 0) {
+    constexpr int kDeepest = 256;
+    if (depth > kDeepest) fail(fmt::format("at most {} levels of nodes", kDeepest), "more");
+    const aiMatrix4x4 placement = parent * node.mTransformation;
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) add(*scene_.mMeshes[node.mMeshes[m]], placement);
+    for (unsigned c = 0; c < node.mNumChildren; ++c) add(*node.mChildren[c], placement, depth + 1);
+  }
+  std::vector<MeshPart> take() { return std::move(parts_); }
+
+ private:
+  void add(const aiMesh& from, const aiMatrix4x4& placement) {
+    triangles_ += from.mNumFaces;
+    if (triangles_ > most_triangles_) fail(fmt::format("at most {} triangles", most_triangles_), "more");
+    if (parts_.empty() || material_ != from.mMaterialIndex) {
+      parts_.push_back({{}, read_material(*scene_.mMaterials[from.mMaterialIndex], ending_)});
+      material_ = from.mMaterialIndex;
+    }
+    Mesh& mesh = parts_.back().mesh;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const aiMatrix3x3 linear(placement);
+    const bool mirrors = linear.Determinant() < 0;
+    const aiMatrix3x3 for_normals = aiMatrix3x3(linear).Inverse().Transpose();
+    if (from.HasVertexColors(0)) mesh.colors.resize(first, glm::vec4(1));
+    for (unsigned i = 0; i < from.mNumVertices; ++i) {
+      const aiVector3D p = placement * from.mVertices[i];
+      for (const float x : {p.x, p.y, p.z}) {
+        if (!(std::abs(x) <= kLargestCoordinate)) {
+          fail(fmt::format("coordinates from {} to {}", -kLargestCoordinate, kLargestCoordinate),
+               fmt::format("{} in vertex {}", x, first + i));
+        }
+      }
+      mesh.positions.emplace_back(p.x, p.y, p.z);
+      const aiVector3D n = from.HasNormals() ? for_normals * from.mNormals[i] : aiVector3D(0);
+      mesh.normals.emplace_back(n.x, n.y, n.z);
+      if (from.HasVertexColors(0)) {
+        const aiColor4D c = from.mColors[0][i];
+        mesh.colors.emplace_back(c.r, c.g, c.b, c.a);
+      } else if (!mesh.colors.empty()) {
+        mesh.colors.emplace_back(1);
+      }
+    }
+    for (unsigned f = 0; f < from.mNumFaces; ++f) {
+      const unsigned* corner = from.mFaces[f].mIndices;
+      glm::uvec3 t(corner[0], corner[1], corner[2]);
+      if (mirrors) std::swap(t.x, t.y);
+      if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t + first);
+    }
+  }
+
+  const aiScene& scene_;
+  std::string_view ending_;
+  std::size_t most_triangles_, triangles_ = 0;
+  unsigned material_ = 0;
+  std::vector<MeshPart> parts_;
+};
+
+/// Unit length; where one is not to be had (around triangles without an area), one made from the adjacent triangles.
+void repair_normals(Mesh& mesh) {
+  std::vector<glm::vec3> spare;
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    const double length = glm::length(glm::dvec3(mesh.normals[i]));
+    if (std::isnormal(length)) {
+      mesh.normals[i] = glm::vec3(glm::dvec3(mesh.normals[i]) / length);
+    } else {
+      if (spare.empty()) spare = area_weighted_normals(mesh.positions, mesh.triangles);
+      mesh.normals[i] = spare[i];
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<MeshPart> import_mesh(const fs::path& file, const AssetFolders& folders, std::size_t most_triangles) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (ending != ".obj" && ending != ".3ds" && ending != ".ply" && ending != ".gltf" && ending != ".glb") {
+    fail("a mesh file ending in .obj, .3ds, .ply, .gltf or .glb", fmt::format("\"{}\"", ending));
+  }
+  const std::string bytes = read_bytes(file);
+  if (ending == ".obj") check_obj(bytes);
+  if (ending == ".ply") check_ply(bytes);
+
+  std::string refused;
+  const Complaints complaints;
+  Assimp::Importer importer;
+  importer.SetIOHandler(new AllowedFiles(folders, refused));
+  const aiScene* scene = importer.ReadFile(file.string(), 0);
+  if (!refused.empty()) fail("a mesh whose other files are in the scene's folder or an asset folder", refused);
+  if (scene == nullptr) fail("a mesh", importer.GetErrorString());
+  if (!complaints.first().empty()) fail("a mesh that can be read as it is", complaints.first());
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) check_part(*scene->mMeshes[m]);
+
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
+                                       aiProcess_GenSmoothNormals);
+  if (scene == nullptr) fail("a mesh", importer.GetErrorString());
+  if (!complaints.first().empty()) fail("polygons that can be cut into triangles", complaints.first());
+  Assembly assembly(*scene, ending, most_triangles);
+  assembly.add(*scene->mRootNode, aiMatrix4x4());
+  std::vector<MeshPart> parts = assembly.take();
+  std::erase_if(parts, [](const MeshPart& part) { return part.mesh.triangles.empty(); });
+  if (parts.empty()) fail("triangles", "none");
+  for (MeshPart& part : parts) repair_normals(part.mesh);
+  return parts;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,39 @@
+// Curved and closed meshes made by formula: the same numbers on every machine, up to its library's sine and cosine.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace plumbline {
+
+/// [-1,1]^3: 24 vertices, so that each face has its own normals.
+Mesh make_cube();
+
+/// The unit sphere from an icosahedron, each triangle cut into four `subdivisions` times: 20 * 4^n triangles of nearly
+/// one size. A normal is its position. Each vertex exists once: closed. subdivisions: 0 to 8.
+Mesh make_icosphere(int subdivisions);
+
+struct TorusKnot {
+  int p = 2;          ///< times around the axis (z)
+  int q = 3;          ///< times through the hole; p and q have no common divisor, else it would be several curves
+  int segments = 0;   ///< along the knot, >= 3
+  int sides = 0;      ///< around the tube, >= 3
+  double tube = 0.1;  ///< the tube's radius
+};
+/// A tube along the (p, q) torus knot on a torus of radii 0.6 and 0.25. Each vertex exists once: closed.
+Mesh make_torus_knot(const TorusKnot& knot);
+
+/// The profile (radius, y) of a chain of cubic Bézier curves, each cut into `steps` straight pieces.
+/// control: 3 n + 1 points, neighbouring curves sharing one.
+std::vector<glm::dvec2> bezier_profile(std::span<const glm::dvec2> control, int steps);
+
+/// A profile (radius, y) turned about the y axis, such as a teapot's body: counter-clockwise from outside where the
+/// profile goes up. The first and last radius may be 0: the tip of a fan, closed there. Normals are area-weighted.
+/// Each vertex exists once. slices >= 3; the profile has two points or more, between its ends radii over 0.
+Mesh make_revolution(std::span<const glm::dvec2> profile, int slices);
+
+}  // namespace plumbline

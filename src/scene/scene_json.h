@@ -1,0 +1,35 @@
+// A scene's JSON, with what it includes.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/asset_folders.h"
+#include "scene/json_tree.h"
+
+namespace plumbline {
+
+/// A file and the files that its "include" lists, as one tree. What a file says is a patch of what it includes (RFC
+/// 7396, JSON merge patch): objects are merged key by key, null takes a key away, everything else is replaced; of
+/// several includes the later patch the earlier. Every value knows the file that it was written in.
+/// Throws JsonError, also for includes that go round in a circle, deeper than 8, or for more than 64 files or 16 MiB in
+/// all.
+class SceneJson {
+ public:
+  SceneJson(const std::filesystem::path& file, const AssetFolders& folders);
+  SceneJson(const SceneJson&) = delete;
+  SceneJson& operator=(const SceneJson&) = delete;
+  JsonNode root() const { return {root_, ""}; }
+
+ private:
+  JsonValue read(const std::filesystem::path& file, const AssetFolders& folders);
+
+  std::deque<std::string> names_;             ///< a deque: the values point to them
+  std::vector<std::filesystem::path> chain_;  ///< the files that are being read, each included by the one before
+  std::size_t bytes_left_ = 16u << 20;
+  JsonValue root_;
+};
+
+}  // namespace plumbline
