@@ -112,8 +112,8 @@ std::string row(const check::Comparison& c) {
 
 }  // namespace
 
-HtmlReport::HtmlReport(const std::filesystem::path& folder) : folder_(folder) {
-  require_writable_folder(folder, files_of_page(folder));
+HtmlReport::HtmlReport(const std::filesystem::path& folder) : name_(folder), folder_(folder) {
+  require_writable_folder(name_, files_of_page(name_));
   folder_.make_folder();
 }
 
@@ -165,6 +165,7 @@ void HtmlReport::write(const std::string& summary) {
                                        "<style>{}</style>\n<h1>plumbline check</h1>\n<p>{}</p>\n{}</html>\n",
                                        kStyle, escaped(summary), body_));
   folder_.write_inside(kList, fmt::format("{}\n{}\n{}", kListHead, kList, files_));
+  require_writable_folder(name_, files_of_page(name_));  // the run was long
   folder_.commit();
 }
 

@@ -28,6 +28,7 @@ class HtmlReport {
   std::string free_folder(const std::string& scene);
   void write_file(const std::string& name, std::string_view bytes);
 
+  std::filesystem::path name_;
   AtomicPath folder_;
   std::set<std::string> folders_;  // one per scene
   std::string files_;              // one a line

@@ -91,6 +91,10 @@ void AtomicPath::require_folder() const {
 void AtomicPath::write(std::string_view bytes) {
   reported(named_, [&] { require_file(); });
   make_file(path_, named_, bytes);
+  reported(named_, [&] {
+    const fs::file_status old = fs::status(target_);
+    if (fs::exists(old)) fs::permissions(path_, old.permissions());  // what is private stays so
+  });
 }
 
 void AtomicPath::write_inside(const fs::path& name, std::string_view bytes) {

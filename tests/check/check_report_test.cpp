@@ -323,6 +323,10 @@ TEST_F(Reports, APageAppearsWholeOrNotAtAll) {
   HtmlReport page(folder / "a/b");
   page.write("");
   EXPECT_TRUE(fs::exists(folder / "a/b/index.html"));
+  HtmlReport late(folder / "a/b");
+  write_file(folder / "a/b/notes.txt", "made while it ran");
+  EXPECT_THROW(late.write(""), OutputError);
+  EXPECT_EQ(text_of(folder / "a/b/notes.txt"), "made while it ran");
 }
 
 TEST_F(Reports, WhereItCannotBeWrittenTheErrorNamesTheFile) {

@@ -55,6 +55,14 @@ TEST_F(AtomicPaths, AFileIsWrittenWholeAndReplaced) {
   EXPECT_EQ(entries(), (std::set<fs::path>{"a.txt", longest}));
 }
 
+TEST_F(AtomicPaths, AReplacedFileKeepsItsPermissions) {
+  write_file(root_ / "private", "old");
+  fs::permissions(root_ / "private", fs::perms(0600));
+  write_file(root_ / "private", "new");
+  EXPECT_EQ(fs::status(root_ / "private").permissions(), fs::perms(0600));
+  EXPECT_EQ(read(root_ / "private"), "new");
+}
+
 TEST_F(AtomicPaths, WithoutACommitNothingIsLeft) {
   {
     AtomicPath file(root_ / "file");
