@@ -33,7 +33,7 @@ fs::path AssetFolders::find(const JsonNode& node, std::string_view what) const {
     if (fs::exists(file, error)) {
       if (!allow(file)) {
         node.refuse("a file in the scene's folder or an asset folder (--assets), or below",
-                    fmt::format("{}, which leads out of it", in_quotes(text)));
+                    fmt::format("\"{}\", which leads out of it", text));
       }
       if (!fs::is_regular_file(file, error)) {
         node.refuse(what, fmt::format("{}, which is no regular file", file.string()));
@@ -43,7 +43,7 @@ fs::path AssetFolders::find(const JsonNode& node, std::string_view what) const {
     if (fs::is_symlink(file, error)) node.refuse(what, fmt::format("{}, a link that leads nowhere", file.string()));
     looked += fmt::format("{}{}", looked.empty() ? "" : ", ", folder.string());
   }
-  node.refuse(what, fmt::format("no file {} in {}", in_quotes(text), looked));
+  node.refuse(what, fmt::format("no file \"{}\" in {}", text, looked));
 }
 
 }  // namespace plumbline

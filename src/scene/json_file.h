@@ -24,7 +24,7 @@ class JsonFile {
   JsonNode root() const { return {value_, ""}; }
 
  private:
-  static constexpr std::size_t kMostBytes = 64u << 20;
+  static constexpr std::size_t kMostBytes = 16u << 20;
   std::string name_;
   JsonValue value_;
 };

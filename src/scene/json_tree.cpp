@@ -33,7 +33,8 @@ std::string describe(const JsonValue& value) {
       return number.find_first_of(".e") == number.npos ? number + ".0" : number;  // 16.0 is not the integer 16
     }
     case Kind::text:
-      return value.text.size() <= 60 ? in_quotes(value.text) : fmt::format("a string of {} bytes", value.text.size());
+      return value.text.size() <= 60 ? fmt::format("\"{}\"", value.text)
+                                     : fmt::format("a string of {} bytes", value.text.size());
     case Kind::array: return fmt::format("an array of {}", value.items.size());
     case Kind::object: return fmt::format("an object of {} keys", value.members.size());
   }
@@ -70,18 +71,17 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 
 JsonError::JsonError(const std::string& file, const std::string& pointer, std::string_view expected,
                      std::string_view found)
-    : std::runtime_error(fmt::format("{}: at \"{}\": expected {}, found {}", file, pointer, expected, found)) {}
+    : std::runtime_error(fmt::format("{}: at \"{}\": expected {}, found {}", file, printable(pointer),
+                                     printable(expected), printable(found))) {}
 
 bool JsonValue::operator==(const JsonValue& other) const {
   return kind == other.kind && boolean == other.boolean && integer == other.integer && real == other.real &&
          text == other.text && items == other.items && members == other.members;
 }
 
-std::string in_quotes(std::string_view text) { return '"' + printable(text) + '"'; }
-
 std::string pointer_token(std::string_view key) {
   std::string escaped = "/";
-  for (const char c : printable(key)) {
+  for (const char c : key) {
     if (c == '~')
       escaped += "~0";
     else if (c == '/')
@@ -104,9 +104,8 @@ void JsonNode::only(std::initializer_list<std::string_view> keys) const {
   if (value_->kind != JsonValue::Kind::object) refuse(fmt::format("an object with keys among {}", names));
   for (const auto& [key, member] : value_->members) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    throw JsonError(
-        *member.file, pointer_to(key), fmt::format("a key among {}", names),
-        fmt::format("the unknown key {}{}", in_quotes(key), did_you_mean(key, {keys.begin(), keys.size()})));
+    throw JsonError(*member.file, pointer_to(key), fmt::format("a key among {}", names),
+                    fmt::format("the unknown key \"{}\"{}", key, did_you_mean(key, {keys.begin(), keys.size()})));
   }
 }
 

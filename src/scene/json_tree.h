@@ -16,7 +16,7 @@
 
 namespace plumbline {
 
-/// The message is: file: at "JSON pointer": expected ..., found ...
+/// The message is: file: at "JSON pointer": expected ..., found ... (control characters as JSON writes them)
 struct JsonError : std::runtime_error {
   JsonError(const std::string& file, const std::string& pointer, std::string_view expected, std::string_view found);
 };
@@ -35,9 +35,6 @@ struct JsonValue {
   /// Equal in content, wherever written.
   bool operator==(const JsonValue& other) const;
 };
-
-/// For messages: in quotes, control characters as JSON writes them.
-std::string in_quotes(std::string_view text);
 
 /// One reference token of a JSON pointer, with its slash (RFC 6901).
 std::string pointer_token(std::string_view key);

@@ -31,7 +31,8 @@ struct MeshPart {
 /// z, -y).
 ///
 /// Materials are those of OBJ (Ka, Kd, Ks, Ke, Ns, d) and 3DS as they are, Ns above 128, OpenGL's limit, as 128; of
-/// glTF the base colour (as ambient and diffuse) and the emission. Textures are not read.
+/// glTF the base colour (as ambient and diffuse) and the emission. Textures, skins and animations are not
+/// read.
 ///
 /// The library that reads the files crashes, hangs and guesses on some bad ones: it runs in a process of its own, for
 /// at most a minute, what it would guess is checked before, and what it complains about is refused. It opens files

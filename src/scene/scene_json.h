@@ -14,7 +14,7 @@ namespace plumbline {
 /// A file and the files that its "include" lists, as one tree. What a file says is a patch of what it includes (RFC
 /// 7396, JSON merge patch): objects are merged key by key, null takes a key away, everything else is replaced; of
 /// several includes the later patch the earlier. Every value knows the file that it was written in.
-/// Throws JsonError, also for includes that go round in a circle, deeper than 8, or for more than 64 files or 16 MiB in
+/// Throws JsonError, also for includes that go round in a circle, deeper than 8, or for more than 64 files or 8 MiB in
 /// all.
 class SceneJson {
  public:
@@ -28,7 +28,7 @@ class SceneJson {
 
   std::deque<std::string> names_;             ///< a deque: the values point to them
   std::vector<std::filesystem::path> chain_;  ///< the files that are being read, each included by the one before
-  std::size_t bytes_left_ = 16u << 20;
+  std::size_t bytes_left_ = 8u << 20;  ///< a hundred times that in memory
   JsonValue root_;
 };
 

@@ -141,7 +141,9 @@ TEST_F(BadScenes, OddBytesAreRefused) {
   refused("{\"description\": \"\xed\xa0\x80\"}", "@group/scene.json: at \"/description\": expected JSON, found");
   refused(std::string("{\0}", 3), at_top + "JSON, found");
   refused(top("\"\\u001b[2J\": 1"), "@group/scene.json: at \"/\\u001b[2J\": expected a key among $schema");
-  refused(std::string(17u << 20, ' '), at_top + "JSON of at most 16777216 bytes, found more");
+  write("group/steers.obj", kTriangle + "\x1b[2J 1 2 3\n");
+  EXPECT_NE(message_of(mesh(R"({"file": "steers.obj"})")).find("found \"\\u001b[2J\" in line 4"), std::string::npos);
+  refused(std::string(9u << 20, ' '), at_top + "JSON of at most 8388608 bytes, found more");
   std::string place;
   for (int i = 0; i < 64; ++i) place += "/0";
   refused(std::string(1'000'000, '['),

@@ -157,6 +157,8 @@ TEST_F(MeshFile, RefusesObj) {
           "expected finite normals that are not zero, for all corners or for none");
   refused(write("v 0 0 0 9 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n"), "expected colours from 0 to 1, found 9");
   refused(root_ / "none.obj", "expected a mesh file, found none");
+  fs::resize_file(write("", "huge.obj"), 300u << 20);
+  refused(root_ / "huge.obj", "expected a mesh file of at most 268435456 bytes, found 314572800");
   refused(write(triangle, "mesh.stl"), "ending in .obj, .3ds, .ply, .gltf or .glb");
 }
 
