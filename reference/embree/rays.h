@@ -9,7 +9,7 @@
 namespace plumbline::embree {
 
 /// Every triangle that a ray through a pixel's centre hits, behind others or not, up to Embree's own float rounding.
-/// Throws RendererFailed.
+/// Throws Unsupported (a vertex beyond Embree's range), RendererFailed.
 void add_by_rays(const math::Projected& projected, math::Candidates& out);
 
 /// "3.13.5", as the device reports it. Throws RendererFailed.
