@@ -146,7 +146,7 @@ glm::vec4 read_color(const aiMaterial& from, const char* key, float alpha) {
 }
 
 std::optional<Material> read_material(const aiMaterial& from, std::string_view ending) {
-  const std::string_view name = from.GetName().C_Str();
+  const std::string name = from.GetName().C_Str();
   // What assimp invents where a file has no material; a PLY file never has one.
   if (ending == ".ply" || name == AI_DEFAULT_MATERIAL_NAME || name == "%%%DEFAULT") return std::nullopt;
   float opacity = 1, shininess = 0;
