@@ -10,9 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+// After fmt: OpenImageIO would include it as headers only, without exceptions, and this file's copy of fmt's functions
+// would be the whole program's.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
 
 #include "stages/atomic_path.h"
 

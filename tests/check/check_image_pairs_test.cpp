@@ -12,6 +12,9 @@
 #include <functional>
 #include <optional>
 
+#include <fmt/format.h>
+
+// After fmt: it would include it as headers only (image_file.cpp).
 #include <OpenImageIO/imageio.h>
 
 #include "check/compare_stored.h"
