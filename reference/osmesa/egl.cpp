@@ -1,6 +1,7 @@
 // The context by EGL on Mesa's surfaceless platform, for a Mesa without OSMesa (25.1 and later). It has no frame
 // buffer.
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -29,23 +30,17 @@ void require_extension(EGLDisplay display, std::string_view name) {
   }
 }
 
-struct Display {
-  EGLDisplay handle;
-
-  Display() : handle(eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)) {
-    if (handle == EGL_NO_DISPLAY) fail("no surfaceless display");
-    if (!eglInitialize(handle, nullptr, nullptr)) fail("the surfaceless display cannot be initialized");
-  }
-  ~Display() { eglTerminate(handle); }
-  Display(const Display&) = delete;
-  Display& operator=(const Display&) = delete;
-};
-
-// EGL has one surfaceless display in a process: it ends with the last context.
-std::shared_ptr<const Display> shared_display() {
-  static std::weak_ptr<const Display> last;
-  std::shared_ptr<const Display> display = last.lock();
-  if (display == nullptr) last = display = std::make_shared<const Display>();
+// EGL has one surfaceless display in a process. It is never terminated: that would end all contexts, and unload the
+// driver, which keeps some memory (Mesa 22.3) that leak checkers then could not tell whose it is.
+EGLDisplay surfaceless_display() {
+  static const EGLDisplay display = [] {
+    const EGLDisplay found = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (found == EGL_NO_DISPLAY) fail("no surfaceless display");
+    if (!eglInitialize(found, nullptr, nullptr)) fail("the surfaceless display cannot be initialized");
+    require_extension(found, "EGL_KHR_no_config_context");
+    require_extension(found, "EGL_KHR_surfaceless_context");
+    return found;
+  }();
   return display;
 }
 
@@ -53,26 +48,24 @@ class EglContext final : public Context {
  public:
   explicit EglContext(MesaDriver driver) {
     claim_process("EGL", driver);
-    display_ = shared_display();
-    require_extension(display_->handle, "EGL_KHR_no_config_context");
-    require_extension(display_->handle, "EGL_KHR_surfaceless_context");
+    display_ = surfaceless_display();
     if (!eglBindAPI(EGL_OPENGL_API)) fail("no OpenGL");
     const EGLint any_version[] = {EGL_NONE};  // which is a compatibility context
-    context_ = eglCreateContext(display_->handle, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, any_version);
+    context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, any_version);
     if (context_ == EGL_NO_CONTEXT) fail("no context");
   }
   ~EglContext() override {
     if (eglGetCurrentContext() == context_) {
-      eglMakeCurrent(display_->handle, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+      eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
-    eglDestroyContext(display_->handle, context_);
+    eglDestroyContext(display_, context_);
   }
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
 
   void make_current() override {
     if (!eglBindAPI(EGL_OPENGL_API) ||  // a thread's own setting
-        !eglMakeCurrent(display_->handle, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+        !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
       fail("the context cannot be made current");
     }
   }
@@ -80,7 +73,7 @@ class EglContext final : public Context {
   Function function(const char* name) const override { return eglGetProcAddress(name); }
 
  private:
-  std::shared_ptr<const Display> display_;
+  EGLDisplay display_ = EGL_NO_DISPLAY;
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 

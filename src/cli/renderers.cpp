@@ -25,12 +25,18 @@ namespace plumbline::cli {
 
 namespace {
 
-// The OpenGL reference of this process; softpipe comes by the same library.
-#if defined(PLUMBLINE_EGL) && !defined(PLUMBLINE_OSMESA)
-constexpr const char* kOpenGl = "egl";
+#ifdef PLUMBLINE_OSMESA
+constexpr bool kOsmesa = true;
 #else
-constexpr const char* kOpenGl = "osmesa";
+constexpr bool kOsmesa = false;
 #endif
+#ifdef PLUMBLINE_EGL
+constexpr bool kEgl = true;
+#else
+constexpr bool kEgl = false;
+#endif
+// The OpenGL reference of this process.
+constexpr const char* kOpenGl = kEgl && !kOsmesa ? "egl" : "osmesa";
 
 // What this program hands out as `name` in a process of its own.
 class OwnProcess final : public Renderer {
@@ -110,12 +116,8 @@ std::unique_ptr<Renderer> make_renderer(const std::string& name) {
 }
 
 std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets) {
-#if defined(PLUMBLINE_OSMESA) || defined(PLUMBLINE_EGL)
-  if (name == "softpipe") return std::make_unique<OwnProcess>(opengl_info(name), assets);
-#endif
-#if defined(PLUMBLINE_OSMESA) && defined(PLUMBLINE_EGL)
-  if (name == "egl") return std::make_unique<OwnProcess>(opengl_info(name), assets);
-#endif
+  const bool second_mesa = name == "softpipe" ? kOsmesa || kEgl : name == "egl" && kEgl && kOsmesa;
+  if (second_mesa) return std::make_unique<OwnProcess>(opengl_info(name), assets);
   return make_renderer(name);
 }
 

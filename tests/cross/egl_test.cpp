@@ -30,7 +30,7 @@ TEST(Egl, DrawsAndTellsItsName) {
   EXPECT_EQ(capture.records.triangles.size(), 3u);  // two sides of the frame cut it: a pentagon
 }
 
-// EGL has one display for all contexts; the end of one must not end the others.
+// One display serves all contexts; the end of one must not end the others.
 TEST(Egl, ContextsComeAndGoAlone) {
   auto first = make_egl();
   auto second = make_egl();
