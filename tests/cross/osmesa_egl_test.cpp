@@ -62,6 +62,19 @@ TEST(OsmesaEgl, same_bits_on_a_few_scenes) {
 
 TEST(OsmesaEgl, same_bits_on_every_scene) { compare_on({kScenes}); }
 
+// Beside each other, each would draw into the other's current context without a word.
+TEST(OsmesaEgl, one_library_per_process) {
+  const auto osmesa = make_osmesa();
+  try {
+    make_egl();
+    ADD_FAILURE() << "a second library was given";
+  } catch (const RendererFailed& failure) {
+    EXPECT_STREQ(
+        failure.what(),
+        "OpenGL: this process already uses OSMesa with llvmpipe; EGL with llvmpipe needs a process of its own");
+  }
+}
+
 // The comparison can fail: the same scene with one triangle less.
 TEST(OsmesaEgl, other_bits_are_seen) {
   Scene scene = load_scene(kScenes + "/clip/each_plane.json", {});
