@@ -1,6 +1,5 @@
 #include "reference/embree/rays.h"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "reference/embree/compatibility.h"
 #include "stages/renderer.h"
 
 namespace plumbline::embree {
@@ -49,7 +49,7 @@ glm::dvec3 place(const Projected& projected, const math::Corner& corner) {
 }
 
 struct Finding {
-  RTCIntersectContext context;  // first: the filter function gets its address
+  Context context;  // first: the filter function gets its address
   const std::vector<std::uint32_t>* primitives;
   Candidates* out;
 };
@@ -139,14 +139,13 @@ void add_by_rays(const Projected& projected, Candidates& out) {
   require_no_error(device.get(), "building the scene");
 
   Finding finding{{}, &primitives, &out};
-  rtcInitIntersectContext(&finding.context);
-  finding.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  init(finding.context);
   alignas(64) int valid[kPacket];
   RTCRayHit16 rays{};
   for (int y = 0; y < projected.height; ++y) {
     for (int x = 0; x < projected.width; x += kPacket) {
       set_rays(projected, x, y, valid, rays);
-      rtcIntersect16(valid, scene.get(), &finding.context, &rays);
+      intersect(valid, scene.get(), finding.context, rays);
     }
     out.require_complete();
   }

@@ -1,41 +1,33 @@
-// Where an OpenGL context without a window comes from: today OSMesa, and nothing outside context.cpp knows. Mesa 25.1
-// and later have no OSMesa; an EGL surfaceless context can stand in here.
+// An OpenGL context without a window, as the rest of this folder sees it. osmesa.cpp and egl.cpp each make one.
 #pragma once
 
-#include <memory>
-#include <string>
-#include <vector>
+#include <string_view>
 
 #include "reference/osmesa/osmesa.h"
-
-struct osmesa_context;
 
 namespace plumbline::osmesa {
 
 struct Gl;
 
-/// A compatibility context. Its default frame buffer is a few pixels and never drawn into.
+/// A compatibility context. It may have no frame buffer of its own: all is drawn into frame buffer objects (target.h).
 class Context {
  public:
-  /// Sets the process' environment as the driver needs it, makes the context and makes it current. Throws
-  /// RendererFailed if there is none, if it is of another driver, or if the process has had one of another driver.
-  explicit Context(OsmesaDriver driver);
-  ~Context();
-
-  /// Makes it the calling thread's current context.
-  void make_current();
-
-  const Gl& gl() const { return *gl_; }
-  /// GL_RENDERER and GL_VERSION.
-  std::string version() const;
-
- private:
-  struct Destroy {
-    void operator()(osmesa_context* context) const;
-  };
-  std::unique_ptr<osmesa_context, Destroy> context_;
-  std::vector<unsigned char> default_frame_;
-  std::unique_ptr<Gl> gl_;
+  virtual ~Context() = default;
+  /// Makes it the calling thread's current context. Throws RendererFailed.
+  virtual void make_current() = 0;
+  /// The context's own function of this name ("glClear"), or null.
+  using Function = void (*)();
+  virtual Function function(const char* name) const = 0;
 };
+
+/// All of OpenGL's entry points that are used here. Throws RendererFailed, naming the one that lacks.
+Gl load(const Context& context);
+
+const char* name_of(MesaDriver driver);
+
+/// To be called before the first context is made: Mesa reads its environment once per process, and two of Mesa's
+/// libraries in one share the current context without knowing of each other. Throws RendererFailed if the process has
+/// another library or driver already.
+void claim_process(std::string_view library, MesaDriver driver);
 
 }  // namespace plumbline::osmesa

@@ -1,68 +1,52 @@
+// The context by OSMesa.
 #include "reference/osmesa/osmesa.h"
 
-#include "reference/osmesa/context.h"
+#include <array>
+
+#include <fmt/format.h>
+
 #include "reference/osmesa/gl.h"
-#include "reference/osmesa/planes.h"
-#include "reference/osmesa/polygon_records.h"
-#include "reference/osmesa/scene_in_gl.h"
-#include "reference/osmesa/target.h"
-#include "reference/osmesa/vertex_records.h"
+#include "reference/osmesa/opengl_renderer.h"
+#include "stages/renderer.h"
+
+// After gl.h, which asks <GL/gl.h> for all prototypes.
+#include <GL/osmesa.h>
 
 namespace plumbline {
 namespace osmesa {
 namespace {
 
-class Osmesa : public Renderer {
+class OsmesaContext final : public Context {
  public:
-  explicit Osmesa(OsmesaDriver driver)
-      : name_(driver == OsmesaDriver::llvmpipe ? "osmesa" : "softpipe"),
-        context_(driver),
-        vertex_program_(context_.gl()) {}
-
-  RendererInfo info() const override {
-    RendererInfo info;
-    info.name = name_;
-    info.version = context_.version();
-    for (Ability& ability : info.stages) ability.shows = true;
-    info[Stage::texture] = {false, false, "no scene has textures yet"};
-    return info;
+  explicit OsmesaContext(MesaDriver driver) {
+    claim_process("OSMesa", driver);
+    context_.reset(OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr));
+    if (!context_) throw RendererFailed(fmt::format("OSMesa: no context from {}", name_of(driver)));
   }
 
-  Capture capture(const Scene& scene, const Request& request) override {
-    require_budget(scene, plane_bytes(scene), request.memory_budget);
-    context_.make_current();
-    Capture capture;
-    capture.renderer = name_;
-    capture.version = context_.version();
-    capture.width = scene.frame.width;
-    capture.height = scene.frame.height;
-    const SceneInGl in_gl(context_.gl(), scene);
-    capture.planes = draw_planes(context_.gl(), in_gl);
-    read_records(in_gl, request, capture.records);
-    return capture;
+  void make_current() override {
+    if (!OSMesaMakeCurrent(context_.get(), unused_frame_.data(), GL_UNSIGNED_BYTE, kSize, kSize)) {
+      throw RendererFailed("OSMesa: the context cannot be made current");
+    }
   }
+
+  Function function(const char* name) const override { return OSMesaGetProcAddress(name); }
 
  private:
-  void read_records(const SceneInGl& scene, const Request& request, Records<double>& records) const {
-    if (!request.records.any()) return;
-    const Gl& gl = context_.gl();
-    const Target target(gl, scene.scene().frame, ColorFormat::rgba8);
-    const SavedState state(gl);
-    target.bind();
-    if (request.records.has(Stage::matrices)) records.matrices = read_matrices(gl, scene);
-    if (request.records.has(Stage::vertex)) records.vertices = vertex_program_.run(scene);
-    if (request.records.has(Stage::light)) records.lit = read_lit(gl, scene);
-    read_polygons(gl, scene, request, records);
-  }
-
-  std::string name_;
-  Context context_;
-  VertexProgram vertex_program_;
+  static constexpr int kSize = 4;  // pixels in width and height; OSMesa wants a frame, though nobody draws into it
+  struct Destroy {
+    void operator()(osmesa_context* context) const { OSMesaDestroyContext(context); }
+  };
+  std::array<unsigned char, 4 * kSize * kSize> unused_frame_{};
+  std::unique_ptr<osmesa_context, Destroy> context_;
 };
 
 }  // namespace
 }  // namespace osmesa
 
-std::unique_ptr<Renderer> make_osmesa(OsmesaDriver driver) { return std::make_unique<osmesa::Osmesa>(driver); }
+std::unique_ptr<Renderer> make_osmesa(MesaDriver driver) {
+  const char* name = driver == MesaDriver::llvmpipe ? "osmesa" : "softpipe";
+  return osmesa::make_opengl_renderer(name, driver, std::make_unique<osmesa::OsmesaContext>(driver));
+}
 
 }  // namespace plumbline

@@ -1,4 +1,5 @@
-// The reference `osmesa`: the scene drawn by Mesa's OpenGL, fixed function, in this process and without a window.
+// The references `osmesa` and `egl`: the scene drawn by Mesa's OpenGL, fixed function, in this process and without a
+// window. Their contexts alone tell them apart: the one comes from OSMesa, the other from EGL.
 #pragma once
 
 #include <memory>
@@ -7,10 +8,10 @@
 
 namespace plumbline {
 
-/// Mesa's software drivers. A process can use one of them.
-enum class OsmesaDriver { llvmpipe, softpipe };
+/// Mesa's software drivers. A process can use one of them, by one of the libraries.
+enum class MesaDriver { llvmpipe, softpipe };
 
-/// Makes the context. It shows
+/// Make the context. The renderer, named after the library or, with it, `softpipe`, shows
 ///   matrices   as GL's matrix stacks and viewport hold them, the normal matrix as the inverse transpose of that
 ///   vertex     by transform feedback of a GLSL 1.20 program
 ///   light      by feedback mode, each vertex as a point
@@ -25,7 +26,8 @@ enum class OsmesaDriver { llvmpipe, softpipe };
 ///   depth, merge        planes.depth, planes.color: the scene in the frame's own formats
 ///   attributes, shade   planes.shaded: the scene in RGBA32F, over the frame's depth format
 ///   visibility          planes.id: a colour per primitive
-/// and runs nothing. Throws RendererFailed. Not for use by two threads at once.
-std::unique_ptr<Renderer> make_osmesa(OsmesaDriver driver = OsmesaDriver::llvmpipe);
+/// and runs nothing. Throws RendererFailed. Not for use by two threads at once. Each is there if it is built in.
+std::unique_ptr<Renderer> make_osmesa(MesaDriver driver = MesaDriver::llvmpipe);
+std::unique_ptr<Renderer> make_egl(MesaDriver driver = MesaDriver::llvmpipe);
 
 }  // namespace plumbline

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
@@ -25,7 +27,8 @@ void add_assets(CLI::App& command, SceneArguments& arguments) {
 template <class Options>
 void add_drawing(CLI::App& command, Options& o) {
   text(command, "scene", o.scene, "Scene file")->required();
-  text(command, "--with", o.with, "Renderer: ours, osmesa, softpipe, embree, exact")->capture_default_str();
+  text(command, "--with", o.with, fmt::format("Renderer: {}", fmt::join(renderer_names(), ", ")))
+      ->capture_default_str();
   text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   add_assets(command, o.scene_arguments);
 }
@@ -38,8 +41,11 @@ void add(CLI::App& command, RenderOptions& o) {
 
 void add(CLI::App& command, CheckOptions& o) {
   text(command, "scenes", o.scenes, "Scene files, and folders of them")->required();
-  command.add_option("--against", o.against, "References: osmesa, embree, exact (default: all three)")
-      ->check(CLI::IsMember(reference_names()))
+  command
+      .add_option("--against", o.against,
+                  fmt::format("References: {} (default: {})", fmt::join(known_reference_names(), ", "),
+                              fmt::join(reference_names(), ", ")))
+      ->check(CLI::IsMember(known_reference_names()))
       ->delimiter(',');
   text(command, "--json", o.json, "Write one object per comparison");
   text(command, "--report", o.report, "Write a page with pictures into this folder");

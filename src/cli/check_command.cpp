@@ -26,10 +26,10 @@ struct References {
   std::vector<check::Reference> list;
 };
 
-References make_references(const std::vector<std::string>& names) {
+References make_references(const CheckOptions& o) {
   References out;
-  for (const std::string& name : names) {
-    out.owned.push_back(make_renderer(name));
+  for (const std::string& name : o.against) {
+    out.owned.push_back(make_reference(name, o.scene_arguments.assets));
     out.list.push_back({name, out.owned.back().get()});
   }
   return out;
@@ -43,11 +43,17 @@ std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& ver
   return out + o.scene_arguments.repeated();
 }
 
+// Whether the references are asked that are asked where none are named, others beside them or not.
+bool all_asked(const CheckOptions& o) {
+  return std::ranges::all_of(reference_names(),
+                             [&](const std::string& name) { return std::ranges::count(o.against, name) > 0; });
+}
+
 // The stages whose lack of a judge is a failure: with all references asked, all but what --allow-missing forgives.
 // Where a renderer failed, that is the failure.
 std::vector<Stage> unjudged(const check::SceneVerdict& verdict, const CheckOptions& o) {
   const auto failed = [](const check::Comparison& c) { return c.outcome == check::Outcome::failed; };
-  if (o.against != reference_names() || std::ranges::any_of(verdict.comparisons, failed)) return {};
+  if (!all_asked(o) || std::ranges::any_of(verdict.comparisons, failed)) return {};
   std::vector<Stage> out = check::unjudged_stages(verdict);
   if (!o.allow_missing) return out;
   const std::vector<Stage> forgiven = check::stages_lost_to_missing(verdict);
@@ -63,7 +69,7 @@ bool holds(const check::SceneVerdict& verdict, const CheckOptions& o) {
 
 // Each reference once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
 std::vector<std::string> without_repeats(const std::vector<std::string>& against) {
-  std::vector<std::string> out = reference_names();
+  std::vector<std::string> out = known_reference_names();
   std::erase_if(out, [&](const std::string& name) { return std::ranges::count(against, name) == 0; });
   return out;
 }
@@ -81,7 +87,7 @@ int check(const CheckOptions& given) {
   const Output outputs[] = {{"--json", o.json}, {"--ledger", o.ledger}};
   require_outputs(outputs, {"--report", o.report}, files);
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
-  const References references = make_references(o.against);
+  const References references = make_references(o);
   std::map<std::string, std::string> versions{{candidate->info().name, candidate->info().version}};
   for (const check::Reference& r : references.list) {
     if (r.renderer != nullptr) versions[r.name] = r.renderer->info().version;

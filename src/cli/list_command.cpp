@@ -17,11 +17,7 @@ void list_stages() {
 
 void list_renderers() {
   for (const std::string& name : renderer_names()) {
-    if (name == "softpipe") {  // one Mesa driver a process
-      fmt::print("softpipe: as osmesa, by Mesa's other driver\n");
-      continue;
-    }
-    const std::unique_ptr<Renderer> renderer = make_renderer(name);
+    const std::unique_ptr<Renderer> renderer = make_reference(name, {});
     if (renderer == nullptr) {
       fmt::print("{}: not built in\n", name);
       continue;

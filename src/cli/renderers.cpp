@@ -1,17 +1,20 @@
 #include "cli/renderers.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
+#include "stages/process_renderer.h"
 #ifdef PLUMBLINE_EMBREE
 #include "reference/embree/embree.h"
 #endif
-#ifdef PLUMBLINE_OSMESA
+#if defined(PLUMBLINE_OSMESA) || defined(PLUMBLINE_EGL)
 #include "reference/osmesa/osmesa.h"
 #endif
 #ifdef PLUMBLINE_FAULTS
@@ -20,22 +23,89 @@
 
 namespace plumbline::cli {
 
+namespace {
+
+#ifdef PLUMBLINE_OSMESA
+constexpr bool kOsmesa = true;
+#else
+constexpr bool kOsmesa = false;
+#endif
+#ifdef PLUMBLINE_EGL
+constexpr bool kEgl = true;
+#else
+constexpr bool kEgl = false;
+#endif
+// The OpenGL reference of this process.
+constexpr const char* kOpenGl = kEgl && !kOsmesa ? "egl" : "osmesa";
+
+// What this program hands out as `name` in a process of its own.
+class OwnProcess final : public Renderer {
+ public:
+  OwnProcess(RendererInfo info, const std::vector<std::string>& assets) : info_(std::move(info)) {
+    ProcessSpec spec;
+    spec.name = info_.name;
+    spec.argv = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                 "capture",
+                 "{scene}",
+                 "{folder}",
+                 "--with",
+                 info_.name};
+    for (const std::string& folder : assets) spec.argv.insert(spec.argv.end(), {"--assets", folder});
+    spec.timeout = std::chrono::minutes(10);  // softpipe takes its time
+    process_ = make_process_renderer(std::move(spec));
+  }
+  RendererInfo info() const override { return info_; }
+  Capture capture(const Scene& scene, const Request& request) override { return process_->capture(scene, request); }
+
+ private:
+  RendererInfo info_;
+  std::unique_ptr<Renderer> process_;
+};
+
+RendererInfo opengl_info(const std::string& name) {
+  RendererInfo info;
+  info.name = name;
+  info.version = "in a process of its own";
+  for (Ability& ability : info.stages) ability.shows = true;
+  info[Stage::texture] = {false, false, "no scene has textures yet"};
+  if (name == "softpipe") {
+    info[Stage::window] = {false, false, "its window positions are rounded otherwise: it has no fused multiply-add"};
+  }
+  return info;
+}
+
+}  // namespace
+
 const std::vector<std::string>& reference_names() {
-  static const std::vector<std::string> kNames = {"osmesa", "embree", "exact"};
+  static const std::vector<std::string> kNames = {kOpenGl, "embree", "exact"};
+  return kNames;
+}
+
+const std::vector<std::string>& known_reference_names() {
+  static const std::vector<std::string> kNames = {"osmesa", "egl", "softpipe", "embree", "exact"};
   return kNames;
 }
 
 const std::vector<std::string>& renderer_names() {
-  static const std::vector<std::string> kNames = {"ours", "osmesa", "softpipe", "embree", "exact"};
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names = known_reference_names();
+    names.insert(names.begin(), "ours");
+    return names;
+  }();
   return kNames;
 }
 
 std::unique_ptr<Renderer> make_renderer(const std::string& name) {
   if (name == "ours") return pipeline::make_pipeline();
   if (name == "exact") return exact::make_exact();
-#ifdef PLUMBLINE_OSMESA
-  if (name == "osmesa") return make_osmesa(OsmesaDriver::llvmpipe);
-  if (name == "softpipe") return make_osmesa(OsmesaDriver::softpipe);
+#ifdef PLUMBLINE_EGL
+  if (name == "egl") return make_egl();
+#endif
+#if defined(PLUMBLINE_OSMESA)
+  if (name == "osmesa") return make_osmesa();
+  if (name == "softpipe") return make_osmesa(MesaDriver::softpipe);
+#elif defined(PLUMBLINE_EGL)
+  if (name == "softpipe") return make_egl(MesaDriver::softpipe);
 #endif
 #ifdef PLUMBLINE_EMBREE
   if (name == "embree") return embree::make_embree();
@@ -43,6 +113,12 @@ std::unique_ptr<Renderer> make_renderer(const std::string& name) {
   const auto& names = renderer_names();
   if (std::find(names.begin(), names.end(), name) != names.end()) return nullptr;
   throw std::invalid_argument(fmt::format("no renderer '{}': there are {}", name, fmt::join(names, ", ")));
+}
+
+std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets) {
+  const bool second_mesa = name == "softpipe" ? kOsmesa || kEgl : name == "egl" && kEgl && kOsmesa;
+  if (second_mesa) return std::make_unique<OwnProcess>(opengl_info(name), assets);
+  return make_renderer(name);
 }
 
 #ifdef PLUMBLINE_FAULTS

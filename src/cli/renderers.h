@@ -10,13 +10,21 @@
 
 namespace plumbline::cli {
 
-/// Of the references, in the order in which they are asked.
+/// The references that are asked where none are named, in that order. Of the OpenGL ones, OSMesa; in a build without
+/// it, EGL.
 const std::vector<std::string>& reference_names();
-/// All that make_renderer() knows, built in or not.
+/// All references that there are, built in or not, in the order in which they are asked.
+const std::vector<std::string>& known_reference_names();
+/// These and `ours`.
 const std::vector<std::string>& renderer_names();
 
-/// Null if the renderer is known but not built in. Throws std::invalid_argument, naming those there are, if unknown.
+/// Within this process, which holds one of Mesa's libraries and drivers. Null if the renderer is known but not built
+/// in. Throws std::invalid_argument, naming those there are, if unknown.
 std::unique_ptr<Renderer> make_renderer(const std::string& name);
+
+/// One of several in a run: what would be a second Mesa in this process is this program once more, in a process of its
+/// own, which looks for meshes in `assets` as well. Else as make_renderer().
+std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets);
 
 struct FaultInfo {
   std::string_view name, stage, changes;

@@ -3,6 +3,7 @@
 
 #include "check/compare_planes.h"
 #include "pipeline/pipeline_renderer.h"
+#include "run_plumb.h"
 #include "scene/scene_file.h"
 #include "stages/process_renderer.h"
 
@@ -45,6 +46,67 @@ TEST(SoftpipeChild, a_child_that_cannot_draw_fails_with_its_words) {
   } catch (const RendererFailed& e) {
     EXPECT_NE(std::string(e.what()).find("no-such-renderer"), std::string::npos) << e.what();
   }
+}
+
+// The row of a reference and a stage, from the reference's name on.
+std::string row_of(const std::string& table, const std::string& reference, const std::string& stage) {
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(" " + reference + " ");
+    if (at != line.npos && line.find(" " + stage + " ", at) != line.npos) return line.substr(at + 1);
+  }
+  return "";
+}
+
+const std::string kTies = kScenes + "coverage/on_centres.json";  // softpipe draws 568 of its pixels otherwise
+
+TEST_F(Cli, softpipe_breaks_ties_otherwise_which_exact_settles) {
+  const Outcome run = plumb("check " + kTies + " --against osmesa,softpipe,exact");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_NE(row_of(run.text, "softpipe", "coverage").find("dispute"), std::string::npos) << run.text;
+  EXPECT_NE(row_of(run.text, "osmesa", "coverage").find("equal"), std::string::npos) << run.text;
+  EXPECT_NE(row_of(run.text, "softpipe", "window").find("unsupported"), std::string::npos) << run.text;
+  EXPECT_NE(row_of(run.text, "softpipe", "window").find("rounded otherwise"), std::string::npos) << run.text;
+}
+
+TEST_F(Cli, softpipe_alone_is_not_excused) {
+  const Outcome run = plumb("check " + kTies + " --against softpipe");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_NE(row_of(run.text, "softpipe", "coverage").find("different"), std::string::npos) << run.text;
+  EXPECT_TRUE(run.says("repeat: " PLUMBLINE_PLUMB " check " + kTies + " --against softpipe")) << run.text;
+}
+
+TEST_F(Cli, softpipe_sees_a_fault) {
+  const Outcome run = plumb("check " + kTies + " --against softpipe,exact --fault coverage.inclusive_edges");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_NE(row_of(run.text, "softpipe", "coverage").find("different"), std::string::npos) << run.text;
+}
+
+// Mesa's own way adds 16-bit depth up in rounded steps.
+TEST_F(Cli, softpipe_has_16_bit_depth) {
+  const Outcome run =
+      plumb("check " + kScenes + "depth/z16.json " + kScenes + "camera/off_centre_ortho.json --against softpipe,exact");
+  EXPECT_EQ(run.code, 0) << run.text;
+}
+
+TEST_F(Cli, softpipe_is_asked_only_by_name) {
+  const Outcome run = plumb("check " + kScenes + "cull/both_windings.json");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_FALSE(run.says("softpipe") || run.says(" egl ")) << run.text;
+}
+
+TEST_F(Cli, softpipe_finds_meshes_where_assets_allow) {
+  fs::create_directories(folder_ / "the meshes");
+  write(folder_ / "the meshes/one.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string scene = scene_file(R"({
+    "description": "a mesh from another folder",
+    "frame": {"width": 9, "height": 9},
+    "camera": {"eye": [0, 0, 3], "center": [0, 0, 0], "up": [0, 1, 0]},
+    "projection": {"perspective": {"fov_y": 60, "near": 1, "far": 10}},
+    "draws": [{"mesh": {"file": "one.obj"}, "lit": false}]
+  })");
+  const Outcome run = plumb("check " + scene + " --against softpipe,exact --assets '" + at("the meshes") + "'");
+  EXPECT_EQ(run.code, 0) << run.text;
 }
 
 }  // namespace

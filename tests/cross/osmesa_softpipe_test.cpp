@@ -8,7 +8,7 @@ namespace plumbline::test {
 namespace {
 
 TEST(OsmesaSoftpipe, DrawsAndTellsItsName) {
-  const auto softpipe = make_osmesa(OsmesaDriver::softpipe);
+  const auto softpipe = make_osmesa(MesaDriver::softpipe);
   EXPECT_EQ(softpipe->info().name, "softpipe");
   EXPECT_EQ(softpipe->info().version.find("softpipe"), 0u) << softpipe->info().version;
 
@@ -34,12 +34,14 @@ TEST(OsmesaSoftpipe, DrawsAndTellsItsName) {
 }
 
 TEST(OsmesaSoftpipe, OneDriverPerProcess) {
-  const auto softpipe = make_osmesa(OsmesaDriver::softpipe);
+  const auto softpipe = make_osmesa(MesaDriver::softpipe);
   try {
-    make_osmesa(OsmesaDriver::llvmpipe);
+    make_osmesa(MesaDriver::llvmpipe);
     ADD_FAILURE() << "a second driver was given";
   } catch (const RendererFailed& failure) {
-    EXPECT_STREQ(failure.what(), "OSMesa: this process already uses softpipe; llvmpipe needs a process of its own");
+    EXPECT_STREQ(
+        failure.what(),
+        "OpenGL: this process already uses OSMesa with softpipe; OSMesa with llvmpipe needs a process of its own");
   }
 }
 

@@ -131,7 +131,7 @@ TEST(OsmesaState, TellsWhatItShows) {
     EXPECT_EQ(ability.shows, ability.reason.empty());
   }
   EXPECT_THROW(osmesa->run_stage(plain_scene(), Stage::window, {}), Unsupported);
-  EXPECT_THROW(make_osmesa(OsmesaDriver::softpipe), RendererFailed);
+  EXPECT_THROW(make_osmesa(MesaDriver::softpipe), RendererFailed);
 }
 
 // Which centres lie within the snapped edges, or on one that is left or at the bottom.

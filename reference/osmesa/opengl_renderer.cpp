@@ -1,0 +1,91 @@
+#include "reference/osmesa/opengl_renderer.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "reference/osmesa/gl.h"
+#include "reference/osmesa/planes.h"
+#include "reference/osmesa/polygon_records.h"
+#include "reference/osmesa/scene_in_gl.h"
+#include "reference/osmesa/target.h"
+#include "reference/osmesa/vertex_records.h"
+
+namespace plumbline::osmesa {
+namespace {
+
+std::string text(const Gl& gl, GLenum name) {
+  const GLubyte* value = gl.GetString(name);
+  return value == nullptr ? "" : reinterpret_cast<const char*>(value);
+}
+
+Gl current_gl(Context& context) {
+  context.make_current();
+  return load(context);
+}
+
+class OpenGlRenderer final : public Renderer {
+ public:
+  OpenGlRenderer(std::string name, MesaDriver driver, std::unique_ptr<Context> context)
+      : name_(std::move(name)), context_(std::move(context)), gl_(current_gl(*context_)), vertex_program_(gl_) {
+    const std::string renderer = text(gl_, GL_RENDERER);
+    if (!renderer.starts_with(name_of(driver))) {
+      throw RendererFailed(fmt::format("OpenGL: asked for {}, got the driver \"{}\"", name_of(driver), renderer));
+    }
+    version_ = renderer + ", OpenGL " + text(gl_, GL_VERSION);
+  }
+  ~OpenGlRenderer() override {
+    try {
+      context_->make_current();  // the vertex program is this context's; another's may have the same number
+    } catch (const RendererFailed&) {
+    }
+  }
+
+  RendererInfo info() const override {
+    RendererInfo info;
+    info.name = name_;
+    info.version = version_;
+    for (Ability& ability : info.stages) ability.shows = true;
+    info[Stage::texture] = {false, false, "no scene has textures yet"};
+    return info;
+  }
+
+  Capture capture(const Scene& scene, const Request& request) override {
+    require_budget(scene, plane_bytes(scene), request.memory_budget);
+    context_->make_current();
+    Capture capture;
+    capture.renderer = name_;
+    capture.version = version_;
+    capture.width = scene.frame.width;
+    capture.height = scene.frame.height;
+    const SceneInGl in_gl(gl_, scene);
+    capture.planes = draw_planes(gl_, in_gl);
+    read_records(in_gl, request, capture.records);
+    return capture;
+  }
+
+ private:
+  void read_records(const SceneInGl& scene, const Request& request, Records<double>& records) const {
+    if (!request.records.any()) return;
+    const Target target(gl_, scene.scene().frame, ColorFormat::rgba8);
+    const SavedState state(gl_);
+    target.bind();
+    if (request.records.has(Stage::matrices)) records.matrices = read_matrices(gl_, scene);
+    if (request.records.has(Stage::vertex)) records.vertices = vertex_program_.run(scene);
+    if (request.records.has(Stage::light)) records.lit = read_lit(gl_, scene);
+    read_polygons(gl_, scene, request, records);
+  }
+
+  std::string name_, version_;
+  std::unique_ptr<Context> context_;
+  Gl gl_;
+  VertexProgram vertex_program_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_opengl_renderer(std::string name, MesaDriver driver, std::unique_ptr<Context> context) {
+  return std::make_unique<OpenGlRenderer>(std::move(name), driver, std::move(context));
+}
+
+}  // namespace plumbline::osmesa

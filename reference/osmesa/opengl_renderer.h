@@ -1,0 +1,15 @@
+// A renderer that draws by OpenGL's fixed function, wherever its context comes from.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "reference/osmesa/context.h"
+#include "stages/renderer.h"
+
+namespace plumbline::osmesa {
+
+/// What it shows: osmesa.h. Throws RendererFailed if the context is none of `driver`'s.
+std::unique_ptr<Renderer> make_opengl_renderer(std::string name, MesaDriver driver, std::unique_ptr<Context> context);
+
+}  // namespace plumbline::osmesa

@@ -1,0 +1,30 @@
+// Both of Mesa's libraries in one run of the program: the one that is not the default is in a process of its own.
+#include "run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+TEST_F(Cli, osmesa_and_egl_and_softpipe_vote_in_one_run) {
+  const std::string scene = kScenes + "clip/each_plane.json";
+  const Outcome run = plumb("check " + scene + " --against exact,softpipe,egl,osmesa");
+  EXPECT_EQ(run.code, 0) << run.text;
+  const std::size_t osmesa = run.text.find(" osmesa "), egl = run.text.find(" egl "),
+                    softpipe = run.text.find(" softpipe ");
+  EXPECT_LT(osmesa, egl) << run.text;
+  EXPECT_LT(egl, softpipe) << run.text;
+  EXPECT_LT(softpipe, run.text.find(" exact from scene ")) << run.text;
+}
+
+// Unlike softpipe, it shows every stage that osmesa does.
+TEST_F(Cli, egl_is_listed_with_its_stages) {
+  const std::string text = plumb("list renderers").text;
+  const auto stages = [&](const std::string& name) {
+    const std::size_t from = text.find('\n', text.find("\n" + name + " (") + 1) + 1;
+    return text.substr(from, text.find("\n", text.find("merge", from)) - from);
+  };
+  EXPECT_EQ(stages("egl"), stages("osmesa")) << text;
+  EXPECT_NE(stages("egl"), stages("softpipe")) << text;
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,93 @@
+// OpenGL by EGL hands out what it does by OSMesa, bit for bit: either can be the reference. EGL's is in a process of
+// its own, for one process holds one Mesa.
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "check/compare_stored.h"
+#include "reference/osmesa/osmesa.h"
+#include "scene/scene_file.h"
+#include "stages/process_renderer.h"
+
+namespace plumbline {
+namespace {
+
+std::unique_ptr<Renderer> egl() {
+  ProcessSpec spec;
+  spec.name = "egl";
+  spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{folder}", "--with", "egl"};
+  spec.shows = StageSet::all();
+  return make_process_renderer(spec);
+}
+
+template <class T>
+void expect_same_bits(const Plane<T>& a, const Plane<T>& b, const char* what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  ASSERT_GT(a.size(), 0u) << what;
+  EXPECT_EQ(std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)), 0) << what;
+}
+
+// Planes as bytes; all records, windows among them, as numbers.
+void expect_same(const Capture& a, const Capture& b) {
+  expect_same_bits(a.planes.count, b.planes.count, "count");
+  expect_same_bits(a.planes.id_sum, b.planes.id_sum, "id_sum");
+  expect_same_bits(a.planes.id, b.planes.id, "id");
+  expect_same_bits(a.planes.shaded, b.planes.shaded, "shaded");
+  expect_same_bits(a.planes.color, b.planes.color, "color");
+  expect_same_bits(a.planes.depth, b.planes.depth, "depth");
+  int windows = 0;
+  for (const check::StoredComparison& row : check::compare_captures(a, b, 0)) {
+    EXPECT_EQ(row.outcome, check::Outcome::equal) << row.what << ' ' << row.note;
+    windows += row.what == "window.snapped" || row.what == "window.p_win";
+  }
+  EXPECT_EQ(windows, a.records.triangles.empty() ? 0 : 2);
+}
+
+void compare_on(const std::vector<std::filesystem::path>& files) {
+  const auto osmesa = make_osmesa();
+  const auto other = egl();
+  const Request all{StageSet::all(), false, {}, {}};
+  for (const auto& file : find_scenes(files)) {
+    SCOPED_TRACE(file);
+    const Scene scene = load_scene(file, {});
+    expect_same(osmesa->capture(scene, all), other->capture(scene, all));
+  }
+}
+
+const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes";
+
+TEST(OsmesaEgl, same_bits_on_a_few_scenes) {
+  compare_on({kScenes + "/clip/each_plane.json", kScenes + "/depth/z16.json", kScenes + "/light/sphere_gouraud.json"});
+}
+
+TEST(OsmesaEgl, same_bits_on_every_scene) { compare_on({kScenes}); }
+
+// Beside each other, each would draw into the other's current context without a word.
+TEST(OsmesaEgl, one_library_per_process) {
+  const auto osmesa = make_osmesa();
+  try {
+    make_egl();
+    ADD_FAILURE() << "a second library was given";
+  } catch (const RendererFailed& failure) {
+    EXPECT_STREQ(
+        failure.what(),
+        "OpenGL: this process already uses OSMesa with llvmpipe; EGL with llvmpipe needs a process of its own");
+  }
+}
+
+// The comparison can fail: the same scene with one triangle less.
+TEST(OsmesaEgl, other_bits_are_seen) {
+  Scene scene = load_scene(kScenes + "/clip/each_plane.json", {});
+  const Request all{StageSet::all(), false, {}, {}};
+  const Capture whole = egl()->capture(scene, all);
+  EXPECT_EQ(whole.renderer, "egl");
+  EXPECT_EQ(whole.version.find("llvmpipe"), 0u) << whole.version;
+  scene.meshes.at(0).triangles.pop_back();
+  const Capture less = make_osmesa()->capture(scene, all);
+  EXPECT_NE(std::memcmp(whole.planes.count.values().data(), less.planes.count.values().data(),
+                        whole.planes.count.size() * sizeof(std::uint32_t)),
+            0);
+}
+
+}  // namespace
+}  // namespace plumbline
