@@ -115,7 +115,7 @@ int check(const CheckOptions& given) {
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string summary = report::summary(verdicts, all_hold, seconds);
-  fmt::print("\n{}{}", failures, summary);
+  fmt::print("\n{}{}{}", failures, report::group_lines(verdicts), summary);
   if (!o.json.empty()) report::write_json(o.json, verdicts, versions);
   if (!o.ledger.empty()) report::write_ledger(o.ledger, verdicts);
   if (page) page->write(summary);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -83,30 +84,58 @@ std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> un
   return out;
 }
 
+namespace {
+
+// How many comparisons came to what.
+struct Tally {
+  std::array<std::size_t, 8> of_outcome{};
+  std::size_t scenes = 0, comparisons = 0;
+
+  void add(const SceneVerdict& verdict) {
+    ++scenes;
+    comparisons += verdict.comparisons.size();
+    for (const Comparison& c : verdict.comparisons) ++of_outcome[static_cast<std::size_t>(c.outcome)];
+  }
+  std::size_t count(Outcome outcome) const { return of_outcome[static_cast<std::size_t>(outcome)]; }
+  std::string text() const {
+    std::string out;
+    for (std::size_t i = 0; i < of_outcome.size(); ++i) {
+      if (of_outcome[i] == 0) continue;
+      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", of_outcome[i], name_of(static_cast<Outcome>(i)));
+    }
+    return out;
+  }
+};
+
+}  // namespace
+
+std::string group_lines(std::span<const SceneVerdict> verdicts) {
+  std::map<std::string, Tally> groups;
+  for (const SceneVerdict& verdict : verdicts) groups[verdict.scene.substr(0, verdict.scene.find('/'))].add(verdict);
+  std::string out;
+  for (const auto& [group, tally] : groups) {
+    out += fmt::format("{:<16} {:>4} scenes {:>6} comparisons: {}\n", group, tally.scenes, tally.comparisons,
+                       tally.text());
+  }
+  return out;
+}
+
 std::string summary(std::span<const SceneVerdict> verdicts, bool all_hold, double seconds) {
-  std::array<std::size_t, 8> counts{};
-  std::size_t comparisons = 0;
+  Tally tally;
   bool complete = true;
   for (const SceneVerdict& verdict : verdicts) {
-    for (const Comparison& c : verdict.comparisons) {
-      ++counts[static_cast<std::size_t>(c.outcome)];
-      ++comparisons;
-    }
+    tally.add(verdict);
     complete &= check::unjudged_stages(verdict).empty();
   }
-  std::string parts;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == 0) continue;
-    const auto outcome = static_cast<Outcome>(i);
-    complete &= outcome != Outcome::unsupported && outcome != Outcome::missing && outcome != Outcome::dispute;
-    parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", counts[i], name_of(outcome));
+  for (Outcome outcome : {Outcome::unsupported, Outcome::missing, Outcome::dispute}) {
+    complete &= tally.count(outcome) == 0;
   }
-  const char* word = !all_hold          ? "FAILED"
-                     : comparisons == 0 ? "nothing was judged"
-                     : complete         ? "ok"
-                                        : "ok where judged";
-  return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, verdicts.size(), comparisons, seconds,
-                     parts);
+  const char* word = !all_hold                ? "FAILED"
+                     : tally.comparisons == 0 ? "nothing was judged"
+                     : complete               ? "ok"
+                                              : "ok where judged";
+  return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, tally.scenes, tally.comparisons, seconds,
+                     tally.text());
 }
 
 std::string stored_table(std::span<const check::StoredComparison> comparisons, double tolerance) {

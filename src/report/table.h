@@ -16,7 +16,10 @@ std::string table_rows(const check::SceneVerdict& verdict);
 /// and the command that repeats it; else empty.
 std::string failure_lines(const check::SceneVerdict& verdict, std::span<const Stage> unjudged,
                           const std::string& repeat_command);
-/// The last lines: how many comparisons came to what. "ok" where all hold, bare only where every stage was judged.
+/// A line per group (the part of a scene's name before its first '/'), sorted: its scenes, and how many of their
+/// comparisons came to what.
+std::string group_lines(std::span<const check::SceneVerdict> verdicts);
+/// The last line: how many comparisons came to what. "ok" where all hold, bare only where every stage was judged.
 std::string summary(std::span<const check::SceneVerdict> verdicts, bool all_hold, double seconds);
 
 /// A comparison of two images or captures: a line each, under a head.

@@ -149,6 +149,21 @@ TEST_F(Reports, SummaryIsOkOnlyWhereAllWasJudged) {
   EXPECT_TRUE(of(all, true).starts_with("ok where judged:")) << "nobody compared merge";
 }
 
+TEST_F(Reports, EachGroupHasALineOfItsScenesAndOutcomes) {
+  std::vector<SceneVerdict> verdicts{verdict_of({compared(Outcome::equal), compared(Outcome::within, 1, 2)}),
+                                     verdict_of({compared(Outcome::equal), not_compared(Outcome::unsupported, "")}),
+                                     verdict_of({compared(Outcome::different, 1)}), verdict_of({})};
+  verdicts[0].scene = "depth/near";
+  verdicts[1].scene = "depth/far";
+  verdicts[2].scene = "clip/near/left";
+  verdicts[3].scene = "alone";
+  EXPECT_EQ(group_lines(verdicts),
+            "alone               1 scenes      0 comparisons: \n"
+            "clip                1 scenes      1 comparisons: 1 different\n"
+            "depth               2 scenes      4 comparisons: 2 equal, 1 within, 1 unsupported\n");
+  EXPECT_EQ(group_lines({}), "");
+}
+
 TEST_F(Reports, ASummaryOfNothingIsNotOk) {
   EXPECT_FALSE(summary({}, true, 0).starts_with("ok")) << summary({}, true, 0);
   EXPECT_FALSE(summary(std::vector{verdict_of({})}, true, 0).starts_with("ok")) << "nothing was compared for a scene";

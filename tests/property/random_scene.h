@@ -11,6 +11,12 @@
 
 namespace plumbline::test {
 
+/// Anywhere in [least, most): inRange itself stays near the least in its first cases.
+template <class T>
+rc::Gen<T> evenly(T least, T most) {
+  return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(least, most));
+}
+
 /// A number of the sort that breaks things, of a size near 1.
 inline rc::Gen<float> coordinate() {
   using namespace rc;
