@@ -100,8 +100,12 @@ std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, dou
           reach.y * c.v.z + c.v.y + y_error};
 }
 
+/// Of a triangle cut by six planes: 9 corners, but where rounding makes a polygon of huge coordinates cross a plane
+/// many times, each plane may leave half as many again: 3, 4, 6, 9, 13, 19, 28.
+constexpr std::size_t kMostCorners = 28;
+
 struct Polygon {
-  std::array<glm::dvec3, 9> v;
+  std::array<glm::dvec3, kMostCorners> v;
   std::size_t count = 0;
 };
 
@@ -111,7 +115,7 @@ Polygon visible_part(const Projected& scene, const std::array<const Corner*, 3>&
     glm::dvec3 v;
     std::array<double, 6> inside;
   };
-  std::array<Vertex, 9> in, out;
+  std::array<Vertex, kMostCorners> in, out;
   std::size_t count = 3;
   for (std::size_t i = 0; i < 3; ++i) in[i] = {corners[i]->v, inside_planes(scene, *corners[i], 0)};
   for (std::size_t plane = 0; plane < 6; ++plane) {
@@ -127,7 +131,7 @@ Polygon visible_part(const Projected& scene, const std::array<const Corner*, 3>&
       out[kept++] = at;
       cut = true;
     }
-    in = out;
+    std::copy_n(out.begin(), kept, in.begin());
     count = kept;
   }
   Polygon polygon;

@@ -72,8 +72,7 @@ constexpr std::array kLedger = {
               "off."},
     Tolerance{"legal.depth", 1, "step", "The legal interval, and one step of the depth format for the rounding."},
     Tolerance{"legal.attributes", 1, "bound",
-              "The oracle's own bound of float arithmetic from the scene on (reference/math, color_error.h).",
-              "It adds the worst cases of vertex, light and interpolation, which no one vertex has all at once."},
+              "The oracle's own bound of float arithmetic from the scene on (reference/math, color_error.h)."},
     Tolerance{"legal.merge", 1, "bound", "legal.attributes' bound and, for rgba8, half a code for the rounding."},
 };
 

@@ -21,15 +21,15 @@ rc::Gen<T> evenly(T least, T most) {
 inline rc::Gen<float> coordinate() {
   using namespace rc;
   return gen::weightedOneOf<float>(
-      {{6, gen::map(gen::inRange(-4096, 4097), [](int i) { return static_cast<float>(i) / 1024; })},
-       {3, gen::map(gen::inRange(-8, 9), [](int i) { return static_cast<float>(i) / 2; })},
-       {1, gen::map(gen::pair(gen::inRange(-1000, 1001), gen::inRange(-30, 21)),
+      {{6, gen::map(evenly(-4096, 4097), [](int i) { return static_cast<float>(i) / 1024; })},
+       {3, gen::map(evenly(-8, 9), [](int i) { return static_cast<float>(i) / 2; })},
+       {1, gen::map(gen::pair(evenly(-1000, 1001), evenly(-30, 21)),
                     [](std::pair<int, int> p) { return std::ldexp(static_cast<float>(p.first) / 1000, p.second); })}});
 }
 
 /// Any finite float, of any size.
 inline rc::Gen<float> any_float() {
-  return rc::gen::map(rc::gen::pair(rc::gen::inRange(-1000, 1001), rc::gen::inRange(-140, 118)),
+  return rc::gen::map(rc::gen::pair(evenly(-1000, 1001), evenly(-140, 118)),
                       [](std::pair<int, int> p) { return std::ldexp(static_cast<float>(p.first), p.second); });
 }
 
@@ -39,12 +39,12 @@ inline rc::Gen<glm::vec3> point(const rc::Gen<float>& of) {
 }
 
 inline rc::Gen<glm::vec3> unit_vector() {
-  return rc::gen::map(point(rc::gen::map(rc::gen::inRange(-4, 5), [](int i) { return static_cast<float>(i); })),
+  return rc::gen::map(point(rc::gen::map(evenly(-4, 5), [](int i) { return static_cast<float>(i); })),
                       [](glm::vec3 v) { return v == glm::vec3(0) ? glm::vec3(0, 0, 1) : glm::normalize(v); });
 }
 
 inline rc::Gen<glm::vec4> color() {
-  const auto channel = rc::gen::map(rc::gen::inRange(0, 256), [](int i) { return static_cast<float>(i) / 255; });
+  const auto channel = rc::gen::map(evenly(0, 256), [](int i) { return static_cast<float>(i) / 255; });
   return rc::gen::map(rc::gen::tuple(channel, channel, channel, channel), [](const auto& t) {
     return glm::vec4(std::get<0>(t), std::get<1>(t), std::get<2>(t), std::get<3>(t));
   });
@@ -59,15 +59,15 @@ inline Mesh random_mesh(int most, const rc::Gen<float>& of) {
   const auto n = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.normals = *gen::container<std::vector<glm::vec3>>(n, unit_vector());
   if (*gen::arbitrary<bool>()) mesh.colors = *gen::container<std::vector<glm::vec4>>(n, color());
-  const int count = *gen::inRange(1, most + 1);
-  const auto corner = gen::inRange<std::uint32_t>(0, n);
+  const int count = *evenly(1, most + 1);
+  const auto corner = evenly<std::uint32_t>(0, n);
   for (int i = 0; i < count; ++i) mesh.triangles.push_back({*corner, *corner, *corner});
   return mesh;
 }
 
 template <class E>
 E one_of(int count) {
-  return static_cast<E>(*rc::gen::inRange(0, count));
+  return static_cast<E>(*evenly(0, count));
 }
 
 /// To be called within a property.
@@ -75,29 +75,29 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
   using namespace rc;
   Scene scene;
   scene.name = "random";
-  scene.frame.width = *gen::inRange(1, 80);
-  scene.frame.height = *gen::inRange(1, 80);
+  scene.frame.width = *evenly(1, 80);
+  scene.frame.height = *evenly(1, 80);
   scene.frame.color = one_of<ColorFormat>(2);
   scene.frame.depth = one_of<DepthFormat>(3);
   scene.frame.clear_color = *color();
   scene.frame.clear_depth = *gen::weightedElement<double>({{6, 1.0}, {1, 0.0}, {1, 0.5}, {1, 0.7}});
   scene.camera.eye = glm::dvec3(*gen::elementOf(std::vector<glm::vec3>{{0, 0, 4}, {0, 0, 5}, {3, 1, 4}, {-2, 5, 1}}));
-  if (*gen::inRange(0, 3) == 0) {
+  if (*evenly(0, 3) == 0) {
     scene.projection = Orthographic{-2, 2, -2, 2, 1, 8};
   } else {
     scene.projection = Perspective{static_cast<double>(*gen::elementOf(std::vector<int>{30, 60, 90, 150})), 1, 8};
   }
   scene.ambient = glm::vec3(0.125f);
-  const int lights = *gen::inRange(0, 3);
+  const int lights = *evenly(0, 3);
   for (int i = 0; i < lights; ++i) {
     Light light;
     light.kind = one_of<Light::Kind>(2);
-    light.vector = glm::dvec3(*point(gen::map(gen::inRange(-6, 7), [](int k) { return static_cast<float>(k) / 2; })));
+    light.vector = glm::dvec3(*point(gen::map(evenly(-6, 7), [](int k) { return static_cast<float>(k) / 2; })));
     if (light.vector == glm::dvec3(0) && light.kind == Light::Kind::directional) light.vector.z = 1;
     light.specular = glm::vec3(0.5f);
     scene.lights.push_back(light);
   }
-  const int draws = *gen::inRange(1, 4);
+  const int draws = *evenly(1, 4);
   for (int i = 0; i < draws; ++i) {
     scene.meshes.push_back(random_mesh(8, of));
     Draw draw;
@@ -115,11 +115,10 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
                                                         {1, DepthFunc::equal},
                                                         {1, DepthFunc::not_equal},
                                                         {1, DepthFunc::always}});
-    if (*gen::inRange(0, 3) == 0)
-      draw.transforms.push_back(Rotate{static_cast<double>(*gen::inRange(-180, 181)), {1, 2, 3}});
-    if (*gen::inRange(0, 3) == 0)
+    if (*evenly(0, 3) == 0) draw.transforms.push_back(Rotate{static_cast<double>(*evenly(-180, 181)), {1, 2, 3}});
+    if (*evenly(0, 3) == 0)
       draw.transforms.push_back(
-          Scale{glm::dvec3(*point(gen::map(gen::inRange(1, 5), [](int k) { return static_cast<float>(k) / 2; })))});
+          Scale{glm::dvec3(*point(gen::map(evenly(1, 5), [](int k) { return static_cast<float>(k) / 2; })))});
     scene.draws.push_back(draw);
   }
   return scene;
