@@ -183,6 +183,7 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
     const std::vector<std::uint32_t> wanted = wanted_primitives(range, request.primitives);
     scene.set_matrices(i);
     scene.set_surface(i);
+    gl.ShadeModel(GL_SMOOTH);  // flat, feedback leaves the colours of cut triangles undefined (measured)
     const ToClip to_clip(scene.matrices(i));
     for (std::size_t at = 0; at < wanted.size(); at += kBatch) {
       const auto batch = std::span(wanted).subspan(at, std::min(kBatch, wanted.size() - at));

@@ -15,9 +15,10 @@ float distance_to(const Vec4<float>& plane, const Vec4<float>& p) {
   return ((p.x * plane.x + p.y * plane.y) + p.z * plane.z) + p.w * plane.w;
 }
 
-// Three corners, and each of six planes adds one at most.
+// A plane adds one vertex to a convex polygon. Rounding may make one cross a plane many times: each run of vertices
+// outside becomes two, so that six planes make 3, 4, 6, 9, 13, 19, 28 vertices at most.
 struct Polygon {
-  std::array<ClipVertex<float>, 9> v;
+  std::array<ClipVertex<float>, 28> v;
   int count = 0;
   void add(const ClipVertex<float>& vertex) { v[static_cast<std::size_t>(count++)] = vertex; }
 };
