@@ -28,7 +28,7 @@ class SceneJson {
 
   std::deque<std::string> names_;             ///< a deque: the values point to them
   std::vector<std::filesystem::path> chain_;  ///< the files that are being read, each included by the one before
-  std::size_t bytes_left_ = 8u << 20;  ///< a hundred times that in memory
+  std::size_t bytes_left_ = 8u << 20;         ///< a hundred times that in memory
   JsonValue root_;
 };
 
