@@ -50,6 +50,14 @@ Planes empty_planes(const FrameFormat& frame) {
   return planes;
 }
 
+/// A cut triangle is drawn as a fan. One of its pieces may be so thin that snapping turns it over: along the border it
+/// then lies on its neighbour, and both cover the pixel.
+std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits) {
+  std::uint32_t most = 0;
+  for (const PixelHit& h : hits) most += !h.hit.certain && projected.triangles[h.hit.primitive].cut ? 2 : 1;
+  return most;
+}
+
 /// Double's own picture of a pixel.
 void draw_inside(const FrameFormat& frame, std::span<const PixelHit> hits, int x, int y, Planes& planes) {
   for (const PixelHit& h : hits) {
@@ -96,7 +104,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
         to_fold.push_back(h.hit);
       }
       legal.certain(x, y) = certain;
-      legal.possible(x, y) = static_cast<std::uint32_t>(hits.size());
+      legal.possible(x, y) = most_fragments(projected, hits);
       fold_hits(to_fold, frame, answers);
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));

@@ -45,10 +45,24 @@ Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p) {
   return out;
 }
 
-double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n) {
+namespace {
+
+// |M| |v|.
+Vec3<double> terms(const Mat3<double>& m, const Vec3<double>& v) {
   Vec3<double> sum(0);
-  for (int column = 0; column < 3; ++column) sum += glm::abs(n_matrix[column]) * std::abs(n[column]);
-  return glm::length(sum) / glm::length(n_matrix * n);
+  for (int column = 0; column < 3; ++column) sum += glm::abs(m[column]) * std::abs(v[column]);
+  return sum;
+}
+
+}  // namespace
+
+double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n) {
+  return glm::length(terms(n_matrix, n)) / glm::length(n_matrix * n);
+}
+
+double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n) {
+  const Mat3<double> transposed = glm::transpose(Mat3<double>(model_view));
+  return glm::length(terms(n_matrix, terms(transposed, terms(n_matrix, n)))) / glm::length(n_matrix * n);
 }
 
 LightBounds light_bounds(const Scene& scene, const Draw& draw, const Vertex<double>& vertex) {

@@ -16,6 +16,10 @@ Vec4<double> absolute(const Vec4<double>& p);
 /// The same for a unit normal: |N| |n| / |N n|, in the largest component.
 double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
 
+/// For a renderer that inverts the model-view in float, as Mesa does: |N| |M|^T |N| |n| / |N n|, what an error of the
+/// matrix comes to in its inverse; in the largest component.
+double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n);
+
 /// What rounding may do to a lit colour.
 struct LightBounds {
   /// Per channel, in units of u, how it may differ in float from the spec's equation in double: the sum over the lights

@@ -91,7 +91,7 @@ Measurement compare_matrices(const Records<double>& candidate, const Records<dou
 }
 
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                             double positions, double normals) {
+                             double positions, double normals, Inversion inversion) {
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   std::size_t d = 0;
   if (candidate.matrices.size() != scene.draws.size()) {
@@ -112,7 +112,9 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
     const Vertex<double>&a = candidate.vertices[i], &b = reference.vertices[i];
     add(meter, a.p_eye, b.p_eye, u * eye, positions, at("p_eye"));
     add(meter, a.p_clip, b.p_clip, u * magnitude(m.projection, eye), positions, at("p_clip"));
-    const double n = normal_magnitude(m.normal, Vec3<double>(mesh.normals[i - ranges[d].first_vertex]));
+    const Vec3<double> normal(mesh.normals[i - ranges[d].first_vertex]);
+    const double n = inversion == Inversion::in_float ? inverted_normal_magnitude(m.model_view, m.normal, normal)
+                                                      : normal_magnitude(m.normal, normal);
     add(meter, a.n_eye, b.n_eye, Vec3<double>(u * n), normals, at("n_eye"));
   });
 }
@@ -137,12 +139,14 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
       return;
     }
     const LightBounds bounds = light_bounds(scene, draw, candidate.vertices[i]);
+    const bool both = reference.vertices.size() == candidate.vertices.size();
+    const double turned = both ? glm::distance(candidate.vertices[i].n_eye, reference.vertices[i].n_eye) : 0;
     if (bounds.jump != Vec3<double>(0) || !std::isfinite(bounds.magnitude.x)) meter.ambiguous();
     for (int c = 0; c < 4; ++c) {
       const double magnitude = c < 3 ? bounds.magnitude[c] : 1, jump = c < 3 ? bounds.jump[c] : 0;
       if (std::isfinite(magnitude)) {
         const double unit = u * magnitude;
-        meter.value(difference(a[c], b[c]) / unit, factor, place, a[c], b[c], jump / unit);
+        meter.value(difference(a[c], b[c]) / unit, factor, place, a[c], b[c], (jump + turned * magnitude) / unit);
       } else {
         meter.value(a[c] >= 0 && a[c] <= 1 ? 0 : kInfinite, 0, place, a[c], b[c]);
       }

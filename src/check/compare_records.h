@@ -13,9 +13,12 @@ Measurement compare_matrices_equal(const Records<double>& candidate, const Recor
 /// Against unrounded matrices.
 Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
 
-/// p_eye, p_clip: `positions` u of their magnitudes; n_eye: `normals` u.
+/// In what a renderer inverts the model-view for its normals.
+enum class Inversion { in_double, in_float };
+/// p_eye, p_clip: `positions` u of their magnitudes; n_eye: `normals` u of theirs, by how the reference inverts.
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                             double positions, double normals);
+                             double positions, double normals, Inversion inversion = Inversion::in_double);
+/// Colours; what the two sides' normals differ by is the vertices' matter.
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                         double factor);
 

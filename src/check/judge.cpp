@@ -152,7 +152,8 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
   switch (stage) {
     case Stage::matrices: return c.add(name, stage, compare_matrices_equal(mine, theirs.records));
     case Stage::vertex:
-      return c.add(name, stage, compare_vertices(c.scene, mine, theirs.records, 0, factor("osmesa.vertex")),
+      return c.add(name, stage,
+                   compare_vertices(c.scene, mine, theirs.records, 0, factor("osmesa.vertex"), Inversion::in_float),
                    "osmesa.vertex");
     case Stage::light:
       return c.add(name, stage, compare_lit(c.scene, mine, theirs.records, factor("osmesa.light")), "osmesa.light");

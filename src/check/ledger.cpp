@@ -31,9 +31,9 @@ constexpr std::array kLedger = {
               "A chain of some 20 roundings: they do not all go one way, and where the power multiplies them it is "
               "also small."},
     Tolerance{"osmesa.vertex", 8, "u",
-              "Positions: 0, both sides follow one float recipe. Normals: either side is within 3 u of |N||n| before, "
-              "and 1 u after normalising.",
-              "Some eight roundings, which do not all go one way."},
+              "Positions: 0, both sides follow one float recipe. Normals: Mesa inverts the model-view in float, "
+              "some 8 roundings of |N| |M|^T |N| |n| (bounds.h, inverted_normal_magnitude).",
+              "The roundings do not all go one way, and the magnitude takes every term for the largest."},
     Tolerance{"osmesa.light", 32, "u", "Both sides are within exact.light of the exact value: twice that.",
               "As exact.light."},
     Tolerance{
