@@ -36,7 +36,6 @@ double snap_weight(const Triangle& t, const Place& at, glm::dvec3 d, bool certai
   const bool deep =
       certain && at.border > margin && margin < 0.5 && std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
   const double altitude = (deep ? t.fat_altitude : t.altitude) - 2 * (t.reach - kSnap);
-  if (t.cut && !deep && altitude <= 2 * kSnap) return kInfinity;  // a piece that is turned over lies elsewhere
   return altitude > 0 ? 1 + 4 * kSnap / altitude : kInfinity;
 }
 

@@ -37,8 +37,6 @@ Barycentrics barycentrics(const WindowTriangle<double>& t, double x, double y) {
 
 }  // namespace
 
-Vec4<double> absolute(const Vec4<double>& p) { return glm::abs(p); }
-
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p) {
   Vec4<double> out(0);
   for (int column = 0; column < 4; ++column) out += glm::abs(m[column]) * std::abs(p[column]);

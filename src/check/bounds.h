@@ -11,7 +11,6 @@ inline constexpr double kUnitRoundoff = 1.0 / 16777216.0;
 
 /// |M| |p|: what the rounding errors of M p are proportional to.
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
-Vec4<double> absolute(const Vec4<double>& p);
 
 /// The same for a unit normal: |N| |n| / |N n|, in the largest component.
 double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
