@@ -30,8 +30,8 @@ struct LinePixel {
 /// y = ROUND(k x + d) for each x, the product and the quotient exact in integers.
 std::vector<LinePixel> brute_force_line(const LinePixel& from, const LinePixel& to, glm::ivec2 frame);
 
-/// y = y + k for each x, in float: "cumulative error buildup". Wrong by up to a few pixels over thousands of steps, and
-/// never jumps into the frame: it takes the whole line's time.
+/// y = y + k for each x, in float: "cumulative error buildup", up to 16 pixels over 32,767 steps. It never jumps into
+/// the frame, and takes the whole line's time.
 std::vector<LinePixel> incremental_line(const LinePixel& from, const LinePixel& to, glm::ivec2 frame);
 
 /// The sign of f(M) = a x + b y + c at the middle M of the next two pixels says which is closer. Twice f, for the
