@@ -89,6 +89,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
   std::vector<PixelHit> hits;
   std::vector<Hit> to_fold;
   std::vector<LegalAnswer> answers;
+  double by_depth = 0, centres = 0;
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       hits.clear();
@@ -109,10 +110,12 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
       draw_inside(frame, hits, x, y, out.planes);
-      legal.predicted_ambiguous += ambiguous_by_depth(frame, hits, out.planes.id(x, y));
+      const DepthShare share = ambiguous_by_depth(frame, hits, out.planes.id(x, y));
+      by_depth += share.area;
+      centres += share.centre ? 1 : 0;
     }
   }
-  legal.predicted_ambiguous += ambiguous_by_edges(scene, projected, out.planes.id);
+  legal.predicted_ambiguous = std::max(by_depth, centres) + ambiguous_by_edges(scene, projected, out.planes.id);
   return out;
 }
 

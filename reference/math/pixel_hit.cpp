@@ -138,8 +138,11 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   const double w = std::clamp(at.w, t.w_min, t.w_max), near_end = w / t.w_min;
   const double color_weight = 1 + (weight - 1) * near_end;
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
+  // A piece of a cut triangle may be so thin that snapping turns it over; its plane then goes through snapped corners.
+  const bool turned = !out.hit.certain && (t.cut || t.thin);
+  const glm::dvec2 from_place = weight * moved + (turned ? kHalfStep : 0);
   out.hit.color = color;
-  out.hit.color_bound = weight * (largest(slope_x) * moved.x + largest(slope_y) * moved.y) +
+  out.hit.color_bound = largest(slope_x) * from_place.x + largest(slope_y) * from_place.y +
                         color_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end);
 }
 
