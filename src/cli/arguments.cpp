@@ -88,12 +88,17 @@ void add_command(CLI::App& app, std::function<int()>& chosen, const std::string&
   command->callback([&chosen, run, o] { chosen = [run, o] { return run(*o); }; });
 }
 
+std::vector<std::string> names_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
 }  // namespace
 
 Parsed parse(int argc, char** argv) {
   CLI::App app("Draws scenes, and compares every stage of the drawing with independent references.", "plumb");
   app.set_version_flag("--version", "plumb " PLUMBLINE_VERSION);
-  app.require_subcommand(1);
   app.footer("Exit code: 0 all hold, 1 something differs or failed, 2 bad input or usage.");
   Parsed out;
   add_command(app, out.command, "render", "Draw a scene into a picture", render);
@@ -107,6 +112,7 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "list", "Show the stages, renderers, faults and scenes that there are", list);
   try {
     app.parse(argc, argv);
+    if (!out.command) throw CLI::RequiredError(fmt::format("A command: {}", fmt::join(names_of(app), ", ")));
   } catch (const CLI::ParseError& e) {
     out.command = nullptr;
     out.exit = app.exit(e) == 0 ? kHolds : kBadInput;

@@ -83,7 +83,10 @@ int check(const CheckOptions& given) {
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
   const std::vector<std::filesystem::path> files = find_scenes(paths);
   std::vector<Scene> scenes;  // all of them first: a bad one ends the run before anything is written
-  for (const auto& file : files) scenes.push_back(o.scene_arguments.load(file));
+  for (const auto& file : files) {
+    scenes.push_back(o.scene_arguments.load(file));
+    require_budget(scenes.back(), plane_bytes(scenes.back()), Request{}.memory_budget);
+  }
   const Output outputs[] = {{"--json", o.json}, {"--ledger", o.ledger}};
   require_outputs(outputs, {"--report", o.report}, files);
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);

@@ -10,7 +10,9 @@ TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
   EXPECT_EQ(plumb("--help").code, 0);
   EXPECT_EQ(plumb("--version").code, 0);
   EXPECT_EQ(plumb("").code, 2);
+  EXPECT_NE(plumb("").text.find("render, check"), std::string::npos);
   EXPECT_EQ(plumb("chekc").code, 2);
+  EXPECT_NE(plumb("chekc").text.find("chekc"), std::string::npos);
   EXPECT_EQ(plumb("check").code, 2);
   EXPECT_EQ(plumb("check " + kScenes + "cull --against mesa").code, 2);
   EXPECT_EQ(plumb("check " + kScenes + "cull --no-such-flag").code, 2);
@@ -84,6 +86,17 @@ TEST_F(Cli, a_bad_scene_ends_2_and_names_file_and_place) {
   EXPECT_FALSE(fs::exists(at("x.png")));
   EXPECT_EQ(plumb("check " + at("no_such.json")).code, 2);
   EXPECT_EQ(plumb("check " + folder_.string() + "/empty").code, 2);
+}
+
+TEST_F(Cli, a_frame_over_the_budget_of_memory_ends_2_and_names_file_and_place) {
+  const std::string file = scene_file(
+      R"({"description": "x", "frame": {"width": 16384, "height": 16384}, "draws": [{"mesh": {"cube": {}}}]})");
+  for (const std::string& command : {"check " + file, "render " + file + " -o " + at("x.png")}) {
+    const Outcome run = plumb(command);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_NE(run.text.find(file + ": at \"/frame\": expected"), std::string::npos) << run.text;
+  }
+  EXPECT_FALSE(fs::exists(at("x.png")));
 }
 
 TEST_F(Cli, a_bad_scene_among_good_ones_leaves_no_report_half_written) {
