@@ -50,9 +50,9 @@ glm::dvec4 clip_plane(int index) {
   return plane;
 }
 
-std::vector<ClipVertex<double>> clip_triangle(const std::array<ClipVertex<double>, 3>& corners) {
+std::vector<ClipVertex<double>> clip_triangle(const std::array<ClipVertex<double>, 3>& corners, int planes) {
   Polygon polygon(corners.begin(), corners.end());
-  for (int i = 0; i < kPlanes; ++i) {
+  for (int i = 0; i < planes; ++i) {
     const glm::dvec4 plane = clip_plane(i);
     if (std::any_of(corners.begin(), corners.end(), [&](const auto& v) { return glm::dot(plane, v.p_clip) < 0; }))
       polygon = cut_by(polygon, plane);
@@ -76,7 +76,7 @@ ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Verte
       }
       if (!std::all_of(corners.begin(), corners.end(), [](const auto& v) { return finite(v.p_clip); })) continue;
       if (scene.draws[d].shading == Shading::flat) corners[0].color = corners[1].color = corners[2].color;
-      const Polygon polygon = clip_triangle(corners);
+      const Polygon polygon = clip_triangle(corners, scene.depth_clamp ? kSides : kPlanes);
       if (polygon.empty()) continue;
       out.polygons.push_back({.primitive = ranges[d].first_primitive + t,
                               .first = static_cast<std::uint32_t>(out.vertices.size()),

@@ -188,13 +188,14 @@ DepthShare cut(const Surface& surface, double plane) {
 
 }  // namespace
 
-DepthShare ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hits, std::int32_t winner) {
+DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner) {
   std::vector<Surface> others;
-  Surface won{kBackground, DepthFunc::always, frame.clear_depth, 0, glm::dvec2(0)};
+  Surface won{kBackground, DepthFunc::always, scene.frame.clear_depth, 0, glm::dvec2(0)};
   for (const PixelHit& h : hits) {
     if (h.hit.depth_func == DepthFunc::never) continue;
     if (!std::isfinite(h.z_half)) return {1, true};
-    const Surface surface{h.hit.primitive, h.hit.depth_func, h.z, h.z_half, h.z_slope};
+    const double z = scene.depth_clamp ? std::clamp(h.z, 0.0, 1.0) : h.z;
+    const Surface surface{h.hit.primitive, h.hit.depth_func, z, h.z_half, h.z_slope};
     if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
       others.push_back(won);
       won = surface;
@@ -203,12 +204,13 @@ DepthShare ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit
     }
   }
   DepthShare share;
-  for (const Surface& other : others) share += meeting(frame, won, other);
+  for (const Surface& other : others) share += meeting(scene.frame, won, other);
   if (!one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; })) {
     for (std::size_t i = 0; i < others.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) share += meeting(frame, others[i], others[j]);
+      for (std::size_t j = 0; j < i; ++j) share += meeting(scene.frame, others[i], others[j]);
     }
   }
+  if (scene.depth_clamp) return share;
   for (const Surface& other : others) {
     if (other.order != kBackground && passes(other.func, other.z, won.z)) {
       share += cut(other, 0);

@@ -19,6 +19,6 @@ struct DepthShare {
   double area = 0;      ///< pixels, [0,1]
   bool centre = false;  ///< whether its centre is in one
 };
-DepthShare ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hits, std::int32_t winner);
+DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner);
 
 }  // namespace plumbline::math

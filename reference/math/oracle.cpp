@@ -110,7 +110,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
       draw_inside(frame, hits, x, y, out.planes);
-      const DepthShare share = ambiguous_by_depth(frame, hits, out.planes.id(x, y));
+      const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
       by_depth += share.area;
       centres += share.centre ? 1 : 0;
     }

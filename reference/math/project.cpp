@@ -106,6 +106,10 @@ std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, dou
                                reach.y * c.v.z + c.v.y};
   const std::array<double, 6> error = plane_errors(scene, c.size, margin);
   for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
+  if (scene.depth_clamp) {  // the sides meet at the eye: nothing is behind it
+    inside[0] = c.v.z + kRoundingsCut * kFloatRounding * c.size.w;
+    inside[1] = std::numeric_limits<double>::infinity();
+  }
   return inside;
 }
 
@@ -273,6 +277,7 @@ Projected project(const Scene& scene) {
   Projected out;
   out.width = scene.frame.width;
   out.height = scene.frame.height;
+  out.depth_clamp = scene.depth_clamp;
   out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {

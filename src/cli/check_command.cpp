@@ -114,7 +114,7 @@ int check(const CheckOptions& given) {
       failures +=
           report::failure_lines(verdicts.back(), unjudged(verdicts.back(), o), repeat_command(o, verdicts.back()));
     }
-    if (page) page->add(verdicts.back(), references.list, drawn, scene.description);
+    if (page) page->add(verdicts.back(), references.list, drawn, scene);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string summary = report::summary(verdicts, all_hold, seconds);

@@ -33,7 +33,12 @@ int render(const RenderOptions& o) {
   const std::unique_ptr<Renderer> renderer = renderer_of(o.with, o.fault);
   Request request;
   request.picture = true;
-  const Capture drawn = renderer->capture(o.scene_arguments.load(o.scene), request);
+  const Scene scene = o.scene_arguments.load(o.scene);
+  Capture drawn = renderer->capture(scene, request);
+  if (rows_from_top(scene.dialect)) {
+    drawn.planes.color = upside_down(drawn.planes.color);
+    drawn.planes.depth = upside_down(drawn.planes.depth);
+  }
   const Bytes color = encode_image(o.output, drawn.planes.color);
   if (o.depth.empty()) {
     write_file(o.output, color);

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "transforms/look_at.h"
+#include "dialect/dialect.h"
 #include "transforms/normal.h"
-#include "transforms/projection.h"
 #include "transforms/transform.h"
 
 namespace plumbline::pipeline {
@@ -32,28 +31,15 @@ auto rounded(const Matrix& m) {
 
 }  // namespace
 
-glm::dmat4 look_at(const Camera& camera) { return transforms::gl::look_at(camera.eye, camera.center, camera.up); }
-
-glm::dmat4 project(const Projection& projection, double aspect) {
-  if (const auto* p = std::get_if<Perspective>(&projection)) {
-    return transforms::gl::perspective({p->fov_y_degrees * kRadians, aspect}, p->near, p->far);
-  }
-  if (const auto* p = std::get_if<Frustum>(&projection)) {
-    return transforms::gl::frustum(p->left, p->right, p->bottom, p->top, p->near, p->far);
-  }
-  const auto& o = std::get<Orthographic>(projection);
-  return transforms::gl::orthographic(o.left, o.right, o.bottom, o.top, o.near, o.far);
-}
-
 Matrices<float> matrices(const Scene& scene, const Draw& draw) {
-  glm::dmat4 model_view = look_at(scene.camera);
+  glm::dmat4 model_view = view_matrix(scene);
   for (const Transform& transform : draw.transforms) {
     model_view = model_view * std::visit([](const auto& t) { return matrix_of(t); }, transform);
   }
   const double width = scene.frame.width, height = scene.frame.height;
   Matrices<float> out;
   out.model_view = rounded(model_view);
-  out.projection = rounded(project(scene.projection, width / height));
+  out.projection = rounded(projection_matrix(scene));
   out.normal = rounded(transforms::normal_matrix(model_view));
   out.win_scale = {static_cast<float>(width / 2), static_cast<float>(height / 2), 0.5f};
   out.win_translate = out.win_scale;

@@ -10,8 +10,13 @@
 
 namespace plumbline {
 
-/// The conventions under which a scene's numbers are read (window origin, pixel centre, handedness...).
-enum class Dialect { gl };
+/// The conventions under which a scene's numbers are read: window origin, pixel centre, handedness, where the eye is...
+/// `gl`: OpenGL. `gzrender`: CSCI-580's GzRender; world and camera space are left-handed. `games101`: GAMES101.
+/// `tinyrenderer`: TinyRenderer.
+enum class Dialect { gl, gzrender, games101, tinyrenderer };
+
+/// Whether row 0 is the picture's uppermost.
+constexpr bool rows_from_top(Dialect dialect) { return dialect == Dialect::gzrender; }
 
 /// An indexed triangle mesh in model space.
 struct Mesh {
@@ -34,28 +39,37 @@ struct Scale {
 };
 using Transform = std::variant<Translate, Rotate, Scale>;
 
-/// gluLookAt's camera.
+/// gluLookAt's camera. In `gzrender`, `eye` is c, the middle of the view plane, and `center` l.
 struct Camera {
   glm::dvec3 eye{0, 0, 5};
   glm::dvec3 center{0, 0, 0};
   glm::dvec3 up{0, 1, 0};
 };
 
-/// gluPerspective; the aspect is the frame's width / height. 0 < near < far.
+/// gluPerspective; the aspect is the frame's width / height. `gl`: 0 < near < far are distances. `games101`: far < near
+/// < 0 are coordinates.
 struct Perspective {
   double fov_y_degrees;  ///< (0, 180)
   double near;
   double far;
 };
-/// glOrtho.
+/// glOrtho; in `games101` near and far are coordinates, far < near.
 struct Orthographic {
   double left, right, bottom, top, near, far;
 };
-/// glFrustum: left, right, bottom and top on the near plane. 0 < near < far.
+/// glFrustum, in `gl`: left, right, bottom and top on the near plane. 0 < near < far.
 struct Frustum {
   double left, right, bottom, top, near, far;
 };
-using Projection = std::variant<Perspective, Orthographic, Frustum>;
+/// X_pi, in `gzrender`: x and y in [-1, 1] on the view plane z = 0, the eye at (0, 0, -d), 1/d = tan(fov/2).
+struct ViewPlane {
+  double fov_degrees;  ///< (0, 180)
+};
+/// w = 1 - z/c, in `tinyrenderer`: the eye at (0, 0, c); where c = |eye - center|, that is the camera's.
+struct Pinhole {
+  double c;  ///< > 0
+};
+using Projection = std::variant<Perspective, Orthographic, Frustum, ViewPlane, Pinhole>;
 
 struct Light {
   enum class Kind { directional, point };
@@ -108,7 +122,8 @@ struct Scene {
   Dialect dialect = Dialect::gl;
   FrameFormat frame;
   Camera camera;
-  Projection projection = Perspective{45, 1, 100};
+  Projection projection = Perspective{45, 1, 100};  ///< one of the dialect's
+  bool depth_clamp = false;   ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
   glm::vec3 ambient{0};       ///< the light model's ambient light
   std::vector<Light> lights;  ///< at most 8
   std::vector<Mesh> meshes;

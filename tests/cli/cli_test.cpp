@@ -119,6 +119,19 @@ TEST_F(Cli, render_writes_pictures_and_depth) {
   EXPECT_FALSE(fs::exists(at("e.png")));
 }
 
+TEST_F(Cli, a_picture_whose_rows_count_from_the_top_stands_upright) {
+  const std::string scene = kScenes + "notes/gzrender_cut.json";
+  ASSERT_EQ(plumb("render " + scene + " -o " + at("c.exr") + " --depth " + at("d.exr")).code, 0);
+  ASSERT_EQ(plumb("capture " + scene + " " + at("capture")).code, 0);
+  const Capture capture = read_capture(at("capture"));
+  EXPECT_EQ(read_image(at("c.exr")).values(), upside_down(capture.planes.color).values());
+  EXPECT_NE(read_image(at("c.exr")).values(), capture.planes.color.values());
+  const Plane<double> depth = upside_down(read_stored(at("d.exr")).channels[0].values);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    ASSERT_EQ(depth.values()[i], static_cast<float>(capture.planes.depth.values()[i]));
+  }
+}
+
 TEST_F(Cli, json_and_page_are_written) {
   const Outcome run =
       plumb("check " + kScenes + "cull --against exact --json " + at("out.json") + " --report " + at("page"));
