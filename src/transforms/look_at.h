@@ -1,5 +1,6 @@
-// World to camera space, by the four constructions, and back. World space is what the handedness of its numbers is
-// taken for; no matrix here mirrors. Where the view is along `up`, or of no length, the entries are NaN.
+// World to camera space, by the four constructions, and back. None of them mirrors: left-handed cameras take their
+// world for left-handed too. In one world, GL's camera is theirs with x and z negated. Where the view is along `up`, or
+// has no length, the entries are NaN.
 #pragma once
 
 #include <glm/glm.hpp>
