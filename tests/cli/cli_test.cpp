@@ -132,6 +132,37 @@ TEST_F(Cli, a_picture_whose_rows_count_from_the_top_stands_upright) {
   }
 }
 
+// It finds what is visible and no more: a picture shows each primitive in a colour of its own.
+TEST_F(Cli, image_order_judges_visibility_and_draws_primitives) {
+  const std::string scene = kScenes + "cull/both_windings.json";
+  EXPECT_EQ(plumb("check " + scene + " --against image_order").code, 0);
+  const Outcome fault =
+      plumb("check " + kScenes + "clip/each_plane.json --against image_order --fault clip.no_near_plane");
+  EXPECT_EQ(fault.code, 1) << fault.text;
+  EXPECT_TRUE(fault.says("first different stage: visibility (against image_order)")) << fault.text;
+  // Open pixels are settled by legal answers, which exact has.
+  EXPECT_EQ(plumb("check " + kScenes + "coverage/fan.json --against exact,image_order").code, 0);
+
+  const Outcome run = plumb("render " + scene + " --with image_order -o " + at("c.png") + " --depth " + at("d.exr"));
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_EQ(plumb("capture " + scene + " " + at("ours")).code, 0);
+  const Plane<std::int32_t> ids = read_capture(at("ours")).planes.id;  // no pixel of this scene is open
+  const Plane<glm::vec4> picture = read_image(at("c.png"));
+  ASSERT_EQ(picture.size(), ids.size());
+  std::set<std::int32_t> primitives;
+  std::set<std::array<float, 3>> colors;
+  std::set<std::pair<std::int32_t, std::array<float, 3>>> pairs;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const glm::vec4 c = picture.values()[i];
+    primitives.insert(ids.values()[i]);
+    colors.insert({c.r, c.g, c.b});
+    pairs.insert({ids.values()[i], {c.r, c.g, c.b}});
+  }
+  EXPECT_GT(primitives.size(), 5u);
+  EXPECT_EQ(colors.size(), primitives.size());
+  EXPECT_EQ(pairs.size(), primitives.size()) << "one colour for each";
+}
+
 TEST_F(Cli, json_and_page_are_written) {
   const Outcome run =
       plumb("check " + kScenes + "cull --against exact --json " + at("out.json") + " --report " + at("page"));

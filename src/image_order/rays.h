@@ -1,0 +1,63 @@
+// Rays: a pixel's place in image space, transformed to world space.
+//
+// A ray is held as the two planes that meet in it (Kajiya, "New techniques for ray tracing procedurally defined
+// objects", 1983): the plane of its pixel's column and that of its row, both through the ray's origin. A point is on
+// the ray where its distance from both is 0; no direction needs to be followed.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace plumbline::image_order {
+
+/// World space; lengths are those of the world.
+struct Ray {
+  glm::dvec3 origin;
+  glm::dvec3 column;   ///< the column's plane: dot(column, p - origin) = 0; greater to the right of it
+  glm::dvec3 row;      ///< the row's plane likewise; greater above it
+  glm::dvec3 forward;  ///< unit length: dot(forward, p - origin) is how far p is along the view
+  bool parallel;       ///< all rays have one direction (orthographic), else one origin, the eye
+};
+
+/// A point of the world as a ray sees it.
+struct Seen {
+  double x, y;   ///< to the right of the column's plane, above the row's
+  double along;  ///< the view
+};
+
+/// n . (p - origin), summed in one order everywhere: rounding is monotone, so that what holds for the corners of a box
+/// holds, to the bit, for the points in it.
+inline double along(const glm::dvec3& n, const glm::dvec3& from_origin) {
+  return (n.x * from_origin.x + n.y * from_origin.y) + n.z * from_origin.z;
+}
+inline Seen seen(const Ray& ray, const glm::dvec3& p) {
+  const glm::dvec3 d = p - ray.origin;
+  return {along(ray.column, d), along(ray.row, d), along(ray.forward, d)};
+}
+
+/// A scene's camera and projection: turns pixels into rays and distances along the view into depths.
+class View {
+ public:
+  explicit View(const Scene& scene);
+
+  /// The ray of pixel (x, y)'s centre.
+  Ray ray(int x, int y) const;
+
+  double near() const { return near_; }
+  double far() const { return far_; }
+
+  /// Window z in [0,1] of what is `along` far along the view: GL 2.1 specification, 2.11 and 2.12.1, solved for it.
+  /// Never falls where `along` grows, not by a rounding either.
+  double window_z(double along) const;
+
+ private:
+  glm::dvec3 eye_, right_, up_, forward_;
+  bool parallel_;
+  double left_, bottom_, width_,
+      height_;        ///< the window, on the plane one unit before the eye, or anywhere if parallel
+  glm::dvec2 frame_;  ///< pixels
+  double near_, far_;
+};
+
+}  // namespace plumbline::image_order
