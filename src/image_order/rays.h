@@ -36,19 +36,20 @@ inline Seen seen(const Ray& ray, const glm::dvec3& p) {
   return {along(ray.column, d), along(ray.row, d), along(ray.forward, d)};
 }
 
-/// A scene's camera and projection: turns pixels into rays and distances along the view into depths.
+/// A scene's camera and projection, in the terms of its dialect: turns pixels into rays and distances along the view
+/// into depths.
 class View {
  public:
   explicit View(const Scene& scene);
 
-  /// The ray of pixel (x, y)'s centre.
+  /// The ray of pixel (x, y)'s centre, in the dialect's order of rows.
   Ray ray(int x, int y) const;
 
   double near() const { return near_; }
   double far() const { return far_; }
 
   /// Window z in [0,1] of what is `along` far along the view: GL 2.1 specification, 2.11 and 2.12.1, solved for it.
-  /// Never falls where `along` grows, not by a rounding either.
+  /// Where `along` grows it never falls (in games101 and tinyrenderer: never rises), not by a rounding either.
   double window_z(double along) const;
 
  private:
@@ -58,6 +59,14 @@ class View {
       height_;        ///< the window, on the plane one unit before the eye, or anywhere if parallel
   glm::dvec2 frame_;  ///< pixels
   double near_, far_;
+  enum class Depth { rises, falls, of_pinhole } depth_ = Depth::rises;
+  double c_ = 0;  ///< the pinhole's
+
+  void set_opengl(const Scene& scene, double sign);
+  void set_gzrender(const ViewPlane& plane);
+  void set_tinyrenderer(const Camera& camera, const Pinhole& pinhole);
+  void set_whole_centres(double half);
+  double from_near(double along) const;
 };
 
 }  // namespace plumbline::image_order
