@@ -128,7 +128,7 @@ inline void expect_table(std::span<const Row> rows) {
              "bound");
   for (const Row& row : rows) {
     const double largest = largest_difference(row);
-    fmt::print("{:<34} {:<36} {:<42} {:>9.3f} {:>6.1f}  {} bits\n", row.formula, row.ours, row.reference, largest,
+    fmt::print("{:<34} {:<36} {:<42} {:>9.4g} {:>6.1f}  {} bits\n", row.formula, row.ours, row.reference, largest,
                row.bound, row.digits);
     EXPECT_LE(largest, row.bound) << row.formula << ": " << row.ours << " against " << row.reference;
   }
