@@ -132,7 +132,7 @@ class PipelineRenderer : public Renderer {
 
   void run_fragment_stage(const Scene& scene, Stage stage, const Records<double>& in, Capture& out) {
     const Formats formats = formats_of(scene.frame);
-    TriangleSetup setup{};
+    TriangleSetup<> setup{};
     setup.triangle = ~0u;
     int setup_x = 0, setup_y = 0;
     for (std::size_t i = 0; i < in.covered.size(); ++i) {

@@ -50,11 +50,11 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
                   const std::vector<Draw>& draws, const FrameFormat& f) {
   const Formats formats = formats_of(f);
   // Only what depth.h asks for knows of tiles: planes are anchored at the lower left pixel of the pixel's own.
-  std::map<std::pair<int, int>, std::vector<TriangleSetup>> setups_of_tile;
+  std::map<std::pair<int, int>, std::vector<TriangleSetup<>>> setups_of_tile;
   for (int y = 0; y < f.height; y += 64) {
     for (int x = 0; x < f.width; x += 64) {
       for (const Triangle& t : triangles) {
-        setups_of_tile[{x / 64, y / 64}].push_back(set_up<FragmentStages>(t, 0, formats, x, y));
+        setups_of_tile[{x / 64, y / 64}].push_back(set_up(FragmentStages(), t, 0, formats, x, y));
       }
     }
   }
@@ -66,7 +66,7 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
       Color<float> color =
           merge<float>({f.clear_color.r, f.clear_color.g, f.clear_color.b, f.clear_color.a}, formats.color_scale);
       const Pixels<float> p{x, y, x + 0.5, y + 0.5};
-      const std::vector<TriangleSetup>& setups = setups_of_tile[{x / 64, y / 64}];
+      const std::vector<TriangleSetup<>>& setups = setups_of_tile[{x / 64, y / 64}];
       for (std::size_t d = 0; d < draws.size(); ++d) {
         for (std::uint32_t n = first[d]; n < first[d + 1]; ++n) {
           if (!coverage<float>(setups[n].edges, p)) continue;
@@ -96,7 +96,7 @@ Frame tiled(const std::vector<Triangle>& triangles, const std::vector<std::uint3
             const std::vector<Draw>& draws, const FrameFormat& f) {
   Frame frame(f);
   NoTap tap;
-  draw_tiles<float, FragmentStages>({triangles, first, draws}, f, frame, tap);
+  draw_tiles<float>(FragmentStages(), {triangles, first, draws}, f, frame, tap);
   return frame;
 }
 
