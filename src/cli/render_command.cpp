@@ -33,8 +33,10 @@ int render(const RenderOptions& o) {
   const std::unique_ptr<Renderer> renderer = renderer_of(o.with, o.fault);
   Request request;
   request.picture = true;
-  const Capture drawn = renderer->capture(o.scene_arguments.load(o.scene), request);
-  const Bytes color = encode_image(o.output, drawn.planes.color);
+  const Scene scene = o.scene_arguments.load(o.scene);
+  require_image_name(o.output, scene.frame.color);
+  const Capture drawn = renderer->capture(scene, request);
+  const Bytes color = encode_image(o.output, drawn.planes.color, scene.frame.color);
   if (o.depth.empty()) {
     write_file(o.output, color);
     return kHolds;

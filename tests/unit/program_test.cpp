@@ -25,8 +25,9 @@ std::size_t bits_apart(const Plane<T>& a, const Plane<T>& b) {
   return apart;
 }
 std::size_t bits_apart(const Frame& a, const Frame& b) {
-  return bits_apart(a.color_rgba8, b.color_rgba8) + bits_apart(a.color_rgba32f, b.color_rgba32f) +
-         bits_apart(a.depth_code, b.depth_code) + bits_apart(a.depth_z32f, b.depth_z32f);
+  return bits_apart(a.color_rgba8, b.color_rgba8) + bits_apart(a.color_rgba12, b.color_rgba12) +
+         bits_apart(a.color_rgba32f, b.color_rgba32f) + bits_apart(a.depth_code, b.depth_code) +
+         bits_apart(a.depth_z32f, b.depth_z32f);
 }
 
 FrameFormat floats(int width, int height, glm::vec4 clear = glm::vec4(0)) {
