@@ -15,7 +15,8 @@ namespace {
 
 glm::vec4 to_format(ColorFormat format, glm::vec4 color) {
   if (format == ColorFormat::rgba32f) return color;
-  return glm::round(glm::clamp(color, 0.0f, 1.0f) * 255.0f) / 255.0f;
+  const auto scale = static_cast<float>(color_scale(format));
+  return glm::round(glm::clamp(color, 0.0f, 1.0f) * scale) / scale;
 }
 
 /// The candidates' primitives by pixel, each pixel's ascending and without duplicates.

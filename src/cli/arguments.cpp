@@ -35,7 +35,7 @@ void add_drawing(CLI::App& command, Options& o) {
 
 void add(CLI::App& command, RenderOptions& o) {
   add_drawing(command, o);
-  text(command, "-o,--output", o.output, "Colour: .png, or .exr for float")->required();
+  text(command, "-o,--output", o.output, "Colour: .png, .tga, .ppm, or .exr for float")->required();
   text(command, "--depth", o.depth, "Window depth: .exr");
 }
 
@@ -65,7 +65,7 @@ void add(CLI::App& command, CompareOptions& o) {
   text(command, "B", o.b, "The same")->required();
   text(command, "--tolerance", o.tolerance, "Largest difference of a channel that holds, such as 0.001 or 1/255")
       ->capture_default_str();
-  text(command, "-o,--output", o.output, "Write the difference of two images as .png or .exr");
+  text(command, "-o,--output", o.output, "Write the difference of two images as .png, .tga, .ppm or .exr");
   text(command, "--amplify", o.amplify, "By what the difference is multiplied (default: the largest is white)");
   text(command, "--json", o.json, "Write one object per comparison");
   command.add_flag("--allow-missing", o.allow_missing, "What one capture alone holds is no failure");

@@ -49,13 +49,14 @@ int render(const RenderOptions& o) {
   Request request;
   request.picture = true;
   const Scene scene = o.scene_arguments.load(o.scene);
+  require_image_name(o.output, scene.frame.color);
   Capture drawn = renderer->capture(scene, request);
   drawn.planes.color = picture_of(drawn);
   if (rows_from_top(scene.dialect)) {
     drawn.planes.color = upside_down(drawn.planes.color);
     drawn.planes.depth = upside_down(drawn.planes.depth);
   }
-  const Bytes color = encode_image(o.output, drawn.planes.color);
+  const Bytes color = encode_image(o.output, drawn.planes.color, scene.frame.color);
   if (o.depth.empty()) {
     write_file(o.output, color);
     return kHolds;

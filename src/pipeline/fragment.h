@@ -1,10 +1,13 @@
 // Stages 5 to 11 for one triangle in one block of 4 x 4 pixels.
 //
 // Everything that does not change within a draw is a template parameter: the number type R (lanes.h), the depth
-// function, the stage functions (so that a test can put another in the place of one) and the Tap. NoTap ships: hidden
+// function, the stage functions (so that a test can put another in the place of one, and a program of one's own its
+// fragment(), program.h) and the Tap. NoTap ships: hidden
 // fragments are left as soon as that is known. A tap that wants every fragment sees them all, and the planes come out
 // the same, bit for bit.
 #pragma once
+
+#include <utility>
 
 #include "pipeline/attributes.h"
 #include "pipeline/coverage.h"
@@ -15,8 +18,12 @@
 
 namespace plumbline::pipeline {
 
-/// The stage functions of the fragment half; a variant inherits them and hides some by its own.
+/// The stage functions of the fragment half; a variant inherits them and hides some by its own. Attributes and colours
+/// are of whatever types the functions hand to each other.
 struct FragmentStages {
+  static AttributeSetup attribute_setup(const WindowTriangle<float>& triangle, std::uint32_t) {
+    return pipeline::attribute_setup(triangle);
+  }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
   template <class R>
   static R depth(const DepthSetup& s, const Barycentric<R>& b) {
@@ -34,6 +41,11 @@ struct FragmentStages {
   static Color<R> shade(const Color<R>& attributes) {
     return pipeline::shade<R>(attributes);
   }
+  /// Of the fragments that pass the depth test, those that are drawn; the others leave depth and colour as they are.
+  template <class R>
+  static Mask<R> kept(Mask<R> passes, const Color<R>&) {
+    return passes;
+  }
   template <class R>
   static Color<R> merge(const Color<R>& color, float scale) {
     return pipeline::merge<R>(color, scale);
@@ -47,6 +59,7 @@ struct Formats {
 };
 
 /// All that stages 5 to 11 want to know of a triangle.
+template <class Attributes = AttributeSetup>
 struct TriangleSetup {
   std::uint32_t triangle;  ///< its place among the window triangles
   std::uint32_t primitive;
@@ -54,14 +67,22 @@ struct TriangleSetup {
   Edges edges;
   BarycentricPlanes planes;
   DepthSetup depth;
-  AttributeSetup attributes;
+  Attributes attributes;
 };
+template <class Stages>
+using SetupOf = TriangleSetup<decltype(std::declval<const Stages&>().attribute_setup({}, 0))>;
+
 /// (x0, y0): the lower left pixel of the tile.
 template <class Stages>
-TriangleSetup set_up(const WindowTriangle<float>& t, std::uint32_t triangle, const Formats& formats, int x0, int y0) {
-  return {triangle,          t.primitive,          pixel_bounds(t),
-          Stages::edges(t),  planes_of(t, x0, y0), depth_setup(t, formats.depth_scale),
-          attribute_setup(t)};
+SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std::uint32_t triangle,
+                       const Formats& formats, int x0, int y0) {
+  return {triangle,
+          t.primitive,
+          pixel_bounds(t),
+          stages.edges(t),
+          planes_of(t, x0, y0),
+          depth_setup(t, formats.depth_scale),
+          stages.attribute_setup(t, triangle)};
 }
 
 /// 64 x 64 pixels of the frame, stored block by block; colour and depth in the frame's formats, as floats.
@@ -79,32 +100,34 @@ struct Tile {
 struct NoTap {
   static constexpr bool every_fragment = false;
   template <class R>
-  void fragments(const TriangleSetup&, const Pixels<R>&, Mask<R>, Mask<R>, R, const Color<R>&, const Color<R>&) {}
+  void fragments(const auto& /*setup*/, const Pixels<R>&, Mask<R>, Mask<R>, R, const auto&, const auto&) {}
 };
 
 template <class R, DepthFunc func, class Stages, class Tap>
-void fragment_block(const TriangleSetup& s, int block_x, int block_y, float color_scale, Tile& tile, Tap& tap) {
+void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x, int block_y, float color_scale,
+                    Tile& tile, Tap& tap) {
   const int offset = tile.offset(block_x, block_y);
   for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
     const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
     const Mask<R> covered = coverage<R>(s.edges, p);
     if (!any(covered)) continue;
     const Barycentric<R> b = barycentric<R>(s.planes, p);
-    const R z = Stages::template depth<R>(s.depth, b);
+    const R z = stages.template depth<R>(s.depth, b);
     float* const stored_z = tile.depth + offset + i;
-    const Mask<R> passes = covered & Stages::template depth_passes<func, R>(z, load(stored_z));
+    const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored_z));
     if constexpr (!Tap::every_fragment) {
       if (!any(passes)) continue;
     }
-    const Color<R> attributes = Stages::template attributes<R>(s.attributes, b);
-    const Color<R> shaded = Stages::template shade<R>(attributes);
-    tap.template fragments<R>(s, p, covered, passes, z, attributes, shaded);
-    const Color<R> merged = Stages::template merge<R>(shaded, color_scale);
-    store(passes, z, stored_z);
-    store(passes, merged.r, tile.color[0] + offset + i);
-    store(passes, merged.g, tile.color[1] + offset + i);
-    store(passes, merged.b, tile.color[2] + offset + i);
-    store(passes, merged.a, tile.color[3] + offset + i);
+    const auto attributes = stages.template attributes<R>(s.attributes, b);
+    const auto shaded = stages.template shade<R>(attributes);
+    const Mask<R> kept = stages.template kept<R>(passes, shaded);
+    tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
+    const Color<R> merged = stages.template merge<R>(shaded, color_scale);
+    store(kept, z, stored_z);
+    store(kept, merged.r, tile.color[0] + offset + i);
+    store(kept, merged.g, tile.color[1] + offset + i);
+    store(kept, merged.b, tile.color[2] + offset + i);
+    store(kept, merged.a, tile.color[3] + offset + i);
   }
 }
 

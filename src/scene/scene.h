@@ -92,8 +92,8 @@ struct Material {
 enum class Shading { flat, gouraud };
 enum class Cull { none, back, front };
 enum class DepthFunc { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
-enum class ColorFormat { rgba8, rgba32f };
-enum class DepthFormat { z16, z24, z32f };
+enum class ColorFormat { rgba8, rgba12, rgba32f };  ///< 12 bits a channel: GzRender's 0..4095 (note 000)
+enum class DepthFormat { z8, z16, z24, z32f };      ///< 8 bits: tinyrenderer's z-buffer (note 002)
 
 /// A mesh, placed, with the state it is drawn under. Counter-clockwise in the window is the front.
 struct Draw {
@@ -140,9 +140,20 @@ struct DrawRange {
 /// One range per draw.
 std::vector<DrawRange> draw_ranges(const Scene& scene);
 
-/// The largest depth code of a unorm format (2^16-1, 2^24-1); 0 for z32f.
+/// The largest code of a colour channel (2^8-1, 2^12-1); 0 for rgba32f.
+constexpr double color_scale(ColorFormat format) {
+  switch (format) {
+    case ColorFormat::rgba8: return 255.0;
+    case ColorFormat::rgba12: return 4095.0;
+    case ColorFormat::rgba32f: return 0.0;
+  }
+  return 0.0;
+}
+
+/// The largest depth code of a unorm format (2^8-1, 2^16-1, 2^24-1); 0 for z32f.
 constexpr double depth_scale(DepthFormat format) {
   switch (format) {
+    case DepthFormat::z8: return 255.0;
     case DepthFormat::z16: return 65535.0;
     case DepthFormat::z24: return 16777215.0;
     case DepthFormat::z32f: return 0.0;

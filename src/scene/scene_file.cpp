@@ -23,11 +23,12 @@ FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
   if (const auto n = node.find("width")) frame.width = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("height")) frame.height = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("color")) {
-    frame.color = n->choice<ColorFormat>({{"rgba8", ColorFormat::rgba8}, {"rgba32f", ColorFormat::rgba32f}});
+    frame.color = n->choice<ColorFormat>(
+        {{"rgba8", ColorFormat::rgba8}, {"rgba12", ColorFormat::rgba12}, {"rgba32f", ColorFormat::rgba32f}});
   }
   if (const auto n = node.find("depth")) {
-    frame.depth =
-        n->choice<DepthFormat>({{"z16", DepthFormat::z16}, {"z24", DepthFormat::z24}, {"z32f", DepthFormat::z32f}});
+    frame.depth = n->choice<DepthFormat>(
+        {{"z8", DepthFormat::z8}, {"z16", DepthFormat::z16}, {"z24", DepthFormat::z24}, {"z32f", DepthFormat::z32f}});
   }
   if (const auto n = node.find("clear_color")) frame.clear_color = glm::vec4(n->vector<4>(0, 1));
   if (const auto n = node.find("clear_depth")) frame.clear_depth = n->number(0, 1);

@@ -186,13 +186,32 @@ TEST_F(Cli, capture_writes_a_folder_that_reads_back) {
   EXPECT_GT(capture.records.triangles.size(), 0u);
 }
 
+TEST_F(Cli, render_writes_pictures_of_every_ending_that_holds_the_format) {
+  const std::string scene = kScenes + "frame/rgba12.json";
+  for (const char* file : {"c.png", "c.ppm", "c.exr"}) {
+    const Outcome run = plumb("render " + scene + " -o " + at(file));
+    EXPECT_EQ(run.code, 0) << run.text;
+    const Plane<glm::vec4> picture = read_image(at(file));
+    EXPECT_EQ(std::round(picture(0, 0).r * 4095), 410) << "0.1 of 4095, half to even, in " << file;
+    EXPECT_EQ(std::round(picture(0, 0).b * 4095), 2048) << file;
+  }
+  const Outcome refused = plumb("render " + scene + " -o " + at("c.tga"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.text.find("c.tga: TGA holds 8 bits a channel"), std::string::npos) << refused.text;
+  EXPECT_FALSE(fs::exists(at("c.tga")));
+  EXPECT_EQ(plumb("render " + kScenes + "frame/one_pixel.json -o " + at("c.tga")).code, 0);
+  EXPECT_EQ(read_image(at("c.tga")).size(), 1u);
+}
+
 TEST_F(Cli, list_names_what_there_is) {
   const Outcome run = plumb("list");
   EXPECT_EQ(run.code, 0);
   for (const char* word : {"coverage", "ours", "exact", "window.snap_truncates"}) {
     EXPECT_NE(run.text.find(word), std::string::npos) << word;
   }
-  EXPECT_NE(plumb("list scenes " + kScenes).text.find("models/bunny"), std::string::npos);
+  const std::string scenes = plumb("list scenes " + kScenes).text;
+  EXPECT_NE(scenes.find("models/bunny"), std::string::npos);
+  EXPECT_NE(scenes.find("77 x 45 x 12 bytes = 41580: GzRender's"), std::string::npos) << scenes;
 }
 
 }  // namespace

@@ -290,7 +290,7 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
       for (const Transform& transform : draw.transforms) seen("transform ", transform.index());
     }
   }
-  EXPECT_EQ(states.size(), 2u + 3 + 5 + 4 + 2 + 2 + 2 + 3 + 8 + 3);
+  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 2 + 2 + 2 + 3 + 8 + 3);
 }
 
 }  // namespace
