@@ -1,10 +1,9 @@
 // Stages 5 to 11 for one triangle in one block of 4 x 4 pixels.
 //
 // Everything that does not change within a draw is a template parameter: the number type R (lanes.h), the depth
-// function, the stage functions (so that a test can put another in the place of one, and a program of one's own its
-// fragment(), program.h) and the Tap. NoTap ships: hidden
-// fragments are left as soon as that is known. A tap that wants every fragment sees them all, and the planes come out
-// the same, bit for bit.
+// function, the stage functions (so that a test can put another in the place of one, and a program its fragment(),
+// program.h) and the Tap. NoTap ships: hidden fragments are left as soon as that is known. A tap that wants every
+// fragment sees them all, and the planes come out the same, bit for bit.
 #pragma once
 
 #include <utility>

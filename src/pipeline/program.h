@@ -25,7 +25,7 @@ namespace plumbline::pipeline {
 
 /// Varyings: a struct of floats and of vectors and matrices of floats, nothing else; it may be empty.
 template <class V>
-concept VaryingStruct = std::is_empty_v<V> ||(std::is_trivially_copyable_v<V> && alignof(V) == alignof(float));
+concept VaryingStruct = std::is_trivially_copyable_v<V> &&(std::is_empty_v<V> || alignof(V) == alignof(float));
 
 /// vertex() is called once for each corner (0, 1, 2) of each triangle, in order; p_clip may be anything that a matrix
 /// makes (triangles with coordinates that are not finite are dropped). fragment() is called for each fragment that
@@ -44,6 +44,9 @@ struct ProgramState {
   Cull cull = Cull::none;
   DepthFunc depth_func = DepthFunc::less;
 };
+
+/// Throws std::invalid_argument for more than 2^24 triangles, or a frame of no or more than 16384 pixels a side.
+void require_drawable(std::size_t triangles, const FrameFormat& format);
 
 /// Stages 3 and 4 for four of the varyings: `p_clip` and `four` per corner, three corners to a triangle.
 std::vector<WindowTriangle<float>> program_triangles(std::span<const Vertex<float>> p_clip,
@@ -97,10 +100,11 @@ class ProgramStages : public FragmentStages {
   const Triangles& triangles_;
 };
 
-/// Draws the program's triangles, in order, on a cleared frame.
+/// Draws the program's triangles, in order, on a cleared frame. Throws as require_drawable.
 template <Program P>
 Frame draw_program(const P& program, std::size_t triangles, const FrameFormat& format, const ProgramState& state = {}) {
   using Stages = ProgramStages<P>;
+  require_drawable(triangles, format);
   std::vector<Vertex<float>> vertices(3 * triangles);
   std::array<std::vector<Lit<float>>, Stages::kFours> fours;
   fours.fill(std::vector<Lit<float>>(3 * triangles));

@@ -403,6 +403,24 @@ TEST(Program, WhatHasNoPlaceIsNotDrawn) {
   EXPECT_EQ(fragments, 0);
 }
 
+TEST(Program, RefusesWhatNoFrameAndNoSceneMayBe) {
+  int fragments = 0;
+  const Plain program{{-1, 3, 0, 1}, &fragments};
+  const auto refused = [&](std::size_t triangles, const FrameFormat& format, const std::string& text) {
+    try {
+      draw_program(program, triangles, format);
+      ADD_FAILURE() << text;
+    } catch (const std::invalid_argument& e) {
+      EXPECT_EQ(e.what(), text);
+    }
+  };
+  refused((1u << 24) + 1, floats(8, 8), "a program of 16777217 triangles: expected at most 16777216");
+  refused(1, floats(0, 8), "a program's frame of 0 x 8 pixels: expected 1 to 16384 a side");
+  refused(1, floats(8, 16385), "a program's frame of 8 x 16385 pixels: expected 1 to 16384 a side");
+  refused(1, floats(-3, 8), "a program's frame of -3 x 8 pixels: expected 1 to 16384 a side");
+  EXPECT_EQ(fragments, 0);
+}
+
 struct Doubles : Plain {
   struct Varyings {
     double value;
