@@ -14,20 +14,17 @@ double difference_of_products(double a, double b, double c, double d) {
   return std::fma(a, b, -cd) + error;
 }
 
-/// Whether the ray passes an edge a -> b on its left (1) or its right (-1).
+/// How the ray passes an edge a -> b.
 struct Passing {
-  double weight;  ///< of the third corner: twice the area that the ray and the edge span
-  int side;       ///< 0 where the edge is seen as a point, or runs into the eye
+  double weight;  ///< of the third corner: twice the area of the ray and the edge, seen along the ray
+  int side;       ///< the edge is passed on its left (1), on its right (-1); 0 where it is seen as a point
 };
 
-Passing pass(const Ray& ray, const Seen& a, const Seen& b) {
+// Moved to the right by e, and up by e^2, the ray sees the area (a.x - e)(b.y - e^2) - (a.y - e^2)(b.x - e): where the
+// area is 0 the factor of e decides, and where that is 0, the one of e^2.
+Passing pass(const Seen& a, const Seen& b) {
   const double weight = difference_of_products(a.x, b.y, a.y, b.x);
-  // Moved to the right by e, and up by e^2, a point is seen e (e^2) times its distance further left (down): in
-  // (a.x - e ka)(b.y - e^2 kb) - (a.y - e^2 ka)(b.x - e kb), the factors of e and e^2.
-  const double ka = ray.parallel ? 1 : a.along, kb = ray.parallel ? 1 : b.along;
-  double decides = weight;
-  if (decides == 0) decides = difference_of_products(a.y, kb, ka, b.y);
-  if (decides == 0) decides = difference_of_products(ka, b.x, a.x, kb);
+  const double decides = weight != 0 ? weight : a.y != b.y ? a.y - b.y : b.x - a.x;
   return {weight, decides > 0 ? 1 : decides < 0 ? -1 : 0};
 }
 
@@ -35,7 +32,7 @@ Passing pass(const Ray& ray, const Seen& a, const Seen& b) {
 
 std::optional<Crossing> crossing(const Ray& ray, const std::array<glm::dvec3, 3>& triangle) {
   const Seen a = seen(ray, triangle[0]), b = seen(ray, triangle[1]), c = seen(ray, triangle[2]);
-  const Passing bc = pass(ray, b, c), ca = pass(ray, c, a), ab = pass(ray, a, b);
+  const Passing bc = pass(b, c), ca = pass(c, a), ab = pass(a, b);
   const double sum = bc.weight + ca.weight + ab.weight;
   if (bc.side != ca.side || ca.side != ab.side || sum == 0) return std::nullopt;
   const double there = (bc.weight * a.along + ca.weight * b.along + ab.weight * c.along) / sum;

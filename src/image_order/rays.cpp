@@ -75,9 +75,9 @@ void View::set_whole_centres(double half) {
 
 Ray View::ray(int x, int y) const {
   const double s = left_ + (x + 0.5) * width_ / frame_.x, t = bottom_ + (y + 0.5) * height_ / frame_.y;
-  if (parallel_) return {eye_ + s * right_ + t * up_, right_, up_, forward_, true};
+  if (parallel_) return {eye_ + s * right_ + t * up_, right_, up_, forward_};
   // forward + s right + t up is on both planes.
-  return {eye_, right_ - s * forward_, up_ - t * forward_, forward_, false};
+  return {eye_, right_ - s * forward_, up_ - t * forward_, forward_};
 }
 
 double View::window_z(double along) const {

@@ -17,7 +17,6 @@ struct Ray {
   glm::dvec3 column;   ///< the column's plane: dot(column, p - origin) = 0; greater to the right of it
   glm::dvec3 row;      ///< the row's plane likewise; greater above it
   glm::dvec3 forward;  ///< unit length: dot(forward, p - origin) is how far p is along the view
-  bool parallel;       ///< all rays have one direction (orthographic), else one origin, the eye
 };
 
 /// A point of the world as a ray sees it.
@@ -54,7 +53,7 @@ class View {
 
  private:
   glm::dvec3 eye_, right_, up_, forward_;
-  bool parallel_;
+  bool parallel_;  ///< orthographic: rays have one direction; else one origin, the eye
   double left_, bottom_, width_,
       height_;        ///< the window, on the plane one unit before the eye, or anywhere if parallel
   glm::dvec2 frame_;  ///< pixels

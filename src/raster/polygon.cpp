@@ -25,25 +25,21 @@ bool between(Point a, Point b, Point c) {
          c.y <= std::max(a.y, b.y);
 }
 
-bool on_segment(Point a, Point b, Point c) { return side(a, b, c) == 0 && between(a, b, c); }
-
-bool touch(Point a, Point b, Point c, Point d) {
-  if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
-  return on_segment(a, b, c) || on_segment(a, b, d) || on_segment(c, d, a) || on_segment(c, d, b);
+/// The insides of two segments meet in one point.
+bool cross(Point a, Point b, Point c, Point d) {
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
 }
 
 void require_simple(const std::vector<Point>& p) {
   const std::size_t n = p.size();
-  const auto refuse = [](std::size_t i, std::size_t j) {
-    throw std::invalid_argument(fmt::format(
-        "expected a polygon that neither crosses nor touches itself, found it does at edges {} and {}", i, j));
-  };
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = (i + 1) % n;
-    // Neighbours share a corner; beyond it the one must not lie on the other.
-    if (on_segment(p[i], p[next], p[(i + 2) % n]) || on_segment(p[next], p[(i + 2) % n], p[i])) refuse(i, next);
-    for (std::size_t j = i + 2; j < n; ++j) {
-      if ((j + 1) % n != i && touch(p[i], p[next], p[j], p[(j + 1) % n])) refuse(i, j);
+    for (std::size_t k = 0; k < n; ++k) {
+      const bool touches = k != i && k != next && side(p[i], p[next], p[k]) == 0 && between(p[i], p[next], p[k]);
+      if (!touches && !cross(p[i], p[next], p[k], p[(k + 1) % n])) continue;
+      throw std::invalid_argument(
+          fmt::format("expected a polygon that does not cross or touch itself, found edge {} {} {}", i,
+                      touches ? "touching corner" : "crossing edge", k));
     }
   }
 }

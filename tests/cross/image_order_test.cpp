@@ -167,6 +167,72 @@ TEST(ImageOrder, AWrongDepthIsSeen) {
   EXPECT_GT(a.depth, a.covered / 2);
 }
 
+/// Draws of one triangle that holds the frame, at window depths z, under depth functions: in a frame of 2 x 2 pixels.
+struct Layer {
+  double z;
+  DepthFunc func;
+};
+Planes drawn(const std::vector<Layer>& layers, DepthFormat format = DepthFormat::z24, double clear_depth = 1) {
+  Scene scene = test::frame_of(2, 2);
+  scene.frame.depth = format;
+  scene.frame.clear_depth = clear_depth;
+  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  scene.projection = Orthographic{0, 2, 0, 2, 0, 1};  // window z is -z
+  for (const Layer& layer : layers) {
+    Mesh mesh;
+    for (const glm::vec2 p : {glm::vec2(-9, -9), glm::vec2(20, -9), glm::vec2(-9, 20)}) {
+      test::add_vertex(mesh, {p, -layer.z}, {0, 0, 1}, {1, 1, 1, 1});
+    }
+    mesh.triangles = {{0, 1, 2}};
+    scene.draws.push_back(test::unlit(static_cast<std::uint32_t>(scene.meshes.size()), Cull::none, layer.func));
+    scene.meshes.push_back(mesh);
+  }
+  return drawn(*make_image_order(), scene);
+}
+
+TEST(ImageOrder, EqualDepthsAreSettledInDrawOrder) {
+  const std::vector<Layer> first(20, Layer{0.5, DepthFunc::less}), last(20, Layer{0.5, DepthFunc::less_equal});
+  EXPECT_EQ(drawn(first).id(0, 1), 0);
+  EXPECT_EQ(drawn(last).id(0, 1), 19);
+  std::vector<Layer> mixed = first;
+  mixed[3].func = mixed[7].func = DepthFunc::less_equal;
+  EXPECT_EQ(drawn(mixed).id(1, 0), 7);
+  mixed[5].z = 0.25;
+  EXPECT_EQ(drawn(mixed).id(1, 0), 5);
+  EXPECT_EQ(drawn({{0.5, DepthFunc::less}, {0.5 + 1e-6, DepthFunc::less_equal}}, DepthFormat::z16).id(0, 0), 1)
+      << "equal in 16 bits";
+  EXPECT_EQ(drawn({{0.5, DepthFunc::less}, {0.5 + 1e-6, DepthFunc::less_equal}}).id(0, 0), 0);
+}
+
+TEST(ImageOrder, EveryDepthFunctionAgainstTheClearDepth) {
+  const auto passes = [](DepthFunc func) {
+    std::string out;
+    for (const double z : {0.25, 0.5, 0.75})
+      out += drawn({{z, func}}, DepthFormat::z32f, 0.5).id(0, 0) == 0 ? '1' : '0';
+    return out;
+  };
+  EXPECT_EQ(passes(DepthFunc::never), "000");
+  EXPECT_EQ(passes(DepthFunc::less), "100");
+  EXPECT_EQ(passes(DepthFunc::equal), "010");
+  EXPECT_EQ(passes(DepthFunc::less_equal), "110");
+  EXPECT_EQ(passes(DepthFunc::greater), "001");
+  EXPECT_EQ(passes(DepthFunc::not_equal), "101");
+  EXPECT_EQ(passes(DepthFunc::greater_equal), "011");
+  EXPECT_EQ(passes(DepthFunc::always), "111");
+}
+
+TEST(ImageOrder, DepthsAreRoundedToTheNearestCode) {
+  for (const double code : {0.0, 1.0, 1000.0, 65534.0, 65535.0}) {
+    for (const double off : {-0.49, -0.2, 0.0, 0.3, 0.49}) {
+      const double z = std::clamp((code + off) / 65535, 0.0, 1.0);
+      EXPECT_EQ(drawn({{z, DepthFunc::less_equal}}, DepthFormat::z16).depth(0, 0), code / 65535) << code << " " << off;
+    }
+  }
+  EXPECT_EQ(drawn({}, DepthFormat::z16, 0.30001).depth(1, 1), std::round(0.30001 * 65535) / 65535)
+      << "the clear depth as well";
+  EXPECT_EQ(drawn({}, DepthFormat::z32f, 0.3).depth(1, 1), static_cast<double>(0.3f));
+}
+
 // A draw that never passes changes nothing, but that triangles behind others are no longer left out.
 TEST(ImageOrder, WhatIsLeftOutBehindOthersIsNotMissed) {
   for (int kind = 0; kind < test::kSceneKinds; ++kind) {

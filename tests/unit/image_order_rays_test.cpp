@@ -130,7 +130,7 @@ TEST(Crossing, CoversWhatAnAlgorithmOfIntegersCovers) {
 }
 
 TEST(Crossing, ByHand) {
-  const Ray ray{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, false};
+  const Ray ray{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
   const auto at = crossing(ray, {{{-1, -1, -3}, {2, -1, -3}, {-1, 2, -3}}});
   ASSERT_TRUE(at);
   EXPECT_EQ(at->along, 3);
@@ -146,13 +146,44 @@ TEST(Crossing, ByHand) {
   EXPECT_EQ(across->along, 2);
 }
 
+// The ray is 1 on the inner side of an edge, of products of 2^54, which their rounded difference shows as 0.
+TEST(Crossing, TheSignOfAnAreaIsExact) {
+  const Ray ray{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  constexpr double kLarge = 1 << 27;
+  const glm::dvec3 a(kLarge + 1, kLarge, -3), b(-kLarge - 2, -kLarge - 1, -3), c(-kLarge, kLarge, -3),
+      d(kLarge, -kLarge, -3);
+  EXPECT_EQ((kLarge + 1) * (kLarge + 1) - kLarge * (kLarge + 2), 0) << "rounded";
+  EXPECT_TRUE(crossing(ray, {b, a, c}));
+  EXPECT_FALSE(crossing(ray, {a, b, d}));
+}
+
+// Else a box could be left out for a triangle in it that is nearer.
+TEST(Crossing, IsNeverNearerOrFartherThanAllCorners) {
+  std::mt19937 random(6);
+  const auto in = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  const Ray ray{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  int crossings = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double z = in(1, 90);
+    Triangle t;
+    for (glm::dvec3& p : t) p = {in(-1, 1), in(-1, 1), -z};
+    const auto at = crossing(ray, t);
+    if (!at) continue;
+    ++crossings;
+    EXPECT_EQ(at->along, z);
+  }
+  EXPECT_GT(crossings, 500);
+}
+
 /// The ray from the eye to a point.
 Ray ray_to(glm::dvec3 eye, glm::dvec3 p) {
   const glm::dvec3 forward = glm::normalize(glm::dvec3(0.01, 0.02, 0) - eye);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, {0, 1, 0})), up = glm::cross(right, forward);
   const glm::dvec3 d = p - eye;
   const double s = glm::dot(right, d) / glm::dot(forward, d), t = glm::dot(up, d) / glm::dot(forward, d);
-  return {eye, right - s * forward, up - t * forward, forward, false};
+  return {eye, right - s * forward, up - t * forward, forward};
 }
 
 // Aimed at corners and at points of edges, where each triangle alone could say that the ray passes by on the other's
