@@ -46,7 +46,8 @@ World world_of(const Scene& scene) {
 /// Window z as the frame's depth format holds it.
 double in_format(DepthFormat format, double z_win) {
   const double scale = depth_scale(format);
-  return scale == 0 ? static_cast<double>(static_cast<float>(z_win)) : std::nearbyint(z_win * scale) / scale;
+  if (scale == 0) return static_cast<double>(static_cast<float>(z_win));
+  return (format == DepthFormat::z8 ? std::floor(z_win * scale + 0.5) : std::nearbyint(z_win * scale)) / scale;
 }
 
 bool passes(DepthFunc func, double incoming, double stored) {
