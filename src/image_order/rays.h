@@ -1,8 +1,8 @@
 // Rays: a pixel's place in image space, transformed to world space.
 //
-// A ray is held as the two planes that meet in it (Kajiya, "New techniques for ray tracing procedurally defined
-// objects", 1983): the plane of its pixel's column and that of its row, both through the ray's origin. A point is on
-// the ray where its distance from both is 0; no direction needs to be followed.
+// A ray is held as the two planes that meet in it (Kajiya, "Ray tracing parametric patches", SIGGRAPH 1982): the plane
+// of its pixel's column and that of its row, both through the ray's origin. A point is on the ray where its distance
+// from both is 0; no direction needs to be followed.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -47,15 +47,15 @@ class View {
   double near() const { return near_; }
   double far() const { return far_; }
 
-  /// Window z in [0,1] of what is `along` far along the view: GL 2.1 specification, 2.11 and 2.12.1, solved for it.
+  /// Window z in [0,1] of what is `along` far along the view (GL 2.1 specification, 2.11.1 and 2.11.2, in one formula).
   /// Where `along` grows it never falls (in games101 and tinyrenderer: never rises), not by a rounding either.
   double window_z(double along) const;
 
  private:
   glm::dvec3 eye_, right_, up_, forward_;
   bool parallel_;  ///< orthographic: rays have one direction; else one origin, the eye
-  double left_, bottom_, width_,
-      height_;        ///< the window, on the plane one unit before the eye, or anywhere if parallel
+  /// The window, in the plane one unit before the eye (orthographic: in any).
+  double left_, bottom_, width_, height_;
   glm::dvec2 frame_;  ///< pixels
   double near_, far_;
   enum class Depth { rises, falls, of_pinhole } depth_ = Depth::rises;
