@@ -39,7 +39,7 @@ bool DepthBuffer::test(int x, int y, DepthFunc func, double depth) {
 }
 
 glm::vec4 kept_color(ColorFormat format, glm::dvec4 color) {
-  return glm::vec4(format == ColorFormat::rgba8 ? glm::clamp(color, 0.0, 1.0) : color);
+  return glm::vec4(format == ColorFormat::rgba32f ? color : glm::clamp(color, 0.0, 1.0));
 }
 
 Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>& records) {

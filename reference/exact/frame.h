@@ -21,7 +21,8 @@ class DepthBuffer {
   Plane<double> plane_;
 };
 
-/// What the frame keeps of a colour: clamped to [0,1] for rgba8 (but not rounded to codes), as it is for rgba32f.
+/// What the frame keeps of a colour: clamped to [0,1] for rgba8 and rgba12 (but not rounded to codes), as it is for
+/// rgba32f.
 glm::vec4 kept_color(ColorFormat format, glm::dvec4 color);
 
 /// Stage 10: planes.id, from records.triangles, covered and depth.

@@ -12,7 +12,8 @@
 // band as large as (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such
 // line; within w of each other, they are ambiguous everywhere. The near and far planes are met likewise, w the half
 // interval, by the winner and by whatever would win were it not cut off. Where a triangle has no plane to rely on, the
-// pixel is ambiguous whatever else is there.
+// pixel is ambiguous whatever else is there. Such a line too may run through a row of centres, and again the larger of
+// the area and the number of centres in the bands is taken.
 #include "reference/math/ambiguity.h"
 
 #include <algorithm>
@@ -151,6 +152,11 @@ namespace {
 
 constexpr double kStandsFor = 1;  // r, in pixels
 
+void operator+=(DepthShare& a, const DepthShare& b) {
+  a.area = std::min(1.0, a.area + b.area);
+  a.centre = a.centre || b.centre;
+}
+
 /// A surface at a pixel, or the cleared depth buffer.
 struct Surface {
   std::int64_t order;
@@ -160,33 +166,36 @@ struct Surface {
 };
 
 /// The share of the band where the two meet, that this pixel stands for.
-double meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
+DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
   const DepthFunc later = a.order > b.order ? a.func : b.func;  // compares the two, or does not care
-  if (later == DepthFunc::always || later == DepthFunc::never) return 0;
+  if (later == DepthFunc::always || later == DepthFunc::never) return {};
   const double width = a.half + b.half + depth_step(frame.depth, std::clamp(std::max(a.z, b.z), 0.0, 1.0));
   const double apart = std::abs(a.z - b.z), slope = glm::length(a.slope - b.slope);
-  if (slope * kStandsFor <= width) return apart <= width ? 1 : 0;
-  return apart <= kStandsFor * slope ? width / slope / kStandsFor : 0;
+  const bool within = apart <= width;
+  if (slope * kStandsFor <= width) return {within ? 1.0 : 0.0, within};
+  return {apart <= kStandsFor * slope ? width / slope / kStandsFor : 0, within};
 }
 
 /// The share of the band along the line where the near or far plane, at window depth `plane`, cuts the surface. Only
 /// pixels on the visible side have the surface as a hit, so each stands for the other side as well.
-double cut(const Surface& surface, double plane) {
+DepthShare cut(const Surface& surface, double plane) {
   const double apart = std::abs(surface.z - plane), slope = glm::length(surface.slope);
-  if (slope * kStandsFor <= surface.half) return apart <= surface.half ? 1 : 0;
+  const bool within = apart <= surface.half;
+  if (slope * kStandsFor <= surface.half) return {within ? 1.0 : 0.0, within};
   const bool visible = surface.z >= 0 && surface.z <= 1;
-  return visible && apart <= kStandsFor * slope ? 2 * surface.half / slope / kStandsFor : 0;
+  return {visible && apart <= kStandsFor * slope ? 2 * surface.half / slope / kStandsFor : 0, within};
 }
 
 }  // namespace
 
-double ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hits, std::int32_t winner) {
+DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner) {
   std::vector<Surface> others;
-  Surface won{kBackground, DepthFunc::always, frame.clear_depth, 0, glm::dvec2(0)};
+  Surface won{kBackground, DepthFunc::always, scene.frame.clear_depth, 0, glm::dvec2(0)};
   for (const PixelHit& h : hits) {
     if (h.hit.depth_func == DepthFunc::never) continue;
-    if (!std::isfinite(h.z_half)) return 1;
-    const Surface surface{h.hit.primitive, h.hit.depth_func, h.z, h.z_half, h.z_slope};
+    if (!std::isfinite(h.z_half)) return {1, true};
+    const double z = scene.depth_clamp ? std::clamp(h.z, 0.0, 1.0) : h.z;
+    const Surface surface{h.hit.primitive, h.hit.depth_func, z, h.z_half, h.z_slope};
     if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
       others.push_back(won);
       won = surface;
@@ -194,18 +203,25 @@ double ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hi
       others.push_back(surface);
     }
   }
-  double share = 0;
-  for (const Surface& other : others) share += meeting(frame, won, other);
+  DepthShare share;
+  for (const Surface& other : others) share += meeting(scene.frame, won, other);
   if (!one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; })) {
     for (std::size_t i = 0; i < others.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) share += meeting(frame, others[i], others[j]);
+      for (std::size_t j = 0; j < i; ++j) share += meeting(scene.frame, others[i], others[j]);
     }
   }
+  if (scene.depth_clamp) return share;
   for (const Surface& other : others) {
-    if (other.order != kBackground && passes(other.func, other.z, won.z)) share += cut(other, 0) + cut(other, 1);
+    if (other.order != kBackground && passes(other.func, other.z, won.z)) {
+      share += cut(other, 0);
+      share += cut(other, 1);
+    }
   }
-  if (won.order != kBackground) share += cut(won, 0) + cut(won, 1);
-  return std::min(1.0, share);
+  if (won.order != kBackground) {
+    share += cut(won, 0);
+    share += cut(won, 1);
+  }
+  return share;
 }
 
 }  // namespace plumbline::math

@@ -14,7 +14,11 @@ namespace plumbline::math {
 /// Pixels: the area of the bands, delta to either side, along all edges that can be seen. `id`: the winners in double.
 double ambiguous_by_edges(const Scene& scene, const Projected& projected, const Plane<std::int32_t>& id);
 
-/// One pixel's share, in [0,1], of the bands along the lines where its winner meets another surface.
-double ambiguous_by_depth(const FrameFormat& frame, std::span<const PixelHit> hits, std::int32_t winner);
+/// What one pixel has of the bands along the lines where its winner meets another surface, or the near or far plane.
+struct DepthShare {
+  double area = 0;      ///< pixels, [0,1]
+  bool centre = false;  ///< whether its centre is in one
+};
+DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner);
 
 }  // namespace plumbline::math

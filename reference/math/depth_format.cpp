@@ -7,7 +7,13 @@ namespace plumbline::math {
 
 double in_format(DepthFormat format, double z_win) {
   const double z = std::clamp(z_win, 0.0, 1.0), scale = depth_scale(format);
-  return scale > 0 ? std::nearbyint(z * scale) / scale : static_cast<double>(static_cast<float>(z));
+  switch (format) {
+    case DepthFormat::z8: return std::round(z * scale) / scale;
+    case DepthFormat::z16:
+    case DepthFormat::z24: return std::nearbyint(z * scale) / scale;
+    case DepthFormat::z32f: break;
+  }
+  return static_cast<double>(static_cast<float>(z));
 }
 
 bool passes(DepthFunc func, double incoming, double stored) {

@@ -5,8 +5,8 @@
 
 namespace plumbline::math {
 
-/// Window z, clamped to [0,1], as the format's number: code / (2^n - 1), rounded to nearest, half to even; z32f: as
-/// float.
+/// Window z, clamped to [0,1], as the format's number: code / (2^n - 1), rounded to nearest, half to even (z8: half
+/// up, int(z + .5)); z32f: as float.
 double in_format(DepthFormat format, double z_win);
 
 /// Whether `incoming func stored` holds, as glDepthFunc has it.

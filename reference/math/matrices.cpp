@@ -14,15 +14,54 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
-glm::dmat4 projection_matrix(const Scene& scene) {
+// Near and far as distances: games101 has them as coordinates.
+double distance_to(const Scene& scene, double near_or_far) {
+  return scene.dialect == Dialect::games101 ? -near_or_far : near_or_far;
+}
+
+/// The projection as OpenGL would set it up, its NDC z -1 near and +1 far, and its window's rows from the bottom.
+glm::dmat4 opengl_projection(const Scene& scene) {
   return std::visit(
       Overloaded{[&](const Perspective& p) {
                    const double aspect = static_cast<double>(scene.frame.width) / scene.frame.height;
-                   return glm::perspective(glm::radians(p.fov_y_degrees), aspect, p.near, p.far);
+                   return glm::perspective(glm::radians(p.fov_y_degrees), aspect, distance_to(scene, p.near),
+                                           distance_to(scene, p.far));
                  },
-                 [](const Orthographic& o) { return glm::ortho(o.left, o.right, o.bottom, o.top, o.near, o.far); },
-                 [](const Frustum& f) { return glm::frustum(f.left, f.right, f.bottom, f.top, f.near, f.far); }},
+                 [&](const Orthographic& o) {
+                   return glm::ortho(o.left, o.right, o.bottom, o.top, distance_to(scene, o.near),
+                                     distance_to(scene, o.far));
+                 },
+                 [](const Frustum& f) { return glm::frustum(f.left, f.right, f.bottom, f.top, f.near, f.far); },
+                 [](const ViewPlane& v) {
+                   // A pyramid without an end that begins at the view plane, d before the eye. X_pi's w is 1 there,
+                   // OpenGL's is d.
+                   const double half = glm::radians(v.fov_degrees) / 2, d = std::cos(half) / std::sin(half);
+                   return glm::infinitePerspective(2 * half, 1.0, d) / d;
+                 },
+                 [](const Pinhole& p) {
+                   // What is c before the eye keeps its size, has depth 0 and w = 1; what lies behind, less.
+                   glm::dmat4 m(1.0);
+                   m[2][3] = -1 / p.c;
+                   m[3][2] = p.c;
+                   m[3][3] = 0;
+                   return m;
+                 }},
       scene.projection);
+}
+
+/// The dialect's depth and window, where they are not OpenGL's.
+glm::dmat4 projection_matrix(const Scene& scene) {
+  const glm::dmat4 projection = opengl_projection(scene);
+  const double half_x = 1.0 / scene.frame.width, half_y = 1.0 / scene.frame.height;  // half a pixel, in NDC
+  const glm::dmat4 one(1.0);
+  switch (scene.dialect) {
+    case Dialect::gl: break;
+    case Dialect::games101: return glm::scale(one, {1, 1, -1}) * projection;  // +1 near
+    case Dialect::gzrender:                                                   // rows from the top, whole centres
+      return glm::translate(one, {half_x, half_y, 0}) * glm::scale(one, {1, -1, 1}) * projection;
+    case Dialect::tinyrenderer: return glm::translate(one, {half_x, half_y, 0}) * projection;  // whole centres
+  }
+  return projection;
 }
 
 glm::dmat4 times(const glm::dmat4& m, const Transform& transform) {
@@ -43,7 +82,17 @@ void round_entries(M& matrix) {
 }  // namespace
 
 glm::dmat4 view_matrix(const Scene& scene) {
-  return glm::lookAt(scene.camera.eye, scene.camera.center, scene.camera.up);
+  const auto& [eye, center, up] = scene.camera;
+  if (const auto* v = std::get_if<ViewPlane>(&scene.projection)) {
+    // The eye is d behind the view plane's middle; a left-handed view, turned to look down -z.
+    const double d = 1 / std::tan(glm::radians(v->fov_degrees) / 2);
+    const glm::dvec3 place = eye - d * glm::normalize(center - eye);
+    return glm::scale(glm::dmat4(1.0), {1, 1, -1}) * glm::lookAtLH(place, center, up);
+  }
+  if (const auto* p = std::get_if<Pinhole>(&scene.projection)) {
+    return glm::lookAt(center + p->c * glm::normalize(eye - center), center, up);
+  }
+  return glm::lookAt(eye, center, up);
 }
 
 Matrices<double> double_matrices(const Scene& scene, const Draw& draw) {

@@ -8,7 +8,7 @@
 
 namespace plumbline::math {
 
-/// gluLookAt's matrix: p_eye = view_matrix * p_world. Unrounded.
+/// p_eye = view_matrix * p_world, whatever the dialect: right-handed, the eye at 0, looking down -z. Unrounded.
 glm::dmat4 view_matrix(const Scene& scene);
 
 /// The draw's matrices, unrounded. model_view = view * T1 * T2 * ... in the order written; win_scale and win_translate

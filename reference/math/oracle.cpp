@@ -15,7 +15,8 @@ namespace {
 
 glm::vec4 to_format(ColorFormat format, glm::vec4 color) {
   if (format == ColorFormat::rgba32f) return color;
-  return glm::round(glm::clamp(color, 0.0f, 1.0f) * 255.0f) / 255.0f;
+  const auto scale = static_cast<float>(color_scale(format));
+  return glm::round(glm::clamp(color, 0.0f, 1.0f) * scale) / scale;
 }
 
 /// The candidates' primitives by pixel, each pixel's ascending and without duplicates.
@@ -89,6 +90,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
   std::vector<PixelHit> hits;
   std::vector<Hit> to_fold;
   std::vector<LegalAnswer> answers;
+  double by_depth = 0, centres = 0;
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
       hits.clear();
@@ -109,10 +111,12 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
       draw_inside(frame, hits, x, y, out.planes);
-      legal.predicted_ambiguous += ambiguous_by_depth(frame, hits, out.planes.id(x, y));
+      const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
+      by_depth += share.area;
+      centres += share.centre ? 1 : 0;
     }
   }
-  legal.predicted_ambiguous += ambiguous_by_edges(scene, projected, out.planes.id);
+  legal.predicted_ambiguous = std::max(by_depth, centres) + ambiguous_by_edges(scene, projected, out.planes.id);
   return out;
 }
 

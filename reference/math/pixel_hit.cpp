@@ -72,7 +72,7 @@ Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
 
 /// The depth interval: the plane's z at the pixel, moved by at most h + delta_E where coverage and plane are snapped
 /// alike, or by the plane's own error where only coverage is; then the corners' own depth error.
-void set_depth(const Triangle& t, glm::dvec3 d, const Place& at, glm::dvec2 moved, PixelHit& out) {
+void set_depth(const Triangle& t, bool clamps, glm::dvec3 d, const Place& at, glm::dvec2 moved, PixelHit& out) {
   const double weight = snap_weight(t, at, d, out.hit.certain);
   const double w = std::clamp(at.w, t.w_min, t.w_max);
   if (t.flat || !std::isfinite(weight)) {
@@ -89,13 +89,14 @@ void set_depth(const Triangle& t, glm::dvec3 d, const Place& at, glm::dvec2 move
   const double corner_error = kFloatRounding * (t.roundings * (t.size.z + z_ndc * t.size.w) / (2 * w) + 1);
   out.z_half = glm::dot(glm::abs(out.z_slope), kHalfStep + weight * moved) + weight * corner_error;
   double lo = out.z - out.z_half, hi = out.z + out.z_half;
-  out.whole = out.whole || (t.facing_kept && lo > 0 && hi < 1);
+  const bool not_cut = clamps || (lo > 0 && hi < 1);  // by the near or far plane, here
+  out.whole = out.whole || (t.facing_kept && not_cut);
   // Inside, every plane comes to a convex combination of the corners' depths; outside it may overshoot them.
   if (out.hit.certain && t.ahead) {
     lo = std::max(lo, t.z_min - corner_error);
     hi = std::min(hi, t.z_max + corner_error);
   }
-  out.hit.certain = out.hit.certain && lo > 0 && hi < 1;  // else the near or far plane may cut it off here
+  out.hit.certain = out.hit.certain && not_cut;
   out.hit.z_lo = std::clamp(lo, 0.0, 1.0);
   out.hit.z_hi = std::clamp(hi, 0.0, 1.0);
 }
@@ -138,8 +139,11 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   const double w = std::clamp(at.w, t.w_min, t.w_max), near_end = w / t.w_min;
   const double color_weight = 1 + (weight - 1) * near_end;
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
+  // A piece of a cut triangle may be so thin that snapping turns it over; its plane then goes through snapped corners.
+  const bool turned = !out.hit.certain && (t.cut || t.thin);
+  const glm::dvec2 from_place = weight * moved + (turned ? kHalfStep : 0);
   out.hit.color = color;
-  out.hit.color_bound = weight * (largest(slope_x) * moved.x + largest(slope_y) * moved.y) +
+  out.hit.color_bound = largest(slope_x) * from_place.x + largest(slope_y) * from_place.y +
                         color_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end);
 }
 
@@ -180,10 +184,11 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.hit.depth_func = scene.draws[t.draw].depth_func;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
   out.whole = t.facing_kept && !t.flat && !t.cut;
-  set_depth(t, d, at, moved, out);
-  if (std::isfinite(out.z_half) && (out.z + out.z_half < 0 || out.z - out.z_half > 1)) return std::nullopt;
+  set_depth(t, scene.depth_clamp, d, at, moved, out);
+  if (!scene.depth_clamp && std::isfinite(out.z_half) && (out.z + out.z_half < 0 || out.z - out.z_half > 1))
+    return std::nullopt;
   set_color(scene, projected, t, d, at, moved, out);
-  out.inside = at.by_ties && at.inside && t.facing_kept && out.z >= 0 && out.z <= 1;
+  out.inside = at.by_ties && at.inside && t.facing_kept && (scene.depth_clamp || (out.z >= 0 && out.z <= 1));
   return out;
 }
 

@@ -86,18 +86,31 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
   }
 }
 
+/// What float arithmetic may add to the distances below, of a corner of that size.
+std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& size, double margin) {
+  const glm::dvec4 error = kRoundingsCut * kFloatRounding * size;
+  const double x = error.x + (0.5 * scene.width + margin) * error.w;
+  const double y = error.y + (0.5 * scene.height + margin) * error.w;
+  const double z = error.z + error.w;
+  return {z, z, x, x, y, y};
+}
+
 /// Distances inside the view volume's planes, each plus what float arithmetic may add; near and far first.
 std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin) {
-  const double k = kRoundingsCut * kFloatRounding;
-  const double w_error = k * c.size.w, z_error = k * c.size.z + w_error;
   const glm::dvec2 reach(0.5 * scene.width + margin, 0.5 * scene.height + margin);
-  const double x_error = k * c.size.x + reach.x * w_error, y_error = k * c.size.y + reach.y * w_error;
-  return {c.v.z + c.z + z_error,
-          c.v.z - c.z + z_error,
-          reach.x * c.v.z - c.v.x + x_error,
-          reach.x * c.v.z + c.v.x + x_error,
-          reach.y * c.v.z - c.v.y + y_error,
-          reach.y * c.v.z + c.v.y + y_error};
+  std::array<double, 6> inside{c.v.z + c.z,
+                               c.v.z - c.z,
+                               reach.x * c.v.z - c.v.x,
+                               reach.x * c.v.z + c.v.x,
+                               reach.y * c.v.z - c.v.y,
+                               reach.y * c.v.z + c.v.y};
+  const std::array<double, 6> error = plane_errors(scene, c.size, margin);
+  for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
+  if (scene.depth_clamp) {  // the sides meet at the eye: nothing is behind it
+    inside[0] = c.v.z + kRoundingsCut * kFloatRounding * c.size.w;
+    inside[1] = std::numeric_limits<double>::infinity();
+  }
+  return inside;
 }
 
 /// Of a triangle cut by six planes: 9 corners, but where rounding makes a polygon of huge coordinates cross a plane
@@ -151,7 +164,7 @@ struct Widths {
   double pieces;  ///< the smallest altitude of any triangle of its corners
   double fat;     ///< and of those above `thin`
 };
-Widths widths(const std::array<glm::dvec2, 9>& p, std::size_t count, double thin) {
+Widths widths(const std::array<glm::dvec2, kMostCorners>& p, std::size_t count, double thin) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   Widths out{kNone, kNone, kNone};
   for (std::size_t a = 0; a < count; ++a) {
@@ -204,12 +217,8 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   set_planes(c, t);
   for (const Corner* corner : c) {  // a corner on a plane of the view volume may or may not be cut
     const auto inside = inside_planes(scene, *corner, 0);
-    const double slack = 4 * kRoundingsCut * kFloatRounding;
-    const std::array<double, 6> size{corner->size.z, corner->size.z, corner->size.x,
-                                     corner->size.x, corner->size.y, corner->size.y};
-    const std::array<double, 6> w_scale{
-        1, 1, 0.5 * scene.width, 0.5 * scene.width, 0.5 * scene.height, 0.5 * scene.height};
-    for (std::size_t p = 0; p < 6; ++p) t.cut |= inside[p] < slack * (size[p] + w_scale[p] * corner->size.w);
+    const auto error = plane_errors(scene, corner->size, 0);
+    for (std::size_t p = 0; p < 6; ++p) t.cut |= inside[p] < 4 * error[p];
   }
   t.roundings = t.cut ? kRoundingsCut : kRoundings;
   t.ahead = true;
@@ -220,7 +229,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
     t.z_min = std::min(t.z_min, 0.5 + 0.5 * corner->z / corner->v.z);
     t.z_max = std::max(t.z_max, 0.5 + 0.5 * corner->z / corner->v.z);
   }
-  std::array<glm::dvec2, 9> p_window;
+  std::array<glm::dvec2, kMostCorners> p_window;
   t.w_min = std::numeric_limits<double>::infinity();
   glm::dvec3 farthest(0, 0, 1);
   for (std::size_t i = 0; i < part.count; ++i) {
@@ -268,6 +277,7 @@ Projected project(const Scene& scene) {
   Projected out;
   out.width = scene.frame.width;
   out.height = scene.frame.height;
+  out.depth_clamp = scene.depth_clamp;
   out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {

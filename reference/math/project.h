@@ -60,6 +60,7 @@ struct Triangle {
 struct Projected {
   int width = 0, height = 0;
   bool perspective = true;
+  bool depth_clamp = false;  ///< no near and far plane
   std::vector<Corner> corners;
   std::vector<Triangle> triangles;
 

@@ -1,6 +1,7 @@
 // An OpenGL context without a window, as the rest of this folder sees it. osmesa.cpp and egl.cpp each make one.
 #pragma once
 
+#include <memory>
 #include <string_view>
 
 #include "reference/osmesa/osmesa.h"
@@ -19,6 +20,9 @@ class Context {
   using Function = void (*)();
   virtual Function function(const char* name) const = 0;
 };
+
+/// OSMesa's, if it is built in. Throws RendererFailed.
+std::unique_ptr<Context> make_osmesa_context(MesaDriver driver);
 
 /// All of OpenGL's entry points that are used here. Throws RendererFailed, naming the one that lacks.
 Gl load(const Context& context);

@@ -42,11 +42,14 @@ class OsmesaContext final : public Context {
 };
 
 }  // namespace
+
+std::unique_ptr<Context> make_osmesa_context(MesaDriver driver) { return std::make_unique<OsmesaContext>(driver); }
+
 }  // namespace osmesa
 
 std::unique_ptr<Renderer> make_osmesa(MesaDriver driver) {
   const char* name = driver == MesaDriver::llvmpipe ? "osmesa" : "softpipe";
-  return osmesa::make_opengl_renderer(name, driver, std::make_unique<osmesa::OsmesaContext>(driver));
+  return osmesa::make_opengl_renderer(name, driver, osmesa::make_osmesa_context(driver));
 }
 
 }  // namespace plumbline

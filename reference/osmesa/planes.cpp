@@ -117,13 +117,13 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   Planes planes;
   draw_scene(gl, scene, floats);
   planes.shaded = floats.read_color();
-  if (frame.color == ColorFormat::rgba32f) {
-    planes.color = planes.shaded;
-    planes.depth = floats.read_depth();
-  } else {
+  if (frame.color == ColorFormat::rgba8) {
     draw_scene(gl, scene, bytes);
     planes.color = bytes.read_color();
     planes.depth = bytes.read_depth();
+  } else {  // asked for 12 bits a channel, OpenGL gives 16: the colour is left unrounded
+    planes.color = planes.shaded;
+    planes.depth = floats.read_depth();
   }
   planes.id = draw_ids(gl, scene, bytes);
   add_up_coverage(draw_weights(gl, scene, floats), planes);

@@ -146,6 +146,11 @@ void SceneInGl::set_lights() const {
 }
 
 void SceneInGl::set_matrices(std::size_t draw) const {
+  if (scene_.depth_clamp) {
+    gl_.Enable(GL_DEPTH_CLAMP);
+  } else {
+    gl_.Disable(GL_DEPTH_CLAMP);
+  }
   gl_.MatrixMode(GL_PROJECTION);
   gl_.LoadMatrixf(glm::value_ptr(glm::mat4(matrices_[draw].projection)));
   gl_.MatrixMode(GL_MODELVIEW);

@@ -19,6 +19,7 @@ struct DepthBits {
 DepthBits depth_bits(DepthFormat format) {
   switch (format) {
     case DepthFormat::z16: return {GL_DEPTH_COMPONENT16, 16};
+    case DepthFormat::z8:
     case DepthFormat::z24: return {GL_DEPTH_COMPONENT24, 24};
     case DepthFormat::z32f: break;
   }
@@ -46,11 +47,12 @@ void require_size(const Gl& gl, const FrameFormat& frame) {
 }  // namespace
 
 Target::Target(const Gl& gl, const FrameFormat& frame, ColorFormat color) : gl_(gl), frame_(frame), color_(color) {
+  if (frame.depth == DepthFormat::z8) frame_.depth = DepthFormat::z24;
   require_size(gl, frame);
   gl.GenFramebuffers(1, &frame_buffer_);
   gl.GenRenderbuffers(2, buffers_);
   try {
-    const DepthBits depth = depth_bits(frame.depth);
+    const DepthBits depth = depth_bits(frame_.depth);
     gl.BindRenderbuffer(GL_RENDERBUFFER, buffers_[0]);
     gl.RenderbufferStorage(GL_RENDERBUFFER, color == ColorFormat::rgba8 ? GL_RGBA8 : GL_RGBA32F, frame.width,
                            frame.height);

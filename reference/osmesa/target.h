@@ -11,7 +11,8 @@ namespace plumbline::osmesa {
 
 class Target {
  public:
-  /// Of the frame's size and depth format, with a colour format of the caller's. Throws RendererFailed where OpenGL
+  /// Of the frame's size and depth format (z24 for z8, which OpenGL does not have), with a colour format of the
+  /// caller's, rgba8 or rgba32f. Throws RendererFailed where OpenGL
   /// cannot give that, naming its limit.
   Target(const Gl& gl, const FrameFormat& frame, ColorFormat color);
   ~Target();

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include <glm/gtc/matrix_transform.hpp>
+#include "dialect/dialect.h"
 
 namespace plumbline::check {
 
@@ -87,7 +87,7 @@ LightBounds light_bounds(const Scene& scene, const Draw& draw, const Vertex<doub
   constexpr double kRoundings = 16;  // of N.L, as of the whole (ledger, exact.light)
   const Material& m = draw.material;
   const Vec3<double> p_eye(vertex.p_eye);
-  const glm::dmat4 view = glm::lookAt(scene.camera.eye, scene.camera.center, scene.camera.up);
+  const glm::dmat4 view = view_matrix(scene);
   LightBounds out;
   out.magnitude = Vec3<double>(m.emission) + Vec3<double>(m.ambient) * Vec3<double>(scene.ambient);
   for (const Light& light : scene.lights) {

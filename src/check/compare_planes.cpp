@@ -175,18 +175,19 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor) {
   std::string why;
   if (!same_size(candidate.depth, exact.depth, why) || !same_size(candidate.depth, candidate.color, why)) {
-    return mismatch("half 1/255", why, candidate.depth.size());
+    return mismatch("half code", why, candidate.depth.size());
   }
-  const bool codes = scene.frame.color == ColorFormat::rgba8;
-  const double unit = codes ? 0.5 / 255 + 4 * u : u;
-  return compare_planes(candidate.color, exact.color, codes ? "half 1/255" : "u", [&](Meter& meter, int x, int y) {
+  const double scale = color_scale(scene.frame.color);
+  const bool codes = scale > 0;
+  const double unit = codes ? 0.5 / scale + 4 * u : u;
+  return compare_planes(candidate.color, exact.color, codes ? "half code" : "u", [&](Meter& meter, int x, int y) {
     const std::int64_t id = candidate.id.size() == candidate.color.size() ? candidate.id(x, y) : -1;
     add_color(meter, candidate.color(x, y), Vec4<double>(exact.color(x, y)), Vec4<double>(codes ? factor : 0), unit,
               {x, y, id, "color"});
     for (int c = 0; codes && c < 4; ++c) {
-      const double v = 255.0 * static_cast<double>(candidate.color(x, y)[c]),
-                   code = std::clamp(std::round(v), 0.0, 255.0);
-      meter.value(std::abs(v - code) <= 255 * 2 * u ? 0 : kInfinite, 0, {x, y, id, "no code"}, v, code);
+      const double v = scale * static_cast<double>(candidate.color(x, y)[c]),
+                   code = std::clamp(std::round(v), 0.0, scale);
+      meter.value(std::abs(v - code) <= scale * 2 * u ? 0 : kInfinite, 0, {x, y, id, "no code"}, v, code);
     }
     const double z = candidate.depth(x, y), z_ref = exact.depth(x, y);
     meter.value(difference(z, z_ref) / depth_step(scene.frame.depth, z_ref), 0, {x, y, id, "z, in steps"}, z, z_ref);
@@ -266,8 +267,9 @@ Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, do
 }
 
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
-  const bool codes = scene.frame.color == ColorFormat::rgba8;
-  return compare_legal_color(candidate.color, candidate.id, legal, codes ? 0.5 / 255 + 4 * u : 0, codes, factor);
+  const double scale = color_scale(scene.frame.color);
+  const bool codes = scale > 0;
+  return compare_legal_color(candidate.color, candidate.id, legal, codes ? 0.5 / scale + 4 * u : 0, codes, factor);
 }
 
 }  // namespace plumbline::check

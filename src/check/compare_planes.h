@@ -25,8 +25,8 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
 Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
                           double factor);
 
-/// The candidate's planes against the colours that exact made of its own fragments: rgba8, in halves of 1/255, against
-/// unrounded colours; rgba32f and depth: equal.
+/// The candidate's planes against the colours that exact made of its own fragments: rgba8 and rgba12, in half codes,
+/// against unrounded colours; rgba32f and depth: equal.
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor);
 
 /// Against legal answers. Pixels with more than one are counted as ambiguous. Depth and colour are held to the answer

@@ -22,7 +22,8 @@ using Vec8 = std::array<double, 8>;  // clip position over the scale, and colour
 
 struct Corners {
   std::array<Vec4<double>, 3> p_clip, color;
-  double scale;  // the largest coordinate
+  double scale;        // the largest coordinate
+  std::size_t planes;  // that cut: the sides alone where depth is clamped
 };
 
 Corners corners_of(const Scene& scene, const std::vector<DrawRange>& ranges, std::size_t d, std::uint32_t primitive,
@@ -30,6 +31,7 @@ Corners corners_of(const Scene& scene, const std::vector<DrawRange>& ranges, std
   const Draw& draw = scene.draws[d];
   const glm::uvec3 corners = scene.meshes[draw.mesh].triangles[primitive - ranges[d].first_primitive];
   Corners out{};
+  out.planes = scene.depth_clamp ? 4 : 6;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     out.p_clip[k] = r.vertices[ranges[d].first_vertex + corners[i]].p_clip;
@@ -96,11 +98,11 @@ bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance) 
 // The planes whose cuts rounding decides about: a corner lies on one, or an edge goes through the meeting of several.
 std::array<bool, 6> open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, double tolerance) {
   std::array<bool, 6> open{};
-  for (std::size_t p = 0; p < 6; ++p) {
+  for (std::size_t p = 0; p < c.planes; ++p) {
     for (const Vec4<double>& corner : c.p_clip) open[p] |= std::abs(distances(corner)[p]) <= tolerance;
     for (const ClipVertex<double>& v : polygon) {
       std::size_t planes = 0;
-      for (std::size_t q = 0; q < 6; ++q) planes += on_plane(v, q, tolerance) ? 1 : 0;
+      for (std::size_t q = 0; q < c.planes; ++q) planes += on_plane(v, q, tolerance) ? 1 : 0;
       double to_edge = kInfinite;
       for (std::size_t i = 0; i < 3; ++i) to_edge = std::min(to_edge, distance_from_edge(v, c, i));
       open[p] |= planes > 1 && to_edge <= tolerance / c.scale && on_plane(v, p, tolerance);
@@ -114,8 +116,8 @@ std::span<const ClipVertex<double>> vertices_of(const ClipPolygon& polygon, cons
 }
 
 // A polygon that lies within rounding of one plane may be there or not.
-bool may_vanish(std::span<const ClipVertex<double>> polygon, double tolerance) {
-  for (std::size_t p = 0; p < 6; ++p) {
+bool may_vanish(std::span<const ClipVertex<double>> polygon, std::size_t planes, double tolerance) {
+  for (std::size_t p = 0; p < planes; ++p) {
     if (std::all_of(polygon.begin(), polygon.end(), [&](const auto& v) { return on_plane(v, p, tolerance); }))
       return true;
   }
@@ -145,7 +147,8 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   if (a.count != b.count) meter.ambiguous();
   for (std::size_t i = 0; i < mine.size(); ++i) {
     const ClipVertex<double>&v = mine[i], &w = theirs[i];
-    if (v.cut != w.cut && a.count < 3 && may_vanish(std::span(&v, 1), factor * unit)) {  // a line's end on a plane
+    if (v.cut != w.cut && a.count < 3 &&
+        may_vanish(std::span(&v, 1), corners.planes, factor * unit)) {  // a line's end on a plane
       meter.ambiguous();
       continue;
     }
@@ -160,7 +163,7 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
     meter.value(distance_from_triangle(v, corners) / u, factor, at("off its triangle"), 0, 0);
     const auto d = distances(v.p_clip), d_ref = distances(w.p_clip);
     int planes = 0;
-    for (std::size_t p = 0; p < 6; ++p) {
+    for (std::size_t p = 0; p < corners.planes; ++p) {
       const bool on = std::abs(d_ref[p]) <= 1e-12 * corners.scale;
       planes += on ? 1 : 0;
       const double off = on ? std::abs(d[p]) : std::max(-d[p], 0.0);
@@ -213,7 +216,7 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
     const Corners corners = corners_of(scene, ranges, d, primitive, candidate);
     if (a != nullptr && b != nullptr) {
       compare_polygon(meter, *a, *b, candidate, reference, corners, factor);
-    } else if (may_vanish(a != nullptr ? vertices_of(*a, candidate) : vertices_of(*b, reference),
+    } else if (may_vanish(a != nullptr ? vertices_of(*a, candidate) : vertices_of(*b, reference), corners.planes,
                           factor * u * corners.scale)) {
       meter.ambiguous();
     } else {

@@ -88,9 +88,9 @@ void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
     case Stage::shade: return c.add(name, stage, compare_shaded(mine, theirs));
     case Stage::visibility: return c.add(name, stage, compare_winners(c.candidate.planes, made.planes, Legal{}));
     case Stage::merge: {
-      const bool codes = c.scene.frame.color == ColorFormat::rgba8;
-      return c.add(name, stage, compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.rgba8")),
-                   codes ? "exact.merge.rgba8" : "");
+      const bool codes = c.scene.frame.color != ColorFormat::rgba32f;
+      return c.add(name, stage, compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.codes")),
+                   codes ? "exact.merge.codes" : "");
     }
   }
 }
@@ -148,10 +148,11 @@ Comparison as_dispute(Comparison comparison, std::string_view why) {
   return comparison;
 }
 
+constexpr std::string_view kNo8BitDepth = "OpenGL has no 8-bit depth: it draws with 24 bits, other surfaces may win";
+
 // What the reference shows, beside the candidate's.
 void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
   const Records<double>& mine = c.candidate.records;
-  const bool codes = c.scene.frame.color == ColorFormat::rgba8;
   switch (stage) {
     case Stage::matrices: return c.add(name, stage, compare_matrices_equal(mine, theirs.records));
     case Stage::vertex:
@@ -176,6 +177,7 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       }
       return;
     case Stage::depth:
+      if (c.scene.frame.depth == DepthFormat::z8) return c.skip(name, stage, Outcome::unsupported, kNo8BitDepth);
       return c.add(name, stage, compare_depth_planes(c.scene, c.candidate, theirs, factor("osmesa.depth")),
                    "osmesa.depth");
     case Stage::attributes:
@@ -184,17 +186,23 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
     case Stage::texture: return;
     case Stage::shade: return;
     case Stage::visibility:
+      if (c.scene.frame.depth == DepthFormat::z8) return c.skip(name, stage, Outcome::unsupported, kNo8BitDepth);
       return c.add(name, stage,
                    draws_thin(c.scene) ? compare_thin_winners(c.scene, c.candidate, theirs, factor("osmesa.depth"))
                                        : compare_winners(c.candidate.planes, theirs.planes, c.legal));
     case Stage::merge:
-      if (codes) {
-        return c.add(
-            name, stage,
-            compare_codes(c.scene, c.candidate, theirs, factor("osmesa.merge.rgba8"), factor("osmesa.attributes")),
-            "osmesa.merge.rgba8");
+      switch (c.scene.frame.color) {
+        case ColorFormat::rgba8:
+          return c.add(
+              name, stage,
+              compare_codes(c.scene, c.candidate, theirs, factor("osmesa.merge.rgba8"), factor("osmesa.attributes")),
+              "osmesa.merge.rgba8");
+        case ColorFormat::rgba12:
+          return c.skip(name, stage, Outcome::unsupported,
+                        "asked for 12 bits a channel, OpenGL gives 16; attributes are compared");
+        case ColorFormat::rgba32f:
+          return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
       }
-      return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
   }
 }
 

@@ -77,13 +77,14 @@ constexpr std::array kLedger = {
     Tolerance{"osmesa.merge.rgba8", 1, "1/255",
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},
-    Tolerance{"exact.merge.rgba8", 1, "half 1/255",
-              "A code is at most half a code from the value that was rounded, and the product by 255 in float is 2 u "
-              "off."},
+    Tolerance{"exact.merge.codes", 1, "half code",
+              "A code, of 8 bits or 12, is at most half a code from the value that was rounded, and the product by 255 "
+              "or 4095 in float is 2 u off."},
     Tolerance{"legal.depth", 1, "step", "The legal interval, and one step of the depth format for the rounding."},
     Tolerance{"legal.attributes", 1, "bound",
               "The oracle's own bound of float arithmetic from the scene on (reference/math, color_error.h)."},
-    Tolerance{"legal.merge", 1, "bound", "legal.attributes' bound and, for rgba8, half a code for the rounding."},
+    Tolerance{"legal.merge", 1, "bound",
+              "legal.attributes' bound and, for rgba8 and rgba12, half a code for the rounding."},
 };
 
 }  // namespace

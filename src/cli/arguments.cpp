@@ -35,7 +35,7 @@ void add_drawing(CLI::App& command, Options& o) {
 
 void add(CLI::App& command, RenderOptions& o) {
   add_drawing(command, o);
-  text(command, "-o,--output", o.output, "Colour: .png, or .exr for float")->required();
+  text(command, "-o,--output", o.output, "Colour: .png, .tga, .ppm, or .exr for float")->required();
   text(command, "--depth", o.depth, "Window depth: .exr");
 }
 
@@ -65,7 +65,7 @@ void add(CLI::App& command, CompareOptions& o) {
   text(command, "B", o.b, "The same")->required();
   text(command, "--tolerance", o.tolerance, "Largest difference of a channel that holds, such as 0.001 or 1/255")
       ->capture_default_str();
-  text(command, "-o,--output", o.output, "Write the difference of two images as .png or .exr");
+  text(command, "-o,--output", o.output, "Write the difference of two images as .png, .tga, .ppm or .exr");
   text(command, "--amplify", o.amplify, "By what the difference is multiplied (default: the largest is white)");
   text(command, "--json", o.json, "Write one object per comparison");
   command.add_flag("--allow-missing", o.allow_missing, "What one capture alone holds is no failure");
@@ -88,12 +88,17 @@ void add_command(CLI::App& app, std::function<int()>& chosen, const std::string&
   command->callback([&chosen, run, o] { chosen = [run, o] { return run(*o); }; });
 }
 
+std::vector<std::string> names_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
 }  // namespace
 
 Parsed parse(int argc, char** argv) {
   CLI::App app("Draws scenes, and compares every stage of the drawing with independent references.", "plumb");
   app.set_version_flag("--version", "plumb " PLUMBLINE_VERSION);
-  app.require_subcommand(1);
   app.footer("Exit code: 0 all hold, 1 something differs or failed, 2 bad input or usage.");
   Parsed out;
   add_command(app, out.command, "render", "Draw a scene into a picture", render);
@@ -107,6 +112,7 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "list", "Show the stages, renderers, faults and scenes that there are", list);
   try {
     app.parse(argc, argv);
+    if (!out.command) throw CLI::RequiredError(fmt::format("A command: {}", fmt::join(names_of(app), ", ")));
   } catch (const CLI::ParseError& e) {
     out.command = nullptr;
     out.exit = app.exit(e) == 0 ? kHolds : kBadInput;

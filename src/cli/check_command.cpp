@@ -83,7 +83,10 @@ int check(const CheckOptions& given) {
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
   const std::vector<std::filesystem::path> files = find_scenes(paths);
   std::vector<Scene> scenes;  // all of them first: a bad one ends the run before anything is written
-  for (const auto& file : files) scenes.push_back(o.scene_arguments.load(file));
+  for (const auto& file : files) {
+    scenes.push_back(o.scene_arguments.load(file));
+    require_budget(scenes.back(), plane_bytes(scenes.back()), Request{}.memory_budget);
+  }
   const Output outputs[] = {{"--json", o.json}, {"--ledger", o.ledger}};
   require_outputs(outputs, {"--report", o.report}, files);
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
@@ -111,7 +114,7 @@ int check(const CheckOptions& given) {
       failures +=
           report::failure_lines(verdicts.back(), unjudged(verdicts.back(), o), repeat_command(o, verdicts.back()));
     }
-    if (page) page->add(verdicts.back(), references.list, drawn, scene.description);
+    if (page) page->add(verdicts.back(), references.list, drawn, scene);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string summary = report::summary(verdicts, all_hold, seconds);

@@ -28,7 +28,7 @@ int check(const CheckOptions& options);
 /// A scene to a picture.
 struct RenderOptions {
   std::string scene;
-  std::string output;  ///< .png or .exr
+  std::string output;  ///< .png, .tga, .ppm or .exr
   std::string depth;   ///< .exr, or empty
   std::string with = "ours", fault;
   SceneArguments scene_arguments;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "scene/frame_buffer.h"
 #include "scene/scene_file.h"
 
 namespace plumbline::cli {
@@ -40,7 +41,8 @@ void list_scenes(const std::vector<std::string>& folders, const SceneArguments& 
   const std::vector<std::filesystem::path> paths(folders.begin(), folders.end());
   for (const auto& file : find_scenes(paths)) {
     const Scene scene = arguments.load(file);
-    fmt::print("{:<28} {} x {}: {}\n", scene.name, scene.frame.width, scene.frame.height, scene.description);
+    fmt::print("{:<28} {} x {} x {} bytes = {}: {}\n", scene.name, scene.frame.width, scene.frame.height,
+               pixel_bytes(scene.frame), buffer_bytes(scene.frame), scene.description);
   }
 }
 

@@ -22,6 +22,21 @@ std::unique_ptr<Renderer> renderer_of(const std::string& with, const std::string
   return renderer;
 }
 
+// The frame's colour; of a renderer that finds what is visible and no more, each primitive in a colour of its own,
+// mixed from its number.
+Plane<glm::vec4> picture_of(const Capture& drawn) {
+  if (!drawn.planes.color.empty()) return drawn.planes.color;
+  Plane<glm::vec4> out(drawn.planes.id.width(), drawn.planes.id.height(), {0, 0, 0, 1});
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::int32_t id = drawn.planes.id.values()[i];
+    if (id == kBackground) continue;
+    const std::uint32_t mixed = (static_cast<std::uint32_t>(id) + 1) * 0x9e3779b1u;
+    out.values()[i] =
+        glm::vec4(64 + (mixed >> 8 & 127), 64 + (mixed >> 16 & 127), 64 + (mixed >> 24 & 127), 255) / 255.0f;
+  }
+  return out;
+}
+
 }  // namespace
 
 int render(const RenderOptions& o) {
@@ -33,8 +48,15 @@ int render(const RenderOptions& o) {
   const std::unique_ptr<Renderer> renderer = renderer_of(o.with, o.fault);
   Request request;
   request.picture = true;
-  const Capture drawn = renderer->capture(o.scene_arguments.load(o.scene), request);
-  const Bytes color = encode_image(o.output, drawn.planes.color);
+  const Scene scene = o.scene_arguments.load(o.scene);
+  require_image_name(o.output, scene.frame.color);
+  Capture drawn = renderer->capture(scene, request);
+  drawn.planes.color = picture_of(drawn);
+  if (rows_from_top(scene.dialect)) {
+    drawn.planes.color = upside_down(drawn.planes.color);
+    drawn.planes.depth = upside_down(drawn.planes.depth);
+  }
+  const Bytes color = encode_image(o.output, drawn.planes.color, scene.frame.color);
   if (o.depth.empty()) {
     write_file(o.output, color);
     return kHolds;

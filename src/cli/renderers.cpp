@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "image_order/image_order.h"
 #include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
 #include "stages/process_renderer.h"
@@ -82,7 +83,7 @@ const std::vector<std::string>& reference_names() {
 }
 
 const std::vector<std::string>& known_reference_names() {
-  static const std::vector<std::string> kNames = {"osmesa", "egl", "softpipe", "embree", "exact"};
+  static const std::vector<std::string> kNames = {"osmesa", "egl", "softpipe", "embree", "exact", "image_order"};
   return kNames;
 }
 
@@ -98,6 +99,7 @@ const std::vector<std::string>& renderer_names() {
 std::unique_ptr<Renderer> make_renderer(const std::string& name) {
   if (name == "ours") return pipeline::make_pipeline();
   if (name == "exact") return exact::make_exact();
+  if (name == "image_order") return image_order::make_image_order();
 #ifdef PLUMBLINE_EGL
   if (name == "egl") return make_egl();
 #endif

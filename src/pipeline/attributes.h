@@ -23,17 +23,31 @@ struct Color {
   R r, g, b, a;
 };
 
+/// k_1 and k_2.
 template <class R>
-Color<R> attributes(const AttributeSetup& s, const Barycentric<R>& b) {
-  const R q0 = to_float(b.l0) * s.inv_w[0], q1 = to_float(b.l1) * s.inv_w[1], q2 = to_float(b.l2) * s.inv_w[2];
+struct Weights {
+  R k1, k2;
+};
+template <class R>
+Weights<R> weights(const float (&inv_w)[3], const Barycentric<R>& b) {
+  const R q0 = to_float(b.l0) * inv_w[0], q1 = to_float(b.l1) * inv_w[1], q2 = to_float(b.l2) * inv_w[2];
   const R sum = q0 + q1 + q2;
   // A plane extrapolated out of a sliver may reach the horizon: no division by (nearly) 0 there.
   const R tiny(1.17549435e-38f);
   const Mask<R> divides = (sum > tiny) | (sum < -tiny);
   const R reciprocal = select(divides, R(1) / select(divides, sum, R(1)), R(0));
-  const R k1 = q1 * reciprocal, k2 = q2 * reciprocal;
-  const auto mean = [&](int i) { return s.color0[i] + k1 * s.d_color1[i] + k2 * s.d_color2[i]; };
-  return {mean(0), mean(1), mean(2), mean(3)};
+  return {q1 * reciprocal, q2 * reciprocal};
+}
+
+template <class R>
+Color<R> mean(const AttributeSetup& s, const Weights<R>& k) {
+  const auto channel = [&](int i) { return s.color0[i] + k.k1 * s.d_color1[i] + k.k2 * s.d_color2[i]; };
+  return {channel(0), channel(1), channel(2), channel(3)};
+}
+
+template <class R>
+Color<R> attributes(const AttributeSetup& s, const Barycentric<R>& b) {
+  return mean<R>(s, weights<R>(s.inv_w, b));
 }
 
 }  // namespace plumbline::pipeline

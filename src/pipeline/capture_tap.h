@@ -18,7 +18,7 @@ class CaptureTap {
   CaptureTap(const Scene& scene, const Request& request, std::size_t bytes);
 
   template <class R>
-  void fragments(const TriangleSetup& s, const Pixels<R>& p, Mask<R> covered, Mask<R> passes, R z,
+  void fragments(const TriangleSetup<>& s, const Pixels<R>& p, Mask<R> covered, Mask<R> passes, R z,
                  const Color<R>& attributes, const Color<R>& shaded) {
     for (int i = 0; i < Lanes<R>::width; ++i) {
       if (!lane(covered, i)) continue;

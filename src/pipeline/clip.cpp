@@ -81,7 +81,10 @@ bool finite(const Vec4<float>& p) {
 
 std::span<const Vec4<float>, 6> view_volume() { return kPlanes; }
 
-void clip(const Assembly& assembly, ClipPolygons<float>& out) { clip_at(kPlanes, assembly, out); }
+void clip(const Assembly& assembly, ClipPolygons<float>& out) {
+  constexpr std::size_t kSides = 4;
+  clip_at(std::span(kPlanes).first(assembly.depth_clamp ? kSides : kPlanes.size()), assembly, out);
+}
 
 void clip_at(std::span<const Vec4<float>> planes, const Assembly& assembly, ClipPolygons<float>& out) {
   const auto count = static_cast<int>(corner_count(assembly.topology));

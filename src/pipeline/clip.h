@@ -15,6 +15,7 @@ struct Assembly {
   std::span<const glm::uvec3> triangles;
   std::uint32_t first_primitive = 0;  ///< the number of the first triangle
   Shading shading = Shading::gouraud;
+  bool depth_clamp = false;  ///< no near and far plane
   Topology topology = Topology::triangles;
 };
 

@@ -45,11 +45,19 @@ struct DepthSetup {
 };
 DepthSetup depth_setup(const WindowTriangle<float>& triangle, double scale);
 
+/// The code of z in [0,1], `scale` the largest: the nearest, half to even; of 8 bits half up, as tinyrenderer's
+/// int(z + .5) (note 002).
+template <class W>
+W depth_code(const W& z, double scale) {
+  const W scaled = z * scale, code = round_even(scaled);
+  return scale == 255.0 ? select(scaled - code == 0.5, code + 1.0, code) : code;
+}
+
 /// In the depth format: a code, which a float holds exactly up to 2^24, or window z itself for z32f.
 template <class R>
 R depth(const DepthSetup& s, const Barycentric<R>& b) {
   const Wide<R> z = clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
-  return to_float(s.scale == 0.0 ? z : round_even(z * s.scale));
+  return to_float(s.scale == 0.0 ? z : depth_code(z, s.scale));
 }
 
 template <DepthFunc func, class R>

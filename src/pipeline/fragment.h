@@ -1,10 +1,12 @@
 // Stages 5 to 11 for one triangle in one block of 4 x 4 pixels, and for one pixel of a line or point.
 //
 // Everything that does not change within a draw is a template parameter: the number type R (lanes.h), the depth
-// function, the stage functions (so that a test can put another in the place of one) and the Tap. NoTap ships: hidden
-// fragments are left as soon as that is known. A tap that wants every fragment sees them all, and the planes come out
-// the same, bit for bit.
+// function, the stage functions (so that a test can put another in the place of one, and a program its fragment(),
+// program.h) and the Tap. NoTap ships: hidden fragments are left as soon as that is known. A tap that wants every
+// fragment sees them all, and the planes come out the same, bit for bit.
 #pragma once
+
+#include <utility>
 
 #include "pipeline/attributes.h"
 #include "pipeline/coverage.h"
@@ -15,8 +17,12 @@
 
 namespace plumbline::pipeline {
 
-/// The stage functions of the fragment half; a variant inherits them and hides some by its own.
+/// The stage functions of the fragment half; a variant inherits them and hides some by its own. Attributes and colours
+/// are of whatever types the functions hand to each other.
 struct FragmentStages {
+  static AttributeSetup attribute_setup(const WindowTriangle<float>& triangle, std::uint32_t) {
+    return pipeline::attribute_setup(triangle);
+  }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
   static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
     return pipeline::thin_pixels(line_or_point, origin, size);
@@ -37,6 +43,11 @@ struct FragmentStages {
   static Color<R> shade(const Color<R>& attributes) {
     return pipeline::shade<R>(attributes);
   }
+  /// Of the fragments that pass the depth test, those that are drawn; the others leave depth and colour as they are.
+  template <class R>
+  static Mask<R> kept(Mask<R> passes, const Color<R>&) {
+    return passes;
+  }
   template <class R>
   static Color<R> merge(const Color<R>& color, float scale) {
     return pipeline::merge<R>(color, scale);
@@ -50,6 +61,7 @@ struct Formats {
 };
 
 /// All that stages 5 to 11 want to know of a triangle.
+template <class Attributes = AttributeSetup>
 struct TriangleSetup {
   std::uint32_t triangle;  ///< its place among the window triangles
   std::uint32_t primitive;
@@ -57,14 +69,22 @@ struct TriangleSetup {
   Edges edges;
   BarycentricPlanes planes;
   DepthSetup depth;
-  AttributeSetup attributes;
+  Attributes attributes;
 };
+template <class Stages>
+using SetupOf = TriangleSetup<decltype(std::declval<const Stages&>().attribute_setup({}, 0))>;
+
 /// (x0, y0): the lower left pixel of the tile.
 template <class Stages>
-TriangleSetup set_up(const WindowTriangle<float>& t, std::uint32_t triangle, const Formats& formats, int x0, int y0) {
-  return {triangle,          t.primitive,          pixel_bounds(t),
-          Stages::edges(t),  planes_of(t, x0, y0), depth_setup(t, formats.depth_scale),
-          attribute_setup(t)};
+SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std::uint32_t triangle,
+                       const Formats& formats, int x0, int y0) {
+  return {triangle,
+          t.primitive,
+          pixel_bounds(t),
+          stages.edges(t),
+          planes_of(t, x0, y0),
+          depth_setup(t, formats.depth_scale),
+          stages.attribute_setup(t, triangle)};
 }
 
 /// 64 x 64 pixels of the frame, stored block by block; colour and depth in the frame's formats, as floats.
@@ -82,49 +102,52 @@ struct Tile {
 struct NoTap {
   static constexpr bool every_fragment = false;
   template <class R>
-  void fragments(const TriangleSetup&, const Pixels<R>&, Mask<R>, Mask<R>, R, const Color<R>&, const Color<R>&) {}
+  void fragments(const auto& /*setup*/, const Pixels<R>&, Mask<R>, Mask<R>, R, const auto&, const auto&) {}
 };
 
-// Stages 6 to 11 for the pixels `p` that are stored from `place` on.
+// Stages 6 to 11 for the pixels `p`, which are stored from `place` on.
 template <class R, DepthFunc func, class Stages, class Tap>
-void covered_pixels(const TriangleSetup& s, const Pixels<R>& p, Mask<R> covered, int place, float color_scale,
-                    Tile& tile, Tap& tap) {
+void covered_pixels(const Stages& stages, const SetupOf<Stages>& s, const Pixels<R>& p, Mask<R> covered, int place,
+                    float color_scale, Tile& tile, Tap& tap) {
   const Barycentric<R> b = barycentric<R>(s.planes, p);
-  const R z = Stages::template depth<R>(s.depth, b);
+  const R z = stages.template depth<R>(s.depth, b);
   float* const stored_z = tile.depth + place;
-  const Mask<R> passes = covered & Stages::template depth_passes<func, R>(z, load(stored_z));
+  const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored_z));
   if constexpr (!Tap::every_fragment) {
     if (!any(passes)) return;
   }
-  const Color<R> attributes = Stages::template attributes<R>(s.attributes, b);
-  const Color<R> shaded = Stages::template shade<R>(attributes);
-  tap.template fragments<R>(s, p, covered, passes, z, attributes, shaded);
-  const Color<R> merged = Stages::template merge<R>(shaded, color_scale);
-  store(passes, z, stored_z);
-  store(passes, merged.r, tile.color[0] + place);
-  store(passes, merged.g, tile.color[1] + place);
-  store(passes, merged.b, tile.color[2] + place);
-  store(passes, merged.a, tile.color[3] + place);
+  const auto attributes = stages.template attributes<R>(s.attributes, b);
+  const auto shaded = stages.template shade<R>(attributes);
+  const Mask<R> kept = stages.template kept<R>(passes, shaded);
+  tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
+  const Color<R> merged = stages.template merge<R>(shaded, color_scale);
+  store(kept, z, stored_z);
+  store(kept, merged.r, tile.color[0] + place);
+  store(kept, merged.g, tile.color[1] + place);
+  store(kept, merged.b, tile.color[2] + place);
+  store(kept, merged.a, tile.color[3] + place);
 }
 
 template <class R, DepthFunc func, class Stages, class Tap>
-void fragment_block(const TriangleSetup& s, int block_x, int block_y, float color_scale, Tile& tile, Tap& tap) {
+void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x, int block_y, float color_scale,
+                    Tile& tile, Tap& tap) {
   const int offset = tile.offset(block_x, block_y);
   for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
     const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
     const Mask<R> covered = coverage<R>(s.edges, p);
-    if (any(covered)) covered_pixels<R, func, Stages, Tap>(s, p, covered, offset + i, color_scale, tile, tap);
+    if (any(covered)) covered_pixels<R, func>(stages, s, p, covered, offset + i, color_scale, tile, tap);
   }
 }
 
 /// One pixel, alone in its lanes.
 template <class R, DepthFunc func, class Stages, class Tap>
-void fragment_pixel(const TriangleSetup& s, glm::ivec2 pixel, float color_scale, Tile& tile, Tap& tap) {
+void fragment_pixel(const Stages& stages, const SetupOf<Stages>& s, glm::ivec2 pixel, float color_scale, Tile& tile,
+                    Tap& tap) {
   const int block_x = pixel.x & ~(kBlock - 1), block_y = pixel.y & ~(kBlock - 1);
   const int in_block = (pixel.y - block_y) * kBlock + (pixel.x - block_x), i = in_block & ~(Lanes<R>::width - 1);
   const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
   const Mask<R> covered = (p.x == Int<R>(pixel.x)) & (p.y == Int<R>(pixel.y));
-  covered_pixels<R, func, Stages, Tap>(s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
+  covered_pixels<R, func>(stages, s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
 }
 
 }  // namespace plumbline::pipeline

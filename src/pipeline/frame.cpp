@@ -4,10 +4,10 @@ namespace plumbline::pipeline {
 
 Frame::Frame(const FrameFormat& format) {
   const int w = format.width, h = format.height;
-  if (format.color == ColorFormat::rgba8) {
-    color_rgba8 = Plane<glm::u8vec4>(w, h);
-  } else {
-    color_rgba32f = Plane<glm::vec4>(w, h);
+  switch (format.color) {
+    case ColorFormat::rgba8: color_rgba8 = Plane<glm::u8vec4>(w, h); break;
+    case ColorFormat::rgba12: color_rgba12 = Plane<glm::u16vec4>(w, h); break;
+    case ColorFormat::rgba32f: color_rgba32f = Plane<glm::vec4>(w, h); break;
   }
   if (format.depth == DepthFormat::z32f) {
     depth_z32f = Plane<float>(w, h);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dialect/dialect.h"
 #include "pipeline/math.h"
-#include "pipeline/matrices.h"
 
 namespace plumbline::pipeline {
 
@@ -56,7 +56,7 @@ void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> 
     }
     return;
   }
-  const glm::dmat4 view = look_at(scene.camera);
+  const glm::dmat4 view = view_matrix(scene);
   std::vector<EyeLight> lights;
   for (const Light& l : scene.lights) lights.push_back(eye_light(l, material, view));
   const Vec3<float> base = Vec3<float>(material.emission) + Vec3<float>(material.ambient) * scene.ambient;

@@ -5,8 +5,8 @@
 
 namespace plumbline::pipeline {
 
-/// `scale` 255: rgba8, clamped to [0,1] and rounded to the nearest code (GL 2.1 spec 2.14.9), which a float holds
-/// exactly. `scale` 0: float, as it is.
+/// `scale` 255, 4095: rgba8, rgba12, clamped to [0,1] and rounded to the nearest code, half to even (GL 2.1 spec
+/// 2.14.9), which a float holds exactly. `scale` 0: float, as it is.
 template <class R>
 Color<R> merge(const Color<R>& color, float scale) {
   if (scale == 0.0f) return color;

@@ -12,13 +12,17 @@ namespace {
 
 Planes planes_of_frame(const Frame& frame, const Formats& formats) {
   Planes out;
-  const int w = std::max(frame.color_rgba8.width(), frame.color_rgba32f.width());
-  const int h = std::max(frame.color_rgba8.height(), frame.color_rgba32f.height());
-  out.color = frame.color_rgba32f.empty() ? Plane<glm::vec4>(w, h) : frame.color_rgba32f;
-  for (std::size_t i = 0; i < frame.color_rgba8.size(); ++i) {
-    out.color.values()[i] = glm::vec4(frame.color_rgba8.values()[i]) / 255.0f;
-  }
-  out.depth = Plane<double>(w, h);
+  const auto as_color = [&](const auto& codes) {
+    Plane<glm::vec4> color(codes.width(), codes.height());
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      color.values()[i] = glm::vec4(codes.values()[i]) / formats.color_scale;
+    }
+    return color;
+  };
+  out.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
+              : !frame.color_rgba12.empty() ? as_color(frame.color_rgba12)
+                                            : frame.color_rgba32f;
+  out.depth = Plane<double>(out.color.width(), out.color.height());
   for (std::size_t i = 0; i < out.depth.size(); ++i) {
     out.depth.values()[i] = frame.depth_z32f.empty() ? frame.depth_code.values()[i] / formats.depth_scale
                                                      : static_cast<double>(frame.depth_z32f.values()[i]);
@@ -101,7 +105,7 @@ class PipelineRenderer : public Renderer {
         case Stage::clip:
           stages_.geometry.clip({std::span(in.vertices).subspan(range.first_vertex, range.vertex_count),
                                  std::span(in.lit).subspan(range.first_vertex, range.vertex_count), mesh.triangles,
-                                 range.first_primitive, draw.shading, mesh.topology},
+                                 range.first_primitive, draw.shading, scene.depth_clamp, mesh.topology},
                                 made.polygons);
           break;
         default: {
@@ -132,7 +136,7 @@ class PipelineRenderer : public Renderer {
 
   void run_fragment_stage(const Scene& scene, Stage stage, const Records<double>& in, Capture& out) {
     const Formats formats = formats_of(scene.frame);
-    TriangleSetup setup{};
+    TriangleSetup<> setup{};
     setup.triangle = ~0u;
     int setup_x = 0, setup_y = 0;
     for (std::size_t i = 0; i < in.covered.size(); ++i) {
@@ -176,7 +180,7 @@ class PipelineRenderer : public Renderer {
       while (primitive >= ranges[draw].first_primitive + ranges[draw].primitive_count) ++draw;
       if (winners_known && capture.planes.id(c.x, c.y) != static_cast<std::int32_t>(primitive)) continue;
       const double z = in.depth.at(i);
-      const auto incoming = static_cast<float>(formats.depth_scale == 0.0 ? z : round_even(z * formats.depth_scale));
+      const auto incoming = static_cast<float>(formats.depth_scale == 0.0 ? z : depth_code(z, formats.depth_scale));
       // The winner itself passes; a cut primitive may have two triangles at a pixel.
       const bool first = winners_known && id(c.x, c.y) == kBackground;
       if (!first && !stages_.fragment.depth_passes(scene.draws[draw].depth_func, incoming, depth(c.x, c.y))) continue;

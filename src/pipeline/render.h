@@ -12,12 +12,12 @@ struct FragmentFunctions {
   void (*draw)(const DrawList&, const FrameFormat&, Frame&, NoTap&);
   void (*draw_tapped)(const DrawList&, const FrameFormat&, Frame&, CaptureTap&);
   // One stage at one pixel, for calling it alone.
-  float (*depth)(const TriangleSetup&, const Pixels<float>&);
-  Color<float> (*attributes)(const TriangleSetup&, const Pixels<float>&);
+  float (*depth)(const TriangleSetup<>&, const Pixels<float>&);
+  Color<float> (*attributes)(const TriangleSetup<>&, const Pixels<float>&);
   Color<float> (*shade)(const Color<float>&);
   Color<float> (*merge)(const Color<float>&, float scale);
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
-  TriangleSetup (*set_up)(const WindowTriangle<float>&, std::uint32_t, const Formats&, int x0, int y0);
+  TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const Formats&, int x0, int y0);
 };
 
 template <class S>
@@ -38,18 +38,24 @@ bool depth_passes_for(DepthFunc func, float incoming, float stored) {
 template <class S>
 FragmentFunctions fragment_functions() {
   FragmentFunctions f;
-  f.draw = draw_tiles<float, S, NoTap>;
-  f.draw_tapped = draw_tiles<float, S, CaptureTap>;
-  f.depth = [](const TriangleSetup& s, const Pixels<float>& p) {
+  f.draw = [](const DrawList& list, const FrameFormat& format, Frame& frame, NoTap& tap) {
+    draw_tiles<float>(S(), list, format, frame, tap);
+  };
+  f.draw_tapped = [](const DrawList& list, const FrameFormat& format, Frame& frame, CaptureTap& tap) {
+    draw_tiles<float>(S(), list, format, frame, tap);
+  };
+  f.depth = [](const TriangleSetup<>& s, const Pixels<float>& p) {
     return S::template depth<float>(s.depth, barycentric<float>(s.planes, p));
   };
-  f.attributes = [](const TriangleSetup& s, const Pixels<float>& p) {
+  f.attributes = [](const TriangleSetup<>& s, const Pixels<float>& p) {
     return S::template attributes<float>(s.attributes, barycentric<float>(s.planes, p));
   };
   f.shade = S::template shade<float>;
   f.merge = S::template merge<float>;
   f.depth_passes = depth_passes_for<S>;
-  f.set_up = set_up<S>;
+  f.set_up = [](const WindowTriangle<float>& t, std::uint32_t triangle, const Formats& formats, int x0, int y0) {
+    return set_up(S(), t, triangle, formats, x0, y0);
+  };
   return f;
 }
 

@@ -42,13 +42,13 @@ Bins bin(std::span<const WindowTriangle<float>> triangles, const FrameFormat& fr
 }
 
 Formats formats_of(const FrameFormat& frame) {
-  return {depth_scale(frame.depth), frame.color == ColorFormat::rgba8 ? 255.0f : 0.0f};
+  return {depth_scale(frame.depth), static_cast<float>(color_scale(frame.color))};
 }
 
 void clear(Tile& tile, const FrameFormat& frame, const Formats& formats) {
   const glm::vec4& c = frame.clear_color;
   const Color<float> color = merge<float>({c.r, c.g, c.b, c.a}, formats.color_scale);
-  const double z = formats.depth_scale == 0.0 ? frame.clear_depth : round_even(frame.clear_depth * formats.depth_scale);
+  const double z = formats.depth_scale == 0.0 ? frame.clear_depth : depth_code(frame.clear_depth, formats.depth_scale);
   std::fill_n(tile.depth, kTile * kTile, static_cast<float>(z));
   std::fill_n(tile.color[0], kTile * kTile, color.r);
   std::fill_n(tile.color[1], kTile * kTile, color.g);
@@ -80,6 +80,7 @@ void copy_out(const Tile& tile, Plane<T>& plane, Convert convert) {
 void write_out(const Tile& tile, Frame& frame) {
   const auto& c = tile.color;
   copy_out(tile, frame.color_rgba8, [&](int i) { return glm::u8vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
+  copy_out(tile, frame.color_rgba12, [&](int i) { return glm::u16vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
   copy_out(tile, frame.color_rgba32f, [&](int i) { return glm::vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
   copy_out(tile, frame.depth_code, [&](int i) { return static_cast<std::uint32_t>(tile.depth[i]); });
   copy_out(tile, frame.depth_z32f, [&](int i) { return tile.depth[i]; });

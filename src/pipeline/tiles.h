@@ -33,12 +33,12 @@ void clear(Tile& tile, const FrameFormat& frame, const Formats& formats);
 void write_out(const Tile& tile, Frame& frame);
 
 template <class R, DepthFunc func, class Stages, class Tap>
-void draw_triangle(const WindowTriangle<float>& triangle, std::uint32_t number, const Formats& formats, Tile& tile,
-                   Tap& tap) {
-  const TriangleSetup s = set_up<Stages>(triangle, number, formats, tile.x0, tile.y0);
+void draw_triangle(const Stages& stages, const WindowTriangle<float>& triangle, std::uint32_t number,
+                   const Formats& formats, Tile& tile, Tap& tap) {
+  const SetupOf<Stages> s = set_up(stages, triangle, number, formats, tile.x0, tile.y0);
   if (triangle.corners < 3) {
-    for (const glm::ivec2 pixel : Stages::thin_pixels(triangle, {tile.x0, tile.y0}, kTile)) {
-      fragment_pixel<R, func, Stages, Tap>(s, pixel, formats.color_scale, tile, tap);
+    for (const glm::ivec2 pixel : stages.thin_pixels(triangle, {tile.x0, tile.y0}, kTile)) {
+      fragment_pixel<R, func>(stages, s, pixel, formats.color_scale, tile, tap);
     }
     return;
   }
@@ -46,13 +46,13 @@ void draw_triangle(const WindowTriangle<float>& triangle, std::uint32_t number, 
   const int y0 = std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1), y1 = std::min(s.bounds.y1, tile.y0 + kTile);
   for (int y = y0; y < y1; y += kBlock) {
     for (int x = x0; x < x1; x += kBlock) {
-      fragment_block<R, func, Stages, Tap>(s, x, y, formats.color_scale, tile, tap);
+      fragment_block<R, func>(stages, s, x, y, formats.color_scale, tile, tap);
     }
   }
 }
 
 template <class R, class Stages, class Tap>
-using DrawTriangle = void (*)(const WindowTriangle<float>&, std::uint32_t, const Formats&, Tile&, Tap&);
+using DrawTriangle = void (*)(const Stages&, const WindowTriangle<float>&, std::uint32_t, const Formats&, Tile&, Tap&);
 
 /// The instantiation for a depth function, chosen once per draw.
 template <class R, class Stages, class Tap>
@@ -71,7 +71,7 @@ DrawTriangle<R, Stages, Tap> draw_triangle_for(DepthFunc func) {
 }
 
 template <class R, class Stages, class Tap>
-void draw_tiles(const DrawList& list, const FrameFormat& format, Frame& frame, Tap& tap) {
+void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& format, Frame& frame, Tap& tap) {
   const Bins bins = bin(list.triangles, format);
   const Formats formats = formats_of(format);
   std::vector<DrawTriangle<R, Stages, Tap>> draw_of;
@@ -86,7 +86,7 @@ void draw_tiles(const DrawList& list, const FrameFormat& format, Frame& frame, T
          ++i) {
       const std::uint32_t number = bins.numbers[i];
       while (number >= list.first_triangle[draw + 1]) ++draw;
-      draw_of[draw](list.triangles[number], number, formats, tile, tap);
+      draw_of[draw](stages, list.triangles[number], number, formats, tile, tap);
     }
     write_out(tile, frame);
   }

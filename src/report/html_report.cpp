@@ -131,19 +131,19 @@ void HtmlReport::write_file(const std::string& name, std::string_view bytes) {
 }
 
 void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
-                     const check::Drawn& drawn, const std::string& description) {
+                     const check::Drawn& drawn, const Scene& scene) {
   const std::string scene_folder = free_folder(verdict.scene);
   const auto picture = [&](const Plane<glm::vec4>& plane, const std::string& name, const std::string& caption) {
     if (plane.empty()) return;
     const std::string file = fmt::format("{}/{}.png", scene_folder, file_name(name));
-    write_file(file, encode_png(file, plane));
+    write_file(file, encode_png(file, rows_from_top(scene.dialect) ? upside_down(plane) : plane));
     body_ += fmt::format(
         "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" loading=lazy></a>"
         "<figcaption>{1}</figcaption></figure>\n",
         file, escaped(caption));
   };
-  body_ +=
-      fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n", scene_folder, escaped(verdict.scene), escaped(description));
+  body_ += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n", scene_folder, escaped(verdict.scene),
+                       escaped(scene.description));
   const Plane<glm::vec4>& ours = drawn.candidate.planes.color;
   picture(ours, "ours", "ours");
   for (std::size_t i = 0; i < references.size() && i < drawn.references.size(); ++i) {

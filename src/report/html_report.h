@@ -21,7 +21,7 @@ class HtmlReport {
   /// Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not ours.
   explicit HtmlReport(const std::filesystem::path& folder);
   void add(const check::SceneVerdict& verdict, std::span<const check::Reference> references, const check::Drawn& drawn,
-           const std::string& description);
+           const Scene& scene);
   void write(const std::string& summary);
 
  private:

@@ -22,7 +22,8 @@ Json worst_of(const check::Worst& worst) {
   Json out{{"place", check::to_string(worst.place)},
            {"candidate", number(worst.candidate)},
            {"reference", number(worst.reference)},
-           {"difference", number(worst.difference)}};
+           {"difference", number(worst.difference)},
+           {"tolerance", number(worst.tolerance)}};
   if (worst.place.x >= 0) out["pixel"] = {worst.place.x, worst.place.y};
   return out;
 }
@@ -38,7 +39,6 @@ Json comparison(const check::Comparison& c) {
            {"ambiguous", m.ambiguous},
            {"max_difference", number(m.max_difference)},
            {"unit", m.unit},
-           {"tolerance", number(m.worst.tolerance)},
            {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
            {"max_ratio", number(m.max_ratio)},
            {"histogram", m.histogram}};

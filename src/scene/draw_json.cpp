@@ -81,9 +81,9 @@ void read_state(const JsonNode& node, DrawState& state) {
 
 }  // namespace
 
-DrawState read_defaults(const JsonNode& node) {
+DrawState read_draw_state(const JsonNode& node, const DrawState& defaults) {
   node.only({"transforms", "material", "lit", "shading", "cull", "depth_func"});
-  DrawState state;
+  DrawState state = defaults;
   read_state(node, state);
   return state;
 }

@@ -14,8 +14,8 @@ struct DrawState {
   bool has_material = false;  ///< the file gives one; a mesh file's own counts where not
 };
 
-/// What "defaults" holds: any key of a draw but its mesh. Throws JsonError.
-DrawState read_defaults(const JsonNode& node);
+/// What "defaults" holds, over the dialect's: any key of a draw but its mesh. Throws JsonError.
+DrawState read_draw_state(const JsonNode& node, const DrawState& defaults);
 
 /// A draw: its keys over the defaults'; of a material, each key for itself. Throws JsonError.
 DrawState read_draw(const JsonNode& node, const DrawState& defaults);

@@ -244,6 +244,16 @@ void repair_normals(Mesh& mesh) {
   }
 }
 
+/// On bytes that are not the ending's, assimp tries every format that it knows, and may then read for ever.
+void check_beginning(std::string_view bytes, std::string_view ending) {
+  if (ending == ".glb" && !bytes.starts_with("glTF"))
+    fail("a binary glTF file, beginning with glTF", "another beginning");
+  if (ending == ".3ds" && !bytes.starts_with("MM")) fail("a 3DS file, beginning with MM", "another beginning");
+  if (ending != ".gltf") return;
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (first == bytes.npos || bytes[first] != '{') fail("a glTF file, beginning with {", "another beginning");
+}
+
 }  // namespace
 
 std::vector<MeshPart> import_mesh(const fs::path& file, const AssetFolders& folders, std::size_t most_triangles) {
@@ -253,6 +263,7 @@ std::vector<MeshPart> import_mesh(const fs::path& file, const AssetFolders& fold
     fail("a mesh file ending in .obj, .3ds, .ply, .gltf or .glb", fmt::format("\"{}\"", ending));
   }
   const std::string bytes = read_bytes(file);
+  check_beginning(bytes, ending);
   if (ending == ".obj") check_obj(bytes);
   if (ending == ".ply") check_ply(bytes);
 
@@ -263,6 +274,7 @@ std::vector<MeshPart> import_mesh(const fs::path& file, const AssetFolders& fold
   const aiScene* scene = importer.ReadFile(file.string(), 0);
   if (!refused.empty()) fail("a mesh whose other files are in the scene's folder or an asset folder", refused);
   if (scene == nullptr) fail("a mesh", importer.GetErrorString());
+  if (scene->mRootNode == nullptr) fail("a mesh", "a scene of nothing");
   if (!complaints.first().empty()) fail("a mesh that can be read as it is", complaints.first());
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) check_part(*scene->mMeshes[m]);
 

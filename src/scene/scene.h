@@ -10,8 +10,13 @@
 
 namespace plumbline {
 
-/// The conventions under which a scene's numbers are read (window origin, pixel centre, handedness...).
-enum class Dialect { gl };
+/// The conventions under which a scene's numbers are read: window origin, pixel centre, handedness, where the eye is...
+/// `gl`: OpenGL. `gzrender`: CSCI-580's GzRender; world and camera space are left-handed. `games101`: GAMES101.
+/// `tinyrenderer`: TinyRenderer.
+enum class Dialect { gl, gzrender, games101, tinyrenderer };
+
+/// Whether row 0 is the picture's uppermost.
+constexpr bool rows_from_top(Dialect dialect) { return dialect == Dialect::gzrender; }
 
 /// What a mesh is made of.
 enum class Topology { triangles, lines, points };
@@ -41,28 +46,37 @@ struct Scale {
 };
 using Transform = std::variant<Translate, Rotate, Scale>;
 
-/// gluLookAt's camera.
+/// gluLookAt's camera. In `gzrender`, `eye` is c, the middle of the view plane, and `center` l.
 struct Camera {
   glm::dvec3 eye{0, 0, 5};
   glm::dvec3 center{0, 0, 0};
   glm::dvec3 up{0, 1, 0};
 };
 
-/// gluPerspective; the aspect is the frame's width / height. 0 < near < far.
+/// gluPerspective; the aspect is the frame's width / height. `gl`: 0 < near < far are distances. `games101`: far < near
+/// < 0 are coordinates.
 struct Perspective {
   double fov_y_degrees;  ///< (0, 180)
   double near;
   double far;
 };
-/// glOrtho.
+/// glOrtho; in `games101` near and far are coordinates, far < near.
 struct Orthographic {
   double left, right, bottom, top, near, far;
 };
-/// glFrustum: left, right, bottom and top on the near plane. 0 < near < far.
+/// glFrustum, in `gl`: left, right, bottom and top on the near plane. 0 < near < far.
 struct Frustum {
   double left, right, bottom, top, near, far;
 };
-using Projection = std::variant<Perspective, Orthographic, Frustum>;
+/// X_pi, in `gzrender`: x and y in [-1, 1] on the view plane z = 0, the eye at (0, 0, -d), 1/d = tan(fov/2).
+struct ViewPlane {
+  double fov_degrees;  ///< (0, 180)
+};
+/// w = 1 - z/c, in `tinyrenderer`: the eye at (0, 0, c); where c = |eye - center|, that is the camera's.
+struct Pinhole {
+  double c;  ///< > 0
+};
+using Projection = std::variant<Perspective, Orthographic, Frustum, ViewPlane, Pinhole>;
 
 struct Light {
   enum class Kind { directional, point };
@@ -85,8 +99,8 @@ struct Material {
 enum class Shading { flat, gouraud };
 enum class Cull { none, back, front };
 enum class DepthFunc { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
-enum class ColorFormat { rgba8, rgba32f };
-enum class DepthFormat { z16, z24, z32f };
+enum class ColorFormat { rgba8, rgba12, rgba32f };  ///< 12 bits a channel: GzRender's 0..4095 (note 000)
+enum class DepthFormat { z8, z16, z24, z32f };      ///< 8 bits: tinyrenderer's z-buffer (note 002)
 
 /// A mesh, placed, with the state it is drawn under. Counter-clockwise in the window is the front.
 struct Draw {
@@ -115,7 +129,8 @@ struct Scene {
   Dialect dialect = Dialect::gl;
   FrameFormat frame;
   Camera camera;
-  Projection projection = Perspective{45, 1, 100};
+  Projection projection = Perspective{45, 1, 100};  ///< one of the dialect's
+  bool depth_clamp = false;   ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
   glm::vec3 ambient{0};       ///< the light model's ambient light
   std::vector<Light> lights;  ///< at most 8
   std::vector<Mesh> meshes;
@@ -136,9 +151,20 @@ struct DrawRange {
 /// One range per draw.
 std::vector<DrawRange> draw_ranges(const Scene& scene);
 
-/// The largest depth code of a unorm format (2^16-1, 2^24-1); 0 for z32f.
+/// The largest code of a colour channel (2^8-1, 2^12-1); 0 for rgba32f.
+constexpr double color_scale(ColorFormat format) {
+  switch (format) {
+    case ColorFormat::rgba8: return 255.0;
+    case ColorFormat::rgba12: return 4095.0;
+    case ColorFormat::rgba32f: return 0.0;
+  }
+  return 0.0;
+}
+
+/// The largest depth code of a unorm format (2^8-1, 2^16-1, 2^24-1); 0 for z32f.
 constexpr double depth_scale(DepthFormat format) {
   switch (format) {
+    case DepthFormat::z8: return 255.0;
     case DepthFormat::z16: return 65535.0;
     case DepthFormat::z24: return 16777215.0;
     case DepthFormat::z32f: return 0.0;

@@ -17,18 +17,18 @@ namespace fs = std::filesystem;
 
 constexpr double kBrightest = 1e6;
 
-FrameFormat read_frame(const JsonNode& node) {
+FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
   constexpr int kLargestFrame = 16384;
   node.only({"width", "height", "color", "depth", "clear_color", "clear_depth"});
-  FrameFormat frame;
   if (const auto n = node.find("width")) frame.width = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("height")) frame.height = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("color")) {
-    frame.color = n->choice<ColorFormat>({{"rgba8", ColorFormat::rgba8}, {"rgba32f", ColorFormat::rgba32f}});
+    frame.color = n->choice<ColorFormat>(
+        {{"rgba8", ColorFormat::rgba8}, {"rgba12", ColorFormat::rgba12}, {"rgba32f", ColorFormat::rgba32f}});
   }
   if (const auto n = node.find("depth")) {
-    frame.depth =
-        n->choice<DepthFormat>({{"z16", DepthFormat::z16}, {"z24", DepthFormat::z24}, {"z32f", DepthFormat::z32f}});
+    frame.depth = n->choice<DepthFormat>(
+        {{"z8", DepthFormat::z8}, {"z16", DepthFormat::z16}, {"z24", DepthFormat::z24}, {"z32f", DepthFormat::z32f}});
   }
   if (const auto n = node.find("clear_color")) frame.clear_color = glm::vec4(n->vector<4>(0, 1));
   if (const auto n = node.find("clear_depth")) frame.clear_depth = n->number(0, 1);
@@ -49,18 +49,22 @@ Camera read_camera(const JsonNode& node) {
   return camera;
 }
 
-/// Near and far, the one before the other by more than float's rounding.
-void read_depths(const JsonNode& node, double least, double& near, double& far) {
-  near = node["near"].number(least, kLargestCoordinate);
-  far = node["far"].number(least, kLargestCoordinate);
-  if (far - near <= kSmallestLength * std::max(std::abs(near), std::abs(far))) {
-    node["far"].refuse(fmt::format("a number greater than near, {}", near));
+/// Near and far, the one before the other by more than float's rounding: distances of at least `limit`, or coordinates
+/// of at most `limit`, which fall.
+enum class Depths { distances, coordinates };
+void read_depths(const JsonNode& node, Depths depths, double limit, double& near, double& far) {
+  const bool fall = depths == Depths::coordinates;
+  const double least = fall ? -kLargestCoordinate : limit, most = fall ? limit : kLargestCoordinate;
+  near = node["near"].number(least, most);
+  far = node["far"].number(least, most);
+  if ((fall ? near - far : far - near) <= kSmallestLength * std::max(std::abs(near), std::abs(far))) {
+    node["far"].refuse(fmt::format("a number {} than near, {}", fall ? "less" : "greater", near));
   }
 }
 
-/// A view's box; right may be left of left, top below bottom: that mirrors. near is at least `least`.
+/// A view's box; right may be left of left, top below bottom: that mirrors.
 template <class Box>
-Box read_box(const JsonNode& node, double least) {
+Box read_box(const JsonNode& node, Depths depths, double limit) {
   node.only({"left", "right", "bottom", "top", "near", "far"});
   Box box{};
   const auto read_side = [&](const char* key) { return node[key].number(-kLargestCoordinate, kLargestCoordinate); };
@@ -70,20 +74,70 @@ Box read_box(const JsonNode& node, double least) {
   box.top = read_side("top");
   if (std::abs(box.right - box.left) < kSmallestLength) node["right"].refuse("a number other than left");
   if (std::abs(box.top - box.bottom) < kSmallestLength) node["top"].refuse("a number other than bottom");
-  read_depths(node, least, box.near, box.far);
+  read_depths(node, depths, limit, box.near, box.far);
   return box;
 }
 
-Projection read_projection(const JsonNode& node) {
+double read_angle(const JsonNode& node) { return node.number(1e-3, 180 - 1e-3); }
+
+Projection read_gl_projection(const JsonNode& node) {
   const std::string_view kind = node.one_of({"perspective", "orthographic", "frustum"});
   const JsonNode n = node[kind];
-  if (kind == "orthographic") return read_box<Orthographic>(n, -kLargestCoordinate);
-  if (kind == "frustum") return read_box<Frustum>(n, kSmallestLength);
+  if (kind == "orthographic") return read_box<Orthographic>(n, Depths::distances, -kLargestCoordinate);
+  if (kind == "frustum") return read_box<Frustum>(n, Depths::distances, kSmallestLength);
   n.only({"fov_y", "near", "far"});
   Perspective p{};
-  p.fov_y_degrees = n["fov_y"].number(1e-3, 180 - 1e-3);
-  read_depths(n, kSmallestLength, p.near, p.far);
+  p.fov_y_degrees = read_angle(n["fov_y"]);
+  read_depths(n, Depths::distances, kSmallestLength, p.near, p.far);
   return p;
+}
+
+/// Near and far are coordinates, far the smaller.
+Projection read_games101_projection(const JsonNode& node) {
+  const std::string_view kind = node.one_of({"perspective", "orthographic"});
+  const JsonNode n = node[kind];
+  if (kind == "orthographic") return read_box<Orthographic>(n, Depths::coordinates, kLargestCoordinate);
+  n.only({"fov_y", "near", "far"});
+  Perspective p{};
+  p.fov_y_degrees = read_angle(n["fov_y"]);
+  read_depths(n, Depths::coordinates, -kSmallestLength, p.near, p.far);
+  return p;
+}
+
+Projection read_gzrender_projection(const JsonNode& node) {
+  node.one_of({"x_pi"});
+  const JsonNode n = node["x_pi"];
+  n.only({"fov"});
+  return ViewPlane{read_angle(n["fov"])};
+}
+
+Projection read_tinyrenderer_projection(const JsonNode& node, double eye_distance) {
+  node.one_of({"pinhole"});
+  const JsonNode n = node["pinhole"];
+  n.only({"c"});
+  const auto c = n.find("c");
+  return Pinhole{c ? c->number(kSmallestLength, kLargestCoordinate) : eye_distance};
+}
+
+/// What the dialect says where the file says nothing: the projection, and which depth is nearer.
+void set_defaults(Scene& scene, DrawState& state) {
+  const bool greater_is_nearer = scene.dialect == Dialect::games101 || scene.dialect == Dialect::tinyrenderer;
+  if (greater_is_nearer) {
+    scene.frame.clear_depth = 0;
+    state.draw.depth_func = DepthFunc::greater;
+  }
+  scene.depth_clamp = scene.dialect == Dialect::tinyrenderer;
+}
+
+Projection read_projection(const JsonNode* node, Dialect dialect, const Camera& camera) {
+  const double eye_distance = glm::distance(camera.eye, camera.center);
+  switch (dialect) {
+    case Dialect::gl: return node ? read_gl_projection(*node) : Perspective{45, 1, 100};
+    case Dialect::gzrender: return node ? read_gzrender_projection(*node) : ViewPlane{45};
+    case Dialect::games101: return node ? read_games101_projection(*node) : Perspective{45, -1, -100};
+    case Dialect::tinyrenderer: return node ? read_tinyrenderer_projection(*node, eye_distance) : Pinhole{eye_distance};
+  }
+  return Perspective{};
 }
 
 Light read_light(const JsonNode& node) {
@@ -142,16 +196,23 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   if (const auto n = root.find("$schema")) n->text();
   Scene scene;
   scene.description = root["description"].text();
-  if (const auto n = root.find("dialect")) scene.dialect = n->choice<Dialect>({{"gl", Dialect::gl}});
-  if (const auto n = root.find("frame")) scene.frame = read_frame(*n);
+  DrawState defaults;
+  if (const auto n = root.find("dialect")) {
+    scene.dialect = n->choice<Dialect>({{"gl", Dialect::gl},
+                                        {"gzrender", Dialect::gzrender},
+                                        {"games101", Dialect::games101},
+                                        {"tinyrenderer", Dialect::tinyrenderer}});
+  }
+  set_defaults(scene, defaults);
+  if (const auto n = root.find("frame")) scene.frame = read_frame(*n, scene.frame);
   if (const auto n = root.find("camera")) scene.camera = read_camera(*n);
-  if (const auto n = root.find("projection")) scene.projection = read_projection(*n);
+  const auto projection = root.find("projection");
+  scene.projection = read_projection(projection ? &*projection : nullptr, scene.dialect, scene.camera);
   if (const auto n = root.find("ambient")) scene.ambient = glm::vec3(n->vector<3>(0, kBrightest));
   if (const auto n = root.find("lights")) {
     for (const JsonNode& light : n->elements(0, 8)) scene.lights.push_back(read_light(light));
   }
-  DrawState defaults;
-  if (const auto n = root.find("defaults")) defaults = read_defaults(*n);
+  if (const auto n = root.find("defaults")) defaults = read_draw_state(*n, defaults);
   read_draws(root["draws"], defaults, folders, scene);
   return scene;
 }

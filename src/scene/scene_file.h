@@ -26,12 +26,16 @@ struct SceneFileOptions {
 ///   $schema        the schema's place, for editors
 ///   include        files that this one builds on, below
 ///   description *  what must be seen, and why
-///   dialect        "gl"
-///   frame          width, height: 1 to 16384; color: "rgba8", "rgba32f"; depth: "z16", "z24", "z32f";
-///                  clear_color: [r, g, b, a]; clear_depth
+///   dialect        "gl", "gzrender", "games101", "tinyrenderer": how all other numbers are read (dialect/dialect.h)
+///   frame          width, height: 1 to 16384; color: "rgba8", "rgba12", "rgba32f"; depth: "z8", "z16", "z24",
+///                  "z32f"; clear_color: [r, g, b, a]; clear_depth
 ///   camera         eye, center, up: [x, y, z]
-///   projection     {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right *, bottom *,
-///                  top *, near *, far *}} or {"frustum": {the same six, the sides on the near plane}}
+///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right *,
+///                                bottom *, top *, near *, far *}} or {"frustum": {the same six, the sides on the near
+///                                plane}}
+///                  games101      perspective or orthographic, near and far being z coordinates: far < near < 0
+///                  gzrender      {"x_pi": {fov *: degrees}}
+///                  tinyrenderer  {"pinhole": {c: the distance of eye and center where it is not given}}
 ///   ambient        [r, g, b], the light model's
 ///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]}
 ///   defaults       of all draws: any of a draw's keys but mesh. A draw's own count before them, of a material one by
@@ -54,7 +58,9 @@ struct SceneFileOptions {
 ///     lit          true, false
 ///     shading      "flat", "gouraud"
 ///     cull         "none", "back", "front"
-///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"
+///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where
+///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth
+///                  is then 0
 ///
 /// Colours are in [0,1], lights' and ambient 0 or more. Coordinates go up to +-1e6, all draws' triangles to 2^24.
 /// Numbers that scene.h holds as float are rounded here, once. Draws of an equal mesh share it.

@@ -18,7 +18,7 @@ struct Planes {
   Plane<std::uint64_t> id_sum;  ///< coverage: sum of id_weight(primitive) over those fragments
   Plane<std::int32_t> id;       ///< visibility: the winning primitive, or kBackground
   Plane<glm::vec4> shaded;      ///< attributes, shade: the winner's colour in float, the clear colour elsewhere
-  Plane<glm::vec4> color;       ///< merge: the frame's colour; rgba8 as code / 255
+  Plane<glm::vec4> color;       ///< merge: the frame's colour; n-bit codes as code / (2^n - 1)
   Plane<double> depth;          ///< merge: the frame's depth as window z; n-bit codes as code / (2^n - 1)
 };
 

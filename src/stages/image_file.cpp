@@ -32,9 +32,19 @@ void top_down(const Plane<T>& plane, Add add) {
   }
 }
 
-std::uint8_t code(float value) {
+unsigned code(float value, double largest) {
   if (!(value > 0)) return 0;  // NaN, too
-  return static_cast<std::uint8_t>(std::floor(std::min(value, 1.0f) * 255.0 + 0.5));
+  return static_cast<unsigned>(std::floor(std::min(value, 1.0f) * largest + 0.5));
+}
+
+/// The plane's codes in a file's order, `channels` of each pixel.
+std::vector<unsigned> codes_of(const Plane<glm::vec4>& plane, int channels, double largest) {
+  std::vector<unsigned> codes;
+  codes.reserve(static_cast<std::size_t>(channels) * plane.size());
+  top_down(plane, [&](const glm::vec4& p) {
+    for (int c = 0; c < channels; ++c) codes.push_back(code(p[c], largest));
+  });
+  return codes;
 }
 
 OIIO::ImageSpec spec_of(int width, int height, int channels, OIIO::TypeDesc type) {
@@ -115,15 +125,44 @@ void add_channels_of_type(OIIO::TypeDesc type, OIIO::ImageInput& in, const OIIO:
 
 }  // namespace
 
-Bytes encode_png(const fs::path& file, const Plane<glm::vec4>& plane) {
-  require_ending(file, ".png");
+namespace {
+
+Bytes encode_bytes(const fs::path& file, const Plane<glm::vec4>& plane) {
   require_pixels(file, plane);
-  std::vector<std::uint8_t> pixels;
-  pixels.reserve(4 * plane.size());
-  top_down(plane, [&](const glm::vec4& p) {
-    for (int c = 0; c < 4; ++c) pixels.push_back(code(p[c]));
-  });
+  const std::vector<unsigned> codes = codes_of(plane, 4, 255);
+  const std::vector<std::uint8_t> pixels(codes.begin(), codes.end());
   return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::UINT8), pixels.data());
+}
+
+}  // namespace
+
+Bytes encode_png(const fs::path& file, const Plane<glm::vec4>& plane, ColorFormat format) {
+  require_ending(file, ".png");
+  if (format != ColorFormat::rgba12) return encode_bytes(file, plane);
+  require_pixels(file, plane);
+  std::vector<std::uint16_t> pixels;
+  for (unsigned c : codes_of(plane, 4, 4095)) pixels.push_back(static_cast<std::uint16_t>((c * 65535 + 2047) / 4095));
+  return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::UINT16), pixels.data());
+}
+
+Bytes encode_tga(const fs::path& file, const Plane<glm::vec4>& plane, ColorFormat format) {
+  require_ending(file, ".tga");
+  require_image_name(file, format);
+  return encode_bytes(file, plane);
+}
+
+// OpenImageIO 2.4 writes codes of more than 8 bits least byte first, which no reader takes, itself neither.
+Bytes encode_ppm(const fs::path& file, const Plane<glm::vec4>& plane, ColorFormat format) {
+  require_ending(file, ".ppm");
+  require_pixels(file, plane);
+  const bool wide = format == ColorFormat::rgba12;
+  const int largest = wide ? 4095 : 255;
+  Bytes out = fmt::format("P6\n{} {}\n{}\n", plane.width(), plane.height(), largest);
+  for (unsigned c : codes_of(plane, 3, largest)) {
+    if (wide) out.push_back(static_cast<char>(c >> 8));
+    out.push_back(static_cast<char>(c & 0xffu));
+  }
+  return out;
 }
 
 Bytes encode_exr(const fs::path& file, const Plane<glm::vec4>& plane) {
@@ -147,15 +186,24 @@ Bytes encode_depth_exr(const fs::path& file, const Plane<double>& plane) {
   return encode(file, spec, pixels.data());
 }
 
-Bytes encode_image(const fs::path& file, const Plane<glm::vec4>& plane) {
-  require_image_name(file);
-  return ending_of(file) == ".png" ? encode_png(file, plane) : encode_exr(file, plane);
+Bytes encode_image(const fs::path& file, const Plane<glm::vec4>& plane, ColorFormat format) {
+  require_image_name(file, format);
+  const std::string ending = ending_of(file);
+  if (ending == ".png") return encode_png(file, plane, format);
+  if (ending == ".tga") return encode_tga(file, plane, format);
+  return ending == ".ppm" ? encode_ppm(file, plane, format) : encode_exr(file, plane);
 }
 
-void require_image_name(const fs::path& file) {
+void require_image_name(const fs::path& file, ColorFormat format) {
   const std::string ending = ending_of(file);
-  if (ending == ".png" || ending == ".exr") return;
-  throw ImageError(fmt::format("{}: expected a file name ending in .png or .exr", file.string()));
+  if (ending == ".tga" && format == ColorFormat::rgba12) {
+    throw ImageError(
+        fmt::format("{}: TGA holds 8 bits a channel, the frame (rgba12) has 12: expected a file name "
+                    "ending in .png, .ppm or .exr",
+                    file.string()));
+  }
+  if (ending == ".png" || ending == ".tga" || ending == ".ppm" || ending == ".exr") return;
+  throw ImageError(fmt::format("{}: expected a file name ending in .png, .tga, .ppm or .exr", file.string()));
 }
 
 void require_depth_name(const fs::path& file) { require_ending(file, ".exr"); }

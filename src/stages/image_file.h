@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/scene.h"
 #include "stages/plane.h"
 
 namespace plumbline {
@@ -20,20 +21,29 @@ struct ImageError : std::runtime_error {
 
 using Bytes = std::string;
 
-/// Each encodes a plane as the bytes of a file whose name it is given. All throw ImageError: for an empty plane, or an
-/// ending that is not theirs.
+/// Each encodes a plane as the bytes of a file whose name it is given. All throw ImageError: for an empty plane, an
+/// ending that is not theirs, or a format that the file cannot hold. Where a file holds codes, values are clamped to
+/// [0,1] (NaN: 0) and rounded to nearest: value * 255, of an rgba12 frame value * 4095.
 ///
-/// .png: 8-bit RGBA: value * 255 rounded to nearest, values clamped to [0,1], NaN 0.
-Bytes encode_png(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
+/// .png: 8-bit RGBA; of an rgba12 frame 16-bit, each code c as c * 65535 / 4095 rounded, so that none is lost.
+Bytes encode_png(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
+                 ColorFormat format = ColorFormat::rgba8);
+/// .tga: 8-bit RGBA; of an rgba12 frame none.
+Bytes encode_tga(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
+                 ColorFormat format = ColorFormat::rgba8);
+/// .ppm: binary, the codes themselves of red, green and blue, of at most 255 or, of an rgba12 frame, 4095. No alpha.
+Bytes encode_ppm(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
+                 ColorFormat format = ColorFormat::rgba8);
 /// .exr: 32-bit float RGBA, bit for bit, lossless compression.
 Bytes encode_exr(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
 /// .exr, one channel "Z": window z rounded to 32-bit float.
 Bytes encode_depth_exr(const std::filesystem::path& file, const Plane<double>& plane);
-/// encode_png or encode_exr, by the ending.
-Bytes encode_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
+/// One of them, by the ending; `format`: of the frame that the plane is of.
+Bytes encode_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
+                   ColorFormat format = ColorFormat::rgba8);
 
 /// Throw what encode_image and encode_depth_exr would of the name, before there is a plane.
-void require_image_name(const std::filesystem::path& file);
+void require_image_name(const std::filesystem::path& file, ColorFormat format = ColorFormat::rgba8);
 void require_depth_name(const std::filesystem::path& file);
 
 /// Encodes and writes; the file appears whole or not at all. Throws OutputError (atomic_path.h) as well.

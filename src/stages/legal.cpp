@@ -47,7 +47,8 @@ Test depth_test(DepthFunc func, Interval hit, Interval held, double step) {
 
 double frame_depth(const FrameFormat& frame, double z_win) {
   const double scale = depth_scale(frame.depth);
-  return scale > 0 ? std::nearbyint(z_win * scale) / scale : static_cast<double>(static_cast<float>(z_win));
+  if (frame.depth == DepthFormat::z32f) return static_cast<double>(static_cast<float>(z_win));
+  return (frame.depth == DepthFormat::z8 ? std::round(z_win * scale) : std::nearbyint(z_win * scale)) / scale;
 }
 
 LegalAnswer background(const FrameFormat& frame) {

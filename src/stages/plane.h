@@ -1,13 +1,14 @@
-// A rectangle of values, row 0 at the bottom, as GL counts.
+// A rectangle of values in the order of the scene's dialect: row 0 at the bottom, as GL counts, or at the top.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <vector>
 
 namespace plumbline {
 
-/// width x height values, stored row by row from the bottom, without padding.
+/// width x height values, stored row by row, row 0 first, without padding.
 template <class T>
 class Plane {
  public:
@@ -40,5 +41,17 @@ class Plane {
   int height_ = 0;
   std::vector<T> values_;
 };
+
+/// The plane with its first row last. Files of pictures want row 0 at the bottom here; some dialects count from the
+/// top.
+template <class T>
+Plane<T> upside_down(const Plane<T>& plane) {
+  Plane<T> out(plane.width(), plane.height());
+  for (int y = 0; y < plane.height(); ++y) {
+    const T* row = plane.row(plane.height() - 1 - y);
+    std::copy(row, row + plane.width(), out.row(y));
+  }
+  return out;
+}
 
 }  // namespace plumbline

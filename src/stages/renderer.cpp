@@ -16,8 +16,9 @@ std::size_t plane_bytes(const Scene& scene) {
 
 void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget) {
   if (bytes <= budget) return;
-  throw OverBudget(fmt::format("{}: a capture of {} x {} pixels would take {} MiB, over the budget of {} MiB",
-                               scene.name, scene.frame.width, scene.frame.height, bytes >> 20, budget >> 20));
+  throw OverBudget(fmt::format(
+      "{}: at \"/frame\": expected a capture that takes at most {} MiB, found {} x {} pixels, {} MiB",
+      scene.path.empty() ? scene.name : scene.path, budget >> 20, scene.frame.width, scene.frame.height, bytes >> 20));
 }
 
 }  // namespace plumbline

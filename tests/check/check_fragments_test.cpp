@@ -97,6 +97,7 @@ TEST_F(Fragments, DepthInStepsOfEachFormat) {
     EXPECT_EQ(m.worst.place.y, 2);
     EXPECT_EQ(m.worst.place.record, 1);
   }
+  EXPECT_EQ(depth_step(DepthFormat::z8, 0.25), 1 / 255.0);
   EXPECT_EQ(depth_step(DepthFormat::z16, 0.25), 1 / 65535.0);
   EXPECT_EQ(depth_step(DepthFormat::z24, 0.25), 1 / 16777215.0);
   EXPECT_EQ(depth_step(DepthFormat::z32f, 0.25), 0x1p-24);

@@ -85,6 +85,24 @@ TEST_F(Judge, WhatAReferenceDoesNotShowIsUnsupportedWithItsReason) {
   }
 }
 
+TEST_F(Judge, WhatOpenGlHasNotIsUnsupportedAndOthersJudgeIt) {
+  using enum Stage;
+  scene.frame.color = ColorFormat::rgba12;
+  scene.frame.depth = DepthFormat::z8;
+  const Results results = run();
+  for (Stage stage : {depth, visibility, merge}) {
+    const Comparison& c = results.at({"witness", stage});
+    EXPECT_EQ(c.outcome, Outcome::unsupported) << name_of(stage);
+    EXPECT_NE(c.note.find(stage == merge ? "12 bits" : "8-bit depth"), std::string::npos) << c.note;
+    for (const char* other : {"oracle", "exact from its records"}) {
+      EXPECT_NE(results.at({other, stage}).outcome, Outcome::unsupported) << other << " " << name_of(stage);
+      EXPECT_FALSE(is_failure(results.at({other, stage}).outcome)) << other << " " << name_of(stage);
+    }
+  }
+  EXPECT_EQ(results.at({"witness", attributes}).outcome, Outcome::equal);
+  EXPECT_TRUE(unjudged_stages(verdict).empty());
+}
+
 TEST_F(Judge, WhatTheCandidateDoesNotShowIsUnsupportedAndNotEqual) {
   candidate.on_info = [](RendererInfo& info) {
     info.name = "theirs";

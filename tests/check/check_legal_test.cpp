@@ -217,8 +217,15 @@ TEST_F(LegalAnswers, CodesAreClampedFloatsAreNot) {
   EXPECT_TRUE(fails(merge()));
   show(6, 0.75, {1.5, 0.5, -0.5, 1});
   EXPECT_TRUE(passes(merge()));
+  for (const ColorFormat codes : {ColorFormat::rgba8, ColorFormat::rgba12}) {
+    scene.frame.color = codes;
+    EXPECT_TRUE(fails(merge()));
+  }
+  // Rounded to 8 bits in a frame of 12: as far as half of one in 255 off.
+  show(6, 0.75, {1, 0.5 + 0.4 / 255, 0, 1});
+  EXPECT_TRUE(fails(merge())) << "12 bits";
   scene.frame.color = ColorFormat::rgba8;
-  EXPECT_TRUE(fails(merge()));
+  EXPECT_TRUE(passes(merge()));
 }
 
 TEST_F(LegalAnswers, WhatIsNoNumberFails) {

@@ -200,7 +200,7 @@ TEST_F(PlanePairs, LegalAnswersOfAnotherPixelDecideNothing) {
 }
 
 TEST_F(PlanePairs, DepthIsHeldToTheBoundAndOneStep) {
-  for (DepthFormat format : {DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
+  for (DepthFormat format : {DepthFormat::z8, DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
     scene.frame.depth = format;
     for (const auto& [x, y, triangle] : {std::tuple(3, 1, 0u), std::tuple(2, 2, 1u)}) {
       const double bound = bounds_from_origin(capture.records.triangles[triangle], x, y).depth;
@@ -364,6 +364,25 @@ TEST_F(PlanePairs, MergedCodesAreRoundingsOfTheExactColour) {
   EXPECT_TRUE(fails(run(merge(), kUnchanged, exactly(101)))) << "1/255";
   EXPECT_EQ(run(merge(), kUnchanged, exactly(99)).worst.place.x, 3);
   EXPECT_NEAR(run(merge(), kUnchanged, exactly(99)).max_difference, 2, 1e-3) << "in halves of 1/255";
+}
+
+TEST_F(PlanePairs, MergedTwelveBitCodesToo) {
+  scene.frame.color = ColorFormat::rgba12;
+  for (glm::vec4& c : capture.planes.color.values()) c = glm::round(c * 4095.0f) / 4095.0f;
+  const auto exactly = [&](double value) {
+    return [=](Planes& p) { p.color(3, 1).r = static_cast<float>(value / 4095); };
+  };
+  const Change is = exactly(1000);
+  EXPECT_TRUE(passes(run(merge(), is, exactly(1000.3))));
+  EXPECT_TRUE(passes(run(merge(), is, exactly(1000.5))));
+  EXPECT_TRUE(passes(run(merge(), is, exactly(999.5))));
+  EXPECT_TRUE(fails(run(merge(), is, exactly(1000.502)))) << "truncated";
+  EXPECT_TRUE(fails(run(merge(), is, exactly(999.498))));
+  EXPECT_NEAR(run(merge(), is, exactly(999)).max_difference, 2, 5e-3) << "in half codes";
+  EXPECT_FALSE(passes(run(merge(), exactly(1000.4), exactly(1000.4)))) << "never rounded to the format";
+  const Change of_8_bits = [](Planes& p) { p.color(3, 1).r = 100 / 255.0f; };
+  EXPECT_FALSE(passes(run(merge(), of_8_bits, of_8_bits))) << "rounded to 8 bits: 1605.9 of 4095";
+  EXPECT_FALSE(passes(run(merge(), exactly(4096), exactly(4096)))) << "never clamped";
 }
 
 TEST_F(PlanePairs, WhatIsNoCodeFailsInA8BitFrame) {

@@ -10,7 +10,9 @@ TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
   EXPECT_EQ(plumb("--help").code, 0);
   EXPECT_EQ(plumb("--version").code, 0);
   EXPECT_EQ(plumb("").code, 2);
+  EXPECT_NE(plumb("").text.find("render, check"), std::string::npos);
   EXPECT_EQ(plumb("chekc").code, 2);
+  EXPECT_NE(plumb("chekc").text.find("chekc"), std::string::npos);
   EXPECT_EQ(plumb("check").code, 2);
   EXPECT_EQ(plumb("check " + kScenes + "cull --against mesa").code, 2);
   EXPECT_EQ(plumb("check " + kScenes + "cull --no-such-flag").code, 2);
@@ -86,6 +88,17 @@ TEST_F(Cli, a_bad_scene_ends_2_and_names_file_and_place) {
   EXPECT_EQ(plumb("check " + folder_.string() + "/empty").code, 2);
 }
 
+TEST_F(Cli, a_frame_over_the_budget_of_memory_ends_2_and_names_file_and_place) {
+  const std::string file = scene_file(
+      R"({"description": "x", "frame": {"width": 16384, "height": 16384}, "draws": [{"mesh": {"cube": {}}}]})");
+  for (const std::string& command : {"check " + file, "render " + file + " -o " + at("x.png")}) {
+    const Outcome run = plumb(command);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_NE(run.text.find(file + ": at \"/frame\": expected"), std::string::npos) << run.text;
+  }
+  EXPECT_FALSE(fs::exists(at("x.png")));
+}
+
 TEST_F(Cli, a_bad_scene_among_good_ones_leaves_no_report_half_written) {
   fs::copy(kScenes + "cull/both_windings.json", folder_ / "a.json");
   scene_file("{");
@@ -104,6 +117,50 @@ TEST_F(Cli, render_writes_pictures_and_depth) {
   EXPECT_EQ(plumb("render " + scene + " -o " + at("no/such/folder/c.png")).code, 2);
   EXPECT_EQ(plumb("render " + scene + " -o " + at("e.png") + " --depth " + at("d.png")).code, 2);
   EXPECT_FALSE(fs::exists(at("e.png")));
+}
+
+TEST_F(Cli, a_picture_whose_rows_count_from_the_top_stands_upright) {
+  const std::string scene = kScenes + "notes/gzrender_cut.json";
+  ASSERT_EQ(plumb("render " + scene + " -o " + at("c.exr") + " --depth " + at("d.exr")).code, 0);
+  ASSERT_EQ(plumb("capture " + scene + " " + at("capture")).code, 0);
+  const Capture capture = read_capture(at("capture"));
+  EXPECT_EQ(read_image(at("c.exr")).values(), upside_down(capture.planes.color).values());
+  EXPECT_NE(read_image(at("c.exr")).values(), capture.planes.color.values());
+  const Plane<double> depth = upside_down(read_stored(at("d.exr")).channels[0].values);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    ASSERT_EQ(depth.values()[i], static_cast<float>(capture.planes.depth.values()[i]));
+  }
+}
+
+// It finds what is visible and no more: a picture shows each primitive in a colour of its own.
+TEST_F(Cli, image_order_judges_visibility_and_draws_primitives) {
+  const std::string scene = kScenes + "cull/both_windings.json";
+  EXPECT_EQ(plumb("check " + scene + " --against image_order").code, 0);
+  const Outcome fault =
+      plumb("check " + kScenes + "clip/each_plane.json --against image_order --fault clip.no_near_plane");
+  EXPECT_EQ(fault.code, 1) << fault.text;
+  EXPECT_TRUE(fault.says("first different stage: visibility (against image_order)")) << fault.text;
+  // Open pixels are settled by legal answers, which exact has.
+  EXPECT_EQ(plumb("check " + kScenes + "coverage/fan.json --against exact,image_order").code, 0);
+
+  const Outcome run = plumb("render " + scene + " --with image_order -o " + at("c.png") + " --depth " + at("d.exr"));
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_EQ(plumb("capture " + scene + " " + at("ours")).code, 0);
+  const Plane<std::int32_t> ids = read_capture(at("ours")).planes.id;  // no pixel of this scene is open
+  const Plane<glm::vec4> picture = read_image(at("c.png"));
+  ASSERT_EQ(picture.size(), ids.size());
+  std::set<std::int32_t> primitives;
+  std::set<std::array<float, 3>> colors;
+  std::set<std::pair<std::int32_t, std::array<float, 3>>> pairs;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const glm::vec4 c = picture.values()[i];
+    primitives.insert(ids.values()[i]);
+    colors.insert({c.r, c.g, c.b});
+    pairs.insert({ids.values()[i], {c.r, c.g, c.b}});
+  }
+  EXPECT_GT(primitives.size(), 5u);
+  EXPECT_EQ(colors.size(), primitives.size());
+  EXPECT_EQ(pairs.size(), primitives.size()) << "one colour for each";
 }
 
 TEST_F(Cli, json_and_page_are_written) {
@@ -129,13 +186,32 @@ TEST_F(Cli, capture_writes_a_folder_that_reads_back) {
   EXPECT_GT(capture.records.triangles.size(), 0u);
 }
 
+TEST_F(Cli, render_writes_pictures_of_every_ending_that_holds_the_format) {
+  const std::string scene = kScenes + "frame/rgba12.json";
+  for (const char* file : {"c.png", "c.ppm", "c.exr"}) {
+    const Outcome run = plumb("render " + scene + " -o " + at(file));
+    EXPECT_EQ(run.code, 0) << run.text;
+    const Plane<glm::vec4> picture = read_image(at(file));
+    EXPECT_EQ(std::round(picture(0, 0).r * 4095), 410) << "0.1 of 4095, half to even, in " << file;
+    EXPECT_EQ(std::round(picture(0, 0).b * 4095), 2048) << file;
+  }
+  const Outcome refused = plumb("render " + scene + " -o " + at("c.tga"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.text.find("c.tga: TGA holds 8 bits a channel"), std::string::npos) << refused.text;
+  EXPECT_FALSE(fs::exists(at("c.tga")));
+  EXPECT_EQ(plumb("render " + kScenes + "frame/one_pixel.json -o " + at("c.tga")).code, 0);
+  EXPECT_EQ(read_image(at("c.tga")).size(), 1u);
+}
+
 TEST_F(Cli, list_names_what_there_is) {
   const Outcome run = plumb("list");
   EXPECT_EQ(run.code, 0);
   for (const char* word : {"coverage", "ours", "exact", "window.snap_truncates"}) {
     EXPECT_NE(run.text.find(word), std::string::npos) << word;
   }
-  EXPECT_NE(plumb("list scenes " + kScenes).text.find("models/bunny"), std::string::npos);
+  const std::string scenes = plumb("list scenes " + kScenes).text;
+  EXPECT_NE(scenes.find("models/bunny"), std::string::npos);
+  EXPECT_NE(scenes.find("77 x 45 x 12 bytes = 41580: GzRender's"), std::string::npos) << scenes;
 }
 
 }  // namespace

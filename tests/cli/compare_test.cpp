@@ -70,7 +70,7 @@ TEST_F(Compare, ends_2_where_it_cannot_compare) {
     refused(both + " --tolerance=" + bad, "--tolerance");
   }
   for (const char* bad : {"0", "-1", "nan"}) refused(both + " --amplify=" + bad, "--amplify");
-  refused(both + " -o " + at("d.jpg"), ".png or .exr");
+  refused(both + " -o " + at("d.jpg"), ".ppm or .exr");
   refused(both + " --json " + a, "is read by this run");
   refused(both + " -o " + a, "is read by this run");
   refused(both + " --json " + at("no/such.json"), "No such file");

@@ -103,8 +103,8 @@ inline constexpr int kSceneKinds = 8;
 inline Scene random_scene(int kind, unsigned seed) {
   Random random(seed * 977u + static_cast<unsigned>(kind));
   Scene scene = frame_of(24 + random.below(90), 24 + random.below(90));
-  scene.frame.depth =
-      std::array{DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}[static_cast<std::size_t>(random.below(3))];
+  scene.frame.depth = std::array{DepthFormat::z8, DepthFormat::z16, DepthFormat::z24,
+                                 DepthFormat::z32f}[static_cast<std::size_t>(random.below(4))];
   scene.frame.color = ColorFormat::rgba32f;
   scene.camera.eye = {random.in(-1, 1), random.in(-1, 1), random.in(3, 6)};
   scene.name = "kind " + std::to_string(kind) + ", seed " + std::to_string(seed);

@@ -38,7 +38,7 @@ Scene crossing() {
 const Request kEverything{.records = StageSet::all(), .legal = false, .primitives = {}, .pixels = {}};
 
 TEST(ExactCapture, IsTheChainOfItsStages) {
-  for (DepthFormat format : {DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
+  for (DepthFormat format : {DepthFormat::z8, DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
     Scene scene = crossing();
     scene.frame.depth = format;
     const auto exact = exact::make_exact();

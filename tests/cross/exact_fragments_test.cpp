@@ -28,7 +28,7 @@ Capture at(Stage stage, const WindowTriangle<double>& triangle, std::initializer
 
 TEST(ExactDepth, ThePlaneAtTheCentreUnrounded) {
   const auto t = window_triangle({{{0, 0, 0}, {8, 0, 0.5}, {0, 8, 0.25}}});
-  for (DepthFormat format : {DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
+  for (DepthFormat format : {DepthFormat::z8, DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
     const auto z = at(Stage::depth, t, {{1, 2}, {0, 0}, {6, 1}}, format).records.depth;
     ASSERT_EQ(z.size(), 3u);
     EXPECT_EQ(z[0], 1.5 / 16 + 2.5 / 32);

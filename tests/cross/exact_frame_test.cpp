@@ -63,6 +63,10 @@ TEST(ExactVisibility, ComparesCodesOfTheFormat) {
     scene.frame.depth = format;
     return winner(scene, stack({a, b})) == 1;
   };
+  EXPECT_TRUE(equal(DepthFormat::z8, 99.6 / 255, 100.4 / 255));
+  EXPECT_TRUE(equal(DepthFormat::z8, 100.5 / 255, 101.0 / 255)) << "half up, as int(z + .5)";
+  EXPECT_FALSE(equal(DepthFormat::z8, 100.5 / 255, 100.0 / 255));
+  EXPECT_FALSE(equal(DepthFormat::z16, 99.6 / 255, 100.4 / 255));
   EXPECT_TRUE(equal(DepthFormat::z16, 1000.6 / 65535, 1001.4 / 65535));
   EXPECT_FALSE(equal(DepthFormat::z16, 1000.4 / 65535, 1000.6 / 65535));
   EXPECT_FALSE(equal(DepthFormat::z24, 1000.6 / 65535, 1001.4 / 65535));
@@ -92,6 +96,16 @@ TEST(ExactMerge, TheWinnersColourAndDepth) {
   EXPECT_EQ(rgba8.planes.color(0, 0), glm::vec4(0.1f, 1, 0, 0.7f));
   EXPECT_EQ(rgba8.planes.depth(1, 0), 4194304 / 16777215.0);
   EXPECT_EQ(rgba8.planes.depth(0, 0), 5872025 / 16777215.0) << "the code is the nearest to 5872025.25";
+
+  scene.frame.color = ColorFormat::rgba12;
+  scene.frame.depth = DepthFormat::z8;
+  const Capture rgba12 = run(scene, Stage::merge, in);
+  EXPECT_EQ(rgba12.planes.color(1, 0), glm::vec4(1, 0, 0, 0.3f)) << "clamped as well";
+  EXPECT_EQ(rgba12.planes.depth(1, 0), 64 / 255.0) << "63.75";
+  EXPECT_EQ(rgba12.planes.depth(0, 0), 89 / 255.0) << "89.25";
+  scene.frame.clear_depth = 0.3;
+  EXPECT_EQ(run(scene, Stage::merge, in).planes.depth(0, 0), 77 / 255.0) << "76.5";
+  scene.frame.clear_depth = 0.35;
 
   scene.frame.color = ColorFormat::rgba32f;
   scene.frame.depth = DepthFormat::z32f;

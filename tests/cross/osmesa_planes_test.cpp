@@ -98,9 +98,10 @@ struct DepthCase {
 TEST(OsmesaPlanes, DepthIsInTheFramesFormat) {
   const DepthCase cases[] = {{DepthFormat::z16, 16384 / 65535.0, 8061 / 65535.0},
                              {DepthFormat::z24, 4194304 / 16777215.0, 2063597 / 16777215.0},
+                             {DepthFormat::z8, 4194304 / 16777215.0, 2063597 / 16777215.0},  // of 24 bits: GL has none
                              {DepthFormat::z32f, 0.25, static_cast<double>(0.123f)}};
   for (const DepthCase& expected : cases) {
-    for (const ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba32f}) {
+    for (const ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba12, ColorFormat::rgba32f}) {
       Scene scene = pixel_scene(5, 3);
       scene.frame.depth = expected.format;
       scene.frame.color = color;
@@ -117,7 +118,7 @@ TEST(OsmesaPlanes, DepthIsInTheFramesFormat) {
 TEST(OsmesaPlanes, ColorIsInTheFramesFormat) {
   // No code is near the middle between two: which of them OpenGL takes there is its own affair.
   const glm::vec4 paint(0.31f, 0.6f, 0.87f, 0.123f), clear(0.11f, 0.72f, 0.2f, 0.45f);
-  for (const ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba32f}) {
+  for (const ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba12, ColorFormat::rgba32f}) {
     Scene scene = pixel_scene(5, 3);
     scene.frame.color = color;
     scene.frame.clear_color = clear;

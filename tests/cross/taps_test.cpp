@@ -17,8 +17,9 @@ void expect_equal_planes(const Scene& scene) {
   for (int y = 0; y < scene.frame.height; ++y) {
     for (int x = 0; x < scene.frame.width; ++x) {
       const glm::vec4 tapped = capture.planes.color(x, y);
-      const glm::vec4 shipped =
-          frame.color_rgba32f.empty() ? glm::vec4(frame.color_rgba8(x, y)) / 255.0f : frame.color_rgba32f(x, y);
+      const glm::vec4 shipped = !frame.color_rgba8.empty()    ? glm::vec4(frame.color_rgba8(x, y)) / 255.0f
+                                : !frame.color_rgba12.empty() ? glm::vec4(frame.color_rgba12(x, y)) / 4095.0f
+                                                              : frame.color_rgba32f(x, y);
       const double z =
           frame.depth_z32f.empty() ? frame.depth_code(x, y) / scale : static_cast<double>(frame.depth_z32f(x, y));
       if (tapped != shipped || z != capture.planes.depth(x, y)) ++differing;

@@ -35,6 +35,7 @@ void normals_by_model_view(const Matrices<float>& matrices, const Mesh& mesh, st
 void lights_in_world_space(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
                            std::vector<Lit<float>>& out) {
   Scene wrong = scene;
+  wrong.dialect = Dialect::gl;
   wrong.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};  // eye space is the world
   pipeline::light(wrong, draw, vertices, out);
 }

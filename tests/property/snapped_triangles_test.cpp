@@ -122,8 +122,8 @@ Scene moved_grid() {
   constexpr int kCells = 6, kCell = 12;  // pixels
   Scene scene;
   scene.frame.width = scene.frame.height = 64;
-  scene.frame.color = static_cast<ColorFormat>(*test::evenly(0, 2));
-  scene.frame.depth = static_cast<DepthFormat>(*test::evenly(0, 3));
+  scene.frame.color = static_cast<ColorFormat>(*test::evenly(0, 3));
+  scene.frame.depth = static_cast<DepthFormat>(*test::evenly(0, 4));
   scene.projection = Orthographic{0, 64, 0, 64, 1, 10};
   Mesh mesh = make_grid(kCells, kCells);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -154,6 +154,7 @@ RC_GTEST_PROP(SnappedTriangles, PermutedTrianglesThatDoNotOverlapChangeNoBit, ()
   }
   const pipeline::Frame after = pipeline::render(scene);
   RC_ASSERT(after.color_rgba8.values() == before.color_rgba8.values());
+  RC_ASSERT(after.color_rgba12.values() == before.color_rgba12.values());
   RC_ASSERT(after.color_rgba32f.values() == before.color_rgba32f.values());
   RC_ASSERT(after.depth_code.values() == before.depth_code.values());
   RC_ASSERT(after.depth_z32f.values() == before.depth_z32f.values());

@@ -72,6 +72,65 @@ TEST_F(ImageFile, EveryCodeSurvives) {
   EXPECT_EQ(read_image(root_ / "a.png").values(), plane.values());
 }
 
+TEST_F(ImageFile, TgaHoldsTheSameCodesAsPng) {
+  write_image(root_ / "a.png", make_plane());
+  write_image(root_ / "a.tga", make_plane());
+  EXPECT_EQ(read_image(root_ / "a.tga").values(), read_image(root_ / "a.png").values());
+  Plane<glm::vec4> plane(256, 3);
+  for (int i = 0; i < 768; ++i)
+    plane(i % 256, i / 256) = glm::vec4(glm::dvec4(i % 256, 255 - i % 256, i / 3, 255 - i / 3) / 255.0);
+  write_image(root_ / "b.tga", plane);
+  EXPECT_EQ(read_image(root_ / "b.tga").values(), plane.values());
+}
+
+TEST_F(ImageFile, PpmHoldsTheCodesOfRedGreenAndBlue) {
+  write_image(root_ / "a.png", make_plane());
+  write_image(root_ / "a.ppm", make_plane());
+  const Plane<glm::vec4> is = read_image(root_ / "a.ppm"), expected = read_image(root_ / "a.png");
+  ASSERT_EQ(is.size(), expected.size());
+  for (std::size_t i = 0; i < is.size(); ++i) {
+    EXPECT_EQ(is.values()[i], glm::vec4(glm::vec3(expected.values()[i]), 1)) << i;
+  }
+  EXPECT_EQ(encode_ppm("a.ppm", Plane<glm::vec4>(1, 2, {1, 0, 0.2f, 0})),
+            std::string("P6\n1 2\n255\n\xff\0\x33\xff\0\x33", 17));
+  EXPECT_EQ(encode_ppm("a.ppm", Plane<glm::vec4>(1, 1, {1, 0, 0.5f, 0}), ColorFormat::rgba12),
+            std::string("P6\n1 1\n4095\n\x0f\xff\0\0\x08\0", 18))
+      << "the high byte first";
+}
+
+TEST_F(ImageFile, EveryTwelveBitCodeSurvives) {
+  Plane<glm::vec4> plane(4096, 1);
+  for (int i = 0; i < 4096; ++i) plane(i, 0) = glm::vec4(glm::dvec4(i, 4095 - i, i / 2, i) / 4095.0);
+  for (const char* file : {"a.png", "a.ppm"}) {
+    write_file(root_ / file, encode_image(file, plane, ColorFormat::rgba12));
+    const Plane<glm::vec4> back = read_image(root_ / file);
+    for (int i = 0; i < 4096; ++i) {
+      const int channels = std::string(file) == "a.png" ? 4 : 3;
+      for (int c = 0; c < channels; ++c) {
+        ASSERT_EQ(std::round(back(i, 0)[c] * 4095), std::round(plane(i, 0)[c] * 4095)) << file << " " << i;
+        ASSERT_NEAR(back(i, 0)[c], plane(i, 0)[c], 1 / 65535.0) << file << " " << i;
+      }
+    }
+  }
+  Plane<glm::vec4> odd(1, 1, {-1, 7, kNan, 409.5f / 4095});
+  EXPECT_EQ(encode_ppm("a.ppm", odd, ColorFormat::rgba12), std::string("P6\n1 1\n4095\n\0\0\x0f\xff\0\0", 18));
+}
+
+TEST_F(ImageFile, TgaHoldsNoTwelveBits) {
+  const auto say = [&](auto act) {
+    refused(act, "a.tga",
+            "TGA holds 8 bits a channel, the frame (rgba12) has 12: expected a file name ending in .png, .ppm or .exr");
+  };
+  say([] { encode_image("a.tga", make_plane(), ColorFormat::rgba12); });
+  say([] { encode_tga("a.tga", make_plane(), ColorFormat::rgba12); });
+  say([] { require_image_name("a.tga", ColorFormat::rgba12); });
+  for (const char* file : {"a.png", "a.ppm", "a.exr"}) EXPECT_NO_THROW(require_image_name(file, ColorFormat::rgba12));
+  refused([] { encode_ppm("a.ppm", {}); }, "a.ppm", "empty");
+  refused([] { encode_tga("a.tga", {}); }, "a.tga", "empty");
+  refused([] { encode_ppm("a.tga", make_plane()); }, "a.tga", ".ppm");
+  refused([] { encode_tga("a.ppm", make_plane()); }, "a.ppm", ".tga");
+}
+
 TEST_F(ImageFile, PngClampsWhatHasNoCode) {
   Plane<glm::vec4> plane(1, 1, {-1, 7, kNan, kInf});
   write_image(root_ / "a.png", plane);
@@ -121,13 +180,14 @@ TEST_F(ImageFile, ChoosesByEndingAndLeavesNothingBehind) {
   write_image(root_ / "a.exr", make_plane());
   write_image(root_ / "a.exr", make_plane());  // over the old one
   EXPECT_EQ(read_image(root_ / "a.exr").values(), make_plane().values());
-  refused([&] { write_image(root_ / "a.jpg", make_plane()); }, "a.jpg", "expected a file name ending in .png or .exr");
-  refused([&] { write_image(root_ / "a", make_plane()); }, "/a", ".png or .exr");
+  refused([&] { write_image(root_ / "a.jpg", make_plane()); }, "a.jpg",
+          "expected a file name ending in .png, .tga, .ppm or .exr");
+  refused([&] { write_image(root_ / "a", make_plane()); }, "/a", ".ppm or .exr");
   refused([&] { encode_exr("a.png", make_plane()); }, "a.png", ".exr");
   refused([&] { encode_png("a.exr", make_plane()); }, "a.exr", ".png");
   refused([&] { encode_depth_exr("z.png", {1, 1}); }, "z.png", ".exr");
   refused([&] { encode_depth_exr("z.exr", {}); }, "z.exr", "empty");
-  refused([&] { require_image_name("a.tif"); }, "a.tif", ".png or .exr");
+  refused([&] { require_image_name("a.tif"); }, "a.tif", ".ppm or .exr");
   refused([&] { require_depth_name("z.png"); }, "z.png", ".exr");
   EXPECT_NO_THROW(require_image_name("A.PNG"));
   EXPECT_NO_THROW(require_depth_name("no/such/folder/z.exr"));

@@ -51,6 +51,8 @@ TEST(FoldHits, NoHitsLeaveTheBackground) {
   EXPECT_EQ(all[0].color_bound, 0);
   EXPECT_DOUBLE_EQ(all[0].z_lo, 19660.0 / 65535);  // 0.3 * 65535 = 19660.5 in the reals, and just below in double
   EXPECT_EQ(all[0].z_lo, all[0].z_hi);
+  frame.depth = DepthFormat::z8;
+  EXPECT_DOUBLE_EQ(answers({}, frame)[0].z_lo, 77.0 / 255);  // 76.5, half up
 }
 
 TEST(FoldHits, ACertainHitReplacesTheBackground) {

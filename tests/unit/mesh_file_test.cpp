@@ -306,7 +306,7 @@ TEST_F(MeshFile, RefusesGltf) {
   const auto refuse = [&](const std::string& text, const std::string& expected) {
     refused(write(text, "mesh.gltf"), expected);
   };
-  refuse("", "expected a mesh, found");
+  refuse("", "beginning with {");
   refuse("{}", "expected a mesh, found");
   refuse(gltf("AAABAAkA"), "expected a mesh, found Mesh \"meshes[0]\" has no faces");
   refuse(gltf("AAABAAIAAAABAAkA", 6), "out-of-range indices");  // one good triangle, one bad
@@ -326,13 +326,20 @@ TEST_F(MeshFile, RefusesMoreTrianglesThanAllowed) {
   EXPECT_THROW(load_mesh(file, AssetFolders({root_}), 1), MeshError);
 }
 
+TEST_F(MeshFile, RefusesAnotherFormatUnderTheEndingAtOnce) {
+  refused(write("ply\nformat ascii 1.0\n", "mesh.glb"), "beginning with glTF");
+  refused(write("ply\nformat ascii 1.0\n", "mesh.gltf"), "beginning with {");
+  refused(write(" \n", "mesh.gltf"), "beginning with {");
+  refused(write("glTF", "mesh.3ds"), "beginning with MM");
+}
+
 TEST_F(MeshFile, Refuses3ds) {
   refused(write("MMMM", "mesh.3ds"), "expected");
   std::ifstream in(fs::path(PLUMBLINE_ASSETS) / "cube.3ds", std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
   ASSERT_GT(whole.size(), 600u);
   EXPECT_NO_THROW(load_parts(write(whole, "mesh.3ds")));
-  for (std::size_t size = 0; size < whole.size(); size += 29) {
+  for (std::size_t size = 29; size < whole.size(); size += 29) {
     refused(write(whole.substr(0, size), "mesh.3ds"), "expected a mesh");
   }
 }

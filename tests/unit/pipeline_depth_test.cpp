@@ -114,6 +114,28 @@ TEST(PipelineDepth, AFlatTriangleHasItsDepthEverywhere) {
   }
 }
 
+// tinyrenderer's int(z + .5), z in [0,255] (note 002): at every half code up, where 16 and 24 bits go to the even.
+TEST(PipelineDepth, EightBitCodesAreRoundedHalfUp) {
+  int halves = 0;
+  for (int k = 0; k < 255; ++k) {
+    double z = (k + 0.5) / 255;
+    for (int i = 0; i < 4; ++i) z = std::nextafter(z, 0.0);
+    for (int i = 0; i < 9; ++i, z = std::nextafter(z, 1.0)) {
+      const double scaled = z * 255;
+      EXPECT_EQ(depth_code(z, 255.0), scaled < k + 0.5 ? k : k + 1) << k;
+      if (k > 0) {  // below 1/2, the sum itself is rounded up
+        EXPECT_EQ(depth_code(z, 255.0), static_cast<int>(scaled + .5)) << k;
+      }
+      halves += scaled == k + 0.5;
+    }
+    EXPECT_EQ(depth_code((k + 0.5) / 256, 256.0), std::nearbyint(k + 0.5)) << "other scales: half to even";
+  }
+  EXPECT_GT(halves, 255 / 2);
+  EXPECT_EQ(depth_code(0.0, 255.0), 0);
+  EXPECT_EQ(depth_code(1.0, 255.0), 255);
+  EXPECT_EQ(depth_scale(DepthFormat::z8), 255);
+}
+
 TEST(PipelineDepth, CodesAreRoundedHalfToEven) {
   // One step per two pixels: every other pixel's depth is half way between two codes.
   for (double scale : {kZ16, kZ24}) {

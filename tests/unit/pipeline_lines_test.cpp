@@ -23,7 +23,7 @@ ClipPolygons<float> clipped(Topology topology, std::vector<glm::vec4> p_clip, Sh
   const std::vector<Lit<float>> lit = {{{1, 0, 0, 1}}, {{0, 1, 0, 0}}};
   const glm::uvec3 primitive = topology == Topology::lines ? glm::uvec3(0, 1, 1) : glm::uvec3(0);
   ClipPolygons<float> out;
-  clip(Assembly{vertices, lit, std::span(&primitive, 1), 7, shading, topology}, out);
+  clip(Assembly{vertices, lit, std::span(&primitive, 1), 7, shading, false, topology}, out);
   return out;
 }
 std::vector<ClipVertex<float>> line(glm::vec4 a, glm::vec4 b, Shading shading = Shading::gouraud) {

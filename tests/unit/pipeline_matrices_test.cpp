@@ -9,10 +9,6 @@
 namespace plumbline::pipeline {
 namespace {
 
-void expect_near(const glm::dvec4& is, const glm::dvec4& expected, double bound = 1e-14) {
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(is[i], expected[i], bound) << "component " << i;
-}
-
 /// Where the transforms put a point of the model, seen by a camera at the origin that looks down -z.
 glm::vec4 placed(const std::vector<Transform>& transforms, glm::vec3 p_model) {
   Scene scene;
@@ -20,54 +16,6 @@ glm::vec4 placed(const std::vector<Transform>& transforms, glm::vec3 p_model) {
   Draw draw;
   draw.transforms = transforms;
   return matrices(scene, draw).model_view * glm::vec4(p_model, 1);
-}
-
-TEST(PipelineMatrices, LookAtFromTheSide) {
-  const glm::dmat4 view = look_at({{5, 1, 0}, {0, 1, 0}, {0, 3, 0}});
-  expect_near(view * glm::dvec4(5, 1, 0, 1), {0, 0, 0, 1});   // the eye
-  expect_near(view * glm::dvec4(0, 1, 0, 1), {0, 0, -5, 1});  // the centre, straight ahead
-  expect_near(view * glm::dvec4(5, 2, 0, 1), {0, 1, 0, 1});   // up
-  expect_near(view * glm::dvec4(5, 1, -1, 1), {1, 0, 0, 1});  // looking down -x, -z is on the right
-  expect_near(view * glm::dvec4(0, 0, -1, 0), {1, 0, 0, 0});  // a direction does not move
-}
-
-TEST(PipelineMatrices, LookAtStraightensUp) {
-  // Up leans forward; what is left of it upright is +y.
-  const glm::dmat4 view = look_at({{0, 0, 2}, {0, 0, 0}, {0, 7, -4}});
-  expect_near(view * glm::dvec4(0.5, 3, 0, 1), {0.5, 3, -2, 1});
-  const glm::dmat4 oblique = look_at({{1, 2, 3}, {-2, 0.5, 1}, {0.3, 1, -0.2}});
-  const glm::dmat3 turn(oblique);
-  const glm::dmat3 identity = glm::transpose(turn) * turn;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(identity[i][k], i == k ? 1 : 0, 1e-15);
-  }
-  EXPECT_NEAR(glm::determinant(turn), 1, 1e-15);
-  expect_near(oblique * glm::dvec4(-2, 0.5, 1, 1), {0, 0, -std::sqrt(9 + 2.25 + 4), 1});
-}
-
-TEST(PipelineMatrices, PerspectiveTakesTheFrustumToTheCube) {
-  // 90 degrees high: at distance d, the view is 2 d high and 4 d wide.
-  const glm::dmat4 p = project(Perspective{90, 2, 8}, 2.0);
-  expect_near(p * glm::dvec4(4, 2, -2, 1), {2, 2, -2, 2});      // the near corner: (1, 1, -1) after division by w
-  expect_near(p * glm::dvec4(-16, -8, -8, 1), {-8, -8, 8, 8});  // the far one: (-1, -1, 1)
-  const glm::dmat4 narrow = project(Perspective{60, 1, 3}, 0.5);
-  expect_near(narrow * glm::dvec4(0, std::sqrt(1.0 / 3), -1, 1), {0, 1, -1, 1});
-  expect_near(narrow * glm::dvec4(std::sqrt(1.0 / 3) / 2, 0, -1, 1), {1, 0, -1, 1});
-}
-
-TEST(PipelineMatrices, FrustumTakesItsCornersToTheCube) {
-  const glm::dmat4 p = project(Frustum{-1, 3, 2, 10, 2, 8}, 7.0);
-  expect_near(p * glm::dvec4(-1, 2, -2, 1), {-2, -2, -2, 2});
-  expect_near(p * glm::dvec4(3, 10, -2, 1), {2, 2, -2, 2});
-  expect_near(p * glm::dvec4(-4, 8, -8, 1), {-8, -8, 8, 8});
-  expect_near(p * glm::dvec4(12, 40, -8, 1), {8, 8, 8, 8});
-}
-
-TEST(PipelineMatrices, OrthographicTakesTheBoxToTheCube) {
-  const glm::dmat4 p = project(Orthographic{-1, 3, 2, 10, 0.5, 4.5}, 7.0);
-  expect_near(p * glm::dvec4(-1, 2, -0.5, 1), {-1, -1, -1, 1});
-  expect_near(p * glm::dvec4(3, 10, -4.5, 1), {1, 1, 1, 1});
-  expect_near(p * glm::dvec4(0, 4, -1.5, 1), {-0.5, -0.5, -0.5, 1});
 }
 
 TEST(PipelineMatrices, TheLastTransformActsFirst) {

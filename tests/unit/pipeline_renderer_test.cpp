@@ -17,6 +17,7 @@ using testing_words::same_values;
 
 constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {{ColorFormat::rgba8, DepthFormat::z24},
                                                             {ColorFormat::rgba8, DepthFormat::z16},
+                                                            {ColorFormat::rgba12, DepthFormat::z8},
                                                             {ColorFormat::rgba32f, DepthFormat::z32f},
                                                             {ColorFormat::rgba32f, DepthFormat::z24}};
 
@@ -86,6 +87,8 @@ TEST(PipelineRenderer, PlanesAreThoseOfTheFrameThatShips) {
       for (int x = 0; x < 90; ++x) {
         if (color == ColorFormat::rgba8) {
           ASSERT_EQ(c.planes.color(x, y), glm::vec4(frame.color_rgba8(x, y)) / 255.0f);
+        } else if (color == ColorFormat::rgba12) {
+          ASSERT_EQ(c.planes.color(x, y), glm::vec4(frame.color_rgba12(x, y)) / 4095.0f);
         } else {
           ASSERT_EQ(c.planes.color(x, y), frame.color_rgba32f(x, y));
         }

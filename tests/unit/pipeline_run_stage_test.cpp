@@ -43,6 +43,7 @@ Capture of_stage(const Capture& whole, Stage stage) {
 
 constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {{ColorFormat::rgba8, DepthFormat::z24},
                                                             {ColorFormat::rgba8, DepthFormat::z16},
+                                                            {ColorFormat::rgba12, DepthFormat::z8},
                                                             {ColorFormat::rgba32f, DepthFormat::z32f},
                                                             {ColorFormat::rgba32f, DepthFormat::z24}};
 

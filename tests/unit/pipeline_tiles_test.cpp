@@ -50,11 +50,11 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
                   const std::vector<Draw>& draws, const FrameFormat& f) {
   const Formats formats = formats_of(f);
   // Only what depth.h asks for knows of tiles: planes are anchored at the lower left pixel of the pixel's own.
-  std::map<std::pair<int, int>, std::vector<TriangleSetup>> setups_of_tile;
+  std::map<std::pair<int, int>, std::vector<TriangleSetup<>>> setups_of_tile;
   for (int y = 0; y < f.height; y += 64) {
     for (int x = 0; x < f.width; x += 64) {
       for (const Triangle& t : triangles) {
-        setups_of_tile[{x / 64, y / 64}].push_back(set_up<FragmentStages>(t, 0, formats, x, y));
+        setups_of_tile[{x / 64, y / 64}].push_back(set_up(FragmentStages(), t, 0, formats, x, y));
       }
     }
   }
@@ -62,11 +62,11 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
   for (int y = 0; y < f.height; ++y) {
     for (int x = 0; x < f.width; ++x) {
       float z = formats.depth_scale == 0 ? static_cast<float>(f.clear_depth)
-                                         : static_cast<float>(round_even(f.clear_depth * formats.depth_scale));
+                                         : static_cast<float>(depth_code(f.clear_depth, formats.depth_scale));
       Color<float> color =
           merge<float>({f.clear_color.r, f.clear_color.g, f.clear_color.b, f.clear_color.a}, formats.color_scale);
       const Pixels<float> p{x, y, x + 0.5, y + 0.5};
-      const std::vector<TriangleSetup>& setups = setups_of_tile[{x / 64, y / 64}];
+      const std::vector<TriangleSetup<>>& setups = setups_of_tile[{x / 64, y / 64}];
       for (std::size_t d = 0; d < draws.size(); ++d) {
         for (std::uint32_t n = first[d]; n < first[d + 1]; ++n) {
           if (!coverage<float>(setups[n].edges, p)) continue;
@@ -96,12 +96,13 @@ Frame tiled(const std::vector<Triangle>& triangles, const std::vector<std::uint3
             const std::vector<Draw>& draws, const FrameFormat& f) {
   Frame frame(f);
   NoTap tap;
-  draw_tiles<float, FragmentStages>({triangles, first, draws}, f, frame, tap);
+  draw_tiles<float>(FragmentStages(), {triangles, first, draws}, f, frame, tap);
   return frame;
 }
 
 void expect_same(const Frame& is, const Frame& expected) {
   EXPECT_EQ(is.color_rgba8.values(), expected.color_rgba8.values());
+  EXPECT_EQ(is.color_rgba12.values(), expected.color_rgba12.values());
   EXPECT_EQ(is.color_rgba32f.values(), expected.color_rgba32f.values());
   EXPECT_EQ(is.depth_code.values(), expected.depth_code.values());
   EXPECT_EQ(is.depth_z32f.values(), expected.depth_z32f.values());
@@ -194,19 +195,25 @@ TEST(PipelineTiles, FramesHoldThePlanesOfTheirFormats) {
   EXPECT_EQ(large.color_rgba32f.width(), 5);
   EXPECT_EQ(large.depth_z32f.height(), 3);
   EXPECT_TRUE(large.color_rgba8.empty() && large.depth_code.empty());
+  const Frame gz(format(5, 3, ColorFormat::rgba12, DepthFormat::z8));
+  EXPECT_EQ(gz.color_rgba12.size(), 15u);
+  EXPECT_EQ(gz.depth_code.size(), 15u);
+  EXPECT_TRUE(gz.color_rgba8.empty() && gz.color_rgba32f.empty() && small.color_rgba12.empty());
 }
 
 TEST(PipelineTiles, FormatsScaleToTheirLargestCodes) {
   EXPECT_EQ(formats_of(format(1, 1, ColorFormat::rgba8, DepthFormat::z16)).depth_scale, 65535);
   EXPECT_EQ(formats_of(format(1, 1, ColorFormat::rgba8, DepthFormat::z24)).depth_scale, 16777215);
   EXPECT_EQ(formats_of(format(1, 1, ColorFormat::rgba8, DepthFormat::z32f)).depth_scale, 0);
+  EXPECT_EQ(formats_of(format(1, 1, ColorFormat::rgba8, DepthFormat::z8)).depth_scale, 255);
   EXPECT_EQ(formats_of(format(1, 1, ColorFormat::rgba8)).color_scale, 255);
+  EXPECT_EQ(formats_of(format(1, 1, ColorFormat::rgba12)).color_scale, 4095);
   EXPECT_EQ(formats_of(format(1, 1, ColorFormat::rgba32f)).color_scale, 0);
 }
 
 TEST(PipelineTiles, ClearValuesInEachFormat) {
-  for (DepthFormat depth : {DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
-    for (ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba32f}) {
+  for (DepthFormat depth : {DepthFormat::z8, DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
+    for (ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba12, ColorFormat::rgba32f}) {
       FrameFormat f = format(66, 2, color, depth);
       f.clear_color = {0.25f, 0.6f, 1.25f, -0.5f};
       f.clear_depth = 0.3;
@@ -214,10 +221,13 @@ TEST(PipelineTiles, ClearValuesInEachFormat) {
       for (const int x : {0, 65}) {
         if (color == ColorFormat::rgba8) {
           EXPECT_EQ(frame.color_rgba8(x, 1), glm::u8vec4(64, 153, 255, 0)) << "63.75, 153";
+        } else if (color == ColorFormat::rgba12) {
+          EXPECT_EQ(frame.color_rgba12(x, 1), glm::u16vec4(1024, 2457, 4095, 0)) << "1023.75, 2457";
         } else {
           EXPECT_EQ(frame.color_rgba32f(x, 1), f.clear_color);
         }
         switch (depth) {
+          case DepthFormat::z8: EXPECT_EQ(frame.depth_code(x, 1), 77u) << "76.5, half up"; break;
           case DepthFormat::z16: EXPECT_EQ(frame.depth_code(x, 1), 19660u); break;
           case DepthFormat::z24: EXPECT_EQ(frame.depth_code(x, 1), 5033164u); break;
           case DepthFormat::z32f: EXPECT_EQ(frame.depth_z32f(x, 1), 0.3f); break;

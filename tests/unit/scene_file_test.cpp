@@ -112,6 +112,28 @@ TEST_F(SceneFile, LeavesDefaults) {
   EXPECT_EQ(s.draws[0].material.diffuse, Material{}.diffuse);
 }
 
+TEST_F(SceneFile, ADialectHasItsOwnDefaults) {
+  const auto read = [&](const std::string& dialect, const std::string& rest = "") {
+    return load(R"({"description": "d", "dialect": ")" + dialect + R"(", "draws": [{"mesh": {"cube": {}}}])" + rest +
+                "}");
+  };
+  const Scene gz = read("gzrender"), games = read("games101"), tiny = read("tinyrenderer");
+  EXPECT_EQ(std::get<ViewPlane>(gz.projection).fov_degrees, 45);
+  EXPECT_EQ(gz.draws[0].depth_func, DepthFunc::less);
+  EXPECT_EQ(gz.frame.clear_depth, 1);
+  EXPECT_EQ(std::get<Perspective>(games.projection).near, -1);
+  EXPECT_EQ(std::get<Pinhole>(tiny.projection).c, 5);  // from (0, 0, 5) to the origin
+  for (const Scene* scene : {&games, &tiny}) {
+    EXPECT_EQ(scene->draws[0].depth_func, DepthFunc::greater);
+    EXPECT_EQ(scene->frame.clear_depth, 0);
+  }
+  EXPECT_TRUE(tiny.depth_clamp);
+  EXPECT_FALSE(games.depth_clamp || gz.depth_clamp);
+  const Scene said = read("games101", R"(, "frame": {"clear_depth": 0.5}, "defaults": {"depth_func": "always"})");
+  EXPECT_EQ(said.frame.clear_depth, 0.5);
+  EXPECT_EQ(said.draws[0].depth_func, DepthFunc::always);
+}
+
 TEST_F(SceneFile, DrawsOfAnEqualMeshShareIt) {
   const Scene s = load(R"({"description": "d", "draws": [
       {"mesh": {"grid": {"columns": 1, "rows": 2}}}, {"mesh": {"grid": {"columns": 2, "rows": 1}}},
@@ -258,6 +280,7 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
     seen("color ", s.frame.color);
     seen("depth ", s.frame.depth);
     seen("projection ", s.projection.index());
+    seen("dialect ", s.dialect);
     for (const Light& light : s.lights) seen("light ", light.kind);
     for (const Draw& draw : s.draws) {
       seen("lit ", draw.lit);
@@ -267,7 +290,7 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
       for (const Transform& transform : draw.transforms) seen("transform ", transform.index());
     }
   }
-  EXPECT_EQ(states.size(), 2u + 3 + 3 + 2 + 2 + 2 + 3 + 8 + 3);
+  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 2 + 2 + 2 + 3 + 8 + 3);
 }
 
 }  // namespace

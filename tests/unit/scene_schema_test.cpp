@@ -40,6 +40,8 @@ std::string in_mesh(const std::string& kind) {
   return R"({"description": "d", "draws": [{"mesh": {")" + kind + R"(": $}}]})";
 }
 const Members kSides = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"}, {"top", "1"}, {"near", "1"}, {"far", "2"}};
+const Members kCoordinates = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"},
+                              {"top", "1"},   {"near", "1"},  {"far", "-2"}};
 const Members kState = {{"transforms", "[]"},    {"material", "{}"},   {"lit", "true"},
                         {"shading", "\"flat\""}, {"cull", "\"none\""}, {"depth_func", "\"less\""}};
 const std::string kThree = "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]", kWhite = "[1, 1, 1, 1]";
@@ -80,6 +82,17 @@ const std::vector<Sample> kSamples = {
     {"perspective", kInTop + R"("projection": {"perspective": $}})", {{"fov_y", "9"}, {"near", "1"}, {"far", "2"}}},
     {"orthographic", kInTop + R"("projection": {"orthographic": $}})", kSides},
     {"frustum", kInTop + R"("projection": {"frustum": $}})", kSides},
+    {"games101_projection",
+     kInTop + R"("dialect": "games101", "projection": $})",
+     {{"perspective", R"({"fov_y": 9, "near": -1, "far": -2})"}, {"orthographic", object(kCoordinates)}}},
+    {"games101_perspective",
+     kInTop + R"("dialect": "games101", "projection": {"perspective": $}})",
+     {{"fov_y", "9"}, {"near", "-1"}, {"far", "-2"}}},
+    {"games101_orthographic", kInTop + R"("dialect": "games101", "projection": {"orthographic": $}})", kCoordinates},
+    {"gzrender_projection", kInTop + R"("dialect": "gzrender", "projection": $})", {{"x_pi", R"({"fov": 9})"}}},
+    {"x_pi", kInTop + R"("dialect": "gzrender", "projection": {"x_pi": $}})", {{"fov", "9"}}},
+    {"tinyrenderer_projection", kInTop + R"("dialect": "tinyrenderer", "projection": $})", {{"pinhole", "{}"}}},
+    {"pinhole", kInTop + R"("dialect": "tinyrenderer", "projection": {"pinhole": $}})", {{"c", "2"}}},
     {"light",
      kInTop + R"("lights": [$]})",
      {{"point", "[0, 0, 0]"}, {"ambient", "[0, 0, 0]"}, {"diffuse", "[0, 0, 0]"}, {"specular", "[0, 0, 0]"}}},

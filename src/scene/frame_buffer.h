@@ -1,0 +1,31 @@
+// The frame buffer in numbers (note 004, class 1): resolution, pixel depth, buffer size.
+#pragma once
+
+#include <cstddef>
+
+#include "scene/scene.h"
+
+namespace plumbline {
+
+/// Total memory of a buffer of width x height pixels of so many bytes each: the notes' exam question.
+constexpr std::size_t buffer_bytes(int width, int height, std::size_t pixel_bytes) {
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * pixel_bytes;
+}
+
+/// Pixel depth: the bytes of one pixel, colour and z value, as pipeline/frame.h keeps them (four channels, of 12 bits
+/// in 2 bytes each; depth codes in 4 bytes).
+constexpr std::size_t pixel_bytes(const FrameFormat& frame) {
+  constexpr std::size_t kDepth = 4;
+  switch (frame.color) {
+    case ColorFormat::rgba8: return 4 + kDepth;
+    case ColorFormat::rgba12: return 8 + kDepth;
+    case ColorFormat::rgba32f: return 16 + kDepth;
+  }
+  return 0;
+}
+
+constexpr std::size_t buffer_bytes(const FrameFormat& frame) {
+  return buffer_bytes(frame.width, frame.height, pixel_bytes(frame));
+}
+
+}  // namespace plumbline

@@ -1,0 +1,34 @@
+// From NDC to the window, in pixels, in three forms.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace plumbline::transforms {
+
+namespace gzrender {
+
+/// X_sp, class notes (004) 3.2; M_screen, GzRender (000): x, y in [-1, 1] to [0, xs] x [0, ys], y down from the upper
+/// left corner; z in [0, 1] to [0, maxint]. Pixel centres are whole numbers there: half a pixel off the two below.
+glm::dmat4 x_sp(double xs, double ys, double maxint);
+glm::dmat4 inverse_x_sp(double xs, double ys, double maxint);
+
+}  // namespace gzrender
+
+namespace games101 {
+
+/// M_viewport, GAMES101 (001) "Canonical Cube to Screen": x, y in [-1, 1] to [0, width] x [0, height], y up from the
+/// lower left corner, pixel centres at halves; z stays. GL's own in x and y.
+glm::dmat4 viewport(double width, double height);
+glm::dmat4 inverse_viewport(double width, double height);
+
+}  // namespace games101
+
+namespace tinyrenderer {
+
+/// TinyRenderer (002) "Viewport Matrix": the cube [-1, 1]^3 to [x, x + w] x [y, y + h] x [0, depth], y up.
+glm::dmat4 viewport(double x, double y, double w, double h, double depth);
+glm::dmat4 inverse_viewport(double x, double y, double w, double h, double depth);
+
+}  // namespace tinyrenderer
+
+}  // namespace plumbline::transforms
