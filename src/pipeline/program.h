@@ -103,26 +103,26 @@ class ProgramStages : public FragmentStages {
 /// Draws the program's triangles, in order, on a cleared frame. Throws as require_drawable.
 template <Program P>
 Frame draw_program(const P& program, std::size_t triangles, const FrameFormat& format, const ProgramState& state = {}) {
-  using Stages = ProgramStages<P>;
+  using OfProgram = ProgramStages<P>;
   require_drawable(triangles, format);
   std::vector<Vertex<float>> vertices(3 * triangles);
-  std::array<std::vector<Lit<float>>, Stages::kFours> fours;
+  std::array<std::vector<Lit<float>>, OfProgram::kFours> fours;
   fours.fill(std::vector<Lit<float>>(3 * triangles));
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     typename P::Varyings out{};
     vertices[i].p_clip = program.vertex(i / 3, static_cast<int>(i % 3), out);
-    std::array<glm::vec4, Stages::kFours> floats{};
-    if constexpr (Stages::kFloats != 0) std::memcpy(floats.data(), &out, sizeof out);
-    for (std::size_t k = 0; k < Stages::kFours; ++k) fours[k][i].color = floats[k];
+    std::array<glm::vec4, OfProgram::kFours> floats{};
+    if constexpr (OfProgram::kFloats != 0) std::memcpy(floats.data(), &out, sizeof out);
+    for (std::size_t k = 0; k < OfProgram::kFours; ++k) fours[k][i].color = floats[k];
   }
-  typename Stages::Triangles of_four;
-  for (std::size_t k = 0; k < Stages::kFours; ++k) of_four[k] = program_triangles(vertices, fours[k], format, state);
+  typename OfProgram::Triangles of_four;
+  for (std::size_t k = 0; k < OfProgram::kFours; ++k) of_four[k] = program_triangles(vertices, fours[k], format, state);
   const std::uint32_t first[] = {0, static_cast<std::uint32_t>(of_four[0].size())};
   Draw draw;
   draw.depth_func = state.depth_func;
   Frame frame(format);
   NoTap tap;
-  draw_tiles<float>(Stages(program, of_four), {of_four[0], first, std::span(&draw, 1)}, format, frame, tap);
+  draw_tiles<float>(OfProgram(program, of_four), {of_four[0], first, std::span(&draw, 1)}, format, frame, tap);
   return frame;
 }
 
