@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "stages/atomic_path.h"
+#include "test_folder.h"
 
 namespace plumbline {
 namespace {
@@ -101,20 +102,8 @@ Capture make_capture() {
   return c;
 }
 
-class CaptureFolder : public testing::Test {
+class CaptureFolder : public TestFolder {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_capture_folder_") + info->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
-  static std::string read(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
   static void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
   /// Reads a good capture's folder after `harm`; the message must hold every text.
   void refused(const std::function<void(const fs::path&)>& harm, const std::vector<std::string>& texts) {
@@ -157,8 +146,6 @@ class CaptureFolder : public testing::Test {
         },
         texts);
   }
-
-  fs::path root_;
 };
 
 /// Every file of two folders is the same, byte for byte.
