@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -101,6 +103,39 @@ TEST(NotesMap, EveryRowLeadsToWhatItNames) {
     EXPECT_GE(note.teachings.size(), 10u) << note.number;
     for (const Teaching& t : note.teachings) EXPECT_EQ(wrong(t), "") << note.number;
   }
+}
+
+/// All that `expression` matches in a source: its groups, joined by dots.
+std::vector<std::string> found(const fs::path& file, const char* expression) {
+  const std::string source = without_comments(read(file));
+  std::vector<std::string> out;
+  const std::regex regex(expression);
+  for (std::sregex_iterator at(source.begin(), source.end(), regex), end; at != end; ++at) {
+    out.push_back((*at)[1].str() + ((*at).size() > 2 ? "." + (*at)[2].str() : ""));
+  }
+  return out;
+}
+
+// The other way round: what is there to show a mistake of the notes, the map names.
+TEST(NotesMap, NamesAllTestsOfTheNotes) {
+  std::set<std::string> named;
+  for (const Note& note : notes::all()) {
+    for (const Teaching& t : note.teachings) {
+      for (const auto& places : {t.shown_by, t.mistake_shown_by}) {
+        for (const Place& place : places) named.insert(place.name);
+      }
+    }
+  }
+  int seen = 0;
+  for (const auto& file : fs::directory_iterator(PLUMBLINE_SOURCE_DIR "/tests/unit")) {
+    const std::string name = file.path().filename().string();
+    if (!name.starts_with("notes_") || name == "notes_map_test.cpp") continue;
+    for (const std::string& test : found(file, "\nTEST\\((\\w+),\\s*(\\w+)\\)")) {
+      ++seen;
+      EXPECT_TRUE(named.contains(test)) << name << ": " << test;
+    }
+  }
+  EXPECT_GE(seen, 25);
 }
 
 TEST(NotesMap, AWrongNameIsSeen) {
