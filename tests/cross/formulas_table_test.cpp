@@ -4,6 +4,7 @@
 #include "pipeline/attributes.h"
 #include "pipeline/coverage.h"
 #include "pipeline/depth.h"
+#include "pipeline/vertex.h"
 #include "pipeline/window.h"
 #include "raster/triangle_algorithms.h"
 #include "reference/exact/wide.h"
@@ -277,6 +278,31 @@ Entries divided(Random& r) {
   return out;
 }
 
+/// A point through two matrices, by stage 1. The unit: all terms' magnitudes, added up.
+Entries transformed(Random& r) {
+  Matrices<float> m{};
+  m.normal = Mat3<float>(1);
+  for (Mat4<float>* matrix : {&m.model_view, &m.projection}) {
+    for (int i = 0; i < 16; ++i) (*matrix)[i / 4][i % 4] = static_cast<float>(r.between(-2, 2));
+  }
+  Mesh mesh;
+  mesh.positions = {glm::vec3(r.point(10))};
+  mesh.normals = {glm::vec3(0, 0, 1)};
+  std::vector<Vertex<float>> out;
+  pipeline::transform(m, mesh, out);
+  const glm::vec<4, Wide> p(mesh.positions[0], 1);
+  const WideMat4 projection(m.projection), model_view(m.model_view);
+  const auto magnitudes = [](WideMat4 w) {
+    for (int c = 0; c < 4; ++c) w[c] = glm::abs(w[c]);
+    return w;
+  };
+  const auto theirs = projection * (model_view * p);
+  const auto terms = magnitudes(projection) * (magnitudes(model_view) * glm::abs(p));
+  Entries entries;
+  for (int i = 0; i < 4; ++i) entries.push_back({out[0].p_clip[i], theirs[i], terms[i]});
+  return entries;
+}
+
 std::vector<Row> projection_rows() {
   const auto plane = [](const char* formula, const char* ours, const char* reference, bool right) {
     return row(formula, ours, reference, 4, [=](Random& r) {
@@ -290,6 +316,7 @@ std::vector<Row> projection_rows() {
   return {
       plane("t = |n| tan(fovY/2) (001)", "near_plane, top", "as printed, 64 bits", false),
       plane("r = t aspect (001)", "near_plane, right", "as printed, 64 bits", true),
+      {"V_b = X_ba V_a (004 3), twice", "transform", "two products, 64 bits", 24, 4, transformed},
       // 1/w, its product, the sum: at most two roundings of a term and one of a sum of two.
       {"x/w, y/w, z/w, to a window (004 3)", "to_window", "(c/w + 1) size/2, 64 bits", 24, 4, divided},
   };
