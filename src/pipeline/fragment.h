@@ -23,10 +23,16 @@ struct FragmentStages {
   static AttributeSetup attribute_setup(const WindowTriangle<float>& triangle, std::uint32_t) {
     return pipeline::attribute_setup(triangle);
   }
+  static PixelBounds bounds(const WindowTriangle<float>& triangle) { return pixel_bounds(triangle); }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
+  /// Coverage and depth are handed all that is known of the triangle (TriangleSetup).
   template <class R>
-  static R depth(const DepthSetup& s, const Barycentric<R>& b) {
-    return pipeline::depth<R>(s, b);
+  static Mask<R> coverage(const auto& s, const Pixels<R>& p) {
+    return pipeline::coverage<R>(s.edges, p);
+  }
+  template <class R>
+  static R depth(const auto& s, const Barycentric<R>& b) {
+    return pipeline::depth<R>(s.depth, b);
   }
   template <DepthFunc func, class R>
   static Mask<R> depth_passes(R incoming, R stored) {
@@ -77,7 +83,7 @@ SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std
                        const Formats& formats, int x0, int y0) {
   return {triangle,
           t.primitive,
-          pixel_bounds(t),
+          stages.bounds(t),
           stages.edges(t),
           planes_of(t, x0, y0),
           depth_setup(t, formats.depth_scale),
@@ -108,10 +114,10 @@ void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x,
   const int offset = tile.offset(block_x, block_y);
   for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
     const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
-    const Mask<R> covered = coverage<R>(s.edges, p);
+    const Mask<R> covered = stages.template coverage<R>(s, p);
     if (!any(covered)) continue;
     const Barycentric<R> b = barycentric<R>(s.planes, p);
-    const R z = stages.template depth<R>(s.depth, b);
+    const R z = stages.template depth<R>(s, b);
     float* const stored_z = tile.depth + offset + i;
     const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored_z));
     if constexpr (!Tap::every_fragment) {
