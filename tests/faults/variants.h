@@ -2,6 +2,8 @@
 // names.
 #pragma once
 
+#include <cstdint>
+
 #include "pipeline/render.h"
 
 namespace plumbline::faults {
