@@ -80,6 +80,12 @@ std::size_t selected_fragments(const Scene& scene, const Selection& selection,
   if (!selection.fragments()) return count;
   for (const WindowTriangle<double>& triangle : triangles) {
     if (!selection.primitive(triangle.primitive)) continue;
+    if (triangle.corners < 3) {
+      std::vector<Covered> covered;
+      append_covered(triangle, scene.frame, 0, covered);
+      for (const Covered& c : covered) count += selection.pixel(c.x, c.y);
+      continue;
+    }
     const CoveredRows rows(snapped_corners(triangle), scene.frame.width, scene.frame.height);
     for (int y = rows.y_begin(); y < rows.y_end(); ++y)
       for (auto [x, end] = rows.row(y); x < end; ++x) count += selection.pixel(x, y);
@@ -99,7 +105,7 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
   for (const WindowTriangle<double>& triangle : triangles) {
     const bool wanted = selection.primitive(triangle.primitive);
     covered.clear();
-    append_covered(CoveredRows(snapped_corners(triangle), frame.width, frame.height), wanted ? kept++ : 0, covered);
+    append_covered(triangle, frame, wanted ? kept++ : 0, covered);
     if (covered.empty()) continue;
 
     const DepthFunc depth_func = draw_of(triangle.primitive).depth_func;
@@ -139,7 +145,8 @@ Capture Exact::capture(const Scene& scene, const Request& request) {
                  request.memory_budget);
   selection.reserve(fragments, records);
   draw_triangles(scene, triangles, selection, out);
-  if (request.legal) out.legal = math::legal_by_boxes(scene, request);
+  if (request.legal && !draws(scene, Topology::lines) && !draws(scene, Topology::points))
+    out.legal = math::legal_by_boxes(scene, request);
   return out;
 }
 

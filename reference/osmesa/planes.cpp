@@ -41,7 +41,7 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target) {
     scene.set_matrices(i);
     scene.set_surface(i);
     scene.set_fragments(i);
-    scene.draw_triangles(i);
+    scene.draw_primitives(i);
   }
   check(gl, "drawing the scene");
 }

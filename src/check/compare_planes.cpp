@@ -20,20 +20,6 @@ const LegalAnswer* find(std::span<const LegalAnswer> answers, std::int32_t primi
   return it == answers.end() ? nullptr : &*it;
 }
 
-// The bounds of the winning primitive at a pixel: the largest over its triangles.
-PlaneBounds winner_bounds(const Records<double>& r, std::int32_t primitive, int x, int y) {
-  PlaneBounds out{1, Vec4<double>(1)};
-  auto it = std::partition_point(r.triangles.begin(), r.triangles.end(), [&](const WindowTriangle<double>& t) {
-    return static_cast<std::int32_t>(t.primitive) < primitive;
-  });
-  for (; it != r.triangles.end() && static_cast<std::int32_t>(it->primitive) == primitive; ++it) {
-    const PlaneBounds b = bounds_from_origin(*it, x, y);
-    out.depth = std::max(out.depth, b.depth);
-    out.color = glm::max(out.color, b.color);
-  }
-  return out;
-}
-
 void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Vec4<double>& tolerance, double unit,
                const Place& place) {
   for (int c = 0; c < 4; ++c) {
@@ -133,10 +119,10 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
       meter.value(difference(z, z_ref) / u, 0, place, z, z_ref);
       return;
     }
-    const double bound = winner_bounds(candidate.records, id, x, y).depth;
-    if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
-    const double step = depth_step(scene.frame.depth, z_ref) / u;
-    meter.value(difference(z, z_ref) / u, factor * bound, place, z, z_ref, step);
+    const PlaneBounds bound = primitive_bounds(candidate.records, id, x, y);
+    if (!std::isfinite(bound.depth)) return open_value(meter, z, place, z_ref);
+    const double step = depth_step(scene.frame.depth, z_ref) + bound.along_depth;
+    meter.value(difference(z, z_ref) / u, factor * bound.depth, place, z, z_ref, step / u);
   });
 }
 
@@ -153,7 +139,8 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
     if (id == kBackground) {
       return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
     }
-    const Vec4<double> bound = winner_bounds(candidate.records, id, x, y).color, apart = lit.of(id);
+    const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
+    const Vec4<double> bound = bounds.color, apart = lit.of(id) + bounds.along_color;
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
       if (!std::isfinite(bound[c])) {
@@ -175,8 +162,9 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
     const bool cleared = id == kBackground;
-    const Vec4<double> bound =
-        cleared ? Vec4<double>(0) : factor * u * winner_bounds(candidate.records, id, x, y).color + lit.of(id);
+    const PlaneBounds bounds =
+        cleared ? PlaneBounds{0, Vec4<double>(0)} : primitive_bounds(candidate.records, id, x, y);
+    const Vec4<double> bound = cleared ? Vec4<double>(0) : factor * u * bounds.color + lit.of(id) + bounds.along_color;
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(255.0 * a.color(x, y)[c]), w = std::round(255.0 * b.color(x, y)[c]);
       meter.value(difference(v, w), cleared ? 0 : codes, {x, y, id, "color"}, v, w, std::floor(255 * bound[c]));

@@ -147,6 +147,11 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   if (a.count != b.count) meter.ambiguous();
   for (std::size_t i = 0; i < mine.size(); ++i) {
     const ClipVertex<double>&v = mine[i], &w = theirs[i];
+    if (v.cut != w.cut && a.count < 3 &&
+        may_vanish(std::span(&v, 1), corners.planes, factor * unit)) {  // a line's end on a plane
+      meter.ambiguous();
+      continue;
+    }
     meter.value(v.cut == w.cut ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
     if (!w.cut) {
       for (int c = 0; c < 4; ++c) {

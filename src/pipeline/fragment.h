@@ -1,4 +1,4 @@
-// Stages 5 to 11 for one triangle in one block of 4 x 4 pixels.
+// Stages 5 to 11 for one triangle in one block of 4 x 4 pixels, and for one pixel of a line or point.
 //
 // Everything that does not change within a draw is a template parameter: the number type R (lanes.h), the depth
 // function, the stage functions (so that a test can put another in the place of one, and a program its fragment(),
@@ -25,6 +25,9 @@ struct FragmentStages {
   }
   static PixelBounds bounds(const WindowTriangle<float>& triangle) { return pixel_bounds(triangle); }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
+    return pipeline::thin_pixels(line_or_point, origin, size);
+  }
   /// Coverage and depth are handed all that is known of the triangle (TriangleSetup).
   template <class R>
   static Mask<R> coverage(const auto& s, const Pixels<R>& p) {
@@ -108,6 +111,29 @@ struct NoTap {
   void fragments(const auto& /*setup*/, const Pixels<R>&, Mask<R>, Mask<R>, R, const auto&, const auto&) {}
 };
 
+// Stages 6 to 11 for the pixels `p`, which are stored from `place` on.
+template <class R, DepthFunc func, class Stages, class Tap>
+void covered_pixels(const Stages& stages, const SetupOf<Stages>& s, const Pixels<R>& p, Mask<R> covered, int place,
+                    float color_scale, Tile& tile, Tap& tap) {
+  const Barycentric<R> b = barycentric<R>(s.planes, p);
+  const R z = stages.template depth<R>(s, b);
+  float* const stored_z = tile.depth + place;
+  const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored_z));
+  if constexpr (!Tap::every_fragment) {
+    if (!any(passes)) return;
+  }
+  const auto attributes = stages.template attributes<R>(s.attributes, b);
+  const auto shaded = stages.template shade<R>(attributes);
+  const Mask<R> kept = stages.template kept<R>(passes, shaded);
+  tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
+  const Color<R> merged = stages.template merge<R>(shaded, color_scale);
+  store(kept, z, stored_z);
+  store(kept, merged.r, tile.color[0] + place);
+  store(kept, merged.g, tile.color[1] + place);
+  store(kept, merged.b, tile.color[2] + place);
+  store(kept, merged.a, tile.color[3] + place);
+}
+
 template <class R, DepthFunc func, class Stages, class Tap>
 void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x, int block_y, float color_scale,
                     Tile& tile, Tap& tap) {
@@ -115,25 +141,19 @@ void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x,
   for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
     const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
     const Mask<R> covered = stages.template coverage<R>(s, p);
-    if (!any(covered)) continue;
-    const Barycentric<R> b = barycentric<R>(s.planes, p);
-    const R z = stages.template depth<R>(s, b);
-    float* const stored_z = tile.depth + offset + i;
-    const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored_z));
-    if constexpr (!Tap::every_fragment) {
-      if (!any(passes)) continue;
-    }
-    const auto attributes = stages.template attributes<R>(s.attributes, b);
-    const auto shaded = stages.template shade<R>(attributes);
-    const Mask<R> kept = stages.template kept<R>(passes, shaded);
-    tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
-    const Color<R> merged = stages.template merge<R>(shaded, color_scale);
-    store(kept, z, stored_z);
-    store(kept, merged.r, tile.color[0] + offset + i);
-    store(kept, merged.g, tile.color[1] + offset + i);
-    store(kept, merged.b, tile.color[2] + offset + i);
-    store(kept, merged.a, tile.color[3] + offset + i);
+    if (any(covered)) covered_pixels<R, func>(stages, s, p, covered, offset + i, color_scale, tile, tap);
   }
+}
+
+/// One pixel, alone in its lanes.
+template <class R, DepthFunc func, class Stages, class Tap>
+void fragment_pixel(const Stages& stages, const SetupOf<Stages>& s, glm::ivec2 pixel, float color_scale, Tile& tile,
+                    Tap& tap) {
+  const int block_x = pixel.x & ~(kBlock - 1), block_y = pixel.y & ~(kBlock - 1);
+  const int in_block = (pixel.y - block_y) * kBlock + (pixel.x - block_x), i = in_block & ~(Lanes<R>::width - 1);
+  const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
+  const Mask<R> covered = (p.x == Int<R>(pixel.x)) & (p.y == Int<R>(pixel.y));
+  covered_pixels<R, func>(stages, s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
 }
 
 }  // namespace plumbline::pipeline

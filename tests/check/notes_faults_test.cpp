@@ -2,6 +2,7 @@
 // it is none, under its own dialect's conventions, nothing is said.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <set>
@@ -140,6 +141,7 @@ TEST(NotesPictures, PixelsOfAnotherColour) {
            Row{"notes.004.whole_centres", "gl_solids", 3600},
            Row{"notes.004.whole_centres", "gl_on_centres", 63},
            Row{"notes.004.delete_behind_view_plane", "gzrender_cut", 3302},
+           Row{"notes.004.incremental_line", "gl_long_lines", 96},
            Row{"notes.004.lee_sign", "gzrender_on_centres", 119},
            Row{"notes.004.left_edges", "gzrender_on_centres", 32},
            Row{"notes.004.left_right_edges", "gzrender_on_centres", 70},
@@ -166,6 +168,7 @@ TEST(NotesPictures, WhatIsNoMistakeChangesNothing) {
            Row{"notes.004.whole_centres", {"gzrender_solids", "tinyrenderer_solids"}},
            Row{"notes.004.eye_at_c", {"gl_solids", "games101_solids", "tinyrenderer_solids"}},
            Row{"notes.004.delete_behind_view_plane", {"gzrender_solids", "tinyrenderer_cut"}},
+           Row{"notes.004.incremental_line", {"gl_solids"}},
            Row{"notes.004.left_right_edges", {"gzrender_solids"}},  // no centre is on an edge
            Row{"notes.000.strict_edges", {"gzrender_solids"}},
            Row{"notes.000.v_is_w_cross_v", {"gl_solids", "games101_solids", "tinyrenderer_solids"}},
@@ -312,6 +315,27 @@ TEST(NotesPictures, WholeCentresAreHalfAPixelOff) {
       EXPECT_EQ(wrong[i].v[corner].snapped - right[i].v[corner].snapped, glm::ivec2(128, -128)) << "right and down";
     }
   }
+}
+
+// No line passes half way between two pixels, so that no tie is among them.
+TEST(NotesPictures, TheIncrementalLineDriftsWithItsLength) {
+  const Drawn drawn("notes.004.incremental_line", "gl_long_lines");
+  const auto pixels = [](const Capture& capture) {
+    std::map<std::pair<std::uint32_t, int>, int> out;  // y of each line at each x
+    for (const Covered& c : capture.records.covered) out[{c.triangle, c.x}] = c.y;
+    return out;
+  };
+  const auto right = pixels(drawn.right), wrong = pixels(drawn.wrong);
+  ASSERT_EQ(right.size(), wrong.size());
+  std::map<int, int> apart;  // by 1000 pixels
+  for (const auto& [at, y] : right) {
+    const int off = std::abs(wrong.at(at) - y);
+    EXPECT_LE(off, 1);
+    apart[at.second / 1000] += off;
+  }
+  std::vector<int> by_thousands;
+  for (const auto& [thousand, n] : apart) by_thousands.push_back(n);
+  EXPECT_EQ(by_thousands, (std::vector<int>{0, 3, 3, 1, 9, 11, 9, 13, 0}));  // the last is of 100 pixels
 }
 
 // The floor (0 and 1), the triangle on it (2) and three of the strewn ones.

@@ -1,5 +1,6 @@
 #include "faults/faults.h"
 
+#include <algorithm>
 #include <array>
 
 #include "faults/notes.h"
@@ -50,9 +51,31 @@ void snapped_by_truncation(const Matrices<float>& matrices, Cull cull, const Cli
   pipeline::to_window(matrices, cull, polygons, of_draw, out);
   for (std::size_t i = first; i < out.size(); ++i) {
     for (WindowVertex<float>& v : out[i].v) v.snapped = glm::ivec2((glm::vec2(v.p_win) - 0.5f) * 256.0f);
-    out[i].front = pipeline::snapped_area(out[i]) > 0;
+    if (out[i].corners == 3) out[i].front = pipeline::snapped_area(out[i]) > 0;
   }
 }
+
+struct LineEndDrawn : pipeline::FragmentStages {
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) {
+    std::vector<glm::ivec2> pixels = pipeline::thin_pixels(t, origin, size);
+    WindowTriangle<float> end{{t.v[1], t.v[1], t.v[1]}, t.primitive, true, 1};
+    for (const glm::ivec2 last : pipeline::thin_pixels(end, origin, size)) {
+      if (std::find(pixels.begin(), pixels.end(), last) == pixels.end()) pixels.push_back(last);
+    }
+    return pixels;
+  }
+};
+
+struct SteepLinesTorn : pipeline::FragmentStages {
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) {
+    std::vector<glm::ivec2> pixels = pipeline::thin_pixels(t, origin, size);
+    std::vector<glm::ivec2> one_per_column;
+    for (const glm::ivec2 p : pixels) {
+      if (one_per_column.empty() || one_per_column.back().x != p.x) one_per_column.push_back(p);
+    }
+    return one_per_column;
+  }
+};
 
 struct TruncatedDepth : pipeline::FragmentStages {
   template <class R>
@@ -93,6 +116,10 @@ constexpr std::array kFaults = {
           with_geometry<&Geometry::window, snapped_by_truncation>},
     Fault{"coverage.inclusive_edges", "pixels on any edge are covered: shared edges are painted twice", Stage::coverage,
           with_fragment<Ties<AllEdgesIn>>},
+    Fault{"coverage.line_end_drawn", "a line's last pixel is drawn too: lines that meet paint it twice",
+          Stage::coverage, with_fragment<LineEndDrawn>},
+    Fault{"coverage.steep_lines_torn", "lines are stepped along x in every octant: steep ones have gaps",
+          Stage::coverage, with_fragment<SteepLinesTorn>},
     Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth, with_fragment<TruncatedDepth>},
     Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
           with_fragment<AffineAttributes>},

@@ -1,6 +1,8 @@
 #include "faults/notes.h"
 
 #include <array>
+#include <cmath>
+#include <cstdlib>
 
 #include "faults/variants.h"
 #include "pipeline/clip.h"
@@ -93,8 +95,8 @@ void delete_behind_view_plane(const pipeline::Assembly& assembly, ClipPolygons<f
   if (assembly.depth_clamp) return pipeline::clip(assembly, out);
   for (std::size_t i = 0; i < assembly.triangles.size(); ++i) {
     bool deleted = false;
-    for (int corner = 0; corner < 3; ++corner) {
-      const Vec4<float>& p_clip = assembly.vertices[assembly.triangles[i][corner]].p_clip;
+    for (std::uint32_t corner = 0; corner < corner_count(assembly.topology); ++corner) {
+      const Vec4<float>& p_clip = assembly.vertices[assembly.triangles[i][static_cast<int>(corner)]].p_clip;
       deleted |= p_clip.z < -p_clip.w;
     }
     if (deleted) continue;
@@ -125,6 +127,7 @@ struct LeftTakenForRight {
 // x_i is the first corner's x, in pixels whose centres are whole numbers.
 struct BoxOfOneVertex : pipeline::FragmentStages {
   static pipeline::PixelBounds bounds(const WindowTriangle<float>& triangle) {
+    if (triangle.corners != 3) return pipeline::pixel_bounds(triangle);
     const glm::ivec2 p = triangle.v[2].snapped;  // the fan's hub
     const auto floor = [](int snapped) { return snapped >> 8; };
     const auto ceiling = [](int snapped) { return (snapped + kSubpixel - 1) >> 8; };
@@ -135,6 +138,26 @@ struct BoxOfOneVertex : pipeline::FragmentStages {
   static pipeline::Mask<R> coverage(const auto& s, const pipeline::Pixels<R>& p) {
     const pipeline::PixelBounds& b = s.bounds;
     return pipeline::coverage<R>(s.edges, p) & (p.x >= b.x0) & (p.x < b.x1) & (p.y >= b.y0) & (p.y < b.y1);
+  }
+};
+
+// y = y + k in float for each x, from where the line is exited first, and ROUND(y).
+struct IncrementalLine : pipeline::FragmentStages {
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) {
+    if (t.corners != 2) return pipeline::thin_pixels(t, origin, size);
+    const glm::ivec2 from = t.v[0].snapped, d = t.v[1].snapped - from;
+    const int x = std::abs(d.x) >= std::abs(d.y) ? 0 : 1, y = 1 - x;  // the major axis and the other
+    const float k = static_cast<float>(d[y]) / static_cast<float>(std::abs(d[x]));
+    const std::vector<glm::ivec2> line = pipeline::thin_pixels(t, {0, 0}, 16384);  // all of any frame
+    std::vector<glm::ivec2> out;
+    float at = 0;
+    for (glm::ivec2 p : line) {
+      const int steps = std::abs(p[x] * kSubpixel - from[x]);
+      at = p == line.front() ? (static_cast<float>(from[y]) + k * static_cast<float>(steps)) / kSubpixel : at + k;
+      p[y] = static_cast<int>(std::floor(at + 0.5f));
+      if (glm::all(glm::greaterThanEqual(p, origin)) && glm::all(glm::lessThan(p, origin + size))) out.push_back(p);
+    }
+    return out;
   }
 };
 
@@ -189,6 +212,8 @@ constexpr std::array kNotes = {
           Stage::matrices, with_geometry<&Geometry::matrices, whole_centres>},
     Fault{"notes.004.delete_behind_view_plane", "3.2: triangles with a corner of Z < 0 are deleted, not cut",
           Stage::clip, with_geometry<&Geometry::clip, delete_behind_view_plane>},
+    Fault{"notes.004.incremental_line", "2.2: lines by y = y + k in float, whose error builds up", Stage::coverage,
+          with_fragment<IncrementalLine>},
     Fault{"notes.004.lee_sign", "2.5: E > 0 is taken for left, so that right edges' pixels are in for left ones'",
           Stage::coverage, with_fragment<Ties<LeftTakenForRight>>},
     Fault{"notes.004.left_edges", "2.5: pixels on left edges are in, on horizontal ones nobody's", Stage::coverage,

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "scene/scene_values.h"
+#include "test_folder.h"
 
 namespace plumbline {
 namespace {
@@ -32,16 +33,8 @@ Mesh load_one(const fs::path& file) {
   return std::move(parts.front().mesh);
 }
 
-class MeshFile : public testing::Test {
+class MeshFile : public TestFolder {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_mesh_file_") + info->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
   fs::path write(const std::string& text, const std::string& name = "mesh.obj") const {
     std::ofstream(root_ / name, std::ios::binary) << text;
     return root_ / name;
@@ -57,8 +50,6 @@ class MeshFile : public testing::Test {
       EXPECT_NE(what.find(expected), what.npos) << what;
     }
   }
-
-  fs::path root_;
 };
 
 TEST_F(MeshFile, ReadsPolygonsWithTheirWinding) {
