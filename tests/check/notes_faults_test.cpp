@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <set>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -243,6 +246,20 @@ TEST(NotesPictures, WithAWrongVThePictureIsALine) {
   const double slope = -std::sqrt(1 - w.y * w.y);
   for (const Vertex<double>& v : drawn.wrong.records.vertices) {
     ASSERT_NEAR(v.p_eye.y, slope * v.p_eye.x, 2 * 5 * 8 * 0x1p-24);
+  }
+}
+
+// Along the view: by d, 1 at 90 degrees, and by |eye - center|, 3. A vertex is rounded four times, its terms below 16.
+TEST(NotesPictures, TheEyeIsElsewhere) {
+  for (const auto& [fault, scene, nearer] : {std::tuple{"notes.004.eye_at_c", "gzrender_receding", 1.0},
+                                             std::tuple{"notes.002.lookat", "gl_meeting", 3.0}}) {
+    const Drawn drawn(fault, scene);
+    const auto &right = drawn.right.records.vertices, &wrong = drawn.wrong.records.vertices;
+    ASSERT_FALSE(right.empty());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      EXPECT_NEAR(wrong[i].p_eye.z - right[i].p_eye.z, nearer, 2 * 4 * 16 * 0x1p-24) << fault;
+      EXPECT_EQ(wrong[i].p_eye.x, right[i].p_eye.x) << fault;
+    }
   }
 }
 
