@@ -23,13 +23,19 @@ struct FragmentStages {
   static AttributeSetup attribute_setup(const WindowTriangle<float>& triangle, std::uint32_t) {
     return pipeline::attribute_setup(triangle);
   }
+  static PixelBounds bounds(const WindowTriangle<float>& triangle) { return pixel_bounds(triangle); }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
   static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
     return pipeline::thin_pixels(line_or_point, origin, size);
   }
+  /// Coverage and depth are handed all that is known of the triangle (TriangleSetup).
   template <class R>
-  static R depth(const DepthSetup& s, const Barycentric<R>& b) {
-    return pipeline::depth<R>(s, b);
+  static Mask<R> coverage(const auto& s, const Pixels<R>& p) {
+    return pipeline::coverage<R>(s.edges, p);
+  }
+  template <class R>
+  static R depth(const auto& s, const Barycentric<R>& b) {
+    return pipeline::depth<R>(s.depth, b);
   }
   template <DepthFunc func, class R>
   static Mask<R> depth_passes(R incoming, R stored) {
@@ -80,7 +86,7 @@ SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std
                        const Formats& formats, int x0, int y0) {
   return {triangle,
           t.primitive,
-          pixel_bounds(t),
+          stages.bounds(t),
           stages.edges(t),
           planes_of(t, x0, y0),
           depth_setup(t, formats.depth_scale),
@@ -110,7 +116,7 @@ template <class R, DepthFunc func, class Stages, class Tap>
 void covered_pixels(const Stages& stages, const SetupOf<Stages>& s, const Pixels<R>& p, Mask<R> covered, int place,
                     float color_scale, Tile& tile, Tap& tap) {
   const Barycentric<R> b = barycentric<R>(s.planes, p);
-  const R z = stages.template depth<R>(s.depth, b);
+  const R z = stages.template depth<R>(s, b);
   float* const stored_z = tile.depth + place;
   const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored_z));
   if constexpr (!Tap::every_fragment) {
@@ -134,7 +140,7 @@ void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x,
   const int offset = tile.offset(block_x, block_y);
   for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
     const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
-    const Mask<R> covered = coverage<R>(s.edges, p);
+    const Mask<R> covered = stages.template coverage<R>(s, p);
     if (any(covered)) covered_pixels<R, func>(stages, s, p, covered, offset + i, color_scale, tile, tap);
   }
 }
