@@ -151,8 +151,8 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
   if (e1[major] == 0) return out;
   const double share = ((major == 0 ? x : y) + 0.5 - v[0].p_win[major]) / e1[major];
   const OfLine projected = at_share(t, b.value[1]), along = at_share(t, share);
-  out.along_depth = std::abs(along.depth - projected.depth);
-  out.along_color = glm::abs(along.color - projected.color);
+  out.along_depth = along.depth - projected.depth;
+  out.along_color = along.color - projected.color;
   return out;
 }
 
@@ -165,8 +165,8 @@ PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, i
     const PlaneBounds b = bounds_from_origin(*it, x, y);
     out.depth = std::max(out.depth, b.depth);
     out.color = glm::max(out.color, b.color);
-    out.along_depth = std::max(out.along_depth, b.along_depth);
-    out.along_color = glm::max(out.along_color, b.along_color);
+    out.along_depth = b.along_depth;  // a line is one record
+    out.along_color = b.along_color;
   }
   return out;
 }

@@ -134,7 +134,7 @@ Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, c
     for (const std::int32_t primitive : {a, b}) {
       if (primitive == kBackground) continue;
       const PlaneBounds bounds = primitive_bounds(candidate.records, primitive, x, y);
-      off = std::max(off, factor * kUnitRoundoff * bounds.depth + bounds.along_depth);
+      off = std::max(off, factor * kUnitRoundoff * bounds.depth + std::abs(bounds.along_depth));
     }
     const double z = theirs.depth(x, y);
     if (std::abs(mine.depth(x, y) - z) <= off + depth_step(scene.frame.depth, z)) return meter.ambiguous();

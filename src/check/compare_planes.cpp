@@ -121,8 +121,9 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
     }
     const PlaneBounds bound = primitive_bounds(candidate.records, id, x, y);
     if (!std::isfinite(bound.depth)) return open_value(meter, z, place, z_ref);
-    const double step = depth_step(scene.frame.depth, z_ref) + bound.along_depth;
-    meter.value(difference(z, z_ref) / u, factor * bound.depth, place, z, z_ref, step / u);
+    const double step = depth_step(scene.frame.depth, z_ref);
+    const double diff = std::min(difference(z, z_ref), difference(z + bound.along_depth, z_ref));
+    meter.value(diff / u, factor * bound.depth, place, z, z_ref, step / u);
   });
 }
 
@@ -140,13 +141,14 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
       return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
     }
     const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
-    const Vec4<double> bound = bounds.color, apart = lit.of(id) + bounds.along_color;
+    const Vec4<double> bound = bounds.color, apart = lit.of(id);
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
       if (!std::isfinite(bound[c])) {
         open_value(meter, v, place, w);
       } else {
-        meter.value(difference(v, w) / u, factor * bound[c], place, v, w, apart[c] / u);
+        const double diff = std::min(difference(v, w), difference(v + bounds.along_color[c], w));
+        meter.value(diff / u, factor * bound[c], place, v, w, apart[c] / u);
       }
     }
   });
@@ -164,10 +166,15 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
     const bool cleared = id == kBackground;
     const PlaneBounds bounds =
         cleared ? PlaneBounds{0, Vec4<double>(0)} : primitive_bounds(candidate.records, id, x, y);
-    const Vec4<double> bound = cleared ? Vec4<double>(0) : factor * u * bounds.color + lit.of(id) + bounds.along_color;
+    const Vec4<double> bound = cleared ? Vec4<double>(0) : factor * u * bounds.color + lit.of(id);
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(255.0 * a.color(x, y)[c]), w = std::round(255.0 * b.color(x, y)[c]);
-      meter.value(difference(v, w), cleared ? 0 : codes, {x, y, id, "color"}, v, w, std::floor(255 * bound[c]));
+      double diff = difference(v, w);
+      if (bounds.along_color[c] != 0 && a.shaded.size() == a.color.size()) {
+        const double along = static_cast<double>(a.shaded(x, y)[c]) + bounds.along_color[c];
+        diff = std::min(diff, difference(std::round(255.0 * std::clamp(along, 0.0, 1.0)), w));
+      }
+      meter.value(diff, cleared ? 0 : codes, {x, y, id, "color"}, v, w, std::floor(255 * bound[c]));
     }
   });
 }

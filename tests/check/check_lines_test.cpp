@@ -155,11 +155,11 @@ TEST(CheckLines, winners_of_nearly_one_depth_are_ambiguous) {
   EXPECT_TRUE(fails(winners(with(1, 0.55), with(9, 0.4999))));
 }
 
-TEST(CheckLines, what_the_major_axis_moves_is_granted_and_no_more) {
+TEST(CheckLines, depth_and_color_go_by_the_major_axis_or_by_the_projection) {
   // Along (4, 2): the pixel above the middle projects to 0.6 of the way; by the major axis it is 0.5.
   WindowTriangle<double> t = line_of({2.5, 1.5}, {6.5, 3.5});
   const PlaneBounds b = bounds_from_origin(t, 4, 3);
-  EXPECT_NEAR(b.along_depth, 0.1 * 0.5, 1e-12);
+  EXPECT_NEAR(b.along_depth, -0.1 * 0.5, 1e-12);
   EXPECT_NEAR(b.along_color.r, 0.1, 1e-12);
   EXPECT_EQ(bounds_from_origin(t, 4, 2).along_depth, 0);  // on the line
   EXPECT_EQ(bounds_from_origin(line_of({2.5, 1.5}, {6.5, 1.5}), 4, 2).along_depth, 0);
@@ -174,8 +174,32 @@ TEST(CheckLines, what_the_major_axis_moves_is_granted_and_no_more) {
   theirs.planes.depth = mine.planes.depth;
   theirs.planes.depth(4, 3) = 0.5;
   EXPECT_TRUE(passes(compare_depth_planes(scene, mine, theirs, 4)));
-  theirs.planes.depth(4, 3) = 0.5 - 2e-5;
-  EXPECT_TRUE(fails(compare_depth_planes(scene, mine, theirs, 4)));
+  for (const double z : {0.5 - 2e-5, 0.525, 0.6}) {  // between the two is neither
+    theirs.planes.depth(4, 3) = z;
+    EXPECT_TRUE(fails(compare_depth_planes(scene, mine, theirs, 4)));
+  }
+  theirs.planes.depth(4, 3) = 0.55;
+  EXPECT_TRUE(passes(compare_depth_planes(scene, mine, theirs, 4)));
+
+  // Red is 0.4 of the way back, 0.5 by the major axis; as codes 102 and 128.
+  mine.planes.shaded = Plane<glm::vec4>(16, 12, glm::vec4(0));
+  mine.planes.shaded(4, 3) = {0.4f, 0.6f, 0, 1};
+  theirs.planes.shaded = mine.planes.color = mine.planes.shaded;
+  const auto with_red = [&](float red, float green) {
+    theirs.planes.shaded(4, 3) = {red, green, 0, 1};
+    theirs.planes.color = theirs.planes.shaded;
+  };
+  const auto shaded = [&] { return compare_shaded_planes(scene, mine, theirs, 8); };
+  const auto codes = [&] { return compare_codes(scene, mine, theirs, 1, 8); };
+  with_red(0.5f, 0.5f);
+  EXPECT_TRUE(passes(shaded()));
+  EXPECT_TRUE(passes(codes()));
+  with_red(0.4f, 0.6f);
+  EXPECT_TRUE(passes(shaded()));
+  EXPECT_TRUE(passes(codes()));
+  with_red(0.45f, 0.55f);
+  EXPECT_TRUE(fails(shaded()));
+  EXPECT_TRUE(fails(codes()));
 }
 
 }  // namespace
