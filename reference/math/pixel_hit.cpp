@@ -182,6 +182,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   if (!at.inside && at.border > out.delta) return std::nullopt;
   out.hit.primitive = primitive;
   out.hit.depth_func = scene.draws[t.draw].depth_func;
+  out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
   out.whole = t.facing_kept && !t.flat && !t.cut;
   set_depth(t, scene.depth_clamp, d, at, moved, out);

@@ -49,7 +49,35 @@ struct FragmentStages {
   static Color<R> merge(const Color<R>& color, float scale) {
     return pipeline::merge<R>(color, scale);
   }
+  template <class R>
+  static Color<R> blend(const Blend& state, const Color<R>& source, const Color<R>& stored, float scale) {
+    return pipeline::blend<R>(state, source, stored, scale);
+  }
+  /// A draw's merge state, asked for once.
+  static Merge merge_state(const Merge& of_draw) { return of_draw; }
 };
+
+/// Where the next pixels' depth and colour are, in the frame's formats, as floats.
+struct Stored {
+  float* depth;
+  float* color[4];
+};
+
+/// Of the fragments `kept`, depth and colour into the frame.
+template <class R, class Stages>
+void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
+           const Stored& to) {
+  const auto merged = [&]() -> Color<R> {
+    if (!state.blend) return stages.template merge<R>(shaded, color_scale);
+    const Color<R> stored{load(to.color[0]), load(to.color[1]), load(to.color[2]), load(to.color[3])};
+    return stages.template blend<R>(*state.blend, shaded, stored, color_scale);
+  }();
+  if (state.depth_mask) store(kept, z, to.depth);
+  if (state.color_mask.r) store(kept, merged.r, to.color[0]);
+  if (state.color_mask.g) store(kept, merged.g, to.color[1]);
+  if (state.color_mask.b) store(kept, merged.b, to.color[2]);
+  if (state.color_mask.a) store(kept, merged.a, to.color[3]);
+}
 
 /// What a frame's formats come to.
 struct Formats {
@@ -103,8 +131,8 @@ struct NoTap {
 };
 
 template <class R, DepthFunc func, class Stages, class Tap>
-void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x, int block_y, float color_scale,
-                    Tile& tile, Tap& tap) {
+void fragment_block(const Stages& stages, const Merge& state, const SetupOf<Stages>& s, int block_x, int block_y,
+                    float color_scale, Tile& tile, Tap& tap) {
   const int offset = tile.offset(block_x, block_y);
   for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
     const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
@@ -112,8 +140,10 @@ void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x,
     if (!any(covered)) continue;
     const Barycentric<R> b = barycentric<R>(s.planes, p);
     const R z = stages.template depth<R>(s.depth, b);
-    float* const stored_z = tile.depth + offset + i;
-    const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored_z));
+    const int at = offset + i;
+    const Stored stored{tile.depth + at,
+                        {tile.color[0] + at, tile.color[1] + at, tile.color[2] + at, tile.color[3] + at}};
+    const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored.depth));
     if constexpr (!Tap::every_fragment) {
       if (!any(passes)) continue;
     }
@@ -121,12 +151,7 @@ void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x,
     const auto shaded = stages.template shade<R>(attributes);
     const Mask<R> kept = stages.template kept<R>(passes, shaded);
     tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
-    const Color<R> merged = stages.template merge<R>(shaded, color_scale);
-    store(kept, z, stored_z);
-    store(kept, merged.r, tile.color[0] + offset + i);
-    store(kept, merged.g, tile.color[1] + offset + i);
-    store(kept, merged.b, tile.color[2] + offset + i);
-    store(kept, merged.a, tile.color[3] + offset + i);
+    write<R>(stages, state, kept, z, Color<R>(shaded), color_scale, stored);
   }
 }
 

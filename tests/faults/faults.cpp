@@ -1,6 +1,7 @@
 #include "faults/faults.h"
 
 #include <array>
+#include <utility>
 
 #include "pipeline/clip.h"
 #include "pipeline/light.h"
@@ -100,6 +101,21 @@ struct TruncatedColor : pipeline::FragmentStages {
   }
 };
 
+struct SwappedFactors : pipeline::FragmentStages {
+  static Merge merge_state(const Merge& of_draw) {
+    Merge wrong = of_draw;
+    if (wrong.blend) {
+      std::swap(wrong.blend->rgb.source, wrong.blend->rgb.destination);
+      std::swap(wrong.blend->alpha.source, wrong.blend->alpha.destination);
+    }
+    return wrong;
+  }
+};
+
+struct IgnoredColorMask : pipeline::FragmentStages {
+  static Merge merge_state(const Merge& of_draw) { return {of_draw.blend, glm::bvec4(true), of_draw.depth_mask}; }
+};
+
 template <auto member, auto function>
 Stages with_geometry() {
   Stages stages = production_stages();
@@ -135,6 +151,9 @@ constexpr std::array kFaults = {
           with_fragment<LessEqualForLess>},
     Fault{"merge.truncated", "colours are truncated to 8 bits, not rounded", Stage::merge,
           with_fragment<TruncatedColor>},
+    Fault{"merge.factors_swapped", "blending takes the source's factor for the destination's, and the other way round",
+          Stage::merge, with_fragment<SwappedFactors>},
+    Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge, with_fragment<IgnoredColorMask>},
 };
 
 }  // namespace
