@@ -29,6 +29,8 @@ class CoveredRows {
  public:
   /// Any corners; no rows where the area is zero.
   CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, int height);
+  /// Within the frame and the draw's scissor box.
+  CoveredRows(const std::array<glm::ivec2, 3>& snapped, const FrameFormat& frame, const Draw& draw);
   int y_begin() const { return y_begin_; }
   int y_end() const { return y_end_; }
   Span row(int y) const;
@@ -39,7 +41,7 @@ class CoveredRows {
     Int128 at_origin;           // E at pixel (0, 0), less 1 where ties are out: in is >= 0
   };
   std::array<Edge, 3> edges_;
-  int width_;
+  int x_begin_ = 0, x_end_;
   int y_begin_ = 0, y_end_ = 0;
 };
 

@@ -77,9 +77,10 @@ std::size_t selected_fragments(const Scene& scene, const Selection& selection,
                                const std::vector<WindowTriangle<double>>& triangles) {
   std::size_t count = 0;
   if (!selection.fragments()) return count;
+  const DrawOf draw_of(scene);
   for (const WindowTriangle<double>& triangle : triangles) {
     if (!selection.primitive(triangle.primitive)) continue;
-    const CoveredRows rows(snapped_corners(triangle), scene.frame.width, scene.frame.height);
+    const CoveredRows rows(snapped_corners(triangle), scene.frame, draw_of(triangle.primitive));
     for (int y = rows.y_begin(); y < rows.y_end(); ++y)
       for (auto [x, end] = rows.row(y); x < end; ++x) count += selection.pixel(x, y);
   }
@@ -98,11 +99,11 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
   std::vector<Covered> covered;
   for (const WindowTriangle<double>& triangle : triangles) {
     const bool wanted = selection.primitive(triangle.primitive);
+    const Draw& draw = draw_of(triangle.primitive);
     covered.clear();
-    append_covered(CoveredRows(snapped_corners(triangle), frame.width, frame.height), wanted ? kept++ : 0, covered);
+    append_covered(CoveredRows(snapped_corners(triangle), frame, draw), wanted ? kept++ : 0, covered);
     if (covered.empty()) continue;
 
-    const Draw& draw = draw_of(triangle.primitive);
     const Barycentric weights(triangle, frame.width, frame.height);
     for (const Covered& c : covered) {
       add_fragment(out.planes, c.x, c.y, id_weight(triangle.primitive));

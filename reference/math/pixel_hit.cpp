@@ -172,6 +172,8 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
                                   int py) {
   const Triangle& t = projected.triangles[primitive];
   if (!t.drawn) return std::nullopt;
+  const std::optional<Scissor>& scissor = scene.draws[t.draw].scissor;
+  if (scissor && !scissor->holds(px, py)) return std::nullopt;
   const glm::dvec3 d = projected.ray(px, py);
   const Place at = place(projected, t, d);
   if (!at.inside && !(at.border <= t.reach)) return std::nullopt;

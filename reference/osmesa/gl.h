@@ -22,7 +22,7 @@ namespace plumbline::osmesa {
   F(GetProgramInfoLog) F(GetProgramiv) F(GetQueryObjectuiv) F(GetRenderbufferParameteriv) F(GetString) \
   F(LightModelfv) F(Lightfv) F(LinkProgram) F(LoadIdentity) F(LoadMatrixf) F(Materialf) F(Materialfv) F(MatrixMode) \
   F(NormalPointer) F(Ortho) F(PopAttrib) F(PopClientAttrib) F(PushAttrib) F(PushClientAttrib) F(ReadPixels) \
-  F(RenderMode) F(RenderbufferStorage) F(Rotated) F(Scaled) F(ShadeModel) F(ShaderSource) F(TexCoordPointer) \
+  F(RenderMode) F(RenderbufferStorage) F(Rotated) F(Scaled) F(Scissor) F(ShadeModel) F(ShaderSource) F(TexCoordPointer) \
   F(TransformFeedbackVaryings) F(Translated) F(UseProgram) F(VertexPointer) F(Viewport)
 // clang-format on
 

@@ -197,6 +197,12 @@ void SceneInGl::set_fragments(std::size_t draw) const {
   gl_.Disable(GL_DITHER);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(gl_depth_func(d.depth_func));
+  if (d.scissor) {
+    gl_.Enable(GL_SCISSOR_TEST);
+    gl_.Scissor(d.scissor->x, d.scissor->y, d.scissor->width, d.scissor->height);
+  } else {
+    gl_.Disable(GL_SCISSOR_TEST);
+  }
   gl_.DepthMask(d.merge.depth_mask ? GL_TRUE : GL_FALSE);
   if (d.cull == Cull::none) {
     gl_.Disable(GL_CULL_FACE);

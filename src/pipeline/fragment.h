@@ -6,6 +6,7 @@
 // fragment sees them all, and the planes come out the same, bit for bit.
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "pipeline/attributes.h"
@@ -24,6 +25,10 @@ struct FragmentStages {
     return pipeline::attribute_setup(triangle);
   }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
+  template <class R>
+  static Mask<R> scissor(const Scissor& box, const Pixels<R>& p) {
+    return pipeline::scissor<R>(box, p);
+  }
   template <class R>
   static R depth(const DepthSetup& s, const Barycentric<R>& b) {
     return pipeline::depth<R>(s, b);
@@ -55,6 +60,12 @@ struct FragmentStages {
   }
   /// A draw's merge state, asked for once.
   static Merge merge_state(const Merge& of_draw) { return of_draw; }
+};
+
+/// What of a draw's state is looked at per block.
+struct BlockState {
+  std::optional<Scissor> scissor;
+  Merge merge;
 };
 
 /// Where the next pixels' depth and colour are, in the frame's formats, as floats.
@@ -131,12 +142,13 @@ struct NoTap {
 };
 
 template <class R, DepthFunc func, class Stages, class Tap>
-void fragment_block(const Stages& stages, const Merge& state, const SetupOf<Stages>& s, int block_x, int block_y,
+void fragment_block(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, int block_x, int block_y,
                     float color_scale, Tile& tile, Tap& tap) {
   const int offset = tile.offset(block_x, block_y);
   for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
     const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
-    const Mask<R> covered = coverage<R>(s.edges, p);
+    Mask<R> covered = coverage<R>(s.edges, p);
+    if (state.scissor) covered = covered & stages.template scissor<R>(*state.scissor, p);
     if (!any(covered)) continue;
     const Barycentric<R> b = barycentric<R>(s.planes, p);
     const R z = stages.template depth<R>(s.depth, b);
@@ -151,7 +163,7 @@ void fragment_block(const Stages& stages, const Merge& state, const SetupOf<Stag
     const auto shaded = stages.template shade<R>(attributes);
     const Mask<R> kept = stages.template kept<R>(passes, shaded);
     tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
-    write<R>(stages, state, kept, z, Color<R>(shaded), color_scale, stored);
+    write<R>(stages, state.merge, kept, z, Color<R>(shaded), color_scale, stored);
   }
 }
 

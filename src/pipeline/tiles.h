@@ -32,7 +32,7 @@ void clear(Tile& tile, const FrameFormat& frame, const Formats& formats);
 void write_out(const Tile& tile, Frame& frame);
 
 template <class R, DepthFunc func, class Stages, class Tap>
-void draw_triangle(const Stages& stages, const Merge& state, const SetupOf<Stages>& s, const Formats& formats,
+void draw_triangle(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, const Formats& formats,
                    Tile& tile, Tap& tap) {
   const int x0 = std::max(s.bounds.x0, tile.x0) & ~(kBlock - 1), x1 = std::min(s.bounds.x1, tile.x0 + kTile);
   const int y0 = std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1), y1 = std::min(s.bounds.y1, tile.y0 + kTile);
@@ -44,7 +44,7 @@ void draw_triangle(const Stages& stages, const Merge& state, const SetupOf<Stage
 }
 
 template <class R, class Stages, class Tap>
-using DrawTriangle = void (*)(const Stages&, const Merge&, const SetupOf<Stages>&, const Formats&, Tile&, Tap&);
+using DrawTriangle = void (*)(const Stages&, const BlockState&, const SetupOf<Stages>&, const Formats&, Tile&, Tap&);
 
 /// The instantiation for a depth function, chosen once per draw.
 template <class R, class Stages, class Tap>
@@ -67,10 +67,10 @@ void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& f
   const Bins bins = bin(list.triangles, format);
   const Formats formats = formats_of(format);
   std::vector<DrawTriangle<R, Stages, Tap>> draw_of;
-  std::vector<Merge> merge_of;
+  std::vector<BlockState> state_of;
   for (const Draw& draw : list.draws) {
     draw_of.push_back(draw_triangle_for<R, Stages, Tap>(draw.depth_func));
-    merge_of.push_back(stages.merge_state(draw.merge));
+    state_of.push_back({draw.scissor, stages.merge_state(draw.merge)});
   }
   Tile tile{};
   for (int t = 0; t < bins.columns * bins.rows; ++t) {
@@ -82,7 +82,7 @@ void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& f
          ++i) {
       const std::uint32_t number = bins.numbers[i];
       while (number >= list.first_triangle[draw + 1]) ++draw;
-      draw_of[draw](stages, merge_of[draw], set_up(stages, list.triangles[number], number, formats, tile.x0, tile.y0),
+      draw_of[draw](stages, state_of[draw], set_up(stages, list.triangles[number], number, formats, tile.x0, tile.y0),
                     formats, tile, tap);
     }
     write_out(tile, frame);

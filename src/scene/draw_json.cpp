@@ -109,6 +109,13 @@ glm::bvec4 read_color_mask(const JsonNode& node) {
   return mask;
 }
 
+Scissor read_scissor(const JsonNode& node) {
+  constexpr std::int64_t kMost = 16384;
+  const std::vector<JsonNode> n = node.elements(4, 4);
+  const auto pixels = [&](std::size_t i) { return static_cast<int>(n[i].integer(0, kMost)); };
+  return {pixels(0), pixels(1), pixels(2), pixels(3)};
+}
+
 /// What the node gives, over what the state is.
 void read_state(const JsonNode& node, DrawState& state) {
   Draw& draw = state.draw;
@@ -134,6 +141,7 @@ void read_state(const JsonNode& node, DrawState& state) {
                                             {"greater_equal", DepthFunc::greater_equal},
                                             {"always", DepthFunc::always}});
   }
+  if (const auto n = node.find("scissor")) draw.scissor = read_scissor(*n);
   if (const auto n = node.find("depth_mask")) draw.merge.depth_mask = n->boolean();
   if (const auto n = node.find("blend")) draw.merge.blend = read_blend(*n);
   if (const auto n = node.find("color_mask")) draw.merge.color_mask = read_color_mask(*n);
@@ -142,15 +150,16 @@ void read_state(const JsonNode& node, DrawState& state) {
 }  // namespace
 
 DrawState read_draw_state(const JsonNode& node, const DrawState& defaults) {
-  node.only({"transforms", "material", "lit", "shading", "cull", "depth_func", "depth_mask", "blend", "color_mask"});
+  node.only({"transforms", "material", "lit", "shading", "cull", "depth_func", "scissor", "depth_mask", "blend",
+             "color_mask"});
   DrawState state = defaults;
   read_state(node, state);
   return state;
 }
 
 DrawState read_draw(const JsonNode& node, const DrawState& defaults) {
-  node.only(
-      {"mesh", "transforms", "material", "lit", "shading", "cull", "depth_func", "depth_mask", "blend", "color_mask"});
+  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "depth_func", "scissor", "depth_mask", "blend",
+             "color_mask"});
   DrawState state = defaults;
   read_state(node, state);
   return state;

@@ -129,6 +129,13 @@ struct Blend {
   glm::vec4 color{0};  ///< the constant colour, [0,1]
 };
 
+/// Pixels [x, x + width) x [y, y + height), rows counted as the dialect's; it may reach beyond the frame.
+struct Scissor {
+  int x = 0, y = 0;           ///< [0, 16384]
+  int width = 0, height = 0;  ///< [0, 16384]
+  bool holds(int px, int py) const { return px >= x && px < x + width && py >= y && py < y + height; }
+};
+
 /// How a fragment that is drawn goes into the frame.
 struct Merge {
   std::optional<Blend> blend;   ///< none: it replaces what is there
@@ -146,6 +153,7 @@ struct Draw {
   Cull cull = Cull::none;
   DepthFunc depth_func = DepthFunc::less;
   Merge merge;
+  std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
 };
 
 struct FrameFormat {

@@ -101,6 +101,13 @@ struct TruncatedColor : pipeline::FragmentStages {
   }
 };
 
+struct ScissorWithItsFarSides : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Mask<R> scissor(const Scissor& box, const pipeline::Pixels<R>& p) {
+    return pipeline::scissor<R>({box.x, box.y, box.width + 1, box.height + 1}, p);
+  }
+};
+
 struct SwappedFactors : pipeline::FragmentStages {
   static Merge merge_state(const Merge& of_draw) {
     Merge wrong = of_draw;
@@ -144,6 +151,8 @@ constexpr std::array kFaults = {
           with_geometry<&Geometry::window, snapped_by_truncation>},
     Fault{"coverage.inclusive_edges", "pixels on any edge are covered: shared edges are painted twice", Stage::coverage,
           with_fragment<InclusiveEdges>},
+    Fault{"coverage.scissor_inclusive", "the scissor box has one column and one row too many", Stage::coverage,
+          with_fragment<ScissorWithItsFarSides>},
     Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth, with_fragment<TruncatedDepth>},
     Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
           with_fragment<AffineAttributes>},

@@ -42,9 +42,16 @@ std::string in_mesh(const std::string& kind) {
 const Members kSides = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"}, {"top", "1"}, {"near", "1"}, {"far", "2"}};
 const Members kCoordinates = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"},
                               {"top", "1"},   {"near", "1"},  {"far", "-2"}};
-const Members kState = {{"transforms", "[]"},    {"material", "{}"},   {"lit", "true"},
-                        {"shading", "\"flat\""}, {"cull", "\"none\""}, {"depth_func", "\"less\""},
-                        {"depth_mask", "true"},  {"blend", "{}"},      {"color_mask", "[true, true, true, false]"}};
+const Members kState = {{"transforms", "[]"},
+                        {"material", "{}"},
+                        {"lit", "true"},
+                        {"shading", "\"flat\""},
+                        {"cull", "\"none\""},
+                        {"depth_func", "\"less\""},
+                        {"scissor", "[0, 0, 1, 1]"},
+                        {"depth_mask", "true"},
+                        {"blend", "{}"},
+                        {"color_mask", "[true, true, true, false]"}};
 const Members kTerm = {{"source", "\"source_alpha_saturate\""}, {"destination", "\"zero\""}, {"equation", "\"min\""}};
 const std::string kThree = "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]", kWhite = "[1, 1, 1, 1]";
 
