@@ -65,6 +65,8 @@ void DepthBuffer::store(int x, int y, const Draw& draw, double depth) {
   if (draw.merge.depth_mask) plane_(x, y) = in_format(format_, depth);
 }
 
+static_assert(sizeof(math::FrameColor) <= 18 * sizeof(double), "more than plane_bytes() counts");
+
 ColorBuffer::ColorBuffer(const Scene& scene) : format_(scene.frame.color) {
   const FrameFormat& frame = scene.frame;
   if (colors_replace(scene)) {
