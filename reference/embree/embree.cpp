@@ -28,6 +28,9 @@ class EmbreeRenderer final : public Renderer {
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
+    if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
+      throw Unsupported("no ray meets a line or a point");
+    }
     math::Candidates candidates(math::candidate_budget(scene, request.memory_budget));
     const math::Projected projected = math::project(scene);
     add_by_rays(projected, candidates);

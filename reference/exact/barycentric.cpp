@@ -25,6 +25,7 @@ std::array<Point, 3> positions(const WindowTriangle<double>& triangle) {
     snapped[i] = {v.snapped.x / static_cast<double>(kSubpixel) + 0.5,
                   v.snapped.y / static_cast<double>(kSubpixel) + 0.5};
   }
+  if (triangle.corners < 3) return unsnapped;
   const Float128 area = doubled_area(unsnapped);
   const bool same_facing = facing(snapped_corners(triangle)) > 0 ? area > 0 : area < 0;
   return same_facing ? unsnapped : snapped;
@@ -34,10 +35,16 @@ std::array<Point, 3> positions(const WindowTriangle<double>& triangle) {
 
 Barycentric::Barycentric(const WindowTriangle<double>& triangle, int width, int height) {
   const std::array<Point, 3> p = positions(triangle);
-  const Float128 area = doubled_area(p);
   const Point e1 = p[1] - p[0], e2 = p[2] - p[0];
-  // Weight 1 at q is cross(q - p0, e2) / area, weight 2 is cross(e1, q - p0) / area.
-  exact_ = {p[0].x, p[0].y, e2.y / area, -e2.x / area, -e1.y / area, e1.x / area};
+  if (triangle.corners == 3) {
+    // Weight 1 at q is cross(q - p0, e2) / area, weight 2 is cross(e1, q - p0) / area.
+    const Float128 area = doubled_area(p);
+    exact_ = {p[0].x, p[0].y, e2.y / area, -e2.x / area, -e1.y / area, e1.x / area};
+  } else {
+    // Weight 1 at q is dot(q - p0, e1) / dot(e1, e1).
+    const Float128 square = e1.x * e1.x + e1.y * e1.y, one_over = square > 0 ? 1 / square : 0;
+    exact_ = {p[0].x, p[0].y, e1.x * one_over, e1.y * one_over, 0, 0};
+  }
   const auto narrow = [](Float128 v) { return static_cast<long double>(v); };
   rounded_ = {narrow(exact_.x0),    narrow(exact_.y0),    narrow(exact_.d1_dx),
               narrow(exact_.d1_dy), narrow(exact_.d2_dx), narrow(exact_.d2_dy)};

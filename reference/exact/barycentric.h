@@ -11,12 +11,16 @@ namespace plumbline::exact {
 /// Weights of a triangle's corners at pixel centres, in the window; they sum to 1. Through the *unsnapped* window
 /// positions, or where those have no area or the other facing, the snapped ones.
 ///
+/// Along a line, the second corner's is (p - a).(b - a) / |b - a|^2, the third's 0 (OpenGL 2.1, equation 3.5); of a
+/// point both are 0.
+///
 /// The set-up is in 113 bits, so that a sliver's area and gradients are right; the weights are evaluated in long double
 /// from the first corner on, or where their terms are large (a sliver, whose weights are small differences of them)
 /// in 113 bits: they are good to 2^-52 relative to the largest weight.
 class Barycentric {
  public:
-  /// Of a triangle with a snapped area; else the weights are NaN. `width`, `height` of the frame, in pixels.
+  /// Of a triangle with a snapped area, a line or a point; else the weights are NaN. `width`, `height` of the frame, in
+  /// pixels.
   Barycentric(const WindowTriangle<double>& triangle, int width, int height);
 
   /// At pixel (x, y)'s centre.

@@ -60,6 +60,34 @@ std::vector<ClipVertex<double>> clip_triangle(const std::array<ClipVertex<double
   return polygon;
 }
 
+std::vector<ClipVertex<double>> clip_line(const ClipVertex<double>& a, const ClipVertex<double>& b, int planes) {
+  double first = 0, last = 1;
+  for (int i = 0; i < planes; ++i) {
+    const glm::dvec4 plane = clip_plane(i);
+    const double d_a = glm::dot(plane, a.p_clip), d_b = glm::dot(plane, b.p_clip);
+    if (d_a < 0 && d_b < 0) return {};
+    if (d_a < 0) first = std::max(first, d_a / (d_a - d_b));
+    if (d_b < 0) last = std::min(last, d_a / (d_a - d_b));
+  }
+  if (first >= last) return {};
+  const auto at = [&](double t) -> ClipVertex<double> {
+    return {.p_clip = glm::mix(a.p_clip, b.p_clip, t), .color = glm::mix(a.color, b.color, t), .cut = true};
+  };
+  return {first > 0 ? at(first) : a, last < 1 ? at(last) : b};
+}
+
+namespace {
+
+Polygon clip_primitive(Topology topology, const std::array<ClipVertex<double>, 3>& corners, int planes) {
+  if (topology == Topology::triangles) return clip_triangle(corners, planes);
+  if (topology == Topology::lines) return clip_line(corners[0], corners[1], planes);
+  for (int i = 0; i < planes; ++i)
+    if (glm::dot(clip_plane(i), corners[0].p_clip) < 0) return {};
+  return {corners[0]};
+}
+
+}  // namespace
+
 ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Vertex<double>>& vertices,
                                      const std::vector<Lit<double>>& lit) {
   require_size("records.lit", lit.size(), vertices.size());
@@ -76,7 +104,8 @@ ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Verte
       }
       if (!std::all_of(corners.begin(), corners.end(), [](const auto& v) { return finite(v.p_clip); })) continue;
       if (scene.draws[d].shading == Shading::flat) corners[0].color = corners[1].color = corners[2].color;
-      const Polygon polygon = clip_triangle(corners, scene.depth_clamp ? kSides : kPlanes);
+      const Polygon polygon =
+          clip_primitive(scene.meshes[scene.draws[d].mesh].topology, corners, scene.depth_clamp ? kSides : kPlanes);
       if (polygon.empty()) continue;
       out.polygons.push_back({.primitive = ranges[d].first_primitive + t,
                               .first = static_cast<std::uint32_t>(out.vertices.size()),

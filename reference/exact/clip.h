@@ -20,8 +20,13 @@ glm::dvec4 clip_plane(int index);
 /// end of the edge, so that triangles which share the edge share the cut. Colours are cut at the same place.
 std::vector<ClipVertex<double>> clip_triangle(const std::array<ClipVertex<double>, 3>& corners, int planes = kPlanes);
 
-/// Stage 3. Primitives with a corner that is not finite, and those that lie outside, leave no polygon.
-/// Throws std::invalid_argument where the records do not fit the scene.
+/// What is left of a line between two vertices: none, or two. Of all t in [0,1], those whose a + t (b - a) is inside
+/// are an interval; its ends are the line's.
+std::vector<ClipVertex<double>> clip_line(const ClipVertex<double>& a, const ClipVertex<double>& b,
+                                          int planes = kPlanes);
+
+/// Stage 3; a point inside is left as it is. Primitives with a corner that is not finite, and those that lie outside,
+/// leave no polygon. Throws std::invalid_argument where the records do not fit the scene.
 ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Vertex<double>>& vertices,
                                      const std::vector<Lit<double>>& lit);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reference/exact/input.h"
+#include "reference/exact/line_coverage.h"
 #include "reference/exact/window.h"
 #include "stages/renderer.h"
 
@@ -75,6 +76,33 @@ void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector
   }
 }
 
+void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, const Draw& draw,
+                    std::uint32_t triangle, std::vector<Covered>& out) {
+  if (primitive.corners == 3)
+    return append_covered(CoveredRows(snapped_corners(primitive), frame, draw), triangle, out);
+  std::vector<glm::ivec2> pixels;
+  if (primitive.corners == 2) {
+    pixels = line_pixels(primitive.v[0].snapped, primitive.v[1].snapped, frame.width, frame.height);
+  } else {
+    const glm::dvec2 p_win = glm::dvec2(primitive.v[0].snapped) / static_cast<double>(kSubpixel) + 0.5;
+    const glm::ivec2 pixel(glm::floor(p_win));
+    if (pixel.x >= 0 && pixel.y >= 0 && pixel.x < frame.width && pixel.y < frame.height) pixels = {pixel};
+  }
+  for (const glm::ivec2 p : pixels)
+    if (!draw.scissor || draw.scissor->holds(p.x, p.y))
+      out.push_back({triangle, static_cast<std::uint16_t>(p.x), static_cast<std::uint16_t>(p.y)});
+}
+
+namespace {
+
+/// A line has at most one pixel in each row or column that it passes, and one more.
+std::size_t most_pixels(const WindowTriangle<double>& line_or_point, int longest) {
+  const glm::i64vec2 d = glm::abs(glm::i64vec2(line_or_point.v[1].snapped) - glm::i64vec2(line_or_point.v[0].snapped));
+  return static_cast<std::size_t>(std::min<std::int64_t>(std::max(d.x, d.y) / kSubpixel + 2, longest));
+}
+
+}  // namespace
+
 void cover_triangles(const Scene& scene, const std::vector<WindowTriangle<double>>& triangles, std::size_t budget,
                      Capture& out) {
   const int width = scene.frame.width, height = scene.frame.height;
@@ -83,7 +111,8 @@ void cover_triangles(const Scene& scene, const std::vector<WindowTriangle<double
     return CoveredRows(snapped_corners(t), scene.frame, draw_of(t.primitive));
   };
   std::size_t fragments = 0;
-  for (const WindowTriangle<double>& t : triangles) fragments += covered_count(rows_of(t));
+  for (const WindowTriangle<double>& t : triangles)
+    fragments += t.corners == 3 ? covered_count(rows_of(t)) : most_pixels(t, std::max(width, height));
   require_budget(scene, plane_bytes(scene) + fragments * sizeof(Covered), budget);
 
   out.planes.count = Plane<std::uint32_t>(width, height);
@@ -92,7 +121,7 @@ void cover_triangles(const Scene& scene, const std::vector<WindowTriangle<double
   covered.reserve(fragments);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const std::size_t first = covered.size();
-    append_covered(rows_of(triangles[i]), i, covered);
+    append_covered(triangles[i], scene.frame, draw_of(triangles[i].primitive), i, covered);
     const std::uint64_t weight = id_weight(triangles[i].primitive);
     for (std::size_t f = first; f < covered.size(); ++f) add_fragment(out.planes, covered[f].x, covered[f].y, weight);
   }

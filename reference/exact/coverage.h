@@ -51,6 +51,11 @@ std::size_t covered_count(const CoveredRows& rows);
 /// Appends one entry per pixel covered, by y, then x.
 void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector<Covered>& out);
 
+/// Likewise of a triangle, a line (line_coverage.h) or a point, as record number `triangle`, in the draw's scissor box.
+/// A point of size 1 is the pixel (floor x, floor y) of its snapped window position (OpenGL 2.1, section 3.3).
+void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, const Draw& draw,
+                    std::uint32_t triangle, std::vector<Covered>& out);
+
 /// Stage 5, from the triangles' snapped corners alone: records.covered, planes.count and planes.id_sum into `out`.
 /// Throws OverBudget where they would take more than `budget` bytes.
 void cover_triangles(const Scene& scene, const std::vector<WindowTriangle<double>>& triangles, std::size_t budget,

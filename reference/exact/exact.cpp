@@ -80,7 +80,14 @@ std::size_t selected_fragments(const Scene& scene, const Selection& selection,
   const DrawOf draw_of(scene);
   for (const WindowTriangle<double>& triangle : triangles) {
     if (!selection.primitive(triangle.primitive)) continue;
-    const CoveredRows rows(snapped_corners(triangle), scene.frame, draw_of(triangle.primitive));
+    const Draw& draw = draw_of(triangle.primitive);
+    if (triangle.corners < 3) {
+      std::vector<Covered> covered;
+      append_covered(triangle, scene.frame, draw, 0, covered);
+      for (const Covered& c : covered) count += selection.pixel(c.x, c.y);
+      continue;
+    }
+    const CoveredRows rows(snapped_corners(triangle), scene.frame, draw);
     for (int y = rows.y_begin(); y < rows.y_end(); ++y)
       for (auto [x, end] = rows.row(y); x < end; ++x) count += selection.pixel(x, y);
   }
@@ -101,7 +108,7 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
     const bool wanted = selection.primitive(triangle.primitive);
     const Draw& draw = draw_of(triangle.primitive);
     covered.clear();
-    append_covered(CoveredRows(snapped_corners(triangle), frame, draw), wanted ? kept++ : 0, covered);
+    append_covered(triangle, frame, draw, wanted ? kept++ : 0, covered);
     if (covered.empty()) continue;
 
     const Barycentric weights(triangle, frame.width, frame.height);
@@ -141,7 +148,8 @@ Capture Exact::capture(const Scene& scene, const Request& request) {
                  request.memory_budget);
   selection.reserve(fragments, records);
   draw_triangles(scene, triangles, selection, out);
-  if (request.legal) out.legal = math::legal_by_boxes(scene, request);
+  if (request.legal && !draws(scene, Topology::lines) && !draws(scene, Topology::points))
+    out.legal = math::legal_by_boxes(scene, request);
   return out;
 }
 

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "reference/exact/input.h"
 #include "reference/exact/wide.h"
@@ -52,10 +55,16 @@ std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const C
   for (const ClipPolygon& polygon : polygons.polygons) {
     require_index("a polygon's end", std::size_t{polygon.first} + polygon.count, polygons.vertices.size() + 1);
     const std::size_t draw = draw_of.index(polygon.primitive);
+    const std::uint32_t corners_of_mesh = corner_count(scene.meshes[scene.draws[draw].mesh].topology);
+    if (polygon.count < corners_of_mesh || (corners_of_mesh < 3 && polygon.count > corners_of_mesh))
+      throw std::invalid_argument(
+          fmt::format("exact: a polygon of {} vertices, of a primitive of {} corners", polygon.count, corners_of_mesh));
     corners.clear();
     for (std::uint32_t i = 0; i < polygon.count; ++i)
       if (const auto v = to_window(polygons.vertices[polygon.first + i], matrices[draw])) corners.push_back(*v);
     if (corners.size() != polygon.count) continue;
+    if (polygon.count < 3)
+      triangles.push_back({{corners.front(), corners.back(), corners.back()}, polygon.primitive, true, polygon.count});
     for (std::size_t i = 2; i < corners.size(); ++i) {
       WindowTriangle<double> triangle{{corners[i - 1], corners[i], corners[0]}, polygon.primitive, false};
       const int sign = facing(snapped_corners(triangle));

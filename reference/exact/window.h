@@ -18,8 +18,9 @@ int facing(const std::array<glm::ivec2, 3>& snapped);
 /// The corners' snapped positions.
 std::array<glm::ivec2, 3> snapped_corners(const WindowTriangle<double>& triangle);
 
-/// Stage 4. A polygon with a corner of w <= 0, or whose window position is not finite or beyond 2^31 / 256 pixels, is
-/// dropped whole. Throws std::invalid_argument where the records do not fit the scene or each other.
+/// Stage 4. Lines and points stay as they are, and face the front. A polygon with a corner of w <= 0, or whose window
+/// position is not finite or beyond 2^31 / 256 pixels, is dropped whole. Throws std::invalid_argument where the records
+/// do not fit the scene or each other.
 std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const ClipPolygons<double>& polygons,
                                                      const std::vector<Matrices<double>>& matrices);
 

@@ -84,13 +84,16 @@ void round_entries(M& matrix) {
 glm::dmat4 view_matrix(const Scene& scene) {
   const auto& [eye, center, up] = scene.camera;
   if (const auto* v = std::get_if<ViewPlane>(&scene.projection)) {
-    // The eye is d behind the view plane's middle; a left-handed view, turned to look down -z.
+    // A left-handed view from the view plane's middle; the eye is d behind it; turned to look down -z.
     const double d = 1 / std::tan(glm::radians(v->fov_degrees) / 2);
-    const glm::dvec3 place = eye - d * glm::normalize(center - eye);
-    return glm::scale(glm::dmat4(1.0), {1, 1, -1}) * glm::lookAtLH(place, center, up);
+    const glm::dmat4 turned = glm::lookAtLH(glm::dvec3(0), center - eye, up);
+    return glm::scale(glm::dmat4(1.0), {1, 1, -1}) * glm::translate(glm::dmat4(1.0), {0, 0, d}) *
+           glm::translate(turned, -eye);
   }
   if (const auto* p = std::get_if<Pinhole>(&scene.projection)) {
-    return glm::lookAt(center + p->c * glm::normalize(eye - center), center, up);
+    // The eye is c before the camera's center, in whose direction it looks.
+    const glm::dmat4 turned = glm::lookAt(glm::dvec3(0), center - eye, up);
+    return glm::translate(glm::dmat4(1.0), {0, 0, -p->c}) * glm::translate(turned, -center);
   }
   return glm::lookAt(eye, center, up);
 }

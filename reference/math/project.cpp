@@ -108,7 +108,7 @@ std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, dou
   for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
   if (scene.depth_clamp) {  // the sides meet at the eye: nothing is behind it
     inside[0] = c.v.z + kRoundingsCut * kFloatRounding * c.size.w;
-    inside[1] = std::numeric_limits<double>::infinity();
+    inside[1] = 1;  // everything, and at the cuts between as well
   }
   return inside;
 }

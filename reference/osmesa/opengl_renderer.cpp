@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reference/osmesa/gl.h"
+#include "reference/osmesa/line_records.h"
 #include "reference/osmesa/planes.h"
 #include "reference/osmesa/polygon_records.h"
 #include "reference/osmesa/scene_in_gl.h"
@@ -74,6 +75,9 @@ class OpenGlRenderer final : public Renderer {
     if (request.records.has(Stage::vertex)) records.vertices = vertex_program_.run(scene);
     if (request.records.has(Stage::light)) records.lit = read_lit(gl_, scene);
     read_polygons(gl_, scene, request, records);
+    if (request.records.has(Stage::coverage) && request.records.has(Stage::window)) {
+      read_covered_lines(gl_, scene, records);
+    }
   }
 
   std::string name_, version_;

@@ -46,7 +46,7 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colo
     scene.set_surface(i);
     scene.set_fragments(i);
     if (colors == Colors::merged) scene.set_merge(i);
-    scene.draw_triangles(i);
+    scene.draw_primitives(i);
   }
   check(gl, "drawing the scene");
 }

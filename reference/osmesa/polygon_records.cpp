@@ -21,17 +21,21 @@ struct Corner {
   glm::vec4 color, tag;
 };
 
-// A triangle as GL_4D_COLOR_TEXTURE hands it out.
+// A triangle, or line or point, as GL_4D_COLOR_TEXTURE hands it out.
 struct FedVertex {
   glm::vec4 p_win_w;  // window x, y, z; clip w
   glm::vec4 color, tag;
 };
 struct FedTriangle {
-  float token, count;
-  std::array<FedVertex, 3> v;
+  std::array<FedVertex, 3> v;  // of a line the last twice, of a point the one three times
+  std::uint32_t corners;
 };
-constexpr std::size_t kTriangle = sizeof(FedTriangle) / sizeof(float);
-static_assert(kTriangle == 38);
+constexpr std::size_t kVertex = sizeof(FedVertex) / sizeof(float);
+static_assert(kVertex == 12);
+// The values of one: its token, a triangle's count, its vertices.
+constexpr std::size_t values_of(Topology topology) {
+  return (topology == Topology::triangles ? 2 : 1) + corner_count(topology) * kVertex;
+}
 
 // So many triangles go in at a time: it bounds what the feedback takes.
 constexpr std::size_t kBatch = 1 << 15;
@@ -52,11 +56,12 @@ std::vector<Corner> corners_of(const Mesh& mesh, std::uint32_t first_primitive,
                                std::span<const std::uint32_t> primitives) {
   constexpr std::array<glm::vec2, 3> kCornerTags = {glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(0, 0)};
   std::vector<Corner> corners;
-  corners.reserve(3 * primitives.size());
+  const auto count = static_cast<int>(corner_count(mesh.topology));
+  corners.reserve(static_cast<std::size_t>(count) * primitives.size());
   for (const std::uint32_t primitive : primitives) {
     const glm::uvec3 triangle = mesh.triangles[primitive - first_primitive];
     const glm::vec2 number(static_cast<float>(primitive & 0xffffu), static_cast<float>(primitive >> 16));
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < count; ++i) {
       const std::uint32_t v = triangle[i];
       corners.push_back({mesh.positions[v], mesh.normals[v], color_at(mesh, v),
                          glm::vec4(number, kCornerTags[static_cast<std::size_t>(i)])});
@@ -66,7 +71,7 @@ std::vector<Corner> corners_of(const Mesh& mesh, std::uint32_t first_primitive,
 }
 
 // From this process' memory: feedback mode never lets go of a buffer object that it has read (Mesa 22.3).
-void draw_corners(const Gl& gl, const std::vector<Corner>& corners, bool colors) {
+void draw_corners(const Gl& gl, const std::vector<Corner>& corners, Topology topology, bool colors) {
   const SavedArrays arrays(gl);
   gl.VertexPointer(3, GL_FLOAT, sizeof(Corner), &corners[0].position);
   gl.NormalPointer(GL_FLOAT, sizeof(Corner), &corners[0].normal);
@@ -76,16 +81,28 @@ void draw_corners(const Gl& gl, const std::vector<Corner>& corners, bool colors)
   gl.EnableClientState(GL_NORMAL_ARRAY);
   if (colors) gl.EnableClientState(GL_COLOR_ARRAY);
   gl.EnableClientState(GL_TEXTURE_COORD_ARRAY);
-  gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
+  gl.DrawArrays(gl_mode(topology), 0, static_cast<GLsizei>(corners.size()));
 }
 
-std::vector<FedTriangle> triangles_of(std::span<const float> values) {
-  if (values.size() % kTriangle != 0) throw RendererFailed("OpenGL: feedback is not of whole triangles");
-  std::vector<FedTriangle> triangles(values.size() / kTriangle);
-  if (!triangles.empty()) std::memcpy(triangles.data(), values.data(), values.size_bytes());
-  for (const FedTriangle& t : triangles) {
-    if (t.token == static_cast<float>(GL_POLYGON_TOKEN) && t.count == 3) continue;
-    throw RendererFailed(fmt::format("OpenGL: feedback token {} of {} vertices, not a triangle", t.token, t.count));
+bool is_token_of(Topology topology, float token, float count) {
+  if (topology == Topology::triangles) return token == static_cast<float>(GL_POLYGON_TOKEN) && count == 3;
+  if (topology == Topology::points) return token == static_cast<float>(GL_POINT_TOKEN);
+  return token == static_cast<float>(GL_LINE_TOKEN) || token == static_cast<float>(GL_LINE_RESET_TOKEN);
+}
+
+std::vector<FedTriangle> triangles_of(std::span<const float> values, Topology topology) {
+  const std::size_t size = values_of(topology), corners = corner_count(topology);
+  if (values.size() % size != 0) throw RendererFailed("OpenGL: feedback is not of whole primitives");
+  std::vector<FedTriangle> triangles(values.size() / size);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const std::span<const float> one = values.subspan(i * size, size);
+    if (!is_token_of(topology, one[0], one[1])) {
+      throw RendererFailed(fmt::format("OpenGL: feedback token {}, not that of what was drawn", one[0]));
+    }
+    FedTriangle& t = triangles[i];
+    std::memcpy(t.v.data(), one.last(corners * kVertex).data(), corners * sizeof(FedVertex));
+    std::fill(t.v.begin() + static_cast<std::ptrdiff_t>(corners), t.v.end(), t.v[corners - 1]);
+    t.corners = static_cast<std::uint32_t>(corners);
   }
   return triangles;
 }
@@ -132,6 +149,12 @@ void add_polygons(std::span<const FedTriangle> triangles, const ToClip& to_clip,
     const std::uint32_t primitive = primitive_of(triangles[i]);
     const auto first = static_cast<std::uint32_t>(out.vertices.size());
     const auto& fan = triangles[i].v;
+    if (triangles[i].corners < 3) {
+      for (std::uint32_t k = 0; k < triangles[i].corners; ++k) out.vertices.push_back(to_clip(fan[k]));
+      out.polygons.push_back({primitive, first, triangles[i].corners});
+      ++i;
+      continue;
+    }
     for (const int corner : {2, 0, 1}) out.vertices.push_back(to_clip(fan[static_cast<std::size_t>(corner)]));
     for (++i; i < triangles.size() && primitive_of(triangles[i]) == primitive; ++i) {
       if (triangles[i].v[2].p_win_w != fan[2].p_win_w || triangles[i].v[0].p_win_w != triangles[i - 1].v[1].p_win_w) {
@@ -162,9 +185,10 @@ void add_triangles(std::span<const FedTriangle> triangles, Cull cull, std::vecto
       const FedVertex& v = fed.v[i];
       t.v[i] = {v.p_win_w, 1.0 / static_cast<double>(v.p_win_w.w), {snap(v.p_win_w.x), snap(v.p_win_w.y)}, v.color};
     }
-    const std::int64_t area = doubled_area(t);
+    t.corners = fed.corners;
+    const std::int64_t area = fed.corners < 3 ? 1 : doubled_area(t);
     t.front = area > 0;
-    if (area == 0 || cull == (t.front ? Cull::front : Cull::back)) continue;
+    if (fed.corners == 3 && (area == 0 || cull == (t.front ? Cull::front : Cull::back))) continue;
     out.push_back(t);
   }
 }
@@ -188,8 +212,10 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
     for (std::size_t at = 0; at < wanted.size(); at += kBatch) {
       const auto batch = std::span(wanted).subspan(at, std::min(kBatch, wanted.size() - at));
       const std::vector<Corner> corners = corners_of(mesh, range.first_primitive, batch);
-      const std::vector<FedTriangle> triangles = triangles_of(feedback.run(
-          batch.size() * kTriangle * 5 / 4 + 16 * kTriangle, [&] { draw_corners(gl, corners, !mesh.colors.empty()); }));
+      const std::size_t expected = values_of(mesh.topology) * (batch.size() * 5 / 4 + 16);
+      const std::vector<FedTriangle> triangles =
+          triangles_of(feedback.run(expected, [&] { draw_corners(gl, corners, mesh.topology, !mesh.colors.empty()); }),
+                       mesh.topology);
       if (clip) add_polygons(triangles, to_clip, records.polygons);
       if (window) add_triangles(triangles, draw.cull, records.triangles);
     }

@@ -44,14 +44,24 @@ void require_whole(const Scene& scene, const Draw& draw) {
 
 std::vector<Corner> corners_of(const Mesh& mesh, std::uint32_t primitive) {
   std::vector<Corner> corners;
-  corners.reserve(3 * mesh.triangles.size());
+  const auto count = static_cast<int>(corner_count(mesh.topology));
+  corners.reserve(static_cast<std::size_t>(count) * mesh.triangles.size());
   for (const glm::uvec3& triangle : mesh.triangles) {
     const auto part = [&](int i) { return static_cast<float>(id_weight_part(primitive, i)); };
     const glm::vec4 weight(1, part(0), part(1), part(2));
-    for (int i = 0; i < 3; ++i) corners.push_back({mesh.positions[triangle[i]], primitive + 1, weight});
+    for (int i = 0; i < count; ++i) corners.push_back({mesh.positions[triangle[i]], primitive + 1, weight});
     ++primitive;
   }
   return corners;
+}
+
+std::vector<std::uint32_t> indices_of(const Mesh& mesh) {
+  std::vector<std::uint32_t> indices;
+  const auto count = static_cast<int>(corner_count(mesh.topology));
+  for (const glm::uvec3& primitive : mesh.triangles) {
+    for (int i = 0; i < count; ++i) indices.push_back(primitive[i]);
+  }
+  return indices;
 }
 
 // In the world, homogeneous. A direction of unit length, so that its rounding to float loses nothing to its size.
@@ -109,6 +119,10 @@ GLenum gl_equation(BlendEquation equation) {
 
 }  // namespace
 
+GLenum gl_mode(Topology topology) {
+  return topology == Topology::triangles ? GL_TRIANGLES : topology == Topology::lines ? GL_LINES : GL_POINTS;
+}
+
 glm::vec4 color_at(const Mesh& mesh, std::uint32_t vertex) {
   return mesh.colors.empty() ? glm::vec4(1) : mesh.colors[vertex];
 }
@@ -134,7 +148,7 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene) 
     std::vector<MeshVertex> vertices = vertices_of(mesh);
     Buffer vertex_buffer(gl, std::span<const MeshVertex>(vertices));
     arrays_.push_back({std::move(vertices), std::move(vertex_buffer),
-                       Buffer(gl, std::span<const glm::uvec3>(mesh.triangles)),
+                       Buffer(gl, std::span<const std::uint32_t>(indices_of(mesh))),
                        Buffer(gl, std::span<const Corner>(corners_of(mesh, ranges_[i].first_primitive)))});
   }
   check(gl, "uploading the meshes");
@@ -234,7 +248,7 @@ void SceneInGl::point_to_vertices(std::size_t draw, const MeshVertex* first) con
   gl_.ColorPointer(4, GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, color)));
   gl_.EnableClientState(GL_VERTEX_ARRAY);
   gl_.EnableClientState(GL_NORMAL_ARRAY);
-  if (!scene_.meshes[scene_.draws[draw].mesh].colors.empty()) gl_.EnableClientState(GL_COLOR_ARRAY);
+  if (!mesh(draw).colors.empty()) gl_.EnableClientState(GL_COLOR_ARRAY);
 }
 
 void SceneInGl::bind_corners(std::size_t draw) const {
@@ -244,12 +258,14 @@ void SceneInGl::bind_corners(std::size_t draw) const {
   gl_.EnableClientState(GL_COLOR_ARRAY);
 }
 
-void SceneInGl::draw_triangles(std::size_t draw) const {
+void SceneInGl::draw_primitives(std::size_t draw) const {
   const SavedArrays arrays(gl_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
   point_to_vertices(draw, nullptr);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, arrays_[draw].indices.name());
-  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * ranges_[draw].primitive_count), GL_UNSIGNED_INT, nullptr);
+  const Topology topology = mesh(draw).topology;
+  gl_.DrawElements(gl_mode(topology), static_cast<GLsizei>(corner_count(topology) * ranges_[draw].primitive_count),
+                   GL_UNSIGNED_INT, nullptr);
 }
 
 // From this process' memory: feedback mode never lets go of a buffer object that it has read (Mesa 22.3).
@@ -263,14 +279,26 @@ void SceneInGl::draw_ids(std::size_t draw) const {
   const SavedArrays arrays(gl_);
   bind_corners(draw);
   gl_.ColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Corner), offset(offsetof(Corner, id)));
-  gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * ranges_[draw].primitive_count));
+  const Topology topology = mesh(draw).topology;
+  gl_.DrawArrays(gl_mode(topology), 0, static_cast<GLsizei>(corner_count(topology) * ranges_[draw].primitive_count));
+}
+
+void SceneInGl::draw_id(std::size_t draw, std::uint32_t primitive) const {
+  const SavedArrays arrays(gl_);
+  bind_corners(draw);
+  gl_.ColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Corner), offset(offsetof(Corner, id)));
+  const Topology topology = mesh(draw).topology;
+  const auto count = static_cast<GLsizei>(corner_count(topology));
+  const auto first = static_cast<GLint>(corner_count(topology) * (primitive - ranges_[draw].first_primitive));
+  gl_.DrawArrays(gl_mode(topology), first, count);
 }
 
 void SceneInGl::draw_weights(std::size_t draw) const {
   const SavedArrays arrays(gl_);
   bind_corners(draw);
   gl_.ColorPointer(4, GL_FLOAT, sizeof(Corner), offset(offsetof(Corner, weight)));
-  gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * ranges_[draw].primitive_count));
+  const Topology topology = mesh(draw).topology;
+  gl_.DrawArrays(gl_mode(topology), 0, static_cast<GLsizei>(corner_count(topology) * ranges_[draw].primitive_count));
 }
 
 }  // namespace plumbline::osmesa

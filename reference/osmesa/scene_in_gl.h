@@ -28,10 +28,11 @@ class SceneInGl {
   void set_merge(std::size_t draw) const;      ///< blending and colour mask
 
   // The draw's mesh, under the state that is set.
-  void draw_triangles(std::size_t draw) const;  ///< with normals and colours
-  void draw_points(std::size_t draw) const;     ///< each vertex, with normals and colours
-  void draw_ids(std::size_t draw) const;        ///< each triangle in the colour whose four bytes are primitive + 1
-  void draw_weights(std::size_t draw) const;    ///< each triangle in the colour (1, id_weight_part 0, 1, 2)
+  void draw_primitives(std::size_t draw) const;  ///< with normals and colours
+  void draw_points(std::size_t draw) const;      ///< each vertex, with normals and colours
+  void draw_ids(std::size_t draw) const;         ///< each primitive in the colour whose four bytes are its number + 1
+  void draw_id(std::size_t draw, std::uint32_t primitive) const;  ///< this one alone
+  void draw_weights(std::size_t draw) const;  ///< each primitive in the colour (1, id_weight_part 0, 1, 2)
 
  private:
   struct MeshVertex {
@@ -41,12 +42,13 @@ class SceneInGl {
   struct Arrays {
     std::vector<MeshVertex> vertices;
     Buffer vertex_buffer;  ///< the same
-    Buffer indices;        ///< the mesh's triangles
-    Buffer corners;        ///< every triangle's three corners alone, so that it can have a colour of its own
+    Buffer indices;        ///< the mesh's primitives
+    Buffer corners;        ///< every primitive's corners alone, so that it can have a colour of its own
   };
   static std::vector<MeshVertex> vertices_of(const Mesh& mesh);
   void point_to_vertices(std::size_t draw, const MeshVertex* first) const;
   void bind_corners(std::size_t draw) const;
+  const Mesh& mesh(std::size_t draw) const { return scene_.meshes[scene_.draws[draw].mesh]; }
 
   const Gl& gl_;
   const Scene& scene_;
@@ -54,6 +56,9 @@ class SceneInGl {
   std::vector<Matrices<double>> matrices_;
   std::vector<Arrays> arrays_;
 };
+
+/// GL_TRIANGLES, GL_LINES or GL_POINTS.
+GLenum gl_mode(Topology topology);
 
 /// The mesh's colour at a vertex, or white where it has none.
 glm::vec4 color_at(const Mesh& mesh, std::uint32_t vertex);

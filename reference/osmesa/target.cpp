@@ -90,10 +90,12 @@ void Target::bind() const {
   gl_.Viewport(0, 0, frame_.width, frame_.height);
 }
 
-Plane<std::uint32_t> Target::read_codes() const {
-  Plane<std::uint32_t> codes(frame_.width, frame_.height);
+Plane<std::uint32_t> Target::read_codes() const { return read_codes({0, 0}, {frame_.width, frame_.height}); }
+
+Plane<std::uint32_t> Target::read_codes(glm::ivec2 origin, glm::ivec2 size) const {
+  Plane<std::uint32_t> codes(size.x, size.y);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
-  gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_RGBA, GL_UNSIGNED_INT_8_8_8_8_REV, codes.values().data());
+  gl_.ReadPixels(origin.x, origin.y, size.x, size.y, GL_RGBA, GL_UNSIGNED_INT_8_8_8_8_REV, codes.values().data());
   check(gl_, "reading colour codes");
   return codes;
 }

@@ -24,6 +24,8 @@ class Target {
 
   /// One byte per channel: r in the low byte. For rgba8.
   Plane<std::uint32_t> read_codes() const;
+  /// The same of `size` pixels from pixel `origin` on.
+  Plane<std::uint32_t> read_codes(glm::ivec2 origin, glm::ivec2 size) const;
   /// rgba8 as code / 255.
   Plane<glm::vec4> read_color() const;
   /// Window z: n-bit codes as code / (2^n - 1).

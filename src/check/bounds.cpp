@@ -11,12 +11,32 @@ namespace plumbline::check {
 
 namespace {
 
-// A triangle's barycentric planes through its unsnapped corners (stages.h, 6), or the snapped where those fail.
+// A triangle's barycentric planes through its unsnapped corners (stages.h, 6), or the snapped where those fail; a
+// line's by projection onto it.
 struct Barycentrics {
   Vec3<double> value, d_dx, d_dy;
 };
 
+Barycentrics along_line(const WindowTriangle<double>& t, double x, double y) {
+  const Vec2<double> a(t.v[0].p_win), d = Vec2<double>(t.v[1].p_win) - a;
+  const double square = glm::dot(d, d), of = square > 0 ? 1 / square : 0;
+  const double share = glm::dot(Vec2<double>(x, y) - a, d) * of;
+  return {{1 - share, share, 0}, {-d.x * of, d.x * of, 0}, {-d.y * of, d.y * of, 0}};
+}
+
+// Depth and colour at a share of the way along a line.
+struct OfLine {
+  double depth;
+  Vec4<double> color;
+};
+OfLine at_share(const WindowTriangle<double>& t, double share) {
+  const double q0 = (1 - share) * t.v[0].inv_w, q1 = share * t.v[1].inv_w;
+  return {std::clamp((1 - share) * t.v[0].p_win.z + share * t.v[1].p_win.z, 0.0, 1.0),
+          (q0 * t.v[0].color + q1 * t.v[1].color) / (q0 + q1)};
+}
+
 Barycentrics barycentrics(const WindowTriangle<double>& t, double x, double y) {
+  if (t.corners < 3) return along_line(t, x, y);
   Vec2<double> p[3];
   for (std::size_t i = 0; i < 3; ++i) p[i] = Vec2<double>(t.v[i].p_win);
   const auto area = [&] { return (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x); };
@@ -104,11 +124,11 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
     from_corner = std::max({from_corner, std::abs(x + 0.5 - corner.p_win.x), std::abs(y + 0.5 - corner.p_win.y)});
   }
   // Every gradient is a sum of products of differences over the area, in float: what cancels in them is at most the
-  // longest side times the window position, and grows with the inverse of the area.
+  // longest side times the window position, and grows with the inverse of the area. (Of a line: of its squared length.)
   const Vec2<double> e1 = Vec2<double>(v[1].p_win) - Vec2<double>(v[0].p_win);
   const Vec2<double> e2 = Vec2<double>(v[2].p_win) - Vec2<double>(v[0].p_win);
   const double longest = std::max({std::abs(e1.x), std::abs(e1.y), std::abs(e2.x), std::abs(e2.y)});
-  const double area = std::abs(e1.x * e2.y - e1.y * e2.x);
+  const double area = t.corners == 3 ? std::abs(e1.x * e2.y - e1.y * e2.x) : std::max(glm::dot(e1, e1), 1e-300);
   const double cancelled = (longest + std::max(x0, y0)) / area;
   // {value at the pixel, bound} of the plane through the corners' values.
   const auto plane = [&](double f0, double f1, double f2) {
@@ -125,6 +145,28 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
   for (int c = 0; c < 4; ++c) {
     const auto [q, e_q] = plane(v[0].color[c] * v[0].inv_w, v[1].color[c] * v[1].inv_w, v[2].color[c] * v[2].inv_w);
     out.color[c] = (e_q + std::abs(q / inv_w) * e_inv_w) / std::abs(inv_w);
+  }
+  if (t.corners != 2) return out;
+  const int major = std::abs(e1.x) >= std::abs(e1.y) ? 0 : 1;
+  if (e1[major] == 0) return out;
+  const double share = ((major == 0 ? x : y) + 0.5 - v[0].p_win[major]) / e1[major];
+  const OfLine projected = at_share(t, b.value[1]), along = at_share(t, share);
+  out.along_depth = along.depth - projected.depth;
+  out.along_color = along.color - projected.color;
+  return out;
+}
+
+PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, int x, int y) {
+  PlaneBounds out{1, Vec4<double>(1)};
+  auto it = std::partition_point(r.triangles.begin(), r.triangles.end(), [&](const WindowTriangle<double>& t) {
+    return static_cast<std::int32_t>(t.primitive) < primitive;
+  });
+  for (; it != r.triangles.end() && static_cast<std::int32_t>(it->primitive) == primitive; ++it) {
+    const PlaneBounds b = bounds_from_origin(*it, x, y);
+    out.depth = std::max(out.depth, b.depth);
+    out.color = glm::max(out.color, b.color);
+    out.along_depth = b.along_depth;  // a line is one record
+    out.along_color = b.along_color;
   }
   return out;
 }

@@ -37,6 +37,10 @@ LightBounds light_bounds(const Scene& scene, const Draw& draw, const Vertex<doub
 struct PlaneBounds {
   double depth;        ///< in window z, times u
   Vec4<double> color;  ///< times u
+  /// Of a line, what its depth and colour move by where they go by the place along the major axis alone, as llvmpipe's
+  /// do, and not by the centre's projection onto the line (OpenGL 2.1, equation 3.5).
+  double along_depth = 0;
+  Vec4<double> along_color{0};
 };
 
 /// For a renderer that evaluates a = a0 + da/dx x + da/dy y in float from the window's origin, as llvmpipe does:
@@ -44,6 +48,8 @@ struct PlaneBounds {
 /// by the inverse of the area, times the distance from the corners; for colour the same of c/w and of 1/w, joined by
 /// the division: (E(c/w) + |c| E(1/w)) w.
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y);
+/// The largest over a primitive's triangles, at least 1.
+PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y);
 
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
 /// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two

@@ -25,20 +25,6 @@ double outside(double value, double low, double high) {
   return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
 }
 
-// The bounds of the winning primitive at a pixel: the largest over its triangles.
-PlaneBounds winner_bounds(const Records<double>& r, std::int32_t primitive, int x, int y) {
-  PlaneBounds out{1, Vec4<double>(1)};
-  auto it = std::partition_point(r.triangles.begin(), r.triangles.end(), [&](const WindowTriangle<double>& t) {
-    return static_cast<std::int32_t>(t.primitive) < primitive;
-  });
-  for (; it != r.triangles.end() && static_cast<std::int32_t>(it->primitive) == primitive; ++it) {
-    const PlaneBounds b = bounds_from_origin(*it, x, y);
-    out.depth = std::max(out.depth, b.depth);
-    out.color = glm::max(out.color, b.color);
-  }
-  return out;
-}
-
 void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Vec4<double>& tolerance, double unit,
                const Place& place) {
   for (int c = 0; c < 4; ++c) {
@@ -183,11 +169,16 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
       meter.value(difference(z, z_ref) / u, 0, place, z, z_ref);
       return;
     }
-    double bound = winner_bounds(candidate.records, id, x, y).depth;
-    drawn.each(x, y, [&](const auto& triangle) { bound = std::max(bound, bounds_from_origin(triangle, x, y).depth); });
+    const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
+    double bound = bounds.depth, diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));
+    drawn.each(x, y, [&](const WindowTriangle<double>& triangle) {
+      const PlaneBounds of_other = bounds_from_origin(triangle, x, y);
+      bound = std::max(bound, of_other.depth);
+      diff = std::min(diff, difference(z + of_other.along_depth, z_ref));
+    });
     if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
-    const double step = depth_step(scene.frame.depth, z_ref) / u;
-    meter.value(difference(z, z_ref) / u, factor * bound, place, z, z_ref, step);
+    const double step = depth_step(scene.frame.depth, z_ref);
+    meter.value(diff / u, factor * bound, place, z, z_ref, step / u);
   });
 }
 
@@ -204,13 +195,15 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
     if (id == kBackground) {
       return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
     }
-    const Vec4<double> bound = winner_bounds(candidate.records, id, x, y).color, apart = lit.of(id);
+    const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
+    const Vec4<double> bound = bounds.color, apart = lit.of(id);
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
       if (!std::isfinite(bound[c])) {
         open_value(meter, v, place, w);
       } else {
-        meter.value(difference(v, w) / u, factor * bound[c], place, v, w, apart[c] / u);
+        const double diff = std::min(difference(v, w), difference(v + bounds.along_color[c], w));
+        meter.value(diff / u, factor * bound[c], place, v, w, apart[c] / u);
       }
     }
   });
@@ -226,11 +219,17 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
     const bool cleared = id == kBackground;
-    const Vec4<double> bound =
-        cleared ? Vec4<double>(0) : factor * u * winner_bounds(candidate.records, id, x, y).color + lit.of(id);
+    const PlaneBounds bounds =
+        cleared ? PlaneBounds{0, Vec4<double>(0)} : primitive_bounds(candidate.records, id, x, y);
+    const Vec4<double> bound = cleared ? Vec4<double>(0) : factor * u * bounds.color + lit.of(id);
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(255.0 * a.color(x, y)[c]), w = std::round(255.0 * b.color(x, y)[c]);
-      meter.value(difference(v, w), cleared ? 0 : codes, {x, y, id, "color"}, v, w, std::floor(255 * bound[c]));
+      double diff = difference(v, w);
+      if (bounds.along_color[c] != 0 && a.shaded.size() == a.color.size()) {
+        const double along = static_cast<double>(a.shaded(x, y)[c]) + bounds.along_color[c];
+        diff = std::min(diff, difference(std::round(255.0 * std::clamp(along, 0.0, 1.0)), w));
+      }
+      meter.value(diff, cleared ? 0 : codes, {x, y, id, "color"}, v, w, std::floor(255 * bound[c]));
     }
   });
 }
@@ -244,19 +243,23 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
   if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
   const LitApart lit(scene, candidate.records, reference.records);
   const DrawnAt drawn(scene.frame, candidate.records);
-  const bool reads = factors_read_frame(scene);
+  const bool reads = factors_read_frame(scene), thin = draws(scene, Topology::lines) || draws(scene, Topology::points),
+             told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why);
   return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     const Place place{x, y, id, "color"};
+    // The fragments of lines may lie beside each other: coverage's matter.
+    if (thin && told && a.id_sum(x, y) != b.id_sum(x, y)) return meter.ambiguous();
     const bool open = !legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x);
     int fragments = 0;
     double bound = 0;
     drawn.each(x, y, [&](const WindowTriangle<double>& triangle) {
-      const Vec4<double> plane = bounds_from_origin(triangle, x, y).color,
-                         apart = lit.of(static_cast<std::int32_t>(triangle.primitive));
+      const PlaneBounds plane = bounds_from_origin(triangle, x, y);
+      const Vec4<double> apart = lit.of(static_cast<std::int32_t>(triangle.primitive));
       ++fragments;
       double largest = 0;
-      for (int c = 0; c < 4; ++c) largest = std::max(largest, factor * u * plane[c] + apart[c]);
+      for (int c = 0; c < 4; ++c)
+        largest = std::max(largest, factor * u * plane.color[c] + std::abs(plane.along_color[c]) + apart[c]);
       bound += largest;
     });
     // A fragment's error comes in as its colour, as the factor that it makes of itself, and of what is there. That is 1

@@ -16,7 +16,8 @@ Measurement compare_winners(const Planes& candidate, const Planes& reference, co
 
 /// Depth and colour where the winners are the same; the reference evaluates planes in float from the window's origin
 /// (bounds.h): `factor` u of that magnitude, and for depth one step of the format, for colour what the two sides'
-/// colours of the triangle's vertices differ by, which is light's matter. Elsewhere as compare_winners.
+/// colours of the triangle's vertices differ by, which is light's matter. Along a line it may go by the major axis
+/// (bounds.h): the nearer of the two values counts. Elsewhere as compare_winners.
 Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, const Capture& reference, double factor);
 Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   double factor);

@@ -96,8 +96,8 @@ bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance) 
 }
 
 // The planes whose cuts rounding decides about: a corner lies on one, or an edge goes through the meeting of several.
-std::array<bool, 6> open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, double tolerance) {
-  std::array<bool, 6> open{};
+void open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, double tolerance,
+                 std::array<bool, 6>& open) {
   for (std::size_t p = 0; p < c.planes; ++p) {
     for (const Vec4<double>& corner : c.p_clip) open[p] |= std::abs(distances(corner)[p]) <= tolerance;
     for (const ClipVertex<double>& v : polygon) {
@@ -105,10 +105,11 @@ std::array<bool, 6> open_planes(const Corners& c, std::span<const ClipVertex<dou
       for (std::size_t q = 0; q < c.planes; ++q) planes += on_plane(v, q, tolerance) ? 1 : 0;
       double to_edge = kInfinite;
       for (std::size_t i = 0; i < 3; ++i) to_edge = std::min(to_edge, distance_from_edge(v, c, i));
-      open[p] |= planes > 1 && to_edge <= tolerance / c.scale && on_plane(v, p, tolerance);
+      // More than two meet in the eye alone, where a triangle's own plane may run through it.
+      const bool open_meeting = planes > 2 || (planes > 1 && to_edge <= tolerance / c.scale);
+      open[p] |= open_meeting && on_plane(v, p, tolerance);
     }
   }
-  return open;
 }
 
 std::span<const ClipVertex<double>> vertices_of(const ClipPolygon& polygon, const Records<double>& r) {
@@ -130,8 +131,10 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   const double unit = u * corners.scale;
   std::vector<ClipVertex<double>> mine, theirs;  // without those that rounding decides about, where the numbers differ
   const auto all_mine = vertices_of(a, candidate), all_theirs = vertices_of(b, reference);
-  const std::array<bool, 6> open =
-      a.count == b.count ? std::array<bool, 6>{} : open_planes(corners, all_theirs, factor * unit);
+  std::array<bool, 6> open{};
+  if (a.count != b.count) {
+    for (const auto polygon : {all_mine, all_theirs}) open_planes(corners, polygon, factor * unit, open);
+  }
   const auto settled = [&](const ClipVertex<double>& v) {
     for (std::size_t p = 0; p < 6; ++p) {
       if (open[p] && on_plane(v, p, factor * unit)) return false;
@@ -147,6 +150,11 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   if (a.count != b.count) meter.ambiguous();
   for (std::size_t i = 0; i < mine.size(); ++i) {
     const ClipVertex<double>&v = mine[i], &w = theirs[i];
+    if (v.cut != w.cut && a.count < 3 &&
+        may_vanish(std::span(&v, 1), corners.planes, factor * unit)) {  // a line's end on a plane
+      meter.ambiguous();
+      continue;
+    }
     meter.value(v.cut == w.cut ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
     if (!w.cut) {
       for (int c = 0; c < 4; ++c) {

@@ -212,6 +212,8 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
       }
       const bool flipped = a[i_now].front != b[j_now].front && !may_vanish(a[i_now]);
       meter.value(flipped ? kInfinite : 0, 0, at("front"), a[i_now].front, b[j_now].front);
+      meter.value(a[i_now].corners == b[j_now].corners ? 0 : kInfinite, 0, at("corners"), a[i_now].corners,
+                  b[j_now].corners);
       meter.item();
     }
   }
@@ -226,6 +228,7 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
                 const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
                 meter.value(a.primitive == b.primitive ? 0 : kInfinite, 0, at("primitive"), a.primitive, b.primitive);
                 meter.value(a.front == b.front ? 0 : kInfinite, 0, at("front"), a.front, b.front);
+                meter.value(a.corners == b.corners ? 0 : kInfinite, 0, at("corners"), a.corners, b.corners);
                 // A triangle may begin at any of its corners; the turn that fits best counts.
                 const auto apart = [&](std::size_t turn) {
                   int n = 0;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "check/compare_lines.h"
 #include "check/compare_planes.h"
 #include "check/compare_records.h"
 
@@ -55,6 +56,8 @@ Measurement worse(Measurement a, Measurement b) {
   const bool a_tells = a.differing != b.differing ? a.differing > b.differing : a.max_ratio >= b.max_ratio;
   return a_tells ? std::move(a) : std::move(b);
 }
+
+bool draws_thin(const Scene& scene) { return draws(scene, Topology::lines) || draws(scene, Topology::points); }
 
 // The stage as `referee` makes it of the candidate's own records, against the candidate's.
 void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
@@ -165,7 +168,13 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       return c.add(name, stage, compare_polygon_positions(mine, theirs.records, factor("osmesa.clip")), "osmesa.clip");
     case Stage::window: return c.add(name, stage, compare_window_equal(mine, theirs.records), "osmesa.window");
     case Stage::coverage:
-      c.add(name, stage, compare_coverage(c.candidate.planes, theirs.planes));
+      if (!draws(c.scene, Topology::lines)) {
+        c.add(name, stage, compare_coverage(c.candidate.planes, theirs.planes));
+      } else if (over_budget(c.candidate)) {
+        return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      } else {
+        c.add(name, stage, compare_covered_lines(c.candidate, theirs, factor("osmesa.lines")), "osmesa.lines");
+      }
       if (c.out.back().outcome == Outcome::different && contradicts_itself(c, theirs)) {
         c.out.back() = as_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
       }
@@ -181,7 +190,9 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
     case Stage::shade: return;
     case Stage::visibility:
       if (c.scene.frame.depth == DepthFormat::z8) return c.skip(name, stage, Outcome::unsupported, kNo8BitDepth);
-      return c.add(name, stage, compare_winners(c.candidate.planes, theirs.planes, c.legal));
+      return c.add(name, stage,
+                   draws_thin(c.scene) ? compare_thin_winners(c.scene, c.candidate, theirs, factor("osmesa.depth"))
+                                       : compare_winners(c.candidate.planes, theirs.planes, c.legal));
     case Stage::merge: {
       const bool replaced = colors_replace(c.scene);
       if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {
@@ -238,7 +249,9 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
     if (stage != Stage::texture && !candidate[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, candidate[stage].reason);
     } else if (info.legal && kOracleStages.has(stage) && theirs.legal.empty()) {
-      c.skip(name, stage, Outcome::unsupported, "the legal answers do not fit the memory budget");
+      c.skip(name, stage, Outcome::unsupported,
+             draws_thin(c.scene) ? "its legal answers are of triangles alone"
+                                 : "the legal answers do not fit the memory budget");
     } else if (info.legal && kOracleStages.has(stage)) {
       ask_oracle(c, theirs.legal, stage, name);
     } else if (exact && stage == Stage::matrices) {
@@ -271,10 +284,11 @@ Capture capture_all(const Scene& scene, Renderer& renderer) {
 }
 
 // What the judgement wants of a reference: an oracle's answers, if they fit the budget, and records of the vertices;
-// its fragments are not compared.
+// its fragments are not compared, but those of lines.
 Capture capture_reference(const Scene& scene, Renderer& renderer) {
   Request request{
       {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window}, renderer.info().legal, {}, {}};
+  if (draws(scene, Topology::lines)) request.records.add(Stage::coverage);  // which line covers what
   try {
     return renderer.capture(scene, request);
   } catch (const OverBudget&) {

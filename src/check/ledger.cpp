@@ -50,10 +50,17 @@ constexpr std::array kLedger = {
               "Rounding to the nearest code is half a step. The plane is evaluated in double: 2^-53 of its terms, "
               "which slivers make large; 0.001 steps are kept for them. (Within one step would let truncation pass.)"},
     Tolerance{
+        "osmesa.lines", 1, "pixel",
+        "Lines of width 1 may be drawn by another rule than the diamond-exit rule (OpenGL 2.1, section 3.4.1): each "
+        "pixel at most one off, one more or fewer in number, one to a column. Mesa's end points are moved so that "
+        "some lines of ends off the pixels' centres begin or end a pixel elsewhere, and in a frame buffer object "
+        "it loses the first pixel of steep lines that run downwards."},
+    Tolerance{
         "osmesa.depth", 4, "u",
         "llvmpipe evaluates z0 + dz/dx x + dz/dy y in float from the window's origin: each term is a product and a "
         "sum, once to bring z0 to the origin and once at the pixel: 4 u of the magnitude of bounds.h, "
-        "bounds_from_origin, which counts the gradients' own error; one step of the format more.",
+        "bounds_from_origin, which counts the gradients' own error; one step of the format more. Along a line it goes "
+        "by the place on the major axis alone: the nearer of that depth and of the projection's counts.",
         "Four roundings and the gradients', which do not all go one way."},
     Tolerance{
         "exact.attributes", 10, "u",
@@ -63,7 +70,8 @@ constexpr std::array kLedger = {
     Tolerance{
         "osmesa.attributes", 8, "u",
         "As osmesa.depth, 4 u for colour / w and for 1 / w, which the magnitude joins, and 4 more for the products by "
-        "1/w at the corners and the division; besides, what the two sides' vertex colours differ by."},
+        "1/w at the corners and the division; besides, what the two sides' vertex colours differ by. Along a line "
+        "the nearer of the two colours counts, as for osmesa.depth."},
     Tolerance{"osmesa.merge.rgba8", 1, "1/255",
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},

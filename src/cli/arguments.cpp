@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
+#include "notes/notes.h"
 
 namespace plumbline::cli {
 
@@ -78,6 +79,13 @@ void add(CLI::App& command, ListOptions& o) {
   add_assets(command, o.scene_arguments);
 }
 
+void add(CLI::App& command, NotesOptions& o) {
+  std::vector<std::string> numbers;
+  for (const notes::Note& note : notes::all()) numbers.emplace_back(note.number);
+  command.add_option("note", o.number, fmt::format("One of {} (default: all)", fmt::join(numbers, ", ")))
+      ->check(CLI::IsMember(numbers));
+}
+
 // A subcommand whose options, once parsed, `run` is called with.
 template <class Options>
 void add_command(CLI::App& app, std::function<int()>& chosen, const std::string& name, const std::string& help,
@@ -110,6 +118,8 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "compare",
               "Compare two images, or two captures, number by number; pixels count from the lower left", compare);
   add_command(app, out.command, "list", "Show the stages, renderers, faults and scenes that there are", list);
+  add_command(app, out.command, "notes",
+              "Show what each section of the course notes teaches, and where it is done and shown here", notes);
   try {
     app.parse(argc, argv);
     if (!out.command) throw CLI::RequiredError(fmt::format("A command: {}", fmt::join(names_of(app), ", ")));

@@ -62,4 +62,10 @@ struct ListOptions {
 };
 int list(const ListOptions& options);
 
+/// What each section of the course notes teaches, and where it is done and shown here.
+struct NotesOptions {
+  std::string number;  ///< of one note, or empty: of all
+};
+int notes(const NotesOptions& options);
+
 }  // namespace plumbline::cli

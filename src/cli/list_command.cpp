@@ -34,7 +34,7 @@ void list_renderers() {
 }
 
 void list_faults() {
-  for (const FaultInfo& fault : fault_infos()) fmt::print("{:<32} {:<10} {}\n", fault.name, fault.stage, fault.changes);
+  for (const FaultInfo& fault : fault_infos()) fmt::print("{:<36} {:<10} {}\n", fault.name, fault.stage, fault.changes);
 }
 
 void list_scenes(const std::vector<std::string>& folders, const SceneArguments& arguments) {

@@ -140,6 +140,9 @@ class ImageOrderRenderer final : public Renderer {
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
+    if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
+      throw Unsupported("no ray meets a line or a point");
+    }
     std::size_t triangles = 0;
     for (const DrawRange& range : draw_ranges(scene)) triangles += range.primitive_count;
     constexpr std::size_t kTriangle = sizeof(std::array<glm::dvec3, 3>) + 2 * sizeof(std::uint32_t) + 64;  // and a box

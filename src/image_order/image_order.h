@@ -11,7 +11,8 @@ namespace plumbline::image_order {
 /// A renderer named "image_order": per pixel one ray, in double, and of the triangles that it crosses the one that is
 /// left by their depth functions, in draw order: the nearest, for less and less_equal. Hands out planes.id and
 /// planes.depth. No matrix of view or projection, no clipping, no snapping and no z-buffer: between near and far is
-/// what lies there along the ray. Depths are in the frame's format before they are compared. Throws OverBudget.
+/// what lies there along the ray. Depths are in the frame's format before they are compared. Throws OverBudget;
+/// Unsupported where a scene has lines or points, which no ray meets.
 std::unique_ptr<Renderer> make_image_order();
 
 }  // namespace plumbline::image_order

@@ -1,5 +1,6 @@
 #include "pipeline/clip.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -44,6 +45,25 @@ Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
   return out;
 }
 
+// A line's two vertices, or none: each end is moved by the largest of the shares that the planes cut off there.
+Polygon cut_line(std::span<const Vec4<float>> planes, const Polygon& line) {
+  const ClipVertex<float>&a = line.v[0], &b = line.v[1];
+  float from_a = 0, from_b = 0;
+  for (const Vec4<float>& plane : planes) {
+    const float d_a = distance_to(plane, a.p_clip), d_b = distance_to(plane, b.p_clip);
+    if (d_b < 0) from_b = std::max(from_b, d_b / (d_b - d_a));
+    if (d_a < 0) from_a = std::max(from_a, d_a / (d_a - d_b));
+  }
+  Polygon out;
+  if (from_a + from_b >= 1) return out;
+  const auto moved = [](const ClipVertex<float>& v, const ClipVertex<float>& towards, float t) -> ClipVertex<float> {
+    return {v.p_clip + t * (towards.p_clip - v.p_clip), v.color + t * (towards.color - v.color), true};
+  };
+  out.add(from_a > 0 ? moved(a, b, from_a) : a);
+  out.add(from_b > 0 ? moved(b, a, from_b) : b);
+  return out;
+}
+
 // One bit per plane that the vertex violates.
 unsigned outcode(std::span<const Vec4<float>> planes, const Vec4<float>& p) {
   unsigned bits = 0;
@@ -67,12 +87,13 @@ void clip(const Assembly& assembly, ClipPolygons<float>& out) {
 }
 
 void clip_at(std::span<const Vec4<float>> planes, const Assembly& assembly, ClipPolygons<float>& out) {
+  const auto count = static_cast<int>(corner_count(assembly.topology));
   for (std::size_t i = 0; i < assembly.triangles.size(); ++i) {
     const glm::uvec3 corners = assembly.triangles[i];
     Polygon polygon;
     unsigned violated = 0, violated_by_all = ~0u;
     bool drop = false;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < count; ++k) {
       const std::uint32_t provoking = assembly.shading == Shading::flat ? corners[2] : corners[k];
       const Vec4<float>& p_clip = assembly.vertices[corners[k]].p_clip;
       polygon.add({p_clip, assembly.lit[provoking].color, false});
@@ -82,10 +103,11 @@ void clip_at(std::span<const Vec4<float>> planes, const Assembly& assembly, Clip
       drop |= !finite(p_clip);
     }
     if (drop || violated_by_all != 0) continue;
-    for (std::size_t p = 0; p < planes.size() && polygon.count >= 3; ++p) {
+    if (assembly.topology == Topology::lines && violated != 0) polygon = cut_line(planes, polygon);
+    for (std::size_t p = 0; assembly.topology == Topology::triangles && p < planes.size() && polygon.count >= 3; ++p) {
       if ((violated >> p & 1u) != 0) polygon = cut_by(planes[p], polygon);
     }
-    if (polygon.count < 3) continue;
+    if (polygon.count < count) continue;
     const auto first = static_cast<std::uint32_t>(out.vertices.size());
     out.vertices.insert(out.vertices.end(), polygon.v.begin(), polygon.v.begin() + polygon.count);
     out.polygons.push_back(

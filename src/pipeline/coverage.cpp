@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/window.h"
+#include "raster/line_diamond.h"
 
 namespace plumbline::pipeline {
 
@@ -37,7 +38,22 @@ PixelBounds pixel_bounds(const WindowTriangle<float>& triangle) {
   const auto [y_min, y_max] = std::minmax({v[0].snapped.y, v[1].snapped.y, v[2].snapped.y});
   const auto up = [](int snapped) { return (snapped + kSubpixel - 1) >> 8; };  // the first centre at or after it
   const auto down = [](int snapped) { return snapped >> 8; };                  // the last at or before it
-  return {up(x_min), up(y_min), down(x_max) + 1, down(y_max) + 1};
+  const int reach = triangle.corners < 3 ? 1 : 0;
+  return {up(x_min) - reach, up(y_min) - reach, down(x_max) + 1 + reach, down(y_max) + 1 + reach};
+}
+
+std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
+  const glm::i64vec2 a = glm::i64vec2(line_or_point.v[0].snapped) - std::int64_t{kSubpixel} * glm::i64vec2(origin);
+  const glm::i64vec2 b = glm::i64vec2(line_or_point.v[1].snapped) - std::int64_t{kSubpixel} * glm::i64vec2(origin);
+  std::vector<glm::ivec2> pixels;
+  if (line_or_point.corners == 2) {
+    pixels = raster::diamond_exit_line(a, b, glm::ivec2(size));
+  } else if (const glm::ivec2 p((a + std::int64_t{kSubpixel / 2}) >> std::int64_t{8});
+             p.x >= 0 && p.y >= 0 && p.x < size && p.y < size) {
+    pixels = {p};
+  }
+  for (glm::ivec2& p : pixels) p += origin;
+  return pixels;
 }
 
 }  // namespace plumbline::pipeline

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "pipeline/lanes.h"
 #include "scene/scene.h"
@@ -28,11 +29,16 @@ struct Edges {
 
 Edges edges_of(const WindowTriangle<float>& triangle, TieRule rule = TieRule::small_sides_in);
 
-/// The pixels whose centres lie in the triangle's bounding box: [x0, x1) x [y0, y1).
+/// The pixels whose centres lie in the triangle's bounding box, and of a line or point all that it may cover: [x0, x1)
+/// x [y0, y1).
 struct PixelBounds {
   int x0, y0, x1, y1;
 };
 PixelBounds pixel_bounds(const WindowTriangle<float>& triangle);
+
+/// The pixels of a line (line_diamond.h) or of a point of size 1 (OpenGL 2.1, section 3.3: the one that it lies in)
+/// within the `size` x `size` that begin at pixel `origin`.
+std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size);
 
 template <class R>
 Mask<R> coverage(const Edges& e, const Pixels<R>& p) {

@@ -17,9 +17,17 @@ double difference_of_products(double a, double b, double c, double d) {
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return difference_of_products(a.x, b.y, a.y, b.x); }
 
+BarycentricPlanes along_line(const WindowTriangle<float>& line, glm::dvec2 anchor) {
+  const glm::dvec2 p0(line.v[0].p_win), d = glm::dvec2(line.v[1].p_win) - p0;
+  const double square = glm::dot(d, d);
+  if (square == 0) return {anchor.x, anchor.y, 0, 0, 0, 0, 0, 0};
+  return {anchor.x, anchor.y, glm::dot(anchor - p0, d) / square, d.x / square, d.y / square, 0, 0, 0};
+}
+
 }  // namespace
 
 BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y0) {
+  if (triangle.corners < 3) return along_line(triangle, {x0 + 0.5, y0 + 0.5});
   glm::dvec2 p[3];
   for (int i = 0; i < 3; ++i) p[i] = glm::dvec2(triangle.v[static_cast<std::size_t>(i)].p_win);
   double twice_area = cross(p[1] - p[0], p[2] - p[0]);

@@ -19,6 +19,7 @@ struct BarycentricPlanes {
   double l2_0, l2_x, l2_y;
 };
 
+/// Along a line, l1 = (p - p0).(p1 - p0) / |p1 - p0|^2 and l2 = 0 (OpenGL 2.1, equation 3.5); of a point both are 0.
 /// Where the unsnapped area is zero or of the other sign than the snapped, the planes go through the snapped corners.
 /// (x0, y0): a pixel at most a tile away from those that are wanted. From a far anchor, the terms of a sliver's sum
 /// would be so large that double itself is too coarse.

@@ -25,8 +25,9 @@ Geometry run_geometry(const Scene& scene, const GeometryStages& stages) {
     stages.light(scene, draw, vertices, r.lit);
     const auto lit = std::span(r.lit).subspan(ranges[d].first_vertex);
     const std::size_t first_polygon = r.polygons.polygons.size();
-    stages.clip({vertices, lit, mesh.triangles, ranges[d].first_primitive, draw.shading, scene.depth_clamp},
-                r.polygons);
+    stages.clip(
+        {vertices, lit, mesh.triangles, ranges[d].first_primitive, draw.shading, scene.depth_clamp, mesh.topology},
+        r.polygons);
     stages.window(r.matrices.back(), draw.cull, r.polygons, std::span(r.polygons.polygons).subspan(first_polygon),
                   r.triangles);
   }

@@ -1,4 +1,4 @@
-// Stages 5 to 11 for one triangle in one block of 4 x 4 pixels.
+// Stages 5 to 11 for one triangle in one block of 4 x 4 pixels, and for one pixel of a line or point.
 //
 // Everything that does not change within a draw is a template parameter: the number type R (lanes.h), the depth
 // function, the stage functions (so that a test can put another in the place of one, and a program its fragment(),
@@ -24,14 +24,23 @@ struct FragmentStages {
   static AttributeSetup attribute_setup(const WindowTriangle<float>& triangle, std::uint32_t) {
     return pipeline::attribute_setup(triangle);
   }
+  static PixelBounds bounds(const WindowTriangle<float>& triangle) { return pixel_bounds(triangle); }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
+    return pipeline::thin_pixels(line_or_point, origin, size);
+  }
+  /// Coverage and depth are handed all that is known of the triangle (TriangleSetup).
+  template <class R>
+  static Mask<R> coverage(const auto& s, const Pixels<R>& p) {
+    return pipeline::coverage<R>(s.edges, p);
+  }
   template <class R>
   static Mask<R> scissor(const Scissor& box, const Pixels<R>& p) {
     return pipeline::scissor<R>(box, p);
   }
   template <class R>
-  static R depth(const DepthSetup& s, const Barycentric<R>& b) {
-    return pipeline::depth<R>(s, b);
+  static R depth(const auto& s, const Barycentric<R>& b) {
+    return pipeline::depth<R>(s.depth, b);
   }
   template <DepthFunc func, class R>
   static Mask<R> depth_passes(R incoming, R stored) {
@@ -116,7 +125,7 @@ SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std
                        const Formats& formats, int x0, int y0) {
   return {triangle,
           t.primitive,
-          pixel_bounds(t),
+          stages.bounds(t),
           stages.edges(t),
           planes_of(t, x0, y0),
           depth_setup(t, formats.depth_scale),
@@ -141,30 +150,49 @@ struct NoTap {
   void fragments(const auto& /*setup*/, const Pixels<R>&, Mask<R>, Mask<R>, R, const auto&, const auto&) {}
 };
 
+// The scissor box, and stages 6 to 11, for the pixels `p`, which are stored from `place` on.
+template <class R, DepthFunc func, class Stages, class Tap>
+void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, const Pixels<R>& p,
+                    Mask<R> covered, int place, float color_scale, Tile& tile, Tap& tap) {
+  if (state.scissor) {
+    covered = covered & stages.template scissor<R>(*state.scissor, p);
+    if (!any(covered)) return;
+  }
+  const Barycentric<R> b = barycentric<R>(s.planes, p);
+  const R z = stages.template depth<R>(s, b);
+  const Stored stored{tile.depth + place,
+                      {tile.color[0] + place, tile.color[1] + place, tile.color[2] + place, tile.color[3] + place}};
+  const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored.depth));
+  if constexpr (!Tap::every_fragment) {
+    if (!any(passes)) return;
+  }
+  const auto attributes = stages.template attributes<R>(s.attributes, b);
+  const auto shaded = stages.template shade<R>(attributes);
+  const Mask<R> kept = stages.template kept<R>(passes, shaded);
+  tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
+  write<R>(stages, state.merge, kept, z, Color<R>(shaded), color_scale, stored);
+}
+
 template <class R, DepthFunc func, class Stages, class Tap>
 void fragment_block(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, int block_x, int block_y,
                     float color_scale, Tile& tile, Tap& tap) {
   const int offset = tile.offset(block_x, block_y);
   for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
     const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
-    Mask<R> covered = coverage<R>(s.edges, p);
-    if (state.scissor) covered = covered & stages.template scissor<R>(*state.scissor, p);
-    if (!any(covered)) continue;
-    const Barycentric<R> b = barycentric<R>(s.planes, p);
-    const R z = stages.template depth<R>(s.depth, b);
-    const int at = offset + i;
-    const Stored stored{tile.depth + at,
-                        {tile.color[0] + at, tile.color[1] + at, tile.color[2] + at, tile.color[3] + at}};
-    const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored.depth));
-    if constexpr (!Tap::every_fragment) {
-      if (!any(passes)) continue;
-    }
-    const auto attributes = stages.template attributes<R>(s.attributes, b);
-    const auto shaded = stages.template shade<R>(attributes);
-    const Mask<R> kept = stages.template kept<R>(passes, shaded);
-    tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
-    write<R>(stages, state.merge, kept, z, Color<R>(shaded), color_scale, stored);
+    const Mask<R> covered = stages.template coverage<R>(s, p);
+    if (any(covered)) covered_pixels<R, func>(stages, state, s, p, covered, offset + i, color_scale, tile, tap);
   }
+}
+
+/// One pixel, alone in its lanes.
+template <class R, DepthFunc func, class Stages, class Tap>
+void fragment_pixel(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, glm::ivec2 pixel,
+                    float color_scale, Tile& tile, Tap& tap) {
+  const int block_x = pixel.x & ~(kBlock - 1), block_y = pixel.y & ~(kBlock - 1);
+  const int in_block = (pixel.y - block_y) * kBlock + (pixel.x - block_x), i = in_block & ~(Lanes<R>::width - 1);
+  const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
+  const Mask<R> covered = (p.x == Int<R>(pixel.x)) & (p.y == Int<R>(pixel.y));
+  covered_pixels<R, func>(stages, state, s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
 }
 
 }  // namespace plumbline::pipeline

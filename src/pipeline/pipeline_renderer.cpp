@@ -105,7 +105,7 @@ class PipelineRenderer : public Renderer {
         case Stage::clip:
           stages_.geometry.clip({std::span(in.vertices).subspan(range.first_vertex, range.vertex_count),
                                  std::span(in.lit).subspan(range.first_vertex, range.vertex_count), mesh.triangles,
-                                 range.first_primitive, draw.shading, scene.depth_clamp},
+                                 range.first_primitive, draw.shading, scene.depth_clamp, mesh.topology},
                                 made.polygons);
           break;
         default: {

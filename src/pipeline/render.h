@@ -45,7 +45,7 @@ FragmentFunctions fragment_functions() {
     draw_tiles<float>(S(), list, format, frame, tap);
   };
   f.depth = [](const TriangleSetup<>& s, const Pixels<float>& p) {
-    return S::template depth<float>(s.depth, barycentric<float>(s.planes, p));
+    return S::template depth<float>(s, barycentric<float>(s.planes, p));
   };
   f.attributes = [](const TriangleSetup<>& s, const Pixels<float>& p) {
     return S::template attributes<float>(s.attributes, barycentric<float>(s.planes, p));

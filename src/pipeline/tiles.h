@@ -1,4 +1,5 @@
-// The order of the work: the frame tile by tile, in each tile its triangles in draw order, in each triangle its blocks.
+// The order of the work: the frame tile by tile, in each tile its triangles in draw order, in each triangle its blocks;
+// in each line and point its pixels.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +33,15 @@ void clear(Tile& tile, const FrameFormat& frame, const Formats& formats);
 void write_out(const Tile& tile, Frame& frame);
 
 template <class R, DepthFunc func, class Stages, class Tap>
-void draw_triangle(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, const Formats& formats,
-                   Tile& tile, Tap& tap) {
+void draw_triangle(const Stages& stages, const BlockState& state, const WindowTriangle<float>& triangle,
+                   std::uint32_t number, const Formats& formats, Tile& tile, Tap& tap) {
+  const SetupOf<Stages> s = set_up(stages, triangle, number, formats, tile.x0, tile.y0);
+  if (triangle.corners < 3) {
+    for (const glm::ivec2 pixel : stages.thin_pixels(triangle, {tile.x0, tile.y0}, kTile)) {
+      fragment_pixel<R, func>(stages, state, s, pixel, formats.color_scale, tile, tap);
+    }
+    return;
+  }
   const int x0 = std::max(s.bounds.x0, tile.x0) & ~(kBlock - 1), x1 = std::min(s.bounds.x1, tile.x0 + kTile);
   const int y0 = std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1), y1 = std::min(s.bounds.y1, tile.y0 + kTile);
   for (int y = y0; y < y1; y += kBlock) {
@@ -44,7 +52,8 @@ void draw_triangle(const Stages& stages, const BlockState& state, const SetupOf<
 }
 
 template <class R, class Stages, class Tap>
-using DrawTriangle = void (*)(const Stages&, const BlockState&, const SetupOf<Stages>&, const Formats&, Tile&, Tap&);
+using DrawTriangle = void (*)(const Stages&, const BlockState&, const WindowTriangle<float>&, std::uint32_t,
+                              const Formats&, Tile&, Tap&);
 
 /// The instantiation for a depth function, chosen once per draw.
 template <class R, class Stages, class Tap>
@@ -82,8 +91,7 @@ void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& f
          ++i) {
       const std::uint32_t number = bins.numbers[i];
       while (number >= list.first_triangle[draw + 1]) ++draw;
-      draw_of[draw](stages, state_of[draw], set_up(stages, list.triangles[number], number, formats, tile.x0, tile.y0),
-                    formats, tile, tap);
+      draw_of[draw](stages, state_of[draw], list.triangles[number], number, formats, tile, tap);
     }
     write_out(tile, frame);
   }

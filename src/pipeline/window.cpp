@@ -49,6 +49,8 @@ void to_window(const Matrices<float>& matrices, Cull cull, const ClipPolygons<fl
       if (!drop) v[i].snapped = {snap(v[i].p_win.x), snap(v[i].p_win.y)};
     }
     if (drop) continue;
+    if (polygon.count < 3)
+      out.push_back({{v[0], v[polygon.count - 1], v[polygon.count - 1]}, polygon.primitive, true, polygon.count});
     for (std::uint32_t i = 2; i < polygon.count; ++i) {
       WindowTriangle<float> triangle{{v[i - 1], v[i], v[0]}, polygon.primitive, false};
       const std::int64_t area = snapped_area(triangle);

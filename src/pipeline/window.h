@@ -15,8 +15,8 @@ int snap(float win);
 /// Twice the snapped area, in 1/65536 pixel; > 0: counter-clockwise in the window, a front face.
 std::int64_t snapped_area(const WindowTriangle<float>& triangle);
 
-/// Appends each polygon's fan of triangles, corners (i-1, i, 0). Dropped: those of zero snapped area, those that `cull`
-/// names, and those of a polygon with a corner of w = 0 or more than 2^20 pixels away.
+/// Appends each polygon's fan of triangles, corners (i-1, i, 0); lines and points as they are. Dropped: those of zero
+/// snapped area, those that `cull` names, and those of a polygon with a corner of w = 0 or more than 2^20 pixels away.
 ///
 /// p_win = p_ndc * scale + translate, fused for vertices of the mesh and not for cut ones, as the driver of the vertex
 /// recipe (vertex.h) does.

@@ -44,6 +44,11 @@ class AllowedFiles : public Assimp::DefaultIOSystem {
  public:
   /// `refused` becomes what is wrong with the first file that is not opened.
   AllowedFiles(const AssetFolders& folders, std::string& refused) : folders_(folders), refused_(refused) {}
+  /// Without opening it, as assimp's own does: a pipe would wait for ever.
+  bool Exists(const char* file) const override {
+    std::error_code error;
+    return fs::is_regular_file(file, error);
+  }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     std::error_code error;
     const bool there = fs::is_regular_file(file, error);

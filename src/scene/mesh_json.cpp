@@ -72,6 +72,38 @@ Mesh read_triangles(const JsonNode& node) {
   return make_triangles(std::move(positions), std::move(triangles), std::move(colors));
 }
 
+/// Primitives that have no side, and so no normal of their own: +z.
+Mesh thin_mesh(std::vector<glm::vec3> positions, std::vector<glm::uvec3> primitives, std::vector<glm::vec4> colors,
+               Topology topology) {
+  std::vector<glm::vec3> normals(positions.size(), glm::vec3(0, 0, 1));
+  return {std::move(positions), std::move(normals), std::move(colors), std::move(primitives), topology};
+}
+
+Mesh read_lines(const JsonNode& node) {
+  node.only({"positions", "indices", "colors"});
+  std::vector<glm::vec3> positions = read_positions(node["positions"], 2, SIZE_MAX);
+  std::vector<glm::uvec3> lines;
+  for (const JsonNode& line : node["indices"].elements(1, SIZE_MAX)) {
+    const std::vector<JsonNode> ends = line.elements(2, 2);
+    const auto last = static_cast<std::int64_t>(positions.size()) - 1;
+    const auto a = static_cast<std::uint32_t>(ends[0].integer(0, last));
+    const auto b = static_cast<std::uint32_t>(ends[1].integer(0, last));
+    if (a == b) line.refuse("two different indices", fmt::format("[{}, {}]", a, b));
+    lines.emplace_back(a, b, b);
+  }
+  std::vector<glm::vec4> colors = read_colors(node, positions.size());
+  return thin_mesh(std::move(positions), std::move(lines), std::move(colors), Topology::lines);
+}
+
+Mesh read_points(const JsonNode& node) {
+  node.only({"positions", "colors"});
+  std::vector<glm::vec3> positions = read_positions(node["positions"], 1, SIZE_MAX);
+  std::vector<glm::uvec3> points;
+  for (std::uint32_t i = 0; i < positions.size(); ++i) points.emplace_back(i);
+  std::vector<glm::vec4> colors = read_colors(node, positions.size());
+  return thin_mesh(std::move(positions), std::move(points), std::move(colors), Topology::points);
+}
+
 Mesh read_quad(const JsonNode& node) {
   node.only({"positions", "colors"});
   std::vector<glm::vec3> p{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -163,6 +195,8 @@ Mesh read_revolution(const JsonNode& node, std::size_t most_triangles) {
 Mesh make(std::string_view kind, const JsonNode& node, std::size_t most_triangles) {
   if (kind == "triangle") return read_triangle(node);
   if (kind == "triangles") return read_triangles(node);
+  if (kind == "lines") return read_lines(node);
+  if (kind == "points") return read_points(node);
   if (kind == "quad") return read_quad(node);
   if (kind == "grid") return read_grid(node, most_triangles);
   if (kind == "uv_sphere") return read_uv_sphere(node, most_triangles);
@@ -177,8 +211,8 @@ Mesh make(std::string_view kind, const JsonNode& node, std::size_t most_triangle
 }  // namespace
 
 std::vector<MeshPart> read_mesh(const JsonNode& node, const AssetFolders& folders, std::size_t most_triangles) {
-  const std::string_view kind = node.one_of({"file", "triangle", "triangles", "quad", "grid", "cube", "uv_sphere",
-                                             "icosphere", "torus_knot", "revolution", "soup"});
+  const std::string_view kind = node.one_of({"file", "triangle", "triangles", "lines", "points", "quad", "grid", "cube",
+                                             "uv_sphere", "icosphere", "torus_knot", "revolution", "soup"});
   if (kind == "file") return read_file(node[kind], folders, most_triangles);
   return {{make(kind, node[kind], most_triangles), std::nullopt}};
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -23,12 +24,44 @@ int count_numbers(std::string_view line) {
   return count;
 }
 
-void check_face(std::string_view line) {
+/// Of v, vt and vn, in the order in which a corner names them.
+using Counts = std::array<std::int64_t, 3>;
+constexpr std::array<std::string_view, 3> kIndexed = {"v", "vt", "vn"};
+
+void count(std::string_view statement, Counts& counts) {
+  for (std::size_t i = 0; i < kIndexed.size(); ++i) counts[i] += statement == kIndexed[i] ? 1 : 0;
+}
+
+Counts count_all(std::string_view text) {
+  Counts counts{};
+  while (!text.empty()) {
+    std::string_view line = take_line(text);
+    count(take_word(line), counts);
+  }
+  return counts;
+}
+
+/// Indices count from 1 in the whole file, or down from -1 in what stands above.
+void check_corner(std::string_view corner, const Counts& all, const Counts& above) {
+  for (std::size_t i = 0; i < kIndexed.size() && !corner.empty(); ++i) {
+    const std::string_view word = corner.substr(0, corner.find('/'));
+    corner.remove_prefix(std::min(word.size() + 1, corner.size()));
+    if (word.empty()) continue;
+    const auto index = number_in<std::int64_t>(word);
+    if (!index || *index == 0 || *index > all[i] || *index < -above[i]) {
+      throw std::runtime_error(
+          fmt::format("expected an index of the {} {} that there are, found {}", all[i], kIndexed[i], word));
+    }
+  }
+}
+
+void check_face(std::string_view line, const Counts& all, const Counts& above) {
   int corners = 0;
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
     if (word.find_first_not_of("0123456789/-") != word.npos) {
       throw std::runtime_error(fmt::format("expected a corner such as 1, 1/2, 1//3 or 1/2/3, found \"{}\"", word));
     }
+    check_corner(word, all, above);
   }
   if (corners < 3) throw std::runtime_error(fmt::format("expected a face of three corners or more, found {}", corners));
 }
@@ -38,10 +71,13 @@ void check_face(std::string_view line) {
 void check_obj(std::string_view text) {
   constexpr std::array<std::string_view, 9> kHarmless = {"vn", "vt", "g", "o", "s", "mg", "mtllib", "usemtl", ""};
   int numbers_of_all = 0;
+  const Counts all = count_all(text);
+  Counts above{};
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = take_line(text);
     line = line.substr(0, line.find('#'));
     const std::string_view statement = take_word(line);
+    count(statement, above);
     try {
       if (statement == "v") {
         const int numbers = count_numbers(line);
@@ -54,7 +90,7 @@ void check_obj(std::string_view text) {
         }
         numbers_of_all = numbers;
       } else if (statement == "f") {
-        check_face(line);
+        check_face(line, all, above);
       } else if (std::find(kHarmless.begin(), kHarmless.end(), statement) == kHarmless.end()) {
         throw std::runtime_error(
             fmt::format("expected v, vn, vt, f, g, o, s, mtllib or usemtl, found \"{}\"", statement.substr(0, 40)));

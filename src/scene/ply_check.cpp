@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -93,6 +94,18 @@ Header read_header(std::string_view& bytes) {
   fail("end_header", "the file's end in its header");
 }
 
+void require_positions(const Header& header) {
+  for (const std::string_view axis : {"x", "y", "z"}) {
+    const auto has_axis = [&](const Element& element) {
+      return element.name == "vertex" && std::any_of(element.properties.begin(), element.properties.end(),
+                                                     [&](const Property& p) { return p.name == axis; });
+    };
+    if (std::none_of(header.elements.begin(), header.elements.end(), has_axis)) {
+      fail("vertices with x, y and z in the PLY header", fmt::format("no {}", axis));
+    }
+  }
+}
+
 void check_corners(const Element& element, const Property& property, std::uint64_t row, std::uint64_t corners) {
   const bool face = property.name == "vertex_indices" || property.name == "vertex_index";
   if (face && corners < 3) {
@@ -156,6 +169,7 @@ void check_row_of_bytes(std::string_view& bytes, const Element& element, std::ui
 
 void check_ply(std::string_view bytes) {
   const Header header = read_header(bytes);
+  require_positions(header);
   for (const Element& element : header.elements) {
     if (element.properties.empty() && element.count > 0) fail("properties", fmt::format("none of {}", element.name));
     for (std::uint64_t row = 0; row < element.count; ++row) {

@@ -5,6 +5,11 @@
 
 namespace plumbline {
 
+bool draws(const Scene& scene, Topology topology) {
+  return std::any_of(scene.draws.begin(), scene.draws.end(),
+                     [&](const Draw& draw) { return scene.meshes[draw.mesh].topology == topology; });
+}
+
 std::vector<DrawRange> draw_ranges(const Scene& scene) {
   std::vector<DrawRange> ranges;
   std::uint32_t vertex = 0, primitive = 0;

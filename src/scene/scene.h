@@ -20,12 +20,19 @@ enum class Dialect { gl, gzrender, games101, tinyrenderer };
 /// Whether row 0 is the picture's uppermost.
 constexpr bool rows_from_top(Dialect dialect) { return dialect == Dialect::gzrender; }
 
-/// An indexed triangle mesh in model space.
+/// What a mesh is made of.
+enum class Topology { triangles, lines, points };
+/// How many corners a primitive has: 3, 2 or 1.
+constexpr std::uint32_t corner_count(Topology topology) { return 3 - static_cast<std::uint32_t>(topology); }
+
+/// An indexed mesh in model space. Every primitive names three corners, so that what runs over corners need not ask
+/// what it is: a line's last stands there twice, a point's three times.
 struct Mesh {
   std::vector<glm::vec3> positions;   ///< model space, finite
   std::vector<glm::vec3> normals;     ///< unit length, as many as positions
   std::vector<glm::vec4> colors;      ///< empty, or as many as positions: rgba, nominally [0,1]
   std::vector<glm::uvec3> triangles;  ///< indices of positions; the last corner is the provoking vertex
+  Topology topology = Topology::triangles;
 };
 
 struct Translate {
@@ -180,6 +187,8 @@ struct Scene {
   std::vector<Draw> draws;  ///< in draw order
 };
 
+/// Whether any draw is of such a mesh.
+bool draws(const Scene& scene, Topology topology);
 /// Whether a pixel's colour is that of its last fragment alone: nothing is blended, no channel masked.
 inline bool colors_replace(const Scene& scene) {
   return std::all_of(scene.draws.begin(), scene.draws.end(),
@@ -191,7 +200,8 @@ inline bool depths_replace(const Scene& scene) {
 }
 
 /// Where one draw's vertices and triangles lie in arrays that run over all draws, in draw order.
-/// A **primitive** is numbered so, over the whole scene: `first_primitive + index of the mesh's triangle`.
+/// A **primitive** is numbered so, over the whole scene: `first_primitive + index of the mesh's triangle` (line,
+/// point).
 struct DrawRange {
   std::uint32_t first_vertex, vertex_count;
   std::uint32_t first_primitive, primitive_count;

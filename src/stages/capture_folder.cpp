@@ -278,14 +278,19 @@ void check_indices(const Capture& capture, const fs::path& folder) {
   const ClipPolygons<double>& clip = records.polygons;
   for (std::size_t i = 0; i < clip.polygons.size(); ++i) {
     const ClipPolygon& polygon = clip.polygons[i];
-    if (polygon.count < 3 || polygon.count > 9) {
-      fail("clip.polygon.count", i, fmt::format("expected 3 to 9 vertices, found {}", polygon.count));
+    if (polygon.count < 1 || polygon.count > 9) {
+      fail("clip.polygon.count", i, fmt::format("expected 1 to 9 vertices, found {}", polygon.count));
     }
     if (std::uint64_t{polygon.first} + polygon.count > clip.vertices.size()) {
       fail("clip.polygon.first", i,
            fmt::format("expected vertices below {}, found {} from {}", clip.vertices.size(), polygon.count,
                        polygon.first));
     }
+  }
+
+  for (std::size_t i = 0; i < records.triangles.size(); ++i) {
+    const std::uint32_t corners = records.triangles[i].corners;
+    if (corners < 1 || corners > 3) fail("window.corners", i, fmt::format("expected 1 to 3, found {}", corners));
   }
 
   const std::size_t fragments = records.covered.size();

@@ -21,8 +21,9 @@ std::size_t plane_bytes(const Scene& scene) {
 void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget) {
   if (bytes <= budget) return;
   throw OverBudget(fmt::format(
-      "{}: at \"/frame\": expected a capture that takes at most {} MiB, found {} x {} pixels, {} MiB",
-      scene.path.empty() ? scene.name : scene.path, budget >> 20, scene.frame.width, scene.frame.height, bytes >> 20));
+      "{}: at \"/frame\": expected a capture that takes at most {} MiB, found {} MiB for its {} x {} pixels and "
+      "records",
+      scene.path.empty() ? scene.name : scene.path, budget >> 20, bytes >> 20, scene.frame.width, scene.frame.height));
 }
 
 }  // namespace plumbline

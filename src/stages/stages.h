@@ -72,7 +72,8 @@ struct Lit {
 };
 
 // 3. Each triangle is assembled (flat shading: every corner takes the provoking vertex' colour) and cut at the six
-//    planes of the view volume to a convex polygon; one that lies outside leaves none.
+//    planes of the view volume to a convex polygon; one that lies outside leaves none. A line is cut to a line, a point
+//    is kept or not: polygons of 2 vertices, and of 1.
 template <class T>
 struct ClipVertex {
   Vec4<T> p_clip;
@@ -82,7 +83,7 @@ struct ClipVertex {
 struct ClipPolygon {
   std::uint32_t primitive;  ///< numbered over the scene (scene.h, DrawRange)
   std::uint32_t first;      ///< index of its first vertex
-  std::uint32_t count;      ///< 3 to 9
+  std::uint32_t count;      ///< 3 to 9; of a line 2, of a point 1
 };
 template <class T>
 struct ClipPolygons {
@@ -92,7 +93,8 @@ struct ClipPolygons {
 
 // 4. Each polygon is divided by w, moved to the window, and becomes a fan of triangles: corners (i-1, i, 0). Positions
 //    are snapped to 1/256 pixel; facing is the sign of the snapped area. Culled triangles and those of zero snapped
-//    area are gone.
+//    area are gone. A line is a triangle whose last corner stands there twice, a point one of three equal corners; they
+//    face the front, and none is culled.
 inline constexpr int kSubpixel = 256;
 template <class T>
 struct WindowVertex {
@@ -105,11 +107,13 @@ template <class T>
 struct WindowTriangle {
   std::array<WindowVertex<T>, 3> v;
   std::uint32_t primitive;
-  bool front;  ///< counter-clockwise in the window
+  bool front;                 ///< counter-clockwise in the window
+  std::uint32_t corners = 3;  ///< 2 of a line, 1 of a point
 };
 
 // 5. Each triangle covers the pixels whose centres are inside its snapped edges, or on an edge that the tie rule
-//    gives to it.
+//    gives to it. A line covers those that the diamond-exit rule names, a point the one that it lies in (OpenGL 2.1,
+//    sections 3.4.1 and 3.3).
 enum class TieRule {
   small_sides_in  ///< a centre on an edge is in if the interior lies to its right (+x); on a horizontal one, above (+y)
 };
@@ -120,6 +124,7 @@ struct Covered {
 
 // 6. Each covered pixel (a fragment from here on) gets its depth: the plane through p_win at the centre, clamped to
 //    [0,1], in the frame's depth format: window z, n-bit codes as code / (2^n - 1). A plain number per fragment.
+//    Along a line, z and attributes go by the projection of the centre onto it; a point has its own.
 
 // 7. Attributes, perspective-correct.
 template <class T>

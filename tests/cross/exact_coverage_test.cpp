@@ -258,5 +258,30 @@ TEST(ExactCoverage, RowsWithinAScissorBoxAreThoseOfTheWholeInIt) {
   }
 }
 
+TEST(ExactCoverage, LinesAndPointsKeepToTheScissorBox) {
+  FrameFormat frame;
+  frame.width = 20;
+  frame.height = 16;
+  WindowTriangle<double> thin{};
+  thin.v[0].snapped = {300, 200};
+  thin.v[1].snapped = thin.v[2].snapped = {4300, 3500};
+  Draw draw;
+  for (const std::uint32_t corners : {2u, 1u}) {
+    thin.corners = corners;
+    draw.scissor.reset();
+    std::vector<Covered> whole;
+    exact::append_covered(thin, frame, draw, 0, whole);
+    ASSERT_EQ(whole.size(), corners == 2 ? 16u : 1u);
+    for (const Scissor box : {Scissor{0, 0, 20, 16}, {1, 1, 1, 1}, {2, 1, 9, 6}, {4, 4, 0, 5}, {30, 0, 5, 5}}) {
+      draw.scissor = box;
+      std::vector<Covered> is;
+      exact::append_covered(thin, frame, draw, 0, is);
+      const auto held = [&](const Covered& c) { return box.holds(c.x, c.y); };
+      EXPECT_EQ(is.size(), static_cast<std::size_t>(std::count_if(whole.begin(), whole.end(), held)));
+      EXPECT_TRUE(std::all_of(is.begin(), is.end(), held));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline

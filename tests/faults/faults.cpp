@@ -1,8 +1,11 @@
 #include "faults/faults.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "faults/notes.h"
+#include "faults/variants.h"
 #include "pipeline/clip.h"
 #include "pipeline/light.h"
 #include "pipeline/matrices.h"
@@ -12,9 +15,6 @@
 namespace plumbline::faults {
 
 namespace {
-
-using pipeline::production_stages;
-using pipeline::Stages;
 
 Matrices<float> fov_taken_horizontally(const Scene& scene, const Draw& draw) {
   Matrices<float> m = pipeline::matrices(scene, draw);
@@ -52,35 +52,38 @@ void snapped_by_truncation(const Matrices<float>& matrices, Cull cull, const Cli
   pipeline::to_window(matrices, cull, polygons, of_draw, out);
   for (std::size_t i = first; i < out.size(); ++i) {
     for (WindowVertex<float>& v : out[i].v) v.snapped = glm::ivec2((glm::vec2(v.p_win) - 0.5f) * 256.0f);
-    out[i].front = pipeline::snapped_area(out[i]) > 0;
+    if (out[i].corners == 3) out[i].front = pipeline::snapped_area(out[i]) > 0;
   }
 }
 
-struct InclusiveEdges : pipeline::FragmentStages {
-  static pipeline::Edges edges(const WindowTriangle<float>& triangle) {
-    pipeline::Edges e = pipeline::edges_of(triangle);
-    for (int i = 0; i < 3; ++i) {
-      const bool owned = e.step_x[i] > 0 || (e.step_x[i] == 0 && e.step_y[i] > 0);
-      if (!owned) ++e.at_origin[i];
+struct LineEndDrawn : pipeline::FragmentStages {
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) {
+    std::vector<glm::ivec2> pixels = pipeline::thin_pixels(t, origin, size);
+    WindowTriangle<float> end{{t.v[1], t.v[1], t.v[1]}, t.primitive, true, 1};
+    for (const glm::ivec2 last : pipeline::thin_pixels(end, origin, size)) {
+      if (std::find(pixels.begin(), pixels.end(), last) == pixels.end()) pixels.push_back(last);
     }
-    return e;
+    return pixels;
+  }
+};
+
+struct SteepLinesTorn : pipeline::FragmentStages {
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) {
+    std::vector<glm::ivec2> pixels = pipeline::thin_pixels(t, origin, size);
+    std::vector<glm::ivec2> one_per_column;
+    for (const glm::ivec2 p : pixels) {
+      if (one_per_column.empty() || one_per_column.back().x != p.x) one_per_column.push_back(p);
+    }
+    return one_per_column;
   }
 };
 
 struct TruncatedDepth : pipeline::FragmentStages {
   template <class R>
-  static R depth(const pipeline::DepthSetup& s, const pipeline::Barycentric<R>& b) {
+  static R depth(const auto& setup, const pipeline::Barycentric<R>& b) {
+    const pipeline::DepthSetup& s = setup.depth;
     const double z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
     return s.scale == 0.0 ? static_cast<float>(z) : static_cast<float>(static_cast<std::int64_t>(z * s.scale));
-  }
-};
-
-struct AffineAttributes : pipeline::FragmentStages {
-  template <class R>
-  static pipeline::Color<R> attributes(const pipeline::AttributeSetup& s, const pipeline::Barycentric<R>& b) {
-    pipeline::AttributeSetup affine = s;
-    for (float& inv_w : affine.inv_w) inv_w = 1;
-    return pipeline::attributes<R>(affine, b);
   }
 };
 
@@ -123,21 +126,6 @@ struct IgnoredColorMask : pipeline::FragmentStages {
   static Merge merge_state(const Merge& of_draw) { return {of_draw.blend, glm::bvec4(true), of_draw.depth_mask}; }
 };
 
-template <auto member, auto function>
-Stages with_geometry() {
-  Stages stages = production_stages();
-  stages.geometry.*member = function;
-  return stages;
-}
-
-template <class Fragment>
-Stages with_fragment() {
-  Stages stages = production_stages();
-  stages.fragment = pipeline::fragment_functions<Fragment>();
-  return stages;
-}
-
-using Geometry = pipeline::GeometryStages;
 constexpr std::array kFaults = {
     Fault{"matrices.fov_horizontal", "the vertical field of view is taken for the horizontal one", Stage::matrices,
           with_geometry<&Geometry::matrices, fov_taken_horizontally>},
@@ -150,9 +138,13 @@ constexpr std::array kFaults = {
     Fault{"window.snap_truncates", "window positions are truncated to 1/256 pixel, not rounded", Stage::window,
           with_geometry<&Geometry::window, snapped_by_truncation>},
     Fault{"coverage.inclusive_edges", "pixels on any edge are covered: shared edges are painted twice", Stage::coverage,
-          with_fragment<InclusiveEdges>},
+          with_fragment<Ties<AllEdgesIn>>},
     Fault{"coverage.scissor_inclusive", "the scissor box has one column and one row too many", Stage::coverage,
           with_fragment<ScissorWithItsFarSides>},
+    Fault{"coverage.line_end_drawn", "a line's last pixel is drawn too: lines that meet paint it twice",
+          Stage::coverage, with_fragment<LineEndDrawn>},
+    Fault{"coverage.steep_lines_torn", "lines are stepped along x in every octant: steep ones have gaps",
+          Stage::coverage, with_fragment<SteepLinesTorn>},
     Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth, with_fragment<TruncatedDepth>},
     Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
           with_fragment<AffineAttributes>},
@@ -167,6 +159,12 @@ constexpr std::array kFaults = {
 
 }  // namespace
 
-std::span<const Fault> all() { return kFaults; }
+std::span<const Fault> of_stages() { return kFaults; }
+
+std::vector<Fault> all() {
+  std::vector<Fault> out(kFaults.begin(), kFaults.end());
+  out.insert(out.end(), of_notes().begin(), of_notes().end());
+  return out;
+}
 
 }  // namespace plumbline::faults

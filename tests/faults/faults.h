@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "pipeline/render.h"
 #include "stages/stages.h"
@@ -11,13 +12,15 @@
 namespace plumbline::faults {
 
 struct Fault {
-  std::string_view name;     ///< stage.bug
+  std::string_view name;     ///< stage.bug, or notes.note.mistake (notes.h)
   std::string_view changes;  ///< what it does, in words
   Stage stage;               ///< the stage that must be named
   pipeline::Stages (*stages)();
 };
 
-/// All faults, by stage.
-std::span<const Fault> all();
+/// By stage.
+std::span<const Fault> of_stages();
+/// Those, and the notes' (notes.h).
+std::vector<Fault> all();
 
 }  // namespace plumbline::faults

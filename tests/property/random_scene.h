@@ -70,6 +70,28 @@ E one_of(int count) {
   return static_cast<E>(*evenly(0, count));
 }
 
+/// Sets the scene's dialect, and a projection that it has.
+inline void speak(Scene& scene) {
+  using namespace rc;
+  scene.dialect = *gen::weightedElement<Dialect>(
+      {{3, Dialect::gl}, {1, Dialect::gzrender}, {1, Dialect::games101}, {1, Dialect::tinyrenderer}});
+  const double fov = *gen::elementOf(std::vector<int>{30, 60, 90, 150});
+  const bool orthographic = *evenly(0, 3) == 0;
+  switch (scene.dialect) {
+    case Dialect::gl:
+      scene.projection = orthographic ? Projection(Orthographic{-2, 2, -2, 2, 1, 8}) : Perspective{fov, 1, 8};
+      break;
+    case Dialect::games101:
+      scene.projection = orthographic ? Projection(Orthographic{-2, 2, -2, 2, -1, -8}) : Perspective{fov, -1, -8};
+      break;
+    case Dialect::gzrender: scene.projection = ViewPlane{fov}; break;
+    case Dialect::tinyrenderer:
+      scene.projection = Pinhole{*gen::elementOf(std::vector<double>{0.5, 3, 4, 20})};
+      scene.depth_clamp = true;
+      break;
+  }
+}
+
 /// To be called within a property.
 inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
   using namespace rc;
@@ -82,11 +104,7 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
   scene.frame.clear_color = *color();
   scene.frame.clear_depth = *gen::weightedElement<double>({{6, 1.0}, {1, 0.0}, {1, 0.5}, {1, 0.7}});
   scene.camera.eye = glm::dvec3(*gen::elementOf(std::vector<glm::vec3>{{0, 0, 4}, {0, 0, 5}, {3, 1, 4}, {-2, 5, 1}}));
-  if (*evenly(0, 3) == 0) {
-    scene.projection = Orthographic{-2, 2, -2, 2, 1, 8};
-  } else {
-    scene.projection = Perspective{static_cast<double>(*gen::elementOf(std::vector<int>{30, 60, 90, 150})), 1, 8};
-  }
+  speak(scene);
   scene.ambient = glm::vec3(0.125f);
   const int lights = *evenly(0, 3);
   for (int i = 0; i < lights; ++i) {

@@ -8,25 +8,15 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include "test_folder.h"
 
 namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
 
-class AtomicPaths : public testing::Test {
+class AtomicPaths : public TestFolder {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_atomic_path_") + info->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-  static std::string read(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
   void refused(const std::function<void()>& act, const fs::path& path, const std::string& reason) const {
     try {
       act();
@@ -41,7 +31,6 @@ class AtomicPaths : public testing::Test {
     for (const auto& e : fs::recursive_directory_iterator(root_)) out.insert(e.path().lexically_relative(root_));
     return out;
   }
-  fs::path root_;
 };
 
 TEST_F(AtomicPaths, AFileIsWrittenWholeAndReplaced) {

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "stages/atomic_path.h"
+#include "test_folder.h"
 
 namespace plumbline {
 namespace {
@@ -74,6 +75,7 @@ Capture make_capture() {
     auto& t = r.triangles[i];
     t.primitive = i * 1000003u;
     t.front = i == 1;
+    t.corners = 3 - i;
     for (int k = 0; k < 3; ++k) {
       auto& v = t.v[static_cast<std::size_t>(k)];
       f.fill(v.p_win), f.fill(v.color);
@@ -101,20 +103,8 @@ Capture make_capture() {
   return c;
 }
 
-class CaptureFolder : public testing::Test {
+class CaptureFolder : public TestFolder {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_capture_folder_") + info->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
-  static std::string read(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
   static void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
   /// Reads a good capture's folder after `harm`; the message must hold every text.
   void refused(const std::function<void(const fs::path&)>& harm, const std::vector<std::string>& texts) {
@@ -157,8 +147,6 @@ class CaptureFolder : public testing::Test {
         },
         texts);
   }
-
-  fs::path root_;
 };
 
 /// Every file of two folders is the same, byte for byte.
@@ -210,6 +198,7 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
     EXPECT_EQ(std::memcmp(x.v.data(), y.v.data(), sizeof x.v), 0);
     EXPECT_EQ(x.primitive, y.primitive);
     EXPECT_EQ(x.front, y.front);
+    EXPECT_EQ(x.corners, y.corners);
   }
   EXPECT_TRUE(same_bits(a.planes.count.values(), b.planes.count.values()));
   EXPECT_TRUE(same_bits(a.planes.id_sum.values(), b.planes.id_sum.values()));
@@ -220,7 +209,7 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_EQ(b.planes.count(1, 2), 12u);
 
   write_capture(b, root_ / "b");
-  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 6 + 3 + 1 + 1 + 1 + 1 + 6);
+  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 1 + 1 + 6);
 }
 
 TEST_F(CaptureFolder, LeavesOutWhatWasNotCaptured) {
@@ -349,7 +338,9 @@ TEST_F(CaptureFolder, RefusesArraysThatDoNotGoTogether) {
 }
 
 TEST_F(CaptureFolder, RefusesWhatPointsOutside) {
-  refused_value<std::uint32_t>("clip.polygon.count", 0, 2, {"array clip.polygon.count", "element 0", "found 2"});
+  refused_value<std::uint32_t>("clip.polygon.count", 0, 0, {"array clip.polygon.count", "element 0", "found 0"});
+  refused_value<std::uint32_t>("window.corners", 1, 4, {"array window.corners", "element 1", "1 to 3, found 4"});
+  refused_value<std::uint32_t>("window.corners", 0, 0, {"array window.corners", "element 0", "1 to 3, found 0"});
   refused_value<std::uint32_t>("clip.polygon.count", 1, 10, {"array clip.polygon.count", "element 1", "found 10"});
   refused_value<std::uint32_t>("clip.polygon.count", 1, 4, {"array clip.polygon.first", "element 1", "below 7"});
   refused_value<std::uint32_t>("clip.polygon.first", 1, 0xffffffffu, {"array clip.polygon.first", "element 1"});

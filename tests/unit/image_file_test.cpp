@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "stages/atomic_path.h"
+#include "test_folder.h"
 
 namespace plumbline {
 namespace {
@@ -17,15 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
-class ImageFile : public testing::Test {
+class ImageFile : public TestFolder {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_image_file_") + info->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
   template <class Act>
   void refused(Act act, const std::string& file, const std::string& text) {
     try {
@@ -36,7 +30,6 @@ class ImageFile : public testing::Test {
       EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
     }
   }
-  fs::path root_;
 };
 
 /// 3 x 2, every pixel another; row 0 is the bottom.

@@ -15,7 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include <sys/stat.h>
 #include "scene/scene_values.h"
+
+#include "test_folder.h"
 
 namespace plumbline {
 namespace {
@@ -32,16 +35,8 @@ Mesh load_one(const fs::path& file) {
   return std::move(parts.front().mesh);
 }
 
-class MeshFile : public testing::Test {
+class MeshFile : public TestFolder {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_mesh_file_") + info->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
   fs::path write(const std::string& text, const std::string& name = "mesh.obj") const {
     std::ofstream(root_ / name, std::ios::binary) << text;
     return root_ / name;
@@ -57,8 +52,6 @@ class MeshFile : public testing::Test {
       EXPECT_NE(what.find(expected), what.npos) << what;
     }
   }
-
-  fs::path root_;
 };
 
 TEST_F(MeshFile, ReadsPolygonsWithTheirWinding) {
@@ -139,9 +132,9 @@ TEST_F(MeshFile, RefusesObj) {
   refused(write(""), "expected");
   refused(write(triangle), "expected");
   refused(write("not a mesh at all"), "found \"not\" in line 1");
-  refused(write(triangle + "f 1 2 9\n"), "expected a mesh, found OBJ: vertex index out of range");
+  refused(write(triangle + "f 1 2 9\n"), "expected an index of the 3 v that there are, found 9 in line 4");
   refused(write(triangle + "f 1 2 -9\n"), "expected");
-  refused(write(triangle + "f 1 2 0\n"), "expected a mesh, found OBJ: Invalid face index");
+  refused(write(triangle + "f 1 2 0\n"), "expected an index of the 3 v that there are, found 0 in line 4");
   refused(write("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), "expected coordinates that are finite, found nan");
   refused(write("v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n"), "expected coordinates that are finite, found inf");
   refused(write("v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n"), "expected coordinates from -1000000 to 1000000, found");
@@ -237,7 +230,7 @@ TEST_F(MeshFile, RefusesPly) {
   refuse("ply\nformat text 1.0\nend_header\n", "expected a PLY format");
   refuse("ply\nformat ascii 1.0\nelement vertex -3\nend_header\n", "expected an element's count");
   refuse("ply\nformat ascii 1.0\nelement vertex 3\nproperty real x\nend_header\n", "\"real\" in the header");
-  refuse("ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n", "expected properties, found none of vertex");
+  refuse("ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n", "expected vertices with x, y and z");
   refuse("ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_indices\nend_header\n",
          "expected an integer type of PLY, found \"float\"");
   refuse(ply(kPlyVertices, "3 0 1 2\n", 4), "expected a number for green, found \"\" in vertex 3 of 4");
@@ -324,6 +317,27 @@ TEST_F(MeshFile, RefusesMoreTrianglesThanAllowed) {
   const fs::path file = write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n");
   EXPECT_NO_THROW(load_mesh(file, AssetFolders({root_}), 2));
   EXPECT_THROW(load_mesh(file, AssetFolders({root_}), 1), MeshError);
+}
+
+TEST_F(MeshFile, RefusesIndicesOfWhatIsNotThere) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+  EXPECT_NO_THROW(load_parts(write(corners + "f 1/1/1 2/1/1 3/-1/-1\n")));
+  EXPECT_NO_THROW(load_parts(write("f 1 2 3\n" + corners)));
+  refused(write(corners + "f 1 2 4\n"), "expected an index of the 3 v that there are, found 4 in line 6");
+  refused(write(corners + "f 1 2 -4\n"), "of the 3 v that there are, found -4");
+  refused(write("f -1 -2 -3\n" + corners), "found -1 in line 1");
+  refused(write(corners + "f 1 2 0\n"), "found 0");
+  refused(write(corners + "f 1//2 2//1 3//1\n"), "expected an index of the 1 vn that there are, found 2");
+  refused(write(corners + "f 1/9 2/1 3/1\n"), "expected an index of the 1 vt that there are, found 9");
+  refused(write(corners + "f 1 2 99999999999999999999\n"), "found 99999999999999999999");
+  refused(write("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
+                "mesh.ply"),
+          "expected vertices with x, y and z in the PLY header, found no z");
+}
+
+TEST_F(MeshFile, WaitsForNoPipe) {
+  mkfifo((root_ / "pipe.mtl").c_str(), 0600);
+  refused(write("mtllib pipe.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "pipe.mtl");
 }
 
 TEST_F(MeshFile, RefusesAnotherFormatUnderTheEndingAtOnce) {

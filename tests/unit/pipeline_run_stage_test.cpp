@@ -195,6 +195,7 @@ TEST(PipelineRenderer, RecordsThatDoNotFitAreRefused) {
   refused(Stage::window, [](auto& r) { r.polygons.polygons.back().first += 1; });
   refused(Stage::window, [](auto& r) { r.polygons.polygons.back().first = 0xffffffffu; });
   refused(Stage::window, [](auto& r) { r.polygons.polygons[0].count = 2; });
+  refused(Stage::coverage, [](auto& r) { r.triangles[0].corners = 2; });
   refused(Stage::window, [](auto& r) { std::swap(r.polygons.polygons.front(), r.polygons.polygons.back()); });
   refused(Stage::merge, [](auto& r) { r.shaded.pop_back(); });
   refused(Stage::merge, [](auto& r) { r.drawn.resize(1); });

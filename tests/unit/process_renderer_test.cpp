@@ -10,25 +10,21 @@
 #include <thread>
 
 #include "stages/capture_folder.h"
+#include "test_folder.h"
 
 namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Process : public testing::Test {
+class Process : public TestFolder {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_process_") + info->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_);
     scene_.name = "group/scene";
     scene_.path = (root_ / "scene.json").string();
     scene_.frame.width = 4;
     scene_.frame.height = 2;
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   static std::unique_ptr<Renderer> shell(const std::string& script) {
     return make_process_renderer({.name = "outside",
@@ -61,7 +57,6 @@ class Process : public testing::Test {
     return root_ / "good";
   }
 
-  fs::path root_;
   Scene scene_;
 };
 

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <vector>
+#include "test_folder.h"
 
 namespace plumbline {
 namespace {
@@ -16,15 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A folder per test, "<temporary>/<test's name>/group".
-class SceneFile : public testing::Test {
+class SceneFile : public TestFolder {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_scene_file_") + info->name());
-    fs::remove_all(root_);
-    fs::create_directories(root_ / "group");
-  }
-  void TearDown() override { fs::remove_all(root_); }
+  void SetUp() override { fs::create_directories(root_ / "group"); }
 
   fs::path write(const std::string& text, const std::string& name = "group/scene.json") const {
     fs::create_directories((root_ / name).parent_path());
@@ -32,8 +27,6 @@ class SceneFile : public testing::Test {
     return root_ / name;
   }
   Scene load(const std::string& text) const { return load_scene(write(text), {.asset_folders = {root_ / "assets"}}); }
-
-  fs::path root_;
 };
 
 TEST_F(SceneFile, ReadsEveryKey) {

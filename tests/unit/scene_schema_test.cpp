@@ -12,6 +12,7 @@
 
 #include "scene/json_file.h"
 #include "scene/scene_file.h"
+#include "test_folder.h"
 
 namespace plumbline {
 namespace {
@@ -121,6 +122,8 @@ const std::vector<Sample> kSamples = {
      {{"file", "\"mesh.obj\""},
       {"triangle", "{\"positions\": " + kThree + "}"},
       {"triangles", "{\"positions\": " + kThree + ", \"indices\": [[0, 1, 2]]}"},
+      {"lines", R"({"positions": [[0, 0, 0], [1, 0, 0]], "indices": [[0, 1]]})"},
+      {"points", R"({"positions": [[0, 0, 0]]})"},
       {"quad", "{}"},
       {"grid", R"({"columns": 1, "rows": 1})"},
       {"cube", "{}"},
@@ -137,6 +140,12 @@ const std::vector<Sample> kSamples = {
      {{"positions", kThree},
       {"indices", "[[0, 1, 2]]"},
       {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + "]"}}},
+    {"lines",
+     in_mesh("lines"),
+     {{"positions", "[[0, 0, 0], [1, 0, 0]]"},
+      {"indices", "[[1, 0]]"},
+      {"colors", "[" + kWhite + ", " + kWhite + "]"}}},
+    {"points", in_mesh("points"), {{"positions", "[[0, 0, 0]]"}, {"colors", "[" + kWhite + "]"}}},
     {"quad",
      in_mesh("quad"),
      {{"positions", "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]"},
@@ -152,19 +161,14 @@ const std::vector<Sample> kSamples = {
     {"soup", in_mesh("soup"), {{"triangles", "1"}, {"seed", "0"}, {"extent", "1"}, {"size", "1"}}},
 };
 
-class SceneSchema : public testing::Test {
+class SceneSchema : public TestFolder {
  protected:
-  SceneSchema() : file_(PLUMBLINE_SOURCE_DIR "/tests/scenes/scene.schema.json"), root_(file_.root()) {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("plumbline_scene_schema_") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    std::ofstream(folder_ / "empty.part.json") << "{}";
-    std::ofstream(folder_ / "mesh.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  SceneSchema() : file_(PLUMBLINE_SOURCE_DIR "/tests/scenes/scene.schema.json"), schema_(file_.root()) {
+    std::ofstream(root_ / "empty.part.json") << "{}";
+    std::ofstream(root_ / "mesh.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   }
-  ~SceneSchema() override { fs::remove_all(folder_); }
 
-  JsonNode definition(const std::string& name) const { return name.empty() ? root_ : root_["definitions"][name]; }
+  JsonNode definition(const std::string& name) const { return name.empty() ? schema_ : schema_["definitions"][name]; }
   /// What a property's schema is, through "$ref".
   JsonNode resolved(JsonNode node) const {
     if (const auto all = node.find("allOf")) node = (*all)[0u];
@@ -175,9 +179,9 @@ class SceneSchema : public testing::Test {
   std::string said_of(const Sample& sample, const Members& members) const {
     std::string text = sample.scene;
     text.replace(text.find('$'), 1, object(members));
-    std::ofstream(folder_ / "scene.json") << text;
+    std::ofstream(root_ / "scene.json") << text;
     try {
-      load_scene(folder_ / "scene.json", {.asset_folders = {}});
+      load_scene(root_ / "scene.json", {.asset_folders = {}});
     } catch (const SceneError& error) {
       const std::string what = error.what();
       return what.substr(what.find(": expected ") + 2);
@@ -192,8 +196,7 @@ class SceneSchema : public testing::Test {
   }
 
   JsonFile file_;
-  JsonNode root_;
-  fs::path folder_;
+  JsonNode schema_;
 };
 
 /// How the loader tells what it expects, from a property's schema.
@@ -238,7 +241,7 @@ TEST_F(SceneSchema, HasTheLoadersKeys) {
 
 TEST_F(SceneSchema, EveryObjectOfItIsHere) {
   std::set<std::string> objects, here;
-  for (const auto& [name, value] : root_["definitions"].value().members) {
+  for (const auto& [name, value] : schema_["definitions"].value().members) {
     if (value.members.contains("properties")) objects.insert(name);
   }
   for (const Sample& sample : kSamples) here.insert(sample.definition);

@@ -1,0 +1,206 @@
+// The comparators of lines, both ways: what OpenGL allows passes, the least that it does not fails.
+#include "check/compare_lines.h"
+
+#include "check/compare_planes.h"
+#include "check_fixtures.h"
+
+namespace plumbline::check {
+namespace {
+
+using Pixels = std::vector<glm::ivec2>;
+
+WindowTriangle<double> line_of(glm::dvec2 a, glm::dvec2 b, std::uint32_t primitive = 0) {
+  WindowTriangle<double> t =
+      triangle_of({glm::dvec3(a, 0.25), glm::dvec3(b, 0.75), glm::dvec3(b, 0.75)}, {1, 1, 1}, primitive);
+  t.v[2].color = t.v[1].color;
+  t.front = true;
+  t.corners = 2;
+  return t;
+}
+
+/// Of lines, and the pixels of each; and `others`, pixels of primitive 9.
+Capture drawn(const std::vector<WindowTriangle<double>>& lines, const std::vector<Pixels>& pixels,
+              const Pixels& others = {}) {
+  Capture c;
+  c.records.triangles = lines;
+  c.planes.count = Plane<std::uint32_t>(16, 12);
+  c.planes.id_sum = Plane<std::uint64_t>(16, 12);
+  c.planes.id = Plane<std::int32_t>(16, 12, kBackground);
+  c.planes.depth = Plane<double>(16, 12, 1);
+  const auto add = [&](glm::ivec2 p, std::uint32_t primitive) {
+    ++c.planes.count(p.x, p.y);
+    c.planes.id_sum(p.x, p.y) += id_weight(primitive);
+    c.planes.id(p.x, p.y) = static_cast<std::int32_t>(primitive);
+  };
+  for (const glm::ivec2 p : others) add(p, 9);
+  for (std::uint32_t i = 0; i < lines.size(); ++i) {
+    for (const glm::ivec2 p : pixels[i]) {
+      c.records.covered.push_back({i, static_cast<std::uint16_t>(p.x), static_cast<std::uint16_t>(p.y)});
+      add(p, lines[i].primitive);
+    }
+  }
+  return c;
+}
+
+const WindowTriangle<double> kFlat = line_of({2.5, 3.5}, {6.5, 4.5}, 1);
+const Pixels kFlatPixels = {{2, 3}, {3, 3}, {4, 4}, {5, 4}};
+
+Measurement compared(const Pixels& theirs) {
+  return compare_covered_lines(drawn({kFlat}, {kFlatPixels}), drawn({kFlat}, {theirs}), 1);
+}
+
+Measurement winners(const Capture& mine, const Capture& theirs) { return compare_thin_winners({}, mine, theirs, 4); }
+
+TEST(CheckLines, the_same_pixels_are_equal) {
+  const Measurement m = compared(kFlatPixels);
+  EXPECT_TRUE(passes(m));
+  EXPECT_EQ(m.ambiguous, 0u);
+  EXPECT_EQ(m.max_difference, 0);
+  EXPECT_EQ(m.items, 16u * 12 + 1);
+}
+
+TEST(CheckLines, what_the_specification_allows_is_ambiguous) {
+  for (const Pixels& theirs : {Pixels{{2, 3}, {3, 4}, {4, 4}, {5, 4}},             // a pixel one off
+                               Pixels{{2, 2}, {3, 2}, {4, 3}, {5, 3}},             // all one off
+                               Pixels{{3, 3}, {4, 4}, {5, 4}},                     // the first lost
+                               Pixels{{2, 3}, {3, 3}, {4, 4}, {5, 4}, {6, 4}},     // one more
+                               Pixels{{1, 3}, {2, 3}, {3, 3}, {4, 4}, {5, 4}}}) {  // at the other end
+    const Measurement m = compared(theirs);
+    EXPECT_TRUE(passes(m));
+    EXPECT_EQ(m.ambiguous, 1u);
+    EXPECT_EQ(m.max_difference, 1);
+  }
+}
+
+TEST(CheckLines, what_it_does_not_allow_is_different) {
+  EXPECT_TRUE(fails(compared({{2, 3}, {3, 5}, {4, 4}, {5, 4}})));                  // a pixel two off
+  EXPECT_TRUE(fails(compared({{4, 4}, {5, 4}})));                                  // two fewer
+  EXPECT_TRUE(fails(compared({{2, 3}, {3, 3}, {4, 4}, {5, 4}, {6, 4}, {7, 4}})));  // two more
+  EXPECT_TRUE(fails(compared({{2, 3}, {3, 3}, {3, 4}, {4, 4}, {5, 4}})));          // two in one column
+  EXPECT_TRUE(fails(compared({{2, 3}, {3, 3}, {4, 4}, {8, 4}})));                  // one far away
+  EXPECT_TRUE(fails(compared({})));
+}
+
+TEST(CheckLines, steep_lines_have_rows_for_columns) {
+  const WindowTriangle<double> steep = line_of({3.5, 2.5}, {4.5, 6.5}, 1);
+  const Pixels pixels = {{3, 2}, {3, 3}, {4, 4}, {4, 5}};
+  const auto against = [&](const Pixels& theirs) {
+    return compare_covered_lines(drawn({steep}, {pixels}), drawn({steep}, {theirs}), 1);
+  };
+  EXPECT_TRUE(passes(against({{3, 3}, {4, 4}, {4, 5}})));
+  EXPECT_TRUE(passes(against({{3, 2}, {4, 3}, {4, 4}, {4, 5}})));
+  EXPECT_TRUE(fails(against({{3, 2}, {3, 3}, {4, 3}, {4, 4}, {4, 5}})));
+}
+
+TEST(CheckLines, a_line_of_no_pixel_may_have_one_at_its_end) {
+  const WindowTriangle<double> dot = line_of({3.25, 2.5}, {3.5, 2.75}, 1);
+  const auto against = [&](const Pixels& theirs) {
+    return compare_covered_lines(drawn({dot}, {{}}), drawn({dot}, {theirs}), 1);
+  };
+  EXPECT_TRUE(passes(against({{3, 2}})));
+  EXPECT_TRUE(passes(against({{4, 2}})));
+  EXPECT_TRUE(fails(against({{6, 2}})));
+  EXPECT_TRUE(fails(against({{3, 2}, {4, 2}})));
+}
+
+TEST(CheckLines, all_else_must_be_the_same) {
+  const Capture mine = drawn({kFlat}, {kFlatPixels}, {{3, 3}, {8, 8}});
+  EXPECT_TRUE(passes(compare_covered_lines(mine, mine, 1)));
+  EXPECT_TRUE(fails(compare_covered_lines(mine, drawn({kFlat}, {kFlatPixels}, {{3, 3}}), 1)));
+  EXPECT_TRUE(fails(compare_covered_lines(mine, drawn({kFlat}, {kFlatPixels}, {{3, 3}, {8, 9}}), 1), 2));
+  Capture other = mine;
+  other.planes.id_sum(8, 8) = id_weight(10);
+  EXPECT_TRUE(fails(compare_covered_lines(mine, other, 1)));
+  other = mine;
+  other.records.covered.pop_back();  // what the records tell of the line is not what the planes show
+  EXPECT_TRUE(fails(compare_covered_lines(mine, other, 1)));
+}
+
+TEST(CheckLines, a_line_that_one_side_lacks_is_different) {
+  const WindowTriangle<double> second = line_of({2.5, 8.5}, {4.5, 8.5}, 2);
+  const Capture one = drawn({kFlat}, {kFlatPixels}), two = drawn({kFlat, second}, {kFlatPixels, {{2, 8}, {3, 8}}});
+  EXPECT_TRUE(fails(compare_covered_lines(one, two, 1)));
+  EXPECT_TRUE(fails(compare_covered_lines(two, one, 1)));
+  Capture empty;
+  EXPECT_NE(compare_covered_lines(one, empty, 1).mismatch, "");
+  EXPECT_NE(winners(one, empty).mismatch, "");
+}
+
+TEST(CheckLines, winners_count_where_both_cover_alike) {
+  const Capture mine = drawn({kFlat}, {kFlatPixels}, {{3, 3}, {3, 4}});
+  Capture theirs = drawn({kFlat}, {{{2, 3}, {3, 4}, {4, 4}, {5, 4}}}, {{3, 3}, {3, 4}});
+  const Measurement m = winners(mine, theirs);
+  EXPECT_TRUE(passes(m));
+  EXPECT_EQ(m.ambiguous, 2u);
+  theirs.planes.id(4, 4) = 9;  // covered by the same, another won, and its depth is another
+  theirs.planes.depth(4, 4) = 0.5;
+  EXPECT_TRUE(fails(winners(mine, theirs)));
+  // Primitive 0 weighs nothing: the count tells.
+  const WindowTriangle<double> zero = line_of({2.5, 3.5}, {6.5, 4.5}, 0);
+  EXPECT_TRUE(passes(winners(drawn({zero}, {kFlatPixels}), drawn({zero}, {{{2, 3}}}))));
+}
+
+TEST(CheckLines, winners_of_nearly_one_depth_are_ambiguous) {
+  // The pixel above the line's middle, whose depth moves by 0.05 where it goes by the major axis.
+  const WindowTriangle<double> line = line_of({2.5, 1.5}, {6.5, 3.5}, 1);
+  const auto with = [&](std::int32_t winner, double z) {
+    Capture c = drawn({line}, {{{4, 3}}}, {{4, 3}});
+    c.planes.id(4, 3) = winner;
+    c.planes.depth(4, 3) = z;
+    return c;
+  };
+  EXPECT_EQ(winners(with(1, 0.55), with(9, 0.5)).ambiguous, 1u);
+  EXPECT_TRUE(passes(winners(with(1, 0.55), with(9, 0.5))));
+  EXPECT_TRUE(passes(winners(with(9, 0.5), with(1, 0.55))));
+  EXPECT_TRUE(fails(winners(with(1, 0.55), with(9, 0.4999))));
+}
+
+TEST(CheckLines, depth_and_color_go_by_the_major_axis_or_by_the_projection) {
+  // Along (4, 2): the pixel above the middle projects to 0.6 of the way; by the major axis it is 0.5.
+  WindowTriangle<double> t = line_of({2.5, 1.5}, {6.5, 3.5});
+  const PlaneBounds b = bounds_from_origin(t, 4, 3);
+  EXPECT_NEAR(b.along_depth, -0.1 * 0.5, 1e-12);
+  EXPECT_NEAR(b.along_color.r, 0.1, 1e-12);
+  EXPECT_EQ(bounds_from_origin(t, 4, 2).along_depth, 0);  // on the line
+  EXPECT_EQ(bounds_from_origin(line_of({2.5, 1.5}, {6.5, 1.5}), 4, 2).along_depth, 0);
+  EXPECT_TRUE(std::isfinite(b.depth) && std::isfinite(b.color.r));
+  t.corners = 1;
+  EXPECT_EQ(bounds_from_origin(t, 4, 3).along_depth, 0);
+
+  Scene scene;
+  scene.frame.depth = DepthFormat::z32f;
+  Capture mine = drawn({line_of({2.5, 1.5}, {6.5, 3.5})}, {{{4, 3}}}), theirs = mine;
+  mine.planes.depth(4, 3) = 0.55;
+  theirs.planes.depth = mine.planes.depth;
+  theirs.planes.depth(4, 3) = 0.5;
+  EXPECT_TRUE(passes(compare_depth_planes(scene, mine, theirs, 4)));
+  for (const double z : {0.5 - 2e-5, 0.525, 0.6}) {  // between the two is neither
+    theirs.planes.depth(4, 3) = z;
+    EXPECT_TRUE(fails(compare_depth_planes(scene, mine, theirs, 4)));
+  }
+  theirs.planes.depth(4, 3) = 0.55;
+  EXPECT_TRUE(passes(compare_depth_planes(scene, mine, theirs, 4)));
+
+  // Red is 0.4 of the way back, 0.5 by the major axis; as codes 102 and 128.
+  mine.planes.shaded = Plane<glm::vec4>(16, 12, glm::vec4(0));
+  mine.planes.shaded(4, 3) = {0.4f, 0.6f, 0, 1};
+  theirs.planes.shaded = mine.planes.color = mine.planes.shaded;
+  const auto with_red = [&](float red, float green) {
+    theirs.planes.shaded(4, 3) = {red, green, 0, 1};
+    theirs.planes.color = theirs.planes.shaded;
+  };
+  const auto shaded = [&] { return compare_shaded_planes(scene, mine, theirs, 8); };
+  const auto codes = [&] { return compare_codes(scene, mine, theirs, 1, 8); };
+  with_red(0.5f, 0.5f);
+  EXPECT_TRUE(passes(shaded()));
+  EXPECT_TRUE(passes(codes()));
+  with_red(0.4f, 0.6f);
+  EXPECT_TRUE(passes(shaded()));
+  EXPECT_TRUE(passes(codes()));
+  with_red(0.45f, 0.55f);
+  EXPECT_TRUE(fails(shaded()));
+  EXPECT_TRUE(fails(codes()));
+}
+
+}  // namespace
+}  // namespace plumbline::check

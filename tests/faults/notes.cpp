@@ -1,0 +1,233 @@
+#include "faults/notes.h"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "faults/variants.h"
+#include "pipeline/clip.h"
+#include "pipeline/light.h"
+#include "pipeline/matrices.h"
+#include "transforms/projection.h"
+
+namespace plumbline::faults {
+
+namespace {
+
+constexpr double kRadians = 3.14159265358979323846 / 180.0;
+
+// Stage 0 as another camera has it. Lights are brought to eye space by the scene's own: they are another stage's.
+Matrices<float> seen_by(const Camera& camera, const Scene& scene, const Draw& draw) {
+  Scene moved;  // all that stage 0 reads
+  moved.name = scene.name;
+  moved.dialect = scene.dialect;
+  moved.frame = scene.frame;
+  moved.projection = scene.projection;
+  moved.camera = camera;
+  return pipeline::matrices(moved, draw);
+}
+
+// v = w x v, where v was t before: -|t x w| u. The inverse transpose does not exist; normals stay.
+Matrices<float> v_is_w_cross_v(const Scene& scene, const Draw& draw) {
+  Matrices<float> m = pipeline::matrices(scene, draw);
+  if (scene.dialect != Dialect::gzrender) return m;
+  const auto& [c, l, t] = scene.camera;
+  const auto length = static_cast<float>(glm::length(glm::cross(t, glm::normalize(l - c))));
+  for (int column = 0; column < 4; ++column) m.model_view[column][1] = -length * m.model_view[column][0];
+  return m;
+}
+
+// The origin at `center`, under a projection whose eye is at the origin.
+Matrices<float> lookat_without_its_projection(const Scene& scene, const Draw& draw) {
+  if (scene.dialect != Dialect::gl && scene.dialect != Dialect::games101) return pipeline::matrices(scene, draw);
+  const auto& [eye, center, up] = scene.camera;
+  return seen_by({center, center + (center - eye), up}, scene, draw);
+}
+
+// X_pi's eye is d behind c: c and l are moved d forward, and the eye is where c was.
+Matrices<float> eye_at_c(const Scene& scene, const Draw& draw) {
+  const auto* view_plane = std::get_if<ViewPlane>(&scene.projection);
+  if (view_plane == nullptr) return pipeline::matrices(scene, draw);
+  const auto& [c, l, up] = scene.camera;
+  const glm::dvec3 forward = transforms::gzrender::d_of_fov(view_plane->fov_degrees * kRadians) * glm::normalize(l - c);
+  return seen_by({c + forward, l + forward, up}, scene, draw);
+}
+
+// NDC -1 is the first column's sample and NDC 1 the first row's from above, not those pixels' outer sides: what is
+// drawn moves half a pixel to the right and down, 1/width and 1/height in NDC.
+Matrices<float> whole_centres(const Scene& scene, const Draw& draw) {
+  Matrices<float> m = pipeline::matrices(scene, draw);
+  if (scene.dialect != Dialect::gl && scene.dialect != Dialect::games101) return m;
+  for (int column = 0; column < 4; ++column) {
+    Vec4<float>& to_clip = m.projection[column];
+    to_clip.x += to_clip.w / static_cast<float>(scene.frame.width);
+    to_clip.y -= to_clip.w / static_cast<float>(scene.frame.height);
+  }
+  return m;
+}
+
+// N.L below 0 takes light away: what an opposite light of negative colour does. (Of GzRender's lights, which are
+// directional.)
+void no_clamp_of_n_l(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
+                     std::vector<Lit<float>>& out) {
+  Scene wrong = scene;
+  for (const Light& l : scene.lights) {
+    if (l.kind == Light::Kind::directional) {
+      wrong.lights.push_back({l.kind, -l.vector, glm::vec3(0), -l.diffuse, glm::vec3(0)});
+    }
+  }
+  pipeline::light(wrong, draw, vertices, out);
+}
+
+// N.L and N.E both below 0: N is turned; one of them: no light. As though every N with N.E < 0 were turned.
+void flipped_normals(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
+                     std::vector<Lit<float>>& out) {
+  std::vector<Vertex<float>> facing(vertices.begin(), vertices.end());
+  for (Vertex<float>& v : facing) {
+    if (v.n_eye.z < 0) v.n_eye = -v.n_eye;
+  }
+  pipeline::light(scene, draw, facing, out);
+}
+
+// One corner with Z < 0, which is before the near plane, and the triangle is gone. Where depths are clamped there is no
+// such plane.
+void delete_behind_view_plane(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
+  if (assembly.depth_clamp) return pipeline::clip(assembly, out);
+  for (std::size_t i = 0; i < assembly.triangles.size(); ++i) {
+    bool deleted = false;
+    for (std::uint32_t corner = 0; corner < corner_count(assembly.topology); ++corner) {
+      const Vec4<float>& p_clip = assembly.vertices[assembly.triangles[i][static_cast<int>(corner)]].p_clip;
+      deleted |= p_clip.z < -p_clip.w;
+    }
+    if (deleted) continue;
+    pipeline::Assembly one = assembly;
+    one.triangles = assembly.triangles.subspan(i, 1);
+    one.first_primitive = assembly.first_primitive + static_cast<std::uint32_t>(i);
+    pipeline::clip(one, out);
+  }
+}
+
+constexpr bool is_small_side(std::int64_t step_x, std::int64_t step_y) {
+  return step_x > 0 || (step_x == 0 && step_y > 0);
+}
+struct NoEdgeIn {
+  static bool owns(std::int64_t, std::int64_t) { return false; }
+};
+struct LeftEdgesIn {
+  static bool owns(std::int64_t step_x, std::int64_t) { return step_x > 0; }
+};
+struct LeftAndRightEdgesIn {
+  static bool owns(std::int64_t step_x, std::int64_t) { return step_x != 0; }
+};
+// "Consistent sign" holds whichever sign is left: only the edges whose pixels are in change sides.
+struct LeftTakenForRight {
+  static bool owns(std::int64_t step_x, std::int64_t step_y) { return !is_small_side(step_x, step_y); }
+};
+
+// x_i is the first corner's x, in pixels whose centres are whole numbers.
+struct BoxOfOneVertex : pipeline::FragmentStages {
+  static pipeline::PixelBounds bounds(const WindowTriangle<float>& triangle) {
+    if (triangle.corners != 3) return pipeline::pixel_bounds(triangle);
+    const glm::ivec2 p = triangle.v[2].snapped;  // the fan's hub
+    const auto floor = [](int snapped) { return snapped >> 8; };
+    const auto ceiling = [](int snapped) { return (snapped + kSubpixel - 1) >> 8; };
+    return {floor(p.x), floor(p.y), ceiling(p.x) + 1, ceiling(p.y) + 1};
+  }
+  // Production walks whole blocks around its box, for no other pixel is covered.
+  template <class R>
+  static pipeline::Mask<R> coverage(const auto& s, const pipeline::Pixels<R>& p) {
+    const pipeline::PixelBounds& b = s.bounds;
+    return pipeline::coverage<R>(s.edges, p) & (p.x >= b.x0) & (p.x < b.x1) & (p.y >= b.y0) & (p.y < b.y1);
+  }
+};
+
+// y = y + k in float for each x, from where the line is exited first, and ROUND(y).
+struct IncrementalLine : pipeline::FragmentStages {
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) {
+    if (t.corners != 2) return pipeline::thin_pixels(t, origin, size);
+    const glm::ivec2 from = t.v[0].snapped, d = t.v[1].snapped - from;
+    const int x = std::abs(d.x) >= std::abs(d.y) ? 0 : 1, y = 1 - x;  // the major axis and the other
+    const float k = static_cast<float>(d[y]) / static_cast<float>(std::abs(d[x]));
+    const std::vector<glm::ivec2> line = pipeline::thin_pixels(t, {0, 0}, 16384);  // all of any frame
+    std::vector<glm::ivec2> out;
+    float at = 0;
+    for (glm::ivec2 p : line) {
+      const int steps = std::abs(p[x] * kSubpixel - from[x]);
+      at = p == line.front() ? (static_cast<float>(from[y]) + k * static_cast<float>(steps)) / kSubpixel : at + k;
+      p[y] = static_cast<int>(std::floor(at + 0.5f));
+      if (glm::all(glm::greaterThanEqual(p, origin)) && glm::all(glm::lessThan(p, origin + size))) out.push_back(p);
+    }
+    return out;
+  }
+};
+
+// (sum b z) / (sum b w), z and w before the division, b on the screen. Since z = A w + B, that is A + B / (sum b w):
+// the depth of the point whose distance is interpolated on the screen. So 002's z/w and the Z that 004 warns of are one
+// mistake.
+struct DepthOfLinearZ : pipeline::FragmentStages {
+  template <class R>
+  static R depth(const auto& setup, const pipeline::Barycentric<R>& b) {
+    const pipeline::DepthSetup& s = setup.depth;
+    const auto& inv_w = setup.attributes.inv_w;
+    const pipeline::Wide<R> b0 = b.l0 / pipeline::to_wide(inv_w[0]), b1 = b.l1 / pipeline::to_wide(inv_w[1]),
+                            b2 = b.l2 / pipeline::to_wide(inv_w[2]);
+    const pipeline::Wide<R> z = b0 * s.z0 + b1 * (s.z0 + s.dz1) + b2 * (s.z0 + s.dz2), w = b0 + b1 + b2;
+    return pipeline::depth<R>({z / w, 0, 0, s.scale}, b);
+  }
+};
+
+struct EightBitDepth : pipeline::FragmentStages {
+  template <class R>
+  static R depth(const auto& setup, const pipeline::Barycentric<R>& b) {
+    const pipeline::DepthSetup& s = setup.depth;
+    const pipeline::Wide<R> z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
+    return pipeline::depth<R>({pipeline::depth_code(z, 255.0) / 255.0, 0, 0, s.scale}, b);
+  }
+};
+
+constexpr std::array kNotes = {
+    Fault{"notes.000.v_is_w_cross_v", "World Space -> Camera Space: v = w x v, v being up before, for w x u",
+          Stage::matrices, with_geometry<&Geometry::matrices, v_is_w_cross_v>},
+    Fault{"notes.000.no_clamp_of_n_l", "Shading: where N.L is below 0, directional lights take light away",
+          Stage::light, with_geometry<&Geometry::light, no_clamp_of_n_l>},
+    Fault{"notes.000.flipped_normals", "Shading, GzRender's way: normals that face away from the eye are turned over",
+          Stage::light, with_geometry<&Geometry::light, flipped_normals>},
+    Fault{"notes.000.strict_edges", "Rasterization: alpha, beta, gamma > 0: no triangle has the pixels on its edges",
+          Stage::coverage, with_fragment<Ties<NoEdgeIn>>},
+    Fault{"notes.000.box", "Rasterization: the bounding box is that of one vertex", Stage::coverage,
+          with_fragment<BoxOfOneVertex>},
+    Fault{"notes.000.affine_color", "Rasterization: c = alpha c0 + beta c1 + gamma c2, without perspective",
+          Stage::attributes, with_fragment<AffineAttributes>},
+    Fault{"notes.002.lookat", "LookAt Method: the center is the origin, under a projection with its eye there",
+          Stage::matrices, with_geometry<&Geometry::matrices, lookat_without_its_projection>},
+    Fault{"notes.002.sum_z_over_sum_w", "Z-Buffer: depth is (sum b z) / (sum b w), b on the screen", Stage::depth,
+          with_fragment<DepthOfLinearZ>},
+    Fault{"notes.002.eight_bit_depth", "Z-Buffer: depth has 256 codes, whatever the format", Stage::depth,
+          with_fragment<EightBitDepth>},
+    Fault{"notes.002.affine_color", "Fragment Shader: varying_intensity * bar, without perspective", Stage::attributes,
+          with_fragment<AffineAttributes>},
+    Fault{"notes.004.eye_at_c", "3.3: the eye is at c, not d behind it", Stage::matrices,
+          with_geometry<&Geometry::matrices, eye_at_c>},
+    Fault{"notes.004.whole_centres", "2.1, 3.2 X_sp: pixel centres are whole numbers: half a pixel off",
+          Stage::matrices, with_geometry<&Geometry::matrices, whole_centres>},
+    Fault{"notes.004.delete_behind_view_plane", "3.2: triangles with a corner of Z < 0 are deleted, not cut",
+          Stage::clip, with_geometry<&Geometry::clip, delete_behind_view_plane>},
+    Fault{"notes.004.incremental_line", "2.2: lines by y = y + k in float, whose error builds up", Stage::coverage,
+          with_fragment<IncrementalLine>},
+    Fault{"notes.004.lee_sign", "2.5: E > 0 is taken for left, so that right edges' pixels are in for left ones'",
+          Stage::coverage, with_fragment<Ties<LeftTakenForRight>>},
+    Fault{"notes.004.left_edges", "2.5: pixels on left edges are in, on horizontal ones nobody's", Stage::coverage,
+          with_fragment<Ties<LeftEdgesIn>>},
+    Fault{"notes.004.left_right_edges", "2.5: pixels on left and right edges are in, on horizontal ones nobody's",
+          Stage::coverage, with_fragment<Ties<LeftAndRightEdgesIn>>},
+    Fault{"notes.004.all_edges_in", "2.5: pixels on all edges are in", Stage::coverage,
+          with_fragment<Ties<AllEdgesIn>>},
+    Fault{"notes.004.z_in_camera_space", "3.2: Z is interpolated in camera space, not in the perspective plane",
+          Stage::depth, with_fragment<DepthOfLinearZ>},
+};
+
+}  // namespace
+
+std::span<const Fault> of_notes() { return kNotes; }
+
+}  // namespace plumbline::faults

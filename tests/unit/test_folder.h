@@ -1,0 +1,31 @@
+// A folder of its own for each test, gone afterwards.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace plumbline {
+
+class TestFolder : public testing::Test {
+ protected:
+  TestFolder() {
+    std::string name = testing::TempDir() + "plumbline-XXXXXX";
+    root_ = mkdtemp(name.data());
+    std::filesystem::permissions(root_, std::filesystem::perms(0755));  // as folders usually are
+  }
+  ~TestFolder() override { std::filesystem::remove_all(root_); }
+
+  static std::string read(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  std::filesystem::path root_;
+};
+
+}  // namespace plumbline
