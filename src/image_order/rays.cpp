@@ -58,7 +58,7 @@ void View::set_gzrender(const ViewPlane& plane) {
 // x and y in [-1, 1] are seen on the plane c before the eye, where w is 1.
 void View::set_tinyrenderer(const Camera& camera, const Pinhole& pinhole) {
   eye_ = camera.center - pinhole.c * forward_;
-  near_ = 0;
+  near_ = 1e-12 * pinhole.c;  // before the eye by more than rounding: what runs through it is seen edge on
   far_ = std::numeric_limits<double>::infinity();
   depth_ = Depth::of_pinhole;
   c_ = pinhole.c;
