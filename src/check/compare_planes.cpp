@@ -249,8 +249,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     const std::int32_t id = a.id(x, y);
     const Place place{x, y, id, "color"};
     // The fragments of lines may lie beside each other: coverage's matter.
-    if (thin && told && a.id_sum(x, y) != b.id_sum(x, y)) return meter.ambiguous();
-    const bool open = !legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x);
+    const bool beside = thin && told && a.id_sum(x, y) != b.id_sum(x, y);
+    const bool open = beside || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
     int fragments = 0;
     double bound = 0;
     drawn.each(x, y, [&](const WindowTriangle<double>& triangle) {

@@ -473,6 +473,24 @@ TEST_F(BlendedPairs, WhereItIsOpenWhichFragmentsMadeItAnyNumberIsLegal) {
   EXPECT_EQ(most(2, 2), 2);
 }
 
+TEST_F(BlendedPairs, ALinesFragmentsMayLieBesideItAndItsColourGoAlongItsMajorAxis) {
+  const Change beside = [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r += code(40); };
+  EXPECT_TRUE(fails(run(blended(), beside)));
+  scene.meshes[0].topology = Topology::lines;
+  EXPECT_TRUE(passes(run(blended(), beside)));
+  EXPECT_EQ(run(blended(), beside).ambiguous, 1u);
+  EXPECT_TRUE(
+      fails(run(blended(), [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r = static_cast<float>(kNaN); })));
+  EXPECT_EQ(most(3, 1), 5);
+  WindowTriangle<double>& line = capture.records.triangles[0];
+  line.v[2] = line.v[1];
+  line.corners = 2;
+  const Vec4<double> along = glm::abs(bounds_from_origin(line, 3, 1).along_color);
+  const double largest = std::max({along.r, along.g, along.b, along.a});
+  ASSERT_GT(255 * largest, 1);
+  EXPECT_EQ(most(3, 1), 5 + static_cast<int>(255 * 3 * largest)) << "as colour, as factor of itself and of the frame";
+}
+
 TEST_F(BlendedPairs, AgainstBoundsHalfACodeBeyondThem) {
   Legal bounds;
   bounds.color_lo = bounds.color_hi = capture.planes.color;
