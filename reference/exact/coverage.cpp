@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reference/exact/input.h"
 #include "reference/exact/line_coverage.h"
 #include "reference/exact/window.h"
 #include "stages/renderer.h"
@@ -19,7 +20,7 @@ int clamped(Int128 value, int low, int high) { return static_cast<int>(std::clam
 
 bool tie_is_in(std::int64_t de_dx, std::int64_t de_dy) { return de_dx != 0 ? de_dx > 0 : de_dy > 0; }
 
-CoveredRows::CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, int height) : edges_{}, width_(width) {
+CoveredRows::CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, int height) : edges_{}, x_end_(width) {
   const int sign = facing(snapped);
   if (sign == 0) return;
   const auto [y_min, y_max] = std::minmax({snapped[0].y, snapped[1].y, snapped[2].y});
@@ -33,15 +34,25 @@ CoveredRows::CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, in
   }
 }
 
+CoveredRows::CoveredRows(const std::array<glm::ivec2, 3>& snapped, const FrameFormat& frame, const Draw& draw)
+    : CoveredRows(snapped, frame.width, frame.height) {
+  if (!draw.scissor) return;
+  const Scissor& box = *draw.scissor;
+  x_begin_ = std::min(box.x, frame.width);
+  x_end_ = std::min(box.x + box.width, frame.width);
+  y_begin_ = std::max(y_begin_, box.y);
+  y_end_ = std::max(y_begin_, std::min(y_end_, box.y + box.height));
+}
+
 Span CoveredRows::row(int y) const {
-  Span span{0, width_};
+  Span span{x_begin_, x_end_};
   for (const Edge& edge : edges_) {
     const Int128 e = edge.at_origin + Int128{edge.de_dy} * kSubpixel * y;  // at pixel (0, y)
     const Int128 step = Int128{edge.de_dx} * kSubpixel;                    // from pixel to pixel
     if (step > 0)
-      span.begin = std::max(span.begin, clamped(ceil_div(-e, step), 0, width_));
+      span.begin = std::max(span.begin, clamped(ceil_div(-e, step), x_begin_, x_end_));
     else if (step < 0)
-      span.end = std::min(span.end, clamped(floor_div(e, -step) + 1, 0, width_));
+      span.end = std::min(span.end, clamped(floor_div(e, -step) + 1, x_begin_, x_end_));
     else if (e < 0)
       return {0, 0};
   }
@@ -65,10 +76,10 @@ void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector
   }
 }
 
-void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, std::uint32_t triangle,
-                    std::vector<Covered>& out) {
+void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, const Draw& draw,
+                    std::uint32_t triangle, std::vector<Covered>& out) {
   if (primitive.corners == 3)
-    return append_covered(CoveredRows(snapped_corners(primitive), frame.width, frame.height), triangle, out);
+    return append_covered(CoveredRows(snapped_corners(primitive), frame, draw), triangle, out);
   std::vector<glm::ivec2> pixels;
   if (primitive.corners == 2) {
     pixels = line_pixels(primitive.v[0].snapped, primitive.v[1].snapped, frame.width, frame.height);
@@ -78,7 +89,8 @@ void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& 
     if (pixel.x >= 0 && pixel.y >= 0 && pixel.x < frame.width && pixel.y < frame.height) pixels = {pixel};
   }
   for (const glm::ivec2 p : pixels)
-    out.push_back({triangle, static_cast<std::uint16_t>(p.x), static_cast<std::uint16_t>(p.y)});
+    if (!draw.scissor || draw.scissor->holds(p.x, p.y))
+      out.push_back({triangle, static_cast<std::uint16_t>(p.x), static_cast<std::uint16_t>(p.y)});
 }
 
 namespace {
@@ -94,7 +106,10 @@ std::size_t most_pixels(const WindowTriangle<double>& line_or_point, int longest
 void cover_triangles(const Scene& scene, const std::vector<WindowTriangle<double>>& triangles, std::size_t budget,
                      Capture& out) {
   const int width = scene.frame.width, height = scene.frame.height;
-  const auto rows_of = [&](const WindowTriangle<double>& t) { return CoveredRows(snapped_corners(t), width, height); };
+  const DrawOf draw_of(scene);
+  const auto rows_of = [&](const WindowTriangle<double>& t) {
+    return CoveredRows(snapped_corners(t), scene.frame, draw_of(t.primitive));
+  };
   std::size_t fragments = 0;
   for (const WindowTriangle<double>& t : triangles)
     fragments += t.corners == 3 ? covered_count(rows_of(t)) : most_pixels(t, std::max(width, height));
@@ -106,7 +121,7 @@ void cover_triangles(const Scene& scene, const std::vector<WindowTriangle<double
   covered.reserve(fragments);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const std::size_t first = covered.size();
-    append_covered(triangles[i], scene.frame, i, covered);
+    append_covered(triangles[i], scene.frame, draw_of(triangles[i].primitive), i, covered);
     const std::uint64_t weight = id_weight(triangles[i].primitive);
     for (std::size_t f = first; f < covered.size(); ++f) add_fragment(out.planes, covered[f].x, covered[f].y, weight);
   }

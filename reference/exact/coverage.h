@@ -29,6 +29,8 @@ class CoveredRows {
  public:
   /// Any corners; no rows where the area is zero.
   CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, int height);
+  /// Within the frame and the draw's scissor box.
+  CoveredRows(const std::array<glm::ivec2, 3>& snapped, const FrameFormat& frame, const Draw& draw);
   int y_begin() const { return y_begin_; }
   int y_end() const { return y_end_; }
   Span row(int y) const;
@@ -39,7 +41,7 @@ class CoveredRows {
     Int128 at_origin;           // E at pixel (0, 0), less 1 where ties are out: in is >= 0
   };
   std::array<Edge, 3> edges_;
-  int width_;
+  int x_begin_ = 0, x_end_;
   int y_begin_ = 0, y_end_ = 0;
 };
 
@@ -49,10 +51,10 @@ std::size_t covered_count(const CoveredRows& rows);
 /// Appends one entry per pixel covered, by y, then x.
 void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector<Covered>& out);
 
-/// Likewise of a triangle, a line (line_coverage.h) or a point, as record number `triangle`. A point of size 1 is the
-/// pixel (floor x, floor y) of its snapped window position (OpenGL 2.1, section 3.3).
-void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, std::uint32_t triangle,
-                    std::vector<Covered>& out);
+/// Likewise of a triangle, a line (line_coverage.h) or a point, as record number `triangle`, in the draw's scissor box.
+/// A point of size 1 is the pixel (floor x, floor y) of its snapped window position (OpenGL 2.1, section 3.3).
+void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, const Draw& draw,
+                    std::uint32_t triangle, std::vector<Covered>& out);
 
 /// Stage 5, from the triangles' snapped corners alone: records.covered, planes.count and planes.id_sum into `out`.
 /// Throws OverBudget where they would take more than `budget` bytes.

@@ -53,23 +53,22 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
     case Stage::attributes: out.records.attributes = fragment_attributes(scene, records); break;
     case Stage::texture: return Renderer::run_stage(scene, stage, in);
     case Stage::shade: out.records.shaded = shade_fragments(records.attributes); break;
-    case Stage::visibility: out.planes.id = visible_primitives(scene, records); break;
-    case Stage::merge:
-      merge_fragments(scene, records, in.planes.id.empty() ? visible_primitives(scene, records) : in.planes.id,
-                      out.planes);
+    case Stage::visibility:
+      out.records.drawn = drawn_fragments(scene, records);
+      out.planes.id = visible_primitives(scene, records, out.records.drawn);
       break;
+    case Stage::merge: merge_fragments(scene, in, out); break;
   }
   return out;
 }
 
-/// Planes of nothing but the clear values; z is in the depth buffer.
+/// Planes of nothing but the clear values; depth and colour are in their buffers.
 Planes cleared_planes(const FrameFormat& frame) {
   Planes planes;
   planes.count = Plane<std::uint32_t>(frame.width, frame.height);
   planes.id_sum = Plane<std::uint64_t>(frame.width, frame.height);
   planes.id = Plane<std::int32_t>(frame.width, frame.height, kBackground);
   planes.shaded = Plane<glm::vec4>(frame.width, frame.height, frame.clear_color);
-  planes.color = Plane<glm::vec4>(frame.width, frame.height, kept_color(frame.color, glm::dvec4(frame.clear_color)));
   return planes;
 }
 
@@ -78,15 +77,17 @@ std::size_t selected_fragments(const Scene& scene, const Selection& selection,
                                const std::vector<WindowTriangle<double>>& triangles) {
   std::size_t count = 0;
   if (!selection.fragments()) return count;
+  const DrawOf draw_of(scene);
   for (const WindowTriangle<double>& triangle : triangles) {
     if (!selection.primitive(triangle.primitive)) continue;
+    const Draw& draw = draw_of(triangle.primitive);
     if (triangle.corners < 3) {
       std::vector<Covered> covered;
-      append_covered(triangle, scene.frame, 0, covered);
+      append_covered(triangle, scene.frame, draw, 0, covered);
       for (const Covered& c : covered) count += selection.pixel(c.x, c.y);
       continue;
     }
-    const CoveredRows rows(snapped_corners(triangle), scene.frame.width, scene.frame.height);
+    const CoveredRows rows(snapped_corners(triangle), scene.frame, draw);
     for (int y = rows.y_begin(); y < rows.y_end(); ++y)
       for (auto [x, end] = rows.row(y); x < end; ++x) count += selection.pixel(x, y);
   }
@@ -99,32 +100,34 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
   const FrameFormat& frame = scene.frame;
   const DrawOf draw_of(scene);
   DepthBuffer buffer(frame);
+  ColorBuffer colors(scene);
   out.planes = cleared_planes(frame);
   std::uint32_t kept = 0;  // the triangle's number among those that the capture hands out
   std::vector<Covered> covered;
   for (const WindowTriangle<double>& triangle : triangles) {
     const bool wanted = selection.primitive(triangle.primitive);
+    const Draw& draw = draw_of(triangle.primitive);
     covered.clear();
-    append_covered(triangle, frame, wanted ? kept++ : 0, covered);
+    append_covered(triangle, frame, draw, wanted ? kept++ : 0, covered);
     if (covered.empty()) continue;
 
-    const DepthFunc depth_func = draw_of(triangle.primitive).depth_func;
     const Barycentric weights(triangle, frame.width, frame.height);
     for (const Covered& c : covered) {
       add_fragment(out.planes, c.x, c.y, id_weight(triangle.primitive));
       const double depth = depth_at(triangle, weights, c.x, c.y);
-      const bool visible = buffer.test(c.x, c.y, depth_func, depth);
+      const bool visible = buffer.test(c.x, c.y, draw, depth);
       const bool recorded = wanted && selection.fragments() && selection.pixel(c.x, c.y);
       if (!visible && !recorded) continue;
       const glm::dvec4 color = color_at(triangle, weights, c.x, c.y);
-      if (recorded) selection.add(c, depth, color, out.records);
+      if (recorded) selection.add(c, depth, color, visible, out.records);
       if (!visible) continue;
       out.planes.id(c.x, c.y) = static_cast<std::int32_t>(triangle.primitive);
       out.planes.shaded(c.x, c.y) = glm::vec4(color);
-      out.planes.color(c.x, c.y) = kept_color(frame.color, color);
+      colors.write(c.x, c.y, draw.merge, color);
     }
   }
   out.planes.depth = buffer.take();
+  out.planes.color = colors.take();
 }
 
 Capture Exact::capture(const Scene& scene, const Request& request) {

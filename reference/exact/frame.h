@@ -2,7 +2,9 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
+#include "reference/math/frame_color.h"
 #include "scene/scene.h"
 #include "stages/capture.h"
 
@@ -12,8 +14,10 @@ namespace plumbline::exact {
 class DepthBuffer {
  public:
   explicit DepthBuffer(const FrameFormat& frame);
-  /// A fragment of window z `depth` arrives; where it passes, it is stored.
-  bool test(int x, int y, DepthFunc func, double depth);
+  /// A fragment of window z `depth` arrives; where it passes, it is stored, if the draw writes depth.
+  bool test(int x, int y, const Draw& draw, double depth);
+  /// One that is known to pass.
+  void store(int x, int y, const Draw& draw, double depth);
   Plane<double> take() { return std::move(plane_); }
 
  private:
@@ -21,17 +25,33 @@ class DepthBuffer {
   Plane<double> plane_;
 };
 
-/// What the frame keeps of a colour: clamped to [0,1] for rgba8 and rgba12 (but not rounded to codes), as it is for
-/// rgba32f.
-glm::vec4 kept_color(ColorFormat format, glm::dvec4 color);
+/// The colour plane, cleared. Clamped to [0,1] for rgba8 and rgba12, but what is written last not rounded to codes; as
+/// it is for rgba32f.
+class ColorBuffer {
+ public:
+  explicit ColorBuffer(const Scene& scene);
+  void write(int x, int y, const Merge& state, const glm::dvec4& color);
+  /// The middle, where rounding on the way may go either way.
+  Plane<glm::vec4> take();
+  /// Its bounds there, as Legal has them; empty where no colour is blended or masked.
+  void take_bounds(Legal& out) const;
 
-/// Stage 10: planes.id, from records.triangles, covered and depth.
-/// Throws std::invalid_argument where the records do not fit the scene or each other.
-Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>& records);
+ private:
+  ColorFormat format_;
+  Plane<glm::vec4> replaced_;          // where each colour replaces the one before it,
+  Plane<math::FrameColor> blended_{};  // or else
+};
 
-/// Stage 11: planes.color and planes.depth into `out`, from records.triangles, covered, depth and shaded, and the
-/// winning primitives `id`.
+/// Stage 10, from records.triangles, covered and depth: which fragments pass all tests; and planes.id, the last of
+/// them. Both throw std::invalid_argument where the records do not fit the scene or each other.
+std::vector<Drawn> drawn_fragments(const Scene& scene, const Records<double>& records);
+Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>& records,
+                                       const std::vector<Drawn>& drawn);
+
+/// Stage 11: planes.color and planes.depth, and the legal colours where they are not one, into `out`; from in.records'
+/// triangles, covered, depth, shaded and drawn. Where the last is not there, the fragments drawn are those of the
+/// winning primitives, in.planes.id, or of depth's own fold.
 /// Throws std::invalid_argument where the records do not fit the scene or each other.
-void merge_fragments(const Scene& scene, const Records<double>& records, const Plane<std::int32_t>& id, Planes& out);
+void merge_fragments(const Scene& scene, const Capture& in, Capture& out);
 
 }  // namespace plumbline::exact

@@ -21,15 +21,17 @@ std::size_t Selection::bytes_per_fragment() const {
   const StageSet& stages = request_.records;
   return (stages.has(Stage::coverage) ? sizeof(Covered) : 0) + (stages.has(Stage::depth) ? sizeof(double) : 0) +
          (stages.has(Stage::attributes) ? sizeof(Attributes<double>) : 0) +
-         (stages.has(Stage::shade) ? sizeof(Shaded<double>) : 0);
+         (stages.has(Stage::shade) ? sizeof(Shaded<double>) : 0) + (stages.has(Stage::visibility) ? sizeof(Drawn) : 0);
 }
 
-void Selection::add(const Covered& covered, double depth, const glm::dvec4& color, Records<double>& out) const {
+void Selection::add(const Covered& covered, double depth, const glm::dvec4& color, bool drawn,
+                    Records<double>& out) const {
   const StageSet& stages = request_.records;
   if (stages.has(Stage::coverage)) out.covered.push_back(covered);
   if (stages.has(Stage::depth)) out.depth.push_back(depth);
   if (stages.has(Stage::attributes)) out.attributes.push_back({color});
   if (stages.has(Stage::shade)) out.shaded.push_back({color});
+  if (stages.has(Stage::visibility)) out.drawn.push_back({drawn});
 }
 
 void Selection::reserve(std::size_t fragments, Records<double>& out) const {
@@ -38,6 +40,7 @@ void Selection::reserve(std::size_t fragments, Records<double>& out) const {
   if (stages.has(Stage::depth)) out.depth.reserve(fragments);
   if (stages.has(Stage::attributes)) out.attributes.reserve(fragments);
   if (stages.has(Stage::shade)) out.shaded.reserve(fragments);
+  if (stages.has(Stage::visibility)) out.drawn.reserve(fragments);
 }
 
 void Selection::prune(Records<double>& records) const {

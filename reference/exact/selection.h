@@ -14,13 +14,13 @@ class Selection {
   Selection(const Scene& scene, const Request& request);
 
   bool primitive(std::uint32_t number) const;
-  /// Whether any fragment's records (stages 5 to 9) are asked for, and of the pixel's.
+  /// Whether any fragment's records (stages 5 to 10) are asked for, and of the pixel's.
   bool fragments() const { return bytes_per_fragment() > 0; }
   bool pixel(int x, int y) const { return pixels_.empty() || pixels_(x, y) != 0; }
   std::size_t bytes_per_fragment() const;
 
   /// Appends a fragment to those of the records that are asked for.
-  void add(const Covered& covered, double depth, const glm::dvec4& color, Records<double>& out) const;
+  void add(const Covered& covered, double depth, const glm::dvec4& color, bool drawn, Records<double>& out) const;
   void reserve(std::size_t fragments, Records<double>& out) const;
 
   /// Takes what is not asked for out of the records of stages 0 to 4.

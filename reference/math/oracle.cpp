@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "reference/math/ambiguity.h"
 #include "reference/math/depth_format.h"
+#include "reference/math/frame_color.h"
 #include "reference/math/pixel_hit.h"
 
 namespace plumbline::math {
@@ -59,8 +61,15 @@ std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHi
   return most;
 }
 
+const Draw& draw_of(const Scene& scene, const Projected& projected, const Hit& hit) {
+  return scene.draws[projected.triangles[hit.primitive].draw];
+}
+
 /// Double's own picture of a pixel.
-void draw_inside(const FrameFormat& frame, std::span<const PixelHit> hits, int x, int y, Planes& planes) {
+void draw_inside(const Scene& scene, const Projected& projected, std::span<const PixelHit> hits, int x, int y,
+                 Planes& planes) {
+  const FrameFormat& frame = scene.frame;
+  FrameColor color(frame);
   for (const PixelHit& h : hits) {
     if (!h.inside) continue;
     ++planes.count(x, y);
@@ -68,10 +77,32 @@ void draw_inside(const FrameFormat& frame, std::span<const PixelHit> hits, int x
     const double z = in_format(frame.depth, std::clamp(h.z, 0.0, 1.0));
     if (!passes(h.hit.depth_func, z, planes.depth(x, y))) continue;
     planes.id(x, y) = static_cast<std::int32_t>(h.hit.primitive);
-    planes.depth(x, y) = z;
+    if (h.hit.depth_mask) planes.depth(x, y) = z;
     planes.shaded(x, y) = glm::vec4(h.hit.color);
-    planes.color(x, y) = to_format(frame.color, planes.shaded(x, y));
+    color.write(draw_of(scene, projected, h.hit).merge, around(h.hit.color, 0));
   }
+  planes.color(x, y) = to_format(frame.color, glm::vec4(middle(color.written())));
+}
+
+/// The frame's colour at a pixel, where it is certain which fragments make it; else anything.
+void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, int x, int y,
+                 Legal& legal) {
+  FrameColor color(scene.frame);
+  std::vector<LegalAnswer> before, after;
+  fold_hits({}, scene.frame, before);
+  bool certain = true;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    fold_hits(hits.first(i + 1), scene.frame, after);
+    const bool drawn = after.size() == 1 && after[0].primitive == static_cast<std::int32_t>(hits[i].primitive);
+    const bool hidden = after.size() == 1 && after[0].primitive == before[0].primitive;
+    certain = certain && hits[i].certain && drawn != hidden && (!drawn || std::isfinite(hits[i].color_bound));
+    if (!certain) break;
+    if (drawn) color.write(draw_of(scene, projected, hits[i]).merge, around(hits[i].color, hits[i].color_bound));
+    std::swap(before, after);
+  }
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  legal.color_lo(x, y) = certain ? low(color.written()) : glm::vec4(-kInfinity);
+  legal.color_hi(x, y) = certain ? high(color.written()) : glm::vec4(kInfinity);
 }
 
 }  // namespace
@@ -82,6 +113,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
   Legal& legal = out.legal;
   legal.certain = {frame.width, frame.height, 0};
   legal.possible = {frame.width, frame.height, 0};
+  if (!colors_replace(scene)) legal.color_lo = legal.color_hi = {frame.width, frame.height};
   legal.first.reserve(legal.certain.size() + 1);
   legal.answers.reserve(legal.certain.size());
   legal.first.push_back(0);
@@ -110,7 +142,8 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       fold_hits(to_fold, frame, answers);
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
-      draw_inside(frame, hits, x, y, out.planes);
+      draw_inside(scene, projected, hits, x, y, out.planes);
+      if (!legal.color_lo.empty()) fold_colors(scene, projected, to_fold, x, y, legal);
       const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
       by_depth += share.area;
       centres += share.centre ? 1 : 0;

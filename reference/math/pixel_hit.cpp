@@ -172,6 +172,8 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
                                   int py) {
   const Triangle& t = projected.triangles[primitive];
   if (!t.drawn) return std::nullopt;
+  const std::optional<Scissor>& scissor = scene.draws[t.draw].scissor;
+  if (scissor && !scissor->holds(px, py)) return std::nullopt;
   const glm::dvec3 d = projected.ray(px, py);
   const Place at = place(projected, t, d);
   if (!at.inside && !(at.border <= t.reach)) return std::nullopt;
@@ -182,6 +184,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   if (!at.inside && at.border > out.delta) return std::nullopt;
   out.hit.primitive = primitive;
   out.hit.depth_func = scene.draws[t.draw].depth_func;
+  out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
   out.whole = t.facing_kept && !t.flat && !t.cut;
   set_depth(t, scene.depth_clamp, d, at, moved, out);

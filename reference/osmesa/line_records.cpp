@@ -13,7 +13,6 @@ void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& r
   target.bind();
   scene.clear(glm::vec4(0));
   gl.ShadeModel(GL_FLAT);
-  gl.Disable(GL_DITHER);
   gl.Disable(GL_LIGHTING);  // the records before may have left it on
   std::size_t draw = 0;
   for (std::uint32_t i = 0; i < records.triangles.size(); ++i) {
@@ -21,6 +20,8 @@ void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& r
     if (line.corners != 2) continue;
     while (line.primitive >= scene.ranges()[draw].first_primitive + scene.ranges()[draw].primitive_count) ++draw;
     scene.set_matrices(draw);
+    scene.set_fragments(draw);
+    gl.Disable(GL_DEPTH_TEST);
     target.bind();
     scene.draw_id(draw, line.primitive);
     // Its number is on no other line, so that what earlier ones left need not be cleared.

@@ -30,8 +30,12 @@ class CountedFragments {
   GLuint query_ = 0;
 };
 
-/// The scene as it is meant to look.
-void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target) {
+enum class Colors {
+  of_winners,  ///< each fragment that is drawn replaces what is there
+  merged       ///< as the scene is meant to look
+};
+
+void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colors colors) {
   const SavedState state(gl);
   const CountedFragments counted(gl);
   target.bind();
@@ -41,6 +45,7 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target) {
     scene.set_matrices(i);
     scene.set_surface(i);
     scene.set_fragments(i);
+    if (colors == Colors::merged) scene.set_merge(i);
     scene.draw_primitives(i);
   }
   check(gl, "drawing the scene");
@@ -115,16 +120,17 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   const Target floats(gl, frame, ColorFormat::rgba32f);
   const Target bytes(gl, frame, ColorFormat::rgba8);
   Planes planes;
-  draw_scene(gl, scene, floats);
+  draw_scene(gl, scene, floats, Colors::of_winners);
   planes.shaded = floats.read_color();
-  if (frame.color == ColorFormat::rgba8) {
-    draw_scene(gl, scene, bytes);
-    planes.color = bytes.read_color();
-    planes.depth = bytes.read_depth();
-  } else {  // asked for 12 bits a channel, OpenGL gives 16: the colour is left unrounded
+  // Asked for 12 bits a channel, OpenGL gives 16: the colour is left unrounded.
+  const Target& target = frame.color == ColorFormat::rgba8 ? bytes : floats;
+  if (frame.color == ColorFormat::rgba8 || !colors_replace(scene.scene())) {
+    draw_scene(gl, scene, target, Colors::merged);
+    planes.color = target.read_color();
+  } else {
     planes.color = planes.shaded;
-    planes.depth = floats.read_depth();
   }
+  planes.depth = target.read_depth();
   planes.id = draw_ids(gl, scene, bytes);
   add_up_coverage(draw_weights(gl, scene, floats), planes);
   return planes;

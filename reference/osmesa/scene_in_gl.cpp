@@ -85,6 +85,38 @@ GLenum gl_depth_func(DepthFunc func) {
   return GL_LESS;
 }
 
+GLenum gl_factor(BlendFactor factor) {
+  switch (factor) {
+    case BlendFactor::zero: return GL_ZERO;
+    case BlendFactor::one: return GL_ONE;
+    case BlendFactor::source_color: return GL_SRC_COLOR;
+    case BlendFactor::one_minus_source_color: return GL_ONE_MINUS_SRC_COLOR;
+    case BlendFactor::destination_color: return GL_DST_COLOR;
+    case BlendFactor::one_minus_destination_color: return GL_ONE_MINUS_DST_COLOR;
+    case BlendFactor::source_alpha: return GL_SRC_ALPHA;
+    case BlendFactor::one_minus_source_alpha: return GL_ONE_MINUS_SRC_ALPHA;
+    case BlendFactor::destination_alpha: return GL_DST_ALPHA;
+    case BlendFactor::one_minus_destination_alpha: return GL_ONE_MINUS_DST_ALPHA;
+    case BlendFactor::constant_color: return GL_CONSTANT_COLOR;
+    case BlendFactor::one_minus_constant_color: return GL_ONE_MINUS_CONSTANT_COLOR;
+    case BlendFactor::constant_alpha: return GL_CONSTANT_ALPHA;
+    case BlendFactor::one_minus_constant_alpha: return GL_ONE_MINUS_CONSTANT_ALPHA;
+    case BlendFactor::source_alpha_saturate: return GL_SRC_ALPHA_SATURATE;
+  }
+  return GL_ONE;
+}
+
+GLenum gl_equation(BlendEquation equation) {
+  switch (equation) {
+    case BlendEquation::add: return GL_FUNC_ADD;
+    case BlendEquation::subtract: return GL_FUNC_SUBTRACT;
+    case BlendEquation::reverse_subtract: return GL_FUNC_REVERSE_SUBTRACT;
+    case BlendEquation::min: return GL_MIN;
+    case BlendEquation::max: return GL_MAX;
+  }
+  return GL_FUNC_ADD;
+}
+
 }  // namespace
 
 GLenum gl_mode(Topology topology) {
@@ -179,12 +211,33 @@ void SceneInGl::set_fragments(std::size_t draw) const {
   gl_.Disable(GL_DITHER);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(gl_depth_func(d.depth_func));
+  if (d.scissor) {
+    gl_.Enable(GL_SCISSOR_TEST);
+    gl_.Scissor(d.scissor->x, d.scissor->y, d.scissor->width, d.scissor->height);
+  } else {
+    gl_.Disable(GL_SCISSOR_TEST);
+  }
+  gl_.DepthMask(d.merge.depth_mask ? GL_TRUE : GL_FALSE);
   if (d.cull == Cull::none) {
     gl_.Disable(GL_CULL_FACE);
   } else {
     gl_.Enable(GL_CULL_FACE);
     gl_.CullFace(d.cull == Cull::back ? GL_BACK : GL_FRONT);
   }
+}
+
+void SceneInGl::set_merge(std::size_t draw) const {
+  const Merge& merge = scene_.draws[draw].merge;
+  const auto gl_bool = [](bool on) -> GLboolean { return on ? GL_TRUE : GL_FALSE; };
+  const glm::bvec4& mask = merge.color_mask;
+  gl_.ColorMask(gl_bool(mask.r), gl_bool(mask.g), gl_bool(mask.b), gl_bool(mask.a));
+  if (!merge.blend) return gl_.Disable(GL_BLEND);
+  const Blend& blend = *merge.blend;
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFuncSeparate(gl_factor(blend.rgb.source), gl_factor(blend.rgb.destination), gl_factor(blend.alpha.source),
+                        gl_factor(blend.alpha.destination));
+  gl_.BlendEquationSeparate(gl_equation(blend.rgb.equation), gl_equation(blend.alpha.equation));
+  gl_.BlendColor(blend.color.r, blend.color.g, blend.color.b, blend.color.a);
 }
 
 // `first` is null where a buffer is bound.

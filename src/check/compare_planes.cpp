@@ -20,6 +20,11 @@ const LegalAnswer* find(std::span<const LegalAnswer> answers, std::int32_t primi
   return it == answers.end() ? nullptr : &*it;
 }
 
+double outside(double value, double low, double high) {
+  if (value >= low && value <= high) return 0;
+  return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
+}
+
 void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Vec4<double>& tolerance, double unit,
                const Place& place) {
   for (int c = 0; c < 4; ++c) {
@@ -38,6 +43,49 @@ bool has_winners(const Planes& a, const Planes& b, const Plane<T>& plane, std::s
 void open_value(Meter& meter, double value, const Place& place, double reference) {
   meter.ambiguous();
   meter.value(std::isfinite(value) && std::isfinite(reference) ? 0 : kInfinite, 0, place, value, reference);
+}
+
+// The candidate's fragments that are drawn, by pixel.
+class DrawnAt {
+ public:
+  DrawnAt(const FrameFormat& frame, const Records<double>& r) : width_(frame.width), records_(r) {
+    if (r.drawn.size() != r.covered.size()) return;
+    for (std::size_t i = 0; i < r.covered.size(); ++i) {
+      if (r.drawn[i].drawn && r.covered[i].triangle < r.triangles.size()) fragments_.push_back(i);
+    }
+    std::ranges::stable_sort(fragments_, {}, [&](std::size_t i) { return pixel(i); });
+  }
+  /// Calls visit(window triangle) for each of them at (x, y), in draw order.
+  template <class Visit>
+  void each(int x, int y, Visit visit) const {
+    const std::int64_t at = std::int64_t{y} * width_ + x;
+    for (auto i = std::ranges::lower_bound(fragments_, at, {}, [&](std::size_t f) { return pixel(f); });
+         i != fragments_.end() && pixel(*i) == at; ++i) {
+      visit(records_.triangles[records_.covered[*i].triangle]);
+    }
+  }
+
+ private:
+  std::int64_t pixel(std::size_t i) const {
+    return std::int64_t{records_.covered[i].y} * width_ + records_.covered[i].x;
+  }
+  int width_;
+  const Records<double>& records_;
+  std::vector<std::size_t> fragments_;
+};
+
+bool reads_frame(const BlendTerm& term) {
+  const auto reads = [](BlendFactor f) {
+    return f == BlendFactor::destination_color || f == BlendFactor::one_minus_destination_color ||
+           f == BlendFactor::destination_alpha || f == BlendFactor::one_minus_destination_alpha ||
+           f == BlendFactor::source_alpha_saturate;
+  };
+  return reads(term.source) || reads(term.destination);
+}
+bool factors_read_frame(const Scene& scene) {
+  return std::ranges::any_of(scene.draws, [](const Draw& d) {
+    return d.merge.blend && (reads_frame(d.merge.blend->rgb) || reads_frame(d.merge.blend->alpha));
+  });
 }
 
 // What the two sides' colours of a primitive's vertices differ by, per channel. Where the reference shows none, what
@@ -110,6 +158,8 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
   const Planes &a = candidate.planes, &b = reference.planes;
   std::string why;
   if (!has_winners(a, b, a.depth, why)) return mismatch("u", why, a.id.size());
+  const Records<double> none;
+  const DrawnAt drawn(scene.frame, depths_replace(scene) ? none : candidate.records);  // else any may have left it
   return compare_planes(a.depth, b.depth, "u", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     const double z = a.depth(x, y), z_ref = b.depth(x, y);
@@ -119,11 +169,16 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
       meter.value(difference(z, z_ref) / u, 0, place, z, z_ref);
       return;
     }
-    const PlaneBounds bound = primitive_bounds(candidate.records, id, x, y);
-    if (!std::isfinite(bound.depth)) return open_value(meter, z, place, z_ref);
+    const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
+    double bound = bounds.depth, diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));
+    drawn.each(x, y, [&](const WindowTriangle<double>& triangle) {
+      const PlaneBounds of_other = bounds_from_origin(triangle, x, y);
+      bound = std::max(bound, of_other.depth);
+      diff = std::min(diff, difference(z + of_other.along_depth, z_ref));
+    });
+    if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
     const double step = depth_step(scene.frame.depth, z_ref);
-    const double diff = std::min(difference(z, z_ref), difference(z + bound.along_depth, z_ref));
-    meter.value(diff / u, factor * bound.depth, place, z, z_ref, step / u);
+    meter.value(diff / u, factor * bound, place, z, z_ref, step / u);
   });
 }
 
@@ -179,7 +234,54 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
   });
 }
 
-Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor) {
+Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
+                            double codes, double factor) {
+  const Planes &a = candidate.planes, &b = reference.planes;
+  const double scale = color_scale(scene.frame.color);
+  const std::string unit = scale > 0 ? "1/255" : "u";
+  std::string why;
+  if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
+  const LitApart lit(scene, candidate.records, reference.records);
+  const DrawnAt drawn(scene.frame, candidate.records);
+  const bool reads = factors_read_frame(scene), thin = draws(scene, Topology::lines) || draws(scene, Topology::points),
+             told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why);
+  return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
+    const std::int32_t id = a.id(x, y);
+    const Place place{x, y, id, "color"};
+    // The fragments of lines may lie beside each other: coverage's matter.
+    const bool beside = thin && told && a.id_sum(x, y) != b.id_sum(x, y);
+    const bool open = beside || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
+    int fragments = 0;
+    double bound = 0;
+    drawn.each(x, y, [&](const WindowTriangle<double>& triangle) {
+      const PlaneBounds plane = bounds_from_origin(triangle, x, y);
+      const Vec4<double> apart = lit.of(static_cast<std::int32_t>(triangle.primitive));
+      ++fragments;
+      double largest = 0;
+      for (int c = 0; c < 4; ++c)
+        largest = std::max(largest, factor * u * plane.color[c] + std::abs(plane.along_color[c]) + apart[c]);
+      bound += largest;
+    });
+    // A fragment's error comes in as its colour, as the factor that it makes of itself, and of what is there. That is 1
+    // at most, or in float one more for each fragment.
+    const double layers = reads ? std::exp2(fragments) - 1 : fragments, held = scale > 0 ? 1 : std::max(1, fragments);
+    bound *= (2 + held) * (reads ? std::exp2(fragments - 1) : 1);
+    for (int c = 0; c < 4; ++c) {
+      const double v = a.color(x, y)[c], w = b.color(x, y)[c];
+      if (open || !std::isfinite(bound)) {
+        if (c == 0) open_value(meter, v, place, w);
+      } else if (scale > 0) {
+        const double code = std::round(scale * v), code_ref = std::round(scale * w);
+        meter.value(difference(code, code_ref), codes * layers, place, code, code_ref, std::floor(scale * bound));
+      } else {
+        meter.value(difference(v, w) / u, bound / u + 4 * layers * held, place, v, w);
+      }
+    }
+  });
+}
+
+Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
+                          const Legal& bounds) {
   std::string why;
   if (!same_size(candidate.depth, exact.depth, why) || !same_size(candidate.depth, candidate.color, why)) {
     return mismatch("half code", why, candidate.depth.size());
@@ -189,8 +291,12 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
   const double unit = codes ? 0.5 / scale + 4 * u : u;
   return compare_planes(candidate.color, exact.color, codes ? "half code" : "u", [&](Meter& meter, int x, int y) {
     const std::int64_t id = candidate.id.size() == candidate.color.size() ? candidate.id(x, y) : -1;
-    add_color(meter, candidate.color(x, y), Vec4<double>(exact.color(x, y)), Vec4<double>(codes ? factor : 0), unit,
-              {x, y, id, "color"});
+    const glm::vec4 &low = bounds.color_lo.empty() ? exact.color(x, y) : bounds.color_lo(x, y),
+                    &high = bounds.color_hi.empty() ? exact.color(x, y) : bounds.color_hi(x, y);
+    for (int c = 0; c < 4; ++c) {
+      const double v = candidate.color(x, y)[c];
+      meter.value(outside(v, low[c], high[c]) / unit, codes ? factor : 0, {x, y, id, "color"}, v, low[c]);
+    }
     for (int c = 0; codes && c < 4; ++c) {
       const double v = scale * static_cast<double>(candidate.color(x, y)[c]),
                    code = std::clamp(std::round(v), 0.0, scale);
@@ -220,11 +326,6 @@ Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
 }
 
 namespace {
-
-double outside(double value, double low, double high) {
-  if (value >= low && value <= high) return 0;
-  return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
-}
 
 // `half_code`: what rounding to the frame's format adds to the oracle's bound.
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Plane<std::int32_t>& id, const Legal& legal,
@@ -276,6 +377,16 @@ Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, do
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
   const double scale = color_scale(scene.frame.color);
   const bool codes = scale > 0;
+  if (!legal.color_lo.empty()) {
+    const double rounding = codes ? 0.5 / scale + 4 * u : u;
+    return compare_planes(candidate.color, legal.color_lo, "bound", [&](Meter& meter, int x, int y) {
+      const glm::vec4 &color = candidate.color(x, y), &low = legal.color_lo(x, y), &high = legal.color_hi(x, y);
+      if (!std::isfinite(low.x)) return open_value(meter, color.x, {x, y, -1, "color"}, 0);
+      for (int c = 0; c < 4; ++c) {
+        meter.value(outside(color[c], low[c], high[c]) / rounding, factor, {x, y, -1, "color"}, color[c], low[c]);
+      }
+    });
+  }
   return compare_legal_color(candidate.color, candidate.id, legal, codes ? 0.5 / scale + 4 * u : 0, codes, factor);
 }
 

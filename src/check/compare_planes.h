@@ -26,9 +26,17 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
 Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
                           double factor);
 
+/// Where colours are blended or masked, against a reference that does it in its own arithmetic (llvmpipe: in 8 bits):
+/// at most `codes` per fragment drawn at the pixel (twice the former's more per fragment, where a factor reads the
+/// frame), and what `factor` u of all their colours' bounds comes to; for rgba32f that alone, in u. Where it is open
+/// which fragments made the colour, any number is legal.
+Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
+                            double codes, double factor);
+
 /// The candidate's planes against the colours that exact made of its own fragments: rgba8 and rgba12, in half codes,
-/// against unrounded colours; rgba32f and depth: equal.
-Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor);
+/// against unrounded colours; rgba32f and depth: equal. `bounds`: of colours that rounding on the way may have moved.
+Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
+                          const Legal& bounds = {});
 
 /// Against legal answers. Pixels with more than one are counted as ambiguous. Depth and colour are held to the answer
 /// of the pixel's own winner, `factor` times its bound; where that is not legal, it is visibility's matter alone.

@@ -328,4 +328,14 @@ Measurement compare_shaded(const Records<double>& candidate, const Records<doubl
                        });
 }
 
+Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference) {
+  if (candidate.drawn.empty()) return Meter("pixels").done();
+  return each_fragment("fragments drawn", "pixels", candidate, candidate.drawn.size(), reference.drawn.size(),
+                       [&](Meter& meter, std::size_t i) {
+                         const Covered& c = candidate.covered[i];
+                         const bool a = candidate.drawn[i].drawn, b = reference.drawn[i].drawn;
+                         meter.value(a == b ? 0 : 1, 0, {c.x, c.y, c.triangle, "drawn"}, a, b);
+                       });
+}
+
 }  // namespace plumbline::check

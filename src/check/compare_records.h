@@ -46,5 +46,7 @@ Measurement compare_depth(const Scene& scene, const Records<double>& candidate, 
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor);
 /// Bit for bit (as floats).
 Measurement compare_shaded(const Records<double>& candidate, const Records<double>& reference);
+/// The same fragments are drawn; nothing to compare where the candidate does not say which.
+Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference);
 
 }  // namespace plumbline::check

@@ -86,10 +86,13 @@ void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
       return c.add(name, stage, compare_attributes(mine, theirs, factor("exact.attributes")), "exact.attributes");
     case Stage::texture: break;
     case Stage::shade: return c.add(name, stage, compare_shaded(mine, theirs));
-    case Stage::visibility: return c.add(name, stage, compare_winners(c.candidate.planes, made.planes, Legal{}));
+    case Stage::visibility:
+      return c.add(name, stage,
+                   worse(compare_winners(c.candidate.planes, made.planes, Legal{}), compare_drawn(mine, theirs)));
     case Stage::merge: {
       const bool codes = c.scene.frame.color != ColorFormat::rgba32f;
-      return c.add(name, stage, compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.codes")),
+      return c.add(name, stage,
+                   compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.codes"), made.legal),
                    codes ? "exact.merge.codes" : "");
     }
   }
@@ -199,9 +202,20 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       return c.add(name, stage,
                    draws_thin(c.scene) ? compare_thin_winners(c.scene, c.candidate, theirs, factor("osmesa.depth"))
                                        : compare_winners(c.candidate.planes, theirs.planes, c.legal));
-    case Stage::merge:
+    case Stage::merge: {
+      const bool replaced = colors_replace(c.scene);
+      if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {
+        return c.skip(name, stage, Outcome::unsupported, "which fragments are blended is not told");
+      }
+      if (!replaced && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
       switch (c.scene.frame.color) {
         case ColorFormat::rgba8:
+          if (!replaced) {
+            return c.add(name, stage,
+                         compare_blended(c.scene, c.candidate, theirs, c.legal, factor("osmesa.merge.blend"),
+                                         factor("osmesa.attributes")),
+                         "osmesa.merge.blend");
+          }
           return c.add(
               name, stage,
               compare_codes(c.scene, c.candidate, theirs, factor("osmesa.merge.rgba8"), factor("osmesa.attributes")),
@@ -210,8 +224,14 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
           return c.skip(name, stage, Outcome::unsupported,
                         "asked for 12 bits a channel, OpenGL gives 16; attributes are compared");
         case ColorFormat::rgba32f:
+          if (!replaced) {
+            return c.add(name, stage,
+                         compare_blended(c.scene, c.candidate, theirs, c.legal, 0, factor("osmesa.merge.blend.float")),
+                         "osmesa.merge.blend.float");
+          }
           return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
       }
+    }
   }
 }
 

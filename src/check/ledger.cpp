@@ -75,6 +75,16 @@ constexpr std::array kLedger = {
     Tolerance{"osmesa.merge.rgba8", 1, "1/255",
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},
+    Tolerance{
+        "osmesa.merge.blend", 2.5, "1/255",
+        "llvmpipe blends rgba8 in 8 bits. Per fragment: half a code for its colour, half a code for its alpha (or "
+        "the constant) as a factor, a code for two rounded products or one truncated interpolation; half a code "
+        "for our own rounding. What is there counts once, or twice where a factor reads the frame too."},
+    Tolerance{
+        "osmesa.merge.blend.float", 8, "u",
+        "osmesa.attributes for each fragment's colour, which comes in as source, as factor of itself and as factor "
+        "of what is there; 4 u for the blending's own roundings.",
+        "The errors of colours do not all go one way, nor are they all of the largest channel."},
     Tolerance{"exact.merge.codes", 1, "half code",
               "A code, of 8 bits or 12, is at most half a code from the value that was rounded, and the product by 255 "
               "or 4095 in float is 2 u off."},

@@ -76,17 +76,19 @@ class Caster {
   explicit Caster(const Scene& scene)
       : scene_(scene), world_(world_of(scene)), hierarchy_(world_.triangles), view_(scene) {
     nearest_alone_ = std::all_of(scene.draws.begin(), scene.draws.end(), [](const Draw& draw) {
-      return draw.depth_func == DepthFunc::less || draw.depth_func == DepthFunc::less_equal;
+      const bool by_distance = draw.depth_func == DepthFunc::less || draw.depth_func == DepthFunc::less_equal;
+      return by_distance && draw.merge.depth_mask;
     });
   }
 
   Answer at(int x, int y) {
-    find_hits(view_.ray(x, y));
+    find_hits(view_.ray(x, y), x, y);
     std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.primitive < b.primitive; });
     Answer out{kBackground, in_format(scene_.frame.depth, scene_.frame.clear_depth)};
     for (const Hit& hit : hits_) {
-      if (!passes(draw_of(hit.primitive).depth_func, hit.depth, out.depth)) continue;
-      out = {static_cast<std::int32_t>(hit.primitive), hit.depth};
+      const Draw& draw = draw_of(hit.primitive);
+      if (!passes(draw.depth_func, hit.depth, out.depth)) continue;
+      out = {static_cast<std::int32_t>(hit.primitive), draw.merge.depth_mask ? hit.depth : out.depth};
     }
     return out;
   }
@@ -100,7 +102,7 @@ class Caster {
   const Draw& draw_of(std::uint32_t primitive) const { return scene_.draws[world_.draw[primitive]]; }
   double depth_of(double along) const { return in_format(scene_.frame.depth, view_.window_z(along)); }
 
-  void find_hits(const Ray& ray) {
+  void find_hits(const Ray& ray, int x, int y) {
     hits_.clear();
     double nearest = 2;  // window z
     // By the depth as it is compared, which never falls where the distance grows.
@@ -110,7 +112,9 @@ class Caster {
     hierarchy_.walk(ray, view_.near(), too_far, [&](std::uint32_t primitive) {
       const std::optional<Crossing> at = crossing(ray, world_.triangles[primitive]);
       if (!at || at->along < view_.near() || at->along > view_.far()) return;
-      const Cull cull = draw_of(primitive).cull;
+      const Draw& draw = draw_of(primitive);
+      if (draw.scissor && !draw.scissor->holds(x, y)) return;
+      const Cull cull = draw.cull;
       if (cull != Cull::none && at->front == (cull == Cull::front)) return;
       hits_.push_back({primitive, depth_of(at->along)});
       nearest = std::min(nearest, hits_.back().depth);

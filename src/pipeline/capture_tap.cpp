@@ -12,7 +12,8 @@ CaptureTap::CaptureTap(const Scene& scene, const Request& request, std::size_t b
       request_(request),
       bytes_(bytes),
       keep_(request.records.has(Stage::coverage) || request.records.has(Stage::depth) ||
-            request.records.has(Stage::attributes) || request.records.has(Stage::shade)) {
+            request.records.has(Stage::attributes) || request.records.has(Stage::shade) ||
+            request.records.has(Stage::visibility)) {
   const int w = scene.frame.width, h = scene.frame.height;
   planes_.count = Plane<std::uint32_t>(w, h);
   planes_.id_sum = Plane<std::uint64_t>(w, h);
@@ -27,17 +28,17 @@ bool CaptureTap::wanted(std::uint32_t primitive) const {
 
 void CaptureTap::keep_budget() const {
   // The sorted records stand beside the fragments for a while.
-  constexpr std::size_t kBytes =
-      sizeof(Fragment) + sizeof(Covered) + sizeof(double) + sizeof(Attributes<double>) + sizeof(Shaded<double>);
+  constexpr std::size_t kBytes = sizeof(Fragment) + sizeof(Covered) + sizeof(double) + sizeof(Attributes<double>) +
+                                 sizeof(Shaded<double>) + sizeof(Drawn);
   require_budget(scene_, bytes_ + fragments_.size() * kBytes, request_.memory_budget);
 }
 
-void CaptureTap::add(const Fragment& f, bool passes) {
+void CaptureTap::add(const Fragment& f) {
   // Blocks reach over the frame's edge; a triangle that covers pixels there is a fault, but no reason to crash.
   if (f.x < 0 || f.y < 0 || f.x >= planes_.id.width() || f.y >= planes_.id.height()) return;
   ++planes_.count(f.x, f.y);
   planes_.id_sum(f.x, f.y) += id_weight(f.primitive);
-  if (passes) {
+  if (f.drawn) {
     planes_.id(f.x, f.y) = static_cast<std::int32_t>(f.primitive);
     planes_.shaded(f.x, f.y) = f.shaded;
   }
@@ -66,6 +67,7 @@ void CaptureTap::hand_out(std::span<const WindowTriangle<float>> triangles, Capt
     if (request_.records.has(Stage::depth)) r.depth.push_back(scale == 0.0 ? f.z : f.z / scale);
     if (request_.records.has(Stage::attributes)) r.attributes.push_back({f.attributes});
     if (request_.records.has(Stage::shade)) r.shaded.push_back({f.shaded});
+    if (request_.records.has(Stage::visibility)) r.drawn.push_back({f.drawn});
   }
   Planes& out = capture.planes;
   out.count = std::move(planes_.count);

@@ -13,7 +13,7 @@ class CaptureTap {
  public:
   static constexpr bool every_fragment = true;
 
-  /// Planes always; fragments where the request asks for a stage from coverage to shade. `bytes`: what else counts
+  /// Planes always; fragments where the request asks for a stage from coverage to visibility. `bytes`: what else counts
   /// against the request's budget; the fragments that go beyond it throw OverBudget.
   CaptureTap(const Scene& scene, const Request& request, std::size_t bytes);
 
@@ -28,8 +28,8 @@ class CaptureTap {
            static_cast<int>(lane(p.y, i)),
            lane(z, i),
            {lane(attributes.r, i), lane(attributes.g, i), lane(attributes.b, i), lane(attributes.a, i)},
-           {lane(shaded.r, i), lane(shaded.g, i), lane(shaded.b, i), lane(shaded.a, i)}},
-          lane(passes, i));
+           {lane(shaded.r, i), lane(shaded.g, i), lane(shaded.b, i), lane(shaded.a, i)},
+           lane(passes, i)});
     }
   }
 
@@ -43,8 +43,9 @@ class CaptureTap {
     int x, y;
     float z;
     glm::vec4 attributes, shaded;
+    bool drawn;
   };
-  void add(const Fragment& f, bool passes);
+  void add(const Fragment& f);
   bool wanted(std::uint32_t primitive) const;
   void keep_budget() const;
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipeline/lanes.h"
+#include "scene/scene.h"
 #include "stages/stages.h"
 
 namespace plumbline::pipeline {
@@ -45,6 +46,12 @@ Mask<R> coverage(const Edges& e, const Pixels<R>& p) {
   const Int<R> e1 = e.at_origin[1] + e.step_x[1] * p.x + e.step_y[1] * p.y;
   const Int<R> e2 = e.at_origin[2] + e.step_x[2] * p.x + e.step_y[2] * p.y;
   return (e0 | e1 | e2) >= 0;  // the sign bit of any
+}
+
+/// Which of the pixels are in the box.
+template <class R>
+Mask<R> scissor(const Scissor& box, const Pixels<R>& p) {
+  return (p.x >= box.x) & (p.x < box.x + box.width) & (p.y >= box.y) & (p.y < box.y + box.height);
 }
 
 }  // namespace plumbline::pipeline

@@ -6,6 +6,7 @@
 // fragment sees them all, and the planes come out the same, bit for bit.
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "pipeline/attributes.h"
@@ -34,6 +35,10 @@ struct FragmentStages {
     return pipeline::coverage<R>(s.edges, p);
   }
   template <class R>
+  static Mask<R> scissor(const Scissor& box, const Pixels<R>& p) {
+    return pipeline::scissor<R>(box, p);
+  }
+  template <class R>
   static R depth(const auto& s, const Barycentric<R>& b) {
     return pipeline::depth<R>(s.depth, b);
   }
@@ -58,7 +63,41 @@ struct FragmentStages {
   static Color<R> merge(const Color<R>& color, float scale) {
     return pipeline::merge<R>(color, scale);
   }
+  template <class R>
+  static Color<R> blend(const Blend& state, const Color<R>& source, const Color<R>& stored, float scale) {
+    return pipeline::blend<R>(state, source, stored, scale);
+  }
+  /// A draw's merge state, asked for once.
+  static Merge merge_state(const Merge& of_draw) { return of_draw; }
 };
+
+/// What of a draw's state is looked at per block.
+struct BlockState {
+  std::optional<Scissor> scissor;
+  Merge merge;
+};
+
+/// Where the next pixels' depth and colour are, in the frame's formats, as floats.
+struct Stored {
+  float* depth;
+  float* color[4];
+};
+
+/// Of the fragments `kept`, depth and colour into the frame.
+template <class R, class Stages>
+void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
+           const Stored& to) {
+  const auto merged = [&]() -> Color<R> {
+    if (!state.blend) return stages.template merge<R>(shaded, color_scale);
+    const Color<R> stored{load(to.color[0]), load(to.color[1]), load(to.color[2]), load(to.color[3])};
+    return stages.template blend<R>(*state.blend, shaded, stored, color_scale);
+  }();
+  if (state.depth_mask) store(kept, z, to.depth);
+  if (state.color_mask.r) store(kept, merged.r, to.color[0]);
+  if (state.color_mask.g) store(kept, merged.g, to.color[1]);
+  if (state.color_mask.b) store(kept, merged.b, to.color[2]);
+  if (state.color_mask.a) store(kept, merged.a, to.color[3]);
+}
 
 /// What a frame's formats come to.
 struct Formats {
@@ -111,14 +150,19 @@ struct NoTap {
   void fragments(const auto& /*setup*/, const Pixels<R>&, Mask<R>, Mask<R>, R, const auto&, const auto&) {}
 };
 
-// Stages 6 to 11 for the pixels `p`, which are stored from `place` on.
+// The scissor box, and stages 6 to 11, for the pixels `p`, which are stored from `place` on.
 template <class R, DepthFunc func, class Stages, class Tap>
-void covered_pixels(const Stages& stages, const SetupOf<Stages>& s, const Pixels<R>& p, Mask<R> covered, int place,
-                    float color_scale, Tile& tile, Tap& tap) {
+void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, const Pixels<R>& p,
+                    Mask<R> covered, int place, float color_scale, Tile& tile, Tap& tap) {
+  if (state.scissor) {
+    covered = covered & stages.template scissor<R>(*state.scissor, p);
+    if (!any(covered)) return;
+  }
   const Barycentric<R> b = barycentric<R>(s.planes, p);
   const R z = stages.template depth<R>(s, b);
-  float* const stored_z = tile.depth + place;
-  const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored_z));
+  const Stored stored{tile.depth + place,
+                      {tile.color[0] + place, tile.color[1] + place, tile.color[2] + place, tile.color[3] + place}};
+  const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored.depth));
   if constexpr (!Tap::every_fragment) {
     if (!any(passes)) return;
   }
@@ -126,34 +170,29 @@ void covered_pixels(const Stages& stages, const SetupOf<Stages>& s, const Pixels
   const auto shaded = stages.template shade<R>(attributes);
   const Mask<R> kept = stages.template kept<R>(passes, shaded);
   tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
-  const Color<R> merged = stages.template merge<R>(shaded, color_scale);
-  store(kept, z, stored_z);
-  store(kept, merged.r, tile.color[0] + place);
-  store(kept, merged.g, tile.color[1] + place);
-  store(kept, merged.b, tile.color[2] + place);
-  store(kept, merged.a, tile.color[3] + place);
+  write<R>(stages, state.merge, kept, z, Color<R>(shaded), color_scale, stored);
 }
 
 template <class R, DepthFunc func, class Stages, class Tap>
-void fragment_block(const Stages& stages, const SetupOf<Stages>& s, int block_x, int block_y, float color_scale,
-                    Tile& tile, Tap& tap) {
+void fragment_block(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, int block_x, int block_y,
+                    float color_scale, Tile& tile, Tap& tap) {
   const int offset = tile.offset(block_x, block_y);
   for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
     const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
     const Mask<R> covered = stages.template coverage<R>(s, p);
-    if (any(covered)) covered_pixels<R, func>(stages, s, p, covered, offset + i, color_scale, tile, tap);
+    if (any(covered)) covered_pixels<R, func>(stages, state, s, p, covered, offset + i, color_scale, tile, tap);
   }
 }
 
 /// One pixel, alone in its lanes.
 template <class R, DepthFunc func, class Stages, class Tap>
-void fragment_pixel(const Stages& stages, const SetupOf<Stages>& s, glm::ivec2 pixel, float color_scale, Tile& tile,
-                    Tap& tap) {
+void fragment_pixel(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, glm::ivec2 pixel,
+                    float color_scale, Tile& tile, Tap& tap) {
   const int block_x = pixel.x & ~(kBlock - 1), block_y = pixel.y & ~(kBlock - 1);
   const int in_block = (pixel.y - block_y) * kBlock + (pixel.x - block_x), i = in_block & ~(Lanes<R>::width - 1);
   const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
   const Mask<R> covered = (p.x == Int<R>(pixel.x)) & (p.y == Int<R>(pixel.y));
-  covered_pixels<R, func>(stages, s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
+  covered_pixels<R, func>(stages, state, s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
 }
 
 }  // namespace plumbline::pipeline

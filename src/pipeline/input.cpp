@@ -65,6 +65,7 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   require(r.depth.size() == r.covered.size(), "depth");
   if (stage != Stage::merge) return;
   require(r.shaded.size() == r.covered.size(), "shaded");
+  require(r.drawn.empty() || r.drawn.size() == r.covered.size(), "drawn");
   const bool winners_fit = in.planes.id.width() == scene.frame.width && in.planes.id.height() == scene.frame.height;
   if (!in.planes.id.empty() && !winners_fit) throw std::invalid_argument("planes.id is not of the frame's size");
 }

@@ -164,7 +164,8 @@ class PipelineRenderer : public Renderer {
   // Visibility and merge: the recorded fragments, in draw order, through the depth test into the planes.
   void run_planes(const Scene& scene, Stage stage, const Capture& capture, Capture& out) {
     const Records<double>& in = capture.records;
-    const bool winners_known = stage == Stage::merge && !capture.planes.id.empty();
+    const bool told = stage == Stage::merge && !in.drawn.empty();
+    const bool winners_known = stage == Stage::merge && !told && !capture.planes.id.empty();
     const Formats formats = formats_of(scene.frame);
     const std::vector<DrawRange> ranges = draw_ranges(scene);
     Tile cleared{};
@@ -178,18 +179,27 @@ class PipelineRenderer : public Renderer {
       const Covered& c = in.covered[i];
       const std::uint32_t primitive = in.triangles.at(c.triangle).primitive;
       while (primitive >= ranges[draw].first_primitive + ranges[draw].primitive_count) ++draw;
-      if (winners_known && capture.planes.id(c.x, c.y) != static_cast<std::int32_t>(primitive)) continue;
       const double z = in.depth.at(i);
       const auto incoming = static_cast<float>(formats.depth_scale == 0.0 ? z : depth_code(z, formats.depth_scale));
-      // The winner itself passes; a cut primitive may have two triangles at a pixel.
-      const bool first = winners_known && id(c.x, c.y) == kBackground;
-      if (!first && !stages_.fragment.depth_passes(scene.draws[draw].depth_func, incoming, depth(c.x, c.y))) continue;
-      depth(c.x, c.y) = incoming;
-      id(c.x, c.y) = static_cast<std::int32_t>(primitive);
-      if (stage == Stage::merge) {
-        const Color<float> merged = stages_.fragment.merge(color_of(in.shaded.at(i).color), formats.color_scale);
-        color(c.x, c.y) = {merged.r, merged.g, merged.b, merged.a};
+      const auto passes = [&] {
+        return stages_.fragment.depth_passes(scene.draws[draw].depth_func, incoming, depth(c.x, c.y));
+      };
+      bool drawn = false;
+      if (told) {
+        drawn = in.drawn[i].drawn;
+      } else if (winners_known) {  // the winner itself passes; a cut primitive may have two triangles at a pixel
+        drawn = capture.planes.id(c.x, c.y) == static_cast<std::int32_t>(primitive) &&
+                (id(c.x, c.y) == kBackground || passes());
+      } else {
+        drawn = passes();
       }
+      if (stage == Stage::visibility) out.records.drawn.push_back({drawn});
+      if (!drawn) continue;
+      id(c.x, c.y) = static_cast<std::int32_t>(primitive);
+      const Color<float> shaded = stage == Stage::merge ? color_of(in.shaded.at(i).color) : Color<float>{};
+      glm::vec4& to = color(c.x, c.y);
+      stages_.fragment.write(scene.draws[draw].merge, incoming, shaded, formats.color_scale,
+                             {&depth(c.x, c.y), {&to.r, &to.g, &to.b, &to.a}});
     }
     if (stage == Stage::visibility) {
       out.planes.id = std::move(id);

@@ -15,7 +15,7 @@ struct FragmentFunctions {
   float (*depth)(const TriangleSetup<>&, const Pixels<float>&);
   Color<float> (*attributes)(const TriangleSetup<>&, const Pixels<float>&);
   Color<float> (*shade)(const Color<float>&);
-  Color<float> (*merge)(const Color<float>&, float scale);
+  void (*write)(const Merge&, float z, const Color<float>& shaded, float color_scale, const Stored&);
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
   TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const Formats&, int x0, int y0);
 };
@@ -51,7 +51,9 @@ FragmentFunctions fragment_functions() {
     return S::template attributes<float>(s.attributes, barycentric<float>(s.planes, p));
   };
   f.shade = S::template shade<float>;
-  f.merge = S::template merge<float>;
+  f.write = [](const Merge& state, float z, const Color<float>& shaded, float color_scale, const Stored& to) {
+    write<float>(S(), S::merge_state(state), true, z, shaded, color_scale, to);
+  };
   f.depth_passes = depth_passes_for<S>;
   f.set_up = [](const WindowTriangle<float>& t, std::uint32_t triangle, const Formats& formats, int x0, int y0) {
     return set_up(S(), t, triangle, formats, x0, y0);

@@ -33,12 +33,12 @@ void clear(Tile& tile, const FrameFormat& frame, const Formats& formats);
 void write_out(const Tile& tile, Frame& frame);
 
 template <class R, DepthFunc func, class Stages, class Tap>
-void draw_triangle(const Stages& stages, const WindowTriangle<float>& triangle, std::uint32_t number,
-                   const Formats& formats, Tile& tile, Tap& tap) {
+void draw_triangle(const Stages& stages, const BlockState& state, const WindowTriangle<float>& triangle,
+                   std::uint32_t number, const Formats& formats, Tile& tile, Tap& tap) {
   const SetupOf<Stages> s = set_up(stages, triangle, number, formats, tile.x0, tile.y0);
   if (triangle.corners < 3) {
     for (const glm::ivec2 pixel : stages.thin_pixels(triangle, {tile.x0, tile.y0}, kTile)) {
-      fragment_pixel<R, func>(stages, s, pixel, formats.color_scale, tile, tap);
+      fragment_pixel<R, func>(stages, state, s, pixel, formats.color_scale, tile, tap);
     }
     return;
   }
@@ -46,13 +46,14 @@ void draw_triangle(const Stages& stages, const WindowTriangle<float>& triangle, 
   const int y0 = std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1), y1 = std::min(s.bounds.y1, tile.y0 + kTile);
   for (int y = y0; y < y1; y += kBlock) {
     for (int x = x0; x < x1; x += kBlock) {
-      fragment_block<R, func>(stages, s, x, y, formats.color_scale, tile, tap);
+      fragment_block<R, func>(stages, state, s, x, y, formats.color_scale, tile, tap);
     }
   }
 }
 
 template <class R, class Stages, class Tap>
-using DrawTriangle = void (*)(const Stages&, const WindowTriangle<float>&, std::uint32_t, const Formats&, Tile&, Tap&);
+using DrawTriangle = void (*)(const Stages&, const BlockState&, const WindowTriangle<float>&, std::uint32_t,
+                              const Formats&, Tile&, Tap&);
 
 /// The instantiation for a depth function, chosen once per draw.
 template <class R, class Stages, class Tap>
@@ -75,7 +76,11 @@ void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& f
   const Bins bins = bin(list.triangles, format);
   const Formats formats = formats_of(format);
   std::vector<DrawTriangle<R, Stages, Tap>> draw_of;
-  for (const Draw& draw : list.draws) draw_of.push_back(draw_triangle_for<R, Stages, Tap>(draw.depth_func));
+  std::vector<BlockState> state_of;
+  for (const Draw& draw : list.draws) {
+    draw_of.push_back(draw_triangle_for<R, Stages, Tap>(draw.depth_func));
+    state_of.push_back({draw.scissor, stages.merge_state(draw.merge)});
+  }
   Tile tile{};
   for (int t = 0; t < bins.columns * bins.rows; ++t) {
     tile.x0 = t % bins.columns * kTile;
@@ -86,7 +91,7 @@ void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& f
          ++i) {
       const std::uint32_t number = bins.numbers[i];
       while (number >= list.first_triangle[draw + 1]) ++draw;
-      draw_of[draw](stages, list.triangles[number], number, formats, tile, tap);
+      draw_of[draw](stages, state_of[draw], list.triangles[number], number, formats, tile, tap);
     }
     write_out(tile, frame);
   }

@@ -1,7 +1,9 @@
 // What to draw. Plain data that knows no renderer; every renderer reads the same numbers.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -102,6 +104,52 @@ enum class DepthFunc { never, less, equal, less_equal, greater, not_equal, great
 enum class ColorFormat { rgba8, rgba12, rgba32f };  ///< 12 bits a channel: GzRender's 0..4095 (note 000)
 enum class DepthFormat { z8, z16, z24, z32f };      ///< 8 bits: tinyrenderer's z-buffer (note 002)
 
+/// glBlendFuncSeparate's factors. As a destination's, source_alpha_saturate is not allowed.
+enum class BlendFactor {
+  zero,
+  one,
+  source_color,
+  one_minus_source_color,
+  destination_color,
+  one_minus_destination_color,
+  source_alpha,
+  one_minus_source_alpha,
+  destination_alpha,
+  one_minus_destination_alpha,
+  constant_color,
+  one_minus_constant_color,
+  constant_alpha,
+  one_minus_constant_alpha,
+  source_alpha_saturate
+};
+enum class BlendEquation { add, subtract, reverse_subtract, min, max };
+
+/// source * its factor (equation) destination * its factor; min and max are of the two without factors.
+struct BlendTerm {
+  BlendFactor source = BlendFactor::one;
+  BlendFactor destination = BlendFactor::zero;
+  BlendEquation equation = BlendEquation::add;
+};
+/// glBlendFuncSeparate, glBlendEquationSeparate, glBlendColor (OpenGL 2.1 spec 4.1.8).
+struct Blend {
+  BlendTerm rgb, alpha;
+  glm::vec4 color{0};  ///< the constant colour, [0,1]
+};
+
+/// Pixels [x, x + width) x [y, y + height), rows counted as the dialect's; it may reach beyond the frame.
+struct Scissor {
+  int x = 0, y = 0;           ///< [0, 16384]
+  int width = 0, height = 0;  ///< [0, 16384]
+  bool holds(int px, int py) const { return px >= x && px < x + width && py >= y && py < y + height; }
+};
+
+/// How a fragment that is drawn goes into the frame.
+struct Merge {
+  std::optional<Blend> blend;   ///< none: it replaces what is there
+  glm::bvec4 color_mask{true};  ///< channels that are written
+  bool depth_mask = true;       ///< whether its depth is written
+};
+
 /// A mesh, placed, with the state it is drawn under. Counter-clockwise in the window is the front.
 struct Draw {
   std::uint32_t mesh = 0;             ///< index into Scene::meshes
@@ -111,6 +159,8 @@ struct Draw {
   Shading shading = Shading::gouraud;
   Cull cull = Cull::none;
   DepthFunc depth_func = DepthFunc::less;
+  Merge merge;
+  std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
 };
 
 struct FrameFormat {
@@ -139,6 +189,15 @@ struct Scene {
 
 /// Whether any draw is of such a mesh.
 bool draws(const Scene& scene, Topology topology);
+/// Whether a pixel's colour is that of its last fragment alone: nothing is blended, no channel masked.
+inline bool colors_replace(const Scene& scene) {
+  return std::all_of(scene.draws.begin(), scene.draws.end(),
+                     [](const Draw& d) { return !d.merge.blend && glm::all(d.merge.color_mask); });
+}
+/// Whether every fragment that is drawn leaves its depth.
+inline bool depths_replace(const Scene& scene) {
+  return std::all_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.merge.depth_mask; });
+}
 
 /// Where one draw's vertices and triangles lie in arrays that run over all draws, in draw order.
 /// A **primitive** is numbered so, over the whole scene: `first_primitive + index of the mesh's triangle` (line,

@@ -30,7 +30,8 @@ struct SceneFileOptions {
 ///   frame          width, height: 1 to 16384; color: "rgba8", "rgba12", "rgba32f"; depth: "z8", "z16", "z24",
 ///                  "z32f"; clear_color: [r, g, b, a]; clear_depth
 ///   camera         eye, center, up: [x, y, z]
-///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right *,
+///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right
+///   *,
 ///                                bottom *, top *, near *, far *}} or {"frustum": {the same six, the sides on the near
 ///                                plane}}
 ///                  games101      perspective or orthographic, near and far being z coordinates: far < near < 0
@@ -61,6 +62,13 @@ struct SceneFileOptions {
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where
 ///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth
 ///                  is then 0
+///     scissor      [x, y, width, height]: the pixels that may be covered; 0 to 16384 each
+///     depth_mask   true, false: whether depth is written
+///     blend        {source, destination, equation, alpha: {source, destination, equation}, color: [r, g, b, a]}:
+///     OpenGL's
+///                  factors ("one" and "zero" where they are left out) and equations ("add", "subtract",
+///                  "reverse_subtract", "min", "max"), alpha's as rgb's where it has none. All names: BlendFactor
+///     color_mask   [r, g, b, a], each true or false: whether it is written
 ///
 /// Colours are in [0,1], lights' and ambient 0 or more. Coordinates go up to +-1e6, all draws' triangles to 2^24.
 /// Numbers that scene.h holds as float are rounded here, once. Draws of an equal mesh share it.

@@ -121,6 +121,7 @@ void visit_capture(CaptureRef& capture, Visitor& visit) {
   visit.group("depth", records.depth, ItselfColumn{"value"});
   visit.group("attributes", records.attributes, Column{"color", &Attributes<double>::color});
   visit.group("shade", records.shaded, Column{"color", &Shaded<double>::color});
+  visit.group("visibility", records.drawn, Column{"drawn", &Drawn::drawn});
 
   auto& planes = capture.planes;
   visit.plane("planes.count", planes.count);

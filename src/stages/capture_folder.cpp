@@ -317,6 +317,7 @@ void check_indices(const Capture& capture, const fs::path& folder) {
   beside("depth.value", records.depth.size(), "coverage.*", fragments);
   beside("attributes.color", records.attributes.size(), "coverage.*", fragments);
   beside("shade.color", records.shaded.size(), "coverage.*", fragments);
+  beside("visibility.drawn", records.drawn.size(), "coverage.*", fragments);
 }
 
 }  // namespace

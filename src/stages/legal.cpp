@@ -22,6 +22,7 @@ struct Test {
   bool may_pass, may_fail;
   Interval passed;  ///< the hit's depths under which it passes
   Interval failed;  ///< the held depths under which the hit fails
+  Interval under;   ///< the held depths under which it passes
 };
 
 /// `hit` against the depth that the frame holds; depths no more than `step` apart may compare either way, so that
@@ -33,16 +34,18 @@ Test depth_test(DepthFunc func, Interval hit, Interval held, double step) {
   const Interval held_if_less{std::max(held.lo, hit.lo - step), held.hi};  // the hit is less: what is held is greater
   const Interval held_if_greater{held.lo, std::min(held.hi, hit.hi + step)};
   switch (func) {
-    case DepthFunc::never: return {false, true, hit, held};
-    case DepthFunc::always: return {true, false, hit, held};
+    case DepthFunc::never: return {false, true, hit, held, held};
+    case DepthFunc::always: return {true, false, hit, held, held};
     case DepthFunc::less:
-    case DepthFunc::less_equal: return {may_be_less, may_be_greater, hit_if_less, held_if_greater};
+    case DepthFunc::less_equal: return {may_be_less, may_be_greater, hit_if_less, held_if_greater, held_if_less};
     case DepthFunc::greater:
-    case DepthFunc::greater_equal: return {may_be_greater, may_be_less, hit_if_greater, held_if_less};
-    case DepthFunc::equal: return {may_be_less && may_be_greater, true, {hit_if_greater.lo, hit_if_less.hi}, held};
-    case DepthFunc::not_equal: return {true, may_be_less && may_be_greater, hit, {held_if_less.lo, held_if_greater.hi}};
+    case DepthFunc::greater_equal: return {may_be_greater, may_be_less, hit_if_greater, held_if_less, held_if_greater};
+    case DepthFunc::equal:
+      return {may_be_less && may_be_greater, true, {hit_if_greater.lo, hit_if_less.hi}, held, held};
+    case DepthFunc::not_equal:
+      return {true, may_be_less && may_be_greater, hit, {held_if_less.lo, held_if_greater.hi}, held};
   }
-  return {true, true, hit, held};
+  return {true, true, hit, held, held};
 }
 
 double frame_depth(const FrameFormat& frame, double z_win) {
@@ -69,7 +72,8 @@ void draw(const Hit& hit, bool certain, DepthFormat format, std::vector<LegalAns
     const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
     const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {held.z_lo, held.z_hi}, step);
     if (test.may_pass) {
-      won = may_win ? Interval{std::min(won.lo, test.passed.lo), std::max(won.hi, test.passed.hi)} : test.passed;
+      const Interval left = hit.depth_mask ? test.passed : test.under;
+      won = may_win ? Interval{std::min(won.lo, left.lo), std::max(won.hi, left.hi)} : left;
       may_win = true;
     }
     if (certain && !test.may_fail) continue;

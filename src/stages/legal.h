@@ -27,13 +27,14 @@ struct Hit {
   double z_hi = 0;
   glm::dvec4 color{0};     ///< its colour at the pixel's centre
   double color_bound = 0;  ///< and how far, per channel, float arithmetic from the scene on may be from that
+  bool depth_mask = true;  ///< whether its depth is written where it is drawn
 };
 
 /// One winner that the rules allow.
 struct LegalAnswer {
   std::int32_t primitive = -1;  ///< or kBackground
   float color_bound = 0;
-  double z_lo = 0, z_hi = 0;  ///< window z
+  double z_lo = 0, z_hi = 0;  ///< the window z that the frame then holds
   glm::vec4 color{0};
 };
 
@@ -47,6 +48,9 @@ struct Legal {
   Plane<std::uint32_t> possible;     ///< and of all hits: count must lie within [certain, possible]
   std::vector<std::uint32_t> first;  ///< pixel y * width + x has answers [first[i], first[i + 1])
   std::vector<LegalAnswer> answers;
+  /// The frame's colour, not rounded to codes; empty where it is that of the winner (scene.h, colors_replace). Infinite
+  /// where it is open which fragments made it.
+  Plane<glm::vec4> color_lo, color_hi;
   double predicted_ambiguous = 0;  ///< pixels, from the visible edges' length and the snapping bound
 
   bool empty() const { return first.empty(); }

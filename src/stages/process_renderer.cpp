@@ -149,6 +149,7 @@ void keep_only(Records<double>& records, const StageSet& stages) {
   if (!stages.has(Stage::depth)) records.depth.clear();
   if (!stages.has(Stage::attributes)) records.attributes.clear();
   if (!stages.has(Stage::shade)) records.shaded.clear();
+  if (!stages.has(Stage::visibility)) records.drawn.clear();
 }
 
 class ProcessRenderer : public Renderer {

@@ -11,7 +11,11 @@ Capture Renderer::run_stage(const Scene&, Stage stage, const Capture&) {
 std::size_t plane_bytes(const Scene& scene) {
   constexpr std::size_t kPixel =
       sizeof(std::uint32_t) + sizeof(std::uint64_t) + sizeof(std::int32_t) + 2 * sizeof(glm::vec4) + sizeof(double);
-  return static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height) * kPixel;
+  // Blended colours have bounds, and a reference that folds them holds what is written and what is stored, as
+  // intervals.
+  constexpr std::size_t kBlended = 2 * sizeof(glm::vec4) + 18 * sizeof(double);
+  const std::size_t pixel = kPixel + (colors_replace(scene) ? 0 : kBlended);
+  return static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height) * pixel;
 }
 
 void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget) {

@@ -90,7 +90,7 @@ class Renderer {
   virtual Capture run_stage(const Scene& scene, Stage stage, const Capture& in);
 };
 
-/// The bytes that planes of the scene's size take, for checks against the budget.
+/// The bytes that planes of the scene's size take, and what their colours are made of, for checks against the budget.
 std::size_t plane_bytes(const Scene& scene);
 /// Throws OverBudget, naming the scene, what it would take and the budget.
 void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget);

@@ -140,9 +140,15 @@ struct Shaded {
   Vec4<T> color;
 };
 
-// 10. and 11. hand on planes (capture.h): the winning primitive per pixel; final colour and depth.
+// 10. Visibility: the fragments that pass every test, in draw order at each pixel; the last of them is the winner
+//     (capture.h, planes.id).
+struct Drawn {
+  bool drawn;
+};
 
-/// What stages 0 to 9 hand on for a whole scene. Empty: not asked for, or not shown.
+// 11. The fragments drawn are merged, in draw order, into the frame: planes of final colour and depth (capture.h).
+
+/// What stages 0 to 10 hand on for a whole scene. Empty: not asked for, or not shown.
 template <class T>
 struct Records {
   std::vector<Matrices<T>> matrices;         ///< per draw
@@ -154,6 +160,7 @@ struct Records {
   std::vector<T> depth;                      ///< beside covered
   std::vector<Attributes<T>> attributes;     ///< beside covered
   std::vector<Shaded<T>> shaded;             ///< beside covered
+  std::vector<Drawn> drawn;                  ///< beside covered
 };
 
 }  // namespace plumbline

@@ -185,5 +185,18 @@ TEST_F(Fragments, WithoutThePixelsTheyLieAtFailsAndDoesNotCrash) {
   EXPECT_FALSE(passes(run(attributes(), no_triangles)));
 }
 
+TEST_F(Fragments, DrawnOnesAreTheSame) {
+  records.drawn.assign(6, {true});
+  EXPECT_TRUE(passes(run(compare_drawn, kUnchanged)));
+  EXPECT_EQ(run(compare_drawn, kUnchanged).items, 6u);
+  const Change hidden = [](auto& r) { r.drawn[4].drawn = false; };
+  EXPECT_TRUE(fails(run(compare_drawn, hidden)));
+  EXPECT_TRUE(fails(run(compare_drawn, kUnchanged, hidden)));
+  EXPECT_EQ(run(compare_drawn, hidden).worst.place.x, 4);
+  EXPECT_FALSE(passes(run(compare_drawn, [](auto& r) { r.drawn.pop_back(); })));
+  EXPECT_FALSE(passes(run(compare_drawn, kUnchanged, [](auto& r) { r.drawn.clear(); })));
+  EXPECT_TRUE(passes(run(compare_drawn, [](auto& r) { r.drawn.clear(); }))) << "it does not say";
+}
+
 }  // namespace
 }  // namespace plumbline::check

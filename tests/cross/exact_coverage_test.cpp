@@ -228,5 +228,60 @@ TEST(ExactCoverage, NothingOverflowsAtTheEndsOfInt) {
   EXPECT_EQ(half.row(5000).end, 5000) << "the diagonal's interior is to its left: out";
 }
 
+TEST(ExactCoverage, RowsWithinAScissorBoxAreThoseOfTheWholeInIt) {
+  FrameFormat frame;
+  frame.width = 20;
+  frame.height = 16;
+  const std::array<glm::ivec2, 3> corners{glm::ivec2(-500, -300), {4600, 900}, {1700, 3900}};
+  std::vector<Covered> whole;
+  exact::append_covered(exact::CoveredRows(corners, frame.width, frame.height), 0, whole);
+  ASSERT_GT(whole.size(), 100u);
+  for (const Scissor box : {Scissor{0, 0, 20, 16},
+                            {3, 2, 9, 6},
+                            {5, 9, 16384, 16384},
+                            {19, 15, 1, 1},
+                            {4, 4, 0, 5},
+                            {4, 4, 5, 0},
+                            {30, 0, 5, 5},
+                            {0, 40, 5, 5}}) {
+    Draw draw;
+    draw.scissor = box;
+    std::vector<Covered> is, expected;
+    exact::append_covered(exact::CoveredRows(corners, frame, draw), 0, is);
+    std::copy_if(whole.begin(), whole.end(), std::back_inserter(expected),
+                 [&](const Covered& c) { return box.holds(c.x, c.y); });
+    ASSERT_EQ(is.size(), expected.size()) << box.x << " " << box.y;
+    for (std::size_t i = 0; i < is.size(); ++i) {
+      EXPECT_EQ(is[i].x, expected[i].x);
+      EXPECT_EQ(is[i].y, expected[i].y);
+    }
+  }
+}
+
+TEST(ExactCoverage, LinesAndPointsKeepToTheScissorBox) {
+  FrameFormat frame;
+  frame.width = 20;
+  frame.height = 16;
+  WindowTriangle<double> thin{};
+  thin.v[0].snapped = {300, 200};
+  thin.v[1].snapped = thin.v[2].snapped = {4300, 3500};
+  Draw draw;
+  for (const std::uint32_t corners : {2u, 1u}) {
+    thin.corners = corners;
+    draw.scissor.reset();
+    std::vector<Covered> whole;
+    exact::append_covered(thin, frame, draw, 0, whole);
+    ASSERT_EQ(whole.size(), corners == 2 ? 16u : 1u);
+    for (const Scissor box : {Scissor{0, 0, 20, 16}, {1, 1, 1, 1}, {2, 1, 9, 6}, {4, 4, 0, 5}, {30, 0, 5, 5}}) {
+      draw.scissor = box;
+      std::vector<Covered> is;
+      exact::append_covered(thin, frame, draw, 0, is);
+      const auto held = [&](const Covered& c) { return box.holds(c.x, c.y); };
+      EXPECT_EQ(is.size(), static_cast<std::size_t>(std::count_if(whole.begin(), whole.end(), held)));
+      EXPECT_TRUE(std::all_of(is.begin(), is.end(), held));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "faults/notes.h"
 #include "faults/variants.h"
@@ -103,6 +104,28 @@ struct TruncatedColor : pipeline::FragmentStages {
   }
 };
 
+struct ScissorWithItsFarSides : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Mask<R> scissor(const Scissor& box, const pipeline::Pixels<R>& p) {
+    return pipeline::scissor<R>({box.x, box.y, box.width + 1, box.height + 1}, p);
+  }
+};
+
+struct SwappedFactors : pipeline::FragmentStages {
+  static Merge merge_state(const Merge& of_draw) {
+    Merge wrong = of_draw;
+    if (wrong.blend) {
+      std::swap(wrong.blend->rgb.source, wrong.blend->rgb.destination);
+      std::swap(wrong.blend->alpha.source, wrong.blend->alpha.destination);
+    }
+    return wrong;
+  }
+};
+
+struct IgnoredColorMask : pipeline::FragmentStages {
+  static Merge merge_state(const Merge& of_draw) { return {of_draw.blend, glm::bvec4(true), of_draw.depth_mask}; }
+};
+
 constexpr std::array kFaults = {
     Fault{"matrices.fov_horizontal", "the vertical field of view is taken for the horizontal one", Stage::matrices,
           with_geometry<&Geometry::matrices, fov_taken_horizontally>},
@@ -116,6 +139,8 @@ constexpr std::array kFaults = {
           with_geometry<&Geometry::window, snapped_by_truncation>},
     Fault{"coverage.inclusive_edges", "pixels on any edge are covered: shared edges are painted twice", Stage::coverage,
           with_fragment<Ties<AllEdgesIn>>},
+    Fault{"coverage.scissor_inclusive", "the scissor box has one column and one row too many", Stage::coverage,
+          with_fragment<ScissorWithItsFarSides>},
     Fault{"coverage.line_end_drawn", "a line's last pixel is drawn too: lines that meet paint it twice",
           Stage::coverage, with_fragment<LineEndDrawn>},
     Fault{"coverage.steep_lines_torn", "lines are stepped along x in every octant: steep ones have gaps",
@@ -127,6 +152,9 @@ constexpr std::array kFaults = {
           with_fragment<LessEqualForLess>},
     Fault{"merge.truncated", "colours are truncated to 8 bits, not rounded", Stage::merge,
           with_fragment<TruncatedColor>},
+    Fault{"merge.factors_swapped", "blending takes the source's factor for the destination's, and the other way round",
+          Stage::merge, with_fragment<SwappedFactors>},
+    Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge, with_fragment<IgnoredColorMask>},
 };
 
 }  // namespace

@@ -89,6 +89,7 @@ Capture make_capture() {
   for (auto& a : r.attributes) f.fill(a.color);
   r.shaded.resize(2);
   for (auto& s : r.shaded) f.fill(s.color);
+  r.drawn = {{true}, {false}};
   c.planes.count = {kWidth, kHeight, 0xffffffffu};
   c.planes.id_sum = {kWidth, kHeight, 0xfedcba9876543210u};
   c.planes.id = {kWidth, kHeight, kBackground};
@@ -183,6 +184,7 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_TRUE(same_bits(a.records.depth, b.records.depth));
   EXPECT_TRUE(same_bits(a.records.attributes, b.records.attributes));
   EXPECT_TRUE(same_bits(a.records.shaded, b.records.shaded));
+  EXPECT_TRUE(same_bits(a.records.drawn, b.records.drawn));
   ASSERT_EQ(b.records.polygons.vertices.size(), a.records.polygons.vertices.size());
   for (std::size_t i = 0; i < a.records.polygons.vertices.size(); ++i) {
     const auto &x = a.records.polygons.vertices[i], &y = b.records.polygons.vertices[i];
@@ -207,7 +209,7 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_EQ(b.planes.count(1, 2), 12u);
 
   write_capture(b, root_ / "b");
-  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 1 + 6);
+  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 1 + 1 + 6);
 }
 
 TEST_F(CaptureFolder, LeavesOutWhatWasNotCaptured) {

@@ -190,6 +190,7 @@ TEST_P(BruteForce, EveryOutcomeIsInTheSet) {
       const int lo = 30000 + below(10), hi = lo + below(6);
       Hit h = hit(static_cast<std::uint32_t>(i), lo / kCodes, hi / kCodes,
                   below(2) == 0 ? DepthFunc::less : kFuncs[static_cast<std::size_t>(below(8))]);
+      h.depth_mask = below(4) != 0;
       hits.push_back(below(2) == 0 ? h : maybe(h, below(4) - 2 < 0 ? -1 : below(2)));
     }
     const auto all = answers(hits, frame);
@@ -205,7 +206,7 @@ TEST_P(BruteForce, EveryOutcomeIsInTheSet) {
           const long z = lo + below(static_cast<int>(hi - lo) + 1);
           if (!passes(hits[i].depth_func, z, held)) continue;
           winner = static_cast<int>(i);
-          held = z;
+          if (hits[i].depth_mask) held = z;
         }
         const auto found = std::find_if(all.begin(), all.end(), [&](const auto& a) { return a.primitive == winner; });
         ASSERT_TRUE(found != all.end()) << "round " << round << ": " << winner << " is not among the answers";

@@ -10,8 +10,8 @@
 namespace plumbline::testing_words {
 
 inline StageSet stages_with_records() {
-  return {Stage::matrices, Stage::vertex, Stage::light,      Stage::clip, Stage::window,
-          Stage::coverage, Stage::depth,  Stage::attributes, Stage::shade};
+  return {Stage::matrices, Stage::vertex, Stage::light,      Stage::clip,  Stage::window,
+          Stage::coverage, Stage::depth,  Stage::attributes, Stage::shade, Stage::visibility};
 }
 inline Request everything() {
   Request request;
@@ -122,6 +122,8 @@ inline void expect_same(const Records<double>& is, const Records<double>& expect
                       [](const auto& a, const auto& b) { return a.color == b.color; });
   expect_same_records("shaded", is.shaded, expected.shaded,
                       [](const auto& a, const auto& b) { return a.color == b.color; });
+  expect_same_records("drawn", is.drawn, expected.drawn,
+                      [](const auto& a, const auto& b) { return a.drawn == b.drawn; });
 }
 
 }  // namespace plumbline::testing_words

@@ -312,5 +312,17 @@ TEST(PipelineCoverage, PixelBoundsAreTightAndLoseNothing) {
   }
 }
 
+TEST(PipelineCoverage, AScissorBoxHasItsFirstColumnAndRowAndNotThoseBeyondIt) {
+  const Scissor box{3, 5, 4, 2}, empty{3, 5, 0, 2};
+  const auto in = [](const Scissor& b, int x, int y) { return scissor<float>(b, {x, y, x + 0.5, y + 0.5}); };
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 10; ++x) {
+      EXPECT_EQ(in(box, x, y), x >= 3 && x <= 6 && y >= 5 && y <= 6) << x << " " << y;
+      EXPECT_EQ(in(box, x, y), box.holds(x, y));
+      EXPECT_FALSE(in(empty, x, y));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::pipeline

@@ -32,7 +32,10 @@ Capture of_stage(const Capture& whole, Stage stage) {
     case Stage::attributes: c.records.attributes = r.attributes; break;
     case Stage::texture: break;
     case Stage::shade: c.records.shaded = r.shaded; break;
-    case Stage::visibility: c.planes.id = whole.planes.id; break;
+    case Stage::visibility:
+      c.records.drawn = r.drawn;
+      c.planes.id = whole.planes.id;
+      break;
     case Stage::merge:
       c.planes.color = whole.planes.color;
       c.planes.depth = whole.planes.depth;
@@ -58,7 +61,7 @@ TEST(PipelineRenderer, EachStageAloneOnTheRecordsBeforeItIsTheWhole) {
       SCOPED_TRACE(kStageNames[k]);
       // Of the records, only those of the stages before it.
       Capture before;
-      for (std::size_t i = 0; i < k && i <= static_cast<std::size_t>(Stage::shade); ++i) {
+      for (std::size_t i = 0; i < k && i <= static_cast<std::size_t>(Stage::visibility); ++i) {
         const Capture one = of_stage(whole, static_cast<Stage>(i));
         const Records<double>& r = one.records;
         if (!r.matrices.empty()) before.records.matrices = r.matrices;
@@ -70,6 +73,7 @@ TEST(PipelineRenderer, EachStageAloneOnTheRecordsBeforeItIsTheWhole) {
         if (!r.depth.empty()) before.records.depth = r.depth;
         if (!r.attributes.empty()) before.records.attributes = r.attributes;
         if (!r.shaded.empty()) before.records.shaded = r.shaded;
+        if (!r.drawn.empty()) before.records.drawn = r.drawn;
       }
       const Capture alone = pipeline->run_stage(scene, stage, before);
       const Capture expected = of_stage(whole, stage);
@@ -98,7 +102,12 @@ TEST(PipelineRenderer, DepthsOfAnotherRendererAreRoundedToTheFormat) {
 TEST(PipelineRenderer, MergeTakesTheWinnersThatItIsGiven) {
   const Scene scene = boxes();
   const auto pipeline = make_pipeline();
-  const Capture whole = pipeline->capture(scene, everything());
+  Capture whole = pipeline->capture(scene, everything());
+  expect_same(pipeline->run_stage(scene, Stage::merge, whole).planes, of_stage(whole, Stage::merge).planes);
+  Capture hidden = whole;
+  hidden.records.drawn.assign(whole.records.covered.size(), {false});
+  EXPECT_NEAR(pipeline->run_stage(scene, Stage::merge, hidden).planes.depth(45, 35), scene.frame.clear_depth, 0x1p-24);
+  whole.records.drawn.clear();  // where they are not told, the winners are
   expect_same(pipeline->run_stage(scene, Stage::merge, whole).planes, of_stage(whole, Stage::merge).planes);
 
   Capture none = whole;
@@ -189,6 +198,7 @@ TEST(PipelineRenderer, RecordsThatDoNotFitAreRefused) {
   refused(Stage::coverage, [](auto& r) { r.triangles[0].corners = 2; });
   refused(Stage::window, [](auto& r) { std::swap(r.polygons.polygons.front(), r.polygons.polygons.back()); });
   refused(Stage::merge, [](auto& r) { r.shaded.pop_back(); });
+  refused(Stage::merge, [](auto& r) { r.drawn.resize(1); });
   Capture in = whole;
   in.planes.id = Plane<std::int32_t>(70, 90, kBackground);
   EXPECT_THROW(pipeline->run_stage(scene, Stage::merge, in), std::logic_error) << "winners of another frame";

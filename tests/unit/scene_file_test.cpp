@@ -147,6 +147,40 @@ TEST_F(SceneFile, FindsMeshFilesInItsFolderThenInTheAssets) {
   EXPECT_EQ(s.meshes[1].positions[1].x, 3);
 }
 
+TEST_F(SceneFile, ReadsHowFragmentsAreMerged) {
+  const Scene s = load(R"({"description": "d", "defaults": {"depth_mask": false}, "draws": [
+      {"mesh": {"cube": {}}},
+      {"mesh": {"cube": {}}, "blend": {}, "depth_mask": true, "color_mask": [true, false, true, false],
+                              "scissor": [1, 2, 30, 16384]},
+      {"mesh": {"cube": {}}, "blend": {"source": "source_alpha_saturate", "destination": "constant_color",
+                                       "equation": "reverse_subtract", "color": [0.1, 0.2, 0.3, 0.4]}},
+      {"mesh": {"cube": {}}, "blend": {"destination": "one", "alpha": {"source": "zero", "equation": "max"}}}]})");
+  const Merge &none = s.draws[0].merge, &plain = s.draws[1].merge, &both = s.draws[2].merge, &own = s.draws[3].merge;
+  EXPECT_FALSE(none.blend);
+  EXPECT_FALSE(none.depth_mask);
+  EXPECT_FALSE(s.draws[0].scissor);
+  ASSERT_TRUE(s.draws[1].scissor);
+  const Scissor& box = *s.draws[1].scissor;
+  EXPECT_EQ(glm::ivec4(box.x, box.y, box.width, box.height), glm::ivec4(1, 2, 30, 16384));
+  EXPECT_EQ(none.color_mask, glm::bvec4(true));
+  ASSERT_TRUE(plain.blend && both.blend && own.blend);
+  EXPECT_TRUE(plain.depth_mask);
+  EXPECT_EQ(plain.color_mask, glm::bvec4(true, false, true, false));
+  const auto is = [](const BlendTerm& t, BlendFactor source, BlendFactor destination, BlendEquation equation) {
+    return t.source == source && t.destination == destination && t.equation == equation;
+  };
+  using F = BlendFactor;
+  for (const BlendTerm& t : {plain.blend->rgb, plain.blend->alpha}) {
+    EXPECT_TRUE(is(t, F::one, F::zero, BlendEquation::add));
+  }
+  for (const BlendTerm& t : {both.blend->rgb, both.blend->alpha}) {
+    EXPECT_TRUE(is(t, F::source_alpha_saturate, F::constant_color, BlendEquation::reverse_subtract));
+  }
+  EXPECT_EQ(both.blend->color, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+  EXPECT_TRUE(is(own.blend->rgb, F::one, F::one, BlendEquation::add));
+  EXPECT_TRUE(is(own.blend->alpha, F::zero, F::one, BlendEquation::max));
+}
+
 TEST_F(SceneFile, DefaultsCountWhereADrawSaysNothing) {
   const Scene s = load(R"({"description": "d",
       "defaults": {"shading": "flat", "cull": "back", "lit": false, "depth_func": "always",

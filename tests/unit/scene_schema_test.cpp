@@ -43,8 +43,17 @@ std::string in_mesh(const std::string& kind) {
 const Members kSides = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"}, {"top", "1"}, {"near", "1"}, {"far", "2"}};
 const Members kCoordinates = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"},
                               {"top", "1"},   {"near", "1"},  {"far", "-2"}};
-const Members kState = {{"transforms", "[]"},    {"material", "{}"},   {"lit", "true"},
-                        {"shading", "\"flat\""}, {"cull", "\"none\""}, {"depth_func", "\"less\""}};
+const Members kState = {{"transforms", "[]"},
+                        {"material", "{}"},
+                        {"lit", "true"},
+                        {"shading", "\"flat\""},
+                        {"cull", "\"none\""},
+                        {"depth_func", "\"less\""},
+                        {"scissor", "[0, 0, 1, 1]"},
+                        {"depth_mask", "true"},
+                        {"blend", "{}"},
+                        {"color_mask", "[true, true, true, false]"}};
+const Members kTerm = {{"source", "\"source_alpha_saturate\""}, {"destination", "\"zero\""}, {"equation", "\"min\""}};
 const std::string kThree = "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]", kWhite = "[1, 1, 1, 1]";
 
 Members with(Members members, const std::string& key, const std::string& value) {
@@ -100,6 +109,8 @@ const std::vector<Sample> kSamples = {
     {"material",
      kInDraw + R"("material": $}]})",
      {{"ambient", kWhite}, {"diffuse", kWhite}, {"specular", kWhite}, {"emission", kWhite}, {"shininess", "3"}}},
+    {"blend", kInDraw + R"("blend": $}]})", with(with(kTerm, "alpha", "{}"), "color", kWhite)},
+    {"blend_alpha", kInDraw + R"("blend": {"alpha": $}}]})", kTerm},
     {"transform",
      kInDraw + R"("transforms": [$]}]})",
      {{"translate", "[0, 0, 0]"}, {"rotate", R"({"degrees": 1, "axis": [0, 0, 1]})"}, {"scale", "[1, 1, 1]"}}},
