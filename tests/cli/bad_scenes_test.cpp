@@ -1,6 +1,7 @@
 // Bad input: refused where it is bad, in words that say what was expected, before anything is written.
 #include "bad_scenes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -67,7 +68,7 @@ class BadScenes : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::path(testing::TempDir()) / (std::string("plumbline_bad_scenes_") + info->name());
+    root_ = fs::path(testing::TempDir()) / fmt::format("plumbline_bad_scenes_{}_{}", info->name(), getpid());
     fs::remove_all(root_);
     fs::create_directories(root_ / "assets");
     for (const auto& [name, text] : kFiles) write(name, text);
