@@ -58,7 +58,8 @@ void View::set_gzrender(const ViewPlane& plane) {
 // x and y in [-1, 1] are seen on the plane c before the eye, where w is 1.
 void View::set_tinyrenderer(const Camera& camera, const Pinhole& pinhole) {
   eye_ = camera.center - pinhole.c * forward_;
-  near_ = 1e-12 * pinhole.c;  // before the eye by more than rounding: what runs through it is seen edge on
+  // What runs through the eye is seen edge on, but rounded to be a few of 2^-53 of c before it or behind.
+  near_ = 1e-12 * pinhole.c;
   far_ = std::numeric_limits<double>::infinity();
   depth_ = Depth::of_pinhole;
   c_ = pinhole.c;

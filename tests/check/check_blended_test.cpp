@@ -1,0 +1,94 @@
+// The comparator of colours that several fragments of a pixel make.
+#include "check_planes.h"
+
+namespace plumbline::check {
+namespace {
+
+// Three fragments at (3, 1), one of them hidden.
+struct BlendedPairs : PlanePairs {
+  BlendedPairs() {
+    scene.draws[0].merge.blend = Blend{};
+    capture.records.covered = {{0, 3, 1}, {0, 2, 2}, {1, 3, 1}, {1, 3, 1}};
+    capture.records.drawn = {{true}, {true}, {false}, {true}};
+  }
+  Compare blended() const {
+    return [this](const auto& a, const auto& b) { return compare_blended(scene, a, b, legal, 2.5, 8); };
+  }
+  // Codes apart that still pass at (x, y), or 99.
+  int most(int x, int y) const {
+    int codes = 0;
+    while (codes < 99 && passes(run(blended(), [&](Planes& p) { p.color(x, y).r += code(codes + 1); }))) ++codes;
+    return codes;
+  }
+};
+
+TEST_F(BlendedPairs, EachFragmentDrawnMayDifferByTwoCodesAndAHalf) {
+  EXPECT_TRUE(passes(run(blended(), kUnchanged)));
+  EXPECT_EQ(most(3, 1), 5);
+  EXPECT_EQ(most(2, 2), 2);
+  EXPECT_EQ(most(0, 0), 0) << "the clear colour";
+  scene.draws[0].merge.blend->rgb.source = BlendFactor::destination_alpha;
+  EXPECT_EQ(most(3, 1), 7) << "twice what was there before, and once more";
+  EXPECT_EQ(most(2, 2), 2);
+}
+
+TEST_F(BlendedPairs, InFloatByTheirColoursBoundsAlone) {
+  scene.frame.color = ColorFormat::rgba32f;
+  EXPECT_TRUE(passes(run(blended(), kUnchanged)));
+  EXPECT_TRUE(passes(run(blended(), [](Planes& p) { p.color(3, 1).r += static_cast<float>(20 * kU); })));
+  EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r += 1e-3f; })));
+  EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(0, 0).r += 1e-6f; })));
+}
+
+TEST_F(BlendedPairs, WhereItIsOpenWhichFragmentsMadeItAnyNumberIsLegal) {
+  legal.color_lo = legal.color_hi = Plane<glm::vec4>(kWidth, kHeight);
+  legal.color_lo(3, 1) = glm::vec4(-static_cast<float>(kInf));
+  EXPECT_EQ(most(3, 1), 99);
+  EXPECT_EQ(run(blended(), kUnchanged).ambiguous, 1u);
+  EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r = static_cast<float>(kNaN); })));
+  EXPECT_EQ(most(2, 2), 2);
+}
+
+TEST_F(BlendedPairs, ALinesFragmentsMayLieBesideItAndItsColourGoAlongItsMajorAxis) {
+  const Change beside = [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r += code(40); };
+  EXPECT_TRUE(fails(run(blended(), beside)));
+  scene.meshes[0].topology = Topology::lines;
+  EXPECT_TRUE(passes(run(blended(), beside)));
+  EXPECT_EQ(run(blended(), beside).ambiguous, 1u);
+  EXPECT_TRUE(
+      fails(run(blended(), [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r = static_cast<float>(kNaN); })));
+  EXPECT_EQ(most(3, 1), 5);
+  WindowTriangle<double>& line = capture.records.triangles[0];
+  line.v[2] = line.v[1];
+  line.corners = 2;
+  const Vec4<double> along = glm::abs(bounds_from_origin(line, 3, 1).along_color);
+  const double largest = std::max({along.r, along.g, along.b, along.a});
+  ASSERT_GT(255 * largest, 1);
+  EXPECT_EQ(most(3, 1), 5 + static_cast<int>(255 * 3 * largest)) << "as colour, as factor of itself and of the frame";
+}
+
+TEST_F(BlendedPairs, AgainstBoundsHalfACodeBeyondThem) {
+  Legal bounds;
+  bounds.color_lo = bounds.color_hi = capture.planes.color;
+  bounds.color_hi(3, 1).r += code(1);
+  const auto moved = [&](int x, int y, int codes) {
+    const auto compare = [&](const auto& a, const auto& b) {
+      return compare_merge(scene, a.planes, b.planes, 1, bounds);
+    };
+    return run(compare, [&](Planes& p) { p.color(x, y).r += code(codes); });
+  };
+  EXPECT_TRUE(passes(moved(3, 1, 0)));
+  EXPECT_TRUE(passes(moved(3, 1, 1)));
+  EXPECT_TRUE(fails(moved(3, 1, 2)));
+  EXPECT_TRUE(fails(moved(3, 1, -1)));
+  EXPECT_TRUE(fails(moved(2, 2, 1)));
+  legal = bounds;
+  legal.certain = Plane<std::uint32_t>(kWidth, kHeight);
+  const auto by_oracle = [&](const auto& a, const auto&) { return compare_legal_merge(scene, a.planes, legal, 1); };
+  EXPECT_TRUE(passes(run(by_oracle, [](Planes& p) { p.color(3, 1).r += code(1); })));
+  EXPECT_TRUE(fails(run(by_oracle, [](Planes& p) { p.color(3, 1).r += code(2); })));
+  EXPECT_TRUE(fails(run(by_oracle, [](Planes& p) { p.color(2, 2).r = static_cast<float>(kNaN); })));
+}
+
+}  // namespace
+}  // namespace plumbline::check
