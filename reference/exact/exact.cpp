@@ -112,9 +112,10 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
     if (covered.empty()) continue;
 
     const Barycentric weights(triangle, frame.width, frame.height);
+    const DepthRule rule = depth_rule(scene, draw);
     for (const Covered& c : covered) {
       add_fragment(out.planes, c.x, c.y, id_weight(triangle.primitive));
-      const double depth = depth_at(triangle, weights, c.x, c.y);
+      const double depth = depth_at(triangle, weights, rule, c.x, c.y);
       const bool visible = buffer.test(c.x, c.y, draw, depth);
       const bool recorded = wanted && selection.fragments() && selection.pixel(c.x, c.y);
       if (!visible && !recorded) continue;

@@ -6,12 +6,20 @@
 
 namespace plumbline::exact {
 
-double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, int x, int y) {
+// GL 4.5 compatibility, section 17.3.6: clamped depths go to the range that glDepthRange gives, either end first.
+DepthRule depth_rule(const Scene& scene, const Draw& draw) {
+  if (!scene.depth_clamp) return {};
+  const double near = draw.depth_range.near, far = draw.depth_range.far;
+  return {std::min(near, far), std::max(near, far)};
+}
+
+double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
+                int y) {
   const auto b = weights.at(x, y);
   // From the first corner on: the weights' sum of 1 is used in exact form, and a flat triangle's depth is exact.
   const long double z0 = triangle.v[0].p_win.z;
   const long double z = z0 + b[1] * (triangle.v[1].p_win.z - z0) + b[2] * (triangle.v[2].p_win.z - z0);
-  return std::clamp(static_cast<double>(z), 0.0, 1.0);
+  return std::clamp(static_cast<double>(z), rule.low, rule.high);
 }
 
 glm::dvec4 color_at(const WindowTriangle<double>& triangle, const Barycentric& weights, int x, int y) {
@@ -29,11 +37,13 @@ glm::dvec4 color_at(const WindowTriangle<double>& triangle, const Barycentric& w
 std::vector<double> fragment_depths(const Scene& scene, const Records<double>& records) {
   std::vector<double> depth;
   depth.reserve(records.covered.size());
+  const DrawOf draw_of(scene);
   for (const FragmentRun& run : runs_by_triangle(scene, records)) {
     const WindowTriangle<double>& triangle = records.triangles[run.triangle];
     const Barycentric weights(triangle, scene.frame.width, scene.frame.height);
+    const DepthRule rule = depth_rule(scene, draw_of(triangle.primitive));
     for (std::size_t i = run.first; i < run.last; ++i)
-      depth.push_back(depth_at(triangle, weights, records.covered[i].x, records.covered[i].y));
+      depth.push_back(depth_at(triangle, weights, rule, records.covered[i].x, records.covered[i].y));
   }
   return depth;
 }

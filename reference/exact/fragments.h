@@ -9,8 +9,15 @@
 
 namespace plumbline::exact {
 
-/// Window z at pixel (x, y)'s centre, by the plane through the corners, clamped to [0,1]. Not in any depth format.
-double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, int x, int y);
+/// What a draw says of its fragments' depth.
+struct DepthRule {
+  double low = 0, high = 1;  ///< depths beyond are clamped
+};
+DepthRule depth_rule(const Scene& scene, const Draw& draw);
+
+/// Window z at pixel (x, y)'s centre, by the plane through the corners, clamped. Not in any depth format.
+double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
+                int y);
 
 /// The perspective-correct colour at pixel (x, y)'s centre: sum(b_i c_i / w_i) / sum(b_i / w_i). Not clamped.
 glm::dvec4 color_at(const WindowTriangle<double>& triangle, const Barycentric& weights, int x, int y);

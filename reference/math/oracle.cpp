@@ -74,7 +74,7 @@ void draw_inside(const Scene& scene, const Projected& projected, std::span<const
     if (!h.inside) continue;
     ++planes.count(x, y);
     planes.id_sum(x, y) += id_weight(h.hit.primitive);
-    const double z = in_format(frame.depth, std::clamp(h.z, 0.0, 1.0));
+    const double z = in_format(frame.depth, std::clamp(h.win.z, 0.0, 1.0));
     if (!passes(h.hit.depth_func, z, planes.depth(x, y))) continue;
     planes.id(x, y) = static_cast<std::int32_t>(h.hit.primitive);
     if (h.hit.depth_mask) planes.depth(x, y) = z;

@@ -289,6 +289,7 @@ Projected project(const Scene& scene) {
         t.corner[i] = ranges[d].first_vertex + indices[static_cast<glm::length_t>(i)];
       }
       t.draw = d;
+      t.range = draw.depth_range;
       set_up(out, draw, t);
       out.triangles.push_back(t);
     }

@@ -16,7 +16,7 @@ namespace plumbline::osmesa {
   F(CheckFramebufferStatus) F(ClampColor) F(Clear) F(ClearColor) F(ClearDepth) F(Color4fv) F(ColorMask) \
   F(ColorPointer) F(CompileShader) F(CreateProgram) F(CreateShader) F(CullFace) F(DeleteBuffers) \
   F(DeleteFramebuffers) F(DeleteProgram) F(DeleteQueries) F(DeleteRenderbuffers) F(DeleteShader) F(DepthFunc) \
-  F(DepthMask) F(Disable) F(DrawArrays) F(DrawElements) F(Enable) F(EnableClientState) F(EndQuery) \
+  F(DepthMask) F(DepthRange) F(Disable) F(DrawArrays) F(DrawElements) F(Enable) F(EnableClientState) F(EndQuery) \
   F(EndTransformFeedback) F(FeedbackBuffer) F(Finish) F(FramebufferRenderbuffer) F(Frustum) F(GenBuffers) \
   F(GenFramebuffers) F(GenQueries) F(GenRenderbuffers) F(GetBufferSubData) F(GetError) F(GetFloatv) F(GetIntegerv) \
   F(GetProgramInfoLog) F(GetProgramiv) F(GetQueryObjectuiv) F(GetRenderbufferParameteriv) F(GetString) \

@@ -195,6 +195,17 @@ void add_triangles(std::span<const FedTriangle> triangles, Cull cull, std::vecto
 
 }  // namespace
 
+namespace {
+
+std::vector<FedTriangle> fed_back(Feedback& feedback, const std::vector<Corner>& corners, const Mesh& mesh,
+                                  const Gl& gl) {
+  const std::size_t expected = values_of(mesh.topology) * (corners.size() / corner_count(mesh.topology) * 5 / 4 + 16);
+  return triangles_of(feedback.run(expected, [&] { draw_corners(gl, corners, mesh.topology, !mesh.colors.empty()); }),
+                      mesh.topology);
+}
+
+}  // namespace
+
 void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request, Records<double>& records) {
   const bool clip = request.records.has(Stage::clip), window = request.records.has(Stage::window);
   if (!clip && !window) return;
@@ -208,16 +219,21 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
     scene.set_matrices(i);
     scene.set_surface(i);
     gl.ShadeModel(GL_SMOOTH);  // flat, feedback leaves the colours of cut triangles undefined (measured)
-    const ToClip to_clip(scene.matrices(i));
+    Matrices<double> whole_range = scene.matrices(i);
+    whole_range.win_scale.z = whole_range.win_translate.z = 0.5;
+    const ToClip to_clip(whole_range);
     for (std::size_t at = 0; at < wanted.size(); at += kBatch) {
       const auto batch = std::span(wanted).subspan(at, std::min(kBatch, wanted.size() - at));
       const std::vector<Corner> corners = corners_of(mesh, range.first_primitive, batch);
-      const std::size_t expected = values_of(mesh.topology) * (batch.size() * 5 / 4 + 16);
-      const std::vector<FedTriangle> triangles =
-          triangles_of(feedback.run(expected, [&] { draw_corners(gl, corners, mesh.topology, !mesh.colors.empty()); }),
-                       mesh.topology);
-      if (clip) add_polygons(triangles, to_clip, records.polygons);
+      std::vector<FedTriangle> triangles = fed_back(feedback, corners, mesh, gl);
       if (window) add_triangles(triangles, draw.cull, records.triangles);
+      if (!clip) continue;
+      if (draw.depth_range != DepthRange{}) {  // a narrow one leaves little of the clip position's z, an empty none
+        gl.DepthRange(0, 1);
+        triangles = fed_back(feedback, corners, mesh, gl);
+        gl.DepthRange(draw.depth_range.near, draw.depth_range.far);
+      }
+      add_polygons(triangles, to_clip, records.polygons);
     }
   }
 }

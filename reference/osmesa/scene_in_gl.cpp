@@ -183,6 +183,8 @@ void SceneInGl::set_matrices(std::size_t draw) const {
   } else {
     gl_.Disable(GL_DEPTH_CLAMP);
   }
+  const DepthRange& range = scene_.draws[draw].depth_range;
+  gl_.DepthRange(range.near, range.far);
   gl_.MatrixMode(GL_PROJECTION);
   gl_.LoadMatrixf(glm::value_ptr(glm::mat4(matrices_[draw].projection)));
   gl_.MatrixMode(GL_MODELVIEW);

@@ -20,9 +20,9 @@ class SceneInGl {
   const Matrices<double>& matrices(std::size_t draw) const { return matrices_[draw]; }
 
   // What GL is told. Call within a SavedState.
-  void clear(const glm::vec4& color) const;  ///< to a colour and the frame's clear depth
-  void set_lights() const;                   ///< ambient light, lights; leaves MODELVIEW the identity
-  void set_matrices(std::size_t draw) const;
+  void clear(const glm::vec4& color) const;    ///< to a colour and the frame's clear depth
+  void set_lights() const;                     ///< ambient light, lights; leaves MODELVIEW the identity
+  void set_matrices(std::size_t draw) const;   ///< and the depth range
   void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth
   void set_fragments(std::size_t draw) const;  ///< culling, scissor, depth function and mask
   void set_merge(std::size_t draw) const;      ///< blending and colour mask

@@ -159,6 +159,11 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
     return mismatch("u", "no matrices", std::max(candidate.triangles.size(), reference.triangles.size()));
   }
   Meter meter("u");
+  // Each draw may have a depth range of its own: the largest of |p_ndc * scale| + |translate|.
+  std::vector<Vec3<double>> translations;
+  for (const Matrices<double>& m : candidate.matrices) {
+    if (std::ranges::find(translations, m.win_translate) == translations.end()) translations.push_back(m.win_translate);
+  }
   // Triangles are matched by primitive, and within one by order where both have the same number.
   std::size_t i = 0, j = 0;
   const auto &a = candidate.triangles, &b = reference.triangles;
@@ -199,9 +204,8 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
       const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i_now), field}; };
       for (std::size_t k = 0; k < 3; ++k) {
         const WindowVertex<double>&v = a[i_now].v[k], &w = b[j_now].v[k];
-        // |p_ndc * scale| + |translate|: the translation is at most the larger half of the frame, which p_win bounds.
-        const Vec3<double> size = glm::abs(w.p_win - candidate.matrices.front().win_translate) +
-                                  glm::abs(candidate.matrices.front().win_translate);
+        Vec3<double> size(0);
+        for (const Vec3<double>& t : translations) size = glm::max(size, glm::abs(w.p_win - t) + glm::abs(t));
         add(meter, v.p_win, w.p_win, u * size, factor, at("p_win"));
         meter.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w)), factor, at("inv_w"), v.inv_w, w.inv_w);
         for (int c = 0; c < 2; ++c) {

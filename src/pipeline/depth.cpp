@@ -1,5 +1,6 @@
 #include "pipeline/depth.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/window.h"
@@ -41,9 +42,19 @@ BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y
           -d1.y / twice_area, d1.x / twice_area};
 }
 
-DepthSetup depth_setup(const WindowTriangle<float>& triangle, double scale) {
+// What the near and far plane do not cut is clamped to where they are (GL_ARB_depth_clamp); else to what formats hold.
+DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp) {
+  DepthState out{depth_scale(format)};
+  if (!depth_clamp) return out;
+  const auto [low, high] = std::minmax(draw.depth_range.near, draw.depth_range.far);
+  out.low = low;
+  out.high = high;
+  return out;
+}
+
+DepthSetup depth_setup(const WindowTriangle<float>& triangle, const DepthState& state) {
   const double z0 = triangle.v[0].p_win.z;
-  return {z0, triangle.v[1].p_win.z - z0, triangle.v[2].p_win.z - z0, scale};
+  return {z0, triangle.v[1].p_win.z - z0, triangle.v[2].p_win.z - z0, state.scale, state.low, state.high};
 }
 
 }  // namespace plumbline::pipeline

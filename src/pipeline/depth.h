@@ -37,13 +37,19 @@ Barycentric<R> barycentric(const BarycentricPlanes& planes, const Pixels<R>& p) 
   return {1.0 - l1 - l2, l1, l2};
 }
 
-/// A triangle's window depths, as corner 0's and the differences from it, and the largest code of the depth format
-/// (scene.h, depth_scale; 0: float).
+/// What a draw says of its fragments' depth.
+struct DepthState {
+  double scale;              ///< the largest code of the depth format (scene.h, depth_scale); 0: float
+  double low = 0, high = 1;  ///< depths beyond are clamped
+};
+DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp);
+
+/// A triangle's window depths, as corner 0's and the differences from it.
 struct DepthSetup {
   double z0, dz1, dz2;
-  double scale;
+  double scale, low = 0, high = 1;  ///< as DepthState
 };
-DepthSetup depth_setup(const WindowTriangle<float>& triangle, double scale);
+DepthSetup depth_setup(const WindowTriangle<float>& triangle, const DepthState& state);
 
 /// The code of z in [0,1], `scale` the largest: the nearest, half to even; of 8 bits half up, as tinyrenderer's
 /// int(z + .5) (note 002).
@@ -56,7 +62,7 @@ W depth_code(const W& z, double scale) {
 /// In the depth format: a code, which a float holds exactly up to 2^24, or window z itself for z32f.
 template <class R>
 R depth(const DepthSetup& s, const Barycentric<R>& b) {
-  const Wide<R> z = clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
+  const Wide<R> z = clamped<Wide<R>>(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2, s.low, s.high);
   return to_float(s.scale == 0.0 ? z : depth_code(z, s.scale));
 }
 

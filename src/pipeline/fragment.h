@@ -73,6 +73,7 @@ struct FragmentStages {
 
 /// What of a draw's state is looked at per block.
 struct BlockState {
+  DepthState depth;
   std::optional<Scissor> scissor;
   Merge merge;
 };
@@ -122,13 +123,13 @@ using SetupOf = TriangleSetup<decltype(std::declval<const Stages&>().attribute_s
 /// (x0, y0): the lower left pixel of the tile.
 template <class Stages>
 SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std::uint32_t triangle,
-                       const Formats& formats, int x0, int y0) {
+                       const DepthState& depth, int x0, int y0) {
   return {triangle,
           t.primitive,
           stages.bounds(t),
           stages.edges(t),
           planes_of(t, x0, y0),
-          depth_setup(t, formats.depth_scale),
+          depth_setup(t, depth),
           stages.attribute_setup(t, triangle)};
 }
 

@@ -48,11 +48,16 @@ inline bool any(bool mask) { return mask; }
 inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 
+/// To [low, high]; NaN to low.
+template <class T>
+T clamped(T value, T low, T high) {
+  const T raised = select(value > low, value, low);
+  return select(raised < high, raised, high);
+}
 /// To [0,1]; NaN to 0.
 template <class T>
 T clamp01(T value) {
-  const T low = select(value > T(0), value, T(0));
-  return select(low < T(1), low, T(1));
+  return clamped(value, T(0), T(1));
 }
 
 /// Half to even, for |value| below 2^22 (float) or 2^51 (double): adding 1.5 * 2^mantissa leaves no fraction.

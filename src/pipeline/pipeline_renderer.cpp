@@ -53,8 +53,8 @@ class PipelineRenderer : public Renderer {
     require_budget(scene, bytes, request.memory_budget);
     Frame frame(scene.frame);
     CaptureTap tap(scene, request, bytes);
-    stages_.fragment.draw_tapped({geometry.records.triangles, geometry.first_triangle, scene.draws}, scene.frame, frame,
-                                 tap);
+    stages_.fragment.draw_tapped({geometry.records.triangles, geometry.first_triangle, scene.draws, scene.depth_clamp},
+                                 scene.frame, frame, tap);
     out.planes = planes_of_frame(frame, formats_of(scene.frame));
     tap.hand_out(geometry.records.triangles, out);
     widen_geometry(geometry.records, request, out.records);
@@ -126,7 +126,8 @@ class PipelineRenderer : public Renderer {
     Frame frame(scene.frame);
     const Request request{StageSet{Stage::coverage}, false, {}, {}};
     CaptureTap tap(scene, request, 0);
-    stages_.fragment.draw_tapped({in.triangles, first_triangle, scene.draws}, scene.frame, frame, tap);
+    stages_.fragment.draw_tapped({in.triangles, first_triangle, scene.draws, scene.depth_clamp}, scene.frame, frame,
+                                 tap);
     Capture all;
     tap.hand_out(in.triangles, all);
     out.records.covered = std::move(all.records.covered);
@@ -135,8 +136,10 @@ class PipelineRenderer : public Renderer {
   }
 
   void run_fragment_stage(const Scene& scene, Stage stage, const Records<double>& in, Capture& out) {
-    const Formats formats = formats_of(scene.frame);
+    const double scale = depth_scale(scene.frame.depth);
+    const std::vector<DrawRange> ranges = draw_ranges(scene);
     TriangleSetup<> setup{};
+    std::size_t draw = 0;
     setup.triangle = ~0u;
     int setup_x = 0, setup_y = 0;
     for (std::size_t i = 0; i < in.covered.size(); ++i) {
@@ -147,14 +150,17 @@ class PipelineRenderer : public Renderer {
       const Covered& c = in.covered[i];
       const int tile_x = c.x / kTile * kTile, tile_y = c.y / kTile * kTile;
       if (setup.triangle != c.triangle || tile_x != setup_x || tile_y != setup_y) {
-        setup = stages_.fragment.set_up(narrow(in.triangles.at(c.triangle)), c.triangle, formats, tile_x, tile_y);
+        const WindowTriangle<float> triangle = narrow(in.triangles.at(c.triangle));
+        while (triangle.primitive >= ranges[draw].first_primitive + ranges[draw].primitive_count) ++draw;
+        const DepthState state = depth_state(scene.draws[draw], scene.frame.depth, scene.depth_clamp);
+        setup = stages_.fragment.set_up(triangle, c.triangle, state, tile_x, tile_y);
         setup_x = tile_x;
         setup_y = tile_y;
       }
       const Pixels<float> p{c.x, c.y, c.x + 0.5, c.y + 0.5};
       if (stage == Stage::depth) {
         const double z = stages_.fragment.depth(setup, p);
-        out.records.depth.push_back(formats.depth_scale == 0.0 ? z : z / formats.depth_scale);
+        out.records.depth.push_back(scale == 0.0 ? z : z / scale);
       } else {
         out.records.attributes.push_back({widen(stages_.fragment.attributes(setup, p))});
       }

@@ -17,7 +17,7 @@ struct FragmentFunctions {
   Color<float> (*shade)(const Color<float>&);
   void (*write)(const Merge&, float z, const Color<float>& shaded, float color_scale, const Stored&);
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
-  TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const Formats&, int x0, int y0);
+  TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const DepthState&, int x0, int y0);
 };
 
 template <class S>
@@ -55,8 +55,8 @@ FragmentFunctions fragment_functions() {
     write<float>(S(), S::merge_state(state), true, z, shaded, color_scale, to);
   };
   f.depth_passes = depth_passes_for<S>;
-  f.set_up = [](const WindowTriangle<float>& t, std::uint32_t triangle, const Formats& formats, int x0, int y0) {
-    return set_up(S(), t, triangle, formats, x0, y0);
+  f.set_up = [](const WindowTriangle<float>& t, std::uint32_t triangle, const DepthState& depth, int x0, int y0) {
+    return set_up(S(), t, triangle, depth, x0, y0);
   };
   return f;
 }

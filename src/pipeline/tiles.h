@@ -17,6 +17,7 @@ struct DrawList {
   std::span<const WindowTriangle<float>> triangles;
   std::span<const std::uint32_t> first_triangle;
   std::span<const Draw> draws;
+  bool depth_clamp = false;
 };
 
 /// For each tile, row by row from the bottom, the numbers of the triangles whose bounding box touches it, ascending.
@@ -35,7 +36,7 @@ void write_out(const Tile& tile, Frame& frame);
 template <class R, DepthFunc func, class Stages, class Tap>
 void draw_triangle(const Stages& stages, const BlockState& state, const WindowTriangle<float>& triangle,
                    std::uint32_t number, const Formats& formats, Tile& tile, Tap& tap) {
-  const SetupOf<Stages> s = set_up(stages, triangle, number, formats, tile.x0, tile.y0);
+  const SetupOf<Stages> s = set_up(stages, triangle, number, state.depth, tile.x0, tile.y0);
   if (triangle.corners < 3) {
     for (const glm::ivec2 pixel : stages.thin_pixels(triangle, {tile.x0, tile.y0}, kTile)) {
       fragment_pixel<R, func>(stages, state, s, pixel, formats.color_scale, tile, tap);
@@ -79,7 +80,8 @@ void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& f
   std::vector<BlockState> state_of;
   for (const Draw& draw : list.draws) {
     draw_of.push_back(draw_triangle_for<R, Stages, Tap>(draw.depth_func));
-    state_of.push_back({draw.scissor, stages.merge_state(draw.merge)});
+    state_of.push_back(
+        {depth_state(draw, format.depth, list.depth_clamp), draw.scissor, stages.merge_state(draw.merge)});
   }
   Tile tile{};
   for (int t = 0; t < bins.columns * bins.rows; ++t) {

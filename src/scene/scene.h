@@ -150,6 +150,12 @@ struct Merge {
   bool depth_mask = true;       ///< whether its depth is written
 };
 
+/// glDepthRange: the window z of the near and the far plane, [0,1] each; either may be the larger.
+struct DepthRange {
+  float near = 0, far = 1;
+  bool operator==(const DepthRange&) const = default;
+};
+
 /// A mesh, placed, with the state it is drawn under. Counter-clockwise in the window is the front.
 struct Draw {
   std::uint32_t mesh = 0;             ///< index into Scene::meshes
@@ -159,6 +165,7 @@ struct Draw {
   Shading shading = Shading::gouraud;
   Cull cull = Cull::none;
   DepthFunc depth_func = DepthFunc::less;
+  DepthRange depth_range;
   Merge merge;
   std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
 };
@@ -180,7 +187,8 @@ struct Scene {
   FrameFormat frame;
   Camera camera;
   Projection projection = Perspective{45, 1, 100};  ///< one of the dialect's
-  bool depth_clamp = false;   ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
+  bool depth_clamp =
+      false;  ///< no near and far plane: depths beyond are clamped to the draw's depth range (GL_DEPTH_CLAMP)
   glm::vec3 ambient{0};       ///< the light model's ambient light
   std::vector<Light> lights;  ///< at most 8
   std::vector<Mesh> meshes;

@@ -62,6 +62,7 @@ struct SceneFileOptions {
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where
 ///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth
 ///                  is then 0
+///     depth_range  [near, far]: the window z of the near and the far plane; [0, 1]
 ///     scissor      [x, y, width, height]: the pixels that may be covered; 0 to 16384 each
 ///     depth_mask   true, false: whether depth is written
 ///     blend        {source, destination, equation, alpha: {source, destination, equation}, color: [r, g, b, a]}:

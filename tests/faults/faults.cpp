@@ -26,6 +26,12 @@ Matrices<float> fov_taken_horizontally(const Scene& scene, const Draw& draw) {
   return m;
 }
 
+Matrices<float> depth_range_not_mapped(const Scene& scene, const Draw& draw) {
+  Matrices<float> m = pipeline::matrices(scene, draw);
+  m.win_scale.z = m.win_translate.z = 0.5f;
+  return m;
+}
+
 void normals_by_model_view(const Matrices<float>& matrices, const Mesh& mesh, std::vector<Vertex<float>>& out) {
   Matrices<float> wrong = matrices;
   wrong.normal = Mat3<float>(matrices.model_view);
@@ -129,6 +135,8 @@ struct IgnoredColorMask : pipeline::FragmentStages {
 constexpr std::array kFaults = {
     Fault{"matrices.fov_horizontal", "the vertical field of view is taken for the horizontal one", Stage::matrices,
           with_geometry<&Geometry::matrices, fov_taken_horizontally>},
+    Fault{"matrices.depth_range_not_mapped", "every draw's depths fill [0,1], whatever its depth range",
+          Stage::matrices, with_geometry<&Geometry::matrices, depth_range_not_mapped>},
     Fault{"vertex.normals_by_model_view", "normals go by the model-view matrix, not its inverse transpose",
           Stage::vertex, with_geometry<&Geometry::vertex, normals_by_model_view>},
     Fault{"light.world_space", "lights are not brought to eye space", Stage::light,

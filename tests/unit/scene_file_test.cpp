@@ -151,13 +151,15 @@ TEST_F(SceneFile, ReadsHowFragmentsAreMerged) {
   const Scene s = load(R"({"description": "d", "defaults": {"depth_mask": false}, "draws": [
       {"mesh": {"cube": {}}},
       {"mesh": {"cube": {}}, "blend": {}, "depth_mask": true, "color_mask": [true, false, true, false],
-                              "scissor": [1, 2, 30, 16384]},
+                              "depth_range": [0.75, 0.25], "scissor": [1, 2, 30, 16384]},
       {"mesh": {"cube": {}}, "blend": {"source": "source_alpha_saturate", "destination": "constant_color",
                                        "equation": "reverse_subtract", "color": [0.1, 0.2, 0.3, 0.4]}},
       {"mesh": {"cube": {}}, "blend": {"destination": "one", "alpha": {"source": "zero", "equation": "max"}}}]})");
   const Merge &none = s.draws[0].merge, &plain = s.draws[1].merge, &both = s.draws[2].merge, &own = s.draws[3].merge;
   EXPECT_FALSE(none.blend);
   EXPECT_FALSE(none.depth_mask);
+  EXPECT_EQ(s.draws[0].depth_range, DepthRange{});
+  EXPECT_EQ(s.draws[1].depth_range, (DepthRange{0.75f, 0.25f}));
   EXPECT_FALSE(s.draws[0].scissor);
   ASSERT_TRUE(s.draws[1].scissor);
   const Scissor& box = *s.draws[1].scissor;
