@@ -66,6 +66,10 @@ std::array<long double, 3> Barycentric::at(const Affine<T>& affine, int x, int y
   return {static_cast<long double>(1 - b1 - b2), static_cast<long double>(b1), static_cast<long double>(b2)};
 }
 
+std::array<Float128, 2> Barycentric::slope(double at_second, double at_third) const {
+  return {exact_.d1_dx * at_second + exact_.d2_dx * at_third, exact_.d1_dy * at_second + exact_.d2_dy * at_third};
+}
+
 std::array<long double, 3> Barycentric::at(int x, int y) const {
   return rounded_suffices_ ? at(rounded_, x, y) : at(exact_, x, y);
 }

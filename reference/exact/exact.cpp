@@ -54,7 +54,7 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
     case Stage::texture: return Renderer::run_stage(scene, stage, in);
     case Stage::shade: out.records.shaded = shade_fragments(records.attributes); break;
     case Stage::visibility:
-      out.records.drawn = drawn_fragments(scene, records);
+      out.records.drawn = drawn_fragments(scene, records, out.planes.stencil);
       out.planes.id = visible_primitives(scene, records, out.records.drawn);
       break;
     case Stage::merge: merge_fragments(scene, in, out); break;
@@ -99,7 +99,7 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
                     const Selection& selection, Capture& out) {
   const FrameFormat& frame = scene.frame;
   const DrawOf draw_of(scene);
-  DepthBuffer buffer(frame);
+  TestedFrame buffer(frame);
   ColorBuffer colors(scene);
   out.planes = cleared_planes(frame);
   std::uint32_t kept = 0;  // the triangle's number among those that the capture hands out
@@ -112,14 +112,15 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
     if (covered.empty()) continue;
 
     const Barycentric weights(triangle, frame.width, frame.height);
-    const DepthRule rule = depth_rule(scene, draw);
+    const DepthRule rule = depth_rule(scene, draw, triangle, weights);
     for (const Covered& c : covered) {
       add_fragment(out.planes, c.x, c.y, id_weight(triangle.primitive));
       const double depth = depth_at(triangle, weights, rule, c.x, c.y);
-      const bool visible = buffer.test(c.x, c.y, draw, depth);
       const bool recorded = wanted && selection.fragments() && selection.pixel(c.x, c.y);
-      if (!visible && !recorded) continue;
-      const glm::dvec4 color = color_at(triangle, weights, c.x, c.y);
+      const bool colored = recorded || draw.alpha_test;
+      glm::dvec4 color = colored ? color_at(triangle, weights, c.x, c.y) : glm::dvec4(0);
+      const bool visible = buffer.test({c.x, c.y, draw, triangle.front, depth, color.a});
+      if (visible && !colored) color = color_at(triangle, weights, c.x, c.y);
       if (recorded) selection.add(c, depth, color, visible, out.records);
       if (!visible) continue;
       out.planes.id(c.x, c.y) = static_cast<std::int32_t>(triangle.primitive);
@@ -127,7 +128,8 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
       colors.write(c.x, c.y, draw.merge, color);
     }
   }
-  out.planes.depth = buffer.take();
+  out.planes.depth = buffer.take_depth();
+  out.planes.stencil = buffer.take_stencil();
   out.planes.color = colors.take();
 }
 

@@ -9,13 +9,15 @@
 
 namespace plumbline::exact {
 
-/// What a draw says of its fragments' depth.
+/// What a draw says of a triangle's depths.
 struct DepthRule {
   double low = 0, high = 1;  ///< depths beyond are clamped
+  long double offset = 0;    ///< is added before
 };
-DepthRule depth_rule(const Scene& scene, const Draw& draw);
+DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
+                     const Barycentric& weights);
 
-/// Window z at pixel (x, y)'s centre, by the plane through the corners, clamped. Not in any depth format.
+/// Window z at pixel (x, y)'s centre, by the plane through the corners, moved and clamped. Not in any depth format.
 double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
                 int y);
 

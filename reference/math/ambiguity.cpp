@@ -28,6 +28,7 @@ namespace plumbline::math {
 
 namespace {
 
+// A stencil value tells of hidden surfaces too, so that where there are stencil tests all edges and meetings count.
 /// Whether all of them look for the nearest surface, or all for the farthest: then only what meets the winner matters.
 /// Else what one function keeps decides what the next compares with, and hidden surfaces matter too.
 template <class Range, class FuncOf>
@@ -141,7 +142,8 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
 }  // namespace
 
 double ambiguous_by_edges(const Scene& scene, const Projected& projected, const Plane<std::int32_t>& id) {
-  const bool all_seen = !one_sense(scene.draws, [](const Draw& draw) { return draw.depth_func; });
+  const bool counted = std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.stencil.has_value(); });
+  const bool all_seen = counted || !one_sense(scene.draws, [](const Draw& draw) { return draw.depth_func; });
   Bands bands{all_seen, 0, {id.width(), id.height(), 0}};
   for (const Edge& edge : drawn_edges(projected)) add_band(scene, projected, edge, id, bands);
   const auto centres = std::count(bands.near.values().begin(), bands.near.values().end(), char{1});
@@ -193,8 +195,8 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   const PixelDepth cleared{scene.frame.clear_depth, 0, glm::dvec2(0)};
   Surface won{kBackground, DepthFunc::always, cleared, cleared};
   for (const PixelHit& h : hits) {
-    if (h.hit.depth_func == DepthFunc::never) continue;
-    if (!std::isfinite(h.win.half)) return {1, true};
+    if (h.hit.depth_func == DepthFunc::never || !h.hit.alpha_passes) continue;
+    if (!std::isfinite(h.win.half) || h.hit.alpha_fails) return {1, true};
     const Surface surface{h.hit.primitive, h.hit.depth_func, h.win, h.view};
     if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
       others.push_back(won);
@@ -205,7 +207,8 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   }
   DepthShare share;
   for (const Surface& other : others) share += meeting(scene.frame, won, other);
-  if (!one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; })) {
+  const bool counted = std::ranges::any_of(hits, [](const PixelHit& h) { return h.hit.stencil != nullptr; });
+  if (counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; })) {
     for (std::size_t i = 0; i < others.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) share += meeting(scene.frame, others[i], others[j]);
     }

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/math/polygon_offset.h"
+#include "stages/fragment_outcomes.h"
+
 namespace plumbline::math {
 
 namespace {
@@ -72,13 +75,20 @@ Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
 
 /// The depth interval in the window, from that of z_view. Scaling and moving it there are rounded twice more, but where
 /// nothing is scaled or moved (the rounding of [0,1] itself is counted already).
-void set_window_depth(const Triangle& t, bool clamps, double lo, double hi, double weight, PixelHit& out) {
-  const double rounding = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding, scale = range_scale(t);
+void set_window_depth(const Triangle& t, const OffsetBounds& offset, bool clamps, double lo, double hi, double weight,
+                      PixelHit& out) {
+  const double moved = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding, scale = range_scale(t);
+  const double rounding = moved + offset.half;
   const auto [low, high] = clamps ? std::minmax({double{t.range.near}, double{t.range.far}}) : std::pair(0.0, 1.0);
   out.win.z = to_window(t, out.view.z);
   if (clamps) out.win.z = std::clamp(out.win.z, low, high);
   out.win.half = scale * out.view.half + rounding;
   out.win.slope = (double{t.range.far} - double{t.range.near}) * out.view.slope;
+  if (!std::isfinite(rounding)) {
+    out.hit.z_lo = low;
+    out.hit.z_hi = high;
+    return;
+  }
   const auto [nearest, farthest] = std::minmax({to_window(t, lo), to_window(t, hi)});
   out.hit.z_lo = std::clamp(nearest - rounding, low, high);
   out.hit.z_hi = std::clamp(farthest + rounding, low, high);
@@ -86,7 +96,8 @@ void set_window_depth(const Triangle& t, bool clamps, double lo, double hi, doub
 
 /// The depth interval: the plane's z at the pixel, moved by at most h + delta_E where coverage and plane are snapped
 /// alike, or by the plane's own error where only coverage is; then the corners' own depth error.
-void set_depth(const Triangle& t, bool clamps, glm::dvec3 d, const Place& at, glm::dvec2 moved, PixelHit& out) {
+void set_depth(const Triangle& t, const PolygonOffset& offset, DepthFormat format, bool clamps, glm::dvec3 d,
+               const Place& at, glm::dvec2 moved, PixelHit& out) {
   const double weight = snap_weight(t, at, d, out.hit.certain);
   const double w = std::clamp(at.w, t.w_min, t.w_max);
   PixelDepth& view = out.view;
@@ -113,7 +124,7 @@ void set_depth(const Triangle& t, bool clamps, glm::dvec3 d, const Place& at, gl
     hi = std::min(hi, t.z_max + corner_error);
   }
   out.hit.certain = out.hit.certain && not_cut;
-  set_window_depth(t, clamps, lo, hi, weight, out);
+  set_window_depth(t, polygon_offset(t, offset, format), clamps, lo, hi, weight, out);
 }
 
 /// The colour at the pixel: perspective-correct, the plane going on beyond the triangle's border, as renderers' do.
@@ -162,6 +173,25 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
                         color_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end);
 }
 
+void set_tests(const Draw& draw, const Triangle& t, ColorFormat format, PixelHit& out) {
+  Hit& hit = out.hit;
+  if (draw.alpha_test) {
+    const bool bounded = std::isfinite(hit.color_bound);
+    const Outcomes alpha =
+        bounded ? alpha_outcomes(*draw.alpha_test, format, hit.color.a - hit.color_bound, hit.color.a + hit.color_bound)
+                : Outcomes{true, true};
+    hit.alpha_passes = alpha.may_pass;
+    hit.alpha_fails = alpha.may_fail;
+  }
+  if (!draw.stencil) return;
+  const bool front = t.sign > 0;
+  hit.stencil = front ? &draw.stencil->front : &draw.stencil->back;
+  // What may be turned over by snapping is not certain: wholly, or a piece of it at its border.
+  const bool either = t.flat || (!hit.certain && (t.thin || t.cut));
+  if (either) hit.or_stencil = front ? &draw.stencil->back : &draw.stencil->front;
+  hit.twice = !hit.certain && t.cut;
+}
+
 }  // namespace
 
 EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d) {
@@ -202,11 +232,13 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
   out.whole = t.facing_kept && !t.flat && !t.cut;
-  set_depth(t, scene.depth_clamp, d, at, moved, out);
+  const Draw& draw = scene.draws[t.draw];
+  set_depth(t, draw.polygon_offset, scene.frame.depth, scene.depth_clamp, d, at, moved, out);
   const PixelDepth& view = out.view;
   if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))
     return std::nullopt;
   set_color(scene, projected, t, d, at, moved, out);
+  set_tests(draw, t, scene.frame.color, out);
   out.inside = at.by_ties && at.inside && t.facing_kept && (scene.depth_clamp || (view.z >= 0 && view.z <= 1));
   return out;
 }

@@ -9,6 +9,7 @@
 #include "reference/math/color_error.h"
 #include "reference/math/light.h"
 #include "reference/math/matrices.h"
+#include "reference/math/polygon_offset.h"
 
 namespace plumbline::math {
 
@@ -244,6 +245,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   const Widths width = widths(p_window, part.count, 2 * t.reach);
   t.altitude = t.cut ? width.pieces : width.whole;
   t.fat_altitude = t.cut ? width.fat : width.whole;
+  t.offset = polygon_offset(t, draw.polygon_offset, scene.depth).middle;
   t.thin = t.flat || width.whole <= 2 * t.reach;
   const bool front = t.sign > 0;
   t.facing_kept = draw.cull == Cull::none || front == (draw.cull == Cull::back);
@@ -278,6 +280,7 @@ Projected project(const Scene& scene) {
   out.width = scene.frame.width;
   out.height = scene.frame.height;
   out.depth_clamp = scene.depth_clamp;
+  out.depth = scene.frame.depth;
   out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {

@@ -51,7 +51,8 @@ struct Triangle {
   glm::dvec4 size;                  ///< the corners' largest
   double roundings = 0;             ///< k: a clip coordinate in float is within k u size of the one in double
   double w_min = 0, w_max = 0;      ///< over its visible part
-  DepthRange range;                 ///< z_win = near + (far - near) z_view
+  DepthRange range;                 ///< z_win = near + (far - near) z_view + offset
+  double offset = 0;                ///< the polygon offset
   double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
   double altitude = 0;              ///< pixels: the smallest one of all planes a renderer may set up for it
   double fat_altitude = 0;  ///< of those that are thicker than snapping may turn; thinner ones lie along its border
@@ -61,7 +62,7 @@ struct Triangle {
 /// z_win of a triangle's z_view.
 inline double to_window(const Triangle& t, double z_view) {
   const double near = t.range.near, far = t.range.far;
-  return near + (far - near) * z_view;
+  return near + (far - near) * z_view + t.offset;
 }
 /// What a difference of z_view comes to in the window.
 inline double range_scale(const Triangle& t) { return std::abs(double{t.range.far} - double{t.range.near}); }
@@ -71,6 +72,7 @@ struct Projected {
   int width = 0, height = 0;
   bool perspective = true;
   bool depth_clamp = false;  ///< no near and far plane
+  DepthFormat depth = DepthFormat::z24;
   std::vector<Corner> corners;
   std::vector<Triangle> triangles;
 

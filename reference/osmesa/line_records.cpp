@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reference/osmesa/fragment_state.h"
 #include "reference/osmesa/target.h"
 
 namespace plumbline::osmesa {
@@ -21,7 +22,7 @@ void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& r
     while (line.primitive >= scene.ranges()[draw].first_primitive + scene.ranges()[draw].primitive_count) ++draw;
     scene.set_matrices(draw);
     scene.set_fragments(draw);
-    gl.Disable(GL_DEPTH_TEST);
+    disable_tests(gl);
     target.bind();
     scene.draw_id(draw, line.primitive);
     // Its number is on no other line, so that what earlier ones left need not be cleared.

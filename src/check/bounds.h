@@ -51,6 +51,21 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, in
 /// The largest over a primitive's triangles, at least 1.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y);
 
+/// What a polygon offset adds to the bound of a depth, times u, for a renderer that finds the slope in float and adds
+/// the offset to the corners' depths: the slope's own error (bounds_from_origin's of a gradient) and four roundings of
+/// it times |factor|, and two of the offset.
+class OffsetErrors {
+ public:
+  explicit OffsetErrors(const Scene& scene);
+  double of(const WindowTriangle<double>& triangle) const;
+  /// The largest over a primitive's triangles.
+  double of(const Records<double>& records, std::int32_t primitive) const;
+
+ private:
+  const Scene& scene_;
+  std::vector<DrawRange> ranges_;  // none: no draw has an offset
+};
+
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
 /// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
 /// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|).

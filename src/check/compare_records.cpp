@@ -71,9 +71,9 @@ Measurement compare_matrices_by(const Records<double>& candidate, const Records<
     add_entries(meter, a.model_view, b.model_view, unit, factor, at("model_view"));
     add_entries(meter, a.projection, b.projection, unit, factor, at("projection"));
     if (normal) add_entries(meter, a.normal, b.normal, unit, factor, at("normal"));
-    const Vec3<double> unit_win(unit(b.win_scale.x, 0), unit(b.win_scale.y, 0), unit(b.win_scale.z, 0));
-    add(meter, a.win_scale, b.win_scale, unit_win, factor, at("win_scale"));
-    add(meter, a.win_translate, b.win_translate, unit_win, factor, at("win_translate"));
+    const auto units = [&](const Vec3<double>& v) { return Vec3<double>(unit(v.x, 0), unit(v.y, 0), unit(v.z, 0)); };
+    add(meter, a.win_scale, b.win_scale, units(b.win_scale), factor, at("win_scale"));
+    add(meter, a.win_translate, b.win_translate, units(b.win_translate), factor, at("win_translate"));
   });
 }
 

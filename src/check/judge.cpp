@@ -11,6 +11,7 @@
 #include "check/compare_lines.h"
 #include "check/compare_planes.h"
 #include "check/compare_records.h"
+#include "check/open_pixels.h"
 
 namespace plumbline::check {
 
@@ -25,8 +26,10 @@ struct Case {
   const Legal& legal;  // an oracle's, or empty
   Renderer* referee;   // runs stages, or null
   std::vector<Comparison>& out;
+  std::uint64_t open = 0;  // pixels that the stage at hand leaves out, for the alpha test may go either way there
 
   void add(const std::string& reference, Stage stage, Measurement m, std::string_view row = "", std::string note = "") {
+    m.ambiguous += open;
     out.push_back(judged(scene.name, reference, stage, std::move(m), row, std::move(note)));
   }
   // The row of stage `of` once more, for another stage that the same plane shows.
@@ -152,10 +155,16 @@ Comparison as_dispute(Comparison comparison, std::string_view why) {
 }
 
 constexpr std::string_view kNo8BitDepth = "OpenGL has no 8-bit depth: it draws with 24 bits, other surfaces may win";
+constexpr std::string_view kNo16BitsBesideStencil =
+    "OpenGL has no 16-bit depth beside stencil values: it draws with 24 bits, other surfaces may win";
+std::string_view no_such_depth(const FrameFormat& frame) {
+  return frame.depth == DepthFormat::z8 ? kNo8BitDepth : kNo16BitsBesideStencil;
+}
 
-// Whether its depths are of 8 bits, if the scene's are.
-bool draws_codes_of_8_bits(const Scene& scene, const Capture& theirs) {
-  if (scene.frame.depth != DepthFormat::z8) return true;
+// Whether its depths are codes of the scene's format, if that is one that OpenGL lacks.
+bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
+  const bool stencil = scene.frame.stencil != StencilFormat::none;
+  if (scene.frame.depth != DepthFormat::z8 && !(stencil && scene.frame.depth == DepthFormat::z16)) return true;
   return std::ranges::all_of(theirs.planes.depth.values(), [&](double z) {
     const double code = z * depth_scale(scene.frame.depth);
     return std::abs(code - std::round(code)) < 1e-9;  // a double's rounding; a code of 24 bits is 1e-5 away or more
@@ -189,7 +198,9 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       }
       return;
     case Stage::depth:
-      if (!draws_codes_of_8_bits(c.scene, theirs)) return c.skip(name, stage, Outcome::unsupported, kNo8BitDepth);
+      if (!draws_depth_codes(c.scene, theirs)) {
+        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+      }
       return c.add(name, stage, compare_depth_planes(c.scene, c.candidate, theirs, factor("osmesa.depth")),
                    "osmesa.depth");
     case Stage::attributes:
@@ -198,7 +209,9 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
     case Stage::texture: return;
     case Stage::shade: return;
     case Stage::visibility:
-      if (!draws_codes_of_8_bits(c.scene, theirs)) return c.skip(name, stage, Outcome::unsupported, kNo8BitDepth);
+      if (!draws_depth_codes(c.scene, theirs)) {
+        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+      }
       return c.add(name, stage,
                    draws_thin(c.scene) ? compare_thin_winners(c.scene, c.candidate, theirs, factor("osmesa.depth"))
                                        : compare_winners(c.candidate.planes, theirs.planes, c.legal));
@@ -275,6 +288,15 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
       c.skip(name, stage, Outcome::unsupported, info[stage].reason);
     } else if (stage == Stage::shade && !exact) {
       c.repeat(name, Stage::attributes, stage);  // without textures, both are the one plane of the winners' colours
+    } else if (!exact && stage > Stage::coverage && tests_alpha(c.scene)) {
+      if (over_budget(c.candidate)) {
+        c.skip(name, stage, Outcome::unsupported, kOverBudget);
+        continue;
+      }
+      Capture settled_capture = theirs;
+      c.open = settle_alpha(c.scene, c.candidate, stage, factor("osmesa.attributes"), settled_capture.planes);
+      side_by_side(c, settled_capture, stage, name);
+      c.open = 0;
     } else if (!exact) {
       side_by_side(c, theirs, stage, name);
     }  // An exact reference judges the other stages from the candidate's own records.

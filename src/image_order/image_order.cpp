@@ -146,6 +146,11 @@ class ImageOrderRenderer final : public Renderer {
     if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
       throw Unsupported("no ray meets a line or a point");
     }
+    for (const Draw& draw : scene.draws) {
+      if (draw.alpha_test || draw.stencil || draw.polygon_offset != PolygonOffset{}) {
+        throw Unsupported("a ray here knows no alpha, no stencil value and no slope");
+      }
+    }
     std::size_t triangles = 0;
     for (const DrawRange& range : draw_ranges(scene)) triangles += range.primitive_count;
     constexpr std::size_t kTriangle = sizeof(std::array<glm::dvec3, 3>) + 2 * sizeof(std::uint32_t) + 64;  // and a box

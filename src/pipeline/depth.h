@@ -39,16 +39,19 @@ Barycentric<R> barycentric(const BarycentricPlanes& planes, const Pixels<R>& p) 
 
 /// What a draw says of its fragments' depth.
 struct DepthState {
-  double scale;              ///< the largest code of the depth format (scene.h, depth_scale); 0: float
+  DepthFormat format;
   double low = 0, high = 1;  ///< depths beyond are clamped
+  PolygonOffset offset = {};
 };
 DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp);
 
 /// A triangle's window depths, as corner 0's and the differences from it.
 struct DepthSetup {
   double z0, dz1, dz2;
-  double scale, low = 0, high = 1;  ///< as DepthState
+  double scale;              ///< the largest code of the depth format (scene.h, depth_scale); 0: float
+  double low = 0, high = 1;  ///< as DepthState
 };
+/// With the polygon offset, which moves the whole plane.
 DepthSetup depth_setup(const WindowTriangle<float>& triangle, const DepthState& state);
 
 /// The code of z in [0,1], `scale` the largest: the nearest, half to even; of 8 bits half up, as tinyrenderer's

@@ -44,9 +44,13 @@ inline Pixels<float> block_pixels<float>(int block_x, int block_y, int i) {
 
 inline float to_float(double value) { return static_cast<float>(value); }
 inline double to_wide(float value) { return static_cast<double>(value); }
+/// Of whole numbers.
+inline std::int64_t to_int(float value) { return static_cast<std::int64_t>(value); }
+inline float to_float(std::int64_t value) { return static_cast<float>(value); }
 inline bool any(bool mask) { return mask; }
 inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
+inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }
 
 /// To [low, high]; NaN to low.
 template <class T>
@@ -67,6 +71,11 @@ inline double round_even(double value) { return (value + 6755399441055744.0) - 6
 inline float load(const float* from) { return *from; }
 inline void store(bool mask, float value, float* to) {
   if (mask) *to = value;
+}
+/// Whole numbers from 0 to 255.
+inline std::int64_t load(const std::uint8_t* from) { return *from; }
+inline void store(bool mask, std::int64_t value, std::uint8_t* to) {
+  if (mask) *to = static_cast<std::uint8_t>(value);
 }
 
 /// The value of one lane, for taps.

@@ -27,6 +27,7 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
     out.depth.values()[i] = frame.depth_z32f.empty() ? frame.depth_code.values()[i] / formats.depth_scale
                                                      : static_cast<double>(frame.depth_z32f.values()[i]);
   }
+  out.stencil = frame.stencil;
   return out;
 }
 
@@ -178,37 +179,43 @@ class PipelineRenderer : public Renderer {
     clear(cleared, scene.frame, formats);
     const int w = scene.frame.width, h = scene.frame.height;
     Plane<float> depth(w, h, cleared.depth[0]);
+    const bool has_stencil = scene.frame.stencil != StencilFormat::none;
+    Plane<std::uint8_t> stencil(has_stencil ? w : 0, has_stencil ? h : 0, cleared.stencil[0]);
     Plane<std::int32_t> id(w, h, kBackground);
     Plane<glm::vec4> color(w, h, {cleared.color[0][0], cleared.color[1][0], cleared.color[2][0], cleared.color[3][0]});
     std::size_t draw = 0;
     for (std::size_t i = 0; i < in.covered.size(); ++i) {
       const Covered& c = in.covered[i];
-      const std::uint32_t primitive = in.triangles.at(c.triangle).primitive;
+      const WindowTriangle<double>& triangle = in.triangles.at(c.triangle);
+      const std::uint32_t primitive = triangle.primitive;
       while (primitive >= ranges[draw].first_primitive + ranges[draw].primitive_count) ++draw;
       const double z = in.depth.at(i);
       const auto incoming = static_cast<float>(formats.depth_scale == 0.0 ? z : depth_code(z, formats.depth_scale));
-      const auto passes = [&] {
-        return stages_.fragment.depth_passes(scene.draws[draw].depth_func, incoming, depth(c.x, c.y));
+      const Color<float> shaded = in.shaded.empty() ? Color<float>{} : color_of(in.shaded.at(i).color);
+      glm::vec4& to = color(c.x, c.y);
+      const Stored stored{&depth(c.x, c.y), {&to.r, &to.g, &to.b, &to.a}, has_stencil ? &stencil(c.x, c.y) : nullptr};
+      const auto passes = [&](const Draw& by) {
+        return stages_.fragment.passes(by, triangle.front, incoming, shaded, formats.color_scale, stored);
       };
       bool drawn = false;
       if (told) {
         drawn = in.drawn[i].drawn;
       } else if (winners_known) {  // the winner itself passes; a cut primitive may have two triangles at a pixel
-        drawn = capture.planes.id(c.x, c.y) == static_cast<std::int32_t>(primitive) &&
-                (id(c.x, c.y) == kBackground || passes());
+        Draw known = scene.draws[draw];
+        known.stencil.reset();  // what was held is not known
+        if (id(c.x, c.y) == kBackground) known.depth_func = DepthFunc::always;
+        drawn = capture.planes.id(c.x, c.y) == static_cast<std::int32_t>(primitive) && passes(known);
       } else {
-        drawn = passes();
+        drawn = passes(scene.draws[draw]);
       }
       if (stage == Stage::visibility) out.records.drawn.push_back({drawn});
       if (!drawn) continue;
       id(c.x, c.y) = static_cast<std::int32_t>(primitive);
-      const Color<float> shaded = stage == Stage::merge ? color_of(in.shaded.at(i).color) : Color<float>{};
-      glm::vec4& to = color(c.x, c.y);
-      stages_.fragment.write(scene.draws[draw].merge, incoming, shaded, formats.color_scale,
-                             {&depth(c.x, c.y), {&to.r, &to.g, &to.b, &to.a}});
+      stages_.fragment.write(scene.draws[draw].merge, incoming, shaded, formats.color_scale, stored);
     }
     if (stage == Stage::visibility) {
       out.planes.id = std::move(id);
+      out.planes.stencil = std::move(stencil);
       return;
     }
     out.planes.depth = Plane<double>(w, h);

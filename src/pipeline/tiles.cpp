@@ -50,6 +50,7 @@ void clear(Tile& tile, const FrameFormat& frame, const Formats& formats) {
   const Color<float> color = merge<float>({c.r, c.g, c.b, c.a}, formats.color_scale);
   const double z = formats.depth_scale == 0.0 ? frame.clear_depth : depth_code(frame.clear_depth, formats.depth_scale);
   std::fill_n(tile.depth, kTile * kTile, static_cast<float>(z));
+  if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
   std::fill_n(tile.color[0], kTile * kTile, color.r);
   std::fill_n(tile.color[1], kTile * kTile, color.g);
   std::fill_n(tile.color[2], kTile * kTile, color.b);
@@ -82,6 +83,7 @@ void write_out(const Tile& tile, Frame& frame) {
   copy_out(tile, frame.color_rgba8, [&](int i) { return glm::u8vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
   copy_out(tile, frame.color_rgba12, [&](int i) { return glm::u16vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
   copy_out(tile, frame.color_rgba32f, [&](int i) { return glm::vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
+  copy_out(tile, frame.stencil, [&](int i) { return tile.stencil[i]; });
   copy_out(tile, frame.depth_code, [&](int i) { return static_cast<std::uint32_t>(tile.depth[i]); });
   copy_out(tile, frame.depth_z32f, [&](int i) { return tile.depth[i]; });
 }

@@ -80,8 +80,8 @@ void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& f
   std::vector<BlockState> state_of;
   for (const Draw& draw : list.draws) {
     draw_of.push_back(draw_triangle_for<R, Stages, Tap>(draw.depth_func));
-    state_of.push_back(
-        {depth_state(draw, format.depth, list.depth_clamp), draw.scissor, stages.merge_state(draw.merge)});
+    state_of.push_back({depth_state(draw, format.depth, list.depth_clamp), draw.scissor, draw.alpha_test, draw.stencil,
+                        stages.merge_state(draw.merge)});
   }
   Tile tile{};
   for (int t = 0; t < bins.columns * bins.rows; ++t) {

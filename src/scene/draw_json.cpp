@@ -74,16 +74,16 @@ void read_state(const JsonNode& node, DrawState& state) {
 }  // namespace
 
 DrawState read_draw_state(const JsonNode& node, const DrawState& defaults) {
-  node.only({"transforms", "material", "lit", "shading", "cull", "depth_func", "depth_range", "scissor", "depth_mask",
-             "blend", "color_mask"});
+  node.only({"transforms", "material", "lit", "shading", "cull", "depth_func", "depth_range", "polygon_offset",
+             "alpha_test", "stencil", "scissor", "depth_mask", "blend", "logic_op", "color_mask"});
   DrawState state = defaults;
   read_state(node, state);
   return state;
 }
 
 DrawState read_draw(const JsonNode& node, const DrawState& defaults) {
-  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "depth_func", "depth_range", "scissor",
-             "depth_mask", "blend", "color_mask"});
+  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "depth_func", "depth_range", "polygon_offset",
+             "alpha_test", "stencil", "scissor", "depth_mask", "blend", "logic_op", "color_mask"});
   DrawState state = defaults;
   read_state(node, state);
   return state;

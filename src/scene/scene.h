@@ -10,6 +10,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/fragment_state.h"
+
 namespace plumbline {
 
 /// The conventions under which a scene's numbers are read: window origin, pixel centre, handedness, where the eye is...
@@ -100,9 +102,9 @@ struct Material {
 
 enum class Shading { flat, gouraud };
 enum class Cull { none, back, front };
-enum class DepthFunc { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 enum class ColorFormat { rgba8, rgba12, rgba32f };  ///< 12 bits a channel: GzRender's 0..4095 (note 000)
 enum class DepthFormat { z8, z16, z24, z32f };      ///< 8 bits: tinyrenderer's z-buffer (note 002)
+enum class StencilFormat { none, s8 };
 
 /// glBlendFuncSeparate's factors. As a destination's, source_alpha_saturate is not allowed.
 enum class BlendFactor {
@@ -148,12 +150,8 @@ struct Merge {
   std::optional<Blend> blend;   ///< none: it replaces what is there
   glm::bvec4 color_mask{true};  ///< channels that are written
   bool depth_mask = true;       ///< whether its depth is written
-};
-
-/// glDepthRange: the window z of the near and the far plane, [0,1] each; either may be the larger.
-struct DepthRange {
-  float near = 0, far = 1;
-  bool operator==(const DepthRange&) const = default;
+  /// Of codes, in blending's place (OpenGL 2.1 spec 4.1.10); a float colour replaces what is there.
+  std::optional<LogicOp> logic_op = std::nullopt;
 };
 
 /// A mesh, placed, with the state it is drawn under. Counter-clockwise in the window is the front.
@@ -166,6 +164,9 @@ struct Draw {
   Cull cull = Cull::none;
   DepthFunc depth_func = DepthFunc::less;
   DepthRange depth_range;
+  PolygonOffset polygon_offset;
+  std::optional<AlphaTest> alpha_test;
+  std::optional<Stencil> stencil;  ///< in a frame that has stencil values
   Merge merge;
   std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
 };
@@ -177,6 +178,8 @@ struct FrameFormat {
   DepthFormat depth = DepthFormat::z24;
   glm::vec4 clear_color{0, 0, 0, 1};
   double clear_depth = 1;  ///< window z, [0,1]
+  StencilFormat stencil = StencilFormat::none;
+  std::uint8_t clear_stencil = 0;
 };
 
 struct Scene {
@@ -197,10 +200,10 @@ struct Scene {
 
 /// Whether any draw is of such a mesh.
 bool draws(const Scene& scene, Topology topology);
-/// Whether a pixel's colour is that of its last fragment alone: nothing is blended, no channel masked.
+/// Whether a pixel's colour is that of its last fragment alone: nothing is blended, combined or masked.
 inline bool colors_replace(const Scene& scene) {
   return std::all_of(scene.draws.begin(), scene.draws.end(),
-                     [](const Draw& d) { return !d.merge.blend && glm::all(d.merge.color_mask); });
+                     [](const Draw& d) { return !d.merge.blend && !d.merge.logic_op && glm::all(d.merge.color_mask); });
 }
 /// Whether every fragment that is drawn leaves its depth.
 inline bool depths_replace(const Scene& scene) {
@@ -241,5 +244,9 @@ constexpr double depth_scale(DepthFormat format) {
 
 /// One step of the depth format at window depth z: 1/(2^n - 1); for z32f the larger of z's ULP and 2^-24.
 double depth_step(DepthFormat format, double z_win);
+
+/// r of a triangle whose largest window z is `z_max` (PolygonOffset), as Mesa has it where OpenGL leaves it open: two
+/// steps of a unorm format; of float 2^(e - 23), e the exponent of z_max.
+double polygon_offset_unit(DepthFormat format, double z_max);
 
 }  // namespace plumbline

@@ -28,7 +28,7 @@ struct SceneFileOptions {
 ///   description *  what must be seen, and why
 ///   dialect        "gl", "gzrender", "games101", "tinyrenderer": how all other numbers are read (dialect/dialect.h)
 ///   frame          width, height: 1 to 16384; color: "rgba8", "rgba12", "rgba32f"; depth: "z8", "z16", "z24",
-///                  "z32f"; clear_color: [r, g, b, a]; clear_depth
+///                  "z32f"; clear_color: [r, g, b, a]; clear_depth; stencil: "none", "s8"; clear_stencil
 ///   camera         eye, center, up: [x, y, z]
 ///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right
 ///   *,
@@ -63,12 +63,18 @@ struct SceneFileOptions {
 ///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth
 ///                  is then 0
 ///     depth_range  [near, far]: the window z of the near and the far plane; [0, 1]
+///     polygon_offset  {factor, units}
+///     alpha_test   {func *: one of depth_func's, reference: [0, 1]}
+///     stencil      {func, reference, mask, fail, depth_fail, pass, write_mask, back: {the same, of back faces}}:
+///     numbers
+///                  from 0 to 255, and OpenGL's ops (all names: StencilOp); the frame needs stencil "s8"
 ///     scissor      [x, y, width, height]: the pixels that may be covered; 0 to 16384 each
 ///     depth_mask   true, false: whether depth is written
 ///     blend        {source, destination, equation, alpha: {source, destination, equation}, color: [r, g, b, a]}:
 ///     OpenGL's
 ///                  factors ("one" and "zero" where they are left out) and equations ("add", "subtract",
 ///                  "reverse_subtract", "min", "max"), alpha's as rgb's where it has none. All names: BlendFactor
+///     logic_op     one of OpenGL's 16 (LogicOp; "and", "xor" ...)
 ///     color_mask   [r, g, b, a], each true or false: whether it is written
 ///
 /// Colours are in [0,1], lights' and ambient 0 or more. Coordinates go up to +-1e6, all draws' triangles to 2^24.

@@ -46,6 +46,10 @@ template <>
 struct Element<std::uint16_t> : Element<double> {
   static constexpr std::string_view dtype = "u16";
 };
+template <>
+struct Element<std::uint8_t> : Element<double> {
+  static constexpr std::string_view dtype = "u8";
+};
 /// 0 or 1.
 template <>
 struct Element<bool> : Element<double> {
@@ -127,6 +131,7 @@ void visit_capture(CaptureRef& capture, Visitor& visit) {
   visit.plane("planes.count", planes.count);
   visit.plane("planes.id_sum", planes.id_sum);
   visit.plane("planes.id", planes.id);
+  visit.plane("planes.stencil", planes.stencil);
   visit.plane("planes.shaded", planes.shaded);
   visit.plane("planes.color", planes.color);
   visit.plane("planes.depth", planes.depth);

@@ -117,6 +117,43 @@ struct ScissorWithItsFarSides : pipeline::FragmentStages {
   }
 };
 
+struct OffsetWithoutSlope : pipeline::FragmentStages {
+  static pipeline::DepthSetup depth_setup(const WindowTriangle<float>& triangle, const pipeline::DepthState& state) {
+    pipeline::DepthState wrong = state;
+    wrong.offset.factor = 0;
+    return pipeline::depth_setup(triangle, wrong);
+  }
+};
+
+struct AlphaAtTheReferenceKept : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Mask<R> alpha_passes(const AlphaTest& test, R alpha, float scale) {
+    const bool greater = test.func == CompareFunc::greater;
+    return pipeline::alpha_passes<R>({greater ? CompareFunc::greater_equal : test.func, test.reference}, alpha, scale);
+  }
+};
+
+struct SwappedDepthOps : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Mask<R> stencil_test(const StencilFace& face, pipeline::Mask<R> alive, pipeline::Mask<R> nearer,
+                                        std::uint8_t* at) {
+    StencilFace wrong = face;
+    std::swap(wrong.pass, wrong.depth_fail);
+    return pipeline::stencil_test<R>(wrong, alive, nearer, at);
+  }
+};
+
+struct SidesOfLogicOpSwapped : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Color<R> logic(LogicOp op, const pipeline::Color<R>& source, const pipeline::Color<R>& stored,
+                                  float scale) {
+    const LogicOp wrong = op == LogicOp::and_reverse    ? LogicOp::and_inverted
+                          : op == LogicOp::and_inverted ? LogicOp::and_reverse
+                                                        : op;
+    return pipeline::logic<R>(wrong, source, stored, scale);
+  }
+};
+
 struct SwappedFactors : pipeline::FragmentStages {
   static Merge merge_state(const Merge& of_draw) {
     Merge wrong = of_draw;
@@ -129,7 +166,9 @@ struct SwappedFactors : pipeline::FragmentStages {
 };
 
 struct IgnoredColorMask : pipeline::FragmentStages {
-  static Merge merge_state(const Merge& of_draw) { return {of_draw.blend, glm::bvec4(true), of_draw.depth_mask}; }
+  static Merge merge_state(const Merge& of_draw) {
+    return {of_draw.blend, glm::bvec4(true), of_draw.depth_mask, of_draw.logic_op};
+  }
 };
 
 constexpr std::array kFaults = {
@@ -154,14 +193,22 @@ constexpr std::array kFaults = {
     Fault{"coverage.steep_lines_torn", "lines are stepped along x in every octant: steep ones have gaps",
           Stage::coverage, with_fragment<SteepLinesTorn>},
     Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth, with_fragment<TruncatedDepth>},
+    Fault{"depth.offset_without_slope", "a polygon offset is of its units alone", Stage::depth,
+          with_fragment<OffsetWithoutSlope>},
     Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
           with_fragment<AffineAttributes>},
     Fault{"visibility.less_equal", "an equal depth passes where only a smaller one may", Stage::visibility,
           with_fragment<LessEqualForLess>},
+    Fault{"visibility.alpha_at_reference", "an alpha equal to the reference passes where only a greater one may",
+          Stage::visibility, with_fragment<AlphaAtTheReferenceKept>},
+    Fault{"visibility.stencil_ops_swapped", "the stencil op of a depth that fails is taken for that of one that passes",
+          Stage::visibility, with_fragment<SwappedDepthOps>},
     Fault{"merge.truncated", "colours are truncated to 8 bits, not rounded", Stage::merge,
           with_fragment<TruncatedColor>},
     Fault{"merge.factors_swapped", "blending takes the source's factor for the destination's, and the other way round",
           Stage::merge, with_fragment<SwappedFactors>},
+    Fault{"merge.logic_op_sides", "a logic op turns the wrong one over: s & ~d for ~s & d", Stage::merge,
+          with_fragment<SidesOfLogicOpSwapped>},
     Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge, with_fragment<IgnoredColorMask>},
 };
 

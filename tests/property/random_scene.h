@@ -7,6 +7,7 @@
 
 #include <rapidcheck.h>
 
+#include "random_state.h"
 #include "scene/scene.h"
 
 namespace plumbline::test {
@@ -115,6 +116,11 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
     light.specular = glm::vec3(0.5f);
     scene.lights.push_back(light);
   }
+  const bool with_state = *evenly(0, 2) == 0;
+  if (with_state && *evenly(0, 2) == 0) {
+    scene.frame.stencil = StencilFormat::s8;
+    scene.frame.clear_stencil = static_cast<std::uint8_t>(*evenly(0, 4));
+  }
   const int draws = *evenly(1, 4);
   for (int i = 0; i < draws; ++i) {
     scene.meshes.push_back(random_mesh(8, of));
@@ -137,6 +143,7 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
     if (*evenly(0, 3) == 0)
       draw.transforms.push_back(
           Scale{glm::dvec3(*point(gen::map(evenly(1, 5), [](int k) { return static_cast<float>(k) / 2; })))});
+    if (with_state) randomize_state(scene.frame, draw);
     scene.draws.push_back(draw);
   }
   return scene;

@@ -25,7 +25,9 @@ Barycentric<float> weights_at(const Triangle& t, int x, int y) {
   return barycentric<float>(planes_of(t, x / kTile * kTile, y / kTile * kTile), pixel(x, y));
 }
 float depth_at(const Triangle& t, int x, int y, double scale) {
-  return depth<float>(depth_setup(t, {scale}), weights_at(t, x, y));
+  DepthSetup setup = depth_setup(t, {DepthFormat::z32f});
+  setup.scale = scale;
+  return depth<float>(setup, weights_at(t, x, y));
 }
 Triangle with_depths(Triangle t, float z0, float z1, float z2) {
   t.v[0].p_win.z = z0;

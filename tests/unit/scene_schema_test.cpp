@@ -43,18 +43,15 @@ std::string in_mesh(const std::string& kind) {
 const Members kSides = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"}, {"top", "1"}, {"near", "1"}, {"far", "2"}};
 const Members kCoordinates = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"},
                               {"top", "1"},   {"near", "1"},  {"far", "-2"}};
-const Members kState = {{"transforms", "[]"},
-                        {"material", "{}"},
-                        {"lit", "true"},
-                        {"shading", "\"flat\""},
-                        {"cull", "\"none\""},
-                        {"depth_func", "\"less\""},
-                        {"depth_range", "[1, 0]"},
-                        {"scissor", "[0, 0, 1, 1]"},
-                        {"depth_mask", "true"},
-                        {"blend", "{}"},
-                        {"color_mask", "[true, true, true, false]"}};
+const Members kState = {
+    {"transforms", "[]"},      {"material", "{}"},          {"lit", "true"},
+    {"shading", "\"flat\""},   {"cull", "\"none\""},        {"depth_func", "\"less\""},
+    {"depth_range", "[1, 0]"}, {"polygon_offset", "{}"},    {"alpha_test", R"({"func": "less"})"},
+    {"stencil", "{}"},         {"scissor", "[0, 0, 1, 1]"}, {"depth_mask", "true"},
+    {"blend", "{}"},           {"logic_op", "\"xor\""},     {"color_mask", "[true, true, true, false]"}};
 const Members kTerm = {{"source", "\"source_alpha_saturate\""}, {"destination", "\"zero\""}, {"equation", "\"min\""}};
+const Members kStencil = {{"func", "\"less\""},       {"reference", "1"},     {"mask", "255"},    {"fail", "\"keep\""},
+                          {"depth_fail", "\"zero\""}, {"pass", "\"invert\""}, {"write_mask", "7"}};
 const std::string kThree = "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]", kWhite = "[1, 1, 1, 1]";
 
 Members with(Members members, const std::string& key, const std::string& value) {
@@ -83,7 +80,13 @@ const std::vector<Sample> kSamples = {
       {"color", "\"rgba8\""},
       {"depth", "\"z16\""},
       {"clear_color", kWhite},
-      {"clear_depth", "1"}}},
+      {"clear_depth", "1"},
+      {"stencil", "\"s8\""},
+      {"clear_stencil", "255"}}},
+    {"polygon_offset", kInDraw + R"("polygon_offset": $}]})", {{"factor", "1"}, {"units", "-2"}}},
+    {"alpha_test", kInDraw + R"("alpha_test": $}]})", {{"func", "\"less\""}, {"reference", "0.5"}}},
+    {"stencil", kInDraw + R"("stencil": $}], "frame": {"stencil": "s8"}})", with(kStencil, "back", "{}")},
+    {"stencil_back", kInDraw + R"("stencil": {"back": $}}], "frame": {"stencil": "s8"}})", kStencil},
     {"camera", kInTop + R"("camera": $})", {{"eye", "[1, 2, 3]"}, {"center", "[0, 0, 0]"}, {"up", "[0, 1, 0]"}}},
     {"projection",
      kInTop + R"("projection": $})",
@@ -116,8 +119,9 @@ const std::vector<Sample> kSamples = {
      kInDraw + R"("transforms": [$]}]})",
      {{"translate", "[0, 0, 0]"}, {"rotate", R"({"degrees": 1, "axis": [0, 0, 1]})"}, {"scale", "[1, 1, 1]"}}},
     {"rotate", kInDraw + R"("transforms": [{"rotate": $}]}]})", {{"degrees", "1"}, {"axis", "[0, 0, 1]"}}},
-    {"defaults", kInTop + R"("defaults": $})", kState},
-    {"draw", R"({"description": "d", "draws": [$]})", with(kState, "mesh", R"({"cube": {}})")},
+    {"defaults", kInTop + R"("frame": {"stencil": "s8"}, "defaults": $})", kState},
+    {"draw", R"({"description": "d", "frame": {"stencil": "s8"}, "draws": [$]})",
+     with(kState, "mesh", R"({"cube": {}})")},
     {"mesh",
      R"({"description": "d", "draws": [{"mesh": $}]})",
      {{"file", "\"mesh.obj\""},
