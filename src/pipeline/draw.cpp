@@ -28,7 +28,7 @@ Geometry run_geometry(const Scene& scene, const GeometryStages& stages) {
     stages.clip(
         {vertices, lit, mesh.triangles, ranges[d].first_primitive, draw.shading, scene.depth_clamp, mesh.topology},
         r.polygons);
-    stages.window(r.matrices.back(), draw.cull, r.polygons, std::span(r.polygons.polygons).subspan(first_polygon),
+    stages.window(r.matrices.back(), draw, r.polygons, std::span(r.polygons.polygons).subspan(first_polygon),
                   r.triangles);
   }
   out.first_triangle = triangles_of_draws(scene, r.triangles);

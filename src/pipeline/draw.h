@@ -17,7 +17,7 @@ struct GeometryStages {
   void (*vertex)(const Matrices<float>&, const Mesh&, std::vector<Vertex<float>>&);
   void (*light)(const Scene&, const Draw&, std::span<const Vertex<float>>, std::vector<Lit<float>>&);
   void (*clip)(const Assembly&, ClipPolygons<float>&);
-  void (*window)(const Matrices<float>&, Cull, const ClipPolygons<float>&, std::span<const ClipPolygon>,
+  void (*window)(const Matrices<float>&, const Draw&, const ClipPolygons<float>&, std::span<const ClipPolygon>,
                  std::vector<WindowTriangle<float>>&);
 };
 /// Those of this folder: matrices.h, vertex.h, light.h, clip.h, window.h.

@@ -21,6 +21,7 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
   };
   out.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
               : !frame.color_rgba12.empty() ? as_color(frame.color_rgba12)
+              : !frame.color_rgba16.empty() ? as_color(frame.color_rgba16)
                                             : frame.color_rgba32f;
   out.depth = Plane<double>(out.color.width(), out.color.height());
   for (std::size_t i = 0; i < out.depth.size(); ++i) {
@@ -114,7 +115,7 @@ class PipelineRenderer : public Renderer {
                  polygon->primitive < range.first_primitive + range.primitive_count) {
             ++polygon;
           }
-          stages_.geometry.window(in.matrices.at(d), draw.cull, in.polygons, std::span(first, polygon), made.triangles);
+          stages_.geometry.window(in.matrices.at(d), draw, in.polygons, std::span(first, polygon), made.triangles);
         }
       }
     }
