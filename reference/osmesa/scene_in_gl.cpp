@@ -85,6 +85,10 @@ GLenum gl_depth_func(DepthFunc func) {
   return GL_LESS;
 }
 
+GLenum gl_polygon_mode(PolygonMode mode) {
+  return mode == PolygonMode::fill ? GL_FILL : mode == PolygonMode::line ? GL_LINE : GL_POINT;
+}
+
 GLenum gl_factor(BlendFactor factor) {
   switch (factor) {
     case BlendFactor::zero: return GL_ZERO;
@@ -220,6 +224,10 @@ void SceneInGl::set_surface(std::size_t draw) const {
 
 void SceneInGl::set_fragments(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
+  gl_.PolygonMode(GL_FRONT, gl_polygon_mode(d.front_mode));
+  gl_.PolygonMode(GL_BACK, gl_polygon_mode(d.back_mode));
+  gl_.LineWidth(static_cast<GLfloat>(d.line_width));
+  gl_.PointSize(static_cast<GLfloat>(d.point_size));
   gl_.Disable(GL_DITHER);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(gl_depth_func(d.depth_func));

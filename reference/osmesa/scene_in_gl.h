@@ -24,7 +24,7 @@ class SceneInGl {
   void set_lights() const;                   ///< ambient light, lights; leaves MODELVIEW the identity
   void set_matrices(std::size_t draw) const;
   void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth, fog
-  void set_fragments(std::size_t draw) const;  ///< culling, scissor, depth function and mask
+  void set_fragments(std::size_t draw) const;  ///< culling, polygon modes, widths, scissor, depth function and mask
   void set_merge(std::size_t draw) const;      ///< blending and colour mask
 
   // The draw's mesh, under the state that is set.

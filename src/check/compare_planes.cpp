@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "check/bounds.h"
 #include "check/fragment_bounds.h"
 #include "check/ledger.h"
@@ -48,6 +50,12 @@ void open_value(Meter& meter, double value, const Place& place, double reference
 
 bool beyond(const glm::vec4& a, const glm::vec4& b, const Vec4<double>& bound) {
   return glm::any(glm::greaterThan(Vec4<double>(glm::abs(a - b)), bound));
+}
+
+// What colours of the frame are told apart in.
+std::string code_unit(const FrameFormat& frame) {
+  const double scale = color_scale(frame.color);
+  return scale > 0 ? fmt::format("1/{:.0f}", scale) : "u";
 }
 
 bool reads_frame(const BlendTerm& term) {
@@ -113,6 +121,9 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
     }
     const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
     double bound = bounds.depth, diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));
+    for (const EdgeValue& edge : edge_values(candidate.records, id, x, y)) {
+      diff = std::min(diff, difference(edge.depth, z_ref));
+    }
     drawn.each(x, y, [&](std::size_t i) {
       const Records<double>& r = candidate.records;
       const PlaneBounds of_other = bounds_from_origin(r.triangles[r.covered[i].triangle], x, y);
@@ -140,12 +151,14 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
     }
     const FragmentBound bound = bounds.of_winner(id, x, y);
     if (bound.disputed && beyond(a.shaded(x, y), b.shaded(x, y), bound.color + bound.apart)) return meter.disputed();
+    const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
       if (!std::isfinite(bound.color[c])) {
         open_value(meter, v, place, w);
       } else {
-        const double diff = std::min(difference(v, w), difference(v + bound.along[c], w));
+        double diff = std::min(difference(v, w), difference(v + bound.along[c], w));
+        for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));
         meter.value(diff / u, bound.color[c] / u, place, v, w, bound.apart[c] / u);
       }
     }
@@ -155,24 +168,35 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
 Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
                           double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
+  const double scale = color_scale(scene.frame.color);
+  const std::string unit = code_unit(scene.frame);
   std::string why;
-  if (!has_winners(a, b, a.color, why)) return mismatch("1/255", why, a.id.size());
+  if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
-  return compare_planes(a.color, b.color, "1/255", [&](Meter& meter, int x, int y) {
+  // A clear colour's product in float may be rounded onto the half between two codes.
+  const auto cleared_codes = [&](int c) {
+    const double code = scale * static_cast<double>(scene.frame.clear_color[c]);
+    return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? codes : 0;
+  };
+  return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
     const bool cleared = id == kBackground;
     const FragmentBound fragment = cleared ? FragmentBound{} : bounds.of_winner(id, x, y);
     const Vec4<double> bound = fragment.color + fragment.apart;
-    if (fragment.disputed && beyond(a.color(x, y), b.color(x, y), bound + codes / 255)) return meter.disputed();
+    if (fragment.disputed && beyond(a.color(x, y), b.color(x, y), bound + codes / scale)) return meter.disputed();
+    const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
     for (int c = 0; c < 4; ++c) {
-      const double v = std::round(255.0 * a.color(x, y)[c]), w = std::round(255.0 * b.color(x, y)[c]);
+      const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
       double diff = difference(v, w);
+      for (const EdgeValue& edge : edges) {
+        diff = std::min(diff, difference(std::round(scale * std::clamp(edge.color[c], 0.0, 1.0)), w));
+      }
       if (fragment.along[c] != 0 && a.shaded.size() == a.color.size()) {
         const double along = static_cast<double>(a.shaded(x, y)[c]) + fragment.along[c];
-        diff = std::min(diff, difference(std::round(255.0 * std::clamp(along, 0.0, 1.0)), w));
+        diff = std::min(diff, difference(std::round(scale * std::clamp(along, 0.0, 1.0)), w));
       }
-      meter.value(diff, cleared ? 0 : codes, {x, y, id, "color"}, v, w, std::floor(255 * bound[c]));
+      meter.value(diff, cleared ? cleared_codes(c) : codes, {x, y, id, "color"}, v, w, std::floor(scale * bound[c]));
     }
   });
 }
@@ -181,7 +205,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
                             double codes, double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   const double scale = color_scale(scene.frame.color);
-  const std::string unit = scale > 0 ? "1/255" : "u";
+  const std::string unit = code_unit(scene.frame);
   std::string why;
   if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);

@@ -247,16 +247,16 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       if (!replaced && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
       switch (c.scene.frame.color) {
         case ColorFormat::rgba8:
-          if (!replaced) {
-            return c.add(name, stage,
-                         compare_blended(c.scene, c.candidate, theirs, c.legal, factor("osmesa.merge.blend"),
-                                         factor("osmesa.attributes")),
-                         "osmesa.merge.blend");
-          }
-          return c.add(
-              name, stage,
-              compare_codes(c.scene, c.candidate, theirs, factor("osmesa.merge.rgba8"), factor("osmesa.attributes")),
-              "osmesa.merge.rgba8");
+        case ColorFormat::rgba16: {
+          const bool bytes = c.scene.frame.color == ColorFormat::rgba8;
+          const std::string_view row = replaced ? (bytes ? "osmesa.merge.rgba8" : "osmesa.merge.rgba16")
+                                                : (bytes ? "osmesa.merge.blend" : "osmesa.merge.blend.rgba16");
+          return c.add(name, stage,
+                       replaced ? compare_codes(c.scene, c.candidate, theirs, factor(row), factor("osmesa.attributes"))
+                                : compare_blended(c.scene, c.candidate, theirs, c.legal, factor(row),
+                                                  factor("osmesa.attributes")),
+                       row);
+        }
         case ColorFormat::rgba12:
           return c.skip(name, stage, Outcome::unsupported,
                         "asked for 12 bits a channel, OpenGL gives 16; attributes are compared");

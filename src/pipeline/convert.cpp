@@ -25,7 +25,7 @@ ClipVertex<To> converted(const ClipVertex<From>& v) {
 }
 template <class To, class From>
 WindowTriangle<To> converted(const WindowTriangle<From>& t) {
-  WindowTriangle<To> out{{}, t.primitive, t.front, t.corners};
+  WindowTriangle<To> out{{}, t.primitive, t.front, t.corners, t.width};
   for (std::size_t i = 0; i < 3; ++i) {
     out.v[i] = {Vec3<To>(t.v[i].p_win), static_cast<To>(t.v[i].inv_w), t.v[i].snapped, Vec4<To>(t.v[i].color)};
   }

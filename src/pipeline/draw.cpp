@@ -88,11 +88,11 @@ void GeometryRun::window(std::size_t draw, const Records<float>& in, Records<flo
   const Matrices<float>& m = in.matrices.at(draw);
   const auto of_draw = polygons_of(ranges_[draw], in.polygons.polygons);
   const std::size_t first = out.triangles.size();
-  stages_.window(m, d.cull, in.polygons, of_draw, out.triangles);
+  stages_.window(m, d, in.polygons, of_draw, out.triangles);
   for (const Varying v : carried_) {
     const ClipPolygons<float> polygons = with_varying(in.polygons, of_draw, in.varyings[v].clipped);
     std::vector<WindowTriangle<float>> triangles;
-    stages_.window(m, d.cull, polygons, polygons.polygons, triangles);
+    stages_.window(m, d, polygons, polygons.polygons, triangles);
     if (!is_back(v)) {
       append(colors_of(triangles), out.varyings[v].triangles);
       continue;

@@ -18,7 +18,7 @@ struct GeometryStages {
   void (*light)(const Scene&, const Draw&, std::span<const Vertex<float>>, std::vector<Lit<float>>&);
   void (*carry)(const Scene&, const Draw&, Varying, std::span<const Vertex<float>>, std::vector<Vec4<float>>&);
   void (*clip)(const Assembly&, ClipPolygons<float>&);
-  void (*window)(const Matrices<float>&, Cull, const ClipPolygons<float>&, std::span<const ClipPolygon>,
+  void (*window)(const Matrices<float>&, const Draw&, const ClipPolygons<float>&, std::span<const ClipPolygon>,
                  std::vector<WindowTriangle<float>>&);
 };
 /// Those of this folder: matrices.h, vertex.h, light.h, carry.h, clip.h, window.h.

@@ -22,6 +22,7 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
   };
   out.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
               : !frame.color_rgba12.empty() ? as_color(frame.color_rgba12)
+              : !frame.color_rgba16.empty() ? as_color(frame.color_rgba16)
                                             : frame.color_rgba32f;
   out.depth = Plane<double>(out.color.width(), out.color.height());
   for (std::size_t i = 0; i < out.depth.size(); ++i) {

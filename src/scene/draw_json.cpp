@@ -138,6 +138,11 @@ Fog read_fog(const JsonNode& node) {
   return fog;
 }
 
+PolygonMode read_mode(const JsonNode& node) {
+  return node.choice<PolygonMode>(
+      {{"fill", PolygonMode::fill}, {"line", PolygonMode::line}, {"point", PolygonMode::point}});
+}
+
 /// What the node gives, over what the state is.
 void read_state(const JsonNode& node, DrawState& state) {
   Draw& draw = state.draw;
@@ -153,6 +158,10 @@ void read_state(const JsonNode& node, DrawState& state) {
   if (const auto n = node.find("cull")) {
     draw.cull = n->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
   }
+  if (const auto n = node.find("front_mode")) draw.front_mode = read_mode(*n);
+  if (const auto n = node.find("back_mode")) draw.back_mode = read_mode(*n);
+  if (const auto n = node.find("line_width")) draw.line_width = static_cast<int>(n->integer(1, 16));
+  if (const auto n = node.find("point_size")) draw.point_size = static_cast<int>(n->integer(1, 64));
   if (const auto n = node.find("depth_func")) {
     draw.depth_func = n->choice<DepthFunc>({{"never", DepthFunc::never},
                                             {"less", DepthFunc::less},
@@ -173,16 +182,16 @@ void read_state(const JsonNode& node, DrawState& state) {
 }  // namespace
 
 DrawState read_draw_state(const JsonNode& node, const DrawState& defaults) {
-  node.only({"transforms", "material", "lit", "shading", "cull", "depth_func", "fog", "scissor", "depth_mask", "blend",
-             "color_mask"});
+  node.only({"transforms", "material", "lit", "shading", "cull", "front_mode", "back_mode", "line_width", "point_size",
+             "depth_func", "fog", "scissor", "depth_mask", "blend", "color_mask"});
   DrawState state = defaults;
   read_state(node, state);
   return state;
 }
 
 DrawState read_draw(const JsonNode& node, const DrawState& defaults) {
-  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "depth_func", "fog", "scissor", "depth_mask",
-             "blend", "color_mask"});
+  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "front_mode", "back_mode", "line_width",
+             "point_size", "depth_func", "fog", "scissor", "depth_mask", "blend", "color_mask"});
   DrawState state = defaults;
   read_state(node, state);
   return state;

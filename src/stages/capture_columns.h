@@ -122,7 +122,8 @@ void visit_capture(CaptureRef& capture, Visitor& visit) {
   using T = WindowTriangle<double>;
   visit.group("window", records.triangles, CornerColumn{"p_win", &W::p_win}, CornerColumn{"inv_w", &W::inv_w},
               CornerColumn{"snapped", &W::snapped}, CornerColumn{"color", &W::color},
-              Column{"primitive", &T::primitive}, Column{"front", &T::front}, Column{"corners", &T::corners});
+              Column{"primitive", &T::primitive}, Column{"front", &T::front}, Column{"corners", &T::corners},
+              Column{"width", &T::width});
   visit.group("coverage", records.covered, Column{"triangle", &Covered::triangle}, Column{"x", &Covered::x},
               Column{"y", &Covered::y});
   visit.group("depth", records.depth, ItselfColumn{"value"});

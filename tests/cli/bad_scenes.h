@@ -89,7 +89,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("frame": {"width": 16.0})"), R"(at "/frame/width": expected an integer from 1 to 16384, found 16.0)"},
     {top(R"("frame": {"width": "64"})"), R"(at "/frame/width": expected an integer from 1 to 16384, found "64")"},
     {top(R"("frame": {"width": true})"), R"(at "/frame/width": expected an integer from 1 to 16384, found true)"},
-    {top(R"("frame": {"color": "rgb8"})"), R"(at "/frame/color": expected one of rgba8, rgba12, rgba32f, found "rgb8" (did you mean "rgba8"?))"},
+    {top(R"("frame": {"color": "rgb8"})"), R"(at "/frame/color": expected one of rgba8, rgba12, rgba16, rgba32f, found "rgb8" (did you mean "rgba8"?))"},
     {top(R"("frame": {"depth": "z9"})"), R"(at "/frame/depth": expected one of z8, z16, z24, z32f, found "z9" (did you mean "z8"?))"},
     {top(R"("frame": {"depth": 24})"), R"(at "/frame/depth": expected one of z8, z16, z24, z32f, found 24)"},
     {top(R"("frame": {"clear_color": [0, 0, 0]})"), R"(at "/frame/clear_color": expected an array of 4, found an array of 3)"},
