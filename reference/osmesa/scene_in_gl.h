@@ -24,8 +24,8 @@ class SceneInGl {
   void clear(const glm::vec4& color) const;    ///< to a colour and the frame's other clear values
   void set_lights() const;                     ///< ambient light, lights; leaves MODELVIEW the identity
   void set_matrices(std::size_t draw) const;   ///< and the depth range
-  void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth
-  void set_fragments(std::size_t draw) const;  ///< culling, tests, polygon offset, depth mask
+  void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth, fog
+  void set_fragments(std::size_t draw) const;  ///< culling, polygon modes and offset, widths, tests, depth mask
   void set_merge(std::size_t draw) const;      ///< blending, logic op and colour mask
 
   // The draw's mesh, under the state that is set.
@@ -38,6 +38,8 @@ class SceneInGl {
   void draw_weights(std::size_t draw) const;  ///< each primitive in the colour (1, id_weight_part 0, 1, 2)
 
  private:
+  void set_fog(std::size_t draw) const;
+
   struct MeshVertex {
     glm::vec3 position, normal;
     glm::vec4 color;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check/bounds.h"
+#include "check/fragment_bounds.h"
 #include "stages/fragment_outcomes.h"
 
 namespace plumbline::check {
@@ -29,23 +29,23 @@ Outcomes theirs_of(AlphaTest test, ColorFormat format, double lo, double hi) {
 
 }  // namespace
 
-// Vertices' alphas are the material's or the mesh's, and the same on either side.
-Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, ColorFormat theirs, double factor) {
+Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                  ColorFormat theirs, double factor) {
   const Records<double>& r = candidate.records;
   Plane<std::uint8_t> open(scene.frame.width, scene.frame.height, 0);
   const std::vector<DrawRange> ranges = draw_ranges(scene);
-  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+  const FragmentBounds bounds(scene, candidate, reference, factor);
+  for (std::size_t i = 0; i < std::min(r.covered.size(), r.shaded.size()); ++i) {
     const Covered& c = r.covered[i];
-    if (c.triangle >= r.triangles.size() || i >= r.shaded.size() || c.x >= open.width() || c.y >= open.height())
-      continue;
-    const WindowTriangle<double>& t = r.triangles[c.triangle];
-    const auto range = std::ranges::upper_bound(ranges, t.primitive, {}, &DrawRange::first_primitive);
+    if (c.triangle >= r.triangles.size() || c.x >= open.width() || c.y >= open.height()) continue;
+    const auto range =
+        std::ranges::upper_bound(ranges, r.triangles[c.triangle].primitive, {}, &DrawRange::first_primitive);
     if (range == ranges.begin()) continue;
     const Draw& draw = scene.draws[static_cast<std::size_t>(range - ranges.begin()) - 1];
     if (!draw.alpha_test) continue;
     const double alpha = r.shaded[i].color.a;
-    const PlaneBounds bounds = bounds_from_origin(t, c.x, c.y);
-    const double off = factor * kUnitRoundoff * bounds.color.a + std::abs(bounds.along_color.a);
+    const FragmentBound bound = bounds.of_fragment(i);
+    const double off = bound.color.a + std::abs(bound.along.a) + bound.apart.a;
     const bool mine = alpha_outcomes(*draw.alpha_test, scene.frame.color, alpha, alpha).may_pass;
     const Outcomes other =
         std::isfinite(off) ? theirs_of(*draw.alpha_test, theirs, alpha - off, alpha + off) : Outcomes{true, true};
@@ -67,14 +67,17 @@ void settle(Plane<T>& theirs, const Plane<T>& mine, const Plane<std::uint8_t>& o
 }  // namespace
 
 std::uint64_t settle_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
-                           Planes& reference) {
-  const bool in_float = stage == Stage::attributes || scene.frame.color == ColorFormat::rgba12;
-  const auto open = open_by_alpha(scene, candidate, in_float ? ColorFormat::rgba32f : scene.frame.color, factor);
-  settle(reference.id, candidate.planes.id, open);
-  settle(reference.stencil, candidate.planes.stencil, open);
-  settle(reference.shaded, candidate.planes.shaded, open);
-  settle(reference.color, candidate.planes.color, open);
-  settle(reference.depth, candidate.planes.depth, open);
+                           Capture& reference) {
+  const bool in_float =
+      stage == Stage::attributes || stage == Stage::shade || scene.frame.color == ColorFormat::rgba12;
+  const auto open =
+      open_by_alpha(scene, candidate, reference, in_float ? ColorFormat::rgba32f : scene.frame.color, factor);
+  Planes& theirs = reference.planes;
+  settle(theirs.id, candidate.planes.id, open);
+  settle(theirs.stencil, candidate.planes.stencil, open);
+  settle(theirs.shaded, candidate.planes.shaded, open);
+  settle(theirs.color, candidate.planes.color, open);
+  settle(theirs.depth, candidate.planes.depth, open);
   return static_cast<std::uint64_t>(std::ranges::count(open.values(), std::uint8_t{1}));
 }
 

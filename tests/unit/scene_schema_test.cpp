@@ -43,12 +43,22 @@ std::string in_mesh(const std::string& kind) {
 const Members kSides = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"}, {"top", "1"}, {"near", "1"}, {"far", "2"}};
 const Members kCoordinates = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"},
                               {"top", "1"},   {"near", "1"},  {"far", "-2"}};
-const Members kState = {
-    {"transforms", "[]"},      {"material", "{}"},          {"lit", "true"},
-    {"shading", "\"flat\""},   {"cull", "\"none\""},        {"depth_func", "\"less\""},
-    {"depth_range", "[1, 0]"}, {"polygon_offset", "{}"},    {"alpha_test", R"({"func": "less"})"},
-    {"stencil", "{}"},         {"scissor", "[0, 0, 1, 1]"}, {"depth_mask", "true"},
-    {"blend", "{}"},           {"logic_op", "\"xor\""},     {"color_mask", "[true, true, true, false]"}};
+const Members kState = {{"transforms", "[]"},
+                        {"material", "{}"},
+                        {"lit", "true"},
+                        {"shading", "\"flat\""},
+                        {"cull", "\"none\""},
+                        {"depth_func", "\"less\""},
+                        {"depth_range", "[1, 0]"},
+                        {"polygon_offset", "{}"},
+                        {"alpha_test", R"({"func": "less"})"},
+                        {"stencil", "{}"},
+                        {"fog", R"({"exp": {"density": 1}})"}, {"front_mode", "\"line\""}, {"back_mode", "\"point\""}, {"line_width", "2"}, {"point_size", "3"},
+                        {"scissor", "[0, 0, 1, 1]"},
+                        {"depth_mask", "true"},
+                        {"blend", "{}"},
+                        {"logic_op", "\"xor\""},
+                        {"color_mask", "[true, true, true, false]"}};
 const Members kTerm = {{"source", "\"source_alpha_saturate\""}, {"destination", "\"zero\""}, {"equation", "\"min\""}};
 const Members kStencil = {{"func", "\"less\""},       {"reference", "1"},     {"mask", "255"},    {"fail", "\"keep\""},
                           {"depth_fail", "\"zero\""}, {"pass", "\"invert\""}, {"write_mask", "7"}};
@@ -113,6 +123,11 @@ const std::vector<Sample> kSamples = {
     {"material",
      kInDraw + R"("material": $}]})",
      {{"ambient", kWhite}, {"diffuse", kWhite}, {"specular", kWhite}, {"emission", kWhite}, {"shininess", "3"}}},
+    {"fog",
+     kInDraw + R"("fog": $}]})",
+     {{"exp", R"({"density": 1})"}, {"exp2", R"({"density": 1})"}, {"linear", R"({"start": 1, "end": 2})"}}},
+    {"linear_fog", kInDraw + R"("fog": {"linear": $}}]})", {{"color", "[1, 1, 1]"}, {"start", "1"}, {"end", "2"}}},
+    {"exponential_fog", kInDraw + R"("fog": {"exp": $}}]})", {{"color", "[1, 1, 1]"}, {"density", "1"}}},
     {"blend", kInDraw + R"("blend": $}]})", with(with(kTerm, "alpha", "{}"), "color", kWhite)},
     {"blend_alpha", kInDraw + R"("blend": {"alpha": $}}]})", kTerm},
     {"transform",
