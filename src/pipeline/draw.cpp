@@ -20,7 +20,7 @@ Geometry run_geometry(const Scene& scene, const GeometryStages& stages) {
     const Draw& draw = scene.draws[d];
     const Mesh& mesh = scene.meshes[draw.mesh];
     r.matrices.push_back(stages.matrices(scene, draw));
-    stages.vertex(r.matrices.back(), mesh, r.vertices);
+    stages.vertex(r.matrices.back(), draw.normals, mesh, r.vertices);
     const auto vertices = std::span(r.vertices).subspan(ranges[d].first_vertex);
     stages.light(scene, draw, vertices, r.lit);
     const auto lit = std::span(r.lit).subspan(ranges[d].first_vertex);

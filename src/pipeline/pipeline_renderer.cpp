@@ -97,7 +97,7 @@ class PipelineRenderer : public Renderer {
       const DrawRange& range = ranges[d];
       switch (stage) {
         case Stage::matrices: made.matrices.push_back(stages_.geometry.matrices(scene, draw)); break;
-        case Stage::vertex: stages_.geometry.vertex(in.matrices.at(d), mesh, made.vertices); break;
+        case Stage::vertex: stages_.geometry.vertex(in.matrices.at(d), draw.normals, mesh, made.vertices); break;
         case Stage::light:
           stages_.geometry.light(scene, draw, std::span(in.vertices).subspan(range.first_vertex, range.vertex_count),
                                  made.lit);
