@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "reference/osmesa/light_state.h"
 #include "reference/osmesa/target.h"
 #include "stages/renderer.h"
 
@@ -41,7 +42,7 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colo
   const CountedFragments counted(gl);
   target.bind();
   scene.clear(scene.scene().frame.clear_color);
-  scene.set_lights();
+  set_lights(gl, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     scene.set_surface(i);

@@ -80,6 +80,13 @@ struct Pinhole {
 };
 using Projection = std::variant<Perspective, Orthographic, Frustum, ViewPlane, Pinhole>;
 
+/// A point light's cone (OpenGL 2.1 spec 2.14.1: GL_SPOT_...).
+struct Spot {
+  glm::dvec3 direction{0, 0, -1};  ///< world space, of any length: where it shines to
+  double cutoff_degrees = 90;      ///< [0, 90], from the axis
+  float exponent = 0;              ///< [0, 128]
+};
+
 struct Light {
   enum class Kind { directional, point };
   Kind kind = Kind::directional;
@@ -87,6 +94,24 @@ struct Light {
   glm::vec3 ambient{0};
   glm::vec3 diffuse{1};
   glm::vec3 specular{1};
+  glm::vec3 attenuation{1, 0, 0};  ///< of a point light: k0, k1, k2 >= 0 of 1 / (k0 + k1 d + k2 d^2); not all 0
+  std::optional<Spot> spot{};      ///< of a point light; without it, it shines to all sides
+};
+
+/// glLightModel, and what the course notes have in its place.
+struct LightModel {
+  enum class Specular {
+    half_vector,  ///< (N.H)^s, H halfway between light and eye: OpenGL's (Blinn)
+    reflection    ///< (R.E)^s, R the light's direction mirrored at N: note 000's (Phong)
+  };
+  enum class Sides {
+    one,  ///< normals are as they are
+    flip  ///< GzRender's: N.L and N.E both negative: N is turned over; of different signs: the light does not count
+  };
+  glm::vec3 ambient{0};
+  bool local_viewer = false;  ///< the eye is at eye space's origin, else infinitely far away along +z
+  Specular specular = Specular::half_vector;
+  Sides sides = Sides::one;
 };
 
 /// glMaterial, both faces.
@@ -97,6 +122,13 @@ struct Material {
   glm::vec4 emission{0, 0, 0, 1};
   float shininess = 0;  ///< [0, 128]
 };
+
+/// glColorMaterial, both faces: what of the material a vertex colour stands for. Where the mesh has none, nothing.
+enum class ColorMaterial { none, ambient, diffuse, ambient_and_diffuse, specular, emission };
+
+/// What becomes of normals in eye space (OpenGL 2.1 spec 2.11.3): unit length; divided by how much a uniform scale
+/// lengthens them; or neither.
+enum class Normals { normalize, rescale, as_they_are };
 
 enum class Shading { flat, gouraud };
 enum class Cull { none, back, front };
@@ -168,6 +200,8 @@ struct Draw {
   std::vector<Transform> transforms;  ///< in the order written, as glTranslate... would be: the last acts first
   Material material;
   bool lit = true;  ///< false: the mesh's colours, or the material's diffuse
+  ColorMaterial color_material = ColorMaterial::none;
+  Normals normals = Normals::normalize;
   Shading shading = Shading::gouraud;
   Cull cull = Cull::none;
   /// glPolygonMode: what is left of a triangle after clipping is filled, or its edges are drawn as lines, or its
@@ -181,6 +215,9 @@ struct Draw {
   Merge merge;
   std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
 };
+
+/// The draw's material, what a vertex colour stands for replaced by `color` (OpenGL 2.1 spec 2.14.3).
+Material colored(const Draw& draw, const glm::vec4& color);
 
 struct FrameFormat {
   int width = 256;   ///< pixels, [1, 16384]
@@ -199,8 +236,8 @@ struct Scene {
   FrameFormat frame;
   Camera camera;
   Projection projection = Perspective{45, 1, 100};  ///< one of the dialect's
-  bool depth_clamp = false;   ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
-  glm::vec3 ambient{0};       ///< the light model's ambient light
+  bool depth_clamp = false;  ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
+  LightModel light_model;
   std::vector<Light> lights;  ///< at most 8
   std::vector<Mesh> meshes;
   std::vector<Draw> draws;  ///< in draw order

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "scene/draw_json.h"
+#include "scene/light_json.h"
 #include "scene/mesh_json.h"
 #include "scene/scene_json.h"
 #include "scene/scene_values.h"
@@ -14,8 +15,6 @@ namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kBrightest = 1e6;
 
 FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
   constexpr int kLargestFrame = 16384;
@@ -142,21 +141,6 @@ Projection read_projection(const JsonNode* node, Dialect dialect, const Camera& 
   return Perspective{};
 }
 
-Light read_light(const JsonNode& node) {
-  node.only({"directional", "point", "ambient", "diffuse", "specular"});
-  const auto directional = node.find("directional"), point = node.find("point");
-  if (directional.has_value() == point.has_value()) {
-    node.refuse("exactly one of the keys directional, point", point ? "both" : "neither");
-  }
-  Light light;
-  light.kind = point ? Light::Kind::point : Light::Kind::directional;
-  light.vector = point ? read_point(*point) : read_direction(*directional);
-  if (const auto n = node.find("ambient")) light.ambient = glm::vec3(n->vector<3>(0, kBrightest));
-  if (const auto n = node.find("diffuse")) light.diffuse = glm::vec3(n->vector<3>(0, kBrightest));
-  if (const auto n = node.find("specular")) light.specular = glm::vec3(n->vector<3>(0, kBrightest));
-  return light;
-}
-
 /// A draw's mesh, or the meshes of a file of several materials, in the scene.
 struct KnownMesh {
   const JsonValue* json;
@@ -193,8 +177,8 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
 }
 
 Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
-  root.only({"$schema", "include", "description", "dialect", "frame", "camera", "projection", "ambient", "lights",
-             "defaults", "draws"});
+  root.only({"$schema", "include", "description", "dialect", "frame", "camera", "projection", "ambient", "light_model",
+             "lights", "defaults", "draws"});
   if (const auto n = root.find("$schema")) n->text();
   Scene scene;
   scene.description = root["description"].text();
@@ -210,7 +194,8 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   if (const auto n = root.find("camera")) scene.camera = read_camera(*n);
   const auto projection = root.find("projection");
   scene.projection = read_projection(projection ? &*projection : nullptr, scene.dialect, scene.camera);
-  if (const auto n = root.find("ambient")) scene.ambient = glm::vec3(n->vector<3>(0, kBrightest));
+  if (const auto n = root.find("light_model")) scene.light_model = read_light_model(*n);
+  if (const auto n = root.find("ambient")) scene.light_model.ambient = read_light_color(*n);
   if (const auto n = root.find("lights")) {
     for (const JsonNode& light : n->elements(0, 8)) scene.lights.push_back(read_light(light));
   }

@@ -38,7 +38,10 @@ struct SceneFileOptions {
 ///                  gzrender      {"x_pi": {fov *: degrees}}
 ///                  tinyrenderer  {"pinhole": {c: the distance of eye and center where it is not given}}
 ///   ambient        [r, g, b], the light model's
-///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]}
+///   light_model    local_viewer: true, false; specular: "half_vector", "reflection"; sides: "one", "flip" (LightModel)
+///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]};
+///                  beside point attenuation: [k0, k1, k2] and spot: {direction *: [x, y, z], cutoff *: degrees from 0
+///                  to 90, exponent: 0 to 128}
 ///   defaults       of all draws: any of a draw's keys but mesh. A draw's own count before them, of a material one by
 ///   one draws *        1 to 4096 of
 ///     mesh *       one of  "file": "bunny.obj", an OBJ, 3DS, PLY, glTF or GLB file (mesh_file.h)
@@ -57,6 +60,9 @@ struct SceneFileOptions {
 ///     material     ambient, diffuse, specular, emission: [r, g, b, a]; shininess: 0 to 128. Where neither the draw nor
 ///                  the defaults have one, a mesh file's materials count; a file of several becomes several draws
 ///     lit          true, false
+///     color_material  "none", "ambient", "diffuse", "ambient_and_diffuse", "specular", "emission": what of the
+///                  material is the mesh's colours, where it has some
+///     normals      "normalize", "rescale", "as_they_are"
 ///     shading      "flat", "gouraud"
 ///     cull         "none", "back", "front"
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where

@@ -64,7 +64,7 @@ template <class T>
 struct Vertex {
   Vec4<T> p_eye;
   Vec4<T> p_clip;
-  Vec3<T> n_eye;  ///< unit length
+  Vec3<T> n_eye;  ///< unit length, unless the draw has it otherwise (scene.h, Normals)
 };
 
 // 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours. Whatever else

@@ -24,6 +24,11 @@ inline std::string mesh(const std::string& mesh) {
   return R"({"description": "d", "draws": [{"mesh": )" + mesh + "}]}";
 }
 
+/// The keys of a draw's state, as messages list them.
+inline const std::string kStateKeys =
+    "transforms, material, lit, color_material, normals, shading, cull, front_mode, back_mode, line_width, point_size, "
+    "depth_func, fog, scissor, depth_mask, blend, color_mask";
+
 // clang-format off
 inline const std::vector<BadScene> kBadScenes = {
     // Not JSON
@@ -46,9 +51,9 @@ inline const std::vector<BadScene> kBadScenes = {
     {whole(R"({"description": 3, "draws": []})"), R"(at "/description": expected a string that is not empty, found 3)"},
     {whole(R"({"description": "d", "description": "e", "draws": []})"), R"(at "/description": expected each key once, found it twice)"},
     {draw(R"("material": {"shininess": 1, "shininess": 1})"), R"(at "/draws/0/material/shininess": expected each key once, found it twice)"},
-    {top(R"("lens": 1)"), R"(at "/lens": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, lights, defaults, draws, found the unknown key "lens")"},
-    {top(R"("cammera": {})"), R"(at "/cammera": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, lights, defaults, draws, found the unknown key "cammera" (did you mean "camera"?))"},
-    {top(R"("a/b~c": 1)"), R"(at "/a~1b~0c": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, lights, defaults, draws, found the unknown key "a/b~c")"},
+    {top(R"("lens": 1)"), R"(at "/lens": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, defaults, draws, found the unknown key "lens")"},
+    {top(R"("cammera": {})"), R"(at "/cammera": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, defaults, draws, found the unknown key "cammera" (did you mean "camera"?))"},
+    {top(R"("a/b~c": 1)"), R"(at "/a~1b~0c": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, defaults, draws, found the unknown key "a/b~c")"},
     {top(R"("$schema": 3)"), R"(at "/$schema": expected a string that is not empty, found 3)"},
     {top(R"("frame": {"depht": "z16"})"), R"(at "/frame/depht": expected a key among width, height, color, depth, clear_color, clear_depth, found the unknown key "depht" (did you mean "depth"?))"},
     {top(R"("camera": {"target": [0, 0, 0]})"), R"(at "/camera/target": expected a key among eye, center, up, found the unknown key "target")"},
@@ -57,12 +62,26 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("projection": {"perspective": {"fov_y": 45, "near": 1}})"), R"(at "/projection/perspective/far": expected a value, found nothing: the key is missing)"},
     {top(R"("projection": {})"), R"(at "/projection": expected exactly one of the keys perspective, orthographic, frustum, found none)"},
     {top(R"("projection": {"perspective": {}, "orthographic": {}})"), R"(at "/projection": expected exactly one of the keys perspective, orthographic, frustum, found orthographic, perspective)"},
-    {top(R"("lights": [{"spot": [0, 0, 1]}])"), R"(at "/lights/0/spot": expected a key among directional, point, ambient, diffuse, specular, found the unknown key "spot")"},
+    {top(R"("lights": [{"spotlight": [0, 0, 1]}])"), R"(at "/lights/0/spotlight": expected a key among directional, point, ambient, diffuse, specular, attenuation, spot, found the unknown key "spotlight")"},
     {top(R"("lights": [{"ambient": [0, 0, 0]}])"), R"(at "/lights/0": expected exactly one of the keys directional, point, found neither)"},
     {top(R"("lights": [{"point": [0, 0, 0], "directional": [0, 0, 1]}])"), R"(at "/lights/0": expected exactly one of the keys directional, point, found both)"},
-    {top(R"("defaults": {"mesh": {"cube": {}}})"), R"(at "/defaults/mesh": expected a key among transforms, material, lit, shading, cull, depth_func, fog, scissor, depth_mask, blend, color_mask, found the unknown key "mesh")"},
-    {top(R"("defaults": {"shadding": "flat"})"), R"(at "/defaults/shadding": expected a key among transforms, material, lit, shading, cull, depth_func, fog, scissor, depth_mask, blend, color_mask, found the unknown key "shadding" (did you mean "shading"?))"},
-    {draw(R"("culling": "none")"), R"(at "/draws/0/culling": expected a key among mesh, transforms, material, lit, shading, cull, depth_func, fog, scissor, depth_mask, blend, color_mask, found the unknown key "culling")"},
+    {top(R"("lights": [{"directional": [0, 0, 1], "attenuation": [1, 1, 0]}])"), R"(at "/lights/0/attenuation": expected it beside point, found it beside directional)"},
+    {top(R"("lights": [{"directional": [0, 0, 1], "spot": {}}])"), R"(at "/lights/0/spot": expected it beside point, found it beside directional)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "attenuation": [0, 0, 0]}])"), R"(at "/lights/0/attenuation": expected one number at least that is not 0, found none)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "attenuation": [1, -1, 0]}])"), R"(at "/lights/0/attenuation/1": expected a number from 0 to 1000000, found -1)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"cutoff": 20}}])"), R"(at "/lights/0/spot/direction": expected a value, found nothing: the key is missing)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 1]}}])"), R"(at "/lights/0/spot/cutoff": expected a value, found nothing: the key is missing)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 0], "cutoff": 20}}])"), R"(at "/lights/0/spot/direction": expected a direction that is not zero, found [0, 0, 0])"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 1], "cutoff": 91}}])"), R"(at "/lights/0/spot/cutoff": expected a number from 0 to 90, found 91)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 1], "cutoff": 20, "exponent": 129}}])"), R"(at "/lights/0/spot/exponent": expected a number from 0 to 128, found 129)"},
+    {top(R"("light_model": {"two_sided": true})"), R"(at "/light_model/two_sided": expected a key among local_viewer, specular, sides, found the unknown key "two_sided")"},
+    {top(R"("light_model": {"specular": "phong"})"), R"(at "/light_model/specular": expected one of half_vector, reflection, found "phong")"},
+    {top(R"("light_model": {"local_viewer": 1})"), R"(at "/light_model/local_viewer": expected true or false, found 1)"},
+    {draw(R"("color_material": true)"), R"(at "/draws/0/color_material": expected one of none, ambient, diffuse, ambient_and_diffuse, specular, emission, found true)"},
+    {draw(R"("normals": "unit")"), R"(at "/draws/0/normals": expected one of normalize, rescale, as_they_are, found "unit")"},
+    {top(R"("defaults": {"mesh": {"cube": {}}})"), R"(at "/defaults/mesh": expected a key among )" + kStateKeys + R"(, found the unknown key "mesh")"},
+    {top(R"("defaults": {"shadding": "flat"})"), R"(at "/defaults/shadding": expected a key among )" + kStateKeys + R"(, found the unknown key "shadding" (did you mean "shading"?))"},
+    {draw(R"("culling": "none")"), R"(at "/draws/0/culling": expected a key among mesh, )" + kStateKeys + R"(, found the unknown key "culling")"},
     {draw(R"("material": {"color": [0, 0, 0, 1]})"), R"(at "/draws/0/material/color": expected a key among ambient, diffuse, specular, emission, shininess, found the unknown key "color")"},
     {draw(R"("transforms": [{"shear": [0, 0, 0]}])"), R"(at "/draws/0/transforms/0/shear": expected a key among translate, rotate, scale, found the unknown key "shear")"},
     {draw(R"("transforms": [{}])"), R"(at "/draws/0/transforms/0": expected exactly one of the keys translate, rotate, scale, found none)"},
@@ -77,7 +96,7 @@ inline const std::vector<BadScene> kBadScenes = {
     // Types
     {whole(R"({"description": "d", "draws": {}})"), R"(at "/draws": expected an array of 1 to 4096, found an object of 0 keys)"},
     {whole(R"({"description": "d", "draws": []})"), R"(at "/draws": expected an array of 1 to 4096, found an array of 0)"},
-    {whole(R"({"description": "d", "draws": [3]})"), R"(at "/draws/0": expected an object with keys among mesh, transforms, material, lit, shading, cull, depth_func, fog, scissor, depth_mask, blend, color_mask, found 3)"},
+    {whole(R"({"description": "d", "draws": [3]})"), R"(at "/draws/0": expected an object with keys among mesh, )" + kStateKeys + R"(, found 3)"},
     {top(R"("dialect": "GL")"), R"(at "/dialect": expected one of gl, gzrender, games101, tinyrenderer, found "GL")"},
     {top(R"("dialect": "gzrender", "projection": {"perspective": {"fov_y": 45, "near": 1, "far": 9}})"), R"(at "/projection/perspective": expected a key among x_pi, found the unknown key "perspective")"},
     {top(R"("dialect": "gzrender", "projection": {"x_pi": {"fov": 180}})"), R"(at "/projection/x_pi/fov": expected a number from 0.001 to 179.999, found 180)"},
@@ -97,7 +116,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("camera": {"eye": null})"), R"(at "/camera/eye": expected an array of 3, found null)"},
     {top(R"("lights": [{"point": [0, 0]}])"), R"(at "/lights/0/point": expected an array of 3, found an array of 2)"},
     {top(R"("lights": {})"), R"(at "/lights": expected an array of 0 to 8, found an object of 0 keys)"},
-    {top(R"("defaults": [])"), R"(at "/defaults": expected an object with keys among transforms, material, lit, shading, cull, depth_func, fog, scissor, depth_mask, blend, color_mask, found an array of 0)"},
+    {top(R"("defaults": [])"), R"(at "/defaults": expected an object with keys among )" + kStateKeys + R"(, found an array of 0)"},
     {top(R"("defaults": {"lit": 0})"), R"(at "/defaults/lit": expected true or false, found 0)"},
     {draw(R"("lit": 1)"), R"(at "/draws/0/lit": expected true or false, found 1)"},
     {draw(R"("shading": "phong")"), R"(at "/draws/0/shading": expected one of flat, gouraud, found "phong")"},
