@@ -9,6 +9,7 @@
 
 #include "check/bounds.h"
 #include "check/ledger.h"
+#include "check/shade_bounds.h"
 
 namespace plumbline::check {
 
@@ -347,13 +348,35 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
       });
 }
 
-Measurement compare_shaded(const Records<double>& candidate, const Records<double>& reference) {
-  return each_fragment("colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(),
-                       [&](Meter& meter, std::size_t i) {
-                         const Covered& c = candidate.covered[i];
-                         add(meter, candidate.shaded[i].color, reference.shaded[i].color, Vec4<double>(u), 0,
-                             {c.x, c.y, c.triangle, "color"});
-                       });
+Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor) {
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  std::size_t d = 0;
+  return each_fragment(
+      "colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(), [&](Meter& meter, std::size_t i) {
+        const Covered& c = candidate.covered[i];
+        const Vec4<double>&a = candidate.shaded[i].color, &b = reference.shaded[i].color;
+        const Place place{c.x, c.y, c.triangle, "color"};
+        if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
+        const std::uint32_t primitive = candidate.triangles[c.triangle].primitive;
+        while (d + 1 < ranges.size() && primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
+        if (d >= scene.draws.size() || is_plain(scene, scene.draws[d])) return add(meter, a, b, Vec4<double>(u), 0, place);
+        const Vec4<double> bound = shade_error(scene, scene.draws[d], fours_of(candidate, i), {}, 1);
+        for (int k = 0; k < 4; ++k) {
+          if (bound[k] == 0) {
+            meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k]);
+          } else {
+            meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k]);
+          }
+        }
+      });
+}
+
+Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference) {
+  const auto &a = candidate.varyings[varying].vertices, &b = reference.varyings[varying].vertices;
+  return each("varyings", "u", a.size(), b.size(), [&](Meter& meter, std::size_t i) {
+    add(meter, a[i], b[i], Vec4<double>(u), 0, {-1, -1, static_cast<std::int64_t>(i), name_of(varying).data()});
+  });
 }
 
 Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference) {

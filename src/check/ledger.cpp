@@ -72,6 +72,12 @@ constexpr std::array kLedger = {
         "As osmesa.depth, 4 u for colour / w and for 1 / w, which the magnitude joins, and 4 more for the products by "
         "1/w at the corners and the division; besides, what the two sides' vertex colours differ by. Along a line "
         "the nearer of the two colours counts, as for osmesa.depth."},
+    Tolerance{"exact.shade", 4, "u",
+              "Fog: f is computed in double from the distance in float and rounded once (1 u), so is 1 - f (1 u); two "
+              "products and a sum (3 u), each of the magnitudes of shade_bounds.h."},
+    Tolerance{"osmesa.shade", 8, "u",
+              "As exact.shade, by a renderer that evaluates attributes as osmesa.attributes says and f in float: the "
+              "argument (3 u) and the exponential (its polynomial is 4 u off)."},
     Tolerance{"osmesa.merge.rgba8", 1, "1/255",
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},

@@ -35,6 +35,23 @@ bool corners_fit(const Scene& scene, const std::vector<DrawRange>& ranges, std::
 
 }  // namespace
 
+namespace {
+
+// The columns of the varyings that the stage reads.
+void require_columns(const Scene& scene, Stage stage, const Records<double>& r) {
+  for (const Varying v : carried(scene)) {
+    const VaryingColumns<double>& columns = r.varyings[v];
+    const std::string name(name_of(v));
+    if (stage == Stage::clip) require(columns.vertices.size() == r.vertices.size(), "varyings." + name);
+    if (stage == Stage::window) require(columns.clipped.size() == r.polygons.vertices.size(), "varyings." + name);
+    if (is_back(v)) continue;
+    if (stage == Stage::attributes) require(columns.triangles.size() == r.triangles.size(), "varyings." + name);
+    if (stage == Stage::shade) require(columns.fragments.size() == r.covered.size(), "varyings." + name);
+  }
+}
+
+}  // namespace
+
 void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   const Records<double>& r = in.records;
   const std::vector<DrawRange> ranges = draw_ranges(scene);
@@ -52,6 +69,7 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
     const auto& polygons = r.polygons.polygons;
     require(in_draw_order(polygons, primitives) && std::all_of(polygons.begin(), polygons.end(), fits), "polygons");
   }
+  require_columns(scene, stage, r);
   if (stage <= Stage::window) return;
   const auto has_corners = [&](const auto& t) {
     return corners_fit(scene, ranges, t.primitive, t.corners, 1, 3) && t.width >= 1 && t.width <= 64;

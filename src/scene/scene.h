@@ -144,6 +144,17 @@ struct Scissor {
   bool holds(int px, int py) const { return px >= x && px < x + width && py >= y && py < y + height; }
 };
 
+/// glFog: a fragment's colour becomes f * colour + (1 - f) * the fog's; alpha stays. f of the distance c = |z_eye|:
+/// (end - c) / (end - start), exp(-density c) or exp(-(density c)^2), clamped to [0,1] (OpenGL 2.1 spec 3.10).
+struct Fog {
+  enum class Mode { linear, exp, exp2 };
+  Mode mode = Mode::exp;
+  glm::vec3 color{0};  ///< [0,1]
+  float density = 1;   ///< >= 0; exp, exp2
+  float start = 0;     ///< distances, not equal; linear
+  float end = 1;
+};
+
 /// How a fragment that is drawn goes into the frame.
 struct Merge {
   std::optional<Blend> blend;   ///< none: it replaces what is there
@@ -166,6 +177,7 @@ struct Draw {
   int line_width = 1;  ///< pixels, [1, 16]
   int point_size = 1;  ///< pixels, [1, 64]: the side of a square
   DepthFunc depth_func = DepthFunc::less;
+  std::optional<Fog> fog;
   Merge merge;
   std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
 };

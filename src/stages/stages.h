@@ -14,6 +14,8 @@
 
 #include <glm/glm.hpp>
 
+#include "stages/varying.h"
+
 namespace plumbline {
 
 enum class Stage {
@@ -65,7 +67,9 @@ struct Vertex {
   Vec3<T> n_eye;  ///< unit length
 };
 
-// 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours.
+// 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours. Whatever else
+// its
+//    fragments will need is laid beside it (varying.h), and goes the colour's way from here on.
 template <class T>
 struct Lit {
   Vec4<T> color;
@@ -131,7 +135,7 @@ struct Covered {
 //    [0,1], in the frame's depth format: window z, n-bit codes as code / (2^n - 1). A plain number per fragment.
 //    Along a line, z and attributes go by the projection of the centre onto it; a point has its own.
 
-// 7. Attributes, perspective-correct.
+// 7. Attributes, perspective-correct: the colour, and each varying that the draw carries.
 template <class T>
 struct Attributes {
   Vec4<T> color;
@@ -166,6 +170,7 @@ struct Records {
   std::vector<Attributes<T>> attributes;     ///< beside covered
   std::vector<Shaded<T>> shaded;             ///< beside covered
   std::vector<Drawn> drawn;                  ///< beside covered
+  Varyings<T> varyings;                      ///< beside them all
 };
 
 }  // namespace plumbline

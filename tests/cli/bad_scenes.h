@@ -24,6 +24,11 @@ inline std::string mesh(const std::string& mesh) {
   return R"({"description": "d", "draws": [{"mesh": )" + mesh + "}]}";
 }
 
+// The keys of a draw's state, as messages list them.
+inline const std::string kStateKeys =
+    "transforms, material, lit, shading, cull, front_mode, back_mode, line_width, point_size, depth_func, fog, scissor, "
+    "depth_mask, blend, color_mask";
+
 // clang-format off
 inline const std::vector<BadScene> kBadScenes = {
     // Not JSON
@@ -60,9 +65,9 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("lights": [{"spot": [0, 0, 1]}])"), R"(at "/lights/0/spot": expected a key among directional, point, ambient, diffuse, specular, found the unknown key "spot")"},
     {top(R"("lights": [{"ambient": [0, 0, 0]}])"), R"(at "/lights/0": expected exactly one of the keys directional, point, found neither)"},
     {top(R"("lights": [{"point": [0, 0, 0], "directional": [0, 0, 1]}])"), R"(at "/lights/0": expected exactly one of the keys directional, point, found both)"},
-    {top(R"("defaults": {"mesh": {"cube": {}}})"), R"(at "/defaults/mesh": expected a key among transforms, material, lit, shading, cull, front_mode, back_mode, line_width, point_size, depth_func, scissor, depth_mask, blend, color_mask, found the unknown key "mesh")"},
-    {top(R"("defaults": {"shadding": "flat"})"), R"(at "/defaults/shadding": expected a key among transforms, material, lit, shading, cull, front_mode, back_mode, line_width, point_size, depth_func, scissor, depth_mask, blend, color_mask, found the unknown key "shadding" (did you mean "shading"?))"},
-    {draw(R"("culling": "none")"), R"(at "/draws/0/culling": expected a key among mesh, transforms, material, lit, shading, cull, front_mode, back_mode, line_width, point_size, depth_func, scissor, depth_mask, blend, color_mask, found the unknown key "culling")"},
+    {top(R"("defaults": {"mesh": {"cube": {}}})"), R"(at "/defaults/mesh": expected a key among )" + kStateKeys + R"(, found the unknown key "mesh")"},
+    {top(R"("defaults": {"shadding": "flat"})"), R"(at "/defaults/shadding": expected a key among )" + kStateKeys + R"(, found the unknown key "shadding" (did you mean "shading"?))"},
+    {draw(R"("culling": "none")"), R"(at "/draws/0/culling": expected a key among mesh, )" + kStateKeys + R"(, found the unknown key "culling")"},
     {draw(R"("material": {"color": [0, 0, 0, 1]})"), R"(at "/draws/0/material/color": expected a key among ambient, diffuse, specular, emission, shininess, found the unknown key "color")"},
     {draw(R"("transforms": [{"shear": [0, 0, 0]}])"), R"(at "/draws/0/transforms/0/shear": expected a key among translate, rotate, scale, found the unknown key "shear")"},
     {draw(R"("transforms": [{}])"), R"(at "/draws/0/transforms/0": expected exactly one of the keys translate, rotate, scale, found none)"},
@@ -77,7 +82,7 @@ inline const std::vector<BadScene> kBadScenes = {
     // Types
     {whole(R"({"description": "d", "draws": {}})"), R"(at "/draws": expected an array of 1 to 4096, found an object of 0 keys)"},
     {whole(R"({"description": "d", "draws": []})"), R"(at "/draws": expected an array of 1 to 4096, found an array of 0)"},
-    {whole(R"({"description": "d", "draws": [3]})"), R"(at "/draws/0": expected an object with keys among mesh, transforms, material, lit, shading, cull, front_mode, back_mode, line_width, point_size, depth_func, scissor, depth_mask, blend, color_mask, found 3)"},
+    {whole(R"({"description": "d", "draws": [3]})"), R"(at "/draws/0": expected an object with keys among mesh, )" + kStateKeys + R"(, found 3)"},
     {top(R"("dialect": "GL")"), R"(at "/dialect": expected one of gl, gzrender, games101, tinyrenderer, found "GL")"},
     {top(R"("dialect": "gzrender", "projection": {"perspective": {"fov_y": 45, "near": 1, "far": 9}})"), R"(at "/projection/perspective": expected a key among x_pi, found the unknown key "perspective")"},
     {top(R"("dialect": "gzrender", "projection": {"x_pi": {"fov": 180}})"), R"(at "/projection/x_pi/fov": expected a number from 0.001 to 179.999, found 180)"},
@@ -97,7 +102,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("camera": {"eye": null})"), R"(at "/camera/eye": expected an array of 3, found null)"},
     {top(R"("lights": [{"point": [0, 0]}])"), R"(at "/lights/0/point": expected an array of 3, found an array of 2)"},
     {top(R"("lights": {})"), R"(at "/lights": expected an array of 0 to 8, found an object of 0 keys)"},
-    {top(R"("defaults": [])"), R"(at "/defaults": expected an object with keys among transforms, material, lit, shading, cull, front_mode, back_mode, line_width, point_size, depth_func, scissor, depth_mask, blend, color_mask, found an array of 0)"},
+    {top(R"("defaults": [])"), R"(at "/defaults": expected an object with keys among )" + kStateKeys + R"(, found an array of 0)"},
     {top(R"("defaults": {"lit": 0})"), R"(at "/defaults/lit": expected true or false, found 0)"},
     {draw(R"("lit": 1)"), R"(at "/draws/0/lit": expected true or false, found 1)"},
     {draw(R"("shading": "phong")"), R"(at "/draws/0/shading": expected one of flat, gouraud, found "phong")"},
@@ -109,6 +114,12 @@ inline const std::vector<BadScene> kBadScenes = {
     {draw(R"("point_size": 2.5)"), R"(at "/draws/0/point_size": expected an integer from 1 to 64, found 2.5)"},
     {draw(R"("point_size": 65)"), R"(at "/draws/0/point_size": expected an integer from 1 to 64, found 65)"},
     {draw(R"("depth_func": "lequal")"), R"(at "/draws/0/depth_func": expected one of never, less, equal, less_equal, greater, not_equal, greater_equal, always, found "lequal" (did you mean "equal"?))"},
+    {draw(R"("fog": {"exponential": {}})"), R"(at "/draws/0/fog/exponential": expected a key among linear, exp, exp2, found the unknown key "exponential")"},
+    {draw(R"("fog": {"exp": {"density": -1}})"), R"(at "/draws/0/fog/exp/density": expected a number from 0 to 1000000, found -1)"},
+    {draw(R"("fog": {"linear": {"start": 2, "end": 2}})"), R"(at "/draws/0/fog/linear/end": expected another distance than "start", found 2)"},
+    {draw(R"("fog": {"exp2": {"density": 2, "start": 2}})"), R"(at "/draws/0/fog/exp2/start": expected a key among color, density, found the unknown key "start")"},
+    {draw(R"("fog": {"linear": {"start": 2}})"), R"(at "/draws/0/fog/linear/end": expected a value, found nothing: the key is missing)"},
+    {draw(R"("fog": {"exp": {"density": 1, "color": [1, 0]}})"), R"(at "/draws/0/fog/exp/color": expected an array of 3, found an array of 2)"},
     {draw(R"("scissor": [0, 0, 3])"), R"(at "/draws/0/scissor": expected an array of 4, found an array of 3)"},
     {draw(R"("scissor": [0, -1, 3, 3])"), R"(at "/draws/0/scissor/1": expected an integer from 0 to 16384, found -1)"},
     {draw(R"("scissor": [0, 0, 1.5, 3])"), R"(at "/draws/0/scissor/2": expected an integer from 0 to 16384, found 1.5)"},

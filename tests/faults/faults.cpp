@@ -6,6 +6,7 @@
 
 #include "faults/notes.h"
 #include "faults/variants.h"
+#include "pipeline/carry.h"
 #include "pipeline/clip.h"
 #include "pipeline/light.h"
 #include "pipeline/matrices.h"
@@ -38,6 +39,15 @@ void lights_in_world_space(const Scene& scene, const Draw& draw, std::span<const
   wrong.dialect = Dialect::gl;
   wrong.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};  // eye space is the world
   pipeline::light(wrong, draw, vertices, out);
+}
+
+// Of the vertices before their cut: the fog of a primitive that reaches behind the eye grows towards it.
+void positions_by_distance(const Scene& scene, const Draw& draw, Varying varying,
+                           std::span<const Vertex<float>> vertices, std::vector<Vec4<float>>& out) {
+  const std::size_t first = out.size();
+  pipeline::carry(scene, draw, varying, vertices, out);
+  if (varying != Varying::position) return;
+  for (std::size_t i = first; i < out.size(); ++i) out[i].z = std::abs(out[i].z);
 }
 
 void no_near_plane(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
@@ -138,6 +148,16 @@ struct TruncatedDepth : pipeline::FragmentStages {
   }
 };
 
+struct FoggedAlpha : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Color<R> shade_surface(const pipeline::Surface& surface, bool front,
+                                          const pipeline::SurfaceAttributes<R>& attributes) {
+    pipeline::Color<R> color = pipeline::shade_surface<R>(surface, front, attributes);
+    if (surface.draw->fog) color.a *= pipeline::fog_factor<R>(*surface.draw->fog, attributes[Varying::position].b);
+    return color;
+  }
+};
+
 struct LessEqualForLess : pipeline::FragmentStages {
   template <DepthFunc func, class R>
   static pipeline::Mask<R> depth_passes(R incoming, R stored) {
@@ -184,6 +204,8 @@ constexpr std::array kFaults = {
           Stage::vertex, with_geometry<&Geometry::vertex, normals_by_model_view>},
     Fault{"light.world_space", "lights are not brought to eye space", Stage::light,
           with_geometry<&Geometry::light, lights_in_world_space>},
+    Fault{"light.distance_at_vertices", "the distance for fog is taken at the vertices and interpolated", Stage::light,
+          with_geometry<&Geometry::carry, positions_by_distance>},
     Fault{"clip.no_near_plane", "nothing is cut at the near plane", Stage::clip,
           with_geometry<&Geometry::clip, no_near_plane>},
     Fault{"window.snap_truncates", "window positions are truncated to 1/256 pixel, not rounded", Stage::window,
@@ -208,6 +230,7 @@ constexpr std::array kFaults = {
     Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth, with_fragment<TruncatedDepth>},
     Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
           with_fragment<AffineAttributes>},
+    Fault{"shade.fogged_alpha", "fog takes alpha too", Stage::shade, with_fragment<FoggedAlpha>},
     Fault{"visibility.less_equal", "an equal depth passes where only a smaller one may", Stage::visibility,
           with_fragment<LessEqualForLess>},
     Fault{"merge.truncated", "colours are truncated to codes, not rounded", Stage::merge,
