@@ -82,8 +82,8 @@ constexpr std::array kLedger = {
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},
     Tolerance{"osmesa.merge.rgba16", 1, "1/65535",
-              "As osmesa.merge.rgba8: neighbours, and the whole codes that the float bound comes to."},
-    Tolerance{"osmesa.merge.blend.rgba16", 2.5, "1/65535", "TODO"},
+              "As osmesa.merge.rgba8; of the clear colour too, where its product in float may come to half a code."},
+    Tolerance{"osmesa.merge.blend.rgba16", 2.5, "1/65535", "As osmesa.merge.blend, in 16 bits."},
     Tolerance{
         "osmesa.merge.blend", 2.5, "1/255",
         "llvmpipe blends rgba8 in 8 bits. Per fragment: half a code for its colour, half a code for its alpha (or "

@@ -68,6 +68,9 @@ struct SceneFileOptions {
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where
 ///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth
 ///                  is then 0
+///     front_mode, back_mode  "fill", "line", "point": what is drawn of front and back faces
+///     line_width   pixels, an integer from 1 to 16
+///     point_size   pixels a side, an integer from 1 to 64
 ///     scissor      [x, y, width, height]: the pixels that may be covered; 0 to 16384 each
 ///     depth_mask   true, false: whether depth is written
 ///     blend        {source, destination, equation, alpha: {source, destination, equation}, color: [r, g, b, a]}:

@@ -206,6 +206,26 @@ TEST_F(SceneFile, ReadsHowFragmentsAreMerged) {
   EXPECT_TRUE(is(own.blend->alpha, F::zero, F::one, BlendEquation::max));
 }
 
+TEST_F(SceneFile, ReadsHowFacesLinesAndPointsAreDrawn) {
+  const Scene s = load(R"({"description": "d", "frame": {"color": "rgba16"}, "defaults": {"line_width": 3},
+      "draws": [{"mesh": {"cube": {}}},
+                {"mesh": {"cube": {}}, "front_mode": "point", "back_mode": "line", "line_width": 16, "point_size": 64},
+                {"mesh": {"points": {"positions": [[0, 0, 0]]}}, "front_mode": "fill"}]})");
+  EXPECT_EQ(s.frame.color, ColorFormat::rgba16);
+  const Draw &plain = s.draws[0], &all = s.draws[1];
+  EXPECT_TRUE(plain.front_mode == PolygonMode::fill && plain.back_mode == PolygonMode::fill);
+  EXPECT_TRUE(all.front_mode == PolygonMode::point && all.back_mode == PolygonMode::line);
+  EXPECT_EQ(glm::ivec2(plain.line_width, plain.point_size), glm::ivec2(3, 1));
+  EXPECT_EQ(glm::ivec2(all.line_width, all.point_size), glm::ivec2(16, 64));
+  Scene one = s;
+  for (const std::size_t i : {0u, 1u, 2u}) {
+    one.draws = {s.draws[i]};
+    EXPECT_EQ(draws(one, Topology::triangles), i == 0) << i;
+    EXPECT_EQ(draws(one, Topology::lines), i == 1) << i;
+    EXPECT_EQ(draws(one, Topology::points), i != 0) << i;
+  }
+}
+
 TEST_F(SceneFile, DefaultsCountWhereADrawSaysNothing) {
   const Scene s = load(R"({"description": "d",
       "defaults": {"shading": "flat", "cull": "back", "lit": false, "depth_func": "always",
