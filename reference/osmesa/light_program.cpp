@@ -99,7 +99,9 @@ std::string light_vertex_shader(const Scene& scene, const Draw& draw) {
 void main() {{
   gl_Position = ftransform();
   gl_TexCoord[0] = gl_MultiTexCoord0;
-  gl_FrontColor = lit(vec3(gl_ModelViewMatrix * gl_Vertex), {}, gl_Color);
+  vec3 p_eye = vec3(gl_ModelViewMatrix * gl_Vertex);
+  gl_FogFragCoord = abs(p_eye.z);
+  gl_FrontColor = lit(p_eye, {}, gl_Color);
   gl_BackColor = gl_FrontColor;
 }}
 )",
