@@ -155,7 +155,10 @@ double color_error(const Scene& scene, const Draw& draw, const Matrices<double>&
     double of_light = diffuse * n_dot_l.error;
     if (n_dot_l.value > -n_dot_l.error) of_light += specular * power_s.error;
     if (std::abs(n_dot_l.value) <= n_dot_l.error) of_light += gloss;
-    if (flips && std::abs(n_dot_e.value) <= n_dot_e.error) of_light += all;
+    if (flips && std::abs(n_dot_e.value) <= n_dot_e.error) {  // either way round
+      const Power turned = power(std::abs(cosine.value), material.shininess, cosine.error);
+      of_light += diffuse * std::abs(n_dot_l.value) + specular * (turned.value + turned.error);
+    }
     error += of_light * (share.value + share.error) + all * share.error;
     sum += share.value * (ambient + diffuse * glm::length(n.v) + gloss);
   }

@@ -63,10 +63,11 @@ vec4 lit(vec3 p, vec3 n, vec4 color) {{
     vec3 answer = AMBIENT.rgb * gl_LightSource[i].ambient.rgb;
     if (n_l > 0.0{}) {{
       float x = max({}, 0.0);
-      float power = gl_FrontMaterial.shininess == 0.0 ? 1.0 : x > 0.0 ? pow(x, gl_FrontMaterial.shininess) : 0.0;
+      float power = gl_FrontMaterial.shininess == 0.0 ? 1.0 : x > 0.0 ? min(pow(x, gl_FrontMaterial.shininess), 1e37) : 0.0;
       answer += n_l * DIFFUSE.rgb * gl_LightSource[i].diffuse.rgb + power * SPECULAR.rgb * gl_LightSource[i].specular.rgb;
     }}
-    sum += share(gl_LightSource[i], vp) * answer;
+    float reaches = share(gl_LightSource[i], vp);
+    if (reaches > 0.0) sum += reaches * answer;
   }}
   return clamp(vec4(sum, DIFFUSE.a), 0.0, 1.0);
 }}
@@ -98,7 +99,9 @@ std::string light_vertex_shader(const Scene& scene, const Draw& draw) {
 void main() {{
   gl_Position = ftransform();
   gl_TexCoord[0] = gl_MultiTexCoord0;
-  gl_FrontColor = lit(vec3(gl_ModelViewMatrix * gl_Vertex), {}, gl_Color);
+  vec3 p_eye = vec3(gl_ModelViewMatrix * gl_Vertex);
+  gl_FogFragCoord = abs(p_eye.z);
+  gl_FrontColor = lit(p_eye, {}, gl_Color);
   gl_BackColor = gl_FrontColor;
 }}
 )",

@@ -105,7 +105,10 @@ LightBounds light_bounds(const Scene& scene, const Material& m, const Vertex<dou
                      share.error * all;
     out.jump += share.beyond * all;
     if (std::abs(n_dot_l) <= kError * r.condition * length) out.jump += share.value * p.value * specular;
-    if (flips && std::abs(n_dot_e) <= 2 * kError * length) out.jump += share.value * all;
+    if (flips && std::abs(n_dot_e) <= 2 * kError * length) {  // either way round
+      const double gloss = power(std::abs(h.cosine), m.shininess, h.error * kError).value;
+      out.jump += share.value * (std::abs(n_dot_l) * diffuse + gloss * specular);
+    }
   }
   out.magnitude = glm::max(out.magnitude, Vec3<double>(1));
   return out;

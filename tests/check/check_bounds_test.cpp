@@ -324,7 +324,8 @@ TEST_F(LightBoundsTest, GzRendersRuleTurnsAtTheHorizon) {
   light.vector = {1, 0, 0};
   scene.lights = {light};
   draw.material.specular = glm::vec4(0);
-  EXPECT_NEAR(at({0, 0, 0}, {1, 0, 0}).jump.r, 0.5 + 2, 1e-9);
+  EXPECT_NEAR(at({0, 0, 0}, {1, 0, 0}).jump.r, 2, 1e-9) << "all but the ambient term";
+  EXPECT_NEAR(at({0, 0, 0}, {-1, 0, 0}).jump.r, 2, 1e-9) << "turned over, it is lit as well";
   EXPECT_EQ(at({0, 0, 0}, glm::normalize(glm::dvec3(1, 0, 1e-5))).jump.r, 0);
 }
 

@@ -24,17 +24,10 @@ inline std::string mesh(const std::string& mesh) {
   return R"({"description": "d", "draws": [{"mesh": )" + mesh + "}]}";
 }
 
-<<<<<<< HEAD
 /// The keys of a draw's state, as messages list them.
 inline const std::string kStateKeys =
     "transforms, material, lit, color_material, normals, shading, cull, front_mode, back_mode, line_width, point_size, "
     "depth_func, fog, scissor, depth_mask, blend, color_mask";
-=======
-// The keys of a draw's state, as messages list them.
-inline const std::string kStateKeys =
-    "transforms, material, lit, shading, cull, front_mode, back_mode, line_width, point_size, depth_func, fog, scissor, "
-    "depth_mask, blend, color_mask";
->>>>>>> 85469ad2a86f8d0046f7ae7f3d9328161fc03249
 
 // clang-format off
 inline const std::vector<BadScene> kBadScenes = {
@@ -72,7 +65,6 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("lights": [{"spotlight": [0, 0, 1]}])"), R"(at "/lights/0/spotlight": expected a key among directional, point, ambient, diffuse, specular, attenuation, spot, found the unknown key "spotlight")"},
     {top(R"("lights": [{"ambient": [0, 0, 0]}])"), R"(at "/lights/0": expected exactly one of the keys directional, point, found neither)"},
     {top(R"("lights": [{"point": [0, 0, 0], "directional": [0, 0, 1]}])"), R"(at "/lights/0": expected exactly one of the keys directional, point, found both)"},
-<<<<<<< HEAD
     {top(R"("lights": [{"directional": [0, 0, 1], "attenuation": [1, 1, 0]}])"), R"(at "/lights/0/attenuation": expected it beside point, found it beside directional)"},
     {top(R"("lights": [{"directional": [0, 0, 1], "spot": {}}])"), R"(at "/lights/0/spot": expected it beside point, found it beside directional)"},
     {top(R"("lights": [{"point": [0, 0, 1], "attenuation": [0, 0, 0]}])"), R"(at "/lights/0/attenuation": expected one number at least that is not 0, found none)"},
@@ -87,8 +79,6 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("light_model": {"local_viewer": 1})"), R"(at "/light_model/local_viewer": expected true or false, found 1)"},
     {draw(R"("color_material": true)"), R"(at "/draws/0/color_material": expected one of none, ambient, diffuse, ambient_and_diffuse, specular, emission, found true)"},
     {draw(R"("normals": "unit")"), R"(at "/draws/0/normals": expected one of normalize, rescale, as_they_are, found "unit")"},
-=======
->>>>>>> 85469ad2a86f8d0046f7ae7f3d9328161fc03249
     {top(R"("defaults": {"mesh": {"cube": {}}})"), R"(at "/defaults/mesh": expected a key among )" + kStateKeys + R"(, found the unknown key "mesh")"},
     {top(R"("defaults": {"shadding": "flat"})"), R"(at "/defaults/shadding": expected a key among )" + kStateKeys + R"(, found the unknown key "shadding" (did you mean "shading"?))"},
     {draw(R"("culling": "none")"), R"(at "/draws/0/culling": expected a key among mesh, )" + kStateKeys + R"(, found the unknown key "culling")"},
