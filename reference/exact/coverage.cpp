@@ -5,6 +5,7 @@
 #include "reference/exact/input.h"
 #include "reference/exact/line_coverage.h"
 #include "reference/exact/window.h"
+#include "scene/antialias.h"
 #include "stages/renderer.h"
 
 namespace plumbline::exact {
@@ -15,6 +16,12 @@ Int128 floor_div(Int128 a, Int128 b) { return a >= 0 ? a / b : -((-a + b - 1) / 
 Int128 ceil_div(Int128 a, Int128 b) { return -floor_div(-a, b); }
 
 int clamped(Int128 value, int low, int high) { return static_cast<int>(std::clamp<Int128>(value, low, high)); }
+
+/// The corners counted from the sample of pixel (0, 0).
+std::array<glm::ivec2, 3> from_sample(std::array<glm::ivec2, 3> snapped, const FrameFormat& frame) {
+  for (glm::ivec2& corner : snapped) corner -= sample_place(frame);
+  return snapped;
+}
 
 }  // namespace
 
@@ -35,7 +42,7 @@ CoveredRows::CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, in
 }
 
 CoveredRows::CoveredRows(const std::array<glm::ivec2, 3>& snapped, const FrameFormat& frame, const Draw& draw)
-    : CoveredRows(snapped, frame.width, frame.height) {
+    : CoveredRows(from_sample(snapped, frame), frame.width, frame.height) {
   if (!draw.scissor) return;
   const Scissor& box = *draw.scissor;
   x_begin_ = std::min(box.x, frame.width);
