@@ -188,8 +188,8 @@ struct FrameFormat {
   DepthFormat depth = DepthFormat::z24;
   glm::vec4 clear_color{0, 0, 0, 1};
   double clear_depth = 1;  ///< window z, [0,1]
-  Antialias antialias;
-  Pass pass;  ///< as passes_of() sets it (antialias.h)
+  Antialias antialias = {};
+  Pass pass = {};  ///< as passes_of() sets it (antialias.h)
 };
 
 struct Scene {
