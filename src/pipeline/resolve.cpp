@@ -8,12 +8,11 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// `plane_of(frame)`: the plane of one format, in this frame and in the passes.
-template <class PlaneOf>
-void resolve_colors(Resolve resolve_channel, const FrameFormat& format, std::span<const Frame> passes, PlaneOf plane_of,
+// `plane`: that of one colour format, in a frame.
+template <class T>
+void resolve_colors(Resolve channel, const FrameFormat& format, std::span<const Frame> passes, Plane<T> Frame::*plane,
                     Frame& frame) {
-  auto& to = plane_of(frame);
-  if (to.empty()) return;
+  Plane<T>& to = frame.*plane;
   const std::vector<PixelSample> samples = samples_of(format.antialias);
   const auto scale = static_cast<float>(color_scale(format.color));
   std::vector<float> values(samples.size());
@@ -22,20 +21,19 @@ void resolve_colors(Resolve resolve_channel, const FrameFormat& format, std::spa
       for (int c = 0; c < 4; ++c) {
         for (std::size_t i = 0; i < samples.size(); ++i) {
           const glm::ivec2 at = glm::ivec2(x, y) * format.antialias.factor + samples[i].offset;
-          values[i] = static_cast<float>(plane_of(passes[samples[i].pass])(at.x, at.y)[c]);
+          values[i] = static_cast<float>((passes[samples[i].pass].*plane)(at.x, at.y)[c]);
         }
-        using Channel = std::remove_reference_t<decltype(to(x, y)[c])>;
-        to(x, y)[c] = static_cast<Channel>(resolve_channel(values, samples, scale));
+        to(x, y)[c] = static_cast<typename T::value_type>(channel(values, samples, scale));
       }
     }
   }
 }
 
-template <class PlaneOf>
-void take_first_depths(int factor, const Frame& first, PlaneOf plane_of, Frame& frame) {
-  auto& to = plane_of(frame);
+template <class T>
+void take_first_depths(int factor, const Frame& first, Plane<T> Frame::*plane, Frame& frame) {
+  Plane<T>& to = frame.*plane;
   for (int y = 0; y < to.height(); ++y) {
-    for (int x = 0; x < to.width(); ++x) to(x, y) = plane_of(first)(x * factor, y * factor);
+    for (int x = 0; x < to.width(); ++x) to(x, y) = (first.*plane)(x * factor, y * factor);
   }
 }
 
@@ -62,16 +60,12 @@ float weighted_mean(std::span<const float> values, std::span<const PixelSample> 
 Frame resolve(const ResolveStage& stage, const FrameFormat& format, std::span<const Frame> passes) {
   Frame frame(format);
   const Resolve channel = format.antialias.kind == Antialias::Kind::multisample ? stage.multisample : stage.weighted;
-  resolve_colors(
-      channel, format, passes, [](auto& f) -> auto& { return f.color_rgba8; }, frame);
-  resolve_colors(
-      channel, format, passes, [](auto& f) -> auto& { return f.color_rgba12; }, frame);
-  resolve_colors(
-      channel, format, passes, [](auto& f) -> auto& { return f.color_rgba32f; }, frame);
-  take_first_depths(
-      format.antialias.factor, passes[0], [](auto& f) -> auto& { return f.depth_code; }, frame);
-  take_first_depths(
-      format.antialias.factor, passes[0], [](auto& f) -> auto& { return f.depth_z32f; }, frame);
+  resolve_colors(channel, format, passes, &Frame::color_rgba8, frame);
+  resolve_colors(channel, format, passes, &Frame::color_rgba12, frame);
+  resolve_colors(channel, format, passes, &Frame::color_rgba16, frame);
+  resolve_colors(channel, format, passes, &Frame::color_rgba32f, frame);
+  take_first_depths(format.antialias.factor, passes[0], &Frame::depth_code, frame);
+  take_first_depths(format.antialias.factor, passes[0], &Frame::depth_z32f, frame);
   return frame;
 }
 

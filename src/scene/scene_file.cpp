@@ -48,8 +48,10 @@ FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
   if (const auto n = node.find("width")) frame.width = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("height")) frame.height = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("color")) {
-    frame.color = n->choice<ColorFormat>(
-        {{"rgba8", ColorFormat::rgba8}, {"rgba12", ColorFormat::rgba12}, {"rgba32f", ColorFormat::rgba32f}});
+    frame.color = n->choice<ColorFormat>({{"rgba8", ColorFormat::rgba8},
+                                          {"rgba12", ColorFormat::rgba12},
+                                          {"rgba16", ColorFormat::rgba16},
+                                          {"rgba32f", ColorFormat::rgba32f}});
   }
   if (const auto n = node.find("depth")) {
     frame.depth = n->choice<DepthFormat>(
