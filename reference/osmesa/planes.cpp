@@ -140,4 +140,14 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   return planes;
 }
 
+Planes draw_picture(const Gl& gl, const SceneInGl& scene) {
+  const FrameFormat& frame = scene.scene().frame;
+  const Target target(gl, frame, frame.color == ColorFormat::rgba12 ? ColorFormat::rgba32f : frame.color);
+  draw_scene(gl, scene, target, Colors::merged);
+  Planes planes;
+  planes.color = target.read_color();
+  planes.depth = target.read_depth();
+  return planes;
+}
+
 }  // namespace plumbline::osmesa

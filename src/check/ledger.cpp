@@ -97,6 +97,11 @@ constexpr std::array kLedger = {
     Tolerance{"exact.merge.codes", 1, "half code",
               "A code is at most half a code from the value that was rounded, and the product by the largest code in "
               "float is 2 u off."},
+    Tolerance{
+        "exact.resolve", 1, "bound",
+        "Half a code for the rounding. Before it, of four equal samples in float: 2 u for a code's product with "
+        "1/255, 3 u for three sums, 1 u to make codes of the mean: under 8 u of the largest sample; of float colours "
+        "that alone, and of other means, which are taken in double, one rounding."},
     Tolerance{"legal.depth", 1, "step", "The legal interval, and one step of the depth format for the rounding."},
     Tolerance{"legal.attributes", 1, "bound",
               "The oracle's own bound of float arithmetic from the scene on (reference/math, color_error.h)."},

@@ -54,7 +54,12 @@ std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
       return c.stage == stage && c.outcome != Outcome::unsupported && c.outcome != Outcome::missing &&
              c.outcome != Outcome::failed;
     });
-    if (stage != Stage::texture && !judged_by_any) out.push_back(stage);  // no scene has textures
+    // No scene has textures; what is not antialiased is not resolved, and has no such row.
+    const bool asked = stage != Stage::texture &&
+                       (stage != Stage::resolve || std::ranges::any_of(verdict.comparisons, [](const Comparison& c) {
+                          return c.stage == Stage::resolve;
+                        }));
+    if (asked && !judged_by_any) out.push_back(stage);
   }
   return out;
 }

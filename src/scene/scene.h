@@ -219,6 +219,24 @@ struct Draw {
 /// The draw's material, what a vertex colour stands for replaced by `color` (OpenGL 2.1 spec 2.14.3).
 Material colored(const Draw& draw, const glm::vec4& color);
 
+/// What a pixel's colour is the mean of (antialias.h), but for `none`, where it is that at its centre.
+struct Antialias {
+  enum class Kind {
+    none,
+    multisample,  ///< OpenGL's: coverage and depth of four samples, one colour
+    supersample,  ///< a frame `factor` times as wide and as high
+    taps          ///< GzRender's: six pictures, each moved by part of a pixel
+  };
+  Kind kind = Kind::none;
+  int factor = 1;  ///< of supersample, [1, 8]
+};
+
+/// What an antialiased scene's passes differ by.
+struct Pass {
+  glm::dvec2 shift{0};        ///< of the whole picture, in pixels of the window
+  std::optional<int> sample;  ///< coverage and depth are those of OpenGL's sample 0 to 3, colours the pixel centre's
+};
+
 struct FrameFormat {
   int width = 256;   ///< pixels, [1, 16384]
   int height = 256;  ///< pixels, [1, 16384]
@@ -226,6 +244,8 @@ struct FrameFormat {
   DepthFormat depth = DepthFormat::z24;
   glm::vec4 clear_color{0, 0, 0, 1};
   double clear_depth = 1;  ///< window z, [0,1]
+  Antialias antialias = {};
+  Pass pass = {};  ///< as passes_of() sets it (antialias.h)
 };
 
 struct Scene {

@@ -353,6 +353,7 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
     seen("depth ", s.frame.depth);
     seen("projection ", s.projection.index());
     seen("dialect ", s.dialect);
+    seen("antialias ", s.frame.antialias.kind);
     for (const Light& light : s.lights) seen("light ", light.kind);
     for (const Draw& draw : s.draws) {
       seen("lit ", draw.lit);
@@ -364,7 +365,7 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
       for (const Transform& transform : draw.transforms) seen("transform ", transform.index());
     }
   }
-  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 2 + 2 + 6 + 3 + 2 + 3 + 8 + 3);
+  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 4 + 2 + 2 + 6 + 3 + 2 + 3 + 8 + 3);
 }
 
 }  // namespace
