@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "scene/scene_values.h"
+#include "scene/texture_json.h"
 
 namespace plumbline {
 namespace {
@@ -149,19 +150,21 @@ void read_state(const JsonNode& node, DrawState& state) {
 
 }  // namespace
 
-DrawState read_draw_state(const JsonNode& node, const DrawState& defaults) {
+DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
   node.only({"transforms", "material", "lit", "shading", "cull", "depth_func", "scissor", "depth_mask", "blend",
-             "color_mask"});
+             "color_mask", "texture"});
   DrawState state = defaults;
   read_state(node, state);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
   return state;
 }
 
-DrawState read_draw(const JsonNode& node, const DrawState& defaults) {
+DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
   node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "depth_func", "scissor", "depth_mask", "blend",
-             "color_mask"});
+             "color_mask", "texture"});
   DrawState state = defaults;
   read_state(node, state);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
   return state;
 }
 

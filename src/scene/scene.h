@@ -10,6 +10,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/texture.h"
+
 namespace plumbline {
 
 /// The conventions under which a scene's numbers are read: window origin, pixel centre, handedness, where the eye is...
@@ -33,6 +35,7 @@ struct Mesh {
   std::vector<glm::vec4> colors;      ///< empty, or as many as positions: rgba, nominally [0,1]
   std::vector<glm::uvec3> triangles;  ///< indices of positions; the last corner is the provoking vertex
   Topology topology = Topology::triangles;
+  std::vector<glm::vec2> texcoords{};  ///< s, t; empty, or as many as positions
 };
 
 struct Translate {
@@ -160,7 +163,8 @@ struct Draw {
   Cull cull = Cull::none;
   DepthFunc depth_func = DepthFunc::less;
   Merge merge;
-  std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
+  std::optional<Scissor> scissor;      ///< no pixel outside of it is covered
+  std::optional<DrawTexture> texture;  ///< the mesh then has texture coordinates
 };
 
 struct FrameFormat {
@@ -183,6 +187,7 @@ struct Scene {
   bool depth_clamp = false;   ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
   glm::vec3 ambient{0};       ///< the light model's ambient light
   std::vector<Light> lights;  ///< at most 8
+  std::vector<Texture> textures;
   std::vector<Mesh> meshes;
   std::vector<Draw> draws;  ///< in draw order
 };
