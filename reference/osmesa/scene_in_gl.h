@@ -5,6 +5,7 @@
 
 #include "reference/osmesa/buffer.h"
 #include "reference/osmesa/gl.h"
+#include "reference/osmesa/textures_in_gl.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -24,6 +25,7 @@ class SceneInGl {
   void set_lights() const;                   ///< ambient light, lights; leaves MODELVIEW the identity
   void set_matrices(std::size_t draw) const;
   void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth
+  void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels
   void set_fragments(std::size_t draw) const;  ///< culling, scissor, depth function and mask
   void set_merge(std::size_t draw) const;      ///< blending and colour mask
 
@@ -38,6 +40,7 @@ class SceneInGl {
   struct MeshVertex {
     glm::vec3 position, normal;
     glm::vec4 color;
+    glm::vec2 texcoord;
   };
   struct Arrays {
     std::vector<MeshVertex> vertices;
@@ -55,6 +58,7 @@ class SceneInGl {
   std::vector<DrawRange> ranges_;
   std::vector<Matrices<double>> matrices_;
   std::vector<Arrays> arrays_;
+  TexturesInGl textures_;
 };
 
 /// GL_TRIANGLES, GL_LINES or GL_POINTS.

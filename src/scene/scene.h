@@ -192,6 +192,10 @@ struct Scene {
   std::vector<Draw> draws;  ///< in draw order
 };
 
+/// Whether any draw has a texture.
+inline bool textured(const Scene& scene) {
+  return std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.texture.has_value(); });
+}
 /// Whether any draw is of such a mesh.
 bool draws(const Scene& scene, Topology topology);
 /// Whether a pixel's colour is that of its last fragment alone: nothing is blended, no channel masked.

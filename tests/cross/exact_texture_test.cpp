@@ -6,7 +6,7 @@
 
 #include "pipeline/environment.h"
 #include "pipeline/texture.h"
-#include "reference/exact/texture.h"
+#include "reference/math/texture.h"
 #include "scene/texture_images.h"
 
 namespace plumbline {
@@ -47,7 +47,7 @@ TEST(ExactTexture, FiltersAsThePipelineDoes) {
       const auto at = [&](float value) { return grid ? std::round(value * 64) / 64 : value; };
       const float s = at(coordinate(random)), t = at(coordinate(random)), lod = at(level(random));
       const pipeline::Color<float> ours = pipeline::sample(setup, {s, t}, lod);
-      const glm::dvec4 exact = exact::filtered_texel(texture, glm::dvec2(s, t), lod);
+      const glm::dvec4 exact = math::filtered_texel(texture, glm::dvec2(s, t), lod);
       const glm::dvec4 apart = glm::abs(glm::dvec4(ours.r, ours.g, ours.b, ours.a) - exact);
       largest = std::max({largest, apart.r, apart.g, apart.b, apart.a});
       ASSERT_LE(std::max({apart.r, apart.g, apart.b, apart.a}), 4 * 0x1p-24)
@@ -71,7 +71,7 @@ TEST(ExactTexture, EnvironmentsAreThePipelines) {
     const DrawTexture state{0, environment, color()};
     const glm::vec4 f = color(), s = source_components(format, color());
     const auto ours = pipeline::apply_environment<float>(format, state, {f.r, f.g, f.b, f.a}, {s.r, s.g, s.b, s.a});
-    const glm::dvec4 exact = exact::textured_color(format, state, glm::dvec4(f), glm::dvec4(s));
+    const glm::dvec4 exact = math::textured_color(format, state, glm::dvec4(f), glm::dvec4(s));
     const glm::dvec4 apart = glm::abs(glm::dvec4(ours.r, ours.g, ours.b, ours.a) - exact);
     ASSERT_LE(std::max({apart.r, apart.g, apart.b, apart.a}), 3 * 0x1p-24)
         << static_cast<int>(format) << " " << static_cast<int>(environment);

@@ -1,12 +1,32 @@
-#include "reference/exact/texture.h"
+#include "reference/math/texture.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
-namespace plumbline::exact {
+namespace plumbline::math {
 namespace {
 
-using Real = long double;
+constexpr double kNoLength = -1e6;  // the logarithm of 0, before it is limited
+
+double squared_rho(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
+  const TextureLevel& base = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
+  const glm::dvec2 size(base.width, base.height), x = size * d_dx, y = size * d_dy;
+  return std::max(glm::dot(x, x), glm::dot(y, y));
+}
+
+double limited(const Texture& texture, double lambda) {
+  const Sampler& s = texture.sampler;
+  return std::clamp(lambda + static_cast<double>(s.lod_bias), static_cast<double>(s.min_lod),
+                    static_cast<double>(s.max_lod));
+}
+
+/// lambda up to which the texture is magnified (3.8.9).
+double magnified_up_to(const Sampler& s) {
+  const bool nearest = s.min == MinFilter::nearest_mipmap_nearest || s.min == MinFilter::nearest_mipmap_linear;
+  return s.mag == MagFilter::linear && nearest ? 0.5 : 0;
+}
 
 /// A coordinate of the unit interval, by the wrap mode (3.8.7); of clamp_to_edge and clamp_to_border, by the level's
 /// size.
@@ -61,45 +81,23 @@ glm::dvec4 in_level(const Texture& texture, int number, bool linear, glm::dvec2 
 
 }  // namespace
 
-TexturePlace texture_place(const WindowTriangle<double>& triangle, const std::array<glm::dvec2, 3>& texcoords,
-                           const Barycentric& weights, int x, int y) {
-  // Weights are affine: a step of one pixel is their derivative.
-  const auto at = weights.at(x, y), right = weights.at(x + 1, y), above = weights.at(x, y + 1);
-  const auto over_w = [&](const std::array<Real, 3>& b) {
-    std::array<Real, 3> sum{};  // s/w, t/w, 1/w
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Real q = b[i] * triangle.v[i].inv_w;
-      sum[0] += q * texcoords[i].s;
-      sum[1] += q * texcoords[i].t;
-      sum[2] += q;
-    }
-    return sum;
-  };
-  const auto change = [](const std::array<Real, 3>& to, const std::array<Real, 3>& from) {
-    return std::array<Real, 3>{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-  };
-  const auto f = over_w(at), d_dx = over_w(change(right, at)), d_dy = over_w(change(above, at));
-  const Real s = f[0] / f[2], t = f[1] / f[2];
-  const auto quotient = [&](const std::array<Real, 3>& d) {
-    return glm::dvec2((d[0] - s * d[2]) / f[2], (d[1] - t * d[2]) / f[2]);
-  };
-  return {glm::dvec2(s, t), quotient(d_dx), quotient(d_dy)};
+double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
+  const double rho2 = squared_rho(texture, d_dx, d_dy);
+  int exponent = 0;
+  const double mantissa = std::frexp(rho2, &exponent);  // [1/2, 1)
+  const double piecewise = rho2 > 0 ? 0.5 * (exponent - 1 + 2 * mantissa - 1) : kNoLength;
+  return limited(texture, piecewise);
 }
 
-double level_of_detail(const Texture& texture, const TexturePlace& place) {
-  const TextureLevel& base = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
-  const glm::dvec2 size(base.width, base.height);
-  const double rho = std::max(glm::length(size * place.d_dx), glm::length(size * place.d_dy));
-  const double lambda = (rho > 0 ? std::log2(rho) : -1e6) + static_cast<double>(texture.sampler.lod_bias);
-  return std::clamp(lambda, static_cast<double>(texture.sampler.min_lod), static_cast<double>(texture.sampler.max_lod));
+double level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
+  const double rho2 = squared_rho(texture, d_dx, d_dy);
+  return limited(texture, rho2 > 0 ? 0.5 * std::log2(rho2) : kNoLength);
 }
 
 glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda) {
   const Sampler& s = texture.sampler;
   const int base = s.base_level, q = last_level(texture);
-  const bool nearest_mipmap = s.min == MinFilter::nearest_mipmap_nearest || s.min == MinFilter::nearest_mipmap_linear;
-  const double c = s.mag == MagFilter::linear && nearest_mipmap ? 0.5 : 0;
-  if (lambda <= c) return in_level(texture, base, s.mag == MagFilter::linear, st);
+  if (lambda <= magnified_up_to(s)) return in_level(texture, base, s.mag == MagFilter::linear, st);
   switch (s.min) {
     case MinFilter::nearest: return in_level(texture, base, false, st);
     case MinFilter::linear: return in_level(texture, base, true, st);
@@ -122,6 +120,77 @@ glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda) 
     }
   }
   return glm::dvec4(0);
+}
+
+namespace {
+
+bool filters_linearly(const Sampler& s, double lambda) {
+  if (lambda <= magnified_up_to(s)) return s.mag == MagFilter::linear;
+  return s.min == MinFilter::linear || s.min == MinFilter::linear_mipmap_nearest ||
+         s.min == MinFilter::linear_mipmap_linear;
+}
+
+/// The levels that are filtered at lambda.
+std::pair<int, int> levels_at(const Texture& texture, double lambda) {
+  const int base = texture.sampler.base_level, q = last_level(texture);
+  if (lambda <= magnified_up_to(texture.sampler) || !mipmaps(texture.sampler.min)) return {base, base};
+  const double at = std::min(base + std::max(lambda, 0.0), static_cast<double>(q));
+  return {static_cast<int>(std::floor(at)), static_cast<int>(std::ceil(at))};
+}
+
+/// How fast one level's texel changes with s and t around a place, and how far off it jumps.
+void add_slopes(const Texture& texture, int number, bool linear, glm::dvec2 st, TexelRange& out) {
+  const TextureLevel& level = texture.levels[static_cast<std::size_t>(number)];
+  const glm::dvec2 size(level.width, level.height);
+  if (!linear) {
+    for (int k = 0; k < 2; ++k) {
+      const double at = st[k] * size[k];
+      out.gap[k] = std::min(out.gap[k], std::abs(at - std::round(at)) / size[k]);
+    }
+    return;
+  }
+  // Between texels' centres it changes by the difference of two texels' means; three by three points a texel apart
+  // around the place are on all the slopes that are within half a texel of it.
+  glm::dvec4 at[3][3];
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec2 texels(std::floor(st.s * size.s) + i - 0.5, std::floor(st.t * size.t) + j - 0.5);
+      at[j][i] = in_level(texture, number, false, texels / size);
+    }
+  }
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      out.slope_s = glm::max(out.slope_s, size.s * glm::abs(at[j][i + 1] - at[j][i]));
+      out.slope_t = glm::max(out.slope_t, size.t * glm::abs(at[i + 1][j] - at[i][j]));
+    }
+  }
+}
+
+}  // namespace
+
+TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi) {
+  TexelRange out;
+  out.lo = glm::dvec4(std::numeric_limits<double>::infinity());
+  out.hi = -out.lo;
+  const auto add = [&](double lambda) {
+    const glm::dvec4 texel = filtered_texel(texture, st, lambda);
+    out.lo = glm::min(out.lo, texel);
+    out.hi = glm::max(out.hi, texel);
+    const auto [first, last] = levels_at(texture, lambda);
+    for (int level = first; level <= last; ++level) {
+      add_slopes(texture, level, filters_linearly(texture.sampler, lambda), st, out);
+    }
+  };
+  add(lambda_lo);
+  add(lambda_hi);
+  // What is chosen by lambda changes at multiples of a half alone, and between them linearly; a little beyond each the
+  // other choice is made.
+  constexpr double kMost = 16, kBeyond = 1e-9;
+  for (double at = std::ceil(2 * std::max(lambda_lo, -1.0)) / 2; at <= std::min(lambda_hi, kMost); at += 0.5) {
+    add(at);
+    if (at + kBeyond <= lambda_hi) add(at + kBeyond);
+  }
+  return out;
 }
 
 glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const glm::dvec4& fragment,
@@ -178,4 +247,4 @@ glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const 
   return fragment;
 }
 
-}  // namespace plumbline::exact
+}  // namespace plumbline::math
