@@ -89,7 +89,7 @@ Polygon clip_primitive(Topology topology, const std::array<ClipVertex<double>, 3
 }  // namespace
 
 ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Vertex<double>>& vertices,
-                                     const std::vector<Lit<double>>& lit) {
+                                     const std::vector<Lit<double>>& lit, bool flat_applies) {
   require_size("records.lit", lit.size(), vertices.size());
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   ClipPolygons<double> out;
@@ -103,7 +103,8 @@ ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Verte
         corners[static_cast<std::size_t>(i)] = {vertices[v].p_clip, lit[v].color, false};
       }
       if (!std::all_of(corners.begin(), corners.end(), [](const auto& v) { return finite(v.p_clip); })) continue;
-      if (scene.draws[d].shading == Shading::flat) corners[0].color = corners[1].color = corners[2].color;
+      if (flat_applies && scene.draws[d].shading == Shading::flat)
+        corners[0].color = corners[1].color = corners[2].color;
       const Polygon polygon =
           clip_primitive(scene.meshes[scene.draws[d].mesh].topology, corners, scene.depth_clamp ? kSides : kPlanes);
       if (polygon.empty()) continue;

@@ -28,6 +28,6 @@ std::vector<ClipVertex<double>> clip_line(const ClipVertex<double>& a, const Cli
 /// Stage 3; a point inside is left as it is. Primitives with a corner that is not finite, and those that lie outside,
 /// leave no polygon. Throws std::invalid_argument where the records do not fit the scene.
 ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Vertex<double>>& vertices,
-                                     const std::vector<Lit<double>>& lit);
+                                     const std::vector<Lit<double>>& lit, bool flat_applies = true);
 
 }  // namespace plumbline::exact

@@ -1,6 +1,7 @@
 #include "reference/exact/coverage.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reference/exact/input.h"
 #include "reference/exact/line_coverage.h"
@@ -9,6 +10,19 @@
 
 namespace plumbline::exact {
 namespace {
+
+/// The square, by its definition: a centre is inside where it is at most half the size from the middle.
+std::vector<glm::ivec2> point_pixels(glm::ivec2 snapped, int size, const FrameFormat& frame) {
+  const glm::dvec2 p_win = glm::dvec2(snapped) / static_cast<double>(kSubpixel) + 0.5;
+  const glm::dvec2 middle = size % 2 == 1 ? glm::floor(p_win) + 0.5 : glm::floor(p_win + 0.5);
+  const auto covers = [&](int pixel, int axis) { return std::abs(pixel + 0.5 - middle[axis]) < 0.5 * size; };
+  const glm::ivec2 around(glm::clamp(middle, glm::dvec2(-1000), glm::dvec2(frame.width, frame.height) + 1000.0));
+  std::vector<glm::ivec2> pixels;
+  for (int y = std::max(around.y - size, 0); y < std::min(around.y + size, frame.height); ++y)
+    for (int x = std::max(around.x - size, 0); x < std::min(around.x + size, frame.width); ++x)
+      if (covers(x, 0) && covers(y, 1)) pixels.emplace_back(x, y);
+  return pixels;
+}
 
 /// Divisors are positive.
 Int128 floor_div(Int128 a, Int128 b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
@@ -80,14 +94,11 @@ void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& 
                     std::uint32_t triangle, std::vector<Covered>& out) {
   if (primitive.corners == 3)
     return append_covered(CoveredRows(snapped_corners(primitive), frame, draw), triangle, out);
-  std::vector<glm::ivec2> pixels;
-  if (primitive.corners == 2) {
-    pixels = line_pixels(primitive.v[0].snapped, primitive.v[1].snapped, frame.width, frame.height);
-  } else {
-    const glm::dvec2 p_win = glm::dvec2(primitive.v[0].snapped) / static_cast<double>(kSubpixel) + 0.5;
-    const glm::ivec2 pixel(glm::floor(p_win));
-    if (pixel.x >= 0 && pixel.y >= 0 && pixel.x < frame.width && pixel.y < frame.height) pixels = {pixel};
-  }
+  const int width = static_cast<int>(primitive.width);
+  const std::vector<glm::ivec2> pixels =
+      primitive.corners == 2
+          ? wide_line_pixels(primitive.v[0].snapped, primitive.v[1].snapped, width, frame.width, frame.height)
+          : point_pixels(primitive.v[0].snapped, width, frame);
   for (const glm::ivec2 p : pixels)
     if (!draw.scissor || draw.scissor->holds(p.x, p.y))
       out.push_back({triangle, static_cast<std::uint16_t>(p.x), static_cast<std::uint16_t>(p.y)});
@@ -95,10 +106,12 @@ void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& 
 
 namespace {
 
-/// A line has at most one pixel in each row or column that it passes, and one more.
+/// A line has at most one pixel, or column of pixels, in each row or column that it passes, and one more.
 std::size_t most_pixels(const WindowTriangle<double>& line_or_point, int longest) {
   const glm::i64vec2 d = glm::abs(glm::i64vec2(line_or_point.v[1].snapped) - glm::i64vec2(line_or_point.v[0].snapped));
-  return static_cast<std::size_t>(std::min<std::int64_t>(std::max(d.x, d.y) / kSubpixel + 2, longest));
+  const std::size_t width = line_or_point.width;
+  if (line_or_point.corners == 1) return width * width;
+  return width * static_cast<std::size_t>(std::min<std::int64_t>(std::max(d.x, d.y) / kSubpixel + 2, longest));
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ std::size_t covered_count(const CoveredRows& rows);
 void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector<Covered>& out);
 
 /// Likewise of a triangle, a line (line_coverage.h) or a point, as record number `triangle`, in the draw's scissor box.
-/// A point of size 1 is the pixel (floor x, floor y) of its snapped window position (OpenGL 2.1, section 3.3).
+/// A point is the pixels whose centres are in a square of its size about (floor x + 1/2, floor y + 1/2), or, where the
+/// size is even, (floor(x + 1/2), floor(y + 1/2)), (x, y) its snapped window position (OpenGL 2.1, section 3.3).
 void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, const Draw& draw,
                     std::uint32_t triangle, std::vector<Covered>& out);
 

@@ -1,5 +1,6 @@
 #include "reference/exact/exact.h"
 
+#include "reference/exact/carry.h"
 #include "reference/exact/clip.h"
 #include "reference/exact/coverage.h"
 #include "reference/exact/fragments.h"
@@ -7,6 +8,7 @@
 #include "reference/exact/geometry.h"
 #include "reference/exact/input.h"
 #include "reference/exact/selection.h"
+#include "reference/exact/surface.h"
 #include "reference/exact/window.h"
 #include "reference/math/oracle.h"
 
@@ -45,14 +47,26 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
   switch (stage) {
     case Stage::matrices: out.records.matrices = make_matrices(scene); break;
     case Stage::vertex: out.records.vertices = transform_vertices(scene, records.matrices); break;
-    case Stage::light: out.records.lit = light_vertices(scene, records.vertices); break;
-    case Stage::clip: out.records.polygons = clip_primitives(scene, records.vertices, records.lit); break;
-    case Stage::window: out.records.triangles = window_triangles(scene, records.polygons, records.matrices); break;
+    case Stage::light:
+      out.records.lit = light_vertices(scene, records.vertices);
+      light_varyings(scene, records, out.records);
+      break;
+    case Stage::clip:
+      out.records.polygons = clip_primitives(scene, records.vertices, records.lit);
+      clip_varyings(scene, records, out.records);
+      break;
+    case Stage::window:
+      out.records.triangles = window_triangles(scene, records.polygons, records.matrices);
+      window_varyings(scene, records, out.records);
+      break;
     case Stage::coverage: cover_triangles(scene, records.triangles, Request{}.memory_budget, out); break;
     case Stage::depth: out.records.depth = fragment_depths(scene, records); break;
-    case Stage::attributes: out.records.attributes = fragment_attributes(scene, records); break;
+    case Stage::attributes:
+      out.records.attributes = fragment_attributes(scene, records);
+      fragment_varyings(scene, records, out.records);
+      break;
     case Stage::texture: return Renderer::run_stage(scene, stage, in);
-    case Stage::shade: out.records.shaded = shade_fragments(records.attributes); break;
+    case Stage::shade: out.records.shaded = shade_fragments(scene, records); break;
     case Stage::visibility:
       out.records.drawn = drawn_fragments(scene, records);
       out.planes.id = visible_primitives(scene, records, out.records.drawn);
@@ -94,9 +108,21 @@ std::size_t selected_fragments(const Scene& scene, const Selection& selection,
   return count;
 }
 
+/// The varyings that the draw carries, at pixel (x, y)'s centre.
+Fours fours_at(const Scene& scene, const Draw& draw, const Records<double>& window, std::size_t triangle,
+               const Barycentric& weights, int x, int y) {
+  Fours out{};
+  WindowTriangle<double> as_color = window.triangles[triangle];
+  for (const Varying v : kAllVaryings) {
+    if (is_back(v) || !carries(scene, draw, v)) continue;
+    for (std::size_t k = 0; k < 3; ++k) as_color.v[k].color = window.varyings[v].triangles[triangle][k];
+    out[static_cast<std::size_t>(v)] = color_at(as_color, weights, x, y);
+  }
+  return out;
+}
+
 /// Stages 5 to 11, triangle by triangle, so that no fragment is kept that nobody asked for.
-void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>>& triangles,
-                    const Selection& selection, Capture& out) {
+void draw_triangles(const Scene& scene, const Records<double>& window, const Selection& selection, Capture& out) {
   const FrameFormat& frame = scene.frame;
   const DrawOf draw_of(scene);
   DepthBuffer buffer(frame);
@@ -104,9 +130,11 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
   out.planes = cleared_planes(frame);
   std::uint32_t kept = 0;  // the triangle's number among those that the capture hands out
   std::vector<Covered> covered;
-  for (const WindowTriangle<double>& triangle : triangles) {
+  for (std::size_t t = 0; t < window.triangles.size(); ++t) {
+    const WindowTriangle<double>& triangle = window.triangles[t];
     const bool wanted = selection.primitive(triangle.primitive);
     const Draw& draw = draw_of(triangle.primitive);
+    const bool plain = is_plain(scene, draw);
     covered.clear();
     append_covered(triangle, frame, draw, wanted ? kept++ : 0, covered);
     if (covered.empty()) continue;
@@ -119,11 +147,13 @@ void draw_triangles(const Scene& scene, const std::vector<WindowTriangle<double>
       const bool recorded = wanted && selection.fragments() && selection.pixel(c.x, c.y);
       if (!visible && !recorded) continue;
       const glm::dvec4 color = color_at(triangle, weights, c.x, c.y);
-      if (recorded) selection.add(c, depth, color, visible, out.records);
+      const Fours fours = plain ? Fours{} : fours_at(scene, draw, window, t, weights, c.x, c.y);
+      const glm::dvec4 shaded = plain ? color : shade(scene, draw, triangle.front, color, fours);
+      if (recorded) selection.add({c, depth, color, fours, shaded, visible}, out.records);
       if (!visible) continue;
       out.planes.id(c.x, c.y) = static_cast<std::int32_t>(triangle.primitive);
-      out.planes.shaded(c.x, c.y) = glm::vec4(color);
-      colors.write(c.x, c.y, draw.merge, color);
+      out.planes.shaded(c.x, c.y) = glm::vec4(shaded);
+      colors.write(c.x, c.y, draw.merge, shaded);
     }
   }
   out.planes.depth = buffer.take();
@@ -138,16 +168,21 @@ Capture Exact::capture(const Scene& scene, const Request& request) {
   records.vertices = transform_vertices(scene, records.matrices);
   records.lit = light_vertices(scene, records.vertices);
   records.polygons = clip_primitives(scene, records.vertices, records.lit);
-  const auto triangles = window_triangles(scene, records.polygons, records.matrices);
+  records.triangles = window_triangles(scene, records.polygons, records.matrices);
+  light_varyings(scene, records, records);
+  clip_varyings(scene, records, records);
+  window_varyings(scene, records, records);
+  Records<double> window;
+  window.triangles = records.triangles;
+  for (const Varying v : kAllVaryings) window.varyings[v].triangles = records.varyings[v].triangles;
 
   const Selection selection(scene, request);
-  if (request.records.has(Stage::window)) records.triangles = triangles;
   selection.prune(records);
-  const std::size_t fragments = selected_fragments(scene, selection, triangles);
+  const std::size_t fragments = selected_fragments(scene, selection, window.triangles);
   require_budget(scene, plane_bytes(scene) + geometry_bytes(records) + fragments * selection.bytes_per_fragment(),
                  request.memory_budget);
   selection.reserve(fragments, records);
-  draw_triangles(scene, triangles, selection, out);
+  draw_triangles(scene, window, selection, out);
   if (request.legal && !draws(scene, Topology::lines) && !draws(scene, Topology::points))
     out.legal = math::legal_by_boxes(scene, request);
   return out;

@@ -50,11 +50,4 @@ std::vector<Attributes<double>> fragment_attributes(const Scene& scene, const Re
   return attributes;
 }
 
-std::vector<Shaded<double>> shade_fragments(const std::vector<Attributes<double>>& attributes) {
-  std::vector<Shaded<double>> shaded;
-  shaded.reserve(attributes.size());
-  for (const Attributes<double>& a : attributes) shaded.push_back({a.color});
-  return shaded;
-}
-
 }  // namespace plumbline::exact

@@ -1,4 +1,4 @@
-// Stages 6, 7 and 9: a fragment's depth and colour, real numbers.
+// Stages 6 and 7: a fragment's depth and attributes, real numbers.
 #pragma once
 
 #include <vector>
@@ -20,8 +20,5 @@ std::vector<double> fragment_depths(const Scene& scene, const Records<double>& r
 
 /// Stage 7: color_at() of each of records.covered. Throws std::invalid_argument as runs_by_triangle() does.
 std::vector<Attributes<double>> fragment_attributes(const Scene& scene, const Records<double>& records);
-
-/// Stage 9: the interpolated colour as it is.
-std::vector<Shaded<double>> shade_fragments(const std::vector<Attributes<double>>& attributes);
 
 }  // namespace plumbline::exact

@@ -25,8 +25,8 @@ class DepthBuffer {
   Plane<double> plane_;
 };
 
-/// The colour plane, cleared. Clamped to [0,1] for rgba8 and rgba12, but what is written last not rounded to codes; as
-/// it is for rgba32f.
+/// The colour plane, cleared. Clamped to [0,1] where the frame has codes, but what is written last not rounded to them;
+/// as it is for rgba32f.
 class ColorBuffer {
  public:
   explicit ColorBuffer(const Scene& scene);

@@ -77,4 +77,21 @@ std::vector<glm::ivec2> line_pixels(glm::i64vec2 a, glm::i64vec2 b, int width, i
   return pixels;
 }
 
+std::vector<glm::ivec2> wide_line_pixels(glm::i64vec2 a, glm::i64vec2 b, int w, int width, int height) {
+  const bool x_major = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
+  // In a frame that begins w - 1 pixels earlier, the lowest of a column is inside where any of it is.
+  const glm::i64vec2 minor = x_major ? glm::i64vec2(0, 1) : glm::i64vec2(1, 0);
+  const glm::i64vec2 moved = minor * std::int64_t{256 * (w - 1) - 128 * (w - 1)};
+  const glm::ivec2 earlier = glm::ivec2(minor) * (w - 1);
+  std::vector<glm::ivec2> pixels;
+  for (const glm::ivec2 lowest : line_pixels(a + moved, b + moved, width + earlier.x, height + earlier.y))
+    for (int k = 0; k < w; ++k) {
+      const glm::ivec2 p = lowest - earlier + glm::ivec2(minor) * k;
+      if (p.x >= 0 && p.y >= 0 && p.x < width && p.y < height) pixels.push_back(p);
+    }
+  std::sort(pixels.begin(), pixels.end(),
+            [](glm::ivec2 p, glm::ivec2 q) { return p.y != q.y ? p.y < q.y : p.x < q.x; });
+  return pixels;
+}
+
 }  // namespace plumbline::exact

@@ -19,6 +19,10 @@ namespace plumbline::exact {
 /// 1/256 pixel, pixel (i, j)'s centre at (256 i, 256 j), within +-2^40.
 bool produces(glm::i64vec2 a, glm::i64vec2 b, glm::i64vec2 pixel);
 
+/// Those of a line `w` pixels wide (section 3.4.2): the segment is moved by -(w - 1)/2 along its minor axis, and each
+/// fragment becomes w of them, upwards from it (of a y-major line, rightwards).
+std::vector<glm::ivec2> wide_line_pixels(glm::i64vec2 a, glm::i64vec2 b, int w, int width, int height);
+
 /// All pixels within `width` x `height` that the segment produces, by y, then x. Coordinates within +-2^40.
 std::vector<glm::ivec2> line_pixels(glm::i64vec2 a, glm::i64vec2 b, int width, int height);
 

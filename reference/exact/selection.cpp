@@ -4,7 +4,8 @@
 
 namespace plumbline::exact {
 
-Selection::Selection(const Scene& scene, const Request& request) : request_(request) {
+Selection::Selection(const Scene& scene, const Request& request) : request_(request), varyings_(carried(scene)) {
+  std::erase_if(varyings_, is_back);
   if (request.pixels.empty()) return;
   const FrameFormat& frame = scene.frame;
   pixels_ = Plane<std::uint8_t>(frame.width, frame.height);
@@ -20,25 +21,30 @@ bool Selection::primitive(std::uint32_t number) const {
 std::size_t Selection::bytes_per_fragment() const {
   const StageSet& stages = request_.records;
   return (stages.has(Stage::coverage) ? sizeof(Covered) : 0) + (stages.has(Stage::depth) ? sizeof(double) : 0) +
-         (stages.has(Stage::attributes) ? sizeof(Attributes<double>) : 0) +
+         (stages.has(Stage::attributes) ? sizeof(Attributes<double>) + varyings_.size() * sizeof(glm::dvec4) : 0) +
          (stages.has(Stage::shade) ? sizeof(Shaded<double>) : 0) + (stages.has(Stage::visibility) ? sizeof(Drawn) : 0);
 }
 
-void Selection::add(const Covered& covered, double depth, const glm::dvec4& color, bool drawn,
-                    Records<double>& out) const {
+void Selection::add(const Fragment& fragment, Records<double>& out) const {
   const StageSet& stages = request_.records;
-  if (stages.has(Stage::coverage)) out.covered.push_back(covered);
-  if (stages.has(Stage::depth)) out.depth.push_back(depth);
-  if (stages.has(Stage::attributes)) out.attributes.push_back({color});
-  if (stages.has(Stage::shade)) out.shaded.push_back({color});
-  if (stages.has(Stage::visibility)) out.drawn.push_back({drawn});
+  if (stages.has(Stage::coverage)) out.covered.push_back(fragment.covered);
+  if (stages.has(Stage::depth)) out.depth.push_back(fragment.depth);
+  if (stages.has(Stage::attributes)) {
+    out.attributes.push_back({fragment.color});
+    for (const Varying v : varyings_) out.varyings[v].fragments.push_back(fragment.fours[static_cast<std::size_t>(v)]);
+  }
+  if (stages.has(Stage::shade)) out.shaded.push_back({fragment.shaded});
+  if (stages.has(Stage::visibility)) out.drawn.push_back({fragment.drawn});
 }
 
 void Selection::reserve(std::size_t fragments, Records<double>& out) const {
   const StageSet& stages = request_.records;
   if (stages.has(Stage::coverage)) out.covered.reserve(fragments);
   if (stages.has(Stage::depth)) out.depth.reserve(fragments);
-  if (stages.has(Stage::attributes)) out.attributes.reserve(fragments);
+  if (stages.has(Stage::attributes)) {
+    out.attributes.reserve(fragments);
+    for (const Varying v : varyings_) out.varyings[v].fragments.reserve(fragments);
+  }
   if (stages.has(Stage::shade)) out.shaded.reserve(fragments);
   if (stages.has(Stage::visibility)) out.drawn.reserve(fragments);
 }
@@ -50,23 +56,56 @@ void Selection::prune(Records<double>& records) const {
   if (!stages.has(Stage::light)) records.lit = {};
   if (!stages.has(Stage::clip)) records.polygons = {};
   if (!stages.has(Stage::window)) records.triangles = {};
-  if (request_.primitives.empty()) return;
-
-  const auto other = [&](const auto& record) { return !primitive(record.primitive); };
-  std::erase_if(records.triangles, other);
-  std::erase_if(records.polygons.polygons, other);
-  std::vector<ClipVertex<double>> vertices;
-  for (ClipPolygon& polygon : records.polygons.polygons) {
-    const auto first = records.polygons.vertices.begin() + polygon.first;
-    polygon.first = static_cast<std::uint32_t>(vertices.size());
-    vertices.insert(vertices.end(), first, first + polygon.count);
+  for (const Varying v : kAllVaryings) {
+    VaryingColumns<double>& columns = records.varyings[v];
+    if (!stages.has(Stage::light)) columns.vertices = {};
+    if (!stages.has(Stage::clip)) columns.clipped = {};
+    if (!stages.has(Stage::window)) columns.triangles = {};
   }
+  if (!request_.primitives.empty()) prune_primitives(records);
+}
+
+void Selection::prune_primitives(Records<double>& records) const {
+  std::vector<WindowTriangle<double>> triangles;
+  std::vector<ClipVertex<double>> vertices;
+  Varyings<double> varyings;
+  for (std::size_t i = 0; i < records.triangles.size(); ++i) {
+    if (!primitive(records.triangles[i].primitive)) continue;
+    triangles.push_back(records.triangles[i]);
+    for (const Varying v : kAllVaryings) {
+      const auto& column = records.varyings[v].triangles;
+      if (!column.empty()) varyings[v].triangles.push_back(column[i]);
+    }
+  }
+  std::erase_if(records.polygons.polygons, [&](const ClipPolygon& p) { return !primitive(p.primitive); });
+  for (ClipPolygon& polygon : records.polygons.polygons) {
+    const std::uint32_t first = polygon.first;
+    polygon.first = static_cast<std::uint32_t>(vertices.size());
+    for (std::uint32_t i = first; i < first + polygon.count; ++i) {
+      vertices.push_back(records.polygons.vertices[i]);
+      for (const Varying v : kAllVaryings) {
+        const auto& column = records.varyings[v].clipped;
+        if (!column.empty()) varyings[v].clipped.push_back(column[i]);
+      }
+    }
+  }
+  records.triangles = std::move(triangles);
   records.polygons.vertices = std::move(vertices);
+  for (const Varying v : kAllVaryings) {
+    records.varyings[v].triangles = std::move(varyings[v].triangles);
+    records.varyings[v].clipped = std::move(varyings[v].clipped);
+  }
 }
 
 std::size_t geometry_bytes(const Records<double>& r) {
-  return r.matrices.size() * sizeof(r.matrices[0]) + r.vertices.size() * sizeof(r.vertices[0]) +
-         r.lit.size() * sizeof(r.lit[0]) + r.polygons.vertices.size() * sizeof(r.polygons.vertices[0]) +
+  std::size_t fours = 0;
+  for (const Varying v : kAllVaryings) {
+    const VaryingColumns<double>& columns = r.varyings[v];
+    fours += columns.vertices.size() + columns.clipped.size() + 3 * columns.triangles.size();
+  }
+  return fours * sizeof(glm::dvec4) + r.matrices.size() * sizeof(r.matrices[0]) +
+         r.vertices.size() * sizeof(r.vertices[0]) + r.lit.size() * sizeof(r.lit[0]) +
+         r.polygons.vertices.size() * sizeof(r.polygons.vertices[0]) +
          r.polygons.polygons.size() * sizeof(r.polygons.polygons[0]) + r.triangles.size() * sizeof(r.triangles[0]);
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "reference/exact/surface.h"
 #include "stages/renderer.h"
 
 namespace plumbline::exact {
@@ -19,16 +20,27 @@ class Selection {
   bool pixel(int x, int y) const { return pixels_.empty() || pixels_(x, y) != 0; }
   std::size_t bytes_per_fragment() const;
 
+  struct Fragment {
+    Covered covered;
+    double depth;
+    glm::dvec4 color;  ///< the interpolated one
+    Fours fours;
+    glm::dvec4 shaded;
+    bool drawn;
+  };
   /// Appends a fragment to those of the records that are asked for.
-  void add(const Covered& covered, double depth, const glm::dvec4& color, bool drawn, Records<double>& out) const;
+  void add(const Fragment& fragment, Records<double>& out) const;
   void reserve(std::size_t fragments, Records<double>& out) const;
 
   /// Takes what is not asked for out of the records of stages 0 to 4.
   void prune(Records<double>& records) const;
 
  private:
+  void prune_primitives(Records<double>& records) const;
+
   const Request& request_;
-  Plane<std::uint8_t> pixels_;  // empty: all
+  Plane<std::uint8_t> pixels_;     // empty: all
+  std::vector<Varying> varyings_;  // that fragments carry
 };
 
 /// The bytes that the records of stages 0 to 4 take.

@@ -35,6 +35,35 @@ glm::ivec2 snap(glm::dvec2 p_win) {
   return {round((p_win.x - 0.5) * kSubpixel), round((p_win.y - 0.5) * kSubpixel)};
 }
 
+namespace {
+
+/// What GL makes of a polygon that it does not fill (OpenGL 2.1, section 3.5.4): its boundary edges as lines, each from
+/// a corner to the next, or its corners as points. Facing goes by the sign of the area of the whole, equation 3.6.
+void append_outline(const Draw& draw, const std::vector<WindowVertex<double>>& corners, std::uint32_t primitive,
+                    bool front, PolygonMode mode, std::vector<WindowTriangle<double>>& out) {
+  if (culled(draw.cull, front)) return;
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const WindowVertex<double>&before = corners[(i + n - 1) % n], &corner = corners[i];
+    if (mode == PolygonMode::line)
+      out.push_back({{before, corner, corner}, primitive, front, 2, static_cast<std::uint32_t>(draw.line_width)});
+    else
+      out.push_back({{corner, corner, corner}, primitive, front, 1, static_cast<std::uint32_t>(draw.point_size)});
+  }
+}
+
+/// Shoelace formula over the snapped corners.
+bool faces_front(const std::vector<WindowVertex<double>>& corners) {
+  Int128 area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::ivec2 a = corners[i].snapped, b = corners[(i + 1) % corners.size()].snapped;
+    area += Int128{a.x} * b.y - Int128{b.x} * a.y;
+  }
+  return area > 0;
+}
+
+}  // namespace
+
 int facing(const std::array<glm::ivec2, 3>& snapped) {
   const auto [a, b, c] = snapped;
   const Int128 bx = Int128{b.x} - a.x, by = Int128{b.y} - a.y, cx = Int128{c.x} - a.x, cy = Int128{c.y} - a.y;
@@ -63,8 +92,21 @@ std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const C
     for (std::uint32_t i = 0; i < polygon.count; ++i)
       if (const auto v = to_window(polygons.vertices[polygon.first + i], matrices[draw])) corners.push_back(*v);
     if (corners.size() != polygon.count) continue;
-    if (polygon.count < 3)
-      triangles.push_back({{corners.front(), corners.back(), corners.back()}, polygon.primitive, true, polygon.count});
+    const Draw& state = scene.draws[draw];
+    if (polygon.count < 3) {
+      const int width = polygon.count == 2 ? state.line_width : state.point_size;
+      triangles.push_back({{corners.front(), corners.back(), corners.back()},
+                           polygon.primitive,
+                           true,
+                           polygon.count,
+                           static_cast<std::uint32_t>(width)});
+      continue;
+    }
+    const bool front = faces_front(corners);
+    if (const PolygonMode mode = front ? state.front_mode : state.back_mode; mode != PolygonMode::fill) {
+      append_outline(state, corners, polygon.primitive, front, mode, triangles);
+      continue;
+    }
     for (std::size_t i = 2; i < corners.size(); ++i) {
       WindowTriangle<double> triangle{{corners[i - 1], corners[i], corners[0]}, polygon.primitive, false};
       const int sign = facing(snapped_corners(triangle));

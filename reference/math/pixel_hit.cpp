@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/math/fog.h"
+
 namespace plumbline::math {
 
 namespace {
@@ -101,50 +103,71 @@ void set_depth(const Triangle& t, bool clamps, glm::dvec3 d, const Place& at, gl
   out.hit.z_hi = std::clamp(hi, 0.0, 1.0);
 }
 
-/// The colour at the pixel: perspective-correct, the plane going on beyond the triangle's border, as renderers' do.
-void set_color(const Scene& scene, const Projected& projected, const Triangle& t, glm::dvec3 d, const Place& at,
-               glm::dvec2 moved, PixelHit& out) {
-  const Corner& last = projected.corners[t.corner[2]];
-  if (scene.draws[t.draw].shading == Shading::flat) {
-    out.hit.color = last.color;
-    out.hit.color_bound = last.color_error + 4 * kFloatRounding;
-    return;
-  }
-  const std::array<const Corner*, 3> c{&projected.corners[t.corner[0]], &projected.corners[t.corner[1]], &last};
+/// A value at the pixel and how far a legal renderer's may be from it; infinite: any, and not only of the corners' range.
+struct Bounded {
+  glm::dvec4 value{0};
+  double bound = 0;
+};
+
+/// Perspective-correct, the plane going on beyond the triangle's border, as renderers' do. `corners`: with their bounds.
+Bounded at_pixel(const Triangle& t, const std::array<Bounded, 3>& corners, glm::dvec3 d, const Place& at,
+                 glm::dvec2 moved, bool certain) {
   const glm::dvec3 e(glm::dot(t.n[0], d), glm::dot(t.n[1], d), glm::dot(t.n[2], d));
-  const double weight = snap_weight(t, at, d, out.hit.certain), sum = e.x + e.y + e.z;
-  if (t.flat || !std::isfinite(weight) ||
-      !(sum * t.sign > 0)) {  // no plane to rely on: any colour, and not only of [0,1]
-    out.hit.color = (c[0]->color + c[1]->color + c[2]->color) / 3.0;
-    out.hit.color_bound = kInfinity;
-    return;
-  }
-  glm::dvec4 color(0), slope_x(0), slope_y(0);
-  double error = 0, spread = 0;
-  const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double b = e[static_cast<glm::length_t>(i)] / sum;
-    color += b * c[i]->color;
-    slope_x += (t.n[i].x - b * n_sum.x) / sum * c[i]->color;
-    slope_y += (t.n[i].y - b * n_sum.y) / sum * c[i]->color;
-    error = std::max(error, c[i]->color_error);
-  }
+  const double weight = snap_weight(t, at, d, certain), sum = e.x + e.y + e.z;
+  if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0))  // no plane to rely on
+    return {(corners[0].value + corners[1].value + corners[2].value) / 3.0, kInfinity};
   const auto largest = [](const glm::dvec4& v) {
     const glm::dvec4 a = glm::abs(v);
     return std::max({a.x, a.y, a.z, a.w});
   };
-  for (const Corner* corner : c) spread = std::max(spread, largest(corner->color - color));
+  glm::dvec4 value(0), slope_x(0), slope_y(0);
+  double error = 0, spread = 0, size = 1;
+  const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double b = e[static_cast<glm::length_t>(i)] / sum;
+    value += b * corners[i].value;
+    slope_x += (t.n[i].x - b * n_sum.x) / sum * corners[i].value;
+    slope_y += (t.n[i].y - b * n_sum.y) / sum * corners[i].value;
+    error = std::max(error, corners[i].bound);
+    size = std::max(size, largest(corners[i].value));
+  }
+  for (const Bounded& corner : corners) spread = std::max(spread, largest(corner.value - value));
   // A far point of a triangle that comes near has small e_i: their errors are those of the near end, w / w_min larger.
-  // The relative error of 1/w_i moves the colour by its share of the spread, and so does that of w's plane.
+  // The relative error of 1/w_i moves the value by its share of the spread, and so does that of w's plane.
   const double w = std::clamp(at.w, t.w_min, t.w_max), near_end = w / t.w_min;
-  const double color_weight = 1 + (weight - 1) * near_end;
+  const double value_weight = 1 + (weight - 1) * near_end;
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
   // A piece of a cut triangle may be so thin that snapping turns it over; its plane then goes through snapped corners.
-  const bool turned = !out.hit.certain && (t.cut || t.thin);
+  const bool turned = !certain && (t.cut || t.thin);
   const glm::dvec2 from_place = weight * moved + (turned ? kHalfStep : 0);
-  out.hit.color = color;
-  out.hit.color_bound = largest(slope_x) * from_place.x + largest(slope_y) * from_place.y +
-                        color_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end);
+  return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y +
+                     value_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end * size)};
+}
+
+/// The fragment's colour at the pixel, from its attributes there.
+void set_color(const Scene& scene, const Projected& projected, const Triangle& t, glm::dvec3 d, const Place& at,
+               glm::dvec2 moved, PixelHit& out) {
+  const Draw& draw = scene.draws[t.draw];
+  const auto corner = [&](std::size_t i) -> const Corner& { return projected.corners[t.corner[i]]; };
+  const auto attribute = [&](auto of_corner) {
+    return at_pixel(t, {of_corner(corner(0)), of_corner(corner(1)), of_corner(corner(2))}, d, at, moved,
+                    out.hit.certain);
+  };
+  Bounded color;
+  if (draw.shading == Shading::flat) {
+    color = {corner(2).color, corner(2).color_error + 4 * kFloatRounding};
+  } else {
+    color = attribute([](const Corner& c) { return Bounded{c.color, c.color_error}; });
+  }
+  if (draw.fog) {
+    const Bounded p = attribute([](const Corner& c) { return Bounded{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error}; });
+    const double f_error = fog_factor_error(*draw.fog, p.value.z, p.bound);
+    const glm::dvec3 from_fog = glm::abs(glm::dvec3(color.value) - glm::dvec3(draw.fog->color));
+    color.bound += f_error * (std::max({from_fog.x, from_fog.y, from_fog.z}) + color.bound) + 4 * kFloatRounding;
+    color.value = fogged(*draw.fog, color.value, p.value.z);
+  }
+  out.hit.color = color.value;
+  out.hit.color_bound = color.bound;
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 namespace plumbline::osmesa {
 
-/// records.covered of the lines among records.triangles, and of them alone; of a point or a triangle, the planes say
-/// all. Call with records.triangles read.
+/// records.covered of the lines among records.triangles, the edges of triangles that are not filled included, and of
+/// them alone; of a point or a filled triangle, the planes say all. Call with records.triangles read.
 void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& records);
 
 }  // namespace plumbline::osmesa

@@ -1,6 +1,7 @@
 #include "reference/osmesa/planes.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -121,6 +122,8 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   const FrameFormat& frame = scene.scene().frame;
   const Target floats(gl, frame, ColorFormat::rgba32f);
   const Target bytes(gl, frame, ColorFormat::rgba8);
+  std::optional<Target> shorts;
+  if (frame.color == ColorFormat::rgba16) shorts.emplace(gl, frame, ColorFormat::rgba16);
   Planes planes;
   if (textured(scene.scene())) {
     draw_scene(gl, scene, floats, Colors::texels);
@@ -129,8 +132,8 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   draw_scene(gl, scene, floats, Colors::of_winners);
   planes.shaded = floats.read_color();
   // Asked for 12 bits a channel, OpenGL gives 16: the colour is left unrounded.
-  const Target& target = frame.color == ColorFormat::rgba8 ? bytes : floats;
-  if (frame.color == ColorFormat::rgba8 || !colors_replace(scene.scene())) {
+  const Target& target = frame.color == ColorFormat::rgba8 ? bytes : shorts ? *shorts : floats;
+  if (&target != &floats || !colors_replace(scene.scene())) {
     draw_scene(gl, scene, target, Colors::merged);
     planes.color = target.read_color();
   } else {

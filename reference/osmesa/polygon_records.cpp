@@ -33,9 +33,7 @@ struct FedTriangle {
 constexpr std::size_t kVertex = sizeof(FedVertex) / sizeof(float);
 static_assert(kVertex == 12);
 // The values of one: its token, a triangle's count, its vertices.
-constexpr std::size_t values_of(Topology topology) {
-  return (topology == Topology::triangles ? 2 : 1) + corner_count(topology) * kVertex;
-}
+constexpr std::size_t values_of(std::size_t corners) { return (corners == 3 ? 2 : 1) + corners * kVertex; }
 
 // So many triangles go in at a time: it bounds what the feedback takes.
 constexpr std::size_t kBatch = 1 << 15;
@@ -84,25 +82,25 @@ void draw_corners(const Gl& gl, const std::vector<Corner>& corners, Topology top
   gl.DrawArrays(gl_mode(topology), 0, static_cast<GLsizei>(corners.size()));
 }
 
-bool is_token_of(Topology topology, float token, float count) {
-  if (topology == Topology::triangles) return token == static_cast<float>(GL_POLYGON_TOKEN) && count == 3;
-  if (topology == Topology::points) return token == static_cast<float>(GL_POINT_TOKEN);
-  return token == static_cast<float>(GL_LINE_TOKEN) || token == static_cast<float>(GL_LINE_RESET_TOKEN);
+std::size_t corners_by_token(float token) {
+  if (token == static_cast<float>(GL_POLYGON_TOKEN)) return 3;
+  if (token == static_cast<float>(GL_LINE_TOKEN) || token == static_cast<float>(GL_LINE_RESET_TOKEN)) return 2;
+  if (token == static_cast<float>(GL_POINT_TOKEN)) return 1;
+  throw RendererFailed(fmt::format("OpenGL: feedback token {}, not that of what was drawn", token));
 }
 
-std::vector<FedTriangle> triangles_of(std::span<const float> values, Topology topology) {
-  const std::size_t size = values_of(topology), corners = corner_count(topology);
-  if (values.size() % size != 0) throw RendererFailed("OpenGL: feedback is not of whole primitives");
-  std::vector<FedTriangle> triangles(values.size() / size);
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const std::span<const float> one = values.subspan(i * size, size);
-    if (!is_token_of(topology, one[0], one[1])) {
-      throw RendererFailed(fmt::format("OpenGL: feedback token {}, not that of what was drawn", one[0]));
+std::vector<FedTriangle> triangles_of(std::span<const float> values) {
+  std::vector<FedTriangle> triangles;
+  while (!values.empty()) {
+    const std::size_t corners = corners_by_token(values[0]), size = values_of(corners);
+    if (values.size() < size || (corners == 3 && values[1] != 3)) {
+      throw RendererFailed("OpenGL: feedback is not of whole primitives");
     }
-    FedTriangle& t = triangles[i];
-    std::memcpy(t.v.data(), one.last(corners * kVertex).data(), corners * sizeof(FedVertex));
+    FedTriangle& t = triangles.emplace_back();
+    std::memcpy(t.v.data(), values.first(size).last(corners * kVertex).data(), corners * sizeof(FedVertex));
     std::fill(t.v.begin() + static_cast<std::ptrdiff_t>(corners), t.v.end(), t.v[corners - 1]);
     t.corners = static_cast<std::uint32_t>(corners);
+    values = values.subspan(size);
   }
   return triangles;
 }
@@ -166,6 +164,23 @@ void add_polygons(std::span<const FedTriangle> triangles, const ToClip& to_clip,
   }
 }
 
+bool outlined(const Mesh& mesh, const Draw& draw) {
+  return mesh.topology == Topology::triangles &&
+         (draw.front_mode != PolygonMode::fill || draw.back_mode != PolygonMode::fill);
+}
+
+// OpenGL 2.1, section 2.12: "edges introduced by clipping are flagged as boundary". Mesa draws those that user clip
+// planes make, and none that the view volume makes; of their corners, as points, one of two.
+void require_uncut(std::span<const FedTriangle> triangles) {
+  for (const FedTriangle& t : triangles) {
+    if (!std::any_of(t.v.begin(), t.v.end(), is_cut)) continue;
+    throw Unsupported(fmt::format(
+        "Mesa draws no edges where the view volume cuts a triangle that is not filled, such as primitive {} "
+        "(OpenGL 2.1, section 2.12: they are boundary edges)",
+        primitive_of(t)));
+  }
+}
+
 // stages.h's rule, in float as the rasterizer has it.
 int snap(float window) { return static_cast<int>(std::lrint((window - 0.5f) * static_cast<float>(kSubpixel))); }
 
@@ -177,7 +192,7 @@ std::int64_t doubled_area(const WindowTriangle<double>& t) {
 // Feedback mode culls by the area of the unsnapped positions, and the rasterizer by that of the snapped ones (measured:
 // on slivers the two differ, and the pixels are those of the latter). So culling is off, and its rule applied here;
 // GL's own culling shows in the planes.
-void add_triangles(std::span<const FedTriangle> triangles, Cull cull, std::vector<WindowTriangle<double>>& out) {
+void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std::vector<WindowTriangle<double>>& out) {
   for (const FedTriangle& fed : triangles) {
     WindowTriangle<double> t;
     t.primitive = primitive_of(fed);
@@ -186,9 +201,10 @@ void add_triangles(std::span<const FedTriangle> triangles, Cull cull, std::vecto
       t.v[i] = {v.p_win_w, 1.0 / static_cast<double>(v.p_win_w.w), {snap(v.p_win_w.x), snap(v.p_win_w.y)}, v.color};
     }
     t.corners = fed.corners;
+    if (t.corners < 3) t.width = static_cast<std::uint32_t>(t.corners == 2 ? draw.line_width : draw.point_size);
     const std::int64_t area = fed.corners < 3 ? 1 : doubled_area(t);
     t.front = area > 0;
-    if (fed.corners == 3 && (area == 0 || cull == (t.front ? Cull::front : Cull::back))) continue;
+    if (fed.corners == 3 && (area == 0 || draw.cull == (t.front ? Cull::front : Cull::back))) continue;
     out.push_back(t);
   }
 }
@@ -212,12 +228,20 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
     for (std::size_t at = 0; at < wanted.size(); at += kBatch) {
       const auto batch = std::span(wanted).subspan(at, std::min(kBatch, wanted.size() - at));
       const std::vector<Corner> corners = corners_of(mesh, range.first_primitive, batch);
-      const std::size_t expected = values_of(mesh.topology) * (batch.size() * 5 / 4 + 16);
-      const std::vector<FedTriangle> triangles =
-          triangles_of(feedback.run(expected, [&] { draw_corners(gl, corners, mesh.topology, !mesh.colors.empty()); }),
-                       mesh.topology);
+      const std::size_t expected = values_of(corner_count(mesh.topology)) * (batch.size() * 5 / 4 + 16);
+      const auto fed = [&] {
+        const auto run = [&] { draw_corners(gl, corners, mesh.topology, !mesh.colors.empty()); };
+        return triangles_of(feedback.run(expected, run));
+      };
+      std::vector<FedTriangle> triangles = fed();
       if (clip) add_polygons(triangles, to_clip, records.polygons);
-      if (window) add_triangles(triangles, draw.cull, records.triangles);
+      if (window && outlined(mesh, draw)) {
+        require_uncut(triangles);
+        const SavedState state(gl);
+        scene.set_fragments(i);
+        triangles = fed();
+      }
+      if (window) add_triangles(triangles, draw, records.triangles);
     }
   }
 }

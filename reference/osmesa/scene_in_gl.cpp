@@ -88,6 +88,10 @@ GLenum gl_depth_func(DepthFunc func) {
   return GL_LESS;
 }
 
+GLenum gl_polygon_mode(PolygonMode mode) {
+  return mode == PolygonMode::fill ? GL_FILL : mode == PolygonMode::line ? GL_LINE : GL_POINT;
+}
+
 GLenum gl_factor(BlendFactor factor) {
   switch (factor) {
     case BlendFactor::zero: return GL_ZERO;
@@ -193,9 +197,21 @@ void SceneInGl::set_matrices(std::size_t draw) const {
   gl_.LoadMatrixf(glm::value_ptr(glm::mat4(matrices_[draw].model_view)));
 }
 
+void SceneInGl::set_fog(std::size_t draw) const {
+  const std::optional<Fog>& fog = scene_.draws[draw].fog;
+  if (!fog) return gl_.Disable(GL_FOG);
+  gl_.Enable(GL_FOG);
+  gl_.Fogi(GL_FOG_MODE, fog->mode == Fog::Mode::linear ? GL_LINEAR : fog->mode == Fog::Mode::exp ? GL_EXP : GL_EXP2);
+  gl_.Fogfv(GL_FOG_COLOR, glm::value_ptr(glm::vec4(fog->color, 1)));
+  gl_.Fogf(GL_FOG_DENSITY, fog->density);
+  gl_.Fogf(GL_FOG_START, fog->start);
+  gl_.Fogf(GL_FOG_END, fog->end);
+}
+
 void SceneInGl::set_surface(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
   textures_.set(d);
+  set_fog(draw);
   gl_.ShadeModel(d.shading == Shading::flat ? GL_FLAT : GL_SMOOTH);
   if (!d.lit) {
     gl_.Disable(GL_LIGHTING);
@@ -219,6 +235,10 @@ void SceneInGl::set_texture_source(std::size_t draw) const {
 
 void SceneInGl::set_fragments(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
+  gl_.PolygonMode(GL_FRONT, gl_polygon_mode(d.front_mode));
+  gl_.PolygonMode(GL_BACK, gl_polygon_mode(d.back_mode));
+  gl_.LineWidth(static_cast<GLfloat>(d.line_width));
+  gl_.PointSize(static_cast<GLfloat>(d.point_size));
   gl_.Disable(GL_DITHER);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(gl_depth_func(d.depth_func));

@@ -24,10 +24,10 @@ class SceneInGl {
   void clear(const glm::vec4& color) const;  ///< to a colour and the frame's clear depth
   void set_lights() const;                   ///< ambient light, lights; leaves MODELVIEW the identity
   void set_matrices(std::size_t draw) const;
-  void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth
+  void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth, fog
+  void set_fragments(std::size_t draw) const;  ///< culling, polygon modes, widths, scissor, depth function and mask
   void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels
-  void set_fragments(std::size_t draw) const;  ///< culling, scissor, depth function and mask
-  void set_merge(std::size_t draw) const;      ///< blending and colour mask
+  void set_merge(std::size_t draw) const;           ///< blending and colour mask
 
   // The draw's mesh, under the state that is set.
   void draw_primitives(std::size_t draw) const;  ///< with normals and colours
@@ -37,6 +37,8 @@ class SceneInGl {
   void draw_weights(std::size_t draw) const;  ///< each primitive in the colour (1, id_weight_part 0, 1, 2)
 
  private:
+  void set_fog(std::size_t draw) const;
+
   struct MeshVertex {
     glm::vec3 position, normal;
     glm::vec4 color;

@@ -26,6 +26,21 @@ DepthBits depth_bits(DepthFormat format) {
   return {GL_DEPTH_COMPONENT32F, 32};
 }
 
+struct ColorBits {
+  GLenum format;
+  GLint bits;
+};
+
+ColorBits color_bits(ColorFormat format) {
+  switch (format) {
+    case ColorFormat::rgba8: return {GL_RGBA8, 8};
+    case ColorFormat::rgba16: return {GL_RGBA16, 16};
+    case ColorFormat::rgba12:
+    case ColorFormat::rgba32f: break;
+  }
+  return {GL_RGBA32F, 32};
+}
+
 // GL may give a format of more bits than were asked for; then the codes would not be the frame's.
 void require_bits(const Gl& gl, GLenum name, GLint expected, std::string_view what) {
   GLint bits = 0;
@@ -54,10 +69,10 @@ Target::Target(const Gl& gl, const FrameFormat& frame, ColorFormat color) : gl_(
   try {
     const DepthBits depth = depth_bits(frame_.depth);
     gl.BindRenderbuffer(GL_RENDERBUFFER, buffers_[0]);
-    gl.RenderbufferStorage(GL_RENDERBUFFER, color == ColorFormat::rgba8 ? GL_RGBA8 : GL_RGBA32F, frame.width,
-                           frame.height);
+    const ColorBits bits = color_bits(color_);
+    gl.RenderbufferStorage(GL_RENDERBUFFER, bits.format, frame.width, frame.height);
     check(gl, "the colour buffer's storage");
-    require_bits(gl, GL_RENDERBUFFER_RED_SIZE, color == ColorFormat::rgba8 ? 8 : 32, "red");
+    require_bits(gl, GL_RENDERBUFFER_RED_SIZE, bits.bits, "red");
     gl.BindRenderbuffer(GL_RENDERBUFFER, buffers_[1]);
     gl.RenderbufferStorage(GL_RENDERBUFFER, depth.format, frame.width, frame.height);
     check(gl, "the depth buffer's storage");
@@ -106,6 +121,15 @@ Plane<glm::vec4> Target::read_color() const {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
     gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_RGBA, GL_FLOAT, color.values().data());
     check(gl_, "reading colours");
+    return color;
+  }
+  if (color_ == ColorFormat::rgba16) {
+    Plane<glm::u16vec4> codes(frame_.width, frame_.height);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+    gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_RGBA, GL_UNSIGNED_SHORT, codes.values().data());
+    check(gl_, "reading colours");
+    std::transform(codes.values().begin(), codes.values().end(), color.values().begin(),
+                   [](const glm::u16vec4& code) { return glm::vec4(code) / 65535.0f; });
     return color;
   }
   const Plane<std::uint32_t> codes = read_codes();

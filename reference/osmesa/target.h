@@ -12,8 +12,8 @@ namespace plumbline::osmesa {
 class Target {
  public:
   /// Of the frame's size and depth format (z24 for z8, which OpenGL does not have), with a colour format of the
-  /// caller's, rgba8 or rgba32f. Throws RendererFailed where OpenGL
-  /// cannot give that, naming its limit.
+  /// caller's: rgba8, rgba16 or rgba32f. Throws RendererFailed where
+  /// OpenGL cannot give that, naming its limit.
   Target(const Gl& gl, const FrameFormat& frame, ColorFormat color);
   ~Target();
   Target(const Target&) = delete;
@@ -26,7 +26,7 @@ class Target {
   Plane<std::uint32_t> read_codes() const;
   /// The same of `size` pixels from pixel `origin` on.
   Plane<std::uint32_t> read_codes(glm::ivec2 origin, glm::ivec2 size) const;
-  /// rgba8 as code / 255.
+  /// Codes as code / 255, code / 65535.
   Plane<glm::vec4> read_color() const;
   /// Window z: n-bit codes as code / (2^n - 1).
   Plane<double> read_depth() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "dialect/dialect.h"
@@ -33,6 +34,12 @@ OfLine at_share(const WindowTriangle<double>& t, double share) {
   const double q0 = (1 - share) * t.v[0].inv_w, q1 = share * t.v[1].inv_w;
   return {std::clamp((1 - share) * t.v[0].p_win.z + share * t.v[1].p_win.z, 0.0, 1.0),
           (q0 * t.v[0].color + q1 * t.v[1].color) / (q0 + q1)};
+}
+
+double distance_from_line(const WindowTriangle<double>& t, double x, double y) {
+  const Vec2<double> a(t.v[0].p_win), b(t.v[1].p_win);
+  const double share = std::clamp(along_line(t, x, y).value[1], 0.0, 1.0);
+  return glm::distance(Vec2<double>(x, y), a + share * (b - a));
 }
 
 Barycentrics barycentrics(const WindowTriangle<double>& t, double x, double y) {
@@ -156,18 +163,43 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
   return out;
 }
 
+namespace {
+
+// A primitive's window triangles.
+std::span<const WindowTriangle<double>> records_of(const Records<double>& r, std::int32_t primitive) {
+  const auto number = [](const WindowTriangle<double>& t) { return static_cast<std::int32_t>(t.primitive); };
+  const auto run = std::ranges::equal_range(r.triangles, primitive, {}, number);
+  return {run.begin(), run.end()};
+}
+
+}  // namespace
+
 PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, int x, int y) {
   PlaneBounds out{1, Vec4<double>(1)};
-  auto it = std::partition_point(r.triangles.begin(), r.triangles.end(), [&](const WindowTriangle<double>& t) {
-    return static_cast<std::int32_t>(t.primitive) < primitive;
-  });
-  for (; it != r.triangles.end() && static_cast<std::int32_t>(it->primitive) == primitive; ++it) {
-    const PlaneBounds b = bounds_from_origin(*it, x, y);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const WindowTriangle<double>& t : records_of(r, primitive)) {
+    const PlaneBounds b = bounds_from_origin(t, x, y);
     out.depth = std::max(out.depth, b.depth);
     out.color = glm::max(out.color, b.color);
-    out.along_depth = b.along_depth;  // a line is one record
+    const double distance = distance_from_line(t, x + 0.5, y + 0.5);
+    if (distance >= nearest) continue;
+    nearest = distance;  // of a triangle's edges, the one that the pixel is of
+    out.along_depth = b.along_depth;
     out.along_color = b.along_color;
   }
+  return out;
+}
+
+std::vector<EdgeValue> edge_values(const Records<double>& r, std::int32_t primitive, int x, int y) {
+  std::vector<EdgeValue> out;
+  for (const WindowTriangle<double>& t : records_of(r, primitive)) {
+    if (t.corners != 2 || distance_from_line(t, x + 0.5, y + 0.5) > t.width + 2.0) continue;
+    const OfLine projected = at_share(t, along_line(t, x + 0.5, y + 0.5).value[1]);
+    const PlaneBounds along = bounds_from_origin(t, x, y);
+    out.push_back({projected.depth, projected.color});
+    out.push_back({projected.depth + along.along_depth, projected.color + along.along_color});
+  }
+  if (out.size() <= 2) out.clear();
   return out;
 }
 
@@ -179,7 +211,10 @@ Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
   const double k1 = std::abs(q.y / sum), k2 = std::abs(q.z / sum);
   const Vec4<double> d1 = t.v[1].color - t.v[0].color, d2 = t.v[2].color - t.v[0].color;
   const Vec4<double> mean = t.v[0].color + (q.y / sum) * d1 + (q.z / sum) * d2;
-  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + condition * (k1 * glm::abs(d1) + k2 * glm::abs(d2));
+  // Where a line's share is nearly 0, its own rounding in double is left: 2^-52 of terms that are anchored a tile away.
+  const double share = t.corners == 2 ? 0x1p-28 * (1 + 128 * (std::abs(b.d_dx[1]) + std::abs(b.d_dy[1]))) : 0;
+  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + condition * (k1 * glm::abs(d1) + k2 * glm::abs(d2)) +
+         share * glm::abs(d1);
 }
 
 }  // namespace plumbline::check

@@ -2,6 +2,8 @@
 // formula in double. u = 2^-24 is the unit roundoff of float. Factors stand in the ledger.
 #pragma once
 
+#include <vector>
+
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -51,9 +53,19 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, in
 /// The largest over a primitive's triangles, at least 1.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y);
 
+/// What a pixel may hold where edges of a triangle that is not filled meet, of any of those that pass it by no more
+/// than their width and two pixels: by projection, and by the place along the major axis. Empty where there is one such
+/// edge or none.
+struct EdgeValue {
+  double depth;
+  Vec4<double> color;
+};
+std::vector<EdgeValue> edge_values(const Records<double>& records, std::int32_t primitive, int x, int y);
+
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
 /// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
-/// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|).
+/// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|); along a line, what double arithmetic
+/// leaves of a share that is 0.
 Vec4<double> bounds_of_mean(const WindowTriangle<double>& triangle, int x, int y);
 
 }  // namespace plumbline::check

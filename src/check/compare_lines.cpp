@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
-#include <set>
+#include <utility>
 
 #include "check/bounds.h"
 
@@ -19,16 +19,24 @@ struct Line {
   const WindowTriangle<double>* window = nullptr;
   std::vector<glm::ivec2> pixels;
 };
-using Lines = std::map<std::uint32_t, Line>;  // by primitive
+// By primitive, and among a primitive's lines (the edges of a triangle that is not filled) by order.
+using Lines = std::map<std::pair<std::uint32_t, std::size_t>, Line>;
 
 Lines lines_of(const Records<double>& r) {
   Lines lines;
-  for (const WindowTriangle<double>& t : r.triangles) {
-    if (t.corners == 2) lines[t.primitive].window = &t;
+  std::vector<Line*> line_of(r.triangles.size());
+  std::size_t order = 0;
+  for (std::size_t i = 0; i < r.triangles.size(); ++i) {
+    const WindowTriangle<double>& t = r.triangles[i];
+    order = i > 0 && r.triangles[i - 1].primitive == t.primitive ? order + 1 : 0;
+    if (t.corners != 2) continue;
+    line_of[i] = &lines[{t.primitive, order}];
+    line_of[i]->window = &t;
   }
   for (const Covered& c : r.covered) {
-    if (c.triangle >= r.triangles.size() || r.triangles[c.triangle].corners != 2) continue;
-    lines[r.triangles[c.triangle].primitive].pixels.emplace_back(c.x, c.y);
+    if (c.triangle < line_of.size() && line_of[c.triangle] != nullptr) {
+      line_of[c.triangle]->pixels.emplace_back(c.x, c.y);
+    }
   }
   return lines;
 }
@@ -40,7 +48,8 @@ struct Rest {
 };
 Rest without(const Lines& lines, const Planes& planes) {
   Rest rest{planes.count, planes.id_sum};
-  for (const auto& [primitive, line] : lines) {
+  for (const auto& [key, line] : lines) {
+    const std::uint32_t primitive = key.first;
     for (const glm::ivec2 p : line.pixels) {
       if (p.x >= rest.count.width() || p.y >= rest.count.height()) continue;
       rest.count(p.x, p.y) -= 1;  // modulo 2^32, as the sum is modulo 2^64: what was never there shows
@@ -64,23 +73,54 @@ int deviation(glm::ivec2 pixel, const std::vector<glm::ivec2>& pixels, const Win
   return nearest;
 }
 
-void compare_line(Meter& meter, std::uint32_t primitive, const Line& mine, const Line& theirs, double factor) {
+// What a line covers of one column (y-major: row).
+struct Column {
+  int low, high, count;
+};
+std::map<int, Column> columns_of(const std::vector<glm::ivec2>& pixels, int major) {
+  std::map<int, Column> columns;
+  for (const glm::ivec2 p : pixels) {
+    const int at = p[1 - major];
+    Column& c = columns.try_emplace(p[major], Column{at, at, 0}).first->second;
+    c = {std::min(c.low, at), std::max(c.high, at), c.count + 1};
+  }
+  return columns;
+}
+
+int major_axis(glm::dvec2 d) { return std::abs(d.x) >= std::abs(d.y) ? 0 : 1; }
+
+// `extent`: the frame's size.
+void compare_line(Meter& meter, std::uint32_t primitive, const Line& mine, const Line& theirs, glm::ivec2 extent,
+                  double factor) {
   const auto at = [&](glm::ivec2 p, const char* field) {
     return Place{p.x, p.y, static_cast<std::int64_t>(primitive), field};
   };
   if (mine.window == nullptr || theirs.window == nullptr) {
     return meter.value(kInfinite, 0, at({-1, -1}, mine.window == nullptr ? "line lacking" : "line extra"), 0, 0);
   }
-  const glm::dvec2 d = glm::abs(glm::dvec2(mine.window->v[1].p_win) - glm::dvec2(mine.window->v[0].p_win));
-  const int major = d.x >= d.y ? 0 : 1;
-  std::set<int> columns;
+  const auto& [a, b, last] = mine.window->v;
+  const int major = major_axis(b.snapped - a.snapped), width = static_cast<int>(mine.window->width);
+  const bool axis_open = width > 1 && major != major_axis(glm::dvec2(b.p_win) - glm::dvec2(a.p_win));
+  const auto columns = columns_of(mine.pixels, major), their_columns = columns_of(theirs.pixels, major);
   for (const glm::ivec2 p : theirs.pixels) {
-    const int off = deviation(p, mine.pixels, *mine.window, major);
+    if (columns.contains(p[major]) && !axis_open) continue;
+    const int off = std::max(deviation(p, mine.pixels, *mine.window, major) - (axis_open ? width : 0), 0);
     meter.value(off, factor, at(p, "pixels off"), 0, off);
-    meter.value(columns.insert(p[major]).second ? 0 : kInfinite, 0, at(p, "twice in one column"), 0, 0);
   }
-  const auto mine_count = static_cast<double>(mine.pixels.size()), count = static_cast<double>(theirs.pixels.size());
-  meter.value(std::abs(mine_count - count), factor, at({-1, -1}, "number of pixels"), mine_count, count);
+  for (const auto& [place, column] : their_columns) {
+    if (axis_open) break;
+    const glm::ivec2 p = major == 0 ? glm::ivec2(place, column.low) : glm::ivec2(column.low, place);
+    const bool at_border = column.low == 0 || column.high == extent[1 - major] - 1;
+    const auto same = columns.find(place);
+    const bool cut = at_border || (same != columns.end() && same->second.count < width);
+    const bool whole = column.high - column.low + 1 == column.count && (cut || column.count == width);
+    meter.value(whole && column.count <= width ? 0 : kInfinite, 0, at(p, "width in a column"), width, column.count);
+    if (same == columns.end()) continue;
+    const int off = std::max(std::abs(column.low - same->second.low), std::abs(column.high - same->second.high));
+    meter.value(off, factor, at(p, "pixels off"), 0, off);
+  }
+  const auto mine_count = static_cast<double>(columns.size()), count = static_cast<double>(their_columns.size());
+  if (!axis_open) meter.value(std::abs(mine_count - count), factor, at({-1, -1}, "number"), mine_count, count);
   if (mine.pixels != theirs.pixels) meter.ambiguous();
 }
 
@@ -96,12 +136,13 @@ Measurement compare_covered_lines(const Capture& candidate, const Capture& refer
   Meter meter("pixels");
   Lines all = mine;
   all.insert(theirs.begin(), theirs.end());
-  for (const auto& [primitive, line] : all) {
-    const auto at = [&, number = primitive](const Lines& lines) {
-      const auto found = lines.find(number);
+  const glm::ivec2 extent(a.count.width(), a.count.height());
+  for (const auto& [key, line] : all) {
+    const auto at = [&, wanted = key](const Lines& lines) {
+      const auto found = lines.find(wanted);
       return found == lines.end() ? Line{} : found->second;
     };
-    compare_line(meter, primitive, at(mine), at(theirs), factor);
+    compare_line(meter, key.first, at(mine), at(theirs), extent, factor);
     meter.item();
   }
   const Rest rest_a = without(mine, a), rest_b = without(theirs, b);
@@ -134,7 +175,10 @@ Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, c
     for (const std::int32_t primitive : {a, b}) {
       if (primitive == kBackground) continue;
       const PlaneBounds bounds = primitive_bounds(candidate.records, primitive, x, y);
-      off = std::max(off, factor * kUnitRoundoff * bounds.depth + std::abs(bounds.along_depth));
+      double by_edge = 0;  // where edges of one triangle meet, either may have won
+      const std::vector<EdgeValue> edges = edge_values(candidate.records, primitive, x, y);
+      for (const EdgeValue& edge : edges) by_edge = std::max(by_edge, std::abs(edge.depth - edges.front().depth));
+      off = std::max(off, factor * kUnitRoundoff * bounds.depth + std::abs(bounds.along_depth) + by_edge);
     }
     const double z = theirs.depth(x, y);
     if (std::abs(mine.depth(x, y) - z) <= off + depth_step(scene.frame.depth, z)) return meter.ambiguous();

@@ -9,8 +9,10 @@ namespace plumbline::check {
 
 /// Coverage, by the rules that OpenGL 2.1, section 3.4.1, sets such lines. Of each line, against the candidate's: every
 /// pixel at most `factor` off, in x and y, from the one in its column (x-major; else row) or, where there is none, from
-/// the nearest; in number at most `factor` more or fewer; no two in one column. Lines that are not alike are counted as
-/// ambiguous. All else that covers a pixel must be the same. The fourth rule, of lines that meet, is not looked at.
+/// the nearest; in number at most `factor` more or fewer; no two in one column. Of wide lines (3.4.2), what replaces a
+/// pixel, a column of so many without a gap, takes its place; the frame may cut it off, or what cuts ours. Which axis
+/// is the minor one is open where snapping decides it. Lines that are not alike are counted as ambiguous. All else that
+/// covers a pixel must be the same. The fourth rule, of lines that meet, is not looked at.
 Measurement compare_covered_lines(const Capture& candidate, const Capture& reference, double factor);
 
 /// Winners of scenes with lines or points. Where the two sides cover a pixel with other primitives, that is coverage's

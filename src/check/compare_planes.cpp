@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "check/bounds.h"
+#include "check/fragment_bounds.h"
 #include "check/ledger.h"
 
 namespace plumbline::check {
@@ -45,34 +48,15 @@ void open_value(Meter& meter, double value, const Place& place, double reference
   meter.value(std::isfinite(value) && std::isfinite(reference) ? 0 : kInfinite, 0, place, value, reference);
 }
 
-// The candidate's fragments that are drawn, by pixel.
-class DrawnAt {
- public:
-  DrawnAt(const FrameFormat& frame, const Records<double>& r) : width_(frame.width), records_(r) {
-    if (r.drawn.size() != r.covered.size()) return;
-    for (std::size_t i = 0; i < r.covered.size(); ++i) {
-      if (r.drawn[i].drawn && r.covered[i].triangle < r.triangles.size()) fragments_.push_back(i);
-    }
-    std::ranges::stable_sort(fragments_, {}, [&](std::size_t i) { return pixel(i); });
-  }
-  /// Calls visit(window triangle) for each of them at (x, y), in draw order.
-  template <class Visit>
-  void each(int x, int y, Visit visit) const {
-    const std::int64_t at = std::int64_t{y} * width_ + x;
-    for (auto i = std::ranges::lower_bound(fragments_, at, {}, [&](std::size_t f) { return pixel(f); });
-         i != fragments_.end() && pixel(*i) == at; ++i) {
-      visit(records_.triangles[records_.covered[*i].triangle]);
-    }
-  }
+bool beyond(const glm::vec4& a, const glm::vec4& b, const Vec4<double>& bound) {
+  return glm::any(glm::greaterThan(Vec4<double>(glm::abs(a - b)), bound));
+}
 
- private:
-  std::int64_t pixel(std::size_t i) const {
-    return std::int64_t{records_.covered[i].y} * width_ + records_.covered[i].x;
-  }
-  int width_;
-  const Records<double>& records_;
-  std::vector<std::size_t> fragments_;
-};
+// What colours of the frame are told apart in.
+std::string code_unit(const FrameFormat& frame) {
+  const double scale = color_scale(frame.color);
+  return scale > 0 ? fmt::format("1/{:.0f}", scale) : "u";
+}
 
 bool reads_frame(const BlendTerm& term) {
   const auto reads = [](BlendFactor f) {
@@ -87,40 +71,6 @@ bool factors_read_frame(const Scene& scene) {
     return d.merge.blend && (reads_frame(d.merge.blend->rgb) || reads_frame(d.merge.blend->alpha));
   });
 }
-
-// What the two sides' colours of a primitive's vertices differ by, per channel. Where the reference shows none, what
-// osmesa.light grants.
-class LitApart {
- public:
-  LitApart(const Scene& scene, const Records<double>& a, const Records<double>& b)
-      : scene_(scene),
-        ranges_(draw_ranges(scene)),
-        apart_(a.lit.size(), Vec4<double>(u * tolerance("osmesa.light").factor)) {
-    if (b.lit.size() != a.lit.size()) return;
-    for (std::size_t i = 0; i < apart_.size(); ++i) apart_[i] = glm::abs(a.lit[i].color - b.lit[i].color);
-  }
-  Vec4<double> of(std::int32_t primitive) const {
-    const auto p = static_cast<std::uint32_t>(primitive);
-    const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
-                                            [&](const DrawRange& r) { return r.first_primitive <= p; });
-    if (after == ranges_.begin()) return Vec4<double>(0);
-    const DrawRange& range = *(after - 1);
-    const Draw& draw = scene_.draws[static_cast<std::size_t>(after - 1 - ranges_.begin())];
-    if (p - range.first_primitive >= range.primitive_count) return Vec4<double>(0);  // no primitive of the scene
-    const glm::uvec3 corner = scene_.meshes[draw.mesh].triangles[p - range.first_primitive];
-    Vec4<double> out(0);
-    for (int i = draw.shading == Shading::flat ? 2 : 0; i < 3; ++i) {
-      const std::size_t vertex = range.first_vertex + corner[i];
-      if (vertex < apart_.size()) out = glm::max(out, apart_[vertex]);
-    }
-    return out;
-  }
-
- private:
-  const Scene& scene_;
-  std::vector<DrawRange> ranges_;
-  std::vector<Vec4<double>> apart_;
-};
 
 }  // namespace
 
@@ -171,8 +121,12 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
     }
     const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
     double bound = bounds.depth, diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));
-    drawn.each(x, y, [&](const WindowTriangle<double>& triangle) {
-      const PlaneBounds of_other = bounds_from_origin(triangle, x, y);
+    for (const EdgeValue& edge : edge_values(candidate.records, id, x, y)) {
+      diff = std::min(diff, difference(edge.depth, z_ref));
+    }
+    drawn.each(x, y, [&](std::size_t i) {
+      const Records<double>& r = candidate.records;
+      const PlaneBounds of_other = bounds_from_origin(r.triangles[r.covered[i].triangle], x, y);
       bound = std::max(bound, of_other.depth);
       diff = std::min(diff, difference(z + of_other.along_depth, z_ref));
     });
@@ -187,7 +141,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
   const Planes &a = candidate.planes, &b = reference.planes;
   std::string why;
   if (!has_winners(a, b, a.shaded, why)) return mismatch("u", why, a.id.size());
-  const LitApart lit(scene, candidate.records, reference.records);
+  const FragmentBounds bounds(scene, candidate, reference, factor);
   return compare_planes(a.shaded, b.shaded, "u", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
@@ -195,15 +149,17 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
     if (id == kBackground) {
       return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
     }
-    const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
-    const Vec4<double> bound = bounds.color, apart = lit.of(id);
+    const FragmentBound bound = bounds.of_winner(id, x, y);
+    if (bound.disputed && beyond(a.shaded(x, y), b.shaded(x, y), bound.color + bound.apart)) return meter.disputed();
+    const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
-      if (!std::isfinite(bound[c])) {
+      if (!std::isfinite(bound.color[c])) {
         open_value(meter, v, place, w);
       } else {
-        const double diff = std::min(difference(v, w), difference(v + bounds.along_color[c], w));
-        meter.value(diff / u, factor * bound[c], place, v, w, apart[c] / u);
+        double diff = std::min(difference(v, w), difference(v + bound.along[c], w));
+        for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));
+        meter.value(diff / u, bound.color[c] / u, place, v, w, bound.apart[c] / u);
       }
     }
   });
@@ -212,24 +168,35 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
 Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
                           double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
+  const double scale = color_scale(scene.frame.color);
+  const std::string unit = code_unit(scene.frame);
   std::string why;
-  if (!has_winners(a, b, a.color, why)) return mismatch("1/255", why, a.id.size());
-  const LitApart lit(scene, candidate.records, reference.records);
-  return compare_planes(a.color, b.color, "1/255", [&](Meter& meter, int x, int y) {
+  if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
+  const FragmentBounds bounds(scene, candidate, reference, factor);
+  // A clear colour's product in float may be rounded onto the half between two codes.
+  const auto cleared_codes = [&](int c) {
+    const double code = scale * static_cast<double>(scene.frame.clear_color[c]);
+    return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? codes : 0;
+  };
+  return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
     const bool cleared = id == kBackground;
-    const PlaneBounds bounds =
-        cleared ? PlaneBounds{0, Vec4<double>(0)} : primitive_bounds(candidate.records, id, x, y);
-    const Vec4<double> bound = cleared ? Vec4<double>(0) : factor * u * bounds.color + lit.of(id);
+    const FragmentBound fragment = cleared ? FragmentBound{} : bounds.of_winner(id, x, y);
+    const Vec4<double> bound = fragment.color + fragment.apart;
+    if (fragment.disputed && beyond(a.color(x, y), b.color(x, y), bound + codes / scale)) return meter.disputed();
+    const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
     for (int c = 0; c < 4; ++c) {
-      const double v = std::round(255.0 * a.color(x, y)[c]), w = std::round(255.0 * b.color(x, y)[c]);
+      const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
       double diff = difference(v, w);
-      if (bounds.along_color[c] != 0 && a.shaded.size() == a.color.size()) {
-        const double along = static_cast<double>(a.shaded(x, y)[c]) + bounds.along_color[c];
-        diff = std::min(diff, difference(std::round(255.0 * std::clamp(along, 0.0, 1.0)), w));
+      for (const EdgeValue& edge : edges) {
+        diff = std::min(diff, difference(std::round(scale * std::clamp(edge.color[c], 0.0, 1.0)), w));
       }
-      meter.value(diff, cleared ? 0 : codes, {x, y, id, "color"}, v, w, std::floor(255 * bound[c]));
+      if (fragment.along[c] != 0 && a.shaded.size() == a.color.size()) {
+        const double along = static_cast<double>(a.shaded(x, y)[c]) + fragment.along[c];
+        diff = std::min(diff, difference(std::round(scale * std::clamp(along, 0.0, 1.0)), w));
+      }
+      meter.value(diff, cleared ? cleared_codes(c) : codes, {x, y, id, "color"}, v, w, std::floor(scale * bound[c]));
     }
   });
 }
@@ -238,10 +205,10 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
                             double codes, double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   const double scale = color_scale(scene.frame.color);
-  const std::string unit = scale > 0 ? "1/255" : "u";
+  const std::string unit = code_unit(scene.frame);
   std::string why;
   if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
-  const LitApart lit(scene, candidate.records, reference.records);
+  const FragmentBounds bounds(scene, candidate, reference, factor);
   const DrawnAt drawn(scene.frame, candidate.records);
   const bool reads = factors_read_frame(scene), thin = draws(scene, Topology::lines) || draws(scene, Topology::points),
              told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why);
@@ -250,21 +217,21 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     const Place place{x, y, id, "color"};
     // The fragments of lines may lie beside each other: coverage's matter.
     const bool beside = thin && told && a.id_sum(x, y) != b.id_sum(x, y);
+    bool disputed = false;
     const bool open = beside || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
     int fragments = 0;
     double bound = 0;
-    drawn.each(x, y, [&](const WindowTriangle<double>& triangle) {
-      const PlaneBounds plane = bounds_from_origin(triangle, x, y);
-      const Vec4<double> apart = lit.of(static_cast<std::int32_t>(triangle.primitive));
+    drawn.each(x, y, [&](std::size_t i) {
+      const FragmentBound of = bounds.of_fragment(i);
       ++fragments;
-      double largest = 0;
-      for (int c = 0; c < 4; ++c)
-        largest = std::max(largest, factor * u * plane.color[c] + std::abs(plane.along_color[c]) + apart[c]);
-      bound += largest;
+      disputed |= of.disputed;
+      const Vec4<double> sum = of.color + glm::abs(of.along) + of.apart;
+      bound += std::max({sum.r, sum.g, sum.b, sum.a});
     });
     // A fragment's error comes in as its colour, as the factor that it makes of itself, and of what is there. That is 1
     // at most, or in float one more for each fragment.
     const double layers = reads ? std::exp2(fragments) - 1 : fragments, held = scale > 0 ? 1 : std::max(1, fragments);
+    if (disputed && a.color(x, y) != b.color(x, y)) return meter.disputed();
     bound *= (2 + held) * (reads ? std::exp2(fragments - 1) : 1);
     for (int c = 0; c < 4; ++c) {
       const double v = a.color(x, y)[c], w = b.color(x, y)[c];

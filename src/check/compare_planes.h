@@ -21,7 +21,7 @@ Measurement compare_winners(const Planes& candidate, const Planes& reference, co
 Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, const Capture& reference, double factor);
 Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   double factor);
-/// rgba8, in 1/255: at most `codes` where the winners are the same, and the whole codes that the bound of
+/// rgba8 and rgba16, in codes: at most `codes` where the winners are the same, and the whole codes that the bound of
 /// compare_shaded_planes comes to (slivers).
 Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
                           double factor);
@@ -33,7 +33,7 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
 Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
                             double codes, double factor);
 
-/// The candidate's planes against the colours that exact made of its own fragments: rgba8 and rgba12, in half codes,
+/// The candidate's planes against the colours that exact made of its own fragments: where it has codes, in half codes,
 /// against unrounded colours; rgba32f and depth: equal. `bounds`: of colours that rounding on the way may have moved.
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
                           const Legal& bounds = {});

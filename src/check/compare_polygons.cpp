@@ -23,20 +23,25 @@ using Vec8 = std::array<double, 8>;  // clip position over the scale, and colour
 struct Corners {
   std::array<Vec4<double>, 3> p_clip, color;
   double scale;        // the largest coordinate
+  double color_scale;  // the largest channel, at least 1: varyings are of any size
   std::size_t planes;  // that cut: the sides alone where depth is clamped
 };
 
 Corners corners_of(const Scene& scene, const std::vector<DrawRange>& ranges, std::size_t d, std::uint32_t primitive,
-                   const Records<double>& r) {
+                   const Records<double>& r, bool flat_applies) {
   const Draw& draw = scene.draws[d];
   const glm::uvec3 corners = scene.meshes[draw.mesh].triangles[primitive - ranges[d].first_primitive];
   Corners out{};
+  out.color_scale = 1;
   out.planes = scene.depth_clamp ? 4 : 6;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     out.p_clip[k] = r.vertices[ranges[d].first_vertex + corners[i]].p_clip;
-    out.color[k] = r.lit[ranges[d].first_vertex + corners[draw.shading == Shading::flat ? 2 : i]].color;
-    for (int c = 0; c < 4; ++c) out.scale = std::max(out.scale, std::abs(out.p_clip[k][c]));
+    out.color[k] = r.lit[ranges[d].first_vertex + corners[flat_applies && draw.shading == Shading::flat ? 2 : i]].color;
+    for (int c = 0; c < 4; ++c) {
+      out.scale = std::max(out.scale, std::abs(out.p_clip[k][c]));
+      out.color_scale = std::max(out.color_scale, std::abs(out.color[k][c]));
+    }
   }
   return out;
 }
@@ -46,8 +51,9 @@ std::array<double, 6> distances(const Vec4<double>& p) {
   return {p.w - p.x, p.w + p.x, p.w - p.y, p.w + p.y, p.w + p.z, p.w - p.z};
 }
 
-Vec8 joined(const Vec4<double>& p_clip, const Vec4<double>& color, double scale) {
-  return {p_clip.x / scale, p_clip.y / scale, p_clip.z / scale, p_clip.w / scale, color.r, color.g, color.b, color.a};
+Vec8 joined(const Vec4<double>& p, const Vec4<double>& color, const Corners& c) {
+  const double s = c.scale, k = c.color_scale;
+  return {p.x / s, p.y / s, p.z / s, p.w / s, color.r / k, color.g / k, color.b / k, color.a / k};
 }
 
 double dot(const Vec8& a, const Vec8& b) {
@@ -70,12 +76,12 @@ double largest(const Vec8& v) {
 // How far a vertex (position and colour together) is from being a weighted mean of the three corners: what remains of
 // it after the triangle's two directions are taken out (Gram-Schmidt), largest component.
 double distance_from_triangle(const ClipVertex<double>& v, const Corners& c) {
-  const Vec8 origin = joined(c.p_clip[0], c.color[0], c.scale);
-  Vec8 e1 = minus(joined(c.p_clip[1], c.color[1], c.scale), origin);
-  Vec8 e2 = minus(joined(c.p_clip[2], c.color[2], c.scale), origin);
+  const Vec8 origin = joined(c.p_clip[0], c.color[0], c);
+  Vec8 e1 = minus(joined(c.p_clip[1], c.color[1], c), origin);
+  Vec8 e2 = minus(joined(c.p_clip[2], c.color[2], c), origin);
   if (dot(e2, e2) > dot(e1, e1)) std::swap(e1, e2);
   if (dot(e1, e1) > 0) e2 = minus(e2, e1, dot(e1, e2) / dot(e1, e1));
-  Vec8 rest = minus(joined(v.p_clip, v.color, c.scale), origin);
+  Vec8 rest = minus(joined(v.p_clip, v.color, c), origin);
   if (dot(e1, e1) > 0) rest = minus(rest, e1, dot(rest, e1) / dot(e1, e1));
   if (dot(e2, e2) > 1e-24 * dot(e1, e1)) rest = minus(rest, e2, dot(rest, e2) / dot(e2, e2));
   return largest(rest);
@@ -84,9 +90,9 @@ double distance_from_triangle(const ClipVertex<double>& v, const Corners& c) {
 // Distance from the line through two corners, likewise.
 double distance_from_edge(const ClipVertex<double>& v, const Corners& c, std::size_t i) {
   const std::size_t j = (i + 1) % 3;
-  const Vec8 origin = joined(c.p_clip[i], c.color[i], c.scale);
-  const Vec8 e = minus(joined(c.p_clip[j], c.color[j], c.scale), origin);
-  Vec8 rest = minus(joined(v.p_clip, v.color, c.scale), origin);
+  const Vec8 origin = joined(c.p_clip[i], c.color[i], c);
+  const Vec8 e = minus(joined(c.p_clip[j], c.color[j], c), origin);
+  Vec8 rest = minus(joined(v.p_clip, v.color, c), origin);
   if (dot(e, e) > 0) rest = minus(rest, e, dot(rest, e) / dot(e, e));
   return largest(rest);
 }
@@ -198,7 +204,7 @@ void matched(const std::vector<ClipPolygon>& a, const std::vector<ClipPolygon>& 
 }  // namespace
 
 Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                             double factor) {
+                             double factor, bool flat_applies) {
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   const std::uint32_t primitives = ranges.back().first_primitive + ranges.back().primitive_count;
   for (const auto* list : {&candidate.polygons.polygons, &reference.polygons.polygons}) {
@@ -216,7 +222,7 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
   matched(candidate.polygons.polygons, reference.polygons.polygons, [&](const ClipPolygon* a, const ClipPolygon* b) {
     const std::uint32_t primitive = a != nullptr ? a->primitive : b->primitive;
     while (primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
-    const Corners corners = corners_of(scene, ranges, d, primitive, candidate);
+    const Corners corners = corners_of(scene, ranges, d, primitive, candidate, flat_applies);
     if (a != nullptr && b != nullptr) {
       compare_polygon(meter, *a, *b, candidate, reference, corners, factor);
     } else if (may_vanish(a != nullptr ? vertices_of(*a, candidate) : vertices_of(*b, reference), corners.planes,

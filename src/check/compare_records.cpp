@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "check/bounds.h"
 #include "check/ledger.h"
+#include "check/shade_bounds.h"
 
 namespace plumbline::check {
 
@@ -154,6 +156,24 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
   });
 }
 
+namespace {
+
+// Whether snapping may turn a polygon that is not filled, of which a side has the edges or corners `records`: then its
+// other face's mode, and culling, are legal too. Each corner snaps at most one unit elsewhere: the area changes by at
+// most the perimeter.
+bool outline_may_turn(std::span<const WindowTriangle<double>> records) {
+  if (records.size() < 3 || records.front().corners == 3) return false;
+  double area = 0, perimeter = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const glm::dvec2 p(records[i].v[0].snapped), q(records[(i + 1) % records.size()].v[0].snapped);
+    area += p.x * q.y - p.y * q.x;
+    perimeter += glm::distance(p, q);
+  }
+  return std::abs(area) <= 2 * perimeter + 4;
+}
+
+}  // namespace
+
 Measurement compare_window(const Records<double>& candidate, const Records<double>& reference, double factor) {
   if (candidate.matrices.empty()) {
     return mismatch("u", "no matrices", std::max(candidate.triangles.size(), reference.triangles.size()));
@@ -169,6 +189,7 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
   };
   // Each corner snaps at most one unit elsewhere: the area changes by at most the perimeter.
   const auto may_vanish = [](const WindowTriangle<double>& t) {
+    if (t.corners < 3) return false;
     const glm::dvec2 p(t.v[0].snapped), q(t.v[1].snapped), r(t.v[2].snapped);
     const double area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     return std::abs(area) <= 2 * (glm::distance(p, q) + glm::distance(q, r) + glm::distance(r, p)) + 4;
@@ -177,6 +198,12 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
     const bool only_a = j == b.size() || (i < a.size() && a[i].primitive < b[j].primitive);
     const bool only_b = i == a.size() || (j < b.size() && b[j].primitive < a[i].primitive);
     const std::size_t i_end = only_b ? i : run_end(a, i), j_end = only_a ? j : run_end(b, j);
+    if (outline_may_turn(std::span(a).subspan(i, i_end - i)) || outline_may_turn(std::span(b).subspan(j, j_end - j))) {
+      meter.ambiguous();
+      meter.item();
+      i = i_end, j = j_end;
+      continue;
+    }
     // Of a fan that lacks triangles on one side, those that may vanish are set aside.
     std::vector<std::size_t> from_a, from_b;
     const bool differ = i_end - i != j_end - j;
@@ -214,6 +241,7 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
       meter.value(flipped ? kInfinite : 0, 0, at("front"), a[i_now].front, b[j_now].front);
       meter.value(a[i_now].corners == b[j_now].corners ? 0 : kInfinite, 0, at("corners"), a[i_now].corners,
                   b[j_now].corners);
+      meter.value(difference(a[i_now].width, b[j_now].width), 0, at("width"), a[i_now].width, b[j_now].width);
       meter.item();
     }
   }
@@ -227,8 +255,9 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
                 const WindowTriangle<double>&a = candidate.triangles[i], &b = reference.triangles[i];
                 const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
                 meter.value(a.primitive == b.primitive ? 0 : kInfinite, 0, at("primitive"), a.primitive, b.primitive);
-                meter.value(a.front == b.front ? 0 : kInfinite, 0, at("front"), a.front, b.front);
+                if (a.corners == 3) meter.value(a.front == b.front ? 0 : kInfinite, 0, at("front"), a.front, b.front);
                 meter.value(a.corners == b.corners ? 0 : kInfinite, 0, at("corners"), a.corners, b.corners);
+                meter.value(difference(a.width, b.width), 0, at("width"), a.width, b.width);
                 // A triangle may begin at any of its corners; the turn that fits best counts.
                 const auto apart = [&](std::size_t turn) {
                   int n = 0;
@@ -319,13 +348,35 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
       });
 }
 
-Measurement compare_shaded(const Records<double>& candidate, const Records<double>& reference) {
-  return each_fragment("colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(),
-                       [&](Meter& meter, std::size_t i) {
-                         const Covered& c = candidate.covered[i];
-                         add(meter, candidate.shaded[i].color, reference.shaded[i].color, Vec4<double>(u), 0,
-                             {c.x, c.y, c.triangle, "color"});
-                       });
+Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor) {
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  std::size_t d = 0;
+  return each_fragment(
+      "colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(), [&](Meter& meter, std::size_t i) {
+        const Covered& c = candidate.covered[i];
+        const Vec4<double>&a = candidate.shaded[i].color, &b = reference.shaded[i].color;
+        const Place place{c.x, c.y, c.triangle, "color"};
+        if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
+        const std::uint32_t primitive = candidate.triangles[c.triangle].primitive;
+        while (d + 1 < ranges.size() && primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
+        if (d >= scene.draws.size() || is_plain(scene, scene.draws[d])) return add(meter, a, b, Vec4<double>(u), 0, place);
+        const Vec4<double> bound = shade_error(scene, scene.draws[d], fours_of(candidate, i), {}, 1);
+        for (int k = 0; k < 4; ++k) {
+          if (bound[k] == 0) {
+            meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k]);
+          } else {
+            meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k]);
+          }
+        }
+      });
+}
+
+Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference) {
+  const auto &a = candidate.varyings[varying].vertices, &b = reference.varyings[varying].vertices;
+  return each("varyings", "u", a.size(), b.size(), [&](Meter& meter, std::size_t i) {
+    add(meter, a[i], b[i], Vec4<double>(u), 0, {-1, -1, static_cast<std::int64_t>(i), name_of(varying).data()});
+  });
 }
 
 Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference) {

@@ -24,9 +24,10 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
 
 /// Polygons as polygons: the same primitives and numbers of vertices; vertices of the mesh in the same place; each cut
 /// one on the planes that its counterpart lies on, and in the plane of its triangle, colours included. Where a corner
-/// lies within `factor` u of a clip plane, the number of vertices is ambiguous.
+/// lies within `factor` u of a clip plane, the number of vertices is ambiguous. `flat_applies`: colours are the
+/// provoking vertex' where the draw is flat.
 Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                             double factor);
+                             double factor, bool flat_applies = true);
 /// The same positions but for `factor` u of |p_clip| + w; for references that rebuild p_clip from the window.
 Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
                                       double factor);
@@ -44,8 +45,11 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor);
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor);
-/// Bit for bit (as floats).
-Measurement compare_shaded(const Records<double>& candidate, const Records<double>& reference);
+/// Of plain draws bit for bit (as floats); of others `factor` u of each step's magnitude (shade_bounds.h).
+Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor);
+/// The varying at the vertices, bit for bit (as floats): what is carried is copied.
+Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference);
 /// The same fragments are drawn; nothing to compare where the candidate does not say which.
 Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference);
 

@@ -11,6 +11,7 @@
 #include "check/compare_lines.h"
 #include "check/compare_planes.h"
 #include "check/compare_records.h"
+#include "stages/seen_as.h"
 
 namespace plumbline::check {
 
@@ -59,22 +60,47 @@ Measurement worse(Measurement a, Measurement b) {
 
 bool draws_thin(const Scene& scene) { return draws(scene, Topology::lines) || draws(scene, Topology::points); }
 
+// The stage of a varying, which is compared as the colour is.
+Measurement compare_varying(const Scene& scene, Stage stage, Varying v, const Records<double>& mine,
+                            const Records<double>& theirs) {
+  if (stage == Stage::light) return compare_carried(v, mine, theirs);
+  const Records<double> a = seen_as(mine, v), b = seen_as(theirs, v);
+  if (stage == Stage::clip) return compare_polygons(scene, a, b, factor("exact.clip"), is_lit(v));
+  if (stage == Stage::window) return compare_window(a, b, factor("exact.window"));
+  return compare_attributes(a, b, factor("exact.attributes"));
+}
+
+// That of the colour, or of a varying that tells more.
+Measurement with_varyings(const Scene& scene, Stage stage, Measurement color, const Records<double>& mine,
+                          const Records<double>& theirs) {
+  const bool to_fragments = stage > Stage::clip;
+  for (const Varying v : carried(scene)) {
+    if (to_fragments && is_back(v)) continue;
+    color = worse(std::move(color), compare_varying(scene, stage, v, mine, theirs));
+  }
+  return color;
+}
+
 // The stage as `referee` makes it of the candidate's own records, against the candidate's.
 void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
   const Records<double>& mine = c.candidate.records;
   if (stage >= Stage::depth && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
   const Capture made = referee.run_stage(c.scene, stage, c.candidate);
   const Records<double>& theirs = made.records;
+  const auto varyings = [&](Measurement color) {
+    return with_varyings(c.scene, stage, std::move(color), mine, theirs);
+  };
   switch (stage) {
     case Stage::matrices: break;
     case Stage::vertex:
       return c.add(name, stage, compare_vertices(c.scene, mine, theirs, factor("exact.vertex"), factor("exact.vertex")),
                    "exact.vertex");
     case Stage::light:
-      return c.add(name, stage, compare_lit(c.scene, mine, theirs, factor("exact.light")), "exact.light");
+      return c.add(name, stage, varyings(compare_lit(c.scene, mine, theirs, factor("exact.light"))), "exact.light");
     case Stage::clip:
-      return c.add(name, stage, compare_polygons(c.scene, mine, theirs, factor("exact.clip")), "exact.clip");
-    case Stage::window: return c.add(name, stage, compare_window(mine, theirs, factor("exact.window")), "exact.window");
+      return c.add(name, stage, varyings(compare_polygons(c.scene, mine, theirs, factor("exact.clip"))), "exact.clip");
+    case Stage::window:
+      return c.add(name, stage, varyings(compare_window(mine, theirs, factor("exact.window"))), "exact.window");
     case Stage::coverage: {
       Measurement planes = compare_coverage(c.candidate.planes, made.planes);
       if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), "", std::string(kOverBudget));
@@ -83,9 +109,12 @@ void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
     case Stage::depth:
       return c.add(name, stage, compare_depth(c.scene, mine, theirs, factor("exact.depth")), "exact.depth");
     case Stage::attributes:
-      return c.add(name, stage, compare_attributes(mine, theirs, factor("exact.attributes")), "exact.attributes");
+      return c.add(name, stage, varyings(compare_attributes(mine, theirs, factor("exact.attributes"))),
+                   "exact.attributes");
     case Stage::texture: break;
-    case Stage::shade: return c.add(name, stage, compare_shaded(mine, theirs));
+    case Stage::shade:
+      return c.add(name, stage, compare_shaded(c.scene, mine, theirs, factor("exact.shade")),
+                   is_plain(c.scene) ? "" : "exact.shade");
     case Stage::visibility:
       return c.add(name, stage,
                    worse(compare_winners(c.candidate.planes, made.planes, Legal{}), compare_drawn(mine, theirs)));
@@ -112,6 +141,7 @@ void ask_oracle(Case& c, const Legal& legal, Stage stage, const std::string& nam
     case Stage::depth:
       return c.add(name, stage, compare_legal_depth(c.scene, planes, legal, factor("legal.depth")), "legal.depth");
     case Stage::attributes:
+    case Stage::shade:
       return c.add(name, stage, compare_legal_shaded(planes, legal, factor("legal.attributes")), "legal.attributes");
     case Stage::visibility: {
       Measurement m = compare_legal_winner(planes, legal);
@@ -151,6 +181,7 @@ Comparison as_dispute(Comparison comparison, std::string_view why) {
   return comparison;
 }
 
+constexpr std::string_view kOnlyShaded = "it hands out the final colour alone; see shade";
 constexpr std::string_view kNo8BitDepth = "OpenGL has no 8-bit depth: it draws with 24 bits, other surfaces may win";
 
 // Whether its depths are of 8 bits, if the scene's are.
@@ -193,10 +224,16 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       return c.add(name, stage, compare_depth_planes(c.scene, c.candidate, theirs, factor("osmesa.depth")),
                    "osmesa.depth");
     case Stage::attributes:
+      if (!is_plain(c.scene)) return c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
       return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
                    "osmesa.attributes");
     case Stage::texture: return;
-    case Stage::shade: return;
+    case Stage::shade:
+      // Without textures, lights or fog per fragment, both are the one plane of the winners' colours.
+      if (is_plain(c.scene)) return c.repeat(name, Stage::attributes, stage);
+      if (over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
+                   "osmesa.shade");
     case Stage::visibility:
       if (!draws_codes_of_8_bits(c.scene, theirs)) return c.skip(name, stage, Outcome::unsupported, kNo8BitDepth);
       return c.add(name, stage,
@@ -210,16 +247,16 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       if (!replaced && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
       switch (c.scene.frame.color) {
         case ColorFormat::rgba8:
-          if (!replaced) {
-            return c.add(name, stage,
-                         compare_blended(c.scene, c.candidate, theirs, c.legal, factor("osmesa.merge.blend"),
-                                         factor("osmesa.attributes")),
-                         "osmesa.merge.blend");
-          }
-          return c.add(
-              name, stage,
-              compare_codes(c.scene, c.candidate, theirs, factor("osmesa.merge.rgba8"), factor("osmesa.attributes")),
-              "osmesa.merge.rgba8");
+        case ColorFormat::rgba16: {
+          const bool bytes = c.scene.frame.color == ColorFormat::rgba8;
+          const std::string_view row = replaced ? (bytes ? "osmesa.merge.rgba8" : "osmesa.merge.rgba16")
+                                                : (bytes ? "osmesa.merge.blend" : "osmesa.merge.blend.rgba16");
+          return c.add(name, stage,
+                       replaced ? compare_codes(c.scene, c.candidate, theirs, factor(row), factor("osmesa.attributes"))
+                                : compare_blended(c.scene, c.candidate, theirs, c.legal, factor(row),
+                                                  factor("osmesa.attributes")),
+                       row);
+        }
         case ColorFormat::rgba12:
           return c.skip(name, stage, Outcome::unsupported,
                         "asked for 12 bits a channel, OpenGL gives 16; attributes are compared");
@@ -235,7 +272,11 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
   }
 }
 
-constexpr StageSet kOracleStages = {Stage::coverage, Stage::depth, Stage::attributes, Stage::visibility, Stage::merge};
+// An oracle hands out the final colour, which is the interpolated one where all draws are plain.
+StageSet oracle_stages(const Scene& scene) {
+  return {Stage::coverage, Stage::depth, is_plain(scene) ? Stage::attributes : Stage::shade, Stage::visibility,
+          Stage::merge};
+}
 
 bool runs_stages(const RendererInfo& info) {
   return std::any_of(info.stages.begin(), info.stages.end(), [](const Ability& a) { return a.runs; });
@@ -253,15 +294,16 @@ const Ability* first_hidden(const RendererInfo& candidate, Stage stage) {
 void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, const RendererInfo& candidate) {
   const bool exact = runs_stages(info);
   const std::string name = exact ? info.name + " from scene" : info.name;
+  const StageSet of_oracle = oracle_stages(c.scene);
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     if (stage != Stage::texture && !candidate[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, candidate[stage].reason);
-    } else if (info.legal && kOracleStages.has(stage) && theirs.legal.empty()) {
+    } else if (info.legal && of_oracle.has(stage) && theirs.legal.empty()) {
       c.skip(name, stage, Outcome::unsupported,
              draws_thin(c.scene) ? "its legal answers are of triangles alone"
                                  : "the legal answers do not fit the memory budget");
-    } else if (info.legal && kOracleStages.has(stage)) {
+    } else if (info.legal && of_oracle.has(stage)) {
       ask_oracle(c, theirs.legal, stage, name);
     } else if (exact && stage == Stage::matrices) {
       c.add(name, stage, compare_matrices(c.candidate.records, theirs.records, factor("exact.matrices")),
@@ -273,8 +315,10 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
             "exact.vertex.scene");
     } else if (!info[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, info[stage].reason);
-    } else if (stage == Stage::shade && !exact) {
-      c.repeat(name, Stage::attributes, stage);  // without textures, both are the one plane of the winners' colours
+    } else if (stage == Stage::attributes && info.legal && !exact) {
+      c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
+    } else if (stage == Stage::shade && info.legal && !exact) {
+      c.repeat(name, Stage::attributes, stage);
     } else if (!exact) {
       side_by_side(c, theirs, stage, name);
     }  // An exact reference judges the other stages from the candidate's own records.

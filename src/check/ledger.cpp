@@ -72,9 +72,18 @@ constexpr std::array kLedger = {
         "As osmesa.depth, 4 u for colour / w and for 1 / w, which the magnitude joins, and 4 more for the products by "
         "1/w at the corners and the division; besides, what the two sides' vertex colours differ by. Along a line "
         "the nearer of the two colours counts, as for osmesa.depth."},
+    Tolerance{"exact.shade", 4, "u",
+              "Fog: f is computed in double from the distance in float and rounded once (1 u), so is 1 - f (1 u); two "
+              "products and a sum (3 u), each of the magnitudes of shade_bounds.h."},
+    Tolerance{"osmesa.shade", 8, "u",
+              "As exact.shade, by a renderer that evaluates attributes as osmesa.attributes says and f in float: the "
+              "argument (3 u) and the exponential (its polynomial is 4 u off)."},
     Tolerance{"osmesa.merge.rgba8", 1, "1/255",
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},
+    Tolerance{"osmesa.merge.rgba16", 1, "1/65535",
+              "As osmesa.merge.rgba8: neighbours, and the whole codes that the float bound comes to."},
+    Tolerance{"osmesa.merge.blend.rgba16", 2.5, "1/65535", "TODO"},
     Tolerance{
         "osmesa.merge.blend", 2.5, "1/255",
         "llvmpipe blends rgba8 in 8 bits. Per fragment: half a code for its colour, half a code for its alpha (or "
@@ -86,13 +95,13 @@ constexpr std::array kLedger = {
         "of what is there; 4 u for the blending's own roundings.",
         "The errors of colours do not all go one way, nor are they all of the largest channel."},
     Tolerance{"exact.merge.codes", 1, "half code",
-              "A code, of 8 bits or 12, is at most half a code from the value that was rounded, and the product by 255 "
-              "or 4095 in float is 2 u off."},
+              "A code is at most half a code from the value that was rounded, and the product by the largest code in "
+              "float is 2 u off."},
     Tolerance{"legal.depth", 1, "step", "The legal interval, and one step of the depth format for the rounding."},
     Tolerance{"legal.attributes", 1, "bound",
               "The oracle's own bound of float arithmetic from the scene on (reference/math, color_error.h)."},
     Tolerance{"legal.merge", 1, "bound",
-              "legal.attributes' bound and, for rgba8 and rgba12, half a code for the rounding."},
+              "legal.attributes' bound and, where the frame has codes, half a code for the rounding."},
 };
 
 }  // namespace

@@ -14,6 +14,8 @@ CaptureTap::CaptureTap(const Scene& scene, const Request& request, std::size_t b
       keep_(request.records.has(Stage::coverage) || request.records.has(Stage::depth) ||
             request.records.has(Stage::attributes) || request.records.has(Stage::shade) ||
             request.records.has(Stage::visibility)) {
+  carried_ = carried(scene);
+  std::erase_if(carried_, is_back);
   const int w = scene.frame.width, h = scene.frame.height;
   planes_.count = Plane<std::uint32_t>(w, h);
   planes_.id_sum = Plane<std::uint64_t>(w, h);
@@ -30,10 +32,11 @@ void CaptureTap::keep_budget() const {
   // The sorted records stand beside the fragments for a while.
   constexpr std::size_t kBytes = sizeof(Fragment) + sizeof(Covered) + sizeof(double) + sizeof(Attributes<double>) +
                                  sizeof(Shaded<double>) + sizeof(Drawn);
-  require_budget(scene_, bytes_ + fragments_.size() * kBytes, request_.memory_budget);
+  const std::size_t fours = carried_.empty() ? 0 : sizeof(Fours) + carried_.size() * sizeof(Vec4<double>);
+  require_budget(scene_, bytes_ + fragments_.size() * (kBytes + fours), request_.memory_budget);
 }
 
-void CaptureTap::add(const Fragment& f) {
+void CaptureTap::add(Fragment f) {
   // Blocks reach over the frame's edge; a triangle that covers pixels there is a fault, but no reason to crash.
   if (f.x < 0 || f.y < 0 || f.x >= planes_.id.width() || f.y >= planes_.id.height()) return;
   ++planes_.count(f.x, f.y);
@@ -46,6 +49,10 @@ void CaptureTap::add(const Fragment& f) {
   const bool pixel_wanted =
       pixels.empty() || std::find(pixels.begin(), pixels.end(), glm::ivec2(f.x, f.y)) != pixels.end();
   if (!keep_ || !pixel_wanted || !wanted(f.primitive)) return;
+  if (!carried_.empty()) {
+    f.fours = static_cast<std::uint32_t>(fours_.size());
+    fours_.push_back(next_);
+  }
   fragments_.push_back(f);
   if (fragments_.size() % 65536 == 0) keep_budget();
 }
@@ -65,7 +72,12 @@ void CaptureTap::hand_out(std::span<const WindowTriangle<float>> triangles, Capt
     if (request_.records.has(Stage::coverage))
       r.covered.push_back({number[f.triangle], static_cast<std::uint16_t>(f.x), static_cast<std::uint16_t>(f.y)});
     if (request_.records.has(Stage::depth)) r.depth.push_back(scale == 0.0 ? f.z : f.z / scale);
-    if (request_.records.has(Stage::attributes)) r.attributes.push_back({f.attributes});
+    if (request_.records.has(Stage::attributes)) {
+      r.attributes.push_back({f.attributes});
+      for (const Varying v : carried_) {
+        r.varyings[v].fragments.push_back(Vec4<double>(fours_[f.fours][static_cast<std::size_t>(v)]));
+      }
+    }
     if (request_.records.has(Stage::shade)) r.shaded.push_back({f.shaded});
     if (request_.records.has(Stage::visibility)) r.drawn.push_back({f.drawn});
   }

@@ -25,11 +25,20 @@ ClipVertex<To> converted(const ClipVertex<From>& v) {
 }
 template <class To, class From>
 WindowTriangle<To> converted(const WindowTriangle<From>& t) {
-  WindowTriangle<To> out{{}, t.primitive, t.front, t.corners};
+  WindowTriangle<To> out{{}, t.primitive, t.front, t.corners, t.width};
   for (std::size_t i = 0; i < 3; ++i) {
     out.v[i] = {Vec3<To>(t.v[i].p_win), static_cast<To>(t.v[i].inv_w), t.v[i].snapped, Vec4<To>(t.v[i].color)};
   }
   return out;
+}
+
+template <class To, class From>
+Vec4<To> converted(const Vec4<From>& four) {
+  return Vec4<To>(four);
+}
+template <class To, class From>
+std::array<Vec4<To>, 3> converted(const std::array<Vec4<From>, 3>& fours) {
+  return {Vec4<To>(fours[0]), Vec4<To>(fours[1]), Vec4<To>(fours[2])};
 }
 
 template <class To, class Record>
@@ -49,7 +58,10 @@ void widen_geometry(const Records<float>& from, const Request& request, Records<
   };
   if (request.records.has(Stage::matrices)) to.matrices = converted<double>(from.matrices);
   if (request.records.has(Stage::vertex)) to.vertices = converted<double>(from.vertices);
-  if (request.records.has(Stage::light)) to.lit = converted<double>(from.lit);
+  if (request.records.has(Stage::light)) {
+    to.lit = converted<double>(from.lit);
+    for (const Varying v : kAllVaryings) to.varyings[v].vertices = converted<double>(from.varyings[v].vertices);
+  }
   if (request.records.has(Stage::clip)) {
     for (const ClipPolygon& polygon : from.polygons.polygons) {
       if (!wanted(polygon.primitive)) continue;
@@ -57,12 +69,21 @@ void widen_geometry(const Records<float>& from, const Request& request, Records<
       to.polygons.polygons.push_back({polygon.primitive, first, polygon.count});
       for (std::uint32_t i = 0; i < polygon.count; ++i) {
         to.polygons.vertices.push_back(converted<double>(from.polygons.vertices[polygon.first + i]));
+        for (const Varying v : kAllVaryings) {
+          const auto& clipped = from.varyings[v].clipped;
+          if (!clipped.empty()) to.varyings[v].clipped.push_back(Vec4<double>(clipped[polygon.first + i]));
+        }
       }
     }
   }
   if (request.records.has(Stage::window)) {
-    for (const WindowTriangle<float>& triangle : from.triangles) {
-      if (wanted(triangle.primitive)) to.triangles.push_back(converted<double>(triangle));
+    for (std::size_t i = 0; i < from.triangles.size(); ++i) {
+      if (!wanted(from.triangles[i].primitive)) continue;
+      to.triangles.push_back(converted<double>(from.triangles[i]));
+      for (const Varying v : kAllVaryings) {
+        const auto& triangles = from.varyings[v].triangles;
+        if (!triangles.empty()) to.varyings[v].triangles.push_back(converted<double>(triangles[i]));
+      }
     }
   }
 }
@@ -71,11 +92,18 @@ std::size_t widened_bytes(const Records<float>& from, const Request& request) {
   const auto bytes = [&](Stage stage, std::size_t n, std::size_t size) {
     return request.records.has(stage) ? n * size : 0;
   };
-  return bytes(Stage::vertex, from.vertices.size(), sizeof(Vertex<double>)) +
-         bytes(Stage::light, from.lit.size(), sizeof(Lit<double>)) +
-         bytes(Stage::clip, from.polygons.vertices.size(), sizeof(ClipVertex<double>)) +
-         bytes(Stage::clip, from.polygons.polygons.size(), sizeof(ClipPolygon)) +
-         bytes(Stage::window, from.triangles.size(), sizeof(WindowTriangle<double>));
+  std::size_t sum = bytes(Stage::vertex, from.vertices.size(), sizeof(Vertex<double>)) +
+                    bytes(Stage::light, from.lit.size(), sizeof(Lit<double>)) +
+                    bytes(Stage::clip, from.polygons.vertices.size(), sizeof(ClipVertex<double>)) +
+                    bytes(Stage::clip, from.polygons.polygons.size(), sizeof(ClipPolygon)) +
+                    bytes(Stage::window, from.triangles.size(), sizeof(WindowTriangle<double>));
+  for (const Varying v : kAllVaryings) {
+    const VaryingColumns<float>& columns = from.varyings[v];
+    sum += bytes(Stage::light, columns.vertices.size(), sizeof(Vec4<double>)) +
+           bytes(Stage::clip, columns.clipped.size(), sizeof(Vec4<double>)) +
+           bytes(Stage::window, columns.triangles.size(), 3 * sizeof(Vec4<double>));
+  }
+  return sum;
 }
 
 WindowTriangle<float> narrow(const WindowTriangle<double>& from) { return converted<float>(from); }
@@ -87,6 +115,11 @@ Records<float> narrow(const Records<double>& from) {
   to.lit = converted<float>(from.lit);
   to.polygons = {converted<float>(from.polygons.vertices), from.polygons.polygons};
   to.triangles = converted<float>(from.triangles);
+  for (const Varying v : kAllVaryings) {
+    to.varyings[v].vertices = converted<float>(from.varyings[v].vertices);
+    to.varyings[v].clipped = converted<float>(from.varyings[v].clipped);
+    to.varyings[v].triangles = converted<float>(from.varyings[v].triangles);
+  }
   return to;
 }
 

@@ -36,8 +36,12 @@ struct PixelBounds {
 };
 PixelBounds pixel_bounds(const WindowTriangle<float>& triangle);
 
-/// The pixels of a line (line_diamond.h) or of a point of size 1 (OpenGL 2.1, section 3.3: the one that it lies in)
-/// within the `size` x `size` that begin at pixel `origin`.
+/// The pixels of a line (line_diamond.h) or of a point within the `size` x `size` that begin at pixel `origin`.
+///
+/// A wide line is moved down its minor axis by (width - 1) / 2; each of its pixels is the lowest of `width` in a column
+/// (y-major: the first of a row; OpenGL 2.1, section 3.4.2). A wide point is a square of so many pixels, about the
+/// centre of the pixel that it lies in, or, of an even size, about the nearest corner of pixels (section 3.3): either
+/// way its first column is floor(x - (width - 1) / 2).
 std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size);
 
 template <class R>

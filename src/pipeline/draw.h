@@ -16,12 +16,34 @@ struct GeometryStages {
   Matrices<float> (*matrices)(const Scene&, const Draw&);
   void (*vertex)(const Matrices<float>&, const Mesh&, std::vector<Vertex<float>>&);
   void (*light)(const Scene&, const Draw&, std::span<const Vertex<float>>, std::vector<Lit<float>>&);
+  void (*carry)(const Scene&, const Draw&, Varying, std::span<const Vertex<float>>, std::vector<Vec4<float>>&);
   void (*clip)(const Assembly&, ClipPolygons<float>&);
-  void (*window)(const Matrices<float>&, Cull, const ClipPolygons<float>&, std::span<const ClipPolygon>,
+  void (*window)(const Matrices<float>&, const Draw&, const ClipPolygons<float>&, std::span<const ClipPolygon>,
                  std::vector<WindowTriangle<float>>&);
 };
-/// Those of this folder: matrices.h, vertex.h, light.h, clip.h, window.h.
+/// Those of this folder: matrices.h, vertex.h, light.h, carry.h, clip.h, window.h.
 GeometryStages geometry_stages();
+
+/// One of stages 0 to 4, draw by draw. Clip and window run once for the colour and once for each varying that the scene
+/// carries: they treat them alike, so that what holds of a colour holds of it.
+class GeometryRun {
+ public:
+  GeometryRun(const Scene& scene, const GeometryStages& stages);
+
+  /// Appends the draw's records of the stage to `out`, from those of the stage before in `in`; both may be one.
+  void run(std::size_t draw, Stage stage, const Records<float>& in, Records<float>& out) const;
+  std::size_t draws() const { return scene_.draws.size(); }
+
+ private:
+  void light(std::size_t draw, const Records<float>& in, Records<float>& out) const;
+  void clip(std::size_t draw, const Records<float>& in, Records<float>& out) const;
+  void window(std::size_t draw, const Records<float>& in, Records<float>& out) const;
+
+  const Scene& scene_;
+  const GeometryStages& stages_;
+  std::vector<DrawRange> ranges_;
+  std::vector<Varying> carried_;
+};
 
 /// What stages 0 to 4 hand on for a scene (records.covered and after stay empty).
 struct Geometry {

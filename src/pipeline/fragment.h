@@ -15,6 +15,7 @@
 #include "pipeline/lanes.h"
 #include "pipeline/merge.h"
 #include "pipeline/shade.h"
+#include "pipeline/surface.h"
 
 namespace plumbline::pipeline {
 
@@ -54,6 +55,12 @@ struct FragmentStages {
   static Color<R> shade(const Color<R>& attributes) {
     return pipeline::shade<R>(attributes);
   }
+  /// The colour of a surface that is not plain.
+  static constexpr bool has_surfaces = true;
+  template <class R>
+  static Color<R> shade_surface(const Surface& surface, bool front, const SurfaceAttributes<R>& attributes) {
+    return pipeline::shade_surface<R>(surface, front, attributes);
+  }
   /// Of the fragments that pass the depth test, those that are drawn; the others leave depth and colour as they are.
   template <class R>
   static Mask<R> kept(Mask<R> passes, const Color<R>&) {
@@ -75,6 +82,7 @@ struct FragmentStages {
 struct BlockState {
   std::optional<Scissor> scissor;
   Merge merge;
+  const Surface* surface;  ///< null: plain
 };
 
 /// Where the next pixels' depth and colour are, in the frame's formats, as floats.
@@ -115,6 +123,7 @@ struct TriangleSetup {
   BarycentricPlanes planes;
   DepthSetup depth;
   Attributes attributes;
+  const SurfaceSetup* surface = nullptr;  ///< null: plain
 };
 template <class Stages>
 using SetupOf = TriangleSetup<decltype(std::declval<const Stages&>().attribute_setup({}, 0))>;
@@ -129,7 +138,33 @@ SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std
           stages.edges(t),
           planes_of(t, x0, y0),
           depth_setup(t, formats.depth_scale),
-          stages.attribute_setup(t, triangle)};
+          stages.attribute_setup(t, triangle),
+          nullptr};
+}
+
+/// What a surface's fragments want of the triangle besides.
+template <class Stages>
+SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const WindowTriangle<float>& t,
+                            std::uint32_t triangle) {
+  SurfaceSetup out;
+  out.surface = &surface;
+  out.front = t.front;
+  for (const Varying v : surface.carried) {
+    const auto i = static_cast<std::size_t>(v);
+    out.varyings[i] = stages.attribute_setup(with_varying(t, surface.columns[i][triangle]), triangle);
+  }
+  return out;
+}
+
+/// Stage 7 of a surface: every varying as the colour.
+template <class R, class Stages>
+SurfaceAttributes<R> surface_attributes(const Stages& stages, const AttributeSetup& color, const SurfaceSetup& s,
+                                        const Barycentric<R>& b) {
+  SurfaceAttributes<R> out{stages.template attributes<R>(color, b), {}};
+  for (const Varying v : s.surface->carried) {
+    out[v] = stages.template attributes<R>(s.varyings[static_cast<std::size_t>(v)], b);
+  }
+  return out;
 }
 
 /// 64 x 64 pixels of the frame, stored block by block; colour and depth in the frame's formats, as floats.
@@ -166,11 +201,20 @@ void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf
   if constexpr (!Tap::every_fragment) {
     if (!any(passes)) return;
   }
+  const auto finish = [&](const auto& attributes, const auto& shaded) {
+    const Mask<R> kept = stages.template kept<R>(passes, shaded);
+    tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
+    write<R>(stages, state.merge, kept, z, Color<R>(shaded), color_scale, stored);
+  };
+  if constexpr (Stages::has_surfaces) {
+    if (s.surface != nullptr) {
+      const SurfaceAttributes<R> attributes = surface_attributes<R>(stages, s.attributes, *s.surface, b);
+      const SurfaceSetup& setup = *s.surface;
+      return finish(attributes, stages.template shade_surface<R>(*setup.surface, setup.front, attributes));
+    }
+  }
   const auto attributes = stages.template attributes<R>(s.attributes, b);
-  const auto shaded = stages.template shade<R>(attributes);
-  const Mask<R> kept = stages.template kept<R>(passes, shaded);
-  tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
-  write<R>(stages, state.merge, kept, z, Color<R>(shaded), color_scale, stored);
+  finish(attributes, stages.template shade<R>(attributes));
 }
 
 template <class R, DepthFunc func, class Stages, class Tap>

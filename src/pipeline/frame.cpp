@@ -7,6 +7,7 @@ Frame::Frame(const FrameFormat& format) {
   switch (format.color) {
     case ColorFormat::rgba8: color_rgba8 = Plane<glm::u8vec4>(w, h); break;
     case ColorFormat::rgba12: color_rgba12 = Plane<glm::u16vec4>(w, h); break;
+    case ColorFormat::rgba16: color_rgba16 = Plane<glm::u16vec4>(w, h); break;
     case ColorFormat::rgba32f: color_rgba32f = Plane<glm::vec4>(w, h); break;
   }
   if (format.depth == DepthFormat::z32f) {

@@ -16,6 +16,7 @@ struct Frame {
 
   Plane<glm::u8vec4> color_rgba8;
   Plane<glm::u16vec4> color_rgba12;  ///< 0 to 4095
+  Plane<glm::u16vec4> color_rgba16;
   Plane<glm::vec4> color_rgba32f;
   Plane<std::uint32_t> depth_code;  ///< z8, z16, z24
   Plane<float> depth_z32f;

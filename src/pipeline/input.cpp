@@ -20,14 +20,34 @@ bool in_draw_order(const std::vector<Record>& records, std::uint32_t primitives)
          (records.empty() || records.back().primitive < primitives);
 }
 
-// A line has 2 corners, a point 1, what is left of a triangle 3 to `most`.
+// A line has 2 corners, a point 1, what is left of a triangle 3 to `most`; of one that is not filled,
+// `least_of_triangle` are enough.
 bool corners_fit(const Scene& scene, const std::vector<DrawRange>& ranges, std::uint32_t primitive,
-                 std::uint32_t corners, std::uint32_t most) {
+                 std::uint32_t corners, std::uint32_t least_of_triangle, std::uint32_t most) {
   const auto after = std::partition_point(ranges.begin(), ranges.end(),
                                           [&](const DrawRange& r) { return r.first_primitive <= primitive; });
   const Draw& draw = scene.draws[static_cast<std::size_t>(after - ranges.begin()) - 1];
-  const std::uint32_t least = corner_count(scene.meshes[draw.mesh].topology);
-  return corners >= least && corners <= (least == 3 ? most : least);
+  const std::uint32_t of_mesh = corner_count(scene.meshes[draw.mesh].topology);
+  if (of_mesh < 3) return corners == of_mesh;
+  const bool filled = draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;
+  return corners >= (filled ? 3 : least_of_triangle) && corners <= most;
+}
+
+}  // namespace
+
+namespace {
+
+// The columns of the varyings that the stage reads.
+void require_columns(const Scene& scene, Stage stage, const Records<double>& r) {
+  for (const Varying v : carried(scene)) {
+    const VaryingColumns<double>& columns = r.varyings[v];
+    const std::string name(name_of(v));
+    if (stage == Stage::clip) require(columns.vertices.size() == r.vertices.size(), "varyings." + name);
+    if (stage == Stage::window) require(columns.clipped.size() == r.polygons.vertices.size(), "varyings." + name);
+    if (is_back(v)) continue;
+    if (stage == Stage::attributes) require(columns.triangles.size() == r.triangles.size(), "varyings." + name);
+    if (stage == Stage::shade) require(columns.fragments.size() == r.covered.size(), "varyings." + name);
+  }
 }
 
 }  // namespace
@@ -44,13 +64,16 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   if (stage == Stage::window) {
     const std::size_t n = r.polygons.vertices.size();
     const auto fits = [&](const ClipPolygon& p) {
-      return corners_fit(scene, ranges, p.primitive, p.count, 9) && p.first <= n && p.count <= n - p.first;
+      return corners_fit(scene, ranges, p.primitive, p.count, 3, 9) && p.first <= n && p.count <= n - p.first;
     };
     const auto& polygons = r.polygons.polygons;
     require(in_draw_order(polygons, primitives) && std::all_of(polygons.begin(), polygons.end(), fits), "polygons");
   }
+  require_columns(scene, stage, r);
   if (stage <= Stage::window) return;
-  const auto has_corners = [&](const auto& t) { return corners_fit(scene, ranges, t.primitive, t.corners, 3); };
+  const auto has_corners = [&](const auto& t) {
+    return corners_fit(scene, ranges, t.primitive, t.corners, 1, 3) && t.width >= 1 && t.width <= 64;
+  };
   require(in_draw_order(r.triangles, primitives) && std::all_of(r.triangles.begin(), r.triangles.end(), has_corners),
           "triangles");
   if (stage == Stage::coverage) return;

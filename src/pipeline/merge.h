@@ -6,11 +6,16 @@
 
 namespace plumbline::pipeline {
 
-/// `scale` 255, 4095: rgba8, rgba12, clamped to [0,1] and rounded to the nearest code, half to even (GL 2.1 spec
-/// 2.14.9), which a float holds exactly. `scale` 0: float, as it is.
+/// `scale` 255, 4095, 65535: rgba8, rgba12, rgba16. Clamped to [0,1], times the scale, and rounded to the nearest code,
+/// half to even (GL 2.1 spec 2.14.9), which a float holds exactly. The product is a float's of up to 12 bits: a colour
+/// within 2^-25 of half way between two codes may go to either. Of 16 bits it is exact. `scale` 0: float, as it is.
 template <class R>
 Color<R> merge(const Color<R>& color, float scale) {
   if (scale == 0.0f) return color;
+  if (scale > 4095.0f) {
+    const auto wide_code = [&](R value) { return to_float(round_even(to_wide(clamp01(value)) * Wide<R>(scale))); };
+    return {wide_code(color.r), wide_code(color.g), wide_code(color.b), wide_code(color.a)};
+  }
   const auto code = [&](R value) { return round_even(clamp01(value) * scale); };
   return {code(color.r), code(color.g), code(color.b), code(color.a)};
 }

@@ -1,5 +1,6 @@
 #include "pipeline/pipeline_renderer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/clip.h"
@@ -21,6 +22,7 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
   };
   out.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
               : !frame.color_rgba12.empty() ? as_color(frame.color_rgba12)
+              : !frame.color_rgba16.empty() ? as_color(frame.color_rgba16)
                                             : frame.color_rgba32f;
   out.depth = Plane<double>(out.color.width(), out.color.height());
   for (std::size_t i = 0; i < out.depth.size(); ++i) {
@@ -29,6 +31,25 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
   }
   return out;
 }
+
+// Which draw a window triangle is of.
+class DrawOfTriangle {
+ public:
+  DrawOfTriangle(const Scene& scene, const std::vector<WindowTriangle<double>>& triangles)
+      : scene_(scene), triangles_(triangles), ranges_(draw_ranges(scene)) {}
+  std::size_t index(std::uint32_t triangle) const {
+    const std::uint32_t primitive = triangles_.at(triangle).primitive;
+    const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
+                                            [&](const DrawRange& r) { return r.first_primitive <= primitive; });
+    return static_cast<std::size_t>(after - ranges_.begin()) - 1;
+  }
+  const Draw& operator()(std::uint32_t triangle) const { return scene_.draws[index(triangle)]; }
+
+ private:
+  const Scene& scene_;
+  const std::vector<WindowTriangle<double>>& triangles_;
+  std::vector<DrawRange> ranges_;
+};
 
 class PipelineRenderer : public Renderer {
  public:
@@ -53,8 +74,9 @@ class PipelineRenderer : public Renderer {
     require_budget(scene, bytes, request.memory_budget);
     Frame frame(scene.frame);
     CaptureTap tap(scene, request, bytes);
-    stages_.fragment.draw_tapped({geometry.records.triangles, geometry.first_triangle, scene.draws}, scene.frame, frame,
-                                 tap);
+    const std::vector<Surface> surfaces = surfaces_of(scene, geometry.records);
+    stages_.fragment.draw_tapped({geometry.records.triangles, geometry.first_triangle, scene.draws, surfaces},
+                                 scene.frame, frame, tap);
     out.planes = planes_of_frame(frame, formats_of(scene.frame));
     tap.hand_out(geometry.records.triangles, out);
     widen_geometry(geometry.records, request, out.records);
@@ -89,35 +111,8 @@ class PipelineRenderer : public Renderer {
 
   void run_geometry_stage(const Scene& scene, Stage stage, const Records<float>& in, Capture& out) {
     Records<float> made;
-    const std::vector<DrawRange> ranges = draw_ranges(scene);
-    auto polygon = in.polygons.polygons.begin();
-    for (std::size_t d = 0; d < scene.draws.size(); ++d) {
-      const Draw& draw = scene.draws[d];
-      const Mesh& mesh = scene.meshes[draw.mesh];
-      const DrawRange& range = ranges[d];
-      switch (stage) {
-        case Stage::matrices: made.matrices.push_back(stages_.geometry.matrices(scene, draw)); break;
-        case Stage::vertex: stages_.geometry.vertex(in.matrices.at(d), mesh, made.vertices); break;
-        case Stage::light:
-          stages_.geometry.light(scene, draw, std::span(in.vertices).subspan(range.first_vertex, range.vertex_count),
-                                 made.lit);
-          break;
-        case Stage::clip:
-          stages_.geometry.clip({std::span(in.vertices).subspan(range.first_vertex, range.vertex_count),
-                                 std::span(in.lit).subspan(range.first_vertex, range.vertex_count), mesh.triangles,
-                                 range.first_primitive, draw.shading, scene.depth_clamp, mesh.topology},
-                                made.polygons);
-          break;
-        default: {
-          const auto first = polygon;
-          while (polygon != in.polygons.polygons.end() &&
-                 polygon->primitive < range.first_primitive + range.primitive_count) {
-            ++polygon;
-          }
-          stages_.geometry.window(in.matrices.at(d), draw.cull, in.polygons, std::span(first, polygon), made.triangles);
-        }
-      }
-    }
+    const GeometryRun run(scene, stages_.geometry);
+    for (std::size_t d = 0; d < run.draws(); ++d) run.run(d, stage, in, made);
     widen_geometry(made, {StageSet{stage}, false, {}, {}}, out.records);
   }
 
@@ -135,29 +130,73 @@ class PipelineRenderer : public Renderer {
   }
 
   void run_fragment_stage(const Scene& scene, Stage stage, const Records<double>& in, Capture& out) {
+    switch (stage) {
+      case Stage::depth: return run_depth(scene, in, out);
+      case Stage::attributes: return run_attributes(scene, in, out);
+      default: return run_shade(scene, in, out);
+    }
+  }
+
+  // visit(fragment's number, its pixel, its triangle's set-up) for each; `corners`: a varying in the colours' place.
+  void each_fragment(const Scene& scene, const Records<double>& in,
+                     const std::vector<std::array<Vec4<double>, 3>>* corners, auto visit) {
     const Formats formats = formats_of(scene.frame);
     TriangleSetup<> setup{};
     setup.triangle = ~0u;
     int setup_x = 0, setup_y = 0;
     for (std::size_t i = 0; i < in.covered.size(); ++i) {
-      if (stage == Stage::shade) {
-        out.records.shaded.push_back({widen(stages_.fragment.shade(color_of(in.attributes.at(i).color)))});
-        continue;
-      }
       const Covered& c = in.covered[i];
       const int tile_x = c.x / kTile * kTile, tile_y = c.y / kTile * kTile;
       if (setup.triangle != c.triangle || tile_x != setup_x || tile_y != setup_y) {
-        setup = stages_.fragment.set_up(narrow(in.triangles.at(c.triangle)), c.triangle, formats, tile_x, tile_y);
+        WindowTriangle<double> triangle = in.triangles.at(c.triangle);
+        for (std::size_t k = 0; corners != nullptr && k < 3; ++k) triangle.v[k].color = corners->at(c.triangle)[k];
+        setup = stages_.fragment.set_up(narrow(triangle), c.triangle, formats, tile_x, tile_y);
         setup_x = tile_x;
         setup_y = tile_y;
       }
-      const Pixels<float> p{c.x, c.y, c.x + 0.5, c.y + 0.5};
-      if (stage == Stage::depth) {
-        const double z = stages_.fragment.depth(setup, p);
-        out.records.depth.push_back(formats.depth_scale == 0.0 ? z : z / formats.depth_scale);
-      } else {
-        out.records.attributes.push_back({widen(stages_.fragment.attributes(setup, p))});
+      visit(i, Pixels<float>{c.x, c.y, c.x + 0.5, c.y + 0.5}, setup);
+    }
+  }
+
+  void run_depth(const Scene& scene, const Records<double>& in, Capture& out) {
+    const double scale = formats_of(scene.frame).depth_scale;
+    each_fragment(scene, in, nullptr, [&](std::size_t, const Pixels<float>& p, const TriangleSetup<>& setup) {
+      const double z = stages_.fragment.depth(setup, p);
+      out.records.depth.push_back(scale == 0.0 ? z : z / scale);
+    });
+  }
+
+  void run_attributes(const Scene& scene, const Records<double>& in, Capture& out) {
+    each_fragment(scene, in, nullptr, [&](std::size_t, const Pixels<float>& p, const TriangleSetup<>& setup) {
+      out.records.attributes.push_back({widen(stages_.fragment.attributes(setup, p))});
+    });
+    const DrawOfTriangle draw_of(scene, in.triangles);
+    for (const Varying v : carried(scene)) {
+      if (is_back(v)) continue;
+      each_fragment(scene, in, &in.varyings[v].triangles,
+                    [&](std::size_t, const Pixels<float>& p, const TriangleSetup<>& setup) {
+                      const bool wanted = carries(scene, draw_of(setup.triangle), v);
+                      out.records.varyings[v].fragments.push_back(wanted ? widen(stages_.fragment.attributes(setup, p))
+                                                                         : Vec4<double>(0));
+                    });
+    }
+  }
+
+  void run_shade(const Scene& scene, const Records<double>& in, Capture& out) {
+    const std::vector<Surface> surfaces = surfaces_of(scene, {});
+    const DrawOfTriangle draw_of(scene, in.triangles);
+    for (std::size_t i = 0; i < in.covered.size(); ++i) {
+      const std::uint32_t triangle = in.covered[i].triangle;
+      const Surface& surface = surfaces[draw_of.index(triangle)];
+      const Color<float> color = color_of(in.attributes.at(i).color);
+      if (surface.plain()) {
+        out.records.shaded.push_back({widen(stages_.fragment.shade(color))});
+        continue;
       }
+      SurfaceAttributes<float> attributes{color, {}};
+      for (const Varying v : surface.carried) attributes[v] = color_of(in.varyings[v].fragments.at(i));
+      const bool front = in.triangles.at(triangle).front;
+      out.records.shaded.push_back({widen(stages_.fragment.shade_surface(surface, front, attributes))});
     }
   }
 

@@ -34,7 +34,9 @@ std::vector<WindowTriangle<float>> program_triangles(std::span<const Vertex<floa
   Scene viewport;  // of stage 0 the window's part alone counts
   viewport.frame = format;
   std::vector<WindowTriangle<float>> out;
-  to_window(matrices(viewport, Draw{}), state.cull, polygons, polygons.polygons, out);
+  Draw draw;
+  draw.cull = state.cull;
+  to_window(matrices(viewport, draw), draw, polygons, polygons.polygons, out);
   return out;
 }
 

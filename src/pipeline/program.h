@@ -58,6 +58,7 @@ template <Program P>
 class ProgramStages : public FragmentStages {
  public:
   using Varyings = typename P::Varyings;
+  static constexpr bool has_surfaces = false;
   static constexpr std::size_t kFloats = std::is_empty_v<Varyings> ? 0 : sizeof(Varyings) / sizeof(float);
   static constexpr std::size_t kFours = kFloats == 0 ? 1 : (kFloats + 3) / 4;
   /// The same triangles once for every four varyings, which stand for the colour.

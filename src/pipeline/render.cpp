@@ -10,7 +10,9 @@ Frame render(const Scene& scene, const Stages& stages) {
   const Geometry geometry = run_geometry(scene, stages.geometry);
   Frame frame(scene.frame);
   NoTap tap;
-  stages.fragment.draw({geometry.records.triangles, geometry.first_triangle, scene.draws}, scene.frame, frame, tap);
+  const std::vector<Surface> surfaces = surfaces_of(scene, geometry.records);
+  stages.fragment.draw({geometry.records.triangles, geometry.first_triangle, scene.draws, surfaces}, scene.frame, frame,
+                       tap);
   return frame;
 }
 

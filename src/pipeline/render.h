@@ -15,6 +15,7 @@ struct FragmentFunctions {
   float (*depth)(const TriangleSetup<>&, const Pixels<float>&);
   Color<float> (*attributes)(const TriangleSetup<>&, const Pixels<float>&);
   Color<float> (*shade)(const Color<float>&);
+  Color<float> (*shade_surface)(const Surface&, bool front, const SurfaceAttributes<float>&);
   void (*write)(const Merge&, float z, const Color<float>& shaded, float color_scale, const Stored&);
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
   TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const Formats&, int x0, int y0);
@@ -51,6 +52,7 @@ FragmentFunctions fragment_functions() {
     return S::template attributes<float>(s.attributes, barycentric<float>(s.planes, p));
   };
   f.shade = S::template shade<float>;
+  f.shade_surface = S::template shade_surface<float>;
   f.write = [](const Merge& state, float z, const Color<float>& shaded, float color_scale, const Stored& to) {
     write<float>(S(), S::merge_state(state), true, z, shaded, color_scale, to);
   };

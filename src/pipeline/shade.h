@@ -1,7 +1,8 @@
 // Stage 9: the fragment's colour, from its attributes.
 #pragma once
 
-#include "pipeline/attributes.h"
+#include "pipeline/fog.h"
+#include "pipeline/surface.h"
 
 namespace plumbline::pipeline {
 
@@ -9,6 +10,14 @@ namespace plumbline::pipeline {
 template <class R>
 Color<R> shade(const Color<R>& attributes) {
   return attributes;
+}
+
+/// In OpenGL's order (2.1, figure 3.1): texture environment, sum of colours, fog.
+template <class R>
+Color<R> shade_surface(const Surface& surface, bool /*front*/, const SurfaceAttributes<R>& attributes) {
+  Color<R> color = attributes.color;
+  if (surface.draw->fog) color = fogged<R>(*surface.draw->fog, color, attributes[Varying::position].b);
+  return color;
 }
 
 }  // namespace plumbline::pipeline

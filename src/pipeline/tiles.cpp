@@ -81,6 +81,7 @@ void write_out(const Tile& tile, Frame& frame) {
   const auto& c = tile.color;
   copy_out(tile, frame.color_rgba8, [&](int i) { return glm::u8vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
   copy_out(tile, frame.color_rgba12, [&](int i) { return glm::u16vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
+  copy_out(tile, frame.color_rgba16, [&](int i) { return glm::u16vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
   copy_out(tile, frame.color_rgba32f, [&](int i) { return glm::vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
   copy_out(tile, frame.depth_code, [&](int i) { return static_cast<std::uint32_t>(tile.depth[i]); });
   copy_out(tile, frame.depth_z32f, [&](int i) { return tile.depth[i]; });

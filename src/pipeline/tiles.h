@@ -17,6 +17,7 @@ struct DrawList {
   std::span<const WindowTriangle<float>> triangles;
   std::span<const std::uint32_t> first_triangle;
   std::span<const Draw> draws;
+  std::span<const Surface> surfaces = {};  ///< per draw; empty: all are plain
 };
 
 /// For each tile, row by row from the bottom, the numbers of the triangles whose bounding box touches it, ascending.
@@ -35,7 +36,14 @@ void write_out(const Tile& tile, Frame& frame);
 template <class R, DepthFunc func, class Stages, class Tap>
 void draw_triangle(const Stages& stages, const BlockState& state, const WindowTriangle<float>& triangle,
                    std::uint32_t number, const Formats& formats, Tile& tile, Tap& tap) {
-  const SetupOf<Stages> s = set_up(stages, triangle, number, formats, tile.x0, tile.y0);
+  SetupOf<Stages> s = set_up(stages, triangle, number, formats, tile.x0, tile.y0);
+  SurfaceSetup surface;
+  if constexpr (Stages::has_surfaces) {
+    if (state.surface != nullptr) {
+      surface = set_up_surface(stages, *state.surface, triangle, number);
+      s.surface = &surface;
+    }
+  }
   if (triangle.corners < 3) {
     for (const glm::ivec2 pixel : stages.thin_pixels(triangle, {tile.x0, tile.y0}, kTile)) {
       fragment_pixel<R, func>(stages, state, s, pixel, formats.color_scale, tile, tap);
@@ -77,9 +85,11 @@ void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& f
   const Formats formats = formats_of(format);
   std::vector<DrawTriangle<R, Stages, Tap>> draw_of;
   std::vector<BlockState> state_of;
-  for (const Draw& draw : list.draws) {
+  for (std::size_t d = 0; d < list.draws.size(); ++d) {
+    const Draw& draw = list.draws[d];
+    const bool plain = list.surfaces.empty() || list.surfaces[d].plain();
     draw_of.push_back(draw_triangle_for<R, Stages, Tap>(draw.depth_func));
-    state_of.push_back({draw.scissor, stages.merge_state(draw.merge)});
+    state_of.push_back({draw.scissor, stages.merge_state(draw.merge), plain ? nullptr : &list.surfaces[d]});
   }
   Tile tile{};
   for (int t = 0; t < bins.columns * bins.rows; ++t) {

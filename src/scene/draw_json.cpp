@@ -117,6 +117,33 @@ Scissor read_scissor(const JsonNode& node) {
   return {pixels(0), pixels(1), pixels(2), pixels(3)};
 }
 
+Fog read_fog(const JsonNode& node) {
+  const std::string_view kind = node.one_of({"linear", "exp", "exp2"});
+  const JsonNode of_kind = node[kind];
+  Fog fog;
+  const auto distance = [&](std::string_view key) {
+    return static_cast<float>(of_kind[key].number(-kLargestCoordinate, kLargestCoordinate));
+  };
+  if (kind == "linear") {
+    of_kind.only({"color", "start", "end"});
+    fog.mode = Fog::Mode::linear;
+    fog.start = distance("start");
+    fog.end = distance("end");
+    if (fog.start == fog.end) of_kind["end"].refuse("another distance than \"start\"");
+  } else {
+    of_kind.only({"color", "density"});
+    fog.mode = kind == "exp" ? Fog::Mode::exp : Fog::Mode::exp2;
+    fog.density = static_cast<float>(of_kind["density"].number(0, kLargestCoordinate));
+  }
+  if (const auto n = of_kind.find("color")) fog.color = glm::vec3(n->vector<3>(0, 1));
+  return fog;
+}
+
+PolygonMode read_mode(const JsonNode& node) {
+  return node.choice<PolygonMode>(
+      {{"fill", PolygonMode::fill}, {"line", PolygonMode::line}, {"point", PolygonMode::point}});
+}
+
 /// What the node gives, over what the state is.
 void read_state(const JsonNode& node, DrawState& state) {
   Draw& draw = state.draw;
@@ -132,6 +159,10 @@ void read_state(const JsonNode& node, DrawState& state) {
   if (const auto n = node.find("cull")) {
     draw.cull = n->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
   }
+  if (const auto n = node.find("front_mode")) draw.front_mode = read_mode(*n);
+  if (const auto n = node.find("back_mode")) draw.back_mode = read_mode(*n);
+  if (const auto n = node.find("line_width")) draw.line_width = static_cast<int>(n->integer(1, 16));
+  if (const auto n = node.find("point_size")) draw.point_size = static_cast<int>(n->integer(1, 64));
   if (const auto n = node.find("depth_func")) {
     draw.depth_func = n->choice<DepthFunc>({{"never", DepthFunc::never},
                                             {"less", DepthFunc::less},
@@ -142,6 +173,7 @@ void read_state(const JsonNode& node, DrawState& state) {
                                             {"greater_equal", DepthFunc::greater_equal},
                                             {"always", DepthFunc::always}});
   }
+  if (const auto n = node.find("fog")) draw.fog = read_fog(*n);
   if (const auto n = node.find("scissor")) draw.scissor = read_scissor(*n);
   if (const auto n = node.find("depth_mask")) draw.merge.depth_mask = n->boolean();
   if (const auto n = node.find("blend")) draw.merge.blend = read_blend(*n);
@@ -151,8 +183,8 @@ void read_state(const JsonNode& node, DrawState& state) {
 }  // namespace
 
 DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
-  node.only({"transforms", "material", "lit", "shading", "cull", "depth_func", "scissor", "depth_mask", "blend",
-             "color_mask", "texture"});
+  node.only({"transforms", "material", "lit", "shading", "cull", "front_mode", "back_mode", "line_width", "point_size",
+             "depth_func", "fog", "scissor", "depth_mask", "blend", "color_mask", "texture"});
   DrawState state = defaults;
   read_state(node, state);
   if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
@@ -160,8 +192,8 @@ DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const
 }
 
 DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
-  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "depth_func", "scissor", "depth_mask", "blend",
-             "color_mask", "texture"});
+  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "front_mode", "back_mode", "line_width",
+             "point_size", "depth_func", "fog", "scissor", "depth_mask", "blend", "color_mask", "texture"});
   DrawState state = defaults;
   read_state(node, state);
   if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);

@@ -18,7 +18,8 @@ constexpr std::size_t pixel_bytes(const FrameFormat& frame) {
   constexpr std::size_t kDepth = 4;
   switch (frame.color) {
     case ColorFormat::rgba8: return 4 + kDepth;
-    case ColorFormat::rgba12: return 8 + kDepth;
+    case ColorFormat::rgba12:
+    case ColorFormat::rgba16: return 8 + kDepth;
     case ColorFormat::rgba32f: return 16 + kDepth;
   }
   return 0;

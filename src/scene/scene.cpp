@@ -6,8 +6,12 @@
 namespace plumbline {
 
 bool draws(const Scene& scene, Topology topology) {
-  return std::any_of(scene.draws.begin(), scene.draws.end(),
-                     [&](const Draw& draw) { return scene.meshes[draw.mesh].topology == topology; });
+  constexpr PolygonMode kModes[] = {PolygonMode::fill, PolygonMode::line, PolygonMode::point};
+  const PolygonMode mode = kModes[static_cast<std::size_t>(topology)];
+  return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& draw) {
+    const Topology of_mesh = scene.meshes[draw.mesh].topology;
+    return of_mesh == Topology::triangles ? draw.front_mode == mode || draw.back_mode == mode : of_mesh == topology;
+  });
 }
 
 std::vector<DrawRange> draw_ranges(const Scene& scene) {

@@ -103,9 +103,10 @@ struct Material {
 
 enum class Shading { flat, gouraud };
 enum class Cull { none, back, front };
+enum class PolygonMode { fill, line, point };
 enum class DepthFunc { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
-enum class ColorFormat { rgba8, rgba12, rgba32f };  ///< 12 bits a channel: GzRender's 0..4095 (note 000)
-enum class DepthFormat { z8, z16, z24, z32f };      ///< 8 bits: tinyrenderer's z-buffer (note 002)
+enum class ColorFormat { rgba8, rgba12, rgba16, rgba32f };  ///< 12 bits a channel: GzRender's 0..4095 (note 000)
+enum class DepthFormat { z8, z16, z24, z32f };              ///< 8 bits: tinyrenderer's z-buffer (note 002)
 
 /// glBlendFuncSeparate's factors. As a destination's, source_alpha_saturate is not allowed.
 enum class BlendFactor {
@@ -146,6 +147,17 @@ struct Scissor {
   bool holds(int px, int py) const { return px >= x && px < x + width && py >= y && py < y + height; }
 };
 
+/// glFog: a fragment's colour becomes f * colour + (1 - f) * the fog's; alpha stays. f of the distance c = |z_eye|:
+/// (end - c) / (end - start), exp(-density c) or exp(-(density c)^2), clamped to [0,1] (OpenGL 2.1 spec 3.10).
+struct Fog {
+  enum class Mode { linear, exp, exp2 };
+  Mode mode = Mode::exp;
+  glm::vec3 color{0};  ///< [0,1]
+  float density = 1;   ///< >= 0; exp, exp2
+  float start = 0;     ///< distances, not equal; linear
+  float end = 1;
+};
+
 /// How a fragment that is drawn goes into the frame.
 struct Merge {
   std::optional<Blend> blend;   ///< none: it replaces what is there
@@ -161,7 +173,14 @@ struct Draw {
   bool lit = true;  ///< false: the mesh's colours, or the material's diffuse
   Shading shading = Shading::gouraud;
   Cull cull = Cull::none;
+  /// glPolygonMode: what is left of a triangle after clipping is filled, or its edges are drawn as lines, or its
+  /// corners as points. All are boundary edges (OpenGL 2.1 spec 3.5.4), those that clipping makes too; there are no
+  /// edge flags.
+  PolygonMode front_mode = PolygonMode::fill, back_mode = PolygonMode::fill;
+  int line_width = 1;  ///< pixels, [1, 16]
+  int point_size = 1;  ///< pixels, [1, 64]: the side of a square
   DepthFunc depth_func = DepthFunc::less;
+  std::optional<Fog> fog;
   Merge merge;
   std::optional<Scissor> scissor;      ///< no pixel outside of it is covered
   std::optional<DrawTexture> texture;  ///< the mesh then has texture coordinates
@@ -196,7 +215,7 @@ struct Scene {
 inline bool textured(const Scene& scene) {
   return std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.texture.has_value(); });
 }
-/// Whether any draw is of such a mesh.
+/// Whether any draw makes such primitives: is of such a mesh, or of triangles of which it draws edges or corners.
 bool draws(const Scene& scene, Topology topology);
 /// Whether a pixel's colour is that of its last fragment alone: nothing is blended, no channel masked.
 inline bool colors_replace(const Scene& scene) {
@@ -219,11 +238,12 @@ struct DrawRange {
 /// One range per draw.
 std::vector<DrawRange> draw_ranges(const Scene& scene);
 
-/// The largest code of a colour channel (2^8-1, 2^12-1); 0 for rgba32f.
+/// The largest code of a colour channel (2^8-1, 2^12-1, 2^16-1); 0 for rgba32f.
 constexpr double color_scale(ColorFormat format) {
   switch (format) {
     case ColorFormat::rgba8: return 255.0;
     case ColorFormat::rgba12: return 4095.0;
+    case ColorFormat::rgba16: return 65535.0;
     case ColorFormat::rgba32f: return 0.0;
   }
   return 0.0;

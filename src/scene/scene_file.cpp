@@ -24,8 +24,10 @@ FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
   if (const auto n = node.find("width")) frame.width = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("height")) frame.height = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("color")) {
-    frame.color = n->choice<ColorFormat>(
-        {{"rgba8", ColorFormat::rgba8}, {"rgba12", ColorFormat::rgba12}, {"rgba32f", ColorFormat::rgba32f}});
+    frame.color = n->choice<ColorFormat>({{"rgba8", ColorFormat::rgba8},
+                                          {"rgba12", ColorFormat::rgba12},
+                                          {"rgba16", ColorFormat::rgba16},
+                                          {"rgba32f", ColorFormat::rgba32f}});
   }
   if (const auto n = node.find("depth")) {
     frame.depth = n->choice<DepthFormat>(
@@ -188,6 +190,9 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
       left -= triangles;
       if (draw.texture && scene.meshes[draw.mesh].texcoords.empty()) {
         mesh.refuse("a mesh with texture coordinates, as the draw has a texture", "one without");
+      }
+      if (draw.texture && (draw.front_mode != PolygonMode::fill || draw.back_mode != PolygonMode::fill)) {
+        n.refuse("front_mode and back_mode fill, as the draw has a texture", "edges or corners of triangles");
       }
       scene.draws.push_back(std::move(draw));
     }

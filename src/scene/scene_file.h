@@ -27,8 +27,8 @@ struct SceneFileOptions {
 ///   include        files that this one builds on, below
 ///   description *  what must be seen, and why
 ///   dialect        "gl", "gzrender", "games101", "tinyrenderer": how all other numbers are read (dialect/dialect.h)
-///   frame          width, height: 1 to 16384; color: "rgba8", "rgba12", "rgba32f"; depth: "z8", "z16", "z24",
-///                  "z32f"; clear_color: [r, g, b, a]; clear_depth
+///   frame          width, height: 1 to 16384; color: "rgba8", "rgba12", "rgba16", "rgba32f"; depth: "z8", "z16",
+///                  "z24", "z32f"; clear_color: [r, g, b, a]; clear_depth
 ///   camera         eye, center, up: [x, y, z]
 ///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right
 ///   *,

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -84,6 +85,12 @@ struct ItselfColumn {
   std::string_view name;
   auto& at(auto& record, std::size_t) const { return record; }
 };
+/// Each of three corners is plain numbers.
+struct CornerItselfColumn {
+  static constexpr std::size_t kCorners = 3;
+  std::string_view name;
+  auto& at(auto& corners, std::size_t corner) const { return corners[corner]; }
+};
 template <class Record, class T>
 Column(std::string_view, T Record::*) -> Column<Record, T>;
 template <class Vertex, class T>
@@ -115,13 +122,23 @@ void visit_capture(CaptureRef& capture, Visitor& visit) {
   using T = WindowTriangle<double>;
   visit.group("window", records.triangles, CornerColumn{"p_win", &W::p_win}, CornerColumn{"inv_w", &W::inv_w},
               CornerColumn{"snapped", &W::snapped}, CornerColumn{"color", &W::color},
-              Column{"primitive", &T::primitive}, Column{"front", &T::front}, Column{"corners", &T::corners});
+              Column{"primitive", &T::primitive}, Column{"front", &T::front}, Column{"corners", &T::corners},
+              Column{"width", &T::width});
   visit.group("coverage", records.covered, Column{"triangle", &Covered::triangle}, Column{"x", &Covered::x},
               Column{"y", &Covered::y});
   visit.group("depth", records.depth, ItselfColumn{"value"});
   visit.group("attributes", records.attributes, Column{"color", &Attributes<double>::color});
   visit.group("shade", records.shaded, Column{"color", &Shaded<double>::color});
   visit.group("visibility", records.drawn, Column{"drawn", &Drawn::drawn});
+
+  for (const Varying v : kAllVaryings) {
+    auto& columns = records.varyings[v];
+    const std::string name = "varyings." + std::string(name_of(v));
+    visit.group(name + ".vertices", columns.vertices, ItselfColumn{"value"});
+    visit.group(name + ".clipped", columns.clipped, ItselfColumn{"value"});
+    visit.group(name + ".window", columns.triangles, CornerItselfColumn{"value"});
+    visit.group(name + ".fragments", columns.fragments, ItselfColumn{"value"});
+  }
 
   auto& planes = capture.planes;
   visit.plane("planes.count", planes.count);

@@ -318,6 +318,14 @@ void check_indices(const Capture& capture, const fs::path& folder) {
   beside("attributes.color", records.attributes.size(), "coverage.*", fragments);
   beside("shade.color", records.shaded.size(), "coverage.*", fragments);
   beside("visibility.drawn", records.drawn.size(), "coverage.*", fragments);
+  for (const Varying v : kAllVaryings) {
+    const VaryingColumns<double>& columns = records.varyings[v];
+    const auto column = [&](std::string_view which) { return fmt::format("varyings.{}.{}", name_of(v), which); };
+    beside(column("vertices"), columns.vertices.size(), "vertex.*", records.vertices.size());
+    beside(column("clipped"), columns.clipped.size(), "clip.*", clip.vertices.size());
+    beside(column("window"), columns.triangles.size(), "window.*", records.triangles.size());
+    beside(column("fragments"), columns.fragments.size(), "coverage.*", fragments);
+  }
 }
 
 }  // namespace

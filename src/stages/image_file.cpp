@@ -37,6 +37,11 @@ unsigned code(float value, double largest) {
   return static_cast<unsigned>(std::floor(std::min(value, 1.0f) * largest + 0.5));
 }
 
+/// The largest code that a file holds: that of the frame, or of 8 bits where the frame is float.
+int largest_of(ColorFormat format) {
+  return format == ColorFormat::rgba32f ? 255 : static_cast<int>(color_scale(format));
+}
+
 /// The plane's codes in a file's order, `channels` of each pixel.
 std::vector<unsigned> codes_of(const Plane<glm::vec4>& plane, int channels, double largest) {
   std::vector<unsigned> codes;
@@ -138,10 +143,13 @@ Bytes encode_bytes(const fs::path& file, const Plane<glm::vec4>& plane) {
 
 Bytes encode_png(const fs::path& file, const Plane<glm::vec4>& plane, ColorFormat format) {
   require_ending(file, ".png");
-  if (format != ColorFormat::rgba12) return encode_bytes(file, plane);
+  const auto largest = static_cast<unsigned>(largest_of(format));
+  if (largest == 255) return encode_bytes(file, plane);
   require_pixels(file, plane);
   std::vector<std::uint16_t> pixels;
-  for (unsigned c : codes_of(plane, 4, 4095)) pixels.push_back(static_cast<std::uint16_t>((c * 65535 + 2047) / 4095));
+  for (unsigned c : codes_of(plane, 4, largest)) {
+    pixels.push_back(static_cast<std::uint16_t>((c * 65535u + largest / 2) / largest));
+  }
   return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::UINT16), pixels.data());
 }
 
@@ -155,11 +163,10 @@ Bytes encode_tga(const fs::path& file, const Plane<glm::vec4>& plane, ColorForma
 Bytes encode_ppm(const fs::path& file, const Plane<glm::vec4>& plane, ColorFormat format) {
   require_ending(file, ".ppm");
   require_pixels(file, plane);
-  const bool wide = format == ColorFormat::rgba12;
-  const int largest = wide ? 4095 : 255;
+  const int largest = largest_of(format);
   Bytes out = fmt::format("P6\n{} {}\n{}\n", plane.width(), plane.height(), largest);
   for (unsigned c : codes_of(plane, 3, largest)) {
-    if (wide) out.push_back(static_cast<char>(c >> 8));
+    if (largest > 255) out.push_back(static_cast<char>(c >> 8));
     out.push_back(static_cast<char>(c & 0xffu));
   }
   return out;
@@ -196,11 +203,11 @@ Bytes encode_image(const fs::path& file, const Plane<glm::vec4>& plane, ColorFor
 
 void require_image_name(const fs::path& file, ColorFormat format) {
   const std::string ending = ending_of(file);
-  if (ending == ".tga" && format == ColorFormat::rgba12) {
+  if (ending == ".tga" && largest_of(format) > 255) {
     throw ImageError(
-        fmt::format("{}: TGA holds 8 bits a channel, the frame (rgba12) has 12: expected a file name "
-                    "ending in .png, .ppm or .exr",
-                    file.string()));
+        fmt::format("{}: TGA holds 8 bits a channel, the frame ({}) more: expected a file name ending in .png, .ppm or "
+                    ".exr",
+                    file.string(), format == ColorFormat::rgba12 ? "rgba12" : "rgba16"));
   }
   if (ending == ".png" || ending == ".tga" || ending == ".ppm" || ending == ".exr") return;
   throw ImageError(fmt::format("{}: expected a file name ending in .png, .tga, .ppm or .exr", file.string()));

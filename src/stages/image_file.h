@@ -23,15 +23,16 @@ using Bytes = std::string;
 
 /// Each encodes a plane as the bytes of a file whose name it is given. All throw ImageError: for an empty plane, an
 /// ending that is not theirs, or a format that the file cannot hold. Where a file holds codes, values are clamped to
-/// [0,1] (NaN: 0) and rounded to nearest: value * 255, of an rgba12 frame value * 4095.
+/// [0,1] (NaN: 0) and rounded to nearest: value * 255, of an rgba12 frame value * 4095, of rgba16 value * 65535.
 ///
-/// .png: 8-bit RGBA; of an rgba12 frame 16-bit, each code c as c * 65535 / 4095 rounded, so that none is lost.
+/// .png: 8-bit RGBA; of an rgba16 frame 16-bit; of rgba12, too, each code c as c * 65535 / 4095 rounded, so that none
+/// is lost.
 Bytes encode_png(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                  ColorFormat format = ColorFormat::rgba8);
-/// .tga: 8-bit RGBA; of an rgba12 frame none.
+/// .tga: 8-bit RGBA; of an rgba12 or rgba16 frame none.
 Bytes encode_tga(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                  ColorFormat format = ColorFormat::rgba8);
-/// .ppm: binary, the codes themselves of red, green and blue, of at most 255 or, of an rgba12 frame, 4095. No alpha.
+/// .ppm: binary, the codes themselves of red, green and blue, of at most 255, 4095 or 65535. No alpha.
 Bytes encode_ppm(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                  ColorFormat format = ColorFormat::rgba8);
 /// .exr: 32-bit float RGBA, bit for bit, lossless compression.

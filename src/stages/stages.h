@@ -14,6 +14,8 @@
 
 #include <glm/glm.hpp>
 
+#include "stages/varying.h"
+
 namespace plumbline {
 
 enum class Stage {
@@ -65,7 +67,9 @@ struct Vertex {
   Vec3<T> n_eye;  ///< unit length
 };
 
-// 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours.
+// 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours. Whatever else
+// its
+//    fragments will need is laid beside it (varying.h), and goes the colour's way from here on.
 template <class T>
 struct Lit {
   Vec4<T> color;
@@ -94,7 +98,9 @@ struct ClipPolygons {
 // 4. Each polygon is divided by w, moved to the window, and becomes a fan of triangles: corners (i-1, i, 0). Positions
 //    are snapped to 1/256 pixel; facing is the sign of the snapped area. Culled triangles and those of zero snapped
 //    area are gone. A line is a triangle whose last corner stands there twice, a point one of three equal corners; they
-//    face the front, and none is culled.
+//    face the front, and none is culled. Where a polygon is not to be filled (scene.h, PolygonMode), it becomes its
+//    edges, from the one that ends in its first corner on, or its corners; facing, and with it the mode and culling,
+//    goes by its whole area's sign (0: the back), which they keep.
 inline constexpr int kSubpixel = 256;
 template <class T>
 struct WindowVertex {
@@ -109,11 +115,14 @@ struct WindowTriangle {
   std::uint32_t primitive;
   bool front;                 ///< counter-clockwise in the window
   std::uint32_t corners = 3;  ///< 2 of a line, 1 of a point
+  std::uint32_t width = 1;    ///< pixels: of a line, or the side of a point's square
 };
 
 // 5. Each triangle covers the pixels whose centres are inside its snapped edges, or on an edge that the tie rule
 //    gives to it. A line covers those that the diamond-exit rule names, a point the one that it lies in (OpenGL 2.1,
-//    sections 3.4.1 and 3.3).
+//    sections 3.4.1 and 3.3). A wide line is moved by (width - 1) / 2 down its minor axis, and each of its pixels is
+//    one of `width` in a column (y-major: a row); a wide point is the square of pixels about the centre (odd) or
+//    corner (even) of pixels that is nearest (3.4.2, 3.3).
 enum class TieRule {
   small_sides_in  ///< a centre on an edge is in if the interior lies to its right (+x); on a horizontal one, above (+y)
 };
@@ -126,7 +135,7 @@ struct Covered {
 //    [0,1], in the frame's depth format: window z, n-bit codes as code / (2^n - 1). A plain number per fragment.
 //    Along a line, z and attributes go by the projection of the centre onto it; a point has its own.
 
-// 7. Attributes, perspective-correct.
+// 7. Attributes, perspective-correct: the colour, and each varying that the draw carries.
 template <class T>
 struct Attributes {
   Vec4<T> color;
@@ -161,6 +170,7 @@ struct Records {
   std::vector<Attributes<T>> attributes;     ///< beside covered
   std::vector<Shaded<T>> shaded;             ///< beside covered
   std::vector<Drawn> drawn;                  ///< beside covered
+  Varyings<T> varyings;                      ///< beside them all
 };
 
 }  // namespace plumbline

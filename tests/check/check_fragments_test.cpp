@@ -32,6 +32,9 @@ struct Fragments : testing::Test {
   Compare depth() const {
     return [this](const auto& a, const auto& b) { return compare_depth(scene, a, b, 0.501); };
   }
+  Compare shaded() const {
+    return [this](const auto& a, const auto& b) { return compare_shaded(scene, a, b, 4); };
+  }
   static Compare attributes() {
     return [](const auto& a, const auto& b) { return compare_attributes(a, b, 10); };
   }
@@ -132,16 +135,34 @@ TEST_F(Fragments, WhereNoBoundCanBeComputedNothingIsEqual) {
 }
 
 TEST_F(Fragments, ShadedAreEqual) {
-  EXPECT_TRUE(passes(run(compare_shaded, kUnchanged)));
-  EXPECT_EQ(run(compare_shaded, kUnchanged).items, 6u);
+  EXPECT_TRUE(passes(run(shaded(), kUnchanged)));
+  EXPECT_EQ(run(shaded(), kUnchanged).items, 6u);
   for (int c = 0; c < 4; ++c) {
     const Change ulp = [&](auto& r) { r.shaded[3].color[c] = float_above(r.shaded[3].color[c]); };
-    EXPECT_TRUE(fails(run(compare_shaded, ulp)));
-    EXPECT_TRUE(fails(run(compare_shaded, kUnchanged, ulp)));
-    EXPECT_EQ(run(compare_shaded, ulp).worst.place.x, 2);
-    EXPECT_EQ(run(compare_shaded, ulp).worst.place.record, 1);
-    EXPECT_LE(run(compare_shaded, ulp).max_difference, 2) << "in u";
+    EXPECT_TRUE(fails(run(shaded(), ulp)));
+    EXPECT_TRUE(fails(run(shaded(), kUnchanged, ulp)));
+    EXPECT_EQ(run(shaded(), ulp).worst.place.x, 2);
+    EXPECT_EQ(run(shaded(), ulp).worst.place.record, 1);
+    EXPECT_LE(run(shaded(), ulp).max_difference, 2) << "in u";
   }
+}
+
+TEST_F(Fragments, ShadedInFogAreAsNearAsItsArithmeticAllows) {
+  scene.meshes.resize(1);
+  scene.meshes[0].triangles.resize(8);
+  scene.draws.resize(1);
+  scene.draws[0].fog = Fog{Fog::Mode::exp, glm::vec3(0.5f), 0.25f, 0, 1};
+  records.varyings[Varying::position].fragments.assign(6, {0, 0, -2, 1});
+  EXPECT_TRUE(passes(run(shaded(), kUnchanged)));
+  const double u = 1.0 / 16777216;
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_TRUE(passes(run(shaded(), [&](auto& r) { r.shaded[3].color[c] += u; })));
+    EXPECT_TRUE(fails(run(shaded(), [&](auto& r) { r.shaded[3].color[c] += 8 * u; })));
+    for (double bad : not_numbers()) {
+      EXPECT_TRUE(fails(run(shaded(), [&](auto& r) { r.shaded[3].color[c] = bad; }))) << bad;
+    }
+  }
+  EXPECT_TRUE(fails(run(shaded(), [&](auto& r) { r.shaded[3].color.a += u; }))) << "alpha is copied";
 }
 
 TEST_F(Fragments, WhatIsNoNumberFails) {
@@ -151,7 +172,7 @@ TEST_F(Fragments, WhatIsNoNumberFails) {
     EXPECT_TRUE(fails(run(depth(), kUnchanged, z)));
     for (int c = 0; c < 4; ++c) {
       const Change color = [&](auto& r) { r.attributes[2].color[c] = r.shaded[2].color[c] = bad; };
-      for (const Compare& compare : {attributes(), Compare(compare_shaded)}) {
+      for (const Compare& compare : {attributes(), shaded()}) {
         EXPECT_TRUE(fails(run(compare, color)));
         EXPECT_TRUE(fails(run(compare, kUnchanged, color)));
         if (std::isnan(bad)) {
@@ -165,7 +186,7 @@ TEST_F(Fragments, WhatIsNoNumberFails) {
 TEST_F(Fragments, OtherNumbersOfRecordsFail) {
   const Change fewer = [](auto& r) { r.depth.pop_back(), r.attributes.pop_back(), r.shaded.pop_back(); };
   const Change none = [](auto& r) { r.depth.clear(), r.attributes.clear(), r.shaded.clear(); };
-  for (const Compare& compare : {depth(), attributes(), Compare(compare_shaded)}) {
+  for (const Compare& compare : {depth(), attributes(), shaded()}) {
     for (const Change& change : {fewer, none}) {
       EXPECT_TRUE(fails(run(compare, change), 6));
       EXPECT_TRUE(fails(run(compare, kUnchanged, change), 6));
@@ -180,7 +201,7 @@ TEST_F(Fragments, WithoutThePixelsTheyLieAtFailsAndDoesNotCrash) {
   for (const Change& change : {lost, fewer}) {
     EXPECT_FALSE(passes(run(depth(), change)));
     EXPECT_FALSE(passes(run(attributes(), change)));
-    EXPECT_FALSE(passes(run(compare_shaded, change)));
+    EXPECT_FALSE(passes(run(shaded(), change)));
   }
   EXPECT_FALSE(passes(run(attributes(), no_triangles)));
 }

@@ -264,7 +264,7 @@ Entries divided(Random& r) {
     polygons.vertices.push_back({Vec4<float>(glm::vec3(p), static_cast<float>(w)), Vec4<float>(1), false});
   }
   std::vector<WindowTriangle<float>> triangles;
-  pipeline::to_window(m, Cull::none, polygons, polygons.polygons, triangles);
+  pipeline::to_window(m, Draw{}, polygons, polygons.polygons, triangles);
   Entries out;
   for (const WindowTriangle<float>& t : triangles) {
     for (std::size_t v = 0; v < 3; ++v) {

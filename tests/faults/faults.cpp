@@ -6,6 +6,7 @@
 
 #include "faults/notes.h"
 #include "faults/variants.h"
+#include "pipeline/carry.h"
 #include "pipeline/clip.h"
 #include "pipeline/light.h"
 #include "pipeline/matrices.h"
@@ -40,16 +41,25 @@ void lights_in_world_space(const Scene& scene, const Draw& draw, std::span<const
   pipeline::light(wrong, draw, vertices, out);
 }
 
+// Of the vertices before their cut: the fog of a primitive that reaches behind the eye grows towards it.
+void positions_by_distance(const Scene& scene, const Draw& draw, Varying varying,
+                           std::span<const Vertex<float>> vertices, std::vector<Vec4<float>>& out) {
+  const std::size_t first = out.size();
+  pipeline::carry(scene, draw, varying, vertices, out);
+  if (varying != Varying::position) return;
+  for (std::size_t i = first; i < out.size(); ++i) out[i].z = std::abs(out[i].z);
+}
+
 void no_near_plane(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
   const auto planes = pipeline::view_volume();
   const std::array<Vec4<float>, 5> kept = {planes[0], planes[1], planes[2], planes[3], planes[5]};
   pipeline::clip_at(kept, assembly, out);
 }
 
-void snapped_by_truncation(const Matrices<float>& matrices, Cull cull, const ClipPolygons<float>& polygons,
+void snapped_by_truncation(const Matrices<float>& matrices, const Draw& draw, const ClipPolygons<float>& polygons,
                            std::span<const ClipPolygon> of_draw, std::vector<WindowTriangle<float>>& out) {
   const std::size_t first = out.size();
-  pipeline::to_window(matrices, cull, polygons, of_draw, out);
+  pipeline::to_window(matrices, draw, polygons, of_draw, out);
   for (std::size_t i = first; i < out.size(); ++i) {
     for (WindowVertex<float>& v : out[i].v) v.snapped = glm::ivec2((glm::vec2(v.p_win) - 0.5f) * 256.0f);
     if (out[i].corners == 3) out[i].front = pipeline::snapped_area(out[i]) > 0;
@@ -78,12 +88,73 @@ struct SteepLinesTorn : pipeline::FragmentStages {
   }
 };
 
+// Every pixel of the thin line becomes a row of an x-major line, a column of a y-major one.
+struct LinesWidenedAlong : pipeline::FragmentStages {
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) {
+    if (t.corners != 2 || t.width == 1) return pipeline::thin_pixels(t, origin, size);
+    WindowTriangle<float> thin = t;
+    thin.width = 1;
+    const auto width = static_cast<int>(t.width);
+    const glm::ivec2 d = glm::abs(t.v[1].snapped - t.v[0].snapped),
+                     along = d.x >= d.y ? glm::ivec2(1, 0) : glm::ivec2(0, 1);
+    std::vector<glm::ivec2> pixels;
+    for (const glm::ivec2 p : pipeline::thin_pixels(thin, origin - width, size + 2 * width)) {
+      for (int k = 0; k < width; ++k) {
+        const glm::ivec2 q = p + along * (k - width / 2), in_box = q - origin;
+        const bool inside = in_box.x >= 0 && in_box.y >= 0 && in_box.x < size && in_box.y < size;
+        if (inside && std::find(pixels.begin(), pixels.end(), q) == pixels.end()) pixels.push_back(q);
+      }
+    }
+    return pixels;
+  }
+};
+
+struct PointsOffByHalf : pipeline::FragmentStages {
+  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) {
+    WindowTriangle<float> moved = t;
+    if (t.corners == 1) moved.v[0].snapped += kSubpixel / 2;
+    return pipeline::thin_pixels(moved, origin, size);
+  }
+};
+
+void mode_of_other_face(const Matrices<float>& matrices, const Draw& draw, const ClipPolygons<float>& polygons,
+                        std::span<const ClipPolygon> of_draw, std::vector<WindowTriangle<float>>& out) {
+  Draw wrong = draw;
+  std::swap(wrong.front_mode, wrong.back_mode);
+  pipeline::to_window(matrices, wrong, polygons, of_draw, out);
+}
+
+void diagonals_drawn(const Matrices<float>& matrices, const Draw& draw, const ClipPolygons<float>& polygons,
+                     std::span<const ClipPolygon> of_draw, std::vector<WindowTriangle<float>>& out) {
+  if (draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill)
+    return pipeline::to_window(matrices, draw, polygons, of_draw, out);
+  ClipPolygons<float> fans;
+  for (const ClipPolygon& p : of_draw) {
+    if (p.count < 3) return pipeline::to_window(matrices, draw, polygons, of_draw, out);
+    for (std::uint32_t i = 2; i < p.count; ++i) {
+      fans.polygons.push_back({p.primitive, static_cast<std::uint32_t>(fans.vertices.size()), 3});
+      for (const std::uint32_t k : {0u, i - 1, i}) fans.vertices.push_back(polygons.vertices[p.first + k]);
+    }
+  }
+  pipeline::to_window(matrices, draw, fans, fans.polygons, out);
+}
+
 struct TruncatedDepth : pipeline::FragmentStages {
   template <class R>
   static R depth(const auto& setup, const pipeline::Barycentric<R>& b) {
     const pipeline::DepthSetup& s = setup.depth;
     const double z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
     return s.scale == 0.0 ? static_cast<float>(z) : static_cast<float>(static_cast<std::int64_t>(z * s.scale));
+  }
+};
+
+struct FoggedAlpha : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Color<R> shade_surface(const pipeline::Surface& surface, bool front,
+                                          const pipeline::SurfaceAttributes<R>& attributes) {
+    pipeline::Color<R> color = pipeline::shade_surface<R>(surface, front, attributes);
+    if (surface.draw->fog) color.a *= pipeline::fog_factor<R>(*surface.draw->fog, attributes[Varying::position].b);
+    return color;
   }
 };
 
@@ -133,10 +204,17 @@ constexpr std::array kFaults = {
           Stage::vertex, with_geometry<&Geometry::vertex, normals_by_model_view>},
     Fault{"light.world_space", "lights are not brought to eye space", Stage::light,
           with_geometry<&Geometry::light, lights_in_world_space>},
+    Fault{"light.distance_at_vertices", "the distance for fog is taken at the vertices and interpolated", Stage::light,
+          with_geometry<&Geometry::carry, positions_by_distance>},
     Fault{"clip.no_near_plane", "nothing is cut at the near plane", Stage::clip,
           with_geometry<&Geometry::clip, no_near_plane>},
     Fault{"window.snap_truncates", "window positions are truncated to 1/256 pixel, not rounded", Stage::window,
           with_geometry<&Geometry::window, snapped_by_truncation>},
+    Fault{"window.mode_of_other_face",
+          "front faces are drawn in the back faces' polygon mode, and back faces in theirs", Stage::window,
+          with_geometry<&Geometry::window, mode_of_other_face>},
+    Fault{"window.diagonals_drawn", "the edges of a cut triangle's fan are drawn, not those of its polygon",
+          Stage::window, with_geometry<&Geometry::window, diagonals_drawn>},
     Fault{"coverage.inclusive_edges", "pixels on any edge are covered: shared edges are painted twice", Stage::coverage,
           with_fragment<Ties<AllEdgesIn>>},
     Fault{"coverage.scissor_inclusive", "the scissor box has one column and one row too many", Stage::coverage,
@@ -145,12 +223,17 @@ constexpr std::array kFaults = {
           Stage::coverage, with_fragment<LineEndDrawn>},
     Fault{"coverage.steep_lines_torn", "lines are stepped along x in every octant: steep ones have gaps",
           Stage::coverage, with_fragment<SteepLinesTorn>},
+    Fault{"coverage.lines_widened_along", "wide lines are widened along their major axis, not across it",
+          Stage::coverage, with_fragment<LinesWidenedAlong>},
+    Fault{"coverage.points_off_by_half", "points' squares lie half a pixel too far right and up", Stage::coverage,
+          with_fragment<PointsOffByHalf>},
     Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth, with_fragment<TruncatedDepth>},
     Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
           with_fragment<AffineAttributes>},
+    Fault{"shade.fogged_alpha", "fog takes alpha too", Stage::shade, with_fragment<FoggedAlpha>},
     Fault{"visibility.less_equal", "an equal depth passes where only a smaller one may", Stage::visibility,
           with_fragment<LessEqualForLess>},
-    Fault{"merge.truncated", "colours are truncated to 8 bits, not rounded", Stage::merge,
+    Fault{"merge.truncated", "colours are truncated to codes, not rounded", Stage::merge,
           with_fragment<TruncatedColor>},
     Fault{"merge.factors_swapped", "blending takes the source's factor for the destination's, and the other way round",
           Stage::merge, with_fragment<SwappedFactors>},

@@ -60,7 +60,9 @@ std::vector<WindowTriangle<float>> window_triangles(const Corners& corners, Cull
     polygons.vertices.push_back({Vec4<float>(p_win * c.w, c.z * c.w, c.w), c.color, false});
   }
   std::vector<WindowTriangle<float>> out;
-  pipeline::to_window(matrices, cull, polygons, polygons.polygons, out);
+  Draw draw;
+  draw.cull = cull;
+  pipeline::to_window(matrices, draw, polygons, polygons.polygons, out);
   return out;
 }
 

@@ -90,6 +90,16 @@ Capture make_capture() {
   r.shaded.resize(2);
   for (auto& s : r.shaded) f.fill(s.color);
   r.drawn = {{true}, {false}};
+  for (const Varying v : kAllVaryings) {
+    VaryingColumns<double>& columns = r.varyings[v];
+    columns.vertices.resize(4), columns.clipped.resize(7), columns.triangles.resize(3), columns.fragments.resize(2);
+    for (auto& four : columns.vertices) f.fill(four);
+    for (auto& four : columns.clipped) f.fill(four);
+    for (auto& corners : columns.triangles) {
+      for (auto& four : corners) f.fill(four);
+    }
+    for (auto& four : columns.fragments) f.fill(four);
+  }
   c.planes.count = {kWidth, kHeight, 0xffffffffu};
   c.planes.id_sum = {kWidth, kHeight, 0xfedcba9876543210u};
   c.planes.id = {kWidth, kHeight, kBackground};
@@ -185,6 +195,12 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_TRUE(same_bits(a.records.attributes, b.records.attributes));
   EXPECT_TRUE(same_bits(a.records.shaded, b.records.shaded));
   EXPECT_TRUE(same_bits(a.records.drawn, b.records.drawn));
+  for (const Varying v : kAllVaryings) {
+    EXPECT_TRUE(same_bits(a.records.varyings[v].vertices, b.records.varyings[v].vertices));
+    EXPECT_TRUE(same_bits(a.records.varyings[v].clipped, b.records.varyings[v].clipped));
+    EXPECT_TRUE(same_bits(a.records.varyings[v].triangles, b.records.varyings[v].triangles));
+    EXPECT_TRUE(same_bits(a.records.varyings[v].fragments, b.records.varyings[v].fragments));
+  }
   ASSERT_EQ(b.records.polygons.vertices.size(), a.records.polygons.vertices.size());
   for (std::size_t i = 0; i < a.records.polygons.vertices.size(); ++i) {
     const auto &x = a.records.polygons.vertices[i], &y = b.records.polygons.vertices[i];
@@ -209,7 +225,7 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_EQ(b.planes.count(1, 2), 12u);
 
   write_capture(b, root_ / "b");
-  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 1 + 1 + 6);
+  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 1 + 1 + 6 + 4 * kVaryings);
 }
 
 TEST_F(CaptureFolder, LeavesOutWhatWasNotCaptured) {

@@ -22,12 +22,12 @@ std::size_t bytes(const Plane<T>& plane) {
 }
 
 TEST(FrameBuffer, IsWhatAFrameTakes) {
-  for (const ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba12, ColorFormat::rgba32f}) {
+  for (const ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba12, ColorFormat::rgba16, ColorFormat::rgba32f}) {
     for (const DepthFormat depth : {DepthFormat::z8, DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
       const FrameFormat format{13, 7, color, depth, glm::vec4(0), 1};
       const pipeline::Frame f(format);
-      EXPECT_EQ(buffer_bytes(format), bytes(f.color_rgba8) + bytes(f.color_rgba12) + bytes(f.color_rgba32f) +
-                                          bytes(f.depth_code) + bytes(f.depth_z32f));
+      EXPECT_EQ(buffer_bytes(format), bytes(f.color_rgba8) + bytes(f.color_rgba12) + bytes(f.color_rgba16) +
+                                          bytes(f.color_rgba32f) + bytes(f.depth_code) + bytes(f.depth_z32f));
     }
   }
   EXPECT_EQ(pixel_bytes({1, 1, ColorFormat::rgba12, DepthFormat::z24, glm::vec4(0), 1}), 12u)

@@ -112,7 +112,7 @@ TEST_F(ImageFile, EveryTwelveBitCodeSurvives) {
 TEST_F(ImageFile, TgaHoldsNoTwelveBits) {
   const auto say = [&](auto act) {
     refused(act, "a.tga",
-            "TGA holds 8 bits a channel, the frame (rgba12) has 12: expected a file name ending in .png, .ppm or .exr");
+            "TGA holds 8 bits a channel, the frame (rgba12) more: expected a file name ending in .png, .ppm or .exr");
   };
   say([] { encode_image("a.tga", make_plane(), ColorFormat::rgba12); });
   say([] { encode_tga("a.tga", make_plane(), ColorFormat::rgba12); });

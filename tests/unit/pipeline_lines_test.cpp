@@ -106,7 +106,9 @@ TEST(PipelineLines, window_neither_culls_nor_drops) {
   polygons.polygons = {{3, 0, 2}, {4, 1, 1}};
   for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
     std::vector<WindowTriangle<float>> out;
-    to_window(m, cull, polygons, polygons.polygons, out);
+    Draw draw;
+    draw.cull = cull;
+    to_window(m, draw, polygons, polygons.polygons, out);
     ASSERT_EQ(out.size(), 2u);
     EXPECT_EQ(out[0].corners, 2u);
     EXPECT_EQ(out[1].corners, 1u);

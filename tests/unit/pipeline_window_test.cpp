@@ -59,7 +59,9 @@ class PipelineWindow : public testing::Test {
   }
   std::vector<WindowTriangle<float>> run(Cull cull = Cull::none) const {
     std::vector<WindowTriangle<float>> out;
-    to_window(matrices_, cull, polygons_, polygons_.polygons, out);
+    Draw draw;
+    draw.cull = cull;
+    to_window(matrices_, draw, polygons_, polygons_.polygons, out);
     return out;
   }
   Matrices<float> matrices_{Mat4<float>(1), Mat4<float>(1), Mat3<float>(1), Vec3<float>(1), Vec3<float>(0)};
@@ -105,7 +107,7 @@ TEST_F(PipelineWindow, APolygonIsAFanAboutItsFirstVertex) {
 TEST_F(PipelineWindow, TheDrawsPolygonsAloneAreAppendedInOrder) {
   for (std::uint32_t primitive : {4u, 6u, 9u}) add({{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}}, primitive);
   std::vector<WindowTriangle<float>> out(1);
-  to_window(matrices_, Cull::none, polygons_, std::span(polygons_.polygons).subspan(1), out);
+  to_window(matrices_, Draw{}, polygons_, std::span(polygons_.polygons).subspan(1), out);
   ASSERT_EQ(out.size(), 3u);
   EXPECT_EQ(out[1].primitive, 6u);
   EXPECT_EQ(out[2].primitive, 9u);

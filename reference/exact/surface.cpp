@@ -1,0 +1,38 @@
+#include "reference/exact/surface.h"
+
+#include "reference/exact/input.h"
+#include "reference/math/fog.h"
+
+namespace plumbline::exact {
+
+glm::dvec4 shade(const Scene&, const Draw& draw, bool /*front*/, const glm::dvec4& color, const Fours& fours) {
+  glm::dvec4 out = color;
+  if (draw.fog) out = math::fogged(*draw.fog, out, fours[static_cast<std::size_t>(Varying::position)].z);
+  return out;
+}
+
+std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<double>& records) {
+  const std::size_t count = records.covered.size();
+  require_size("records.attributes", records.attributes.size(), count);
+  std::vector<Varying> varyings = carried(scene);
+  std::erase_if(varyings, is_back);
+  for (const Varying v : varyings) require_size("records.varyings", records.varyings[v].fragments.size(), count);
+  std::vector<Shaded<double>> shaded;
+  shaded.reserve(count);
+  if (is_plain(scene)) {
+    for (const Attributes<double>& a : records.attributes) shaded.push_back({a.color});
+    return shaded;
+  }
+  const DrawOf draw_of(scene);
+  for (const FragmentRun& run : runs_by_triangle(scene, records)) {
+    const WindowTriangle<double>& triangle = records.triangles[run.triangle];
+    for (std::size_t i = run.first; i < run.last; ++i) {
+      Fours fours{};
+      for (const Varying v : varyings) fours[static_cast<std::size_t>(v)] = records.varyings[v].fragments[i];
+      shaded.push_back({shade(scene, draw_of(triangle.primitive), triangle.front, records.attributes[i].color, fours)});
+    }
+  }
+  return shaded;
+}
+
+}  // namespace plumbline::exact

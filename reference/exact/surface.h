@@ -1,0 +1,21 @@
+// Stage 9: a fragment's colour from its attributes.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::exact {
+
+/// A fragment's varyings, those that its draw carries.
+using Fours = std::array<glm::dvec4, kVaryings>;
+
+/// Texture environment, sum of colours, fog, in this order (OpenGL 2.1 spec, figure 3.1). `front`: its face.
+glm::dvec4 shade(const Scene& scene, const Draw& draw, bool front, const glm::dvec4& color, const Fours& fours);
+
+/// Of each of records.covered. Throws std::invalid_argument where the records do not fit the scene or each other.
+std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<double>& records);
+
+}  // namespace plumbline::exact

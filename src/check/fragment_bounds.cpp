@@ -1,0 +1,126 @@
+#include "check/fragment_bounds.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "check/ledger.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr double u = kUnitRoundoff;
+const Records<double> kNone;
+
+// Per vertex, or what the tolerance named grants where the reference shows none.
+template <class Record>
+std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std::vector<Record>& b,
+                                        Vec4<double> Record::*member, double granted) {
+  std::vector<Vec4<double>> out(a.size(), Vec4<double>(granted));
+  if (b.size() != a.size()) return out;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = glm::abs(a[i].*member - b[i].*member);
+  return out;
+}
+
+}  // namespace
+
+DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r) : width_(frame.width), records_(r) {
+  if (r.drawn.size() != r.covered.size()) return;
+  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+    if (r.drawn[i].drawn && r.covered[i].triangle < r.triangles.size()) fragments_.push_back(i);
+  }
+  std::ranges::stable_sort(fragments_, {}, [&](std::size_t i) { return pixel(i); });
+}
+
+FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, const Capture& reference, double factor)
+    : scene_(scene),
+      records_(candidate.records),
+      factor_(factor),
+      ranges_(draw_ranges(scene)),
+      lit_apart_(columns_apart(candidate.records.lit, reference.records.lit, &Lit<double>::color,
+                               u * tolerance("osmesa.light").factor)),
+      eye_apart_(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0)),
+      drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
+  for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));
+}
+
+Vec4<double> FragmentBounds::apart(std::uint32_t primitive, const std::vector<Vec4<double>>& apart,
+                                   bool flat_applies) const {
+  const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
+                                          [&](const DrawRange& r) { return r.first_primitive <= primitive; });
+  if (after == ranges_.begin()) return Vec4<double>(0);
+  const DrawRange& range = *(after - 1);
+  const Draw& draw = scene_.draws[static_cast<std::size_t>(after - 1 - ranges_.begin())];
+  if (primitive - range.first_primitive >= range.primitive_count) return Vec4<double>(0);  // none of the scene
+  const glm::uvec3 corner = scene_.meshes[draw.mesh].triangles[primitive - range.first_primitive];
+  Vec4<double> out(0);
+  for (int i = flat_applies && draw.shading == Shading::flat ? 2 : 0; i < 3; ++i) {
+    const std::size_t vertex = range.first_vertex + corner[i];
+    if (vertex < apart.size()) out = glm::max(out, apart[vertex]);
+  }
+  return out;
+}
+
+bool FragmentBounds::reaches_behind_eye(const DrawRange& range, const Draw& draw, std::uint32_t primitive) const {
+  const glm::uvec3 corner = scene_.meshes[draw.mesh].triangles[primitive - range.first_primitive];
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t vertex = range.first_vertex + corner[i];
+    if (vertex < records_.vertices.size() && records_.vertices[vertex].p_eye.z > 0) return true;
+  }
+  return false;
+}
+
+FragmentBound FragmentBounds::surface(std::size_t i) const {
+  const Covered& c = records_.covered[i];
+  const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
+  const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
+                                          [&](const DrawRange& r) { return r.first_primitive <= triangle.primitive; });
+  const Draw& draw = scene_.draws[static_cast<std::size_t>(after - ranges_.begin()) - 1];
+  const auto bound_of = [&](const WindowTriangle<double>& t, const Vec4<double>& apart_there) {
+    const PlaneBounds plane = bounds_from_origin(t, c.x, c.y);
+    return factor_ * u * plane.color + glm::abs(plane.along_color) + apart_there;
+  };
+  FragmentFours errors;
+  errors.color = bound_of(triangle, apart(triangle.primitive, lit_apart_, true));
+  for (const Varying v : kAllVaryings) {
+    const auto& corners = records_.varyings[v].triangles;
+    if (is_back(v) || !carries(scene_, draw, v) || c.triangle >= corners.size()) continue;
+    WindowTriangle<double> as_color = triangle;
+    for (std::size_t k = 0; k < 3; ++k) as_color.v[k].color = corners[c.triangle][k];
+    const bool of_eye = v == Varying::position;
+    errors[v] = bound_of(as_color, of_eye ? apart(triangle.primitive, eye_apart_, false) : Vec4<double>(0));
+  }
+  FragmentBound out;
+  out.color = shade_error(scene_, draw, fours_of(records_, i), errors, tolerance("osmesa.shade").factor);
+  out.disputed = draw.fog && reaches_behind_eye(*(after - 1), draw, triangle.primitive);
+  return out;
+}
+
+FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
+  const Covered& c = records_.covered[i];
+  const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
+  const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
+                                          [&](const DrawRange& r) { return r.first_primitive <= triangle.primitive; });
+  const auto draw = static_cast<std::size_t>(after - ranges_.begin()) - 1;
+  if (!plain_[draw]) return surface(i);
+  const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
+  return {factor_ * u * plane.color, plane.along_color, apart(triangle.primitive, lit_apart_, true), false};
+}
+
+FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
+  const auto p = static_cast<std::uint32_t>(primitive);
+  const auto after =
+      std::partition_point(ranges_.begin(), ranges_.end(), [&](const DrawRange& r) { return r.first_primitive <= p; });
+  if (after == ranges_.begin() || plain_[static_cast<std::size_t>(after - ranges_.begin()) - 1]) {
+    const PlaneBounds plane = primitive_bounds(records_, primitive, x, y);
+    return {factor_ * u * plane.color, plane.along_color, apart(p, lit_apart_, true), false};
+  }
+  FragmentBound out{Vec4<double>(std::numeric_limits<double>::infinity()), {}, {}, false};
+  drawn_.each(x, y, [&](std::size_t i) {
+    if (records_.triangles[records_.covered[i].triangle].primitive == p) out = surface(i);
+  });
+  return out;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,73 @@
+// What a renderer that evaluates planes in float from the window's origin, as llvmpipe does, may make of a fragment's
+// final colour.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "check/bounds.h"
+#include "check/shade_bounds.h"
+#include "scene/scene.h"
+#include "stages/capture.h"
+
+namespace plumbline::check {
+
+/// The candidate's fragments that are drawn, by pixel.
+class DrawnAt {
+ public:
+  DrawnAt(const FrameFormat& frame, const Records<double>& records);
+  /// Calls visit(number of the fragment) for each of them at (x, y), in draw order.
+  template <class Visit>
+  void each(int x, int y, Visit visit) const {
+    const std::int64_t at = std::int64_t{y} * width_ + x;
+    for (auto i = std::ranges::lower_bound(fragments_, at, {}, [&](std::size_t f) { return pixel(f); });
+         i != fragments_.end() && pixel(*i) == at; ++i) {
+      visit(*i);
+    }
+  }
+
+ private:
+  std::int64_t pixel(std::size_t i) const {
+    return std::int64_t{records_.covered[i].y} * width_ + records_.covered[i].x;
+  }
+  int width_;
+  const Records<double>& records_;
+  std::vector<std::size_t> fragments_;
+};
+
+/// Per channel.
+struct FragmentBound {
+  Vec4<double> color{0};  ///< by its own arithmetic; infinite: nothing can be said
+  Vec4<double> along{0};  ///< of a line, what it moves by where it goes by the major axis alone (bounds.h)
+  Vec4<double> apart{0};  ///< what the two sides' vertices differ by, which is another stage's matter
+  /// In fog, of a primitive that reaches behind the eye. Mesa takes |z_eye| at the vertices and interpolates that,
+  /// where the distance is the fragment's own (OpenGL 2.1 spec 3.10): what differs there is disputed.
+  bool disputed = false;
+};
+
+class FragmentBounds {
+ public:
+  /// `factor`: of u of the planes' magnitudes (bounds.h, bounds_from_origin).
+  FragmentBounds(const Scene& scene, const Capture& candidate, const Capture& reference, double factor);
+
+  /// Of the candidate's fragment number `i`.
+  FragmentBound of_fragment(std::size_t i) const;
+  /// Of the winner at a pixel: the largest over the primitive's triangles, or the last fragment drawn.
+  FragmentBound of_winner(std::int32_t primitive, int x, int y) const;
+
+ private:
+  /// What the two sides' columns of a primitive's vertices differ by.
+  Vec4<double> apart(std::uint32_t primitive, const std::vector<Vec4<double>>& apart, bool flat_applies) const;
+  bool reaches_behind_eye(const DrawRange& range, const Draw& draw, std::uint32_t primitive) const;
+  FragmentBound surface(std::size_t i) const;
+
+  const Scene& scene_;
+  const Records<double>& records_;
+  double factor_;
+  std::vector<DrawRange> ranges_;
+  std::vector<Vec4<double>> lit_apart_, eye_apart_;  // per vertex
+  std::vector<bool> plain_;                          // per draw
+  DrawnAt drawn_;
+};
+
+}  // namespace plumbline::check

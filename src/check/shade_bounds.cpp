@@ -1,0 +1,65 @@
+#include "check/shade_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/bounds.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr double u = kUnitRoundoff;
+
+// f, and how far it may be off where z_eye may be off by `dz`.
+struct Factor {
+  double f, error;
+};
+Factor fog_factor(const Fog& fog, double z_eye, double dz, double roundings) {
+  const double c = std::abs(z_eye), density = fog.density, x = density * c;
+  const double range = std::abs(static_cast<double>(fog.end) - fog.start);
+  const double rounding = roundings * u;
+  switch (fog.mode) {
+    case Fog::Mode::linear: {
+      const double f = (fog.end - c) / (static_cast<double>(fog.end) - fog.start);
+      return {std::clamp(f, 0.0, 1.0), dz / range + rounding * (std::abs(fog.end) + c) / range};
+    }
+    // x exp(-x) <= 1/e: the argument's relative error comes to less than its absolute one.
+    case Fog::Mode::exp: {
+      const double f = std::exp(-std::max(x - density * dz, 0.0));
+      return {std::exp(-x), f * (density * dz + rounding * (1 + x))};
+    }
+    case Fog::Mode::exp2: {
+      const double near = std::max(x - density * dz, 0.0), f = std::exp(-near * near);
+      return {std::exp(-x * x), f * ((2 * x + density * dz) * density * dz + rounding * (1 + 2 * x * x))};
+    }
+  }
+  return {1, 0};
+}
+
+}  // namespace
+
+FragmentFours fours_of(const Records<double>& records, std::size_t i) {
+  FragmentFours out;
+  if (i < records.attributes.size()) out.color = records.attributes[i].color;
+  for (const Varying v : kAllVaryings) {
+    if (i < records.varyings[v].fragments.size()) out[v] = records.varyings[v].fragments[i];
+  }
+  return out;
+}
+
+Vec4<double> shade_error(const Scene&, const Draw& draw, const FragmentFours& attributes, const FragmentFours& errors,
+                         double roundings) {
+  Vec4<double> color = attributes.color, error = errors.color;
+  if (draw.fog) {
+    const auto [f, df] = fog_factor(*draw.fog, attributes[Varying::position].z, errors[Varying::position].z, roundings);
+    for (int c = 0; c < 3; ++c) {
+      const double of_fog = draw.fog->color[c], magnitude = f * std::abs(color[c]) + (1 - f) * of_fog;
+      error[c] = df * (std::abs(color[c] - of_fog) + error[c]) + f * error[c] + roundings * u * magnitude;
+      color[c] = f * color[c] + (1 - f) * of_fog;
+    }
+  }
+  return error;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,27 @@
+// Stage 9's error, from its attributes' and its own arithmetic.
+#pragma once
+
+#include <array>
+
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::check {
+
+/// A fragment's attributes, or how far each may be off.
+struct FragmentFours {
+  Vec4<double> color{0};
+  std::array<Vec4<double>, kVaryings> varyings{};
+  Vec4<double>& operator[](Varying v) { return varyings[static_cast<std::size_t>(v)]; }
+  const Vec4<double>& operator[](Varying v) const { return varyings[static_cast<std::size_t>(v)]; }
+};
+/// Those of the fragment number `i`.
+FragmentFours fours_of(const Records<double>& records, std::size_t i);
+
+/// Per channel: what attributes off by `errors` and, in float, `roundings` u of each step's magnitude come to.
+/// Fog: |df| |C - C_fog| + f |dC|; df = density f |dz| (exp), 2 density^2 c f |dz| (exp2), |dz| / |end - start|
+/// (linear), and f's own: its argument's rounding, which the exponential makes absolute.
+Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
+                         const FragmentFours& errors, double roundings);
+
+}  // namespace plumbline::check

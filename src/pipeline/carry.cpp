@@ -1,0 +1,44 @@
+#include "pipeline/carry.h"
+
+namespace plumbline::pipeline {
+
+namespace {
+
+Vec4<float> of_vertex(Varying varying, const Vertex<float>& vertex) {
+  switch (varying) {
+    case Varying::normal: return {vertex.n_eye, 0.0f};
+    case Varying::position: return vertex.p_eye;
+    default: return Vec4<float>(0.0f);
+  }
+}
+
+}  // namespace
+
+void carry(const Scene& scene, const Draw& draw, Varying varying, std::span<const Vertex<float>> vertices,
+           std::vector<Vec4<float>>& out) {
+  if (!carries(scene, draw, varying)) return out.resize(out.size() + vertices.size(), Vec4<float>(0.0f));
+  for (const Vertex<float>& vertex : vertices) out.push_back(of_vertex(varying, vertex));
+}
+
+std::vector<Vec4<float>> colors_of(std::span<const ClipVertex<float>> vertices) {
+  std::vector<Vec4<float>> out;
+  out.reserve(vertices.size());
+  for (const ClipVertex<float>& v : vertices) out.push_back(v.color);
+  return out;
+}
+
+std::vector<std::array<Vec4<float>, 3>> colors_of(std::span<const WindowTriangle<float>> triangles) {
+  std::vector<std::array<Vec4<float>, 3>> out;
+  out.reserve(triangles.size());
+  for (const WindowTriangle<float>& t : triangles) out.push_back({t.v[0].color, t.v[1].color, t.v[2].color});
+  return out;
+}
+
+std::vector<Lit<float>> as_lit(std::span<const Vec4<float>> column) {
+  std::vector<Lit<float>> out;
+  out.reserve(column.size());
+  for (const Vec4<float>& four : column) out.push_back({four});
+  return out;
+}
+
+}  // namespace plumbline::pipeline

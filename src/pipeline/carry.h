@@ -1,0 +1,24 @@
+// Varyings: what goes the colour's way through clip, window and attributes (varying.h).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::pipeline {
+
+/// Appends the varying of each of the draw's vertices; zeros where the draw does not carry it.
+void carry(const Scene& scene, const Draw& draw, Varying varying, std::span<const Vertex<float>> vertices,
+           std::vector<Vec4<float>>& out);
+
+/// The shading that a varying is assembled under: lit ones as the draw's colours, others never flat.
+inline Shading shading_of(const Draw& draw, Varying v) { return is_lit(v) ? draw.shading : Shading::gouraud; }
+
+/// The colours of records as a column, and a column as the colours of records.
+std::vector<Vec4<float>> colors_of(std::span<const ClipVertex<float>> vertices);
+std::vector<std::array<Vec4<float>, 3>> colors_of(std::span<const WindowTriangle<float>> triangles);
+std::vector<Lit<float>> as_lit(std::span<const Vec4<float>> column);
+
+}  // namespace plumbline::pipeline

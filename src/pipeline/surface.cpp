@@ -1,0 +1,23 @@
+#include "pipeline/surface.h"
+
+namespace plumbline::pipeline {
+
+std::vector<Surface> surfaces_of(const Scene& scene, const Records<float>& records) {
+  std::vector<Surface> out;
+  for (const Draw& draw : scene.draws) {
+    Surface surface;
+    if (!is_plain(scene, draw)) {
+      surface.scene = &scene;
+      surface.draw = &draw;
+      for (const Varying v : kAllVaryings) {
+        if (is_back(v) || !carries(scene, draw, v)) continue;
+        surface.carried.push_back(v);
+        surface.columns[static_cast<std::size_t>(v)] = records.varyings[v].triangles;
+      }
+    }
+    out.push_back(std::move(surface));
+  }
+  return out;
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,48 @@
+// What a draw's fragments are coloured by where the interpolated colour is not all.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "pipeline/attributes.h"
+#include "scene/scene.h"
+#include "stages/stages.h"
+
+namespace plumbline::pipeline {
+
+/// A draw's, ready to be asked per fragment.
+struct Surface {
+  const Scene* scene = nullptr;
+  const Draw* draw = nullptr;  ///< null: plain, nothing of this is asked
+  std::vector<Varying> carried;
+  std::array<std::span<const std::array<Vec4<float>, 3>>, kVaryings> columns;  ///< of the scene's window triangles
+
+  bool plain() const { return draw == nullptr; }
+};
+/// One per draw. Spans into the records, pointers into the scene.
+std::vector<Surface> surfaces_of(const Scene& scene, const Records<float>& records);
+
+/// A triangle's carried varyings.
+struct SurfaceSetup {
+  const Surface* surface;
+  bool front;
+  std::array<AttributeSetup, kVaryings> varyings;
+};
+
+/// A fragment's attributes: those that the surface carries.
+template <class R>
+struct SurfaceAttributes {
+  Color<R> color;
+  std::array<Color<R>, kVaryings> varyings;
+  const Color<R>& operator[](Varying v) const { return varyings[static_cast<std::size_t>(v)]; }
+  Color<R>& operator[](Varying v) { return varyings[static_cast<std::size_t>(v)]; }
+};
+
+/// The triangle with a varying in the place of its colour.
+inline WindowTriangle<float> with_varying(WindowTriangle<float> triangle, const std::array<Vec4<float>, 3>& corners) {
+  for (std::size_t k = 0; k < 3; ++k) triangle.v[k].color = corners[k];
+  return triangle;
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,38 @@
+#include "stages/varying.h"
+
+#include <algorithm>
+
+#include "scene/scene.h"
+
+namespace plumbline {
+
+bool carries(const Scene&, const Draw& draw, Varying v) {
+  switch (v) {
+    case Varying::secondary: return false;
+    case Varying::back_color: return false;
+    case Varying::back_secondary: return false;
+    case Varying::texture: return false;
+    case Varying::normal: return false;
+    case Varying::position: return draw.fog.has_value();
+  }
+  return false;
+}
+
+std::vector<Varying> carried(const Scene& scene) {
+  std::vector<Varying> out;
+  std::copy_if(kAllVaryings.begin(), kAllVaryings.end(), std::back_inserter(out), [&](Varying v) {
+    return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& d) { return carries(scene, d, v); });
+  });
+  return out;
+}
+
+bool is_plain(const Scene& scene, const Draw& draw) {
+  return std::none_of(kAllVaryings.begin(), kAllVaryings.end(),
+                      [&](Varying v) { return !is_back(v) && carries(scene, draw, v); });
+}
+
+bool is_plain(const Scene& scene) {
+  return std::all_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& d) { return is_plain(scene, d); });
+}
+
+}  // namespace plumbline

@@ -1,0 +1,68 @@
+// What travels from the vertices to the fragments beside the colour: varyings, four numbers each. Clip, window and
+// attributes do with each of them what they do with the colour.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace plumbline {
+
+struct Scene;
+struct Draw;
+
+enum class Varying : std::uint8_t {
+  secondary,       ///< rgb: the specular part, where it is kept apart; a is 0
+  back_color,      ///< what the color is on back faces; to the window stage
+  back_secondary,  ///< likewise; to the window stage
+  texture,         ///< s, t, 0, 1
+  normal,          ///< n_eye, 0
+  position         ///< p_eye, w not 1 where the matrices say so
+};
+inline constexpr std::array<std::string_view, 6> kVaryingNames = {"secondary", "back_color", "back_secondary",
+                                                                  "texture",   "normal",     "position"};
+inline constexpr std::size_t kVaryings = kVaryingNames.size();
+inline constexpr std::array<Varying, kVaryings> kAllVaryings = {Varying::secondary,      Varying::back_color,
+                                                                Varying::back_secondary, Varying::texture,
+                                                                Varying::normal,         Varying::position};
+constexpr std::string_view name_of(Varying v) { return kVaryingNames[static_cast<std::size_t>(v)]; }
+
+/// Whether it is a colour that lighting makes: flat shading takes the provoking vertex' for every corner.
+constexpr bool is_lit(Varying v) { return v <= Varying::back_secondary; }
+/// Whether it ends at the window stage, where each face gets its side's.
+constexpr bool is_back(Varying v) { return v == Varying::back_color || v == Varying::back_secondary; }
+
+/// Whether the draw's fragments, or the faces that they are of, need it. Those of a draw that does not are zeros where
+/// another draw's are there.
+bool carries(const Scene& scene, const Draw& draw, Varying v);
+/// Those that any draw carries, in their order.
+std::vector<Varying> carried(const Scene& scene);
+/// Whether a fragment's colour is the interpolated one as it is.
+bool is_plain(const Scene& scene, const Draw& draw);
+/// Whether all draws' are.
+bool is_plain(const Scene& scene);
+
+/// One varying's columns, beside the records of the stages (stages.h); empty where no draw carries it.
+template <class T>
+struct VaryingColumns {
+  using Four = glm::vec<4, T>;
+  std::vector<Four> vertices;                  ///< beside vertices
+  std::vector<Four> clipped;                   ///< beside polygons.vertices
+  std::vector<std::array<Four, 3>> triangles;  ///< beside triangles, per corner; none of back faces' own
+  std::vector<Four> fragments;                 ///< beside covered; likewise
+};
+template <class T>
+class Varyings {
+ public:
+  VaryingColumns<T>& operator[](Varying v) { return columns_[static_cast<std::size_t>(v)]; }
+  const VaryingColumns<T>& operator[](Varying v) const { return columns_[static_cast<std::size_t>(v)]; }
+
+ private:
+  std::array<VaryingColumns<T>, kVaryings> columns_;
+};
+
+}  // namespace plumbline
