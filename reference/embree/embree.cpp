@@ -22,7 +22,7 @@ class EmbreeRenderer final : public Renderer {
     for (const Stage stage : {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window}) {
       info[stage].reason = "a ray sees no vertices, only what it hits";
     }
-    info[Stage::texture].reason = "scenes have no textures yet";
+    info[Stage::texture].reason = "a ray sees the final colour; see shade";
     info.legal = true;
     return info;
   }

@@ -1,11 +1,10 @@
 // Stage 8: texture filtering, from OpenGL 2.1's equations (3.8.7 to 3.8.9), on real numbers; and stage 9's environment.
 #pragma once
 
-#include <limits>
-
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
+#include "stages/legal.h"
 
 namespace plumbline::math {
 
@@ -20,12 +19,7 @@ double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dv
 /// The texture source components at (s, t), filtered at lambda.
 glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda);
 
-/// What filtered_texel() comes to where lambda and (s, t) are not quite known.
-struct TexelRange {
-  glm::dvec4 lo{0}, hi{0};                                  ///< per channel, over an interval of lambda
-  glm::dvec4 slope_s{0}, slope_t{0};                        ///< how much per unit of s and of t, within half a texel
-  glm::dvec2 gap{std::numeric_limits<double>::infinity()};  ///< in s and t, to where another texel is the nearest
-};
+/// What filtered_texel() comes to where lambda is in an interval, and (s, t) not quite known.
 TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi);
 
 /// The fragment's colour and the texel's as one (tables 3.22 and 3.23). Sums are clamped to [0,1].

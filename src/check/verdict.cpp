@@ -54,7 +54,10 @@ std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
       return c.stage == stage && c.outcome != Outcome::unsupported && c.outcome != Outcome::missing &&
              c.outcome != Outcome::failed;
     });
-    if (stage != Stage::texture && !judged_by_any) out.push_back(stage);  // no scene has textures
+    // Of a scene without textures, nobody says anything of their stage.
+    const bool asked = stage != Stage::texture ||
+                       std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) { return c.stage == stage; });
+    if (asked && !judged_by_any) out.push_back(stage);
   }
   return out;
 }

@@ -4,7 +4,7 @@
 
 namespace plumbline::pipeline {
 
-GradientSetup gradient_setup(const WindowTriangle<float>& triangle, const std::array<glm::vec2, 3>& texcoords,
+GradientSetup gradient_setup(const WindowTriangle<float>& triangle, const std::array<Vec4<float>, 3>& texcoords,
                              const BarycentricPlanes& planes) {
   // A plane through the corners' values over w, which are sums of two products at most: exact enough in double.
   const auto over_w = [&](int i, double value) {

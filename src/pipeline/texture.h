@@ -22,8 +22,9 @@ template <class R>
 struct Gradients {
   Wide<R> ds_dx, dt_dx, ds_dy, dt_dy;
 };
+/// A fragment's.
 template <class R>
-struct Texel {
+struct FilteredTexel {
   Color<R> color;  ///< texture source components (Cs, As)
   R lod;           ///< lambda: bias and limits applied
 };
@@ -33,7 +34,7 @@ struct GradientSetup {
   double x0, y0;
   double s_0, s_x, s_y, t_0, t_x, t_y, q_0, q_x, q_y;
 };
-GradientSetup gradient_setup(const WindowTriangle<float>& triangle, const std::array<glm::vec2, 3>& texcoords,
+GradientSetup gradient_setup(const WindowTriangle<float>& triangle, const std::array<Vec4<float>, 3>& texcoords,
                              const BarycentricPlanes& planes);
 
 /// d(s/w : 1/w) = (d(s/w) - s d(1/w)) / (1/w), exact for each pixel: no neighbours are asked.
@@ -67,8 +68,9 @@ R level_of_detail(const TextureSetup& t, const Gradients<R>& g) {
     return du * du + dv * dv;
   };
   const Wide<R> x = squared(g.ds_dx, g.dt_dx), y = squared(g.ds_dy, g.dt_dy), rho2 = select(x > y, x, y);
-  const Wide<R> finite = select(rho2 > 1e-300, select(rho2 < 1e300, rho2, Wide<R>(1e300)), Wide<R>(1e-300));
-  const Wide<R> lambda = 0.5 * log2_of(finite) + to_wide(t.sampler.lod_bias);
+  const Mask<R> has_length = rho2 > 1e-300;
+  const Wide<R> log2_rho = select(has_length, 0.5 * log2_of(select(has_length, rho2, Wide<R>(1))), Wide<R>(-1e6));
+  const Wide<R> lambda = log2_rho + to_wide(t.sampler.lod_bias);
   const Wide<R> least = to_wide(t.sampler.min_lod), most = to_wide(t.sampler.max_lod);
   const Wide<R> low = select(lambda > least, lambda, least);
   return to_float(select(low < most, low, most));
@@ -158,6 +160,13 @@ inline Color<float> sample(const TextureSetup& t, const TexCoords<float>& at, fl
   if (first >= t.last) return sample_level<float>(t, t.last, linear, at);
   return mix<float>(sample_level<float>(t, first, linear, at), sample_level<float>(t, first + 1, linear, at),
                     lambda - to_wide(whole));
+}
+
+/// Stage 8.
+template <class R>
+FilteredTexel<R> texture(const TextureSetup& t, const TexCoords<R>& at, const Gradients<R>& gradients) {
+  const R lod = level_of_detail<R>(t, gradients);
+  return {sample(t, at, lod), lod};
 }
 
 }  // namespace plumbline::pipeline
