@@ -370,7 +370,8 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
         if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
         const std::uint32_t primitive = candidate.triangles[c.triangle].primitive;
         while (d + 1 < ranges.size() && primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
-        if (d >= scene.draws.size() || is_plain(scene, scene.draws[d])) return add(meter, a, b, Vec4<double>(u), 0, place);
+        if (d >= scene.draws.size() || is_plain(scene, scene.draws[d]))
+          return add(meter, a, b, Vec4<double>(u), 0, place);
         const Vec4<double> bound = shade_error(scene, scene.draws[d], fours_of(candidate, i), {}, 1);
         for (int k = 0; k < 4; ++k) {
           if (bound[k] == 0) {

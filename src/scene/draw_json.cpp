@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "scene/scene_values.h"
+#include "scene/texture_json.h"
 
 namespace plumbline {
 namespace {
@@ -146,7 +147,7 @@ PolygonMode read_mode(const JsonNode& node) {
 constexpr std::string_view kStateKeys[] = {"transforms", "material",   "lit",        "color_material", "normals",
                                            "shading",    "cull",       "front_mode", "back_mode",      "line_width",
                                            "point_size", "depth_func", "fog",        "scissor",        "depth_mask",
-                                           "blend",      "color_mask"};
+                                           "blend",      "color_mask", "texture"};
 
 /// What the node gives, over what the state is.
 void read_state(const JsonNode& node, DrawState& state) {
@@ -198,19 +199,21 @@ void read_state(const JsonNode& node, DrawState& state) {
 
 }  // namespace
 
-DrawState read_draw_state(const JsonNode& node, const DrawState& defaults) {
+DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
   node.only(kStateKeys);
   DrawState state = defaults;
   read_state(node, state);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
   return state;
 }
 
-DrawState read_draw(const JsonNode& node, const DrawState& defaults) {
+DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
   std::vector<std::string_view> keys{"mesh"};
   keys.insert(keys.end(), std::begin(kStateKeys), std::end(kStateKeys));
   node.only(keys);
   DrawState state = defaults;
   read_state(node, state);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
   return state;
 }
 

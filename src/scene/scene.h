@@ -10,6 +10,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/texture.h"
+
 namespace plumbline {
 
 /// The conventions under which a scene's numbers are read: window origin, pixel centre, handedness, where the eye is...
@@ -33,6 +35,7 @@ struct Mesh {
   std::vector<glm::vec4> colors;      ///< empty, or as many as positions: rgba, nominally [0,1]
   std::vector<glm::uvec3> triangles;  ///< indices of positions; the last corner is the provoking vertex
   Topology topology = Topology::triangles;
+  std::vector<glm::vec2> texcoords{};  ///< s, t; empty, or as many as positions
 };
 
 struct Translate {
@@ -213,7 +216,8 @@ struct Draw {
   DepthFunc depth_func = DepthFunc::less;
   std::optional<Fog> fog;
   Merge merge;
-  std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
+  std::optional<Scissor> scissor;      ///< no pixel outside of it is covered
+  std::optional<DrawTexture> texture;  ///< the mesh then has texture coordinates
 };
 
 /// The draw's material, what a vertex colour stands for replaced by `color` (OpenGL 2.1 spec 2.14.3).
@@ -259,10 +263,15 @@ struct Scene {
   bool depth_clamp = false;  ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
   LightModel light_model;
   std::vector<Light> lights;  ///< at most 8
+  std::vector<Texture> textures;
   std::vector<Mesh> meshes;
   std::vector<Draw> draws;  ///< in draw order
 };
 
+/// Whether any draw has a texture.
+inline bool textured(const Scene& scene) {
+  return std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.texture.has_value(); });
+}
 /// Whether any draw makes such primitives: is of such a mesh, or of triangles of which it draws edges or corners.
 bool draws(const Scene& scene, Topology topology);
 /// Whether a pixel's colour is that of its last fragment alone: nothing is blended, no channel masked.

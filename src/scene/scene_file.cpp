@@ -10,6 +10,7 @@
 #include "scene/mesh_json.h"
 #include "scene/scene_json.h"
 #include "scene/scene_values.h"
+#include "scene/texture_json.h"
 
 namespace plumbline {
 namespace {
@@ -179,7 +180,7 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
   std::vector<KnownMesh> known;
   std::size_t left = kMostTriangles;
   for (const JsonNode& n : node.elements(1, kMostDraws)) {
-    const DrawState state = read_draw(n, defaults);
+    const DrawState state = read_draw(n, defaults, scene.textures);
     const JsonNode mesh = n["mesh"];
     auto same = std::find_if(known.begin(), known.end(), [&](const KnownMesh& k) { return *k.json == mesh.value(); });
     if (same == known.end()) {
@@ -197,6 +198,12 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
       const std::size_t triangles = scene.meshes[draw.mesh].triangles.size();
       if (triangles > left) n.refuse(fmt::format("at most {} triangles in all", kMostTriangles), "more");
       left -= triangles;
+      if (draw.texture && scene.meshes[draw.mesh].texcoords.empty()) {
+        mesh.refuse("a mesh with texture coordinates, as the draw has a texture", "one without");
+      }
+      if (draw.texture && (draw.front_mode != PolygonMode::fill || draw.back_mode != PolygonMode::fill)) {
+        n.refuse("front_mode and back_mode fill, as the draw has a texture", "edges or corners of triangles");
+      }
       scene.draws.push_back(std::move(draw));
     }
   }
@@ -204,7 +211,7 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
 
 Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   root.only({"$schema", "include", "description", "dialect", "frame", "camera", "projection", "ambient", "light_model",
-             "lights", "defaults", "draws"});
+             "lights", "textures", "defaults", "draws"});
   if (const auto n = root.find("$schema")) n->text();
   Scene scene;
   scene.description = root["description"].text();
@@ -226,7 +233,8 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   if (const auto n = root.find("lights")) {
     for (const JsonNode& light : n->elements(0, 8)) scene.lights.push_back(read_light(light));
   }
-  if (const auto n = root.find("defaults")) defaults = read_draw_state(*n, defaults);
+  if (const auto n = root.find("textures")) scene.textures = read_textures(*n, folders);
+  if (const auto n = root.find("defaults")) defaults = read_draw_state(*n, defaults, scene.textures);
   read_draws(root["draws"], defaults, folders, scene);
   if (frame) require_drawable(*frame, scene);
   return scene;

@@ -27,7 +27,14 @@ inline std::string mesh(const std::string& mesh) {
 /// The keys of a draw's state, as messages list them.
 inline const std::string kStateKeys =
     "transforms, material, lit, color_material, normals, shading, cull, front_mode, back_mode, line_width, point_size, "
-    "depth_func, fog, scissor, depth_mask, blend, color_mask";
+    "depth_func, fog, scissor, depth_mask, blend, color_mask, texture";
+
+inline std::string textures(const std::string& textures) { return top("\"textures\": " + textures); }
+inline std::string textured(const std::string& mesh, const std::string& format, const std::string& environment) {
+  return R"({"description": "d", "textures": {"t": {"image": {"noise": {}}, "format": ")" + format +
+         R"("}}, "draws": [{"mesh": )" + mesh + R"(, "texture": {"name": "t", "environment": ")" + environment +
+         R"("}}]})";
+}
 
 // clang-format off
 inline const std::vector<BadScene> kBadScenes = {
@@ -51,9 +58,9 @@ inline const std::vector<BadScene> kBadScenes = {
     {whole(R"({"description": 3, "draws": []})"), R"(at "/description": expected a string that is not empty, found 3)"},
     {whole(R"({"description": "d", "description": "e", "draws": []})"), R"(at "/description": expected each key once, found it twice)"},
     {draw(R"("material": {"shininess": 1, "shininess": 1})"), R"(at "/draws/0/material/shininess": expected each key once, found it twice)"},
-    {top(R"("lens": 1)"), R"(at "/lens": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, defaults, draws, found the unknown key "lens")"},
-    {top(R"("cammera": {})"), R"(at "/cammera": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, defaults, draws, found the unknown key "cammera" (did you mean "camera"?))"},
-    {top(R"("a/b~c": 1)"), R"(at "/a~1b~0c": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, defaults, draws, found the unknown key "a/b~c")"},
+    {top(R"("lens": 1)"), R"(at "/lens": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, textures, defaults, draws, found the unknown key "lens")"},
+    {top(R"("cammera": {})"), R"(at "/cammera": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, textures, defaults, draws, found the unknown key "cammera" (did you mean "camera"?))"},
+    {top(R"("a/b~c": 1)"), R"(at "/a~1b~0c": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, textures, defaults, draws, found the unknown key "a/b~c")"},
     {top(R"("$schema": 3)"), R"(at "/$schema": expected a string that is not empty, found 3)"},
     {top(R"("frame": {"depht": "z16"})"), R"(at "/frame/depht": expected a key among width, height, color, depth, clear_color, clear_depth, antialias, found the unknown key "depht" (did you mean "depth"?))"},
     {top(R"("camera": {"target": [0, 0, 0]})"), R"(at "/camera/target": expected a key among eye, center, up, found the unknown key "target")"},
@@ -88,8 +95,8 @@ inline const std::vector<BadScene> kBadScenes = {
     {draw(R"("transforms": [{"scale": [1, 1, 1], "translate": [0, 0, 0]}])"), R"(at "/draws/0/transforms/0": expected exactly one of the keys translate, rotate, scale, found scale, translate)"},
     {draw(R"("transforms": [{"rotate": {"degrees": 3}}])"), R"(at "/draws/0/transforms/0/rotate/axis": expected a value, found nothing: the key is missing)"},
     {whole(R"({"description": "d", "draws": [{}]})"), R"(at "/draws/0/mesh": expected a value, found nothing: the key is missing)"},
-    {mesh(R"({"teapot": {}})"), R"(at "/draws/0/mesh/teapot": expected a key among file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, icosphere, torus_knot, revolution, soup, found the unknown key "teapot")"},
-    {mesh(R"({})"), R"(at "/draws/0/mesh": expected exactly one of the keys file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, icosphere, torus_knot, revolution, soup, found none)"},
+    {mesh(R"({"teapot": {}})"), R"(at "/draws/0/mesh/teapot": expected a key among file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, globe, icosphere, torus_knot, revolution, soup, found the unknown key "teapot")"},
+    {mesh(R"({})"), R"(at "/draws/0/mesh": expected exactly one of the keys file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, globe, icosphere, torus_knot, revolution, soup, found none)"},
     {mesh(R"({"grid": {"columns": 1, "rows": 1, "x": 1}})"), R"(at "/draws/0/mesh/grid/x": expected a key among columns, rows, found the unknown key "x")"},
     {mesh(R"({"soup": {"triangles": 1, "seed": 1, "extent": 1}})"), R"(at "/draws/0/mesh/soup/size": expected a value, found nothing: the key is missing)"},
     {mesh(R"({"cube": {"size": 1}})"), R"(at "/draws/0/mesh/cube/size": expected a key among none, found the unknown key "size")"},
@@ -148,7 +155,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {draw(R"("blend": {"color": [0, 0, 0, 2]})"), R"(at "/draws/0/blend/color/3": expected a number from 0 to 1, found 2)"},
     {draw(R"("transforms": {"translate": [0, 0, 0]})"), R"(at "/draws/0/transforms": expected an array of 0 to 64, found an object of 1 keys)"},
     {draw(R"("material": {"diffuse": [0, 0, 0]})"), R"(at "/draws/0/material/diffuse": expected an array of 4, found an array of 3)"},
-    {mesh(R"("bunny.obj")"), R"(at "/draws/0/mesh": expected an object with keys among file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, icosphere, torus_knot, revolution, soup, found "bunny.obj")"},
+    {mesh(R"("bunny.obj")"), R"(at "/draws/0/mesh": expected an object with keys among file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, globe, icosphere, torus_knot, revolution, soup, found "bunny.obj")"},
     {mesh(R"({"file": 3})"), R"(at "/draws/0/mesh/file": expected a string that is not empty, found 3)"},
     {mesh(R"({"file": ""})"), R"(at "/draws/0/mesh/file": expected a string that is not empty, found "")"},
     // Ranges
@@ -252,6 +259,37 @@ inline const std::vector<BadScene> kBadScenes = {
     {mesh(R"({"file": "broken.gltf"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.gltf: expected a mesh, found ...)"},
     {mesh(R"({"file": "broken.glb"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.glb: expected a mesh, found ...)"},
     {mesh(R"({"file": "broken.3ds"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.3ds: expected a mesh, found ...)"},
+    // Textures
+    {textures(R"([])"), R"(at "/textures": expected an object, found an array of 0)"},
+    {textures(R"({"t": {}})"), R"(at "/textures/t/image": expected a value, found nothing: the key is missing)"},
+    {textures(R"({"t": {"image": {"plasma": {}}}})"), R"(at "/textures/t/image/plasma": expected a key among file, texels, checker, gradient, bricks, uv_grid, noise, found the unknown key "plasma")"},
+    {textures(R"({"t": {"image": {"noise": {}}, "filter": "linear"}})"), R"(at "/textures/t/filter": expected a key among image, format, texels, min, mag, wrap_s, wrap_t, border, lod_bias, min_lod, max_lod, base_level, max_level, found the unknown key "filter")"},
+    {textures(R"({"t": {"image": {"noise": {"width": 0}}}})"), R"(at "/textures/t/image/noise/width": expected an integer from 1 to 16384, found 0)"},
+    {textures(R"({"t": {"image": {"noise": {"width": 16384, "height": 16384}}}})"), R"(at "/textures/t/image/noise": expected at most 16777216 texels in all, of which 16777216 are left, found 16384 x 16384)"},
+    {textures(R"({"a": {"image": {"noise": {"width": 4096, "height": 4095}}}, "b": {"image": {"noise": {"width": 4097}}}})"), R"(at "/textures/b/image/noise": expected at most 16777216 texels in all, of which 4096 are left, found 4097 x 64)"},
+    {textures(R"({"t": {"image": {"checker": {"width": 4, "columns": 5}}}})"), R"(at "/textures/t/image/checker/columns": expected at most one for each of the 4 texels, found 5)"},
+    {textures(R"({"t": {"image": {"texels": [[[0, 0, 0, 1], [1, 1, 1, 1]], [[0, 0, 0, 1]]]}}})"), R"(at "/textures/t/image/texels/1": expected an array of 2, found an array of 1)"},
+    {textures(R"({"t": {"image": {"texels": [[[0, 0, 2, 1]]]}}})"), R"(at "/textures/t/image/texels/0/0/2": expected a number from 0 to 1, found 2)"},
+    {textures(R"({"t": {"image": {"noise": {}}, "min": "bilinear"}})"), R"(at "/textures/t/min": expected one of nearest, linear, nearest_mipmap_nearest, linear_mipmap_nearest, nearest_mipmap_linear, linear_mipmap_linear, found "bilinear" (did you mean "linear"?))"},
+    {textures(R"({"t": {"image": {"noise": {}}, "mag": "linear_mipmap_linear"}})"), R"(at "/textures/t/mag": expected one of nearest, linear, found "linear_mipmap_linear")"},
+    {textures(R"({"t": {"image": {"noise": {}}, "wrap_s": "clamp"}})"), R"(at "/textures/t/wrap_s": expected one of repeat, mirrored_repeat, clamp_to_edge, clamp_to_border, found "clamp")"},
+    {textures(R"({"t": {"image": {"noise": {}}, "min_lod": 2, "max_lod": 1}})"), R"(at "/textures/t/max_lod": expected a number not less than min_lod, 2, found 1)"},
+    {textures(R"({"t": {"image": {"noise": {}}, "base_level": 2, "max_level": 1}})"), R"(at "/textures/t/max_level": expected an integer not less than base_level, 2, found 1)"},
+    {textures(R"({"t": {"image": {"noise": {}}, "base_level": 7}})"), R"(at "/textures/t/base_level": expected one of the 7 levels that the image has, found 7)"},
+    {textures(R"({"t": {"image": {"file": "none.png"}}})"), R"(at "/textures/t/image/file": expected an image file, found no file "none.png" in @group, @assets)"},
+    {textures(R"({"t": {"image": {"file": "../outside.obj"}}})"), R"(at "/textures/t/image/file": expected a file in the scene's folder or an asset folder (--assets), or below, found "../outside.obj", which leads out of it)"},
+    {textures(R"({"t": {"image": {"file": "image.gif"}}})"), R"(at "/textures/t/image/file": expected an image file that can be used, found @group/image.gif: expected an image ending in .png, .jpg, .jpeg, .tga or .exr, found ".gif")"},
+    {textures(R"({"t": {"image": {"file": "broken.png"}}})"), R"(at "/textures/t/image/file": expected an image file that can be used, found @group/broken.png: expected an image, found ...)"},
+    {textures(R"({"t": {"image": {"file": "broken.jpg"}}})"), R"(at "/textures/t/image/file": expected an image file that can be used, found @group/broken.jpg: expected an image, found ...)"},
+    {textures(R"({"t": {"image": {"file": "short.tga"}}})"), R"(at "/textures/t/image/file": expected an image file that can be used, found @group/short.tga: expected ...)"},
+    {draw(R"("texture": {"name": "wood"})"), R"(at "/draws/0/texture/name": expected the name of one of the scene's textures, found "wood")"},
+    {draw(R"("texture": "wood")"), R"(at "/draws/0/texture": expected an object with keys among name, environment, color, found "wood")"},
+    {textured(R"({"grid": {"columns": 1, "rows": 1}})", "alpha", "decal"), R"(at "/draws/0/texture/environment": expected decal with a texture of rgb or rgba alone: of others OpenGL leaves it undefined, found "decal")"},
+    {textured(R"({"grid": {"columns": 1, "rows": 1}})", "rgb", "dot3"), R"(at "/draws/0/texture/environment": expected one of replace, modulate, decal, blend, add, found "dot3")"},
+    {textured(R"({"icosphere": {"subdivisions": 0}})", "rgb", "replace"), R"(at "/draws/0/mesh": expected a mesh with texture coordinates, as the draw has a texture, found one without)"},
+    {mesh(R"({"quad": {"texcoords": [[0, 0], [1, 0], [1, 1]]}})"), R"(at "/draws/0/mesh/quad/texcoords": expected an array of 4, found an array of 3)"},
+    {mesh(R"({"quad": {"texcoords": [[0, 0], [1, 0], [1, 1], [0, 99999]]}})"), R"(at "/draws/0/mesh/quad/texcoords/3/1": expected a number from -16384 to 16384, found 99999)"},
+    {whole(R"({"description": "d", "textures": {"t": {"image": {"noise": {}}}}, "draws": [{"mesh": {"quad": {}}, "texture": {"name": "t"}, "back_mode": "line"}]})"), R"(at "/draws/0": expected front_mode and back_mode fill, as the draw has a texture, found edges or corners of triangles)"},
     // Includes
     {top(R"("include": "good.part.json")"), R"(at "/include": expected an array of 1 to 64, found "good.part.json")"},
     {top(R"("include": [])"), R"(at "/include": expected an array of 1 to 64, found an array of 0)"},
