@@ -23,8 +23,8 @@ class Barycentric {
   /// pixels.
   Barycentric(const WindowTriangle<double>& triangle, int width, int height);
 
-  /// At pixel (x, y)'s centre.
-  std::array<long double, 3> at(int x, int y) const;
+  /// At pixel (x, y)'s centre, or `off` it, in pixels.
+  std::array<long double, 3> at(int x, int y, glm::dvec2 off = {0, 0}) const;
 
   /// Along x and along y, per pixel, of what is 0 at the first corner and has these values at the others.
   std::array<Float128, 2> slope(double at_second, double at_third) const;
@@ -37,7 +37,7 @@ class Barycentric {
     T d2_dx, d2_dy;  // the third's
   };
   template <class T>
-  static std::array<long double, 3> at(const Affine<T>& affine, int x, int y);
+  static std::array<long double, 3> at(const Affine<T>& affine, glm::dvec2 p);
 
   Affine<Float128> exact_;
   Affine<long double> rounded_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reference/exact/input.h"
+#include "scene/antialias.h"
 
 namespace plumbline::exact {
 namespace {
@@ -25,6 +26,7 @@ long double polygon_offset(DepthFormat format, const PolygonOffset& offset, cons
 DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
                      const Barycentric& weights) {
   DepthRule rule;
+  rule.place = glm::dvec2(sample_place(scene.frame)) / static_cast<double>(kSubpixel);
   rule.offset = polygon_offset(scene.frame.depth, draw.polygon_offset, triangle, weights);
   if (!scene.depth_clamp) return rule;
   const double near = draw.depth_range.near, far = draw.depth_range.far;
@@ -35,7 +37,7 @@ DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<
 
 double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
                 int y) {
-  const auto b = weights.at(x, y);
+  const auto b = weights.at(x, y, rule.place);
   // From the first corner on: the weights' sum of 1 is used in exact form, and a flat triangle's depth is exact.
   const long double z0 = triangle.v[0].p_win.z;
   const long double z = rule.offset + z0 + b[1] * (triangle.v[1].p_win.z - z0) + b[2] * (triangle.v[2].p_win.z - z0);

@@ -11,13 +11,15 @@ namespace plumbline::exact {
 
 /// What a draw says of a triangle's depths.
 struct DepthRule {
+  glm::dvec2 place{0};       ///< of the frame's sample, from the pixel's centre
   double low = 0, high = 1;  ///< depths beyond are clamped
   long double offset = 0;    ///< is added before
 };
 DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
                      const Barycentric& weights);
 
-/// Window z at pixel (x, y)'s centre, by the plane through the corners, moved and clamped. Not in any depth format.
+/// Window z at pixel (x, y)'s centre, or that of the frame's sample, by the plane through the corners, moved and
+/// clamped. Not in any depth format.
 double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
                 int y);
 

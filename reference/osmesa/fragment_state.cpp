@@ -71,6 +71,7 @@ void set_logic_op(const Gl& gl, const std::optional<LogicOp>& op) {
 NumberedFragments::NumberedFragments(const Gl& gl) : gl_(gl) {
   const GLubyte white[4] = {255, 255, 255, 255};
   gl.GenTextures(1, &texture_);
+  gl.ActiveTexture(GL_TEXTURE1);
   gl.BindTexture(GL_TEXTURE_2D, texture_);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, white);
@@ -79,6 +80,7 @@ NumberedFragments::NumberedFragments(const Gl& gl) : gl_(gl) {
                                                   {GL_COMBINE_ALPHA, GL_REPLACE},    {GL_SOURCE0_ALPHA, GL_PREVIOUS},
                                                   {GL_OPERAND0_ALPHA, GL_SRC_ALPHA}};
   for (const auto& [name, value] : environment) gl.TexEnvi(GL_TEXTURE_ENV, name, value);
+  gl.ActiveTexture(GL_TEXTURE0);
   check(gl, "making a texture environment of primitives' numbers");
 }
 
@@ -87,15 +89,15 @@ NumberedFragments::~NumberedFragments() { gl_.DeleteTextures(1, &texture_); }
 void NumberedFragments::set(std::uint32_t number) const {
   const auto part = [&](int shift) { return static_cast<float>(number >> shift & 0xffu) / 255.0f; };
   const float color[4] = {part(0), part(8), part(16), 0};
+  gl_.ActiveTexture(GL_TEXTURE1);
   gl_.TexEnvfv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_COLOR, color);
+  gl_.ActiveTexture(GL_TEXTURE0);
 }
 
-void NumberedFragments::enable(bool on) const {
-  if (on) {
-    gl_.Enable(GL_TEXTURE_2D);
-  } else {
-    gl_.Disable(GL_TEXTURE_2D);
-  }
+void NumberedFragments::enable() const {
+  gl_.ActiveTexture(GL_TEXTURE1);
+  gl_.Enable(GL_TEXTURE_2D);
+  gl_.ActiveTexture(GL_TEXTURE0);
 }
 
 }  // namespace plumbline::osmesa

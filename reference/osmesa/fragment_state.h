@@ -14,17 +14,17 @@ void set_fragment_tests(const Gl& gl, const Draw& draw);
 void disable_tests(const Gl& gl);
 void set_logic_op(const Gl& gl, const std::optional<LogicOp>& op);
 
-/// Turns every fragment's rgb to the bytes of a number, from red up, and leaves its alpha as it is. Call within a
-/// SavedState; lasts as long as that. A texture environment: it acts before the alpha test, and a constant is
-/// interpolated by nobody.
+/// Turns every fragment's rgb to the bytes of a number, from red up, and leaves its alpha as textures have made it.
+/// Call within a SavedState; lasts as long as that. A texture environment, on the unit after the scene's: it acts
+/// before the alpha test, and a constant is interpolated by nobody.
 class NumberedFragments {
  public:
   explicit NumberedFragments(const Gl& gl);
   ~NumberedFragments();
   NumberedFragments(const NumberedFragments&) = delete;
   NumberedFragments& operator=(const NumberedFragments&) = delete;
+  void enable() const;
   void set(std::uint32_t number) const;  ///< below 2^24
-  void enable(bool on) const;
 
  private:
   const Gl& gl_;

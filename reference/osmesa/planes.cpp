@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "reference/osmesa/fragment_state.h"
+#include "reference/osmesa/light_state.h"
 #include "reference/osmesa/target.h"
 #include "stages/renderer.h"
 
@@ -35,18 +36,20 @@ class CountedFragments {
 
 enum class Colors {
   of_winners,  ///< each fragment that is drawn replaces what is there
-  merged       ///< as the scene is meant to look
+  merged,      ///< as the scene is meant to look
+  texels       ///< each fragment's texture source
 };
 
 void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colors colors) {
   const SavedState state(gl);
   const CountedFragments counted(gl);
   target.bind();
-  scene.clear(scene.scene().frame.clear_color);
-  scene.set_lights();
+  scene.clear(colors == Colors::texels ? glm::vec4(0) : scene.scene().frame.clear_color);
+  set_lights(gl, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     scene.set_surface(i);
+    if (colors == Colors::texels) scene.set_texture_source(i);
     scene.set_fragments(i);
     if (colors == Colors::merged) scene.set_merge(i);
     scene.draw_primitives(i);
@@ -73,20 +76,21 @@ Plane<std::int32_t> draw_tested_ids(const Gl& gl, const SceneInGl& scene, const 
     const NumberedFragments numbered(gl);
     target.bind();
     scene.clear(glm::vec4(0));
-    scene.set_lights();
+    set_lights(gl, scene.scene());
     for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
-      const bool tested = scene.scene().draws[i].alpha_test.has_value();
       scene.set_matrices(i);
-      scene.set_surface(i);
       scene.set_fragments(i);
-      numbered.enable(tested);
-      if (tested) {
-        scene.draw_one_by_one(i, [&](std::uint32_t primitive) { numbered.set(primitive + 1); });
-      } else {
-        gl.Disable(GL_LIGHTING);
+      const SavedState of_draw(gl);
+      if (!scene.scene().draws[i].alpha_test) {
         gl.ShadeModel(GL_FLAT);
         scene.draw_ids(i);
+        continue;
       }
+      scene.set_surface(i);
+      for (const GLenum after : {GL_FOG, GL_COLOR_SUM}) gl.Disable(after);  // they come after the texture environment
+      numbered.enable();
+      scene.draw_one_by_one(i, [&](std::uint32_t primitive) { numbered.set(primitive + 1); });
+      gl.UseProgram(0);
     }
     check(gl, "drawing the primitives' numbers");
   }
@@ -167,6 +171,10 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   std::optional<Target> shorts;
   if (frame.color == ColorFormat::rgba16) shorts.emplace(gl, frame, ColorFormat::rgba16);
   Planes planes;
+  if (textured(scene.scene())) {
+    draw_scene(gl, scene, floats, Colors::texels);
+    planes.texel = floats.read_color();
+  }
   draw_scene(gl, scene, floats, Colors::of_winners);
   planes.shaded = floats.read_color();
   // Asked for 12 bits a channel, OpenGL gives 16: the colour is left unrounded.
@@ -181,6 +189,16 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   planes.stencil = target.read_stencil();
   planes.id = tests_alpha(scene.scene()) ? draw_tested_ids(gl, scene, target) : draw_ids(gl, scene, bytes);
   add_up_coverage(draw_weights(gl, scene, floats), planes);
+  return planes;
+}
+
+Planes draw_picture(const Gl& gl, const SceneInGl& scene) {
+  const FrameFormat& frame = scene.scene().frame;
+  const Target target(gl, frame, frame.color == ColorFormat::rgba12 ? ColorFormat::rgba32f : frame.color);
+  draw_scene(gl, scene, target, Colors::merged);
+  Planes planes;
+  planes.color = target.read_color();
+  planes.depth = target.read_depth();
   return planes;
 }
 

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "reference/osmesa/buffer.h"
 #include "reference/osmesa/gl.h"
+#include "reference/osmesa/program.h"
+#include "reference/osmesa/textures_in_gl.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -21,12 +24,12 @@ class SceneInGl {
   const Matrices<double>& matrices(std::size_t draw) const { return matrices_[draw]; }
 
   // What GL is told. Call within a SavedState.
-  void clear(const glm::vec4& color) const;    ///< to a colour and the frame's other clear values
-  void set_lights() const;                     ///< ambient light, lights; leaves MODELVIEW the identity
-  void set_matrices(std::size_t draw) const;   ///< and the depth range
-  void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth, fog
-  void set_fragments(std::size_t draw) const;  ///< culling, polygon modes and offset, widths, tests, depth mask
-  void set_merge(std::size_t draw) const;      ///< blending, logic op and colour mask
+  void clear(const glm::vec4& color) const;         ///< to a colour and the frame's other clear values
+  void set_matrices(std::size_t draw) const;        ///< and the depth range
+  void set_surface(std::size_t draw) const;         ///< lit or not, material, flat or smooth, fog
+  void set_fragments(std::size_t draw) const;       ///< culling, polygon modes and offset, widths, tests, depth mask
+  void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels
+  void set_merge(std::size_t draw) const;           ///< blending, logic op and colour mask
 
   // The draw's mesh, under the state that is set.
   void draw_primitives(std::size_t draw) const;  ///< with normals and colours
@@ -43,6 +46,7 @@ class SceneInGl {
   struct MeshVertex {
     glm::vec3 position, normal;
     glm::vec4 color;
+    glm::vec2 texcoord;
   };
   struct Arrays {
     std::vector<MeshVertex> vertices;
@@ -60,6 +64,8 @@ class SceneInGl {
   std::vector<DrawRange> ranges_;
   std::vector<Matrices<double>> matrices_;
   std::vector<Arrays> arrays_;
+  std::vector<std::optional<Program>> light_programs_;  ///< where the fixed function has no such light
+  TexturesInGl textures_;
 };
 
 /// GL_TRIANGLES, GL_LINES or GL_POINTS.

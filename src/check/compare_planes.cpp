@@ -238,16 +238,16 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     const auto after = std::ranges::upper_bound(ranges, primitive, {}, &DrawRange::first_primitive);
     return scene.draws[static_cast<std::size_t>(after - ranges.begin()) - 1];
   };
-  const bool reads = factors_read_frame(scene), thin = draws(scene, Topology::lines) || draws(scene, Topology::points),
+  const bool reads = factors_read_frame(scene),
              told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why);
   return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     const Place place{x, y, id, "color"};
     if (id != b.id(x, y)) return;  // visibility's matter
-    // The fragments of lines may lie beside each other: coverage's matter.
-    const bool beside = thin && told && a.id_sum(x, y) != b.id_sum(x, y);
+    // Of other fragments (lines' may lie beside each other): coverage's matter.
+    const bool others = told && a.id_sum(x, y) != b.id_sum(x, y);
     bool disputed = false;
-    const bool open = beside || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
+    const bool open = others || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
     int fragments = 0;
     double bound = 0;
     bool combined = false, certain = true;  // by a logic op, of codes that both sides have

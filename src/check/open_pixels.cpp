@@ -68,8 +68,7 @@ void settle(Plane<T>& theirs, const Plane<T>& mine, const Plane<std::uint8_t>& o
 
 std::uint64_t settle_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
                            Capture& reference) {
-  const bool in_float =
-      stage == Stage::attributes || stage == Stage::shade || scene.frame.color == ColorFormat::rgba12;
+  const bool in_float = stage == Stage::attributes || stage == Stage::shade || scene.frame.color == ColorFormat::rgba12;
   const auto open =
       open_by_alpha(scene, candidate, reference, in_float ? ColorFormat::rgba32f : scene.frame.color, factor);
   Planes& theirs = reference.planes;

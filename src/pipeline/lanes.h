@@ -68,6 +68,13 @@ T clamp01(T value) {
 inline float round_even(float value) { return (value + 12582912.0f) - 12582912.0f; }
 inline double round_even(double value) { return (value + 6755399441055744.0) - 6755399441055744.0; }
 
+/// The integer below, for |value| below 2^62.
+inline std::int64_t floor_int(double value) {
+  const auto whole = static_cast<std::int64_t>(value);
+  return static_cast<double>(whole) > value ? whole - 1 : whole;
+}
+inline double to_wide(std::int64_t value) { return static_cast<double>(value); }
+
 inline float load(const float* from) { return *from; }
 inline void store(bool mask, float value, float* to) {
   if (mask) *to = value;

@@ -33,6 +33,25 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
   return out;
 }
 
+// The other way round, of colours alone.
+Frame frame_of_colors(const FrameFormat& format, const Plane<glm::vec4>& color) {
+  FrameFormat of_pass = format;
+  of_pass.width = color.width();
+  of_pass.height = color.height();
+  Frame frame(of_pass);
+  const auto scale = static_cast<float>(color_scale(format.color));
+  const auto codes = [&](auto& to, std::size_t i) {
+    if (!to.empty()) to.values()[i] = glm::round(color.values()[i] * scale);
+  };
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    codes(frame.color_rgba8, i);
+    codes(frame.color_rgba12, i);
+    codes(frame.color_rgba16, i);
+  }
+  if (scale == 0.0f) frame.color_rgba32f = color;
+  return frame;
+}
+
 // Which draw a window triangle is of.
 class DrawOfTriangle {
  public:
@@ -59,13 +78,18 @@ class PipelineRenderer : public Renderer {
   RendererInfo info() const override {
     RendererInfo info{"ours", PLUMBLINE_VERSION, {}, false};
     for (Ability& ability : info.stages) ability = {true, true, ""};
-    info[Stage::texture] = {false, false, "no scene has textures yet"};
     return info;
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     Capture out = empty_capture(scene);
+    if (scene.frame.antialias.kind != Antialias::Kind::none) {
+      const std::vector<Frame> passes = render_passes(scene, stages_);
+      out.planes = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame));
+      for (const Frame& pass : passes) out.samples.push_back(planes_of_frame(pass, formats_of(scene.frame)).color);
+      return out;
+    }
     if (request.picture && !request.records.any()) {
       out.planes = planes_of_frame(render(scene, stages_), formats_of(scene.frame));
       return out;
@@ -87,6 +111,7 @@ class PipelineRenderer : public Renderer {
 
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
     if (!info()[stage].runs) return Renderer::run_stage(scene, stage, in);
+    if (stage == Stage::resolve) return resolved(scene, in.samples);
     require_fitting(scene, stage, in);
     Capture out = empty_capture(scene);
     if (stage <= Stage::window) {
@@ -111,6 +136,15 @@ class PipelineRenderer : public Renderer {
     return out;
   }
 
+  Capture resolved(const Scene& scene, const std::vector<Plane<glm::vec4>>& samples) {
+    require_samples(scene, samples);
+    std::vector<Frame> passes;
+    for (const Plane<glm::vec4>& color : samples) passes.push_back(frame_of_colors(scene.frame, color));
+    Capture out = empty_capture(scene);
+    out.planes.color = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame)).color;
+    return out;
+  }
+
   void run_geometry_stage(const Scene& scene, Stage stage, const Records<float>& in, Capture& out) {
     Records<float> made;
     const GeometryRun run(scene, stages_.geometry);
@@ -123,7 +157,8 @@ class PipelineRenderer : public Renderer {
     Frame frame(scene.frame);
     const Request request{StageSet{Stage::coverage}, false, {}, {}};
     CaptureTap tap(scene, request, 0);
-    stages_.fragment.draw_tapped({in.triangles, first_triangle, scene.draws, {}, scene.depth_clamp}, scene.frame, frame, tap);
+    stages_.fragment.draw_tapped({in.triangles, first_triangle, scene.draws, {}, scene.depth_clamp}, scene.frame, frame,
+                                 tap);
     Capture all;
     tap.hand_out(in.triangles, all);
     out.records.covered = std::move(all.records.covered);
@@ -135,6 +170,7 @@ class PipelineRenderer : public Renderer {
     switch (stage) {
       case Stage::depth: return run_depth(scene, in, out);
       case Stage::attributes: return run_attributes(scene, in, out);
+      case Stage::texture: return run_texture(scene, in, out);
       default: return run_shade(scene, in, out);
     }
   }
@@ -153,7 +189,7 @@ class PipelineRenderer : public Renderer {
         WindowTriangle<double> triangle = in.triangles.at(c.triangle);
         for (std::size_t k = 0; corners != nullptr && k < 3; ++k) triangle.v[k].color = corners->at(c.triangle)[k];
         const DepthState depth = depth_state(draw_of(c.triangle), scene.frame.depth, scene.depth_clamp);
-        setup = stages_.fragment.set_up(narrow(triangle), c.triangle, depth, tile_x, tile_y);
+        setup = stages_.fragment.set_up(narrow(triangle), c.triangle, depth, sample_place(scene.frame), tile_x, tile_y);
         setup_x = tile_x;
         setup_y = tile_y;
       }
@@ -185,6 +221,26 @@ class PipelineRenderer : public Renderer {
     }
   }
 
+  void run_texture(const Scene& scene, const Records<double>& in, Capture& out) {
+    if (!textured(scene)) return;
+    const std::vector<Surface> surfaces = surfaces_of(scene, {});
+    const DrawOfTriangle draw_of(scene, in.triangles);
+    const VaryingColumns<double>& st = in.varyings[Varying::texture];
+    each_fragment(scene, in, nullptr, [&](std::size_t i, const Pixels<float>& p, const TriangleSetup<>& setup) {
+      Texel<double>& to = out.records.texels.emplace_back();
+      const auto& of_draw = surfaces[draw_of.index(setup.triangle)].texture;
+      if (!of_draw) return;
+      const auto& corners = st.triangles.at(setup.triangle);
+      const GradientSetup gradient =
+          gradient_setup(narrow(in.triangles.at(setup.triangle)),
+                         {Vec4<float>(corners[0]), Vec4<float>(corners[1]), Vec4<float>(corners[2])}, setup.planes);
+      const Color<float> at = color_of(st.fragments.at(i));
+      const FilteredTexel<float> texel =
+          stages_.fragment.texture(*of_draw, {at.r, at.g}, gradients<float>(gradient, p));
+      to = {widen(texel.color), texel.lod};
+    });
+  }
+
   void run_shade(const Scene& scene, const Records<double>& in, Capture& out) {
     const std::vector<Surface> surfaces = surfaces_of(scene, {});
     const DrawOfTriangle draw_of(scene, in.triangles);
@@ -196,7 +252,11 @@ class PipelineRenderer : public Renderer {
         out.records.shaded.push_back({widen(stages_.fragment.shade(color))});
         continue;
       }
-      SurfaceAttributes<float> attributes{color, {}};
+      SurfaceAttributes<float> attributes{color, {}, {}};
+      if (surface.texture) {
+        const Texel<double>& texel = in.texels.at(i);
+        attributes.texel = {color_of(texel.color), static_cast<float>(texel.lod)};
+      }
       for (const Varying v : surface.carried) attributes[v] = color_of(in.varyings[v].fragments.at(i));
       const bool front = in.triangles.at(triangle).front;
       out.records.shaded.push_back({widen(stages_.fragment.shade_surface(surface, front, attributes))});

@@ -3,6 +3,7 @@
 
 #include "pipeline/capture_tap.h"
 #include "pipeline/draw.h"
+#include "pipeline/resolve.h"
 #include "pipeline/tiles.h"
 
 namespace plumbline::pipeline {
@@ -14,12 +15,14 @@ struct FragmentFunctions {
   // One stage at one pixel, for calling it alone.
   float (*depth)(const TriangleSetup<>&, const Pixels<float>&);
   Color<float> (*attributes)(const TriangleSetup<>&, const Pixels<float>&);
+  FilteredTexel<float> (*texture)(const TextureSetup&, const TexCoords<float>&, const Gradients<float>&);
   Color<float> (*shade)(const Color<float>&);
   Color<float> (*shade_surface)(const Surface&, bool front, const SurfaceAttributes<float>&);
   /// Alpha, stencil and depth test: whether a fragment is drawn. Changes the stencil value.
   bool (*passes)(const Draw&, bool front, float z, const Color<float>& shaded, float color_scale, const Stored&);
   void (*write)(const Merge&, float z, const Color<float>& shaded, float color_scale, const Stored&);
-  TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const DepthState&, int x0, int y0);
+  TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const DepthState&, glm::ivec2 sample, int x0,
+                            int y0);
 };
 
 template <class S>
@@ -61,15 +64,15 @@ FragmentFunctions fragment_functions() {
   f.attributes = [](const TriangleSetup<>& s, const Pixels<float>& p) {
     return S::template attributes<float>(s.attributes, barycentric<float>(s.planes, p));
   };
+  f.texture = S::template texture<float>;
   f.shade = S::template shade<float>;
   f.shade_surface = S::template shade_surface<float>;
   f.write = [](const Merge& state, float z, const Color<float>& shaded, float color_scale, const Stored& to) {
     write<float>(S(), S::merge_state(state), true, z, shaded, color_scale, to);
   };
   f.passes = passes<S>;
-  f.set_up = [](const WindowTriangle<float>& t, std::uint32_t triangle, const DepthState& depth, int x0, int y0) {
-    return set_up(S(), t, triangle, depth, x0, y0);
-  };
+  f.set_up = [](const WindowTriangle<float>& t, std::uint32_t triangle, const DepthState& depth, glm::ivec2 sample,
+                int x0, int y0) { return set_up(S(), t, triangle, depth, sample, x0, y0); };
   return f;
 }
 
@@ -77,10 +80,13 @@ FragmentFunctions fragment_functions() {
 struct Stages {
   GeometryStages geometry;
   FragmentFunctions fragment;
+  ResolveStage resolve = {};
 };
 /// Those of this folder.
 Stages production_stages();
 
+/// The frames of an antialiased scene's passes.
+std::vector<Frame> render_passes(const Scene& scene, const Stages& stages);
 /// Draws the scene.
 Frame render(const Scene& scene);
 /// Draws it with other stage functions.

@@ -37,11 +37,11 @@ void write_out(const Tile& tile, Frame& frame);
 template <class R, DepthFunc func, class Stages, class Tap>
 void draw_triangle(const Stages& stages, const BlockState& state, const WindowTriangle<float>& triangle,
                    std::uint32_t number, const Formats& formats, Tile& tile, Tap& tap) {
-  SetupOf<Stages> s = set_up(stages, triangle, number, state.depth, tile.x0, tile.y0);
+  SetupOf<Stages> s = set_up(stages, triangle, number, state.depth, formats.sample, tile.x0, tile.y0);
   SurfaceSetup surface;
   if constexpr (Stages::has_surfaces) {
     if (state.surface != nullptr) {
-      surface = set_up_surface(stages, *state.surface, triangle, number);
+      surface = set_up_surface(stages, *state.surface, triangle, number, s.planes);
       s.surface = &surface;
     }
   }

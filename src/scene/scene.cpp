@@ -40,4 +40,17 @@ double polygon_offset_unit(DepthFormat format, double z_max) {
   return std::ldexp(1.0, std::max(z_max > 0 ? std::ilogb(z_max) : kLeastExponent, kLeastExponent) - kMantissa);
 }
 
+Material colored(const Draw& draw, const glm::vec4& color) {
+  Material m = draw.material;
+  switch (draw.color_material) {
+    case ColorMaterial::none: break;
+    case ColorMaterial::ambient: m.ambient = color; break;
+    case ColorMaterial::diffuse: m.diffuse = color; break;
+    case ColorMaterial::ambient_and_diffuse: m.ambient = m.diffuse = color; break;
+    case ColorMaterial::specular: m.specular = color; break;
+    case ColorMaterial::emission: m.emission = color; break;
+  }
+  return m;
+}
+
 }  // namespace plumbline
