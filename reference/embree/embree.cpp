@@ -23,7 +23,7 @@ class EmbreeRenderer final : public Renderer {
     for (const Stage stage : {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window}) {
       info[stage].reason = "a ray sees no vertices, only what it hits";
     }
-    info[Stage::texture].reason = "scenes have no textures yet";
+    info[Stage::texture].reason = "a ray sees the final colour; see shade";
     info[Stage::resolve].reason = "a ray finds a sample, not what is made of it";
     info.legal = true;
     return info;

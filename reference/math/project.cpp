@@ -75,7 +75,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
   const auto first = static_cast<std::uint32_t>(out.corners.size());
   for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
     const glm::dvec4 p(mesh.positions[i], 1);
-    const glm::dvec3 p_eye(m.model_view * p), n_eye = glm::normalize(m.normal * glm::dvec3(mesh.normals[i]));
+    const glm::dvec3 p_eye(m.model_view * p), n_eye = normal_in_eye_space(draw.normals, m.normal, mesh.normals[i]);
     const glm::dvec4 c = clip * p, size = clip_size * glm::abs(p);
     Corner corner;
     corner.v = {c.x * half.x - out.sample.x * c.w, c.y * half.y - out.sample.y * c.w, c.w};

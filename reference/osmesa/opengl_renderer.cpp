@@ -48,7 +48,6 @@ class OpenGlRenderer final : public Renderer {
     info.name = name_;
     info.version = version_;
     for (Ability& ability : info.stages) ability.shows = true;
-    info[Stage::texture] = {false, false, "no scene has textures yet"};
     return info;
   }
 

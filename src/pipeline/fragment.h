@@ -62,6 +62,10 @@ struct FragmentStages {
   static Color<R> shade(const Color<R>& attributes) {
     return pipeline::shade<R>(attributes);
   }
+  template <class R>
+  static FilteredTexel<R> texture(const TextureSetup& setup, const TexCoords<R>& at, const Gradients<R>& gradients) {
+    return pipeline::texture<R>(setup, at, gradients);
+  }
   /// The colour of a surface that is not plain.
   static constexpr bool has_surfaces = true;
   template <class R>
@@ -156,7 +160,7 @@ SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std
 /// What a surface's fragments want of the triangle besides.
 template <class Stages>
 SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const WindowTriangle<float>& t,
-                            std::uint32_t triangle) {
+                            std::uint32_t triangle, const BarycentricPlanes& planes) {
   SurfaceSetup out;
   out.surface = &surface;
   out.front = t.front;
@@ -164,16 +168,24 @@ SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const 
     const auto i = static_cast<std::size_t>(v);
     out.varyings[i] = stages.attribute_setup(with_varying(t, surface.columns[i][triangle]), triangle);
   }
+  if (surface.texture) {
+    const auto& texcoords = surface.columns[static_cast<std::size_t>(Varying::texture)][triangle];
+    out.gradients = gradient_setup(t, texcoords, planes);
+  }
   return out;
 }
 
-/// Stage 7 of a surface: every varying as the colour.
+/// Stage 7 of a surface: every varying as the colour; and stage 8.
 template <class R, class Stages>
 SurfaceAttributes<R> surface_attributes(const Stages& stages, const AttributeSetup& color, const SurfaceSetup& s,
-                                        const Barycentric<R>& b) {
-  SurfaceAttributes<R> out{stages.template attributes<R>(color, b), {}};
+                                        const Pixels<R>& p, const Barycentric<R>& b) {
+  SurfaceAttributes<R> out{stages.template attributes<R>(color, b), {}, {}};
   for (const Varying v : s.surface->carried) {
     out[v] = stages.template attributes<R>(s.varyings[static_cast<std::size_t>(v)], b);
+  }
+  if (s.surface->texture) {
+    const Color<R>& st = out[Varying::texture];
+    out.texel = stages.template texture<R>(*s.surface->texture, {st.r, st.g}, gradients<R>(s.gradients, p));
   }
   return out;
 }
@@ -219,7 +231,7 @@ void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf
   };
   if constexpr (Stages::has_surfaces) {
     if (s.surface != nullptr) {
-      const SurfaceAttributes<R> attributes = surface_attributes<R>(stages, s.attributes, *s.surface, b);
+      const SurfaceAttributes<R> attributes = surface_attributes<R>(stages, s.attributes, *s.surface, p, b);
       const SurfaceSetup& setup = *s.surface;
       return finish(attributes, stages.template shade_surface<R>(*setup.surface, setup.front, attributes));
     }

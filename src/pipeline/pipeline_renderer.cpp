@@ -77,7 +77,6 @@ class PipelineRenderer : public Renderer {
   RendererInfo info() const override {
     RendererInfo info{"ours", PLUMBLINE_VERSION, {}, false};
     for (Ability& ability : info.stages) ability = {true, true, ""};
-    info[Stage::texture] = {false, false, "no scene has textures yet"};
     return info;
   }
 
@@ -168,6 +167,7 @@ class PipelineRenderer : public Renderer {
     switch (stage) {
       case Stage::depth: return run_depth(scene, in, out);
       case Stage::attributes: return run_attributes(scene, in, out);
+      case Stage::texture: return run_texture(scene, in, out);
       default: return run_shade(scene, in, out);
     }
   }
@@ -217,6 +217,26 @@ class PipelineRenderer : public Renderer {
     }
   }
 
+  void run_texture(const Scene& scene, const Records<double>& in, Capture& out) {
+    if (!textured(scene)) return;
+    const std::vector<Surface> surfaces = surfaces_of(scene, {});
+    const DrawOfTriangle draw_of(scene, in.triangles);
+    const VaryingColumns<double>& st = in.varyings[Varying::texture];
+    each_fragment(scene, in, nullptr, [&](std::size_t i, const Pixels<float>& p, const TriangleSetup<>& setup) {
+      Texel<double>& to = out.records.texels.emplace_back();
+      const auto& of_draw = surfaces[draw_of.index(setup.triangle)].texture;
+      if (!of_draw) return;
+      const auto& corners = st.triangles.at(setup.triangle);
+      const GradientSetup gradient =
+          gradient_setup(narrow(in.triangles.at(setup.triangle)),
+                         {Vec4<float>(corners[0]), Vec4<float>(corners[1]), Vec4<float>(corners[2])}, setup.planes);
+      const Color<float> at = color_of(st.fragments.at(i));
+      const FilteredTexel<float> texel =
+          stages_.fragment.texture(*of_draw, {at.r, at.g}, gradients<float>(gradient, p));
+      to = {widen(texel.color), texel.lod};
+    });
+  }
+
   void run_shade(const Scene& scene, const Records<double>& in, Capture& out) {
     const std::vector<Surface> surfaces = surfaces_of(scene, {});
     const DrawOfTriangle draw_of(scene, in.triangles);
@@ -228,7 +248,11 @@ class PipelineRenderer : public Renderer {
         out.records.shaded.push_back({widen(stages_.fragment.shade(color))});
         continue;
       }
-      SurfaceAttributes<float> attributes{color, {}};
+      SurfaceAttributes<float> attributes{color, {}, {}};
+      if (surface.texture) {
+        const Texel<double>& texel = in.texels.at(i);
+        attributes.texel = {color_of(texel.color), static_cast<float>(texel.lod)};
+      }
       for (const Varying v : surface.carried) attributes[v] = color_of(in.varyings[v].fragments.at(i));
       const bool front = in.triangles.at(triangle).front;
       out.records.shaded.push_back({widen(stages_.fragment.shade_surface(surface, front, attributes))});

@@ -65,7 +65,7 @@ template <class T>
 struct Vertex {
   Vec4<T> p_eye;
   Vec4<T> p_clip;
-  Vec3<T> n_eye;  ///< unit length
+  Vec3<T> n_eye;  ///< unit length, unless the draw has it otherwise (scene.h, Normals)
 };
 
 // 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours. Whatever else
@@ -142,7 +142,13 @@ struct Attributes {
   Vec4<T> color;
 };
 
-// 8. (texture: no records yet)
+// 8. The texture, filtered at the fragment: source components (Cs, As) of OpenGL 2.1's table 3.21, and the level of
+//    detail lambda, bias and limits applied. (0, 0, 0, 1) and 0 where the draw has no texture.
+template <class T>
+struct Texel {
+  Vec4<T> color{0, 0, 0, 1};
+  T lod = 0;
+};
 
 // 9. The fragment's colour, not yet clamped or rounded to the frame's format.
 template <class T>
@@ -172,6 +178,7 @@ struct Records {
   std::vector<Covered> covered;              ///< by triangle, then y, then x: the fragments
   std::vector<T> depth;                      ///< beside covered
   std::vector<Attributes<T>> attributes;     ///< beside covered
+  std::vector<Texel<T>> texels;              ///< beside covered; empty where no draw has a texture
   std::vector<Shaded<T>> shaded;             ///< beside covered
   std::vector<Drawn> drawn;                  ///< beside covered
   Varyings<T> varyings;                      ///< beside them all
