@@ -187,7 +187,7 @@ DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const
              "depth_func", "fog", "scissor", "depth_mask", "blend", "color_mask", "texture"});
   DrawState state = defaults;
   read_state(node, state);
-  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
   return state;
 }
 
@@ -196,7 +196,7 @@ DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::
              "point_size", "depth_func", "fog", "scissor", "depth_mask", "blend", "color_mask", "texture"});
   DrawState state = defaults;
   read_state(node, state);
-  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
   return state;
 }
 

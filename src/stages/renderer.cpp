@@ -14,7 +14,7 @@ std::size_t plane_bytes(const Scene& scene) {
   // Blended colours have bounds, and a reference that folds them holds what is written and what is stored, as
   // intervals.
   constexpr std::size_t kBlended = 2 * sizeof(glm::vec4) + 18 * sizeof(double);
-  const std::size_t pixel = kPixel + (colors_replace(scene) ? 0 : kBlended);
+  const std::size_t pixel = kPixel + (colors_replace(scene) ? 0 : kBlended) + (textured(scene) ? sizeof(glm::vec4) : 0);
   return static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height) * pixel;
 }
 

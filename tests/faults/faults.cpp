@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "faults/notes.h"
+#include "faults/textures.h"
 #include "faults/variants.h"
 #include "pipeline/carry.h"
 #include "pipeline/clip.h"
@@ -242,10 +243,17 @@ constexpr std::array kFaults = {
 
 }  // namespace
 
-std::span<const Fault> of_stages() { return kFaults; }
+std::span<const Fault> of_stages() {
+  static const std::vector<Fault> kAll = [] {
+    std::vector<Fault> out(kFaults.begin(), kFaults.end());
+    out.insert(out.end(), of_textures().begin(), of_textures().end());
+    return out;
+  }();
+  return kAll;
+}
 
 std::vector<Fault> all() {
-  std::vector<Fault> out(kFaults.begin(), kFaults.end());
+  std::vector<Fault> out(of_stages().begin(), of_stages().end());
   out.insert(out.end(), of_notes().begin(), of_notes().end());
   return out;
 }
