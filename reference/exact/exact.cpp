@@ -12,6 +12,7 @@
 #include "reference/exact/texels.h"
 #include "reference/exact/window.h"
 #include "reference/math/oracle.h"
+#include "reference/math/resolve.h"
 
 namespace plumbline::exact {
 namespace {
@@ -72,6 +73,10 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
       out.planes.id = visible_primitives(scene, records, out.records.drawn);
       break;
     case Stage::merge: merge_fragments(scene, in, out); break;
+    case Stage::resolve:
+      require_samples(scene, in.samples);
+      out.planes.color = math::mean_colors(scene.frame, in.samples);
+      break;
   }
   return out;
 }
@@ -143,7 +148,7 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
     const Barycentric weights(triangle, frame.width, frame.height);
     for (const Covered& c : covered) {
       add_fragment(out.planes, c.x, c.y, id_weight(triangle.primitive));
-      const double depth = depth_at(triangle, weights, c.x, c.y);
+      const double depth = depth_at(triangle, weights, frame, c.x, c.y);
       const bool visible = buffer.test(c.x, c.y, draw, depth);
       const bool recorded = wanted && selection.fragments() && selection.pixel(c.x, c.y);
       if (!visible && !recorded) continue;
@@ -170,6 +175,7 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
 }
 
 Capture Exact::capture(const Scene& scene, const Request& request) {
+  if (scene.frame.antialias.kind != Antialias::Kind::none) return math::capture_resolved(*this, scene, request);
   require_budget(scene, plane_bytes(scene), request.memory_budget);
   Capture out = empty_capture(scene);
   Records<double>& records = out.records;

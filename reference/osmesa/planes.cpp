@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "reference/osmesa/light_state.h"
 #include "reference/osmesa/target.h"
 #include "stages/renderer.h"
 
@@ -42,7 +43,7 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colo
   const CountedFragments counted(gl);
   target.bind();
   scene.clear(colors == Colors::texels ? glm::vec4(0) : scene.scene().frame.clear_color);
-  scene.set_lights();
+  set_lights(gl, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     scene.set_surface(i);
@@ -142,6 +143,16 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   planes.depth = target.read_depth();
   planes.id = draw_ids(gl, scene, bytes);
   add_up_coverage(draw_weights(gl, scene, floats), planes);
+  return planes;
+}
+
+Planes draw_picture(const Gl& gl, const SceneInGl& scene) {
+  const FrameFormat& frame = scene.scene().frame;
+  const Target target(gl, frame, frame.color == ColorFormat::rgba12 ? ColorFormat::rgba32f : frame.color);
+  draw_scene(gl, scene, target, Colors::merged);
+  Planes planes;
+  planes.color = target.read_color();
+  planes.depth = target.read_depth();
   return planes;
 }
 

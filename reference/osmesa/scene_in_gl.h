@@ -1,10 +1,12 @@
 // A scene's meshes in GL's buffers, each draw's uploaded once, and what GL has to be told to draw them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "reference/osmesa/buffer.h"
 #include "reference/osmesa/gl.h"
+#include "reference/osmesa/program.h"
 #include "reference/osmesa/textures_in_gl.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
@@ -22,7 +24,6 @@ class SceneInGl {
 
   // What GL is told. Call within a SavedState.
   void clear(const glm::vec4& color) const;  ///< to a colour and the frame's clear depth
-  void set_lights() const;                   ///< ambient light, lights; leaves MODELVIEW the identity
   void set_matrices(std::size_t draw) const;
   void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth, fog
   void set_fragments(std::size_t draw) const;  ///< culling, polygon modes, widths, scissor, depth function and mask
@@ -60,6 +61,7 @@ class SceneInGl {
   std::vector<DrawRange> ranges_;
   std::vector<Matrices<double>> matrices_;
   std::vector<Arrays> arrays_;
+  std::vector<std::optional<Program>> light_programs_;  ///< where the fixed function has no such light
   TexturesInGl textures_;
 };
 

@@ -12,6 +12,7 @@
 #include "check/compare_planes.h"
 #include "check/compare_records.h"
 #include "check/compare_texels.h"
+#include "check/judge_passes.h"
 #include "stages/seen_as.h"
 
 namespace plumbline::check {
@@ -127,6 +128,7 @@ void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
                    compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.codes"), made.legal),
                    codes ? "exact.merge.codes" : "");
     }
+    case Stage::resolve: break;  // of passes together (judge_passes.h)
   }
 }
 
@@ -280,7 +282,9 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
           }
           return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
       }
+      return;
     }
+    case Stage::resolve: return;
   }
 }
 
@@ -310,7 +314,7 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
   const StageSet of_oracle = oracle_stages(c.scene);
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    if (stage == Stage::texture && !textured(c.scene)) continue;
+    if (stage == Stage::resolve || (stage == Stage::texture && !textured(c.scene))) continue;
     if (!candidate[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, candidate[stage].reason);
     } else if (info.legal && of_oracle.has(stage) && theirs.legal.empty()) {
@@ -377,7 +381,8 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
   const RendererInfo info = referee.info();
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    if (stage == Stage::matrices || !info[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
+    const bool of_none = stage == Stage::matrices || stage == Stage::resolve;
+    if (of_none || !info[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
     const std::string name = info.name + " from its records";
     if (const Ability* hidden = shown != nullptr ? first_hidden(scene, *shown, stage) : nullptr) {
       c.skip(name, stage, Outcome::unsupported, hidden->reason);
@@ -393,6 +398,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
 }
 
 SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Drawn* drawn) {
+  if (scene.frame.antialias.kind != Antialias::Kind::none) return judge_passes(scene, candidate, references, drawn);
   const auto start = std::chrono::steady_clock::now();
   SceneVerdict verdict{scene.name, scene.path, {}, 0};
   const auto nothing = [&](const std::string& name, Outcome outcome, const std::string& why) {

@@ -91,8 +91,8 @@ constexpr std::array kLedger = {
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},
     Tolerance{"osmesa.merge.rgba16", 1, "1/65535",
-              "As osmesa.merge.rgba8: neighbours, and the whole codes that the float bound comes to."},
-    Tolerance{"osmesa.merge.blend.rgba16", 2.5, "1/65535", "TODO"},
+              "As osmesa.merge.rgba8; of the clear colour too, where its product in float may come to half a code."},
+    Tolerance{"osmesa.merge.blend.rgba16", 2.5, "1/65535", "As osmesa.merge.blend, in 16 bits."},
     Tolerance{
         "osmesa.merge.blend", 2.5, "1/255",
         "llvmpipe blends rgba8 in 8 bits. Per fragment: half a code for its colour, half a code for its alpha (or "
@@ -106,6 +106,11 @@ constexpr std::array kLedger = {
     Tolerance{"exact.merge.codes", 1, "half code",
               "A code is at most half a code from the value that was rounded, and the product by the largest code in "
               "float is 2 u off."},
+    Tolerance{
+        "exact.resolve", 1, "bound",
+        "Half a code for the rounding. Before it, of four equal samples in float: 2 u for a code's product with "
+        "1/255, 3 u for three sums, 1 u to make codes of the mean: under 8 u of the largest sample; of float colours "
+        "that alone, and of other means, which are taken in double, one rounding."},
     Tolerance{"legal.depth", 1, "step", "The legal interval, and one step of the depth format for the rounding."},
     Tolerance{"legal.attributes", 1, "bound",
               "The oracle's own bound of float arithmetic from the scene on (reference/math, color_error.h)."},

@@ -19,12 +19,19 @@
 
 namespace plumbline::pipeline {
 
+/// From a pixel's centre to where each of its values is taken, in 1/256 pixel.
+struct Places {
+  glm::ivec2 coverage, depth, color;
+};
+
 /// The stage functions of the fragment half; a variant inherits them and hides some by its own. Attributes and colours
 /// are of whatever types the functions hand to each other.
 struct FragmentStages {
   static AttributeSetup attribute_setup(const WindowTriangle<float>& triangle, std::uint32_t) {
     return pipeline::attribute_setup(triangle);
   }
+  /// Where a pass of multisampling looks, `sample` being the pass' own.
+  static Places places(glm::ivec2 sample) { return {sample, sample, {0, 0}}; }
   static PixelBounds bounds(const WindowTriangle<float>& triangle) { return pixel_bounds(triangle); }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
   static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
@@ -113,8 +120,9 @@ void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Co
 
 /// What a frame's formats come to.
 struct Formats {
-  double depth_scale;  ///< the largest depth code, or 0 for float
-  float color_scale;   ///< the largest colour code, or 0 for float
+  double depth_scale;    ///< the largest depth code, or 0 for float
+  float color_scale;     ///< the largest colour code, or 0 for float
+  glm::ivec2 sample{0};  ///< from a pixel's centre to where it is covered, in 1/256 pixel (scene/antialias.h)
 };
 
 /// All that stages 5 to 11 want to know of a triangle.
@@ -136,12 +144,15 @@ using SetupOf = TriangleSetup<decltype(std::declval<const Stages&>().attribute_s
 template <class Stages>
 SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std::uint32_t triangle,
                        const Formats& formats, int x0, int y0) {
+  const Places places = stages.places(formats.sample);
+  const WindowTriangle<float> to_cover = as_seen_from(t, places.coverage);
+  const BarycentricPlanes planes = planes_of(t, x0, y0);
   return {triangle,
           t.primitive,
-          stages.bounds(t),
-          stages.edges(t),
-          planes_of(t, x0, y0),
-          depth_setup(t, formats.depth_scale),
+          stages.bounds(to_cover),
+          stages.edges(to_cover),
+          moved(planes, places.color),
+          moved(depth_setup(t, formats.depth_scale), planes, places.depth - places.color),
           stages.attribute_setup(t, triangle),
           nullptr};
 }

@@ -32,6 +32,25 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
   return out;
 }
 
+// The other way round, of colours alone.
+Frame frame_of_colors(const FrameFormat& format, const Plane<glm::vec4>& color) {
+  FrameFormat of_pass = format;
+  of_pass.width = color.width();
+  of_pass.height = color.height();
+  Frame frame(of_pass);
+  const auto scale = static_cast<float>(color_scale(format.color));
+  const auto codes = [&](auto& to, std::size_t i) {
+    if (!to.empty()) to.values()[i] = glm::round(color.values()[i] * scale);
+  };
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    codes(frame.color_rgba8, i);
+    codes(frame.color_rgba12, i);
+    codes(frame.color_rgba16, i);
+  }
+  if (scale == 0.0f) frame.color_rgba32f = color;
+  return frame;
+}
+
 // Which draw a window triangle is of.
 class DrawOfTriangle {
  public:
@@ -64,6 +83,12 @@ class PipelineRenderer : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     Capture out = empty_capture(scene);
+    if (scene.frame.antialias.kind != Antialias::Kind::none) {
+      const std::vector<Frame> passes = render_passes(scene, stages_);
+      out.planes = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame));
+      for (const Frame& pass : passes) out.samples.push_back(planes_of_frame(pass, formats_of(scene.frame)).color);
+      return out;
+    }
     if (request.picture && !request.records.any()) {
       out.planes = planes_of_frame(render(scene, stages_), formats_of(scene.frame));
       return out;
@@ -84,6 +109,7 @@ class PipelineRenderer : public Renderer {
 
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
     if (!info()[stage].runs) return Renderer::run_stage(scene, stage, in);
+    if (stage == Stage::resolve) return resolved(scene, in.samples);
     require_fitting(scene, stage, in);
     Capture out = empty_capture(scene);
     if (stage <= Stage::window) {
@@ -105,6 +131,15 @@ class PipelineRenderer : public Renderer {
     out.version = PLUMBLINE_VERSION;
     out.width = scene.frame.width;
     out.height = scene.frame.height;
+    return out;
+  }
+
+  Capture resolved(const Scene& scene, const std::vector<Plane<glm::vec4>>& samples) {
+    require_samples(scene, samples);
+    std::vector<Frame> passes;
+    for (const Plane<glm::vec4>& color : samples) passes.push_back(frame_of_colors(scene.frame, color));
+    Capture out = empty_capture(scene);
+    out.planes.color = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame)).color;
     return out;
   }
 

@@ -3,6 +3,7 @@
 
 #include "pipeline/capture_tap.h"
 #include "pipeline/draw.h"
+#include "pipeline/resolve.h"
 #include "pipeline/tiles.h"
 
 namespace plumbline::pipeline {
@@ -69,10 +70,13 @@ FragmentFunctions fragment_functions() {
 struct Stages {
   GeometryStages geometry;
   FragmentFunctions fragment;
+  ResolveStage resolve = {};
 };
 /// Those of this folder.
 Stages production_stages();
 
+/// The frames of an antialiased scene's passes.
+std::vector<Frame> render_passes(const Scene& scene, const Stages& stages);
 /// Draws the scene.
 Frame render(const Scene& scene);
 /// Draws it with other stage functions.

@@ -28,7 +28,8 @@ struct SceneFileOptions {
 ///   description *  what must be seen, and why
 ///   dialect        "gl", "gzrender", "games101", "tinyrenderer": how all other numbers are read (dialect/dialect.h)
 ///   frame          width, height: 1 to 16384; color: "rgba8", "rgba12", "rgba16", "rgba32f"; depth: "z8", "z16",
-///                  "z24", "z32f"; clear_color: [r, g, b, a]; clear_depth
+///                  "z24", "z32f"; clear_color: [r, g, b, a]; clear_depth; antialias: {"samples": 4},
+///                  {"supersample": 1 to 8} or {"taps": "gzrender"} (antialias.h)
 ///   camera         eye, center, up: [x, y, z]
 ///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right
 ///   *,
@@ -38,7 +39,10 @@ struct SceneFileOptions {
 ///                  gzrender      {"x_pi": {fov *: degrees}}
 ///                  tinyrenderer  {"pinhole": {c: the distance of eye and center where it is not given}}
 ///   ambient        [r, g, b], the light model's
-///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]}
+///   light_model    local_viewer: true, false; specular: "half_vector", "reflection"; sides: "one", "flip" (LightModel)
+///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]};
+///                  beside point attenuation: [k0, k1, k2] and spot: {direction *: [x, y, z], cutoff *: degrees from 0
+///                  to 90, exponent: 0 to 128}
 ///   textures       {name: {image *, format, texels, min, mag, wrap_s, wrap_t, border, lod_bias, min_lod, max_lod,
 ///                  base_level, max_level}}, at most 64 (texture.h; what is left out has OpenGL's initial value)
 ///     image *      one of  "file": "wood.png", a PNG, JPEG, TGA or EXR file (texture_file.h)
@@ -71,11 +75,17 @@ struct SceneFileOptions {
 ///     material     ambient, diffuse, specular, emission: [r, g, b, a]; shininess: 0 to 128. Where neither the draw nor
 ///                  the defaults have one, a mesh file's materials count; a file of several becomes several draws
 ///     lit          true, false
+///     color_material  "none", "ambient", "diffuse", "ambient_and_diffuse", "specular", "emission": what of the
+///                  material is the mesh's colours, where it has some
+///     normals      "normalize", "rescale", "as_they_are"
 ///     shading      "flat", "gouraud"
 ///     cull         "none", "back", "front"
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where
 ///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth
 ///                  is then 0
+///     front_mode, back_mode  "fill", "line", "point": what is drawn of front and back faces
+///     line_width   pixels, an integer from 1 to 16
+///     point_size   pixels a side, an integer from 1 to 64
 ///     scissor      [x, y, width, height]: the pixels that may be covered; 0 to 16384 each
 ///     depth_mask   true, false: whether depth is written
 ///     blend        {source, destination, equation, alpha: {source, destination, equation}, color: [r, g, b, a]}:

@@ -48,6 +48,9 @@ struct Capture {
   int height = 0;
   Records<double> records;
   Planes planes;
+  /// Of an antialiased scene: each pass' frame colours. Its records, and the other planes, are those of the passes
+  /// alone.
+  std::vector<Plane<glm::vec4>> samples;
   Legal legal;  ///< an oracle's answer: what may be at each pixel
 };
 
