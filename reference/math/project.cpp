@@ -83,6 +83,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
     corner.color = vertex_color(scene, draw, view, i, p_eye, n_eye);
     corner.color_error = color_error(scene, draw, m, view, i);
+    corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
     corner.z_eye = p_eye.z;
     corner.z_eye_error = 6 * kFloatRounding * (sizes(m.model_view) * glm::abs(p)).z;  // entries, products, sums
     corner.point = first + point[i];

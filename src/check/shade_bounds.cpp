@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "check/bounds.h"
 #include "check/texture_bounds.h"
@@ -67,6 +68,8 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
       color[c] = f * color[c] + (1 - f) * of_fog;
     }
   }
+  // Where a texel is open, so is the colour, whatever it is multiplied by.
+  for (int c = 0; c < 4; ++c) error[c] = std::isfinite(error[c]) ? error[c] : std::numeric_limits<double>::infinity();
   return error;
 }
 

@@ -203,7 +203,7 @@ DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const
   node.only(kStateKeys);
   DrawState state = defaults;
   read_state(node, state);
-  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
   return state;
 }
 
@@ -213,7 +213,7 @@ DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::
   node.only(keys);
   DrawState state = defaults;
   read_state(node, state);
-  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
   return state;
 }
 
