@@ -24,9 +24,10 @@ std::vector<Vertex<double>> transform_vertices(const Scene& scene, const std::ve
     const glm::dmat4 model_view_projection = matrices[d].projection * matrices[d].model_view;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const glm::dvec4 p_model(mesh.positions[i], 1);
-      vertices.push_back({.p_eye = matrices[d].model_view * p_model,
-                          .p_clip = model_view_projection * p_model,
-                          .n_eye = glm::normalize(matrices[d].normal * glm::dvec3(mesh.normals[i]))});
+      vertices.push_back(
+          {.p_eye = matrices[d].model_view * p_model,
+           .p_clip = model_view_projection * p_model,
+           .n_eye = math::normal_in_eye_space(scene.draws[d].normals, matrices[d].normal, mesh.normals[i])});
     }
   }
   return vertices;

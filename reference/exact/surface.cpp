@@ -2,11 +2,16 @@
 
 #include "reference/exact/input.h"
 #include "reference/math/fog.h"
+#include "reference/math/texture.h"
 
 namespace plumbline::exact {
 
-glm::dvec4 shade(const Scene&, const Draw& draw, bool /*front*/, const glm::dvec4& color, const Fours& fours) {
+glm::dvec4 shade(const Scene& scene, const Draw& draw, bool /*front*/, const glm::dvec4& color, const Fours& fours,
+                 const glm::dvec4& texel) {
   glm::dvec4 out = color;
+  if (draw.texture) {
+    out = math::textured_color(scene.textures.at(draw.texture->texture).format, *draw.texture, out, texel);
+  }
   if (draw.fog) out = math::fogged(*draw.fog, out, fours[static_cast<std::size_t>(Varying::position)].z);
   return out;
 }
@@ -17,6 +22,7 @@ std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<do
   std::vector<Varying> varyings = carried(scene);
   std::erase_if(varyings, is_back);
   for (const Varying v : varyings) require_size("records.varyings", records.varyings[v].fragments.size(), count);
+  if (textured(scene)) require_size("records.texels", records.texels.size(), count);
   std::vector<Shaded<double>> shaded;
   shaded.reserve(count);
   if (is_plain(scene)) {
@@ -29,7 +35,9 @@ std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<do
     for (std::size_t i = run.first; i < run.last; ++i) {
       Fours fours{};
       for (const Varying v : varyings) fours[static_cast<std::size_t>(v)] = records.varyings[v].fragments[i];
-      shaded.push_back({shade(scene, draw_of(triangle.primitive), triangle.front, records.attributes[i].color, fours)});
+      const glm::dvec4 texel = records.texels.empty() ? glm::dvec4(0) : records.texels[i].color;
+      shaded.push_back(
+          {shade(scene, draw_of(triangle.primitive), triangle.front, records.attributes[i].color, fours, texel)});
     }
   }
   return shaded;

@@ -11,37 +11,96 @@ glm::dvec3 unit(glm::dvec3 v) {
   return length > 0 ? v / length : glm::dvec3(0);
 }
 
-/// From the point towards the light, unit length: the specification's VP.
+/// From the point to the light: the specification's VP, not yet of unit length.
 glm::dvec3 towards(const Light& light, const glm::dmat4& view, glm::dvec3 p_eye) {
-  if (light.kind == Light::Kind::directional) return unit(glm::dmat3(view) * light.vector);
-  return unit(glm::dvec3(view * glm::dvec4(light.vector, 1)) - p_eye);
+  if (light.kind == Light::Kind::directional) return glm::dmat3(view) * light.vector;
+  return glm::dvec3(view * glm::dvec4(light.vector, 1)) - p_eye;
+}
+
+/// att_i * spot_i.
+double share_at(const Light& light, const glm::dmat4& view, glm::dvec3 vp) {
+  if (light.kind == Light::Kind::directional) return 1;
+  const double d = glm::length(vp);
+  const glm::dvec3 k(light.attenuation);
+  // A light at the point itself may have nothing to divide by: the specification says nothing, this stays a number.
+  const double attenuation = 1 / std::max(k[0] + k[1] * d + k[2] * d * d, 1e-38);
+  if (!light.spot) return attenuation;
+  const glm::dvec3 s = unit(glm::dmat3(view) * light.spot->direction);
+  const double cosine = glm::dot(-unit(vp), s);
+  if (cosine < std::cos(glm::radians(light.spot->cutoff_degrees))) return 0;
+  return attenuation * std::pow(std::max(0.0, cosine), static_cast<double>(light.spot->exponent));
+}
+
+/// What the specular term takes to the power of the shininess.
+double highlight(const LightModel& model, glm::dvec3 n, glm::dvec3 l, glm::dvec3 e) {
+  switch (model.specular) {
+    case LightModel::Specular::half_vector: return std::max(0.0, glm::dot(n, unit(l + e)));
+    case LightModel::Specular::reflection: return std::max(0.0, glm::dot(2 * glm::dot(n, l) * n - l, e));
+  }
+  return 0;
 }
 
 }  // namespace
 
-glm::dvec4 light(const Scene& scene, const Draw& draw, const glm::dmat4& view, glm::dvec3 p_eye, glm::dvec3 n_eye) {
-  const Material& material = draw.material;
+glm::dvec4 light(const Scene& scene, const Material& material, const glm::dmat4& view, glm::dvec3 p_eye,
+                 glm::dvec3 n_eye) {
+  const LightModel& model = scene.light_model;
   const glm::dvec3 ambient(material.ambient), diffuse(material.diffuse), specular(material.specular);
-  glm::dvec3 rgb = glm::dvec3(material.emission) + ambient * glm::dvec3(scene.ambient);
+  const glm::dvec3 to_eye = model.local_viewer ? unit(-p_eye) : glm::dvec3(0, 0, 1);
+  glm::dvec3 rgb = glm::dvec3(material.emission) + ambient * glm::dvec3(model.ambient);
   for (const Light& source : scene.lights) {
-    const glm::dvec3 to_light = towards(source, view, p_eye);
-    const double n_dot_vp = glm::dot(n_eye, to_light);
-    rgb += ambient * glm::dvec3(source.ambient);
-    if (!(n_dot_vp > 0)) continue;  // the diffuse term is clamped to 0, and the specular one has f = 0
-    rgb += n_dot_vp * diffuse * glm::dvec3(source.diffuse);
-    const glm::dvec3 half = unit(to_light + glm::dvec3(0, 0, 1));
-    const double n_dot_h = std::max(0.0, glm::dot(n_eye, half));
-    rgb += std::pow(n_dot_h, static_cast<double>(material.shininess)) * specular * glm::dvec3(source.specular);
+    const glm::dvec3 vp = towards(source, view, p_eye), to_light = unit(vp);
+    const double share = share_at(source, view, vp);
+    if (!(share > 0)) continue;
+    glm::dvec3 n = n_eye;
+    if (model.sides == LightModel::Sides::flip && glm::dot(n, to_eye) < 0) n = -n;
+    // Of what is turned over, the light must be on the eye's side: else the two dot products are of different signs.
+    const bool reached = model.sides != LightModel::Sides::flip || glm::dot(n, to_eye) > 0;
+    const double n_dot_vp = glm::dot(n, to_light);
+    glm::dvec3 color = ambient * glm::dvec3(source.ambient);
+    if (reached && n_dot_vp > 0) {  // else the diffuse term is clamped to 0, and the specular one has f = 0
+      color += n_dot_vp * diffuse * glm::dvec3(source.diffuse);
+      color += std::pow(highlight(model, n, to_light, to_eye), static_cast<double>(material.shininess)) * specular *
+               glm::dvec3(source.specular);
+    }
+    rgb += share * color;
   }
   return glm::clamp(glm::dvec4(rgb, material.diffuse.a), 0.0, 1.0);
 }
 
+Material material_at(const Scene& scene, const Draw& draw, std::uint32_t vertex) {
+  Material material = draw.material;
+  const Mesh& mesh = scene.meshes.at(draw.mesh);
+  if (mesh.colors.empty()) return material;
+  const ColorMaterial follows = draw.color_material;
+  const glm::vec4 color = mesh.colors.at(vertex);
+  const bool both = follows == ColorMaterial::ambient_and_diffuse;
+  if (both || follows == ColorMaterial::ambient) material.ambient = color;
+  if (both || follows == ColorMaterial::diffuse) material.diffuse = color;
+  if (follows == ColorMaterial::specular) material.specular = color;
+  if (follows == ColorMaterial::emission) material.emission = color;
+  return material;
+}
+
 glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, const glm::dmat4& view, std::uint32_t vertex,
                         glm::dvec3 p_eye, glm::dvec3 n_eye) {
-  if (draw.lit) return light(scene, draw, view, p_eye, n_eye);
+  if (draw.lit) return light(scene, material_at(scene, draw, vertex), view, p_eye, n_eye);
   const Mesh& mesh = scene.meshes.at(draw.mesh);
   const glm::dvec4 color(mesh.colors.empty() ? draw.material.diffuse : mesh.colors.at(vertex));
   return glm::clamp(color, 0.0, 1.0);
+}
+
+glm::dvec3 normal_in_eye_space(Normals normals, const glm::dmat3& normal_matrix, glm::dvec3 n) {
+  const glm::dvec3 n_eye = normal_matrix * n;
+  switch (normals) {
+    case Normals::normalize: return glm::normalize(n_eye);
+    case Normals::rescale: {  // f = 1 / sqrt(m31^2 + m32^2 + m33^2), of the model-view's inverse
+      const glm::dmat3 inverse = glm::transpose(normal_matrix);
+      return n_eye / std::sqrt(inverse[0].z * inverse[0].z + inverse[1].z * inverse[1].z + inverse[2].z * inverse[2].z);
+    }
+    case Normals::as_they_are: return n_eye;
+  }
+  return n_eye;
 }
 
 }  // namespace plumbline::math

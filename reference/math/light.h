@@ -1,4 +1,5 @@
-// Stage 2 in double: a vertex' colour by the equations of the OpenGL 2.1 specification, section 2.14.1.
+// Stage 2 in double: a vertex' colour by the equations of the OpenGL 2.1 specification, section 2.14.1, and of note
+// 000.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +10,21 @@
 
 namespace plumbline::math {
 
-/// The lit colour at a point: rgba, clamped to [0,1]; alpha is the material's diffuse alpha. Infinite viewer, one side,
-/// no attenuation. `view` takes the lights' vectors from world to eye space; `n_eye` is of unit length. 0^0 is 1, and a
-/// vector without a direction (a light at the point itself) has a dot product of 0 with everything.
-glm::dvec4 light(const Scene& scene, const Draw& draw, const glm::dmat4& view, glm::dvec3 p_eye, glm::dvec3 n_eye);
+/// The lit colour at a point: rgba, clamped to [0,1]; alpha is the material's diffuse alpha. `view` takes the lights'
+/// vectors from world to eye space. 0^0 is 1, and a vector without a direction (a light at the point itself) has a dot
+/// product of 0 with everything.
+glm::dvec4 light(const Scene& scene, const Material& material, const glm::dmat4& view, glm::dvec3 p_eye,
+                 glm::dvec3 n_eye);
+
+/// The draw's material at the mesh's vertex number `vertex`: what follows the vertex colour is that (2.14.3).
+Material material_at(const Scene& scene, const Draw& draw, std::uint32_t vertex);
 
 /// The colour of the mesh's vertex number `vertex`: lit, or where the draw is not, the mesh's colour there, or where it
 /// has none, the material's diffuse colour. rgba, clamped to [0,1].
 glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, const glm::dmat4& view, std::uint32_t vertex,
                         glm::dvec3 p_eye, glm::dvec3 n_eye);
+
+/// A normal as the draw has it: `n` by the normal matrix, brought to unit length, rescaled (2.11.3) or neither.
+glm::dvec3 normal_in_eye_space(Normals normals, const glm::dmat3& normal_matrix, glm::dvec3 n);
 
 }  // namespace plumbline::math

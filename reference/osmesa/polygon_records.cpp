@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "reference/osmesa/feedback.h"
+#include "reference/osmesa/light_state.h"
 
 namespace plumbline::osmesa {
 namespace {
@@ -214,8 +215,9 @@ void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std
 void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request, Records<double>& records) {
   const bool clip = request.records.has(Stage::clip), window = request.records.has(Stage::window);
   if (!clip && !window) return;
+  const SavedState state(gl);
   Feedback feedback(gl, GL_4D_COLOR_TEXTURE);
-  scene.set_lights();
+  set_lights(gl, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     const DrawRange& range = scene.ranges()[i];
     const Draw& draw = scene.scene().draws[i];
@@ -237,7 +239,7 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
       if (clip) add_polygons(triangles, to_clip, records.polygons);
       if (window && outlined(mesh, draw)) {
         require_uncut(triangles);
-        const SavedState state(gl);
+        const SavedState outlines(gl);
         scene.set_fragments(i);
         triangles = fed();
       }

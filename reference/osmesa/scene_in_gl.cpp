@@ -7,6 +7,8 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "reference/math/matrices.h"
+#include "reference/osmesa/light_program.h"
+#include "reference/osmesa/light_state.h"
 #include "stages/capture.h"
 #include "stages/renderer.h"
 
@@ -32,6 +34,9 @@ void require_whole(const Scene& scene, const Draw& draw) {
   if (mesh.normals.size() != vertices) fail(fmt::format("{} positions, but {} normals", vertices, mesh.normals.size()));
   if (!mesh.colors.empty() && mesh.colors.size() != vertices) {
     fail(fmt::format("{} positions, but {} colours", vertices, mesh.colors.size()));
+  }
+  if (!mesh.texcoords.empty() && mesh.texcoords.size() != vertices) {
+    fail(fmt::format("{} positions, but {} texture coordinates", vertices, mesh.texcoords.size()));
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3 t = mesh.triangles[i];
@@ -62,13 +67,6 @@ std::vector<std::uint32_t> indices_of(const Mesh& mesh) {
     for (int i = 0; i < count; ++i) indices.push_back(primitive[i]);
   }
   return indices;
-}
-
-// In the world, homogeneous. A direction of unit length, so that its rounding to float loses nothing to its size.
-glm::dvec4 place(const Light& light) {
-  if (light.kind == Light::Kind::point) return glm::dvec4(light.vector, 1);
-  const double length = glm::length(light.vector);
-  return glm::dvec4(length > 0 ? light.vector / length : light.vector, 0);
 }
 
 GLenum gl_depth_func(DepthFunc func) {
@@ -135,12 +133,13 @@ std::vector<SceneInGl::MeshVertex> SceneInGl::vertices_of(const Mesh& mesh) {
   std::vector<MeshVertex> vertices;
   vertices.reserve(mesh.positions.size());
   for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
-    vertices.push_back({mesh.positions[i], mesh.normals[i], color_at(mesh, i)});
+    const glm::vec2 texcoord = mesh.texcoords.empty() ? glm::vec2(0) : mesh.texcoords[i];
+    vertices.push_back({mesh.positions[i], mesh.normals[i], color_at(mesh, i), texcoord});
   }
   return vertices;
 }
 
-SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene) {
+SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene), textures_(gl, scene) {
   if (const int most = limit(gl, GL_MAX_LIGHTS); scene.lights.size() > static_cast<std::size_t>(most)) {
     throw RendererFailed(fmt::format("{}: {} lights; OpenGL has {}", scene.name, scene.lights.size(), most));
   }
@@ -149,6 +148,10 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene) 
   for (std::size_t i = 0; i < scene.draws.size(); ++i) {
     const Mesh& mesh = scene.meshes[scene.draws[i].mesh];
     matrices_.push_back(math::float_matrices(scene, scene.draws[i]));
+    std::optional<Program>& program = light_programs_.emplace_back();
+    if (needs_light_program(scene, scene.draws[i])) {
+      program.emplace(gl, light_vertex_shader(scene, scene.draws[i]), "");
+    }
     std::vector<MeshVertex> vertices = vertices_of(mesh);
     Buffer vertex_buffer(gl, std::span<const MeshVertex>(vertices));
     arrays_.push_back({std::move(vertices), std::move(vertex_buffer),
@@ -162,23 +165,6 @@ void SceneInGl::clear(const glm::vec4& color) const {
   gl_.ClearColor(color.r, color.g, color.b, color.a);
   gl_.ClearDepth(scene_.frame.clear_depth);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
-
-void SceneInGl::set_lights() const {
-  gl_.LightModelfv(GL_LIGHT_MODEL_AMBIENT, glm::value_ptr(glm::vec4(scene_.ambient, 1)));
-  // GL takes a light's place through the model-view matrix of the moment; it comes in eye space already.
-  gl_.MatrixMode(GL_MODELVIEW);
-  gl_.LoadIdentity();
-  const glm::dmat4 view = math::view_matrix(scene_);
-  for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-    const Light& light = scene_.lights[i];
-    const auto name = static_cast<GLenum>(GL_LIGHT0 + i);
-    gl_.Lightfv(name, GL_POSITION, glm::value_ptr(glm::vec4(view * place(light))));
-    gl_.Lightfv(name, GL_AMBIENT, glm::value_ptr(glm::vec4(light.ambient, 1)));
-    gl_.Lightfv(name, GL_DIFFUSE, glm::value_ptr(glm::vec4(light.diffuse, 1)));
-    gl_.Lightfv(name, GL_SPECULAR, glm::value_ptr(glm::vec4(light.specular, 1)));
-    gl_.Enable(name);
-  }
 }
 
 void SceneInGl::set_matrices(std::size_t draw) const {
@@ -206,20 +192,24 @@ void SceneInGl::set_fog(std::size_t draw) const {
 
 void SceneInGl::set_surface(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
+  textures_.set(d);
   set_fog(draw);
   gl_.ShadeModel(d.shading == Shading::flat ? GL_FLAT : GL_SMOOTH);
+  gl_.UseProgram(0);
   if (!d.lit) {
     gl_.Disable(GL_LIGHTING);
     gl_.Color4fv(glm::value_ptr(d.material.diffuse));  // where the mesh has no colours
     return;
   }
   gl_.Enable(GL_LIGHTING);
-  gl_.Enable(GL_NORMALIZE);
-  gl_.Materialfv(GL_FRONT_AND_BACK, GL_AMBIENT, glm::value_ptr(d.material.ambient));
-  gl_.Materialfv(GL_FRONT_AND_BACK, GL_DIFFUSE, glm::value_ptr(d.material.diffuse));
-  gl_.Materialfv(GL_FRONT_AND_BACK, GL_SPECULAR, glm::value_ptr(d.material.specular));
-  gl_.Materialfv(GL_FRONT_AND_BACK, GL_EMISSION, glm::value_ptr(d.material.emission));
-  gl_.Materialf(GL_FRONT_AND_BACK, GL_SHININESS, d.material.shininess);
+  set_material(gl_, scene_, d);
+  if (light_programs_[draw]) gl_.UseProgram(light_programs_[draw]->name());
+}
+
+void SceneInGl::set_texture_source(std::size_t draw) const {
+  textures_.set_source(scene_.draws[draw]);
+  gl_.Disable(GL_LIGHTING);
+  gl_.Color4f(0, 0, 0, 1);
 }
 
 void SceneInGl::set_fragments(std::size_t draw) const {
@@ -269,6 +259,9 @@ void SceneInGl::point_to_vertices(std::size_t draw, const MeshVertex* first) con
   gl_.EnableClientState(GL_VERTEX_ARRAY);
   gl_.EnableClientState(GL_NORMAL_ARRAY);
   if (!mesh(draw).colors.empty()) gl_.EnableClientState(GL_COLOR_ARRAY);
+  if (mesh(draw).texcoords.empty()) return;
+  gl_.TexCoordPointer(2, GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, texcoord)));
+  gl_.EnableClientState(GL_TEXTURE_COORD_ARRAY);
 }
 
 void SceneInGl::bind_corners(std::size_t draw) const {

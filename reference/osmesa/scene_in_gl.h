@@ -1,10 +1,13 @@
 // A scene's meshes in GL's buffers, each draw's uploaded once, and what GL has to be told to draw them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "reference/osmesa/buffer.h"
 #include "reference/osmesa/gl.h"
+#include "reference/osmesa/program.h"
+#include "reference/osmesa/textures_in_gl.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -21,11 +24,11 @@ class SceneInGl {
 
   // What GL is told. Call within a SavedState.
   void clear(const glm::vec4& color) const;  ///< to a colour and the frame's clear depth
-  void set_lights() const;                   ///< ambient light, lights; leaves MODELVIEW the identity
   void set_matrices(std::size_t draw) const;
   void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth, fog
   void set_fragments(std::size_t draw) const;  ///< culling, polygon modes, widths, scissor, depth function and mask
-  void set_merge(std::size_t draw) const;      ///< blending and colour mask
+  void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels
+  void set_merge(std::size_t draw) const;           ///< blending and colour mask
 
   // The draw's mesh, under the state that is set.
   void draw_primitives(std::size_t draw) const;  ///< with normals and colours
@@ -40,6 +43,7 @@ class SceneInGl {
   struct MeshVertex {
     glm::vec3 position, normal;
     glm::vec4 color;
+    glm::vec2 texcoord;
   };
   struct Arrays {
     std::vector<MeshVertex> vertices;
@@ -57,6 +61,8 @@ class SceneInGl {
   std::vector<DrawRange> ranges_;
   std::vector<Matrices<double>> matrices_;
   std::vector<Arrays> arrays_;
+  std::vector<std::optional<Program>> light_programs_;  ///< where the fixed function has no such light
+  TexturesInGl textures_;
 };
 
 /// GL_TRIANGLES, GL_LINES or GL_POINTS.

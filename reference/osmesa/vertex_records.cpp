@@ -1,12 +1,12 @@
 #include "reference/osmesa/vertex_records.h"
 
 #include <array>
-#include <string>
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "reference/osmesa/feedback.h"
+#include "reference/osmesa/light_state.h"
 #include "stages/renderer.h"
 
 namespace plumbline::osmesa {
@@ -16,22 +16,20 @@ constexpr const char* kVertexSource =
     "#version 120\n"
     "varying vec4 p_eye;\n"
     "varying vec3 n_eye;\n"
+    "uniform int normals;\n"
     "void main() {\n"
     "  gl_Position = ftransform();\n"
     "  p_eye = gl_ModelViewMatrix * gl_Vertex;\n"
-    "  n_eye = normalize(gl_NormalMatrix * gl_Normal);\n"
+    "  n_eye = gl_NormalMatrix * gl_Normal;\n"
+    "  if (normals == 0) n_eye = normalize(n_eye);\n"
+    "  if (normals == 1) n_eye *= gl_NormalScale;\n"
     "}\n";
 
+constexpr std::array<const GLchar*, 3> kCaptured = {"gl_Position", "p_eye", "n_eye"};
 struct Varyings {
   glm::vec4 p_clip, p_eye;
   glm::vec3 n_eye;
 };
-
-std::string log_of(const Gl& gl, GLuint program) {
-  std::array<char, 1024> log{};
-  gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  return log.data();
-}
 
 glm::dmat4 read_matrix(const Gl& gl, GLenum name) {
   glm::mat4 matrix;
@@ -96,36 +94,21 @@ std::vector<Matrices<double>> read_matrices(const Gl& gl, const SceneInGl& scene
   return records;
 }
 
-VertexProgram::VertexProgram(const Gl& gl) : gl_(gl), program_(gl.CreateProgram()) {
-  const GLuint shader = gl_.CreateShader(GL_VERTEX_SHADER);
-  gl_.ShaderSource(shader, 1, &kVertexSource, nullptr);
-  gl_.CompileShader(shader);
-  gl_.AttachShader(program_, shader);
-  gl_.DeleteShader(shader);
-  const std::array<const GLchar*, 3> varyings = {"gl_Position", "p_eye", "n_eye"};
-  gl_.TransformFeedbackVaryings(program_, 3, varyings.data(), GL_INTERLEAVED_ATTRIBS);
-  gl_.LinkProgram(program_);
-  GLint linked = GL_FALSE;
-  gl_.GetProgramiv(program_, GL_LINK_STATUS, &linked);
-  if (linked != GL_TRUE) {
-    const std::string log = log_of(gl_, program_);
-    gl_.DeleteProgram(program_);
-    throw RendererFailed("OpenGL: the vertex program does not link: " + log);
-  }
-  check(gl, "making the vertex program");
-}
-
-VertexProgram::~VertexProgram() { gl_.DeleteProgram(program_); }
+VertexProgram::VertexProgram(const Gl& gl)
+    : gl_(gl),
+      program_(gl, kVertexSource, "", kCaptured),
+      normals_(gl.GetUniformLocation(program_.name(), "normals")) {}
 
 std::vector<Vertex<double>> VertexProgram::run(const SceneInGl& scene) const {
   std::vector<Vertex<double>> records;
-  const Captured captured(gl_, program_);
+  const Captured captured(gl_, program_.name());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     std::vector<Varyings> varyings(scene.ranges()[i].vertex_count);
     if (varyings.empty()) continue;
     const auto bytes = varyings.size() * sizeof(Varyings);
     const Buffer buffer(gl_, bytes, nullptr);
     scene.set_matrices(i);
+    gl_.Uniform1i(normals_, static_cast<GLint>(scene.scene().draws[i].normals));
     gl_.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer.name());
     gl_.BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, captured.query());
     gl_.BeginTransformFeedback(GL_POINTS);
@@ -147,8 +130,9 @@ std::vector<Vertex<double>> VertexProgram::run(const SceneInGl& scene) const {
 
 std::vector<Lit<double>> read_lit(const Gl& gl, const SceneInGl& scene) {
   std::vector<Lit<double>> records;
+  const SavedState state(gl);
   Feedback feedback(gl, GL_3D_COLOR);
-  scene.set_lights();
+  set_lights(gl, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     gather_vertices(gl);

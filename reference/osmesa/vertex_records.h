@@ -14,16 +14,14 @@ std::vector<Matrices<double>> read_matrices(const Gl& gl, const SceneInGl& scene
 class VertexProgram {
  public:
   explicit VertexProgram(const Gl& gl);
-  ~VertexProgram();
-  VertexProgram(const VertexProgram&) = delete;
-  VertexProgram& operator=(const VertexProgram&) = delete;
 
   /// All draws' vertices by transform feedback. Call as read_matrices.
   std::vector<Vertex<double>> run(const SceneInGl& scene) const;
 
  private:
   const Gl& gl_;
-  GLuint program_;
+  Program program_;
+  GLint normals_;  ///< where it is told what becomes of normals (scene.h, Normals)
 };
 
 /// All draws' vertices, lit, by feedback mode. Call as read_matrices.

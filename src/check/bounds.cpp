@@ -6,8 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "dialect/dialect.h"
-
 namespace plumbline::check {
 
 namespace {
@@ -88,37 +86,6 @@ double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n) {
 double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n) {
   const Mat3<double> transposed = glm::transpose(Mat3<double>(model_view));
   return glm::length(terms(n_matrix, terms(transposed, terms(n_matrix, n)))) / glm::length(n_matrix * n);
-}
-
-LightBounds light_bounds(const Scene& scene, const Draw& draw, const Vertex<double>& vertex) {
-  constexpr double kRoundings = 16;  // of N.L, as of the whole (ledger, exact.light)
-  const Material& m = draw.material;
-  const Vec3<double> p_eye(vertex.p_eye);
-  const glm::dmat4 view = view_matrix(scene);
-  LightBounds out;
-  out.magnitude = Vec3<double>(m.emission) + Vec3<double>(m.ambient) * Vec3<double>(scene.ambient);
-  for (const Light& light : scene.lights) {
-    const bool point = light.kind == Light::Kind::point;
-    const Vec3<double> l_eye(view * glm::dvec4(light.vector, point ? 1.0 : 0.0));
-    const Vec3<double> to_light = point ? l_eye - p_eye : l_eye;
-    // A light near the vertex: the difference of two rounded positions.
-    const double condition = point ? 1 + (glm::length(l_eye) + glm::length(p_eye)) / glm::length(to_light) : 1;
-    if (!(condition * kRoundings * kUnitRoundoff < 1)) {
-      out.magnitude = Vec3<double>(std::numeric_limits<double>::infinity());
-      return out;
-    }
-    const Vec3<double> direction = glm::normalize(to_light), half = direction + Vec3<double>(0, 0, 1);
-    const double s = m.shininess, half_length = std::max(glm::length(half), 1e-6);
-    const double highlight = 1 + s * (1 + 1 / half_length);
-    const Vec3<double> specular(light.specular * glm::vec3(m.specular));
-    out.magnitude += Vec3<double>(light.ambient * glm::vec3(m.ambient)) +
-                     condition * Vec3<double>(light.diffuse * glm::vec3(m.diffuse)) + condition * highlight * specular;
-    if (std::abs(glm::dot(vertex.n_eye, direction)) <= kRoundings * condition * kUnitRoundoff) {
-      out.jump += std::pow(std::max(glm::dot(vertex.n_eye, half) / half_length, 0.0), s) * specular;
-    }
-  }
-  out.magnitude = glm::max(out.magnitude, Vec3<double>(1));
-  return out;
 }
 
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {

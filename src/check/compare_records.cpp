@@ -115,8 +115,14 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
     add(meter, a.p_eye, b.p_eye, u * eye, positions, at("p_eye"));
     add(meter, a.p_clip, b.p_clip, u * magnitude(m.projection, eye), positions, at("p_clip"));
     const Vec3<double> normal(mesh.normals[i - ranges[d].first_vertex]);
-    const double n = inversion == Inversion::in_float ? inverted_normal_magnitude(m.model_view, m.normal, normal)
-                                                      : normal_magnitude(m.normal, normal);
+    const auto condition = [&](const Vec3<double>& of) {
+      return inversion == Inversion::in_float ? inverted_normal_magnitude(m.model_view, m.normal, of)
+                                              : normal_magnitude(m.normal, of);
+    };
+    double n = condition(normal);
+    if (scene.draws[d].normals != Normals::normalize) n *= glm::length(b.n_eye);
+    // The divisor is the length of the matrix' third column.
+    if (scene.draws[d].normals == Normals::rescale) n += glm::length(b.n_eye) * condition(Vec3<double>(0, 0, 1));
     add(meter, a.n_eye, b.n_eye, Vec3<double>(u * n), normals, at("n_eye"));
   });
 }
@@ -140,7 +146,10 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
       add(meter, a, b, Vec4<double>(u), 0, place);
       return;
     }
-    const LightBounds bounds = light_bounds(scene, draw, candidate.vertices[i]);
+    const Mesh& mesh = scene.meshes[draw.mesh];
+    const Material material =
+        mesh.colors.empty() ? draw.material : colored(draw, mesh.colors[i - ranges[d].first_vertex]);
+    const LightBounds bounds = light_bounds(scene, material, candidate.vertices[i]);
     const bool both = reference.vertices.size() == candidate.vertices.size();
     const double turned = both ? glm::distance(candidate.vertices[i].n_eye, reference.vertices[i].n_eye) : 0;
     if (bounds.jump != Vec3<double>(0) || !std::isfinite(bounds.magnitude.x)) meter.ambiguous();
@@ -343,7 +352,8 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
           }
           return;
         }
-        add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound, factor,
+        // Below the smallest normal number a rounding is half of float's smallest step.
+        add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound + 0x1p-150, factor,
             {c.x, c.y, c.triangle, "color"});
       });
 }
@@ -360,7 +370,8 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
         if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
         const std::uint32_t primitive = candidate.triangles[c.triangle].primitive;
         while (d + 1 < ranges.size() && primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
-        if (d >= scene.draws.size() || is_plain(scene, scene.draws[d])) return add(meter, a, b, Vec4<double>(u), 0, place);
+        if (d >= scene.draws.size() || is_plain(scene, scene.draws[d]))
+          return add(meter, a, b, Vec4<double>(u), 0, place);
         const Vec4<double> bound = shade_error(scene, scene.draws[d], fours_of(candidate, i), {}, 1);
         for (int k = 0; k < 4; ++k) {
           if (bound[k] == 0) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "check/bounds.h"
+#include "check/texture_bounds.h"
 
 namespace plumbline::check {
 
@@ -45,12 +46,19 @@ FragmentFours fours_of(const Records<double>& records, std::size_t i) {
   for (const Varying v : kAllVaryings) {
     if (i < records.varyings[v].fragments.size()) out[v] = records.varyings[v].fragments[i];
   }
+  if (i < records.texels.size()) out.texel = records.texels[i].color;
   return out;
 }
 
-Vec4<double> shade_error(const Scene&, const Draw& draw, const FragmentFours& attributes, const FragmentFours& errors,
-                         double roundings) {
+Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
+                         const FragmentFours& errors, double roundings) {
   Vec4<double> color = attributes.color, error = errors.color;
+  if (draw.texture) {
+    const TextureFormat format = scene.textures.at(draw.texture->texture).format;
+    const Environed e = environ_error(format, *draw.texture, color, error, attributes.texel, errors.texel, roundings);
+    color = e.color;
+    error = e.error;
+  }
   if (draw.fog) {
     const auto [f, df] = fog_factor(*draw.fog, attributes[Varying::position].z, errors[Varying::position].z, roundings);
     for (int c = 0; c < 3; ++c) {

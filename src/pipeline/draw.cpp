@@ -50,7 +50,7 @@ void GeometryRun::run(std::size_t draw, Stage stage, const Records<float>& in, R
   const Draw& d = scene_.draws[draw];
   switch (stage) {
     case Stage::matrices: return out.matrices.push_back(stages_.matrices(scene_, d));
-    case Stage::vertex: return stages_.vertex(in.matrices.at(draw), scene_.meshes[d.mesh], out.vertices);
+    case Stage::vertex: return stages_.vertex(in.matrices.at(draw), d.normals, scene_.meshes[d.mesh], out.vertices);
     case Stage::light: return light(draw, in, out);
     case Stage::clip: return clip(draw, in, out);
     default: return window(draw, in, out);

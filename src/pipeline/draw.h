@@ -14,7 +14,7 @@ struct Assembly;
 /// The functions of stages 0 to 4; each can be called alone, and a test can put another in the place of one.
 struct GeometryStages {
   Matrices<float> (*matrices)(const Scene&, const Draw&);
-  void (*vertex)(const Matrices<float>&, const Mesh&, std::vector<Vertex<float>>&);
+  void (*vertex)(const Matrices<float>&, Normals, const Mesh&, std::vector<Vertex<float>>&);
   void (*light)(const Scene&, const Draw&, std::span<const Vertex<float>>, std::vector<Lit<float>>&);
   void (*carry)(const Scene&, const Draw&, Varying, std::span<const Vertex<float>>, std::vector<Vec4<float>>&);
   void (*clip)(const Assembly&, ClipPolygons<float>&);

@@ -11,9 +11,8 @@ namespace plumbline::pipeline {
 
 /// Appends one colour per vertex of the draw, clamped to [0,1].
 ///
-/// Lit: GL 2.1 spec, section 2.14.1, with an infinite viewer (the half vector is that of the light and +z), one side,
-/// no attenuation; where a normal faces away from a light, its diffuse and specular terms are 0. Unlit: the mesh's
-/// colour, or the material's diffuse.
+/// Lit: by light_equation.h, with the draw's material or what of it the mesh's colours stand for (2.14.3). Unlit: the
+/// mesh's colour, or the material's diffuse.
 void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices, std::vector<Lit<float>>& out);
 
 }  // namespace plumbline::pipeline

@@ -33,11 +33,13 @@ inline double exp2_of(double x) {
   return series * std::bit_cast<double>(exponent << 52);
 }
 
-/// x^y for x in [0, 1] and y in [0, 128]; 0^0 = 1. Relative error below 1e-9 where the result is above 1e-300.
+/// x^y for x >= 0 and y in [0, 128], at most 2^127; 0^0 = 1. Relative error below 1e-9 where the result is above
+/// 1e-300.
 inline float power(float x, float y) {
   if (y == 0.0f) return 1.0f;
   if (!(x > 0.0f)) return 0.0f;
-  return static_cast<float>(exp2_of(static_cast<double>(y) * log2_of(static_cast<double>(x))));
+  const double exponent = static_cast<double>(y) * log2_of(static_cast<double>(x));
+  return exponent < 127.0 ? static_cast<float>(exp2_of(exponent)) : 0x1p127f;
 }
 
 }  // namespace plumbline::pipeline

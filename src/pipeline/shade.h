@@ -1,6 +1,7 @@
 // Stage 9: the fragment's colour, from its attributes.
 #pragma once
 
+#include "pipeline/environment.h"
 #include "pipeline/fog.h"
 #include "pipeline/surface.h"
 
@@ -16,6 +17,10 @@ Color<R> shade(const Color<R>& attributes) {
 template <class R>
 Color<R> shade_surface(const Surface& surface, bool /*front*/, const SurfaceAttributes<R>& attributes) {
   Color<R> color = attributes.color;
+  if (surface.texture) {
+    color =
+        apply_environment<R>(surface.texture->texture->format, *surface.draw->texture, color, attributes.texel.color);
+  }
   if (surface.draw->fog) color = fogged<R>(*surface.draw->fog, color, attributes[Varying::position].b);
   return color;
 }

@@ -25,15 +25,18 @@ Vec4<float> product(const Mat4<float>& m, const Vec3<float>& p) {
   return out;
 }
 
+float length(const Vec3<float>& v) { return std::sqrt((v.x * v.x + v.y * v.y) + v.z * v.z); }
+
 }  // namespace
 
-void transform(const Matrices<float>& matrices, const Mesh& mesh, std::vector<Vertex<float>>& out) {
+void transform(const Matrices<float>& matrices, Normals normals, const Mesh& mesh, std::vector<Vertex<float>>& out) {
   const Mat4<float> to_clip = product(matrices.projection, matrices.model_view);
+  const float of_all = normals == Normals::rescale ? length(matrices.normal[2]) : 1.0f;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3<float> p_model = mesh.positions[i];
     const Vec3<float> n = matrices.normal * mesh.normals[i];
-    const float length = std::sqrt((n.x * n.x + n.y * n.y) + n.z * n.z);
-    out.push_back({product(matrices.model_view, p_model), product(to_clip, p_model), n / length});
+    const float divisor = normals == Normals::normalize ? length(n) : of_all;
+    out.push_back({product(matrices.model_view, p_model), product(to_clip, p_model), n / divisor});
   }
 }
 

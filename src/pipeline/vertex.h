@@ -11,8 +11,9 @@ namespace plumbline::pipeline {
 /// Appends one record per vertex of the mesh.
 ///
 /// clip = (P M) p, both products in float, summed left to right without FMA: the recipe of a common OpenGL driver, so
-/// that positions, and with them coverage, can be compared bit for bit. Normals go by the inverse transpose and are
-/// brought to unit length (GL_NORMALIZE).
-void transform(const Matrices<float>& matrices, const Mesh& mesh, std::vector<Vertex<float>>& out);
+/// that positions, and with them coverage, can be compared bit for bit. Normals go by the inverse transpose; then they
+/// are brought to unit length, or divided by the length of its third column (OpenGL 2.1 spec 2.11.3: the third row of
+/// the inverse), or stay as they are.
+void transform(const Matrices<float>& matrices, Normals normals, const Mesh& mesh, std::vector<Vertex<float>>& out);
 
 }  // namespace plumbline::pipeline

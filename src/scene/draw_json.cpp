@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "scene/scene_values.h"
+#include "scene/texture_json.h"
 
 namespace plumbline {
 namespace {
@@ -143,6 +144,11 @@ PolygonMode read_mode(const JsonNode& node) {
       {{"fill", PolygonMode::fill}, {"line", PolygonMode::line}, {"point", PolygonMode::point}});
 }
 
+constexpr std::string_view kStateKeys[] = {"transforms", "material",   "lit",        "color_material", "normals",
+                                           "shading",    "cull",       "front_mode", "back_mode",      "line_width",
+                                           "point_size", "depth_func", "fog",        "scissor",        "depth_mask",
+                                           "blend",      "color_mask", "texture"};
+
 /// What the node gives, over what the state is.
 void read_state(const JsonNode& node, DrawState& state) {
   Draw& draw = state.draw;
@@ -152,6 +158,18 @@ void read_state(const JsonNode& node, DrawState& state) {
     state.has_material = true;
   }
   if (const auto n = node.find("lit")) draw.lit = n->boolean();
+  if (const auto n = node.find("color_material")) {
+    draw.color_material = n->choice<ColorMaterial>({{"none", ColorMaterial::none},
+                                                    {"ambient", ColorMaterial::ambient},
+                                                    {"diffuse", ColorMaterial::diffuse},
+                                                    {"ambient_and_diffuse", ColorMaterial::ambient_and_diffuse},
+                                                    {"specular", ColorMaterial::specular},
+                                                    {"emission", ColorMaterial::emission}});
+  }
+  if (const auto n = node.find("normals")) {
+    draw.normals = n->choice<Normals>(
+        {{"normalize", Normals::normalize}, {"rescale", Normals::rescale}, {"as_they_are", Normals::as_they_are}});
+  }
   if (const auto n = node.find("shading")) {
     draw.shading = n->choice<Shading>({{"flat", Shading::flat}, {"gouraud", Shading::gouraud}});
   }
@@ -181,19 +199,21 @@ void read_state(const JsonNode& node, DrawState& state) {
 
 }  // namespace
 
-DrawState read_draw_state(const JsonNode& node, const DrawState& defaults) {
-  node.only({"transforms", "material", "lit", "shading", "cull", "front_mode", "back_mode", "line_width", "point_size",
-             "depth_func", "fog", "scissor", "depth_mask", "blend", "color_mask"});
+DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
+  node.only(kStateKeys);
   DrawState state = defaults;
   read_state(node, state);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
   return state;
 }
 
-DrawState read_draw(const JsonNode& node, const DrawState& defaults) {
-  node.only({"mesh", "transforms", "material", "lit", "shading", "cull", "front_mode", "back_mode", "line_width",
-             "point_size", "depth_func", "fog", "scissor", "depth_mask", "blend", "color_mask"});
+DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
+  std::vector<std::string_view> keys{"mesh"};
+  keys.insert(keys.end(), std::begin(kStateKeys), std::end(kStateKeys));
+  node.only(keys);
   DrawState state = defaults;
   read_state(node, state);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
   return state;
 }
 

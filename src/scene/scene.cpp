@@ -34,4 +34,17 @@ double depth_step(DepthFormat format, double z_win) {
   return std::max(static_cast<double>(std::nextafter(z, 2.0f)) - static_cast<double>(z), std::ldexp(1.0, -24));
 }
 
+Material colored(const Draw& draw, const glm::vec4& color) {
+  Material m = draw.material;
+  switch (draw.color_material) {
+    case ColorMaterial::none: break;
+    case ColorMaterial::ambient: m.ambient = color; break;
+    case ColorMaterial::diffuse: m.diffuse = color; break;
+    case ColorMaterial::ambient_and_diffuse: m.ambient = m.diffuse = color; break;
+    case ColorMaterial::specular: m.specular = color; break;
+    case ColorMaterial::emission: m.emission = color; break;
+  }
+  return m;
+}
+
 }  // namespace plumbline

@@ -10,6 +10,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/texture.h"
+
 namespace plumbline {
 
 /// The conventions under which a scene's numbers are read: window origin, pixel centre, handedness, where the eye is...
@@ -33,6 +35,7 @@ struct Mesh {
   std::vector<glm::vec4> colors;      ///< empty, or as many as positions: rgba, nominally [0,1]
   std::vector<glm::uvec3> triangles;  ///< indices of positions; the last corner is the provoking vertex
   Topology topology = Topology::triangles;
+  std::vector<glm::vec2> texcoords{};  ///< s, t; empty, or as many as positions
 };
 
 struct Translate {
@@ -80,6 +83,13 @@ struct Pinhole {
 };
 using Projection = std::variant<Perspective, Orthographic, Frustum, ViewPlane, Pinhole>;
 
+/// A point light's cone (OpenGL 2.1 spec 2.14.1: GL_SPOT_...).
+struct Spot {
+  glm::dvec3 direction{0, 0, -1};  ///< world space, of any length: where it shines to
+  double cutoff_degrees = 90;      ///< [0, 90], from the axis
+  float exponent = 0;              ///< [0, 128]
+};
+
 struct Light {
   enum class Kind { directional, point };
   Kind kind = Kind::directional;
@@ -87,6 +97,24 @@ struct Light {
   glm::vec3 ambient{0};
   glm::vec3 diffuse{1};
   glm::vec3 specular{1};
+  glm::vec3 attenuation{1, 0, 0};  ///< of a point light: k0, k1, k2 >= 0 of 1 / (k0 + k1 d + k2 d^2); not all 0
+  std::optional<Spot> spot{};      ///< of a point light; without it, it shines to all sides
+};
+
+/// glLightModel, and what the course notes have in its place.
+struct LightModel {
+  enum class Specular {
+    half_vector,  ///< (N.H)^s, H halfway between light and eye: OpenGL's (Blinn)
+    reflection    ///< (R.E)^s, R the light's direction mirrored at N: note 000's (Phong)
+  };
+  enum class Sides {
+    one,  ///< normals are as they are
+    flip  ///< GzRender's: N.L and N.E both negative: N is turned over; of different signs: the light does not count
+  };
+  glm::vec3 ambient{0};
+  bool local_viewer = false;  ///< the eye is at eye space's origin, else infinitely far away along +z
+  Specular specular = Specular::half_vector;
+  Sides sides = Sides::one;
 };
 
 /// glMaterial, both faces.
@@ -97,6 +125,13 @@ struct Material {
   glm::vec4 emission{0, 0, 0, 1};
   float shininess = 0;  ///< [0, 128]
 };
+
+/// glColorMaterial, both faces: what of the material a vertex colour stands for. Where the mesh has none, nothing.
+enum class ColorMaterial { none, ambient, diffuse, ambient_and_diffuse, specular, emission };
+
+/// What becomes of normals in eye space (OpenGL 2.1 spec 2.11.3): unit length; divided by how much a uniform scale
+/// lengthens them; or neither.
+enum class Normals { normalize, rescale, as_they_are };
 
 enum class Shading { flat, gouraud };
 enum class Cull { none, back, front };
@@ -168,6 +203,8 @@ struct Draw {
   std::vector<Transform> transforms;  ///< in the order written, as glTranslate... would be: the last acts first
   Material material;
   bool lit = true;  ///< false: the mesh's colours, or the material's diffuse
+  ColorMaterial color_material = ColorMaterial::none;
+  Normals normals = Normals::normalize;
   Shading shading = Shading::gouraud;
   Cull cull = Cull::none;
   /// glPolygonMode: what is left of a triangle after clipping is filled, or its edges are drawn as lines, or its
@@ -179,7 +216,29 @@ struct Draw {
   DepthFunc depth_func = DepthFunc::less;
   std::optional<Fog> fog;
   Merge merge;
-  std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
+  std::optional<Scissor> scissor;      ///< no pixel outside of it is covered
+  std::optional<DrawTexture> texture;  ///< the mesh then has texture coordinates
+};
+
+/// The draw's material, what a vertex colour stands for replaced by `color` (OpenGL 2.1 spec 2.14.3).
+Material colored(const Draw& draw, const glm::vec4& color);
+
+/// What a pixel's colour is the mean of (antialias.h), but for `none`, where it is that at its centre.
+struct Antialias {
+  enum class Kind {
+    none,
+    multisample,  ///< OpenGL's: coverage and depth of four samples, one colour
+    supersample,  ///< a frame `factor` times as wide and as high
+    taps          ///< GzRender's: six pictures, each moved by part of a pixel
+  };
+  Kind kind = Kind::none;
+  int factor = 1;  ///< of supersample, [1, 8]
+};
+
+/// What an antialiased scene's passes differ by.
+struct Pass {
+  glm::dvec2 shift{0};        ///< of the whole picture, in pixels of the window
+  std::optional<int> sample;  ///< coverage and depth are those of OpenGL's sample 0 to 3, colours the pixel centre's
 };
 
 struct FrameFormat {
@@ -189,6 +248,8 @@ struct FrameFormat {
   DepthFormat depth = DepthFormat::z24;
   glm::vec4 clear_color{0, 0, 0, 1};
   double clear_depth = 1;  ///< window z, [0,1]
+  Antialias antialias = {};
+  Pass pass = {};  ///< as passes_of() sets it (antialias.h)
 };
 
 struct Scene {
@@ -199,13 +260,18 @@ struct Scene {
   FrameFormat frame;
   Camera camera;
   Projection projection = Perspective{45, 1, 100};  ///< one of the dialect's
-  bool depth_clamp = false;   ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
-  glm::vec3 ambient{0};       ///< the light model's ambient light
+  bool depth_clamp = false;  ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
+  LightModel light_model;
   std::vector<Light> lights;  ///< at most 8
+  std::vector<Texture> textures;
   std::vector<Mesh> meshes;
   std::vector<Draw> draws;  ///< in draw order
 };
 
+/// Whether any draw has a texture.
+inline bool textured(const Scene& scene) {
+  return std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.texture.has_value(); });
+}
 /// Whether any draw makes such primitives: is of such a mesh, or of triangles of which it draws edges or corners.
 bool draws(const Scene& scene, Topology topology);
 /// Whether a pixel's colour is that of its last fragment alone: nothing is blended, no channel masked.

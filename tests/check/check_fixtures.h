@@ -69,7 +69,7 @@ inline Scene two_draws(int width = 24, int height = 16) {
   scene.frame.height = height;
   scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
   scene.projection = Perspective{45, 1, 100};
-  scene.ambient = glm::vec3(0.1f);
+  scene.light_model.ambient = glm::vec3(0.1f);
   Light light;
   light.vector = {0.3, 0.2, 1};
   light.specular = glm::vec3(0);

@@ -24,10 +24,17 @@ inline std::string mesh(const std::string& mesh) {
   return R"({"description": "d", "draws": [{"mesh": )" + mesh + "}]}";
 }
 
-// The keys of a draw's state, as messages list them.
+/// The keys of a draw's state, as messages list them.
 inline const std::string kStateKeys =
-    "transforms, material, lit, shading, cull, front_mode, back_mode, line_width, point_size, depth_func, fog, scissor, "
-    "depth_mask, blend, color_mask";
+    "transforms, material, lit, color_material, normals, shading, cull, front_mode, back_mode, line_width, point_size, "
+    "depth_func, fog, scissor, depth_mask, blend, color_mask, texture";
+
+inline std::string textures(const std::string& textures) { return top("\"textures\": " + textures); }
+inline std::string textured(const std::string& mesh, const std::string& format, const std::string& environment) {
+  return R"({"description": "d", "textures": {"t": {"image": {"noise": {}}, "format": ")" + format +
+         R"("}}, "draws": [{"mesh": )" + mesh + R"(, "texture": {"name": "t", "environment": ")" + environment +
+         R"("}}]})";
+}
 
 // clang-format off
 inline const std::vector<BadScene> kBadScenes = {
@@ -51,20 +58,34 @@ inline const std::vector<BadScene> kBadScenes = {
     {whole(R"({"description": 3, "draws": []})"), R"(at "/description": expected a string that is not empty, found 3)"},
     {whole(R"({"description": "d", "description": "e", "draws": []})"), R"(at "/description": expected each key once, found it twice)"},
     {draw(R"("material": {"shininess": 1, "shininess": 1})"), R"(at "/draws/0/material/shininess": expected each key once, found it twice)"},
-    {top(R"("lens": 1)"), R"(at "/lens": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, lights, defaults, draws, found the unknown key "lens")"},
-    {top(R"("cammera": {})"), R"(at "/cammera": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, lights, defaults, draws, found the unknown key "cammera" (did you mean "camera"?))"},
-    {top(R"("a/b~c": 1)"), R"(at "/a~1b~0c": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, lights, defaults, draws, found the unknown key "a/b~c")"},
+    {top(R"("lens": 1)"), R"(at "/lens": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, textures, defaults, draws, found the unknown key "lens")"},
+    {top(R"("cammera": {})"), R"(at "/cammera": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, textures, defaults, draws, found the unknown key "cammera" (did you mean "camera"?))"},
+    {top(R"("a/b~c": 1)"), R"(at "/a~1b~0c": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, textures, defaults, draws, found the unknown key "a/b~c")"},
     {top(R"("$schema": 3)"), R"(at "/$schema": expected a string that is not empty, found 3)"},
-    {top(R"("frame": {"depht": "z16"})"), R"(at "/frame/depht": expected a key among width, height, color, depth, clear_color, clear_depth, found the unknown key "depht" (did you mean "depth"?))"},
+    {top(R"("frame": {"depht": "z16"})"), R"(at "/frame/depht": expected a key among width, height, color, depth, clear_color, clear_depth, antialias, found the unknown key "depht" (did you mean "depth"?))"},
     {top(R"("camera": {"target": [0, 0, 0]})"), R"(at "/camera/target": expected a key among eye, center, up, found the unknown key "target")"},
     {top(R"("projection": {"fisheye": {}})"), R"(at "/projection/fisheye": expected a key among perspective, orthographic, frustum, found the unknown key "fisheye")"},
     {top(R"("projection": {"perspective": {"fov": 9, "near": 1, "far": 2}})"), R"(at "/projection/perspective/fov": expected a key among fov_y, near, far, found the unknown key "fov" (did you mean "fov_y"?))"},
     {top(R"("projection": {"perspective": {"fov_y": 45, "near": 1}})"), R"(at "/projection/perspective/far": expected a value, found nothing: the key is missing)"},
     {top(R"("projection": {})"), R"(at "/projection": expected exactly one of the keys perspective, orthographic, frustum, found none)"},
     {top(R"("projection": {"perspective": {}, "orthographic": {}})"), R"(at "/projection": expected exactly one of the keys perspective, orthographic, frustum, found orthographic, perspective)"},
-    {top(R"("lights": [{"spot": [0, 0, 1]}])"), R"(at "/lights/0/spot": expected a key among directional, point, ambient, diffuse, specular, found the unknown key "spot")"},
+    {top(R"("lights": [{"spotlight": [0, 0, 1]}])"), R"(at "/lights/0/spotlight": expected a key among directional, point, ambient, diffuse, specular, attenuation, spot, found the unknown key "spotlight")"},
     {top(R"("lights": [{"ambient": [0, 0, 0]}])"), R"(at "/lights/0": expected exactly one of the keys directional, point, found neither)"},
     {top(R"("lights": [{"point": [0, 0, 0], "directional": [0, 0, 1]}])"), R"(at "/lights/0": expected exactly one of the keys directional, point, found both)"},
+    {top(R"("lights": [{"directional": [0, 0, 1], "attenuation": [1, 1, 0]}])"), R"(at "/lights/0/attenuation": expected it beside point, found it beside directional)"},
+    {top(R"("lights": [{"directional": [0, 0, 1], "spot": {}}])"), R"(at "/lights/0/spot": expected it beside point, found it beside directional)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "attenuation": [0, 0, 0]}])"), R"(at "/lights/0/attenuation": expected one number at least that is not 0, found none)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "attenuation": [1, -1, 0]}])"), R"(at "/lights/0/attenuation/1": expected a number from 0 to 1000000, found -1)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"cutoff": 20}}])"), R"(at "/lights/0/spot/direction": expected a value, found nothing: the key is missing)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 1]}}])"), R"(at "/lights/0/spot/cutoff": expected a value, found nothing: the key is missing)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 0], "cutoff": 20}}])"), R"(at "/lights/0/spot/direction": expected a direction that is not zero, found [0, 0, 0])"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 1], "cutoff": 91}}])"), R"(at "/lights/0/spot/cutoff": expected a number from 0 to 90, found 91)"},
+    {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 1], "cutoff": 20, "exponent": 129}}])"), R"(at "/lights/0/spot/exponent": expected a number from 0 to 128, found 129)"},
+    {top(R"("light_model": {"two_sided": true})"), R"(at "/light_model/two_sided": expected a key among local_viewer, specular, sides, found the unknown key "two_sided")"},
+    {top(R"("light_model": {"specular": "phong"})"), R"(at "/light_model/specular": expected one of half_vector, reflection, found "phong")"},
+    {top(R"("light_model": {"local_viewer": 1})"), R"(at "/light_model/local_viewer": expected true or false, found 1)"},
+    {draw(R"("color_material": true)"), R"(at "/draws/0/color_material": expected one of none, ambient, diffuse, ambient_and_diffuse, specular, emission, found true)"},
+    {draw(R"("normals": "unit")"), R"(at "/draws/0/normals": expected one of normalize, rescale, as_they_are, found "unit")"},
     {top(R"("defaults": {"mesh": {"cube": {}}})"), R"(at "/defaults/mesh": expected a key among )" + kStateKeys + R"(, found the unknown key "mesh")"},
     {top(R"("defaults": {"shadding": "flat"})"), R"(at "/defaults/shadding": expected a key among )" + kStateKeys + R"(, found the unknown key "shadding" (did you mean "shading"?))"},
     {draw(R"("culling": "none")"), R"(at "/draws/0/culling": expected a key among mesh, )" + kStateKeys + R"(, found the unknown key "culling")"},
@@ -74,8 +95,8 @@ inline const std::vector<BadScene> kBadScenes = {
     {draw(R"("transforms": [{"scale": [1, 1, 1], "translate": [0, 0, 0]}])"), R"(at "/draws/0/transforms/0": expected exactly one of the keys translate, rotate, scale, found scale, translate)"},
     {draw(R"("transforms": [{"rotate": {"degrees": 3}}])"), R"(at "/draws/0/transforms/0/rotate/axis": expected a value, found nothing: the key is missing)"},
     {whole(R"({"description": "d", "draws": [{}]})"), R"(at "/draws/0/mesh": expected a value, found nothing: the key is missing)"},
-    {mesh(R"({"teapot": {}})"), R"(at "/draws/0/mesh/teapot": expected a key among file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, icosphere, torus_knot, revolution, soup, found the unknown key "teapot")"},
-    {mesh(R"({})"), R"(at "/draws/0/mesh": expected exactly one of the keys file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, icosphere, torus_knot, revolution, soup, found none)"},
+    {mesh(R"({"teapot": {}})"), R"(at "/draws/0/mesh/teapot": expected a key among file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, globe, icosphere, torus_knot, revolution, soup, found the unknown key "teapot")"},
+    {mesh(R"({})"), R"(at "/draws/0/mesh": expected exactly one of the keys file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, globe, icosphere, torus_knot, revolution, soup, found none)"},
     {mesh(R"({"grid": {"columns": 1, "rows": 1, "x": 1}})"), R"(at "/draws/0/mesh/grid/x": expected a key among columns, rows, found the unknown key "x")"},
     {mesh(R"({"soup": {"triangles": 1, "seed": 1, "extent": 1}})"), R"(at "/draws/0/mesh/soup/size": expected a value, found nothing: the key is missing)"},
     {mesh(R"({"cube": {"size": 1}})"), R"(at "/draws/0/mesh/cube/size": expected a key among none, found the unknown key "size")"},
@@ -90,7 +111,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("dialect": "games101", "projection": {"perspective": {"fov_y": 45, "near": -9, "far": -1}})"), R"(at "/projection/perspective/far": expected a number less than near, -9, found -1)"},
     {top(R"("dialect": "tinyrenderer", "projection": {"pinhole": {"c": 0}})"), R"(at "/projection/pinhole/c": expected a number from 1e-06 to 1000000, found 0)"},
     {top(R"("projection": {"x_pi": {"fov": 45}})"), R"(at "/projection/x_pi": expected a key among perspective, orthographic, frustum, found the unknown key "x_pi")"},
-    {top(R"("frame": 3)"), R"(at "/frame": expected an object with keys among width, height, color, depth, clear_color, clear_depth, found 3)"},
+    {top(R"("frame": 3)"), R"(at "/frame": expected an object with keys among width, height, color, depth, clear_color, clear_depth, antialias, found 3)"},
     {top(R"("frame": {"width": 16.0})"), R"(at "/frame/width": expected an integer from 1 to 16384, found 16.0)"},
     {top(R"("frame": {"width": "64"})"), R"(at "/frame/width": expected an integer from 1 to 16384, found "64")"},
     {top(R"("frame": {"width": true})"), R"(at "/frame/width": expected an integer from 1 to 16384, found true)"},
@@ -134,7 +155,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {draw(R"("blend": {"color": [0, 0, 0, 2]})"), R"(at "/draws/0/blend/color/3": expected a number from 0 to 1, found 2)"},
     {draw(R"("transforms": {"translate": [0, 0, 0]})"), R"(at "/draws/0/transforms": expected an array of 0 to 64, found an object of 1 keys)"},
     {draw(R"("material": {"diffuse": [0, 0, 0]})"), R"(at "/draws/0/material/diffuse": expected an array of 4, found an array of 3)"},
-    {mesh(R"("bunny.obj")"), R"(at "/draws/0/mesh": expected an object with keys among file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, icosphere, torus_knot, revolution, soup, found "bunny.obj")"},
+    {mesh(R"("bunny.obj")"), R"(at "/draws/0/mesh": expected an object with keys among file, triangle, triangles, lines, points, quad, grid, cube, uv_sphere, globe, icosphere, torus_knot, revolution, soup, found "bunny.obj")"},
     {mesh(R"({"file": 3})"), R"(at "/draws/0/mesh/file": expected a string that is not empty, found 3)"},
     {mesh(R"({"file": ""})"), R"(at "/draws/0/mesh/file": expected a string that is not empty, found "")"},
     // Ranges
@@ -148,6 +169,14 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("frame": {"height": 18446744073709551617})"), R"(at "/frame/height": expected an integer from 1 to 16384, found 1.8446744073709552e+19)"},
     {top(R"("frame": {"height": -9223372036854775809})"), R"(at "/frame/height": expected an integer from 1 to 16384, found -9.223372036854776e+18)"},
     {top(R"("frame": {"clear_depth": 1.5})"), R"(at "/frame/clear_depth": expected a number from 0 to 1, found 1.5)"},
+    {top(R"("frame": {"antialias": {}})"), R"(at "/frame/antialias": expected exactly one of the keys samples, supersample, taps, found none)"},
+    {top(R"("frame": {"antialias": {"samples": 4, "supersample": 2}})"), R"(at "/frame/antialias": expected exactly one of the keys samples, supersample, taps, found samples, supersample)"},
+    {top(R"("frame": {"antialias": {"samples": 8}})"), R"(at "/frame/antialias/samples": expected an integer from 4 to 4, found 8)"},
+    {top(R"("frame": {"antialias": {"supersample": 9}})"), R"(at "/frame/antialias/supersample": expected an integer from 1 to 8, found 9)"},
+    {top(R"("frame": {"width": 4096, "antialias": {"supersample": 5}})"), R"(at "/frame/antialias/supersample": expected a factor that leaves the frame at most 16384 pixels a side, found 5)"},
+    {top(R"("frame": {"antialias": {"taps": "gz"}})"), R"(at "/frame/antialias/taps": expected one of gzrender, found "gz")"},
+    {whole(R"({"description": "d", "frame": {"antialias": {"samples": 4}}, "draws": [{"mesh": {"points": {"positions": [[0, 0, 0]]}}}]})"), R"(at "/frame/antialias": expected taps, where a scene has lines or points, found another kind)"},
+    {whole(R"({"description": "d", "frame": {"antialias": {"supersample": 2}}, "draws": [{"mesh": {"points": {"positions": [[0, 0, 0]]}}}]})"), R"(at "/frame/antialias": expected taps, where a scene has lines or points, found another kind)"},
     {top(R"("frame": {"clear_color": [0, 0, 0, 2]})"), R"(at "/frame/clear_color/3": expected a number from 0 to 1, found 2)"},
     {top(R"("ambient": [0, -0.1, 0])"), R"(at "/ambient/1": expected a number from 0 to 1000000, found -0.1)"},
     {top(R"("ambient": [0, 1e7, 0])"), R"(at "/ambient/1": expected a number from 0 to 1000000, found 10000000.0)"},
@@ -230,6 +259,37 @@ inline const std::vector<BadScene> kBadScenes = {
     {mesh(R"({"file": "broken.gltf"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.gltf: expected a mesh, found ...)"},
     {mesh(R"({"file": "broken.glb"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.glb: expected a mesh, found ...)"},
     {mesh(R"({"file": "broken.3ds"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.3ds: expected a mesh, found ...)"},
+    // Textures
+    {textures(R"([])"), R"(at "/textures": expected an object, found an array of 0)"},
+    {textures(R"({"t": {}})"), R"(at "/textures/t/image": expected a value, found nothing: the key is missing)"},
+    {textures(R"({"t": {"image": {"plasma": {}}}})"), R"(at "/textures/t/image/plasma": expected a key among file, texels, checker, gradient, bricks, uv_grid, noise, found the unknown key "plasma")"},
+    {textures(R"({"t": {"image": {"noise": {}}, "filter": "linear"}})"), R"(at "/textures/t/filter": expected a key among image, format, texels, min, mag, wrap_s, wrap_t, border, lod_bias, min_lod, max_lod, base_level, max_level, found the unknown key "filter")"},
+    {textures(R"({"t": {"image": {"noise": {"width": 0}}}})"), R"(at "/textures/t/image/noise/width": expected an integer from 1 to 16384, found 0)"},
+    {textures(R"({"t": {"image": {"noise": {"width": 16384, "height": 16384}}}})"), R"(at "/textures/t/image/noise": expected at most 16777216 texels in all, of which 16777216 are left, found 16384 x 16384)"},
+    {textures(R"({"a": {"image": {"noise": {"width": 4096, "height": 4095}}}, "b": {"image": {"noise": {"width": 4097}}}})"), R"(at "/textures/b/image/noise": expected at most 16777216 texels in all, of which 4096 are left, found 4097 x 64)"},
+    {textures(R"({"t": {"image": {"checker": {"width": 4, "columns": 5}}}})"), R"(at "/textures/t/image/checker/columns": expected at most one for each of the 4 texels, found 5)"},
+    {textures(R"({"t": {"image": {"texels": [[[0, 0, 0, 1], [1, 1, 1, 1]], [[0, 0, 0, 1]]]}}})"), R"(at "/textures/t/image/texels/1": expected an array of 2, found an array of 1)"},
+    {textures(R"({"t": {"image": {"texels": [[[0, 0, 2, 1]]]}}})"), R"(at "/textures/t/image/texels/0/0/2": expected a number from 0 to 1, found 2)"},
+    {textures(R"({"t": {"image": {"noise": {}}, "min": "bilinear"}})"), R"(at "/textures/t/min": expected one of nearest, linear, nearest_mipmap_nearest, linear_mipmap_nearest, nearest_mipmap_linear, linear_mipmap_linear, found "bilinear" (did you mean "linear"?))"},
+    {textures(R"({"t": {"image": {"noise": {}}, "mag": "linear_mipmap_linear"}})"), R"(at "/textures/t/mag": expected one of nearest, linear, found "linear_mipmap_linear")"},
+    {textures(R"({"t": {"image": {"noise": {}}, "wrap_s": "clamp"}})"), R"(at "/textures/t/wrap_s": expected one of repeat, mirrored_repeat, clamp_to_edge, clamp_to_border, found "clamp")"},
+    {textures(R"({"t": {"image": {"noise": {}}, "min_lod": 2, "max_lod": 1}})"), R"(at "/textures/t/max_lod": expected a number not less than min_lod, 2, found 1)"},
+    {textures(R"({"t": {"image": {"noise": {}}, "base_level": 2, "max_level": 1}})"), R"(at "/textures/t/max_level": expected an integer not less than base_level, 2, found 1)"},
+    {textures(R"({"t": {"image": {"noise": {}}, "base_level": 7}})"), R"(at "/textures/t/base_level": expected one of the 7 levels that the image has, found 7)"},
+    {textures(R"({"t": {"image": {"file": "none.png"}}})"), R"(at "/textures/t/image/file": expected an image file, found no file "none.png" in @group, @assets)"},
+    {textures(R"({"t": {"image": {"file": "../outside.obj"}}})"), R"(at "/textures/t/image/file": expected a file in the scene's folder or an asset folder (--assets), or below, found "../outside.obj", which leads out of it)"},
+    {textures(R"({"t": {"image": {"file": "image.gif"}}})"), R"(at "/textures/t/image/file": expected an image file that can be used, found @group/image.gif: expected an image ending in .png, .jpg, .jpeg, .tga or .exr, found ".gif")"},
+    {textures(R"({"t": {"image": {"file": "broken.png"}}})"), R"(at "/textures/t/image/file": expected an image file that can be used, found @group/broken.png: expected an image, found ...)"},
+    {textures(R"({"t": {"image": {"file": "broken.jpg"}}})"), R"(at "/textures/t/image/file": expected an image file that can be used, found @group/broken.jpg: expected an image, found ...)"},
+    {textures(R"({"t": {"image": {"file": "short.tga"}}})"), R"(at "/textures/t/image/file": expected an image file that can be used, found @group/short.tga: expected ...)"},
+    {draw(R"("texture": {"name": "wood"})"), R"(at "/draws/0/texture/name": expected the name of one of the scene's textures, found "wood")"},
+    {draw(R"("texture": "wood")"), R"(at "/draws/0/texture": expected an object with keys among name, environment, color, found "wood")"},
+    {textured(R"({"grid": {"columns": 1, "rows": 1}})", "alpha", "decal"), R"(at "/draws/0/texture/environment": expected decal with a texture of rgb or rgba alone: of others OpenGL leaves it undefined, found "decal")"},
+    {textured(R"({"grid": {"columns": 1, "rows": 1}})", "rgb", "dot3"), R"(at "/draws/0/texture/environment": expected one of replace, modulate, decal, blend, add, found "dot3")"},
+    {textured(R"({"icosphere": {"subdivisions": 0}})", "rgb", "replace"), R"(at "/draws/0/mesh": expected a mesh with texture coordinates, as the draw has a texture, found one without)"},
+    {mesh(R"({"quad": {"texcoords": [[0, 0], [1, 0], [1, 1]]}})"), R"(at "/draws/0/mesh/quad/texcoords": expected an array of 4, found an array of 3)"},
+    {mesh(R"({"quad": {"texcoords": [[0, 0], [1, 0], [1, 1], [0, 99999]]}})"), R"(at "/draws/0/mesh/quad/texcoords/3/1": expected a number from -16384 to 16384, found 99999)"},
+    {whole(R"({"description": "d", "textures": {"t": {"image": {"noise": {}}}}, "draws": [{"mesh": {"quad": {}}, "texture": {"name": "t"}, "back_mode": "line"}]})"), R"(at "/draws/0": expected front_mode and back_mode fill, as the draw has a texture, found edges or corners of triangles)"},
     // Includes
     {top(R"("include": "good.part.json")"), R"(at "/include": expected an array of 1 to 64, found "good.part.json")"},
     {top(R"("include": [])"), R"(at "/include": expected an array of 1 to 64, found an array of 0)"},
@@ -239,7 +299,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("include": ["link.part.json"])"), R"(at "/include/0": expected a file in the scene's folder or an asset folder (--assets), or below, found "link.part.json", which leads out of it)"},
     {top(R"("include": ["pipe.part.json"])"), R"(at "/include/0": expected a JSON file, found @group/pipe.part.json, which is no regular file)"},
     {top(R"("include": ["parts"])"), R"(at "/include/0": expected a JSON file, found the folder @group/parts)"},
-    {top(R"("include": ["bad.part.json"])"), R"(@group/bad.part.json: at "/frame/widht": expected a key among width, height, color, depth, clear_color, clear_depth, found the unknown key "widht" (did you mean "width"?))"},
+    {top(R"("include": ["bad.part.json"])"), R"(@group/bad.part.json: at "/frame/widht": expected a key among width, height, color, depth, clear_color, clear_depth, antialias, found the unknown key "widht" (did you mean "width"?))"},
     {top(R"("include": ["typo.part.json"])"), R"(@group/typo.part.json: at "/frame/width": expected JSON, found parse error at line 1, column 23...)"},
     {top(R"("include": ["list.part.json"])"), R"(@group/list.part.json: at "": expected an object, found an array of 0)"},
     {top(R"("include": ["self.part.json"])"), R"(@group/self.part.json: at "/include/0": expected files that do not include themselves, found "self.part.json" on the way to it)"},

@@ -40,7 +40,7 @@ TEST_F(Lamp, DiffuseIsTheCosine) {
 TEST_F(Lamp, EmissionAndAmbientTermsAdd) {
   material().emission = {0.125f, 0, 0, 0};
   material().ambient = {0.5f, 0.5f, 0.25f, 0};
-  scene.ambient = {0.25f, 0.5f, 1};
+  scene.light_model.ambient = {0.25f, 0.5f, 1};
   scene.lights[0].ambient = {0.5f, 0, 0.5f};
   scene.lights[0].diffuse = glm::vec3(0);
   scene.lights.push_back(scene.lights[0]);

@@ -289,7 +289,7 @@ Entries transformed(Random& r) {
   mesh.positions = {glm::vec3(r.point(10))};
   mesh.normals = {glm::vec3(0, 0, 1)};
   std::vector<Vertex<float>> out;
-  pipeline::transform(m, mesh, out);
+  pipeline::transform(m, Normals::normalize, mesh, out);
   const glm::vec<4, Wide> p(mesh.positions[0], 1);
   const WideMat4 projection(m.projection), model_view(m.model_view);
   const auto magnitudes = [](WideMat4 w) {

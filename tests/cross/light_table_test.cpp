@@ -25,7 +25,7 @@ float share(Random& r) { return static_cast<float>(r.between(0.01, 0.4)); }
 Lamps lamps(Random& r) {
   Lamps out;
   out.scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};  // directions are the same in world and eye space
-  out.scene.ambient = glm::vec3(0);
+  out.scene.light_model.ambient = glm::vec3(0);
   out.draw.material = {glm::vec4(0), glm::vec4(0), glm::vec4(0), glm::vec4(0), 1};
   out.n = Vec3<float>(glm::normalize(r.direction(1)));
   for (int i = 0; i < 3; ++i) {
@@ -87,7 +87,7 @@ std::vector<Row> light_rows() {
          Lamps l = lamps(r);
          const float ka = share(r), la = share(r);
          l.draw.material.ambient = glm::vec4(ka);
-         l.scene.ambient = glm::vec3(la);
+         l.scene.light_model.ambient = glm::vec3(la);
          return number(l.ours(), Wide(ka) * la);
        }},
   };

@@ -115,7 +115,7 @@ TEST(OsmesaRecords, NormalsAndEyePositions) {
 // Vertices outside the frame, and behind each other, are lit as well.
 TEST(OsmesaRecords, LightOfADirectionByHand) {
   Scene scene = pixel_scene(4, 4);
-  scene.ambient = {0.5f, 0.25f, 0};
+  scene.light_model.ambient = {0.5f, 0.25f, 0};
   Light light;
   light.vector = {0, 0, 7};  // any length
   light.ambient = {0.1f, 0.1f, 0.1f};

@@ -14,7 +14,7 @@ TEST(OsmesaSoftpipe, DrawsAndTellsItsName) {
 
   Scene scene = pixel_scene(8, 6);
   scene.lights.emplace_back();
-  scene.ambient = glm::vec3(0.5f);
+  scene.light_model.ambient = glm::vec3(0.5f);
   add(scene, triangle({1, 1, 0}, {5.2f, 1, 0}, {1, 5.2f, 0}), {0.8f, 0.8f, 0.8f, 1}).lit = true;
   Request request;
   request.records = StageSet::all();

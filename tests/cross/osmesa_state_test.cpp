@@ -50,7 +50,7 @@ Scene busy_scene() {
   Scene scene;
   scene.name = "test/busy";
   scene.frame = {40, 70, ColorFormat::rgba32f, DepthFormat::z16, {0.5f, 0.25f, 2, 0}, 0.3};
-  scene.ambient = glm::vec3(0.9f);
+  scene.light_model.ambient = glm::vec3(0.9f);
   scene.lights.resize(8);
   for (Light& light : scene.lights) light.kind = Light::Kind::point;
   Draw& draw = add(scene, make_uv_sphere(12, 8));

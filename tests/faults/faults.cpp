@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "faults/antialias.h"
+#include "faults/light.h"
 #include "faults/notes.h"
 #include "faults/variants.h"
 #include "pipeline/carry.h"
@@ -27,10 +29,11 @@ Matrices<float> fov_taken_horizontally(const Scene& scene, const Draw& draw) {
   return m;
 }
 
-void normals_by_model_view(const Matrices<float>& matrices, const Mesh& mesh, std::vector<Vertex<float>>& out) {
+void normals_by_model_view(const Matrices<float>& matrices, Normals normals, const Mesh& mesh,
+                           std::vector<Vertex<float>>& out) {
   Matrices<float> wrong = matrices;
   wrong.normal = Mat3<float>(matrices.model_view);
-  pipeline::transform(wrong, mesh, out);
+  pipeline::transform(wrong, normals, mesh, out);
 }
 
 void lights_in_world_space(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
@@ -48,6 +51,11 @@ void positions_by_distance(const Scene& scene, const Draw& draw, Varying varying
   pipeline::carry(scene, draw, varying, vertices, out);
   if (varying != Varying::position) return;
   for (std::size_t i = first; i < out.size(); ++i) out[i].z = std::abs(out[i].z);
+}
+
+void normals_not_renormalised(const Matrices<float>& matrices, Normals, const Mesh& mesh,
+                              std::vector<Vertex<float>>& out) {
+  pipeline::transform(matrices, Normals::as_they_are, mesh, out);
 }
 
 void no_near_plane(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
@@ -202,6 +210,8 @@ constexpr std::array kFaults = {
           with_geometry<&Geometry::matrices, fov_taken_horizontally>},
     Fault{"vertex.normals_by_model_view", "normals go by the model-view matrix, not its inverse transpose",
           Stage::vertex, with_geometry<&Geometry::vertex, normals_by_model_view>},
+    Fault{"vertex.not_renormalised", "normals are not brought to unit length after the model's scale", Stage::vertex,
+          with_geometry<&Geometry::vertex, normals_not_renormalised>},
     Fault{"light.world_space", "lights are not brought to eye space", Stage::light,
           with_geometry<&Geometry::light, lights_in_world_space>},
     Fault{"light.distance_at_vertices", "the distance for fog is taken at the vertices and interpolated", Stage::light,
@@ -238,14 +248,34 @@ constexpr std::array kFaults = {
     Fault{"merge.factors_swapped", "blending takes the source's factor for the destination's, and the other way round",
           Stage::merge, with_fragment<SwappedFactors>},
     Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge, with_fragment<IgnoredColorMask>},
+    Fault{"coverage.samples_mirrored", "the samples' y is counted downwards in the pixel", Stage::coverage,
+          with_fragment<MirroredSamples>},
+    Fault{"depth.of_centre", "all samples of a pixel have the depth at its centre", Stage::depth,
+          with_fragment<DepthOfCentre>},
+    Fault{"attributes.of_sample", "a sample's colour is that at its own place, not at the pixel's centre",
+          Stage::attributes, with_fragment<ColorOfSample>},
+    Fault{"resolve.truncated", "the mean of a pixel's samples is truncated to a code, not rounded", Stage::resolve,
+          with_resolve<truncated_mean, truncated_mean>},
+    Fault{"resolve.weights_swapped", "two of the six taps have each other's weight", Stage::resolve,
+          with_resolve<pipeline::mean_of_four, mean_of_swapped>},
 };
+
+// The light's own list, where the lights stand.
+std::vector<Fault> with_those_of_light() {
+  std::vector<Fault> out(kFaults.begin(), kFaults.end());
+  out.insert(out.end(), of_light().begin(), of_light().end());
+  return out;
+}
 
 }  // namespace
 
-std::span<const Fault> of_stages() { return kFaults; }
+std::span<const Fault> of_stages() {
+  static const std::vector<Fault> kAll = with_those_of_light();
+  return kAll;
+}
 
 std::vector<Fault> all() {
-  std::vector<Fault> out(kFaults.begin(), kFaults.end());
+  std::vector<Fault> out(of_stages().begin(), of_stages().end());
   out.insert(out.end(), of_notes().begin(), of_notes().end());
   return out;
 }

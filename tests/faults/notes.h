@@ -2,8 +2,8 @@
 // GzRender, 001 GAMES101, 002 TinyRenderer, 004 the class notes of CSCI 580. A mistake that is right under its own
 // dialect's other conventions changes nothing there.
 //
-// Without a fault: the midpoint's b/2 (004, section 2.2), which no integer holds, and loops to x = xs (000), which leave
-// the frame: no picture can show them.
+// Without a fault: the midpoint's b/2 (004, section 2.2), which no integer holds, and loops to x = xs (000), which
+// leave the frame: no picture can show them.
 #pragma once
 
 #include <span>

@@ -2,6 +2,7 @@
 // volume and on pixel centres, in line, far apart in size, at the eye and behind it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -92,6 +93,15 @@ inline void speak(Scene& scene) {
   }
 }
 
+/// Sets how far and where to a lamp shines.
+inline void reach(Light& light) {
+  using namespace rc;
+  light.attenuation = *gen::elementOf(std::vector<glm::vec3>{{1, 0, 0}, {2, 0, 0}, {0.5f, 0.25f, 0}, {0, 0, 1}});
+  if (*gen::arbitrary<bool>()) return;
+  light.spot = Spot{glm::dvec3(*unit_vector()), *gen::elementOf(std::vector<double>{0, 20.5, 45, 90}),
+                    *gen::elementOf(std::vector<float>{0, 0.5f, 1, 7, 128})};
+}
+
 /// To be called within a property.
 inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
   using namespace rc;
@@ -105,7 +115,7 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
   scene.frame.clear_depth = *gen::weightedElement<double>({{6, 1.0}, {1, 0.0}, {1, 0.5}, {1, 0.7}});
   scene.camera.eye = glm::dvec3(*gen::elementOf(std::vector<glm::vec3>{{0, 0, 4}, {0, 0, 5}, {3, 1, 4}, {-2, 5, 1}}));
   speak(scene);
-  scene.ambient = glm::vec3(0.125f);
+  scene.light_model.ambient = glm::vec3(0.125f);
   const int lights = *evenly(0, 3);
   for (int i = 0; i < lights; ++i) {
     Light light;
@@ -113,8 +123,13 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
     light.vector = glm::dvec3(*point(gen::map(evenly(-6, 7), [](int k) { return static_cast<float>(k) / 2; })));
     if (light.vector == glm::dvec3(0) && light.kind == Light::Kind::directional) light.vector.z = 1;
     light.specular = glm::vec3(0.5f);
+    if (light.kind == Light::Kind::point) reach(light);
     scene.lights.push_back(light);
   }
+  scene.light_model.local_viewer = *gen::arbitrary<bool>();
+  scene.light_model.specular = one_of<LightModel::Specular>(2);
+  scene.light_model.sides =
+      *gen::weightedElement<LightModel::Sides>({{3, LightModel::Sides::one}, {1, LightModel::Sides::flip}});
   const int draws = *evenly(1, 4);
   for (int i = 0; i < draws; ++i) {
     scene.meshes.push_back(random_mesh(8, of));
@@ -124,6 +139,10 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
     draw.material.specular = *color();
     draw.material.shininess = static_cast<float>(*gen::elementOf(std::vector<int>{0, 1, 20, 128}));
     draw.lit = *gen::arbitrary<bool>();
+    draw.color_material = one_of<ColorMaterial>(6);
+    draw.normals = one_of<Normals>(3);
+    // A cosine above 1 to the power of 128 is beyond float, of which OpenGL says nothing.
+    if (draw.normals != Normals::normalize) draw.material.shininess = std::min(draw.material.shininess, 20.0f);
     draw.shading = one_of<Shading>(2);
     draw.cull = *gen::weightedElement<Cull>({{3, Cull::none}, {1, Cull::back}, {1, Cull::front}});
     draw.depth_func = *gen::weightedElement<DepthFunc>({{4, DepthFunc::less},

@@ -41,7 +41,7 @@ inline Scene boxes(ColorFormat color = ColorFormat::rgba8, DepthFormat depth = D
   scene.frame = {90, 70, color, depth, {0.125f, 0.25f, 0.375f, 0.625f}, 0.9999};
   scene.camera = {{0.5, 1, 4}, {0, 0, 0}, {0, 1, 0}};
   scene.projection = Perspective{60, 1, 30};
-  scene.ambient = glm::vec3(0.2f);
+  scene.light_model.ambient = glm::vec3(0.2f);
   scene.lights = {{Light::Kind::directional, {1, 2, 3}, glm::vec3(0.1f), glm::vec3(0.7f), glm::vec3(0.5f)},
                   {Light::Kind::point, {-3, 1, 2}, glm::vec3(0), {0.2f, 0.5f, 0.9f}, glm::vec3(0.3f)}};
   scene.meshes = {box(), {}, box(), box()};

@@ -52,7 +52,7 @@ TEST(PipelineVertex, ByHand) {
   mesh.positions = {{1, 2, 3}};
   mesh.normals = {{0, 0, 1}};
   std::vector<Vertex<float>> out;
-  transform(m, mesh, out);
+  transform(m, Normals::normalize, mesh, out);
   ASSERT_EQ(out.size(), 1u);
   EXPECT_EQ(out[0].p_eye, Vec4<float>(8, 22, 39, 1));
   EXPECT_EQ(out[0].p_clip, Vec4<float>(4, 88, -41, -39));
@@ -66,7 +66,7 @@ TEST(PipelineVertex, NormalsGoByTheirOwnMatrixToUnitLength) {
   mesh.positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   mesh.normals = {{1, 0, 0}, {0.6f, 0.8f, 0}, {0, 0, -1}};
   std::vector<Vertex<float>> out;
-  transform(m, mesh, out);
+  transform(m, Normals::normalize, mesh, out);
   ASSERT_EQ(out.size(), 3u);
   EXPECT_EQ(out[0].n_eye, Vec3<float>(0, 0, 1));
   EXPECT_EQ(out[2].n_eye, Vec3<float>(0, -1, 0));
@@ -81,8 +81,8 @@ TEST(PipelineVertex, AppendsOnePerVertexInOrder) {
   mesh.positions = {{1, 0, 0}, {2, 0, 0}};
   mesh.normals = {{0, 0, 1}, {0, 1, 0}};
   std::vector<Vertex<float>> out;
-  transform(identity(), mesh, out);
-  transform(identity(), mesh, out);
+  transform(identity(), Normals::normalize, mesh, out);
+  transform(identity(), Normals::normalize, mesh, out);
   ASSERT_EQ(out.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(out[i].p_clip, Vec4<float>(mesh.positions[i % 2], 1));
@@ -105,7 +105,7 @@ TEST(PipelineVertex, TheRecipeToTheBit) {
     mesh.normals = {{0, 0, 1}};
     const glm::vec4 p(mesh.positions[0], 1);
     std::vector<Vertex<float>> out;
-    transform(m, mesh, out);
+    transform(m, Normals::normalize, mesh, out);
     const glm::mat4 to_clip = times(left_to_right, m.projection, m.model_view);
     ASSERT_EQ(out[0].p_eye, times(left_to_right, m.model_view, p));
     ASSERT_EQ(out[0].p_clip, times(left_to_right, to_clip, p));
@@ -121,6 +121,22 @@ TEST(PipelineVertex, TheRecipeToTheBit) {
   EXPECT_GT(other_fused, 20);
   EXPECT_GT(other_matrix, 20);
   EXPECT_GT(two_steps, 20);
+}
+
+TEST(PipelineVertex, NormalsAreNormalisedRescaledOrAsTheyAre) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}};
+  mesh.normals = {{0.6f, 0, 0.8f}};
+  Matrices<float> m = identity();
+  m.normal = Mat3<float>(0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.25f);  // of a scale by 2, 2, 4
+  const auto normal = [&](Normals normals) {
+    std::vector<Vertex<float>> out;
+    transform(m, normals, mesh, out);
+    return out.at(0).n_eye;
+  };
+  EXPECT_EQ(normal(Normals::as_they_are), Vec3<float>(0.3f, 0, 0.2f));
+  EXPECT_EQ(normal(Normals::rescale), Vec3<float>(1.2f, 0, 0.8f)) << "by the third row of the inverse: times 4";
+  EXPECT_NEAR(glm::length(normal(Normals::normalize)), 1, 1e-6);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct PassThrough {
     for (const Draw& draw : scene.draws) {
       const Mesh& mesh = scene.meshes[draw.mesh];
       const auto first = static_cast<std::uint32_t>(vertices.size());
-      transform(matrices(scene, draw), mesh, vertices);
+      transform(matrices(scene, draw), Normals::normalize, mesh, vertices);
       geometry_stages().light(scene, draw, std::span(vertices).subspan(first), lit);
       for (const glm::uvec3& t : mesh.triangles) triangles.push_back(t + first);
     }
@@ -86,7 +86,7 @@ struct GouraudShader {
   glm::vec3 light_dir;                     // eye space, unit length
 
   GouraudShader(const Scene& scene, glm::vec3 light) : model(scene.meshes[scene.draws[0].mesh]), light_dir(light) {
-    transform(matrices(scene, scene.draws[0]), model, transformed);
+    transform(matrices(scene, scene.draws[0]), Normals::normalize, model, transformed);
   }
   glm::vec4 vertex(std::size_t iface, int nthvert, Varyings& out) const {
     const Vertex<float>& v = transformed[model.triangles[iface][nthvert]];
@@ -104,7 +104,7 @@ TEST(ProgramScenes, TheNotesGouraudShaderIsTheFixedFunctionsDiffuseLight) {
   for (const ColorFormat color : {ColorFormat::rgba8, ColorFormat::rgba32f}) {
     Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/light/sphere_gouraud.json", {});
     scene.frame.color = color;
-    scene.ambient = glm::vec3(0);
+    scene.light_model.ambient = glm::vec3(0);
     scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}};  // eye space has the world's axes
     scene.lights = {{Light::Kind::directional, {0.6, 0.48, 0.64}, glm::vec3(0), glm::vec3(1), glm::vec3(0)}};
     scene.draws.resize(1);

@@ -29,6 +29,31 @@ class SceneFile : public TestFolder {
   Scene load(const std::string& text) const { return load_scene(write(text), {.asset_folders = {root_ / "assets"}}); }
 };
 
+TEST_F(SceneFile, ReadsTheLightModelAndWhatALampHas) {
+  const Scene s = load(R"({
+    "description": "d",
+    "light_model": {"local_viewer": true, "specular": "reflection", "sides": "flip"},
+    "lights": [{"point": [1, 2, 3], "attenuation": [0, 0.5, 2],
+                "spot": {"direction": [0, 0, -3], "cutoff": 22.5, "exponent": 128}},
+               {"point": [0, 0, 0], "spot": {"direction": [0, 1, 0], "cutoff": 90}},
+               {"point": [0, 0, 0]}],
+    "draws": [{"mesh": {"cube": {}}, "color_material": "ambient_and_diffuse", "normals": "as_they_are"}]})");
+  EXPECT_TRUE(s.light_model.local_viewer);
+  EXPECT_EQ(s.light_model.specular, LightModel::Specular::reflection);
+  EXPECT_EQ(s.light_model.sides, LightModel::Sides::flip);
+  EXPECT_EQ(s.light_model.ambient, glm::vec3(0));
+  EXPECT_EQ(s.lights[0].attenuation, glm::vec3(0, 0.5f, 2));
+  ASSERT_TRUE(s.lights[0].spot && s.lights[1].spot);
+  EXPECT_EQ(s.lights[0].spot->direction, glm::dvec3(0, 0, -3));
+  EXPECT_EQ(s.lights[0].spot->cutoff_degrees, 22.5);
+  EXPECT_EQ(s.lights[0].spot->exponent, 128);
+  EXPECT_EQ(s.lights[1].spot->exponent, 0);
+  EXPECT_FALSE(s.lights[2].spot);
+  EXPECT_EQ(s.lights[2].attenuation, glm::vec3(1, 0, 0));
+  EXPECT_EQ(s.draws[0].color_material, ColorMaterial::ambient_and_diffuse);
+  EXPECT_EQ(s.draws[0].normals, Normals::as_they_are);
+}
+
 TEST_F(SceneFile, ReadsEveryKey) {
   const Scene s = load(R"({
     // a comment
@@ -61,7 +86,7 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(s.camera.up, glm::dvec3(0, 0, 2));
   const auto& o = std::get<Orthographic>(s.projection);
   EXPECT_EQ((std::array{o.left, o.right, o.bottom, o.top, o.near, o.far}), (std::array{-1., 2., -3., 4., -5., 6.}));
-  EXPECT_EQ(s.ambient, glm::vec3(0.1f, 0.2f, 3));
+  EXPECT_EQ(s.light_model.ambient, glm::vec3(0.1f, 0.2f, 3));
   ASSERT_EQ(s.lights.size(), 2u);
   EXPECT_EQ(s.lights[0].kind, Light::Kind::directional);
   EXPECT_EQ(s.lights[0].vector, glm::dvec3(0, 0, 7));
@@ -238,7 +263,7 @@ TEST_F(SceneFile, PatchesWhatItIncludes) {
   EXPECT_EQ(s.frame.width, 7);                 // the file's own
   EXPECT_EQ(s.frame.height, 10);               // of two includes the later's
   EXPECT_EQ(s.frame.depth, DepthFormat::z16);  // an include's include, from an asset folder
-  EXPECT_EQ(s.ambient, glm::vec3(1));
+  EXPECT_EQ(s.light_model.ambient, glm::vec3(1));
   EXPECT_EQ(s.camera.eye, glm::dvec3(0, 0, 7));
   EXPECT_EQ(s.lights.size(), 1u);  // an array is replaced
   const auto& f = std::get<Frustum>(s.projection);
@@ -328,16 +353,19 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
     seen("depth ", s.frame.depth);
     seen("projection ", s.projection.index());
     seen("dialect ", s.dialect);
+    seen("antialias ", s.frame.antialias.kind);
     for (const Light& light : s.lights) seen("light ", light.kind);
     for (const Draw& draw : s.draws) {
       seen("lit ", draw.lit);
+      seen("color_material ", draw.color_material);
+      seen("normals ", draw.normals);
       seen("shading ", draw.shading);
       seen("cull ", draw.cull);
       seen("func ", draw.depth_func);
       for (const Transform& transform : draw.transforms) seen("transform ", transform.index());
     }
   }
-  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 2 + 2 + 2 + 3 + 8 + 3);
+  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 4 + 2 + 2 + 6 + 3 + 2 + 3 + 8 + 3);
 }
 
 }  // namespace

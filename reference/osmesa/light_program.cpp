@@ -1,0 +1,111 @@
+#include "reference/osmesa/light_program.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace plumbline::osmesa {
+namespace {
+
+/// What of the material is gl_Color.
+std::string material_of(const Scene& scene, const Draw& draw) {
+  const bool colors = !scene.meshes[draw.mesh].colors.empty();
+  const auto define = [&](const char* name, const char* member, bool follows) {
+    return fmt::format("#define {} {}\n", name,
+                       colors && follows ? "color" : fmt::format("gl_FrontMaterial.{}", member));
+  };
+  const ColorMaterial f = draw.color_material;
+  const bool both = f == ColorMaterial::ambient_and_diffuse;
+  return define("AMBIENT", "ambient", both || f == ColorMaterial::ambient) +
+         define("DIFFUSE", "diffuse", both || f == ColorMaterial::diffuse) +
+         define("SPECULAR", "specular", f == ColorMaterial::specular) +
+         define("EMISSION", "emission", f == ColorMaterial::emission);
+}
+
+const char* normal_of(Normals normals) {
+  switch (normals) {
+    case Normals::normalize: return "normalize(gl_NormalMatrix * gl_Normal)";
+    case Normals::rescale: return "gl_NormalScale * (gl_NormalMatrix * gl_Normal)";
+    case Normals::as_they_are: return "gl_NormalMatrix * gl_Normal";
+  }
+  return "";
+}
+
+/// share(): attenuation and cone of a light whose VP, not yet of unit length, is given (OpenGL 2.1 spec 2.14.1).
+constexpr const char* kShare = R"(
+float share(gl_LightSourceParameters light, vec3 vp) {
+  if (light.position.w == 0.0) return 1.0;
+  float d = length(vp);
+  float k = light.constantAttenuation + light.linearAttenuation * d + light.quadraticAttenuation * d * d;
+  if (light.spotCutoff == 180.0) return 1.0 / k;
+  float cosine = dot(-normalize(vp), normalize(light.spotDirection));
+  if (cosine < light.spotCosCutoff) return 0.0;
+  return (light.spotExponent == 0.0 ? 1.0 : pow(max(cosine, 0.0), light.spotExponent)) / k;
+}
+)";
+
+/// lit(): the colour at a point of eye space.
+std::string equation_of(const Scene& scene) {
+  const LightModel& model = scene.light_model;
+  const char* to_eye = model.local_viewer ? "normalize(-p)" : "vec3(0.0, 0.0, 1.0)";
+  const bool mirrored = model.specular == LightModel::Specular::reflection;
+  const bool flips = model.sides == LightModel::Sides::flip;
+  return fmt::format(R"(
+vec4 lit(vec3 p, vec3 n, vec4 color) {{
+  vec3 e = {};
+  vec3 sum = EMISSION.rgb + AMBIENT.rgb * gl_LightModel.ambient.rgb;
+  for (int i = 0; i < {}; ++i) {{
+    vec4 place = gl_LightSource[i].position;
+    vec3 vp = place.w == 0.0 ? place.xyz : place.xyz - p;
+    vec3 l = normalize(vp), m = n;
+    {}
+    float n_l = dot(m, l);
+    vec3 answer = AMBIENT.rgb * gl_LightSource[i].ambient.rgb;
+    if (n_l > 0.0{}) {{
+      float x = max({}, 0.0);
+      float power = gl_FrontMaterial.shininess == 0.0 ? 1.0 : x > 0.0 ? min(pow(x, gl_FrontMaterial.shininess), 1e37) : 0.0;
+      answer += n_l * DIFFUSE.rgb * gl_LightSource[i].diffuse.rgb + power * SPECULAR.rgb * gl_LightSource[i].specular.rgb;
+    }}
+    float reaches = share(gl_LightSource[i], vp);
+    if (reaches > 0.0) sum += reaches * answer;
+  }}
+  return clamp(vec4(sum, DIFFUSE.a), 0.0, 1.0);
+}}
+)",
+                     to_eye, scene.lights.size(), flips ? "if (dot(n, l) < 0.0 && dot(n, e) < 0.0) m = -n;" : "",
+                     flips ? " && dot(m, e) > 0.0" : "",
+                     mirrored ? "dot(2.0 * n_l * m - l, e)" : "dot(m, normalize(l + e))");
+}
+
+// Mesa 22.3 (ffvertex_prog.c) leaves N.H out where the shininess is 0, and then gives a light that is attenuated or has
+// a cone the specular term (N.L)^(N.L) for 1 (measured: .239 gives .7103).
+bool mesa_is_wrong(const Scene& scene, const Draw& draw) {
+  return draw.material.shininess == 0 && std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+           return light.kind == Light::Kind::point && (light.spot || light.attenuation != glm::vec3(1, 0, 0));
+         });
+}
+
+}  // namespace
+
+bool needs_light_program(const Scene& scene, const Draw& draw) {
+  const LightModel& model = scene.light_model;
+  return draw.lit && (model.specular != LightModel::Specular::half_vector || model.sides == LightModel::Sides::flip ||
+                      mesa_is_wrong(scene, draw));
+}
+
+std::string light_vertex_shader(const Scene& scene, const Draw& draw) {
+  return "#version 120\n" + material_of(scene, draw) + kShare + equation_of(scene) +
+         fmt::format(R"(
+void main() {{
+  gl_Position = ftransform();
+  gl_TexCoord[0] = gl_MultiTexCoord0;
+  vec3 p_eye = vec3(gl_ModelViewMatrix * gl_Vertex);
+  gl_FogFragCoord = abs(p_eye.z);
+  gl_FrontColor = lit(p_eye, {}, gl_Color);
+  gl_BackColor = gl_FrontColor;
+}}
+)",
+                     normal_of(draw.normals));
+}
+
+}  // namespace plumbline::osmesa

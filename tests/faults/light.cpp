@@ -1,0 +1,94 @@
+#include "faults/light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dialect/dialect.h"
+#include "faults/variants.h"
+#include "pipeline/light.h"
+#include "pipeline/math.h"
+
+namespace plumbline::faults {
+
+namespace {
+
+using Vertices = std::span<const Vertex<float>>;
+using LitVertices = std::vector<Lit<float>>;
+
+// The stage under a scene that says something else.
+template <auto change>
+void lit_otherwise(const Scene& scene, const Draw& draw, Vertices vertices, LitVertices& out) {
+  Scene wrong = scene;
+  Draw wrong_draw = draw;
+  change(wrong, wrong_draw);
+  pipeline::light(wrong, wrong_draw, vertices, out);
+}
+
+constexpr auto kNoAttenuation = [](Scene& scene, Draw&) {
+  for (Light& light : scene.lights) light.attenuation = {1, 0, 0};
+};
+
+// cos(x) of the number of degrees itself. Where it is negative, the cone is more than a half space.
+constexpr auto kDegreesForRadians = [](Scene& scene, Draw&) {
+  for (Light& light : scene.lights) {
+    if (light.spot) light.spot->cutoff_degrees = glm::degrees(std::acos(std::cos(light.spot->cutoff_degrees)));
+  }
+};
+
+constexpr auto kConesIgnored = [](Scene& scene, Draw&) {
+  for (Light& light : scene.lights) light.spot.reset();
+};
+
+constexpr auto kReflection = [](Scene& scene, Draw&) { scene.light_model.specular = LightModel::Specular::reflection; };
+
+constexpr auto kFarViewer = [](Scene& scene, Draw&) { scene.light_model.local_viewer = false; };
+
+constexpr auto kNoColorMaterial = [](Scene&, Draw& draw) { draw.color_material = ColorMaterial::none; };
+
+// The scene's ambient light once more for each light.
+constexpr auto kAmbientPerLight = [](Scene& scene, Draw&) {
+  scene.light_model.ambient *= 1.0f + static_cast<float>(scene.lights.size());
+};
+
+// Directional lights' highlights where the surface faces away from them.
+void specular_from_behind(const Scene& scene, const Draw& draw, Vertices vertices, LitVertices& out) {
+  const std::size_t first = out.size();
+  pipeline::light(scene, draw, vertices, out);
+  if (!draw.lit || scene.light_model.specular != LightModel::Specular::half_vector) return;
+  for (const Light& light : scene.lights) {
+    if (light.kind != Light::Kind::directional) continue;
+    const glm::vec3 l = glm::normalize(glm::dmat3(view_matrix(scene)) * light.vector);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const float cosine = glm::dot(vertices[i].n_eye, glm::normalize(l + glm::vec3(0, 0, 1)));
+      if (glm::dot(vertices[i].n_eye, l) > 0 || !(cosine > 0)) continue;
+      glm::vec4& color = out[first + i].color;
+      const glm::vec3 gloss =
+          pipeline::power(cosine, draw.material.shininess) * light.specular * glm::vec3(draw.material.specular);
+      color = glm::clamp(color + glm::vec4(gloss, 0), 0.0f, 1.0f);
+    }
+  }
+}
+
+template <auto change>
+constexpr Fault of(std::string_view name, std::string_view what) {
+  return {name, what, Stage::light, with_geometry<&Geometry::light, lit_otherwise<change>>};
+}
+
+constexpr std::array kFaults = {
+    of<kNoAttenuation>("light.no_attenuation", "lights do not fade with their distance"),
+    of<kDegreesForRadians>("light.cutoff_in_degrees", "a cone's angle in degrees is taken for radians"),
+    of<kConesIgnored>("light.cones_ignored", "spot lights shine to all sides"),
+    of<kReflection>("light.reflection_for_half_vector", "highlights are by the mirrored ray, not the half vector"),
+    of<kFarViewer>("light.far_viewer", "highlights are seen from infinitely far away, not from the eye"),
+    of<kNoColorMaterial>("light.no_color_material", "vertex colours do not stand for the material"),
+    of<kAmbientPerLight>("light.ambient_per_light", "the ambient light is added once more for each light"),
+    Fault{"light.specular_from_behind", "highlights shine where N.L <= 0", Stage::light,
+          with_geometry<&Geometry::light, specular_from_behind>},
+};
+
+}  // namespace
+
+std::span<const Fault> of_light() { return kFaults; }
+
+}  // namespace plumbline::faults
