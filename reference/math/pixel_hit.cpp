@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/math/color_error.h"
 #include "reference/math/fog.h"
 
 namespace plumbline::math {
@@ -103,13 +104,15 @@ void set_depth(const Triangle& t, bool clamps, glm::dvec3 d, const Place& at, gl
   out.hit.z_hi = std::clamp(hi, 0.0, 1.0);
 }
 
-/// A value at the pixel and how far a legal renderer's may be from it; infinite: any, and not only of the corners' range.
+/// A value at the pixel and how far a legal renderer's may be from it; infinite: any, and not only of the corners'
+/// range.
 struct Bounded {
   glm::dvec4 value{0};
   double bound = 0;
 };
 
-/// Perspective-correct, the plane going on beyond the triangle's border, as renderers' do. `corners`: with their bounds.
+/// Perspective-correct, the plane going on beyond the triangle's border, as renderers' do. `corners`: with their
+/// bounds.
 Bounded at_pixel(const Triangle& t, const std::array<Bounded, 3>& corners, glm::dvec3 d, const Place& at,
                  glm::dvec2 moved, bool certain) {
   const glm::dvec3 e(glm::dot(t.n[0], d), glm::dot(t.n[1], d), glm::dot(t.n[2], d));
@@ -158,6 +161,17 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
     color = {corner(2).color, corner(2).color_error + 4 * kFloatRounding};
   } else {
     color = attribute([](const Corner& c) { return Bounded{c.color, c.color_error}; });
+  }
+  if (is_lit_per_fragment(draw)) {
+    const Bounded p = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
+    const Bounded n = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
+    const Known p_eye{glm::dvec3(p.value), p.bound}, n_eye = unit({glm::dvec3(n.value), n.bound});
+    const DoubleMaterial material = material_of(scene, draw, color.value);
+    const bool follows = draw.color_material != ColorMaterial::none && !scene.meshes[draw.mesh].colors.empty();
+    const bool known = std::isfinite(p.bound + n_eye.error + color.bound) && n_eye.error < 1;
+    color.bound =
+        known ? light_error(scene, material, projected.view, p_eye, n_eye, follows ? color.bound : 0) : kInfinity;
+    color.value = light(scene, material, projected.view, p_eye.v, n_eye.v);
   }
   if (draw.fog) {
     const Bounded p = attribute([](const Corner& c) { return Bounded{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error}; });

@@ -9,6 +9,7 @@ std::vector<Surface> surfaces_of(const Scene& scene, const Records<float>& recor
     if (!is_plain(scene, draw)) {
       surface.scene = &scene;
       surface.draw = &draw;
+      if (is_lit_per_fragment(draw)) surface.light = fragment_light(scene, draw);
       for (const Varying v : kAllVaryings) {
         if (is_back(v) || !carries(scene, draw, v)) continue;
         surface.carried.push_back(v);

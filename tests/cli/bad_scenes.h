@@ -114,7 +114,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("defaults": [])"), R"(at "/defaults": expected an object with keys among transforms, material, lit, color_material, normals, shading, cull, front_mode, back_mode, line_width, point_size, depth_func, fog, scissor, depth_mask, blend, color_mask, found an array of 0)"},
     {top(R"("defaults": {"lit": 0})"), R"(at "/defaults/lit": expected true or false, found 0)"},
     {draw(R"("lit": 1)"), R"(at "/draws/0/lit": expected true or false, found 1)"},
-    {draw(R"("shading": "phong")"), R"(at "/draws/0/shading": expected one of flat, gouraud, found "phong")"},
+    {draw(R"("shading": "smooth")"), R"(at "/draws/0/shading": expected one of flat, gouraud, phong, found "smooth")"},
     {draw(R"("cull": true)"), R"(at "/draws/0/cull": expected one of none, back, front, found true)"},
     {draw(R"("depth_func": "lequal")"), R"(at "/draws/0/depth_func": expected one of never, less, equal, less_equal, greater, not_equal, greater_equal, always, found "lequal" (did you mean "equal"?))"},
     {draw(R"("fog": {"exponential": {}})"), R"(at "/draws/0/fog/exponential": expected a key among linear, exp, exp2, found the unknown key "exponential")"},
