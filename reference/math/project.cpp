@@ -84,8 +84,14 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
     corner.color = vertex_color(scene, draw, view, i, p_eye, n_eye);
     corner.color_error = color_error(scene, draw, m, view, i);
+    corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
     corner.z_eye = p_eye.z;
     corner.z_eye_error = 6 * kFloatRounding * (sizes(m.model_view) * glm::abs(p)).z;  // entries, products, sums
+    const Known place = eye_position(mesh, m, i), normal = eye_normal(draw, mesh, m, i);
+    corner.p_eye = place.v;
+    corner.p_eye_error = place.error;
+    corner.n_eye = normal.v;
+    corner.n_eye_error = normal.error;
     corner.point = first + point[i];
     out.corners.push_back(corner);
   }
@@ -282,6 +288,7 @@ Projected project(const Scene& scene) {
   Projected out;
   out.width = scene.frame.width;
   out.height = scene.frame.height;
+  out.view = view_matrix(scene);
   out.depth_clamp = scene.depth_clamp;
   out.depth = scene.frame.depth;
   out.sample = glm::dvec2(sample_place(scene.frame)) / static_cast<double>(kSubpixel);

@@ -87,6 +87,10 @@ Plane<std::int32_t> draw_tested_ids(const Gl& gl, const SceneInGl& scene, const 
         continue;
       }
       scene.set_surface(i);
+      if (is_lit_per_fragment(scene.scene().draws[i])) {  // by a program, which has no texture environment
+        gl.UseProgram(0);
+        gl.Enable(GL_LIGHTING);  // at the vertices: the alpha is the material's either way
+      }
       for (const GLenum after : {GL_FOG, GL_COLOR_SUM}) gl.Disable(after);  // they come after the texture environment
       numbered.enable();
       scene.draw_one_by_one(i, [&](std::uint32_t primitive) { numbered.set(primitive + 1); });

@@ -24,9 +24,12 @@ class SceneInGl {
   const Matrices<double>& matrices(std::size_t draw) const { return matrices_[draw]; }
 
   // What GL is told. Call within a SavedState.
-  void clear(const glm::vec4& color) const;         ///< to a colour and the frame's other clear values
-  void set_matrices(std::size_t draw) const;        ///< and the depth range
-  void set_surface(std::size_t draw) const;         ///< lit or not, material, flat or smooth, fog
+  void clear(const glm::vec4& color) const;   ///< to a colour and the frame's other clear values
+  void set_matrices(std::size_t draw) const;  ///< and the depth range
+  void set_surface(std::size_t draw) const;   ///< lit or not, material, flat or smooth, fog
+  /// Of that, what colours the vertices: feedback mode runs no fragments, and what they do not read would be lost in
+  /// it.
+  void set_vertex_light(std::size_t draw) const;
   void set_fragments(std::size_t draw) const;       ///< culling, polygon modes and offset, widths, tests, depth mask
   void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels
   void set_merge(std::size_t draw) const;           ///< blending, logic op and colour mask
