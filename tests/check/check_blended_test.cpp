@@ -89,5 +89,19 @@ TEST_F(BlendedPairs, AgainstBoundsHalfACodeBeyondThem) {
   EXPECT_TRUE(fails(run(by_oracle, [](Planes& p) { p.color(2, 2).r = static_cast<float>(kNaN); })));
 }
 
+TEST_F(BlendedPairs, CodesOfALogicOpAreEqualWhereTheFragmentsCodesAreCertainAndOpenElsewhere) {
+  scene.draws[0].merge = Merge{};
+  scene.draws[0].merge.logic_op = LogicOp::xor_;
+  const auto sources = [&](double codes) {
+    capture.records.shaded.assign(4, Shaded<double>{Vec4<double>(codes / 255)});
+  };
+  sources(100.25);
+  EXPECT_EQ(most(3, 1), 0);
+  sources(100.5);
+  EXPECT_EQ(most(3, 1), 99) << "either code may be";
+  EXPECT_GT(run(blended(), kUnchanged).ambiguous, 0u);
+  EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r = static_cast<float>(kNaN); })));
+}
+
 }  // namespace
 }  // namespace plumbline::check

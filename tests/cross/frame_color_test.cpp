@@ -102,5 +102,33 @@ TEST(FrameColor, HoldsThePipelines) {
   }
 }
 
+// OpenGL 2.1 spec, table 4.2, written out for s = 1100, d = 1010 in the upper four bits, the lower all 0.
+TEST(FrameColor, LogicOpsAreThoseOfTheTableHereAndInThePipeline) {
+  constexpr int kTable[] = {0x00, 0x80, 0x40, 0xc0, 0x20, 0xa0, 0x60, 0xe0,
+                            0x1f, 0x9f, 0x5f, 0xdf, 0x3f, 0xbf, 0x7f, 0xff};
+  for (int op = 0; op < 16; ++op) {
+    Merge state;
+    state.logic_op = static_cast<LogicOp>(op);
+    state.blend = Blend{};  // has no say
+    FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(0xa0 / 255.0f)));
+    color.write(state, around(glm::dvec4(0xc0 / 255.0), 0));
+    EXPECT_EQ(color.written()[0].lo, kTable[op] / 255.0) << op;
+    EXPECT_EQ(color.written()[3].hi, kTable[op] / 255.0) << op;
+    const float s = 0xc0 / 255.0f, d = 0xa0;
+    EXPECT_EQ(pipeline::logic<float>(*state.logic_op, {s, s, s, s}, {d, d, d, d}, 255).g,
+              static_cast<float>(kTable[op]));
+    EXPECT_EQ(pipeline::logic<float>(*state.logic_op, {s, s, s, s}, {d, d, d, d}, 0).g, s) << "a float replaces";
+  }
+}
+
+TEST(FrameColor, ALogicOpOfACodeThatMayBeEitherIsOpen) {
+  Merge state;
+  state.logic_op = LogicOp::xor_;
+  FrameColor color(frame_of(ColorFormat::rgba8, glm::vec4(127 / 255.0f)));
+  color.write(state, around(glm::dvec4(127.5 / 255), 0.01 / 255));
+  EXPECT_EQ(color.written()[0].lo, 0) << "127 ^ 127";
+  EXPECT_EQ(color.written()[0].hi, 1) << "128 ^ 127 is 255";
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "stages/capture.h"
+#include "stages/fragment_outcomes.h"
 
 namespace plumbline {
 namespace {
@@ -251,6 +253,78 @@ TEST(FoldHits, SeparatedPointsGiveExactlyThePlainFoldsWinner) {
     }
     ASSERT_EQ(winners(hits, frame), (Ids{winner})) << "round " << round;
   }
+}
+
+// Depths far apart, coverage open: every set of fragments leaves one winner and one stencil value, and the answers are
+// exactly those.
+TEST(FoldHits, StencilValuesGoWithTheWinnersAndTellPathsApart) {
+  std::mt19937 random(7);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  FrameFormat frame;
+  frame.stencil = StencilFormat::s8;
+  for (int round = 0; round < 2000; ++round) {
+    frame.clear_stencil = static_cast<std::uint8_t>(below(3));
+    std::array<StencilFace, 4> faces;
+    std::vector<Hit> hits;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      StencilFace& face = faces[i];
+      face.func = kFuncs[static_cast<std::size_t>(below(8))];
+      face.reference = static_cast<std::uint8_t>(below(3));
+      face.fail = static_cast<StencilOp>(below(8));
+      face.depth_fail = static_cast<StencilOp>(below(8));
+      face.pass = static_cast<StencilOp>(below(8));
+      const double z = 0.1 + 0.2 * below(4) + 0.01 * i;
+      Hit h = hit(i, z, z);
+      if (below(3) != 0) h.stencil = &face;
+      hits.push_back(below(2) == 0 ? h : maybe(h));
+    }
+    std::set<std::pair<int, int>> expected, is;
+    for (unsigned set = 0; set < 16; ++set) {
+      double held = frame.clear_depth;
+      std::pair<int, int> end{kBackground, frame.clear_stencil};
+      bool possible = true;
+      for (unsigned i = 0; i < 4; ++i) {
+        const bool there = (set >> i & 1u) != 0;
+        possible = possible && (there || !hits[i].certain);
+        if (!there) continue;
+        const bool nearer = hits[i].z_lo < held;
+        const auto stencil = static_cast<std::uint8_t>(end.second);
+        const bool passed = hits[i].stencil == nullptr || stencil_passes(*hits[i].stencil, stencil);
+        if (hits[i].stencil != nullptr) end.second = stencil_after(*hits[i].stencil, nearer, stencil);
+        if (!passed || !nearer) continue;
+        end.first = static_cast<int>(i);
+        held = hits[i].z_lo;
+      }
+      if (possible) expected.insert(end);
+    }
+    for (const LegalAnswer& a : answers(hits, frame)) is.insert({a.primitive, a.stencil});
+    ASSERT_TRUE(std::ranges::includes(is, expected)) << "round " << round;
+    const bool all_certain = std::ranges::all_of(hits, [](const Hit& h) { return h.certain; });
+    if (all_certain) {
+      ASSERT_EQ(is, expected) << "round " << round;
+    }
+  }
+}
+
+TEST(FoldHits, WhatTheAlphaTestDropsIsNotThereAndWhatItMayDropMayBe) {
+  Hit h = hit(3, 0.4, 0.4);
+  h.alpha_fails = true;
+  EXPECT_EQ(winners({h}), (Ids{kBackground, 3}));
+  h.alpha_passes = false;
+  EXPECT_EQ(winners({h}), (Ids{kBackground}));
+}
+
+TEST(AlphaOutcomes, AreOpenWhereTheIntervalHoldsAStepOfTheFormat) {
+  const AlphaTest test{CompareFunc::greater, 100.0f / 255};
+  const auto open = [&](ColorFormat format, double lo, double hi) {
+    const Outcomes o = alpha_outcomes(test, format, lo, hi);
+    return o.may_pass && o.may_fail;
+  };
+  EXPECT_TRUE(open(ColorFormat::rgba8, 100.4 / 255, 100.6 / 255));
+  EXPECT_FALSE(open(ColorFormat::rgba8, 99.6 / 255, 100.4 / 255)) << "one code";
+  EXPECT_TRUE(open(ColorFormat::rgba32f, 99.6 / 255, 100.4 / 255));
+  EXPECT_FALSE(alpha_outcomes(test, ColorFormat::rgba8, 100.4 / 255, 100.4 / 255).may_pass);
+  EXPECT_TRUE(alpha_outcomes(test, ColorFormat::rgba32f, 100.4 / 255, 100.4 / 255).may_pass);
 }
 
 }  // namespace
