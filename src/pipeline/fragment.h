@@ -144,16 +144,21 @@ using SetupOf = TriangleSetup<decltype(std::declval<const Stages&>().attribute_s
 template <class Stages>
 SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std::uint32_t triangle,
                        const Formats& formats, int x0, int y0) {
+  const BarycentricPlanes planes = planes_of(t, x0, y0);
+  const DepthSetup depth = depth_setup(t, formats.depth_scale);
+  const auto attributes = stages.attribute_setup(t, triangle);
+  if (formats.sample == glm::ivec2(0)) {
+    return {triangle, t.primitive, stages.bounds(t), stages.edges(t), planes, depth, attributes, nullptr};
+  }
   const Places places = stages.places(formats.sample);
   const WindowTriangle<float> to_cover = as_seen_from(t, places.coverage);
-  const BarycentricPlanes planes = planes_of(t, x0, y0);
   return {triangle,
           t.primitive,
           stages.bounds(to_cover),
           stages.edges(to_cover),
           moved(planes, places.color),
-          moved(depth_setup(t, formats.depth_scale), planes, places.depth - places.color),
-          stages.attribute_setup(t, triangle),
+          moved(depth, planes, places.depth - places.color),
+          attributes,
           nullptr};
 }
 
