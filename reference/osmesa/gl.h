@@ -16,7 +16,7 @@ namespace plumbline::osmesa {
   F(BlitFramebuffer) F(BufferData) F(CheckFramebufferStatus) F(ClampColor) F(Clear) F(ClearColor) F(ClearDepth) \
   F(Color4f) F(Color4fv) F(ColorMask) F(ColorMaterial) F(ColorPointer) F(CompileShader) F(CreateProgram) \
   F(CreateShader) F(CullFace) F(DeleteBuffers) F(DeleteFramebuffers) F(DeleteProgram) F(DeleteQueries) \
-  F(DeleteRenderbuffers) F(DeleteShader) F(DeleteTextures) F(DepthFunc) F(DepthMask) F(Disable) F(DrawArrays) \
+  F(DeleteRenderbuffers) F(DeleteShader) F(DeleteTextures) F(DepthFunc) F(DepthMask) F(Disable) F(DisableClientState) F(DrawArrays) \
   F(DrawElements) F(EdgeFlagPointer) F(Enable) F(EnableClientState) F(EndQuery) F(EndTransformFeedback) \
   F(FeedbackBuffer) F(Finish) F(Fogf) F(Fogfv) F(Fogi) F(FramebufferRenderbuffer) F(FramebufferTexture2D) \
   F(Frustum) F(GenBuffers) F(GenFramebuffers) F(GenQueries) F(GenRenderbuffers) F(GenTextures) \
