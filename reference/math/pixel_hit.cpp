@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/math/color_error.h"
 #include "reference/math/fog.h"
 #include "reference/math/texture.h"
 
@@ -202,6 +203,17 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
     color = {corner(2).color, corner(2).color_error + 4 * kFloatRounding};
   } else {
     color = attribute([](const Corner& c) { return Bounded{c.color, c.color_error}; });
+  }
+  if (is_lit_per_fragment(draw)) {
+    const Bounded p = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
+    const Bounded n = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
+    const Known p_eye{glm::dvec3(p.value), p.bound}, n_eye = unit({glm::dvec3(n.value), n.bound});
+    const DoubleMaterial material = material_of(scene, draw, color.value);
+    const bool follows = draw.color_material != ColorMaterial::none && !scene.meshes[draw.mesh].colors.empty();
+    const bool known = std::isfinite(p.bound + n_eye.error + color.bound) && n_eye.error < 1;
+    color.bound =
+        known ? light_error(scene, material, projected.view, p_eye, n_eye, follows ? color.bound : 0) : kInfinity;
+    color.value = light(scene, material, projected.view, p_eye.v, n_eye.v);
   }
   if (draw.texture) {
     const Bounded st = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.texcoord, 0, 0), 0}; });

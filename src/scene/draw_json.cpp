@@ -171,7 +171,8 @@ void read_state(const JsonNode& node, DrawState& state) {
         {{"normalize", Normals::normalize}, {"rescale", Normals::rescale}, {"as_they_are", Normals::as_they_are}});
   }
   if (const auto n = node.find("shading")) {
-    draw.shading = n->choice<Shading>({{"flat", Shading::flat}, {"gouraud", Shading::gouraud}});
+    draw.shading =
+        n->choice<Shading>({{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}});
   }
   if (const auto n = node.find("cull")) {
     draw.cull = n->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
