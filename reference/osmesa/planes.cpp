@@ -49,10 +49,14 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colo
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     scene.set_surface(i);
-    if (colors == Colors::texels) scene.set_texture_source(i);
     scene.set_fragments(i);
     if (colors == Colors::merged) scene.set_merge(i);
-    scene.draw_primitives(i);
+    if (colors == Colors::texels) {
+      scene.set_texture_source(i);
+      scene.draw_without_colors(i);
+    } else {
+      scene.draw_primitives(i);
+    }
   }
   check(gl, "drawing the scene");
 }

@@ -197,6 +197,8 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
 void SceneInGl::set_texture_source(std::size_t draw) const {
   textures_.set_source(scene_.draws[draw]);
   gl_.Disable(GL_LIGHTING);
+  gl_.Disable(GL_FOG);
+  gl_.UseProgram(0);
   gl_.Color4f(0, 0, 0, 1);
 }
 
@@ -275,6 +277,18 @@ void SceneInGl::draw_primitives(std::size_t draw) const {
   const SavedArrays arrays(gl_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
   point_to_vertices(draw, nullptr);
+  draw_elements(draw);
+}
+
+void SceneInGl::draw_without_colors(std::size_t draw) const {
+  const SavedArrays arrays(gl_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
+  point_to_vertices(draw, nullptr);
+  gl_.DisableClientState(GL_COLOR_ARRAY);
+  draw_elements(draw);
+}
+
+void SceneInGl::draw_elements(std::size_t draw) const {
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, arrays_[draw].indices.name());
   const Topology topology = mesh(draw).topology;
   gl_.DrawElements(gl_mode(topology), static_cast<GLsizei>(corner_count(topology) * ranges_[draw].primitive_count),

@@ -38,6 +38,7 @@ class SceneInGl {
   void draw_primitives(std::size_t draw) const;  ///< with normals and colours
   /// Likewise, calling before(its number) before each.
   void draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const;
+  void draw_without_colors(std::size_t draw) const;  ///< with normals, in the colour that is set
   void draw_points(std::size_t draw) const;  ///< each vertex, with normals and colours
   void draw_ids(std::size_t draw) const;     ///< each primitive in the colour whose four bytes are its number + 1
   void draw_id(std::size_t draw, std::uint32_t primitive) const;  ///< this one alone
@@ -58,6 +59,7 @@ class SceneInGl {
     Buffer corners;        ///< every primitive's corners alone, so that it can have a colour of its own
   };
   static std::vector<MeshVertex> vertices_of(const Mesh& mesh);
+  void draw_elements(std::size_t draw) const;
   void point_to_vertices(std::size_t draw, const MeshVertex* first) const;
   void bind_corners(std::size_t draw) const;
   const Mesh& mesh(std::size_t draw) const { return scene_.meshes[scene_.draws[draw].mesh]; }

@@ -128,7 +128,10 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   }
   FragmentBound out;
   out.color = shade_error(scene_, draw, fours, errors, tolerance("osmesa.shade").factor);
-  out.disputed = draw.fog && reaches_behind_eye(*(after - 1), draw, triangle.primitive);
+  if (draw.texture) {
+    out.disputed = switched_early(scene_.textures.at(draw.texture->texture), records_.texels.at(i).lod);
+  }
+  out.disputed |= draw.fog && reaches_behind_eye(*(after - 1), draw, triangle.primitive);
   return out;
 }
 
