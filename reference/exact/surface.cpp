@@ -2,17 +2,24 @@
 
 #include "reference/exact/input.h"
 #include "reference/math/fog.h"
+#include "reference/math/light.h"
+#include "reference/math/matrices.h"
 #include "reference/math/texture.h"
 
 namespace plumbline::exact {
 
 glm::dvec4 shade(const Scene& scene, const Draw& draw, bool /*front*/, const glm::dvec4& color, const Fours& fours,
                  const glm::dvec4& texel) {
+  const auto four = [&](Varying v) { return fours[static_cast<std::size_t>(v)]; };
   glm::dvec4 out = color;
+  if (is_lit_per_fragment(draw)) {
+    out = math::fragment_light(scene, draw, math::view_matrix(scene), out, glm::dvec3(four(Varying::normal)),
+                               glm::dvec3(four(Varying::position)));
+  }
   if (draw.texture) {
     out = math::textured_color(scene.textures.at(draw.texture->texture).format, *draw.texture, out, texel);
   }
-  if (draw.fog) out = math::fogged(*draw.fog, out, fours[static_cast<std::size_t>(Varying::position)].z);
+  if (draw.fog) out = math::fogged(*draw.fog, out, four(Varying::position).z);
   return out;
 }
 

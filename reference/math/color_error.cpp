@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/math/light.h"
 #include "reference/math/project.h"
 
 namespace plumbline::math {
@@ -20,8 +19,8 @@ double place_error(const glm::dmat4& m,
   return 6 * kFloatRounding * glm::length(terms(glm::dmat3(m), p) + glm::abs(glm::dvec3(m[3])));
 }
 
-double largest(const glm::vec4& material, const glm::vec3& light) {
-  const glm::vec3 c = glm::abs(glm::vec3(material) * light);
+double largest(const glm::dvec4& material, const glm::vec3& light) {
+  const glm::dvec3 c = glm::abs(glm::dvec3(material) * glm::dvec3(light));
   return std::max({c.r, c.g, c.b});
 }
 
@@ -34,19 +33,6 @@ Power power(double x, double s, double error) {
   const auto at = [&](double t) { return std::pow(std::max(t, 0.0), s); };
   const double value = at(x);
   return {value, std::max(at(x + error) - value, value - at(x - error)) + 32 * kFloatRounding * at(x + error)};
-}
-
-/// A vector and how far it may be off, in length.
-struct Known {
-  glm::dvec3 v;
-  double error;
-};
-
-/// Normalised: 4 u for that. Without a direction to rely on it may be anywhere: an error of 1 or more.
-Known unit(const Known& a) {
-  const double length = glm::length(a.v);
-  if (!(length > 2 * a.error)) return {{0, 0, 1}, 2};
-  return {a.v / length, a.error / length + 4 * kFloatRounding};
 }
 
 /// Eye space of a world vector (w = 0) or place (w = 1).
@@ -64,14 +50,6 @@ Number dot(const Known& a, const Known& b) {
   const double a_length = glm::length(a.v), b_length = glm::length(b.v);
   return {glm::dot(a.v, b.v),
           a.error * (b_length + b.error) + b.error * a_length + 3 * kFloatRounding * a_length * b_length};
-}
-
-/// N: matrix entries 1 u, sum 3 u of its terms; normalising 3 u, or a divisor of 6 u.
-Known normal_known(const Draw& draw, const glm::dmat3& normal_matrix, glm::dvec3 normal) {
-  constexpr double u = kFloatRounding;
-  const glm::dvec3 scaled = normal_matrix * normal, n = normal_in_eye_space(draw.normals, normal_matrix, normal);
-  const double sum = 4 * glm::length(terms(normal_matrix, normal)) * glm::length(n) / glm::length(scaled);
-  return {n, u * (sum + (draw.normals == Normals::rescale ? 6 : 3) * glm::length(n))};
 }
 
 /// att_i * spot_i; `open` where the cone's edge may be on either side of the point, and the light come or go.
@@ -117,25 +95,48 @@ Number highlight(const LightModel& model, const Known& n, const Known& l, const 
 
 }  // namespace
 
-// L: the errors of the light's place and the point's over their distance. Where N.L may fall on either side of 0, the
-// whole specular term may come or go; where GzRender's N.E may, the diffuse one too. 16 u of the sum for the additions.
+Known unit(const Known& a) {
+  const double length = glm::length(a.v);
+  if (!(length > 2 * a.error)) return {{0, 0, 1}, 2};
+  return {a.v / length, a.error / length + 4 * kFloatRounding};
+}
+
+Known eye_position(const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {
+  const glm::dvec3 p(mesh.positions[vertex]);
+  return {glm::dvec3(m.model_view * glm::dvec4(p, 1)), place_error(m.model_view, p)};
+}
+
+// Matrix entries 1 u, sum 3 u of its terms; normalising 3 u, or a divisor of 6 u.
+Known eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {
+  const glm::dvec3 normal(mesh.normals[vertex]), scaled = m.normal * normal;
+  const glm::dvec3 n = normal_in_eye_space(draw.normals, m.normal, normal);
+  const double sum = 4 * glm::length(terms(m.normal, normal)) * glm::length(n) / glm::length(scaled);
+  return {n, kFloatRounding * (sum + (draw.normals == Normals::rescale ? 6 : 3) * glm::length(n))};
+}
+
 double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, const glm::dmat4& view,
                    std::uint32_t vertex) {
-  constexpr double u = kFloatRounding;
-  if (!draw.lit) return u;
+  if (!is_lit_per_vertex(draw)) return kFloatRounding;
   const Mesh& mesh = scene.meshes[draw.mesh];
+  return light_error(scene, material_at(scene, draw, vertex), view, eye_position(mesh, m, vertex),
+                     eye_normal(draw, mesh, m, vertex), 0);
+}
+
+// L: the errors of the light's place and the point's over their distance. Where N.L may fall on either side of 0, the
+// whole specular term may come or go; where GzRender's N.E may, the diffuse one too. 16 u of the sum for the additions.
+double light_error(const Scene& scene, const DoubleMaterial& material, const glm::dmat4& view, const Known& p_eye,
+                   const Known& n_eye, double of_color) {
+  constexpr double u = kFloatRounding;
   const LightModel& model = scene.light_model;
   const bool flips = model.sides == LightModel::Sides::flip;
-  const glm::dvec3 p(mesh.positions[vertex]);
-  const Known p_eye{glm::dvec3(m.model_view * glm::dvec4(p, 1)), place_error(m.model_view, p)};
-  Known n = normal_known(draw, m.normal, mesh.normals[vertex]);
+  const auto answer = [&](const glm::dvec4& of, const glm::vec3& light) { return largest(of + of_color, light); };
+  Known n = n_eye;
   const Known e = model.local_viewer ? unit({-p_eye.v, p_eye.error}) : Known{{0, 0, 1}, 0};
   if (e.error > 1) return 1;
   const Number n_dot_e = dot(n, e);
   if (flips && n_dot_e.value < 0) n.v = -n.v;
-  const Material material = material_at(scene, draw, vertex);
-  double error = 0;
-  double sum = largest(material.emission, glm::vec3(1)) + largest(material.ambient, model.ambient);
+  double sum = answer(material.emission, glm::vec3(1)) + answer(material.ambient, model.ambient);
+  double error = of_color * (1 + largest(glm::dvec4(1), model.ambient));
   for (const Light& light : scene.lights) {
     const bool at_place = light.kind == Light::Kind::point;
     Known vp = in_eye_space(view, light.vector, at_place ? 1 : 0);
@@ -146,9 +147,9 @@ double color_error(const Scene& scene, const Draw& draw, const Matrices<double>&
     if (share.open) return std::numeric_limits<double>::infinity();
     if (!(share.value > 0)) continue;
     const Number n_dot_l = dot(n, l), cosine = highlight(model, n, l, e, n_dot_l);
-    const double ambient = largest(material.ambient, light.ambient);
-    const double diffuse = largest(material.diffuse, light.diffuse);
-    const double specular = largest(material.specular, light.specular);
+    const double ambient = answer(material.ambient, light.ambient);
+    const double diffuse = answer(material.diffuse, light.diffuse);
+    const double specular = answer(material.specular, light.specular);
     const Power power_s = power(cosine.value, material.shininess, cosine.error);
     const double gloss = specular * (power_s.value + power_s.error),
                  all = ambient + diffuse * std::max(n_dot_l.value, 0.0) + gloss;
@@ -159,6 +160,8 @@ double color_error(const Scene& scene, const Draw& draw, const Matrices<double>&
       const Power turned = power(std::abs(cosine.value), material.shininess, cosine.error);
       of_light += diffuse * std::abs(n_dot_l.value) + specular * (turned.value + turned.error);
     }
+    of_light += of_color * (largest(glm::dvec4(1), light.ambient) + largest(glm::dvec4(1), light.diffuse) +
+                            largest(glm::dvec4(1), light.specular));
     error += of_light * (share.value + share.error) + all * share.error;
     sum += share.value * (ambient + diffuse * glm::length(n.v) + gloss);
   }

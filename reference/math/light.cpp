@@ -42,7 +42,7 @@ double highlight(const LightModel& model, glm::dvec3 n, glm::dvec3 l, glm::dvec3
 
 }  // namespace
 
-glm::dvec4 light(const Scene& scene, const Material& material, const glm::dmat4& view, glm::dvec3 p_eye,
+glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, const glm::dmat4& view, glm::dvec3 p_eye,
                  glm::dvec3 n_eye) {
   const LightModel& model = scene.light_model;
   const glm::dvec3 ambient(material.ambient), diffuse(material.diffuse), specular(material.specular);
@@ -60,20 +60,19 @@ glm::dvec4 light(const Scene& scene, const Material& material, const glm::dmat4&
     glm::dvec3 color = ambient * glm::dvec3(source.ambient);
     if (reached && n_dot_vp > 0) {  // else the diffuse term is clamped to 0, and the specular one has f = 0
       color += n_dot_vp * diffuse * glm::dvec3(source.diffuse);
-      color += std::pow(highlight(model, n, to_light, to_eye), static_cast<double>(material.shininess)) * specular *
-               glm::dvec3(source.specular);
+      color +=
+          std::pow(highlight(model, n, to_light, to_eye), material.shininess) * specular * glm::dvec3(source.specular);
     }
     rgb += share * color;
   }
   return glm::clamp(glm::dvec4(rgb, material.diffuse.a), 0.0, 1.0);
 }
 
-Material material_at(const Scene& scene, const Draw& draw, std::uint32_t vertex) {
-  Material material = draw.material;
-  const Mesh& mesh = scene.meshes.at(draw.mesh);
-  if (mesh.colors.empty()) return material;
+DoubleMaterial material_of(const Scene& scene, const Draw& draw, const glm::dvec4& color) {
+  const Material& own = draw.material;
+  DoubleMaterial material{own.ambient, own.diffuse, own.specular, own.emission, own.shininess};
+  if (scene.meshes.at(draw.mesh).colors.empty()) return material;
   const ColorMaterial follows = draw.color_material;
-  const glm::vec4 color = mesh.colors.at(vertex);
   const bool both = follows == ColorMaterial::ambient_and_diffuse;
   if (both || follows == ColorMaterial::ambient) material.ambient = color;
   if (both || follows == ColorMaterial::diffuse) material.diffuse = color;
@@ -82,9 +81,19 @@ Material material_at(const Scene& scene, const Draw& draw, std::uint32_t vertex)
   return material;
 }
 
+DoubleMaterial material_at(const Scene& scene, const Draw& draw, std::uint32_t vertex) {
+  const Mesh& mesh = scene.meshes.at(draw.mesh);
+  return material_of(scene, draw, mesh.colors.empty() ? glm::dvec4(0) : glm::dvec4(mesh.colors.at(vertex)));
+}
+
+glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, const glm::dmat4& view, const glm::dvec4& color,
+                          glm::dvec3 n, glm::dvec3 p_eye) {
+  return light(scene, material_of(scene, draw, color), view, p_eye, unit(n));
+}
+
 glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, const glm::dmat4& view, std::uint32_t vertex,
                         glm::dvec3 p_eye, glm::dvec3 n_eye) {
-  if (draw.lit) return light(scene, material_at(scene, draw, vertex), view, p_eye, n_eye);
+  if (is_lit_per_vertex(draw)) return light(scene, material_at(scene, draw, vertex), view, p_eye, n_eye);
   const Mesh& mesh = scene.meshes.at(draw.mesh);
   const glm::dvec4 color(mesh.colors.empty() ? draw.material.diffuse : mesh.colors.at(vertex));
   return glm::clamp(color, 0.0, 1.0);

@@ -10,17 +10,28 @@
 
 namespace plumbline::math {
 
+/// glMaterial in double.
+struct DoubleMaterial {
+  glm::dvec4 ambient, diffuse, specular, emission;
+  double shininess;
+};
+/// The draw's, what follows the vertex colour being `color` (2.14.3) where its mesh has colours.
+DoubleMaterial material_of(const Scene& scene, const Draw& draw, const glm::dvec4& color);
+/// At the mesh's vertex number `vertex`.
+DoubleMaterial material_at(const Scene& scene, const Draw& draw, std::uint32_t vertex);
+
 /// The lit colour at a point: rgba, clamped to [0,1]; alpha is the material's diffuse alpha. `view` takes the lights'
 /// vectors from world to eye space. 0^0 is 1, and a vector without a direction (a light at the point itself) has a dot
 /// product of 0 with everything.
-glm::dvec4 light(const Scene& scene, const Material& material, const glm::dmat4& view, glm::dvec3 p_eye,
+glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, const glm::dmat4& view, glm::dvec3 p_eye,
                  glm::dvec3 n_eye);
 
-/// The draw's material at the mesh's vertex number `vertex`: what follows the vertex colour is that (2.14.3).
-Material material_at(const Scene& scene, const Draw& draw, std::uint32_t vertex);
+/// The colour of a fragment that is lit: at its interpolated vertex colour, normal (of any length) and position.
+glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, const glm::dmat4& view, const glm::dvec4& color,
+                          glm::dvec3 n, glm::dvec3 p_eye);
 
-/// The colour of the mesh's vertex number `vertex`: lit, or where the draw is not, the mesh's colour there, or where it
-/// has none, the material's diffuse colour. rgba, clamped to [0,1].
+/// The colour of the mesh's vertex number `vertex`: lit, or where the draw's vertices are not, the mesh's colour there,
+/// or where it has none, the material's diffuse colour. rgba, clamped to [0,1].
 glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, const glm::dmat4& view, std::uint32_t vertex,
                         glm::dvec3 p_eye, glm::dvec3 n_eye);
 

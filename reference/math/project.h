@@ -24,13 +24,16 @@ inline constexpr double kSnap = 1.4142135623730951 / 512;  ///< the farthest tha
 
 /// A vertex of a draw.
 struct Corner {
-  glm::dvec3 v;         ///< (X, Y, W)
-  double z;             ///< z_clip
-  glm::dvec4 size;      ///< of (X, Y, z_clip, W): the sums' terms by their absolute values
-  glm::dvec4 color;     ///< lit, clamped to [0,1]
-  double color_error;   ///< how far a float evaluation of `color` may be from it
-  double z_eye;         ///< before the projection
-  double z_eye_error;   ///< how far a float evaluation of it may be
+  glm::dvec3 v;             ///< (X, Y, W)
+  double z;                 ///< z_clip
+  glm::dvec4 size;          ///< of (X, Y, z_clip, W): the sums' terms by their absolute values
+  glm::dvec4 color;         ///< lit, clamped to [0,1]
+  double color_error;       ///< how far a float evaluation of `color` may be from it
+  glm::dvec2 texcoord;      ///< 0 where the mesh has none
+  double z_eye;             ///< before the projection
+  double z_eye_error;       ///< how far a float evaluation of it may be
+  glm::dvec3 p_eye, n_eye;  ///< likewise, for light per fragment
+  double p_eye_error, n_eye_error;
   std::uint32_t point;  ///< equal for vertices of one draw whose positions are bit-equal
 };
 
@@ -61,6 +64,7 @@ struct Triangle {
 /// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange).
 struct Projected {
   int width = 0, height = 0;
+  glm::dmat4 view{1};  ///< world to eye space
   bool perspective = true;
   bool depth_clamp = false;  ///< no near and far plane
   /// From a pixel's centre to where it is covered, in pixels (scene/antialias.h). The window is moved by as much the

@@ -43,20 +43,24 @@ void check(const Gl& gl, std::string_view where);
 /// One of GL's limits.
 GLint limit(const Gl& gl, GLenum name);
 
-/// What is set during its lifetime goes back to what it was, which between two passes is GL's default; no program is in
-/// use afterwards. All but the matrices.
+/// What is set during its lifetime goes back to what it was, which between two passes is GL's default. All but the
+/// matrices.
 class SavedState {
  public:
-  explicit SavedState(const Gl& gl) : gl_(gl) { gl_.PushAttrib(GL_ALL_ATTRIB_BITS); }
+  explicit SavedState(const Gl& gl) : gl_(gl) {
+    gl_.PushAttrib(GL_ALL_ATTRIB_BITS);
+    gl_.GetIntegerv(GL_CURRENT_PROGRAM, &program_);
+  }
   ~SavedState() {
     gl_.PopAttrib();
-    gl_.UseProgram(0);
+    gl_.UseProgram(static_cast<GLuint>(program_));
   }
   SavedState(const SavedState&) = delete;
   SavedState& operator=(const SavedState&) = delete;
 
  private:
   const Gl& gl_;
+  GLint program_ = 0;
 };
 
 /// The same for vertex arrays and their buffers.

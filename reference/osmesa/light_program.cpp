@@ -89,23 +89,51 @@ bool mesa_is_wrong(const Scene& scene, const Draw& draw) {
 
 bool needs_light_program(const Scene& scene, const Draw& draw) {
   const LightModel& model = scene.light_model;
-  return draw.lit && (model.specular != LightModel::Specular::half_vector || model.sides == LightModel::Sides::flip ||
-                      mesa_is_wrong(scene, draw));
+  return is_lit_per_fragment(draw) ||
+         (draw.lit && (model.specular != LightModel::Specular::half_vector || model.sides == LightModel::Sides::flip ||
+                       mesa_is_wrong(scene, draw)));
 }
 
-std::string light_vertex_shader(const Scene& scene, const Draw& draw) {
-  return "#version 120\n" + material_of(scene, draw) + kShare + equation_of(scene) +
-         fmt::format(R"(
-void main() {{
+namespace {
+
+constexpr const char* kPassedOn = R"(
   gl_Position = ftransform();
   gl_TexCoord[0] = gl_MultiTexCoord0;
   vec3 p_eye = vec3(gl_ModelViewMatrix * gl_Vertex);
   gl_FogFragCoord = abs(p_eye.z);
-  gl_FrontColor = lit(p_eye, {}, gl_Color);
-  gl_BackColor = gl_FrontColor;
-}}
-)",
-                     normal_of(draw.normals));
+)";
+
+/// OpenGL 2.1 spec 3.10, the distance the fragment's own.
+std::string fog_of(const Draw& draw) {
+  if (!draw.fog) return "";
+  const char* factor = draw.fog->mode == Fog::Mode::linear ? "(gl_Fog.end - c) / (gl_Fog.end - gl_Fog.start)"
+                       : draw.fog->mode == Fog::Mode::exp  ? "exp(-gl_Fog.density * c)"
+                                                           : "exp(-(gl_Fog.density * c) * (gl_Fog.density * c))";
+  return fmt::format("  float c = abs(p.z);\n  color.rgb = mix(gl_Fog.color.rgb, color.rgb, clamp({}, 0.0, 1.0));\n",
+                     factor);
+}
+
+}  // namespace
+
+std::string light_vertex_shader(const Scene& scene, const Draw& draw) {
+  const std::string normal = normal_of(draw.normals);
+  if (is_lit_per_fragment(draw)) {
+    return fmt::format(
+        "#version 120\nvarying vec3 p, n;\nvoid main() {{{}  p = p_eye;\n  n = {};\n"
+        "  gl_FrontColor = gl_Color;\n  gl_BackColor = gl_Color;\n}}\n",
+        kPassedOn, normal);
+  }
+  return "#version 120\n" + material_of(scene, draw) + kShare + equation_of(scene) +
+         fmt::format(
+             "void main() {{{}  gl_FrontColor = lit(p_eye, {}, gl_Color);\n  gl_BackColor = gl_FrontColor;\n}}\n",
+             kPassedOn, normal);
+}
+
+std::string light_fragment_shader(const Scene& scene, const Draw& draw) {
+  if (!is_lit_per_fragment(draw)) return "";
+  return "#version 120\nvarying vec3 p, n;\n" + material_of(scene, draw) + kShare + equation_of(scene) +
+         fmt::format("void main() {{\n  vec4 color = lit(p, normalize(n), gl_Color);\n{}  gl_FragColor = color;\n}}\n",
+                     fog_of(draw));
 }
 
 }  // namespace plumbline::osmesa

@@ -215,7 +215,7 @@ void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std
 void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request, Records<double>& records) {
   const bool clip = request.records.has(Stage::clip), window = request.records.has(Stage::window);
   if (!clip && !window) return;
-  const SavedState state(gl);
+  const SavedState before(gl);
   Feedback feedback(gl, GL_4D_COLOR_TEXTURE);
   set_lights(gl, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
@@ -224,7 +224,7 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
     const Mesh& mesh = scene.scene().meshes[draw.mesh];
     const std::vector<std::uint32_t> wanted = wanted_primitives(range, request.primitives);
     scene.set_matrices(i);
-    scene.set_surface(i);
+    scene.set_vertex_light(i);
     gl.ShadeModel(GL_SMOOTH);  // flat, feedback leaves the colours of cut triangles undefined (measured)
     const ToClip to_clip(scene.matrices(i));
     for (std::size_t at = 0; at < wanted.size(); at += kBatch) {

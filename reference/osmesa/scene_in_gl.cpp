@@ -150,7 +150,7 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene),
     matrices_.push_back(math::float_matrices(scene, scene.draws[i]));
     std::optional<Program>& program = light_programs_.emplace_back();
     if (needs_light_program(scene, scene.draws[i])) {
-      program.emplace(gl, light_vertex_shader(scene, scene.draws[i]), "");
+      program.emplace(gl, light_vertex_shader(scene, scene.draws[i]), light_fragment_shader(scene, scene.draws[i]));
     }
     std::vector<MeshVertex> vertices = vertices_of(mesh);
     Buffer vertex_buffer(gl, std::span<const MeshVertex>(vertices));
@@ -190,13 +190,11 @@ void SceneInGl::set_fog(std::size_t draw) const {
   gl_.Fogf(GL_FOG_END, fog->end);
 }
 
-void SceneInGl::set_surface(std::size_t draw) const {
+void SceneInGl::set_vertex_light(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
-  textures_.set(d);
-  set_fog(draw);
   gl_.ShadeModel(d.shading == Shading::flat ? GL_FLAT : GL_SMOOTH);
   gl_.UseProgram(0);
-  if (!d.lit) {
+  if (!is_lit_per_vertex(d)) {
     gl_.Disable(GL_LIGHTING);
     gl_.Color4fv(glm::value_ptr(d.material.diffuse));  // where the mesh has no colours
     return;
@@ -210,6 +208,16 @@ void SceneInGl::set_texture_source(std::size_t draw) const {
   textures_.set_source(scene_.draws[draw]);
   gl_.Disable(GL_LIGHTING);
   gl_.Color4f(0, 0, 0, 1);
+}
+
+void SceneInGl::set_surface(std::size_t draw) const {
+  const Draw& d = scene_.draws[draw];
+  textures_.set(d);
+  set_fog(draw);
+  set_vertex_light(draw);
+  if (!is_lit_per_fragment(d)) return;
+  set_material(gl_, scene_, d);
+  gl_.UseProgram(light_programs_[draw]->name());
 }
 
 void SceneInGl::set_fragments(std::size_t draw) const {

@@ -136,7 +136,7 @@ std::vector<Lit<double>> read_lit(const Gl& gl, const SceneInGl& scene) {
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     gather_vertices(gl);
-    scene.set_surface(i);
+    scene.set_vertex_light(i);
     const std::size_t expected = kPoint * scene.ranges()[i].vertex_count;
     const std::span<const float> values = feedback.run(expected, [&] { scene.draw_points(i); });
     if (values.size() != expected) {

@@ -35,9 +35,16 @@ struct LightBounds {
   /// Per channel, what may come or go: the specular terms of lights whose N.L is within rounding of 0; all of a light
   /// whose cone ends within rounding; in GzRender's rule, where N.E is.
   Vec3<double> jump{0};
+  /// Per channel, what the inputs' errors come to, to which the magnitude knows nothing.
+  Vec3<double> inherited{0};
+};
+/// How far position and normal (in length), and the material's colours that follow the vertex', may be off.
+struct LightInputs {
+  double p_eye = 0, n_eye = 0, color = 0;
 };
 /// `material`: the draw's at the vertex (scene.h, colored).
-LightBounds light_bounds(const Scene& scene, const Material& material, const Vertex<double>& vertex);
+LightBounds light_bounds(const Scene& scene, const Material& material, const Vertex<double>& vertex,
+                         const LightInputs& errors = {});
 
 /// How a plane's value at a pixel centre depends on the triangle: depth, and the colour's four channels.
 struct PlaneBounds {

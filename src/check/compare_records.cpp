@@ -142,7 +142,7 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
     const Draw& draw = scene.draws[d];
     const Place place{-1, -1, static_cast<std::int64_t>(i), "color"};
     const Vec4<double>&a = candidate.lit[i].color, &b = reference.lit[i].color;
-    if (!draw.lit) {
+    if (!is_lit_per_vertex(draw)) {
       add(meter, a, b, Vec4<double>(u), 0, place);
       return;
     }
@@ -373,6 +373,11 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
         if (d >= scene.draws.size() || is_plain(scene, scene.draws[d]))
           return add(meter, a, b, Vec4<double>(u), 0, place);
         const Vec4<double> bound = shade_error(scene, scene.draws[d], fours_of(candidate, i), {}, 1);
+        if (!std::isfinite(bound.x)) {  // a light may come or go
+          meter.ambiguous();
+          for (int k = 0; k < 4; ++k) meter.value(a[k] >= 0 && a[k] <= 1 ? 0 : kInfinite, 0, place, a[k], b[k]);
+          return;
+        }
         for (int k = 0; k < 4; ++k) {
           if (bound[k] == 0) {
             meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k]);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double u = kUnitRoundoff;
 const Records<double> kNone;
+const std::vector<Vec4<double>> kNowhere;
 
 // Per vertex, or what the tolerance named grants where the reference shows none.
 template <class Record>
@@ -20,6 +21,13 @@ std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std:
   std::vector<Vec4<double>> out(a.size(), Vec4<double>(granted));
   if (b.size() != a.size()) return out;
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = glm::abs(a[i].*member - b[i].*member);
+  return out;
+}
+
+std::vector<Vec4<double>> normals_apart(const Records<double>& a, const Records<double>& b) {
+  std::vector<Vec4<double>> out(a.vertices.size(), Vec4<double>(0));
+  if (b.vertices.size() != a.vertices.size()) return out;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {glm::abs(a.vertices[i].n_eye - b.vertices[i].n_eye), 0};
   return out;
 }
 
@@ -42,6 +50,7 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
       lit_apart_(columns_apart(candidate.records.lit, reference.records.lit, &Lit<double>::color,
                                u * tolerance("osmesa.light").factor)),
       eye_apart_(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0)),
+      normals_apart_(normals_apart(candidate.records, reference.records)),
       drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
   for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));
 }
@@ -85,9 +94,8 @@ Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
   if (c.triangle >= corners.size()) return Vec4<double>(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < 3; ++k) as_color.v[k].color = corners[c.triangle][k];
   const PlaneBounds plane = bounds_from_origin(as_color, c.x, c.y);
-  const bool of_eye = v == Varying::position;
-  return factor_ * u * plane.color + glm::abs(plane.along_color) +
-         (of_eye ? apart(as_color.primitive, eye_apart_, false) : Vec4<double>(0));
+  const auto& vertices_apart = v == Varying::position ? eye_apart_ : v == Varying::normal ? normals_apart_ : kNowhere;
+  return factor_ * u * plane.color + glm::abs(plane.along_color) + apart(as_color.primitive, vertices_apart, false);
 }
 
 TexelBound FragmentBounds::texel(std::size_t i) const {

@@ -71,8 +71,8 @@ class FragmentBounds {
   const std::vector<TexelRange>& texels_;
   double factor_;
   std::vector<DrawRange> ranges_;
-  std::vector<Vec4<double>> lit_apart_, eye_apart_;  // per vertex
-  std::vector<bool> plain_;                          // per draw
+  std::vector<Vec4<double>> lit_apart_, eye_apart_, normals_apart_;  // per vertex
+  std::vector<bool> plain_;                                          // per draw
   DrawnAt drawn_;
 };
 

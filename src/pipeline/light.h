@@ -11,8 +11,8 @@ namespace plumbline::pipeline {
 
 /// Appends one colour per vertex of the draw, clamped to [0,1].
 ///
-/// Lit: by light_equation.h, with the draw's material or what of it the mesh's colours stand for (2.14.3). Unlit: the
-/// mesh's colour, or the material's diffuse.
+/// Lit: by light_equation.h, with the draw's material or what of it the mesh's colours stand for (2.14.3). Unlit,
+/// or to be lit per fragment: the mesh's colour, or the material's diffuse.
 void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices, std::vector<Lit<float>>& out);
 
 }  // namespace plumbline::pipeline

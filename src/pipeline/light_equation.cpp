@@ -77,30 +77,31 @@ Illumination illumination(const Scene& scene) {
   return out;
 }
 
-Surface surface(const Scene& scene, const Material& material) {
+Reflectance reflectance(const Scene& scene, const Material& material) {
   const Vec3<float> ambient(material.ambient), diffuse(material.diffuse), specular(material.specular);
-  Surface out{
+  Reflectance out{
       Vec3<float>(material.emission) + ambient * scene.light_model.ambient, {}, material.shininess, material.diffuse.a};
-  for (const Light& l : scene.lights) {
-    out.answers.push_back({l.ambient * ambient, l.diffuse * diffuse, l.specular * specular});
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& l = scene.lights[i];
+    out.answers.at(i) = {l.ambient * ambient, l.diffuse * diffuse, l.specular * specular};
   }
   return out;
 }
 
-Vec4<float> lit(const Illumination& illumination, const Surface& surface, const Vec3<float>& p_eye,
+Vec4<float> lit(const Illumination& illumination, const Reflectance& reflectance, const Vec3<float>& p_eye,
                 const Vec3<float>& n_eye) {
   const Vec3<float> to_eye = illumination.model.local_viewer ? unit(-p_eye) : Vec3<float>(0, 0, 1);
-  Vec3<float> sum = surface.base;
+  Vec3<float> sum = reflectance.base;
   for (std::size_t i = 0; i < illumination.lights.size(); ++i) {
     const EyeLight& light = illumination.lights[i];
-    const Surface::Answer& answer = surface.answers[i];
+    const Reflectance::Answer& answer = reflectance.answers[i];
     const Vec3<float> from_point = light.directional ? light.vector : light.vector - p_eye;
     const Vec3<float> to_light = light.directional ? light.vector : unit(from_point);
     Vec3<float> color = answer.ambient;
     const Cosines c = cosines(illumination.model, n_eye, to_light, to_eye);
     if (c.diffuse > 0.0f) {
       color += c.diffuse * answer.diffuse;
-      color += power(c.specular, surface.shininess) * answer.specular;
+      color += power(c.specular, reflectance.shininess) * answer.specular;
     }
     if (light.attenuates || light.has_cone) {
       const float share = reach(light, from_point, to_light);
@@ -109,7 +110,7 @@ Vec4<float> lit(const Illumination& illumination, const Surface& surface, const 
     }
     sum += color;
   }
-  return glm::clamp(Vec4<float>(sum, surface.alpha), 0.0f, 1.0f);
+  return glm::clamp(Vec4<float>(sum, reflectance.alpha), 0.0f, 1.0f);
 }
 
 }  // namespace plumbline::pipeline

@@ -1,6 +1,7 @@
 // The light equation at one point (OpenGL 2.1 spec, section 2.14.1), and note 000's in its place.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "scene/scene.h"
@@ -26,19 +27,19 @@ struct Illumination {
 Illumination illumination(const Scene& scene);
 
 /// What a material makes of the light: emission and ambient light, and each light's colours times its own.
-struct Surface {
+struct Reflectance {
   struct Answer {
     Vec3<float> ambient, diffuse, specular;
   };
   Vec3<float> base;
-  std::vector<Answer> answers;  ///< beside the lights
+  std::array<Answer, 8> answers;  ///< beside the lights
   float shininess, alpha;
 };
-Surface surface(const Scene& scene, const Material& material);
+Reflectance reflectance(const Scene& scene, const Material& material);
 
 /// rgba, clamped to [0,1]; alpha is the diffuse material's. Where a normal faces away from a light, its diffuse and
 /// specular terms are 0; outside a light's cone, its ambient one too. `n_eye` need not be of unit length.
-Vec4<float> lit(const Illumination& illumination, const Surface& surface, const Vec3<float>& p_eye,
+Vec4<float> lit(const Illumination& illumination, const Reflectance& reflectance, const Vec3<float>& p_eye,
                 const Vec3<float>& n_eye);
 
 }  // namespace plumbline::pipeline

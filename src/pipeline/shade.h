@@ -13,10 +13,13 @@ Color<R> shade(const Color<R>& attributes) {
   return attributes;
 }
 
-/// In OpenGL's order (2.1, figure 3.1): texture environment, sum of colours, fog.
+/// In OpenGL's order (2.1, figure 3.1): light, where it is per fragment, texture environment, sum of colours, fog.
 template <class R>
 Color<R> shade_surface(const Surface& surface, bool /*front*/, const SurfaceAttributes<R>& attributes) {
   Color<R> color = attributes.color;
+  if (surface.light) {
+    color = lit_fragment(*surface.light, color, attributes[Varying::normal], attributes[Varying::position]);
+  }
   if (surface.texture) {
     color =
         apply_environment<R>(surface.texture->texture->format, *surface.draw->texture, color, attributes.texel.color);

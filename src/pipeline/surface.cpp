@@ -13,6 +13,7 @@ std::vector<Surface> surfaces_of(const Scene& scene, const Records<float>& recor
         const Texture& texture = scene.textures.at(draw.texture->texture);
         surface.texture = texture_setup(texture, texture.sampler);
       }
+      if (is_lit_per_fragment(draw)) surface.light = fragment_light(scene, draw);
       for (const Varying v : kAllVaryings) {
         if (is_back(v) || !carries(scene, draw, v)) continue;
         surface.carried.push_back(v);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/attributes.h"
+#include "pipeline/fragment_light.h"
 #include "pipeline/texture.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
@@ -16,7 +17,8 @@ namespace plumbline::pipeline {
 /// A draw's, ready to be asked per fragment.
 struct Surface {
   const Scene* scene = nullptr;
-  const Draw* draw = nullptr;  ///< null: plain, nothing of this is asked
+  const Draw* draw = nullptr;          ///< null: plain, nothing of this is asked
+  std::optional<FragmentLight> light;  ///< none: lit at the vertices, or not at all
   std::vector<Varying> carried;
   std::array<std::span<const std::array<Vec4<float>, 3>>, kVaryings> columns;  ///< of the scene's window triangles
 

@@ -171,7 +171,8 @@ void read_state(const JsonNode& node, DrawState& state) {
         {{"normalize", Normals::normalize}, {"rescale", Normals::rescale}, {"as_they_are", Normals::as_they_are}});
   }
   if (const auto n = node.find("shading")) {
-    draw.shading = n->choice<Shading>({{"flat", Shading::flat}, {"gouraud", Shading::gouraud}});
+    draw.shading =
+        n->choice<Shading>({{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}});
   }
   if (const auto n = node.find("cull")) {
     draw.cull = n->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
@@ -203,7 +204,7 @@ DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const
   node.only(kStateKeys);
   DrawState state = defaults;
   read_state(node, state);
-  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
   return state;
 }
 
@@ -213,7 +214,7 @@ DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::
   node.only(keys);
   DrawState state = defaults;
   read_state(node, state);
-  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
   return state;
 }
 

@@ -133,7 +133,9 @@ enum class ColorMaterial { none, ambient, diffuse, ambient_and_diffuse, specular
 /// lengthens them; or neither.
 enum class Normals { normalize, rescale, as_they_are };
 
-enum class Shading { flat, gouraud };
+/// phong: a lit draw's fragments are lit, each at the interpolated position and normal, which is brought to unit length
+/// whatever Normals says; its vertices have the colours that they would have unlit. (GLSL programs, note 000.)
+enum class Shading { flat, gouraud, phong };
 enum class Cull { none, back, front };
 enum class PolygonMode { fill, line, point };
 enum class DepthFunc { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
@@ -219,6 +221,10 @@ struct Draw {
   std::optional<Scissor> scissor;      ///< no pixel outside of it is covered
   std::optional<DrawTexture> texture;  ///< the mesh then has texture coordinates
 };
+
+/// Where light falls: on the vertices, or on the fragments.
+inline bool is_lit_per_vertex(const Draw& draw) { return draw.lit && draw.shading != Shading::phong; }
+inline bool is_lit_per_fragment(const Draw& draw) { return draw.lit && draw.shading == Shading::phong; }
 
 /// The draw's material, what a vertex colour stands for replaced by `color` (OpenGL 2.1 spec 2.14.3).
 Material colored(const Draw& draw, const glm::vec4& color);

@@ -78,7 +78,7 @@ struct SceneFileOptions {
 ///     color_material  "none", "ambient", "diffuse", "ambient_and_diffuse", "specular", "emission": what of the
 ///                  material is the mesh's colours, where it has some
 ///     normals      "normalize", "rescale", "as_they_are"
-///     shading      "flat", "gouraud"
+///     shading      "flat", "gouraud", "phong"
 ///     cull         "none", "back", "front"
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where
 ///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth

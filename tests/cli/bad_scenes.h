@@ -126,7 +126,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("defaults": [])"), R"(at "/defaults": expected an object with keys among )" + kStateKeys + R"(, found an array of 0)"},
     {top(R"("defaults": {"lit": 0})"), R"(at "/defaults/lit": expected true or false, found 0)"},
     {draw(R"("lit": 1)"), R"(at "/draws/0/lit": expected true or false, found 1)"},
-    {draw(R"("shading": "phong")"), R"(at "/draws/0/shading": expected one of flat, gouraud, found "phong")"},
+    {draw(R"("shading": "smooth")"), R"(at "/draws/0/shading": expected one of flat, gouraud, phong, found "smooth")"},
     {draw(R"("cull": true)"), R"(at "/draws/0/cull": expected one of none, back, front, found true)"},
     {draw(R"("front_mode": "lines")"), R"(at "/draws/0/front_mode": expected one of fill, line, point, found "lines" (did you mean "line"?))"},
     {draw(R"("back_mode": ["line"])"), R"(at "/draws/0/back_mode": expected one of fill, line, point, found an array of 1)"},

@@ -1,8 +1,6 @@
 // The terms of note 000's colour, Shading, beside a sum of their own in a wider format: the table goes on
 // (transforms_table_test.cpp). The unit is an ULP of the terms' magnitudes added up: at most 4; in a million inputs 3.4
 // is seen.
-//
-// The note's mirrored ray R = 2 (N.L) N - L is missing here: stage 2 has OpenGL's half vector, and there is no other.
 #include "pipeline/light.h"
 #include "transforms_table.h"
 
@@ -80,6 +78,27 @@ std::vector<Row> light_rows() {
            e.theirs += power;
            e.magnitude += power * (1 + s * n_h.terms / n_h.value);  // an error of N.H, s times
          }
+         return Entries{e};
+       }},
+      {"K_s sum l_e (R.E)^s (000)", "light", wide_sum, 24, 4,
+       [](Random& r) {
+         Lamps l = lamps(r);
+         l.scene.light_model.specular = LightModel::Specular::reflection;
+         const float ks = share(r), s = static_cast<float>(std::floor(r.between(1, 129)));
+         l.draw.material.specular = glm::vec4(ks);
+         l.draw.material.shininess = s;
+         Entry e{0, 0, std::numeric_limits<float>::min()};
+         for (const Light& lamp : l.scene.lights) {
+           const WideVec3 n = wide(l.n), to_light = glm::normalize(wide(lamp.vector));
+           const Dot n_l = dot(n, to_light);
+           if (std::abs(n_l.value) < 1e-6) return Entries{};
+           const Wide r_e = (2 * n_l.value * n - to_light).z;
+           if (n_l.value <= 0 || r_e <= 0) continue;
+           const Wide power = Wide(ks) * lamp.specular.r * std::pow(std::min<Wide>(r_e, 1), Wide(s));
+           e.theirs += power;
+           e.magnitude += power * (1 + s * (2 * n_l.terms * std::abs(n.z) + std::abs(to_light.z)) / r_e);
+         }
+         e.ours = l.ours();
          return Entries{e};
        }},
       {"K_a l_a (000)", "light", "as printed, 64 bits", 24, 1,

@@ -70,6 +70,21 @@ void specular_from_behind(const Scene& scene, const Draw& draw, Vertices vertice
   }
 }
 
+// The fragments of a surface without fog.
+struct ShortNormals : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Color<R> shade_surface(const pipeline::Surface& surface, bool front,
+                                          const pipeline::SurfaceAttributes<R>& a) {
+    if (!surface.light || surface.light->by_color || surface.draw->fog) {
+      return pipeline::shade_surface<R>(surface, front, a);
+    }
+    const pipeline::Color<R>&n = a[Varying::normal], &p = a[Varying::position];
+    const Vec4<float> c =
+        pipeline::lit(surface.light->illumination, surface.light->reflectance, {p.r, p.g, p.b}, {n.r, n.g, n.b});
+    return {c.r, c.g, c.b, c.a};
+  }
+};
+
 template <auto change>
 constexpr Fault of(std::string_view name, std::string_view what) {
   return {name, what, Stage::light, with_geometry<&Geometry::light, lit_otherwise<change>>};
@@ -85,6 +100,8 @@ constexpr std::array kFaults = {
     of<kAmbientPerLight>("light.ambient_per_light", "the ambient light is added once more for each light"),
     Fault{"light.specular_from_behind", "highlights shine where N.L <= 0", Stage::light,
           with_geometry<&Geometry::light, specular_from_behind>},
+    Fault{"shade.not_renormalised", "interpolated normals are not brought back to unit length", Stage::shade,
+          with_fragment<ShortNormals>},
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Bugs in the light equation (stage 2).
+// Bugs in the light equation, at the vertices (stage 2) and per fragment (stage 9).
 #pragma once
 
 #include <span>
