@@ -103,6 +103,7 @@ Capture make_capture() {
   c.planes.count = {kWidth, kHeight, 0xffffffffu};
   c.planes.id_sum = {kWidth, kHeight, 0xfedcba9876543210u};
   c.planes.id = {kWidth, kHeight, kBackground};
+  c.planes.stencil = {kWidth, kHeight, 0xfe};
   c.planes.shaded = {kWidth, kHeight};
   for (auto& p : c.planes.shaded.values()) f.fill(p);
   c.planes.color = {kWidth, kHeight};
@@ -219,13 +220,14 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_TRUE(same_bits(a.planes.count.values(), b.planes.count.values()));
   EXPECT_TRUE(same_bits(a.planes.id_sum.values(), b.planes.id_sum.values()));
   EXPECT_TRUE(same_bits(a.planes.id.values(), b.planes.id.values()));
+  EXPECT_TRUE(same_bits(a.planes.stencil.values(), b.planes.stencil.values()));
   EXPECT_TRUE(same_bits(a.planes.shaded.values(), b.planes.shaded.values()));
   EXPECT_TRUE(same_bits(a.planes.color.values(), b.planes.color.values()));
   EXPECT_TRUE(same_bits(a.planes.depth.values(), b.planes.depth.values()));
   EXPECT_EQ(b.planes.count(1, 2), 12u);
 
   write_capture(b, root_ / "b");
-  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 1 + 1 + 6 + 4 * kVaryings);
+  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 1 + 1 + 8 + 4 * kVaryings);
 }
 
 TEST_F(CaptureFolder, LeavesOutWhatWasNotCaptured) {
