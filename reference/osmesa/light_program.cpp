@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "reference/osmesa/textures_in_gl.h"
+
 namespace plumbline::osmesa {
 namespace {
 
@@ -131,9 +133,11 @@ std::string light_vertex_shader(const Scene& scene, const Draw& draw) {
 
 std::string light_fragment_shader(const Scene& scene, const Draw& draw) {
   if (!is_lit_per_fragment(draw)) return "";
-  return "#version 120\nvarying vec3 p, n;\n" + material_of(scene, draw) + kShare + equation_of(scene) +
-         fmt::format("void main() {{\n  vec4 color = lit(p, normalize(n), gl_Color);\n{}  gl_FragColor = color;\n}}\n",
-                     fog_of(draw));
+  return "#version 120\nuniform sampler2D image;\nvarying vec3 p, n;\n" + material_of(scene, draw) + kShare +
+         equation_of(scene) +
+         fmt::format(
+             "void main() {{\n  vec4 color = lit(p, normalize(n), gl_Color);\n{}{}  gl_FragColor = color;\n}}\n",
+             environment_of(scene, draw), fog_of(draw));
 }
 
 }  // namespace plumbline::osmesa

@@ -179,7 +179,8 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   std::optional<Target> shorts;
   if (frame.color == ColorFormat::rgba16) shorts.emplace(gl, frame, ColorFormat::rgba16);
   Planes planes;
-  if (textured(scene.scene())) {
+  // An alpha test would look at the texels' alpha, not at the fragments'.
+  if (textured(scene.scene()) && !tests_alpha(scene.scene())) {
     draw_scene(gl, scene, floats, Colors::texels);
     planes.texel = floats.read_color();
   }

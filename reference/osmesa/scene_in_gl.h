@@ -35,10 +35,10 @@ class SceneInGl {
   void set_merge(std::size_t draw) const;           ///< blending, logic op and colour mask
 
   // The draw's mesh, under the state that is set.
-  void draw_primitives(std::size_t draw) const;  ///< with normals and colours
-  /// Likewise, calling before(its number) before each.
-  void draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const;
+  void draw_primitives(std::size_t draw) const;      ///< with normals and colours
   void draw_without_colors(std::size_t draw) const;  ///< with normals, in the colour that is set
+  /// As draw_primitives, calling before(its number) before each.
+  void draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const;
   void draw_points(std::size_t draw) const;  ///< each vertex, with normals and colours
   void draw_ids(std::size_t draw) const;     ///< each primitive in the colour whose four bytes are its number + 1
   void draw_id(std::size_t draw, std::uint32_t primitive) const;  ///< this one alone
