@@ -4,6 +4,7 @@
 
 #include "reference/embree/rays.h"
 #include "reference/math/oracle.h"
+#include "reference/math/resolve.h"
 
 namespace plumbline::embree {
 
@@ -22,12 +23,14 @@ class EmbreeRenderer final : public Renderer {
     for (const Stage stage : {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window}) {
       info[stage].reason = "a ray sees no vertices, only what it hits";
     }
-    info[Stage::texture].reason = "scenes have no textures yet";
+    info[Stage::texture].reason = "a ray sees the final colour; see shade";
+    info[Stage::resolve].reason = "a ray finds a sample, not what is made of it";
     info.legal = true;
     return info;
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
+    if (scene.frame.antialias.kind != Antialias::Kind::none) return math::capture_resolved(*this, scene, request);
     if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
       throw Unsupported("no ray meets a line or a point");
     }

@@ -60,14 +60,15 @@ Barycentric::Barycentric(const WindowTriangle<double>& triangle, int width, int 
 }
 
 template <class T>
-std::array<long double, 3> Barycentric::at(const Affine<T>& affine, int x, int y) {
-  const T dx = static_cast<T>(x + 0.5) - affine.x0, dy = static_cast<T>(y + 0.5) - affine.y0;
+std::array<long double, 3> Barycentric::at(const Affine<T>& affine, glm::dvec2 p) {
+  const T dx = static_cast<T>(p.x) - affine.x0, dy = static_cast<T>(p.y) - affine.y0;
   const T b1 = affine.d1_dx * dx + affine.d1_dy * dy, b2 = affine.d2_dx * dx + affine.d2_dy * dy;
   return {static_cast<long double>(1 - b1 - b2), static_cast<long double>(b1), static_cast<long double>(b2)};
 }
 
-std::array<long double, 3> Barycentric::at(int x, int y) const {
-  return rounded_suffices_ ? at(rounded_, x, y) : at(exact_, x, y);
+std::array<long double, 3> Barycentric::at(int x, int y, glm::dvec2 off) const {
+  const glm::dvec2 p = glm::dvec2(x, y) + 0.5 + off;  // of small multiples of 1/256: exact
+  return rounded_suffices_ ? at(rounded_, p) : at(exact_, p);
 }
 
 }  // namespace plumbline::exact

@@ -23,8 +23,8 @@ class Barycentric {
   /// pixels.
   Barycentric(const WindowTriangle<double>& triangle, int width, int height);
 
-  /// At pixel (x, y)'s centre.
-  std::array<long double, 3> at(int x, int y) const;
+  /// At pixel (x, y)'s centre, or `off` it, in pixels.
+  std::array<long double, 3> at(int x, int y, glm::dvec2 off = {0, 0}) const;
 
  private:
   template <class T>
@@ -34,7 +34,7 @@ class Barycentric {
     T d2_dx, d2_dy;  // the third's
   };
   template <class T>
-  static std::array<long double, 3> at(const Affine<T>& affine, int x, int y);
+  static std::array<long double, 3> at(const Affine<T>& affine, glm::dvec2 p);
 
   Affine<Float128> exact_;
   Affine<long double> rounded_;

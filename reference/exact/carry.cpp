@@ -9,7 +9,8 @@
 namespace plumbline::exact {
 namespace {
 
-glm::dvec4 at_vertex(Varying varying, const Vertex<double>& vertex) {
+glm::dvec4 at_vertex(Varying varying, const Mesh& mesh, const Vertex<double>& vertex, std::size_t number) {
+  if (varying == Varying::texture) return {glm::dvec2(mesh.texcoords.at(number)), 0, 1};
   if (varying == Varying::normal) return {vertex.n_eye, 0};
   if (varying == Varying::position) return vertex.p_eye;
   return glm::dvec4(0);
@@ -25,7 +26,8 @@ void light_varyings(const Scene& scene, const Records<double>& in, Records<doubl
     for (std::size_t d = 0; d < scene.draws.size(); ++d) {
       if (!carries(scene, scene.draws[d], v)) continue;
       const std::size_t first = ranges[d].first_vertex, last = first + ranges[d].vertex_count;
-      for (std::size_t i = first; i < last; ++i) column.at(i) = at_vertex(v, in.vertices.at(i));
+      const Mesh& mesh = scene.meshes[scene.draws[d].mesh];
+      for (std::size_t i = first; i < last; ++i) column.at(i) = at_vertex(v, mesh, in.vertices.at(i), i - first);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "reference/exact/input.h"
 #include "reference/exact/line_coverage.h"
 #include "reference/exact/window.h"
+#include "scene/antialias.h"
 #include "stages/renderer.h"
 
 namespace plumbline::exact {
@@ -30,6 +31,12 @@ Int128 ceil_div(Int128 a, Int128 b) { return -floor_div(-a, b); }
 
 int clamped(Int128 value, int low, int high) { return static_cast<int>(std::clamp<Int128>(value, low, high)); }
 
+/// The corners counted from the sample of pixel (0, 0).
+std::array<glm::ivec2, 3> from_sample(std::array<glm::ivec2, 3> snapped, const FrameFormat& frame) {
+  for (glm::ivec2& corner : snapped) corner -= sample_place(frame);
+  return snapped;
+}
+
 }  // namespace
 
 bool tie_is_in(std::int64_t de_dx, std::int64_t de_dy) { return de_dx != 0 ? de_dx > 0 : de_dy > 0; }
@@ -49,7 +56,7 @@ CoveredRows::CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, in
 }
 
 CoveredRows::CoveredRows(const std::array<glm::ivec2, 3>& snapped, const FrameFormat& frame, const Draw& draw)
-    : CoveredRows(snapped, frame.width, frame.height) {
+    : CoveredRows(from_sample(snapped, frame), frame.width, frame.height) {
   if (!draw.scissor) return;
   const Scissor& box = *draw.scissor;
   x_begin_ = std::min(box.x, frame.width);

@@ -29,7 +29,7 @@ class CoveredRows {
  public:
   /// Any corners; no rows where the area is zero.
   CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, int height);
-  /// Within the frame and the draw's scissor box.
+  /// Within the frame and the draw's scissor box, of the frame's samples where it has others than the centres.
   CoveredRows(const std::array<glm::ivec2, 3>& snapped, const FrameFormat& frame, const Draw& draw);
   int y_begin() const { return y_begin_; }
   int y_end() const { return y_end_; }

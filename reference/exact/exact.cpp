@@ -9,8 +9,10 @@
 #include "reference/exact/input.h"
 #include "reference/exact/selection.h"
 #include "reference/exact/surface.h"
+#include "reference/exact/texels.h"
 #include "reference/exact/window.h"
 #include "reference/math/oracle.h"
+#include "reference/math/resolve.h"
 
 namespace plumbline::exact {
 namespace {
@@ -28,7 +30,6 @@ class Exact : public Renderer {
 RendererInfo Exact::info() const {
   RendererInfo info{.name = "exact", .version = "1", .stages = {}, .legal = true};
   for (Ability& ability : info.stages) ability = {.shows = true, .runs = true, .reason = {}};
-  info[Stage::texture] = {.shows = false, .runs = false, .reason = "scenes have no textures yet"};
   return info;
 }
 
@@ -65,13 +66,17 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
       out.records.attributes = fragment_attributes(scene, records);
       fragment_varyings(scene, records, out.records);
       break;
-    case Stage::texture: return Renderer::run_stage(scene, stage, in);
+    case Stage::texture: filter_texels(scene, records, out); break;
     case Stage::shade: out.records.shaded = shade_fragments(scene, records); break;
     case Stage::visibility:
       out.records.drawn = drawn_fragments(scene, records);
       out.planes.id = visible_primitives(scene, records, out.records.drawn);
       break;
     case Stage::merge: merge_fragments(scene, in, out); break;
+    case Stage::resolve:
+      require_samples(scene, in.samples);
+      out.planes.color = math::mean_colors(scene.frame, in.samples);
+      break;
   }
   return out;
 }
@@ -128,6 +133,7 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
   DepthBuffer buffer(frame);
   ColorBuffer colors(scene);
   out.planes = cleared_planes(frame);
+  if (textured(scene)) out.planes.texel = Plane<glm::vec4>(frame.width, frame.height, glm::vec4(0));
   std::uint32_t kept = 0;  // the triangle's number among those that the capture hands out
   std::vector<Covered> covered;
   for (std::size_t t = 0; t < window.triangles.size(); ++t) {
@@ -142,17 +148,25 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
     const Barycentric weights(triangle, frame.width, frame.height);
     for (const Covered& c : covered) {
       add_fragment(out.planes, c.x, c.y, id_weight(triangle.primitive));
-      const double depth = depth_at(triangle, weights, c.x, c.y);
+      const double depth = depth_at(triangle, weights, frame, c.x, c.y);
       const bool visible = buffer.test(c.x, c.y, draw, depth);
       const bool recorded = wanted && selection.fragments() && selection.pixel(c.x, c.y);
       if (!visible && !recorded) continue;
       const glm::dvec4 color = color_at(triangle, weights, c.x, c.y);
       const Fours fours = plain ? Fours{} : fours_at(scene, draw, window, t, weights, c.x, c.y);
-      const glm::dvec4 shaded = plain ? color : shade(scene, draw, triangle.front, color, fours);
-      if (recorded) selection.add({c, depth, color, fours, shaded, visible}, out.records);
+      Texel<double> texel;
+      if (draw.texture) {
+        const auto texture = static_cast<std::size_t>(Varying::texture);
+        const TexturedTriangle with_texture{triangle, window.varyings[Varying::texture].triangles[t],
+                                            scene.textures.at(draw.texture->texture), weights};
+        texel = texel_at(with_texture, glm::dvec2(fours[texture]), c.x, c.y);
+      }
+      const glm::dvec4 shaded = plain ? color : shade(scene, draw, triangle.front, color, fours, texel.color);
+      if (recorded) selection.add({c, depth, color, fours, texel, shaded, visible}, out.records);
       if (!visible) continue;
       out.planes.id(c.x, c.y) = static_cast<std::int32_t>(triangle.primitive);
       out.planes.shaded(c.x, c.y) = glm::vec4(shaded);
+      if (!out.planes.texel.empty()) out.planes.texel(c.x, c.y) = glm::vec4(texel.color);
       colors.write(c.x, c.y, draw.merge, shaded);
     }
   }
@@ -161,6 +175,7 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
 }
 
 Capture Exact::capture(const Scene& scene, const Request& request) {
+  if (scene.frame.antialias.kind != Antialias::Kind::none) return math::capture_resolved(*this, scene, request);
   require_budget(scene, plane_bytes(scene), request.memory_budget);
   Capture out = empty_capture(scene);
   Records<double>& records = out.records;

@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "reference/exact/input.h"
+#include "scene/antialias.h"
 
 namespace plumbline::exact {
 
-double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, int x, int y) {
-  const auto b = weights.at(x, y);
+double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const FrameFormat& frame, int x,
+                int y) {
+  const auto b = weights.at(x, y, glm::dvec2(sample_place(frame)) / static_cast<double>(kSubpixel));
   // From the first corner on: the weights' sum of 1 is used in exact form, and a flat triangle's depth is exact.
   const long double z0 = triangle.v[0].p_win.z;
   const long double z = z0 + b[1] * (triangle.v[1].p_win.z - z0) + b[2] * (triangle.v[2].p_win.z - z0);
@@ -33,7 +35,7 @@ std::vector<double> fragment_depths(const Scene& scene, const Records<double>& r
     const WindowTriangle<double>& triangle = records.triangles[run.triangle];
     const Barycentric weights(triangle, scene.frame.width, scene.frame.height);
     for (std::size_t i = run.first; i < run.last; ++i)
-      depth.push_back(depth_at(triangle, weights, records.covered[i].x, records.covered[i].y));
+      depth.push_back(depth_at(triangle, weights, scene.frame, records.covered[i].x, records.covered[i].y));
   }
   return depth;
 }

@@ -9,8 +9,10 @@
 
 namespace plumbline::exact {
 
-/// Window z at pixel (x, y)'s centre, by the plane through the corners, clamped to [0,1]. Not in any depth format.
-double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, int x, int y);
+/// Window z at pixel (x, y)'s centre, or that of the frame's sample, by the plane through the corners, clamped to
+/// [0,1]. Not in any depth format.
+double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const FrameFormat& frame, int x,
+                int y);
 
 /// The perspective-correct colour at pixel (x, y)'s centre: sum(b_i c_i / w_i) / sum(b_i / w_i). Not clamped.
 glm::dvec4 color_at(const WindowTriangle<double>& triangle, const Barycentric& weights, int x, int y);

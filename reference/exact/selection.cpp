@@ -4,7 +4,8 @@
 
 namespace plumbline::exact {
 
-Selection::Selection(const Scene& scene, const Request& request) : request_(request), varyings_(carried(scene)) {
+Selection::Selection(const Scene& scene, const Request& request)
+    : request_(request), textured_(textured(scene)), varyings_(carried(scene)) {
   std::erase_if(varyings_, is_back);
   if (request.pixels.empty()) return;
   const FrameFormat& frame = scene.frame;
@@ -22,6 +23,7 @@ std::size_t Selection::bytes_per_fragment() const {
   const StageSet& stages = request_.records;
   return (stages.has(Stage::coverage) ? sizeof(Covered) : 0) + (stages.has(Stage::depth) ? sizeof(double) : 0) +
          (stages.has(Stage::attributes) ? sizeof(Attributes<double>) + varyings_.size() * sizeof(glm::dvec4) : 0) +
+         (stages.has(Stage::texture) && textured_ ? sizeof(Texel<double>) : 0) +
          (stages.has(Stage::shade) ? sizeof(Shaded<double>) : 0) + (stages.has(Stage::visibility) ? sizeof(Drawn) : 0);
 }
 
@@ -33,6 +35,7 @@ void Selection::add(const Fragment& fragment, Records<double>& out) const {
     out.attributes.push_back({fragment.color});
     for (const Varying v : varyings_) out.varyings[v].fragments.push_back(fragment.fours[static_cast<std::size_t>(v)]);
   }
+  if (stages.has(Stage::texture) && textured_) out.texels.push_back(fragment.texel);
   if (stages.has(Stage::shade)) out.shaded.push_back({fragment.shaded});
   if (stages.has(Stage::visibility)) out.drawn.push_back({fragment.drawn});
 }
@@ -45,6 +48,7 @@ void Selection::reserve(std::size_t fragments, Records<double>& out) const {
     out.attributes.reserve(fragments);
     for (const Varying v : varyings_) out.varyings[v].fragments.reserve(fragments);
   }
+  if (stages.has(Stage::texture) && textured_) out.texels.reserve(fragments);
   if (stages.has(Stage::shade)) out.shaded.reserve(fragments);
   if (stages.has(Stage::visibility)) out.drawn.reserve(fragments);
 }

@@ -25,6 +25,7 @@ class Selection {
     double depth;
     glm::dvec4 color;  ///< the interpolated one
     Fours fours;
+    Texel<double> texel;
     glm::dvec4 shaded;
     bool drawn;
   };
@@ -39,7 +40,8 @@ class Selection {
   void prune_primitives(Records<double>& records) const;
 
   const Request& request_;
-  Plane<std::uint8_t> pixels_;     // empty: all
+  Plane<std::uint8_t> pixels_;  // empty: all
+  bool textured_;
   std::vector<Varying> varyings_;  // that fragments carry
 };
 

@@ -4,15 +4,20 @@
 #include "reference/math/fog.h"
 #include "reference/math/light.h"
 #include "reference/math/matrices.h"
+#include "reference/math/texture.h"
 
 namespace plumbline::exact {
 
-glm::dvec4 shade(const Scene& scene, const Draw& draw, bool /*front*/, const glm::dvec4& color, const Fours& fours) {
+glm::dvec4 shade(const Scene& scene, const Draw& draw, bool /*front*/, const glm::dvec4& color, const Fours& fours,
+                 const glm::dvec4& texel) {
   const auto four = [&](Varying v) { return fours[static_cast<std::size_t>(v)]; };
   glm::dvec4 out = color;
   if (is_lit_per_fragment(draw)) {
     out = math::fragment_light(scene, draw, math::view_matrix(scene), out, glm::dvec3(four(Varying::normal)),
                                glm::dvec3(four(Varying::position)));
+  }
+  if (draw.texture) {
+    out = math::textured_color(scene.textures.at(draw.texture->texture).format, *draw.texture, out, texel);
   }
   if (draw.fog) out = math::fogged(*draw.fog, out, four(Varying::position).z);
   return out;
@@ -24,6 +29,7 @@ std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<do
   std::vector<Varying> varyings = carried(scene);
   std::erase_if(varyings, is_back);
   for (const Varying v : varyings) require_size("records.varyings", records.varyings[v].fragments.size(), count);
+  if (textured(scene)) require_size("records.texels", records.texels.size(), count);
   std::vector<Shaded<double>> shaded;
   shaded.reserve(count);
   if (is_plain(scene)) {
@@ -36,7 +42,9 @@ std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<do
     for (std::size_t i = run.first; i < run.last; ++i) {
       Fours fours{};
       for (const Varying v : varyings) fours[static_cast<std::size_t>(v)] = records.varyings[v].fragments[i];
-      shaded.push_back({shade(scene, draw_of(triangle.primitive), triangle.front, records.attributes[i].color, fours)});
+      const glm::dvec4 texel = records.texels.empty() ? glm::dvec4(0) : records.texels[i].color;
+      shaded.push_back(
+          {shade(scene, draw_of(triangle.primitive), triangle.front, records.attributes[i].color, fours, texel)});
     }
   }
   return shaded;

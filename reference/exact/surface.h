@@ -12,8 +12,10 @@ namespace plumbline::exact {
 /// A fragment's varyings, those that its draw carries.
 using Fours = std::array<glm::dvec4, kVaryings>;
 
-/// Texture environment, sum of colours, fog, in this order (OpenGL 2.1 spec, figure 3.1). `front`: its face.
-glm::dvec4 shade(const Scene& scene, const Draw& draw, bool front, const glm::dvec4& color, const Fours& fours);
+/// Texture environment, sum of colours, fog, in this order (OpenGL 2.1 spec, figure 3.1). `front`: its face. `texel`:
+/// the texture source's components, where the draw has a texture.
+glm::dvec4 shade(const Scene& scene, const Draw& draw, bool front, const glm::dvec4& color, const Fours& fours,
+                 const glm::dvec4& texel);
 
 /// Of each of records.covered. Throws std::invalid_argument where the records do not fit the scene or each other.
 std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<double>& records);

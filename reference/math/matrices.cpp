@@ -50,7 +50,7 @@ glm::dmat4 opengl_projection(const Scene& scene) {
 }
 
 /// The dialect's depth and window, where they are not OpenGL's.
-glm::dmat4 projection_matrix(const Scene& scene) {
+glm::dmat4 dialect_projection(const Scene& scene) {
   const glm::dmat4 projection = opengl_projection(scene);
   const double half_x = 1.0 / scene.frame.width, half_y = 1.0 / scene.frame.height;  // half a pixel, in NDC
   const glm::dmat4 one(1.0);
@@ -62,6 +62,17 @@ glm::dmat4 projection_matrix(const Scene& scene) {
     case Dialect::tinyrenderer: return glm::translate(one, {half_x, half_y, 0}) * projection;  // whole centres
   }
   return projection;
+}
+
+/// And its picture moved, if the pass wants that: window x by s pixels is NDC x by 2 s / width.
+glm::dmat4 projection_matrix(const Scene& scene) {
+  glm::dmat4 m = dialect_projection(scene);
+  const glm::dvec2 moved = 2.0 * scene.frame.pass.shift / glm::dvec2(scene.frame.width, scene.frame.height);
+  for (int column = 0; column < 4; ++column) {
+    m[column].x += moved.x * m[column].w;
+    m[column].y += moved.y * m[column].w;
+  }
+  return m;
 }
 
 glm::dmat4 times(const glm::dmat4& m, const Transform& transform) {

@@ -25,7 +25,7 @@ struct Place {
 };
 
 /// S: by how much the errors of a plane's corners may be enlarged at a pixel of its triangle; infinite: without bound.
-double snap_weight(const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
+double snap_weight(const Projected& scene, const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
   // A plane is set up through vertices within delta_E of their places, and evaluated at the pixel. With b' the pixel's
   // barycentrics in the moved triangle, it comes to z at sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel.
   // Inside, that sum is 1. Outside by at most a snapping step (coverage is snapped, the plane is not), at most two b'
@@ -33,13 +33,23 @@ double snap_weight(const Triangle& t, const Place& at, glm::dvec3 d, bool certai
   // have such borders inside it too.
   if (certain && !t.cut) return 1;
   // Three corners of a convex polygon that are nearly in line lie along its border: such a piece reaches no pixel that
-  // is deep inside, which is: from the triangle's edges, from the cuts by near and far, and half a pixel from the
-  // frame's.
+  // is deep inside, which is: from the triangle's edges, from the cuts by near and far, and half a pixel (a sample:
+  // less) from the frame's.
   const double margin = 4 * t.reach, z = 0.5 + glm::dot(t.z_plane, d);
-  const bool deep =
-      certain && at.border > margin && margin < 0.5 && std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
+  const double from_frame = 0.5 - std::max(std::abs(scene.sample.x), std::abs(scene.sample.y));
+  const bool deep = certain && at.border > margin && margin < from_frame &&
+                    std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
   const double altitude = (deep ? t.fat_altitude : t.altitude) - 2 * (t.reach - kSnap);
   return altitude > 0 ? 1 + 4 * kSnap / altitude : kInfinity;
+}
+
+/// The same for the pixel's centre, where a sample of it is at the pixel: it may lie outside by as much as they are
+/// apart.
+double centre_weight(const Projected& scene, const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
+  const double weight = snap_weight(scene, t, at, d, certain), apart = glm::length(scene.sample);
+  if (apart == 0) return weight;
+  const double altitude = t.altitude - 2 * (t.reach - kSnap);
+  return altitude > 0 ? std::max(weight, 1 + 4 * (kSnap + apart) / altitude) : kInfinity;
 }
 
 Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
@@ -75,8 +85,9 @@ Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
 
 /// The depth interval: the plane's z at the pixel, moved by at most h + delta_E where coverage and plane are snapped
 /// alike, or by the plane's own error where only coverage is; then the corners' own depth error.
-void set_depth(const Triangle& t, bool clamps, glm::dvec3 d, const Place& at, glm::dvec2 moved, PixelHit& out) {
-  const double weight = snap_weight(t, at, d, out.hit.certain);
+void set_depth(const Projected& scene, const Triangle& t, bool clamps, glm::dvec3 d, const Place& at, glm::dvec2 moved,
+               PixelHit& out) {
+  const double weight = snap_weight(scene, t, at, d, out.hit.certain);
   const double w = std::clamp(at.w, t.w_min, t.w_max);
   if (t.flat || !std::isfinite(weight)) {
     out.z = t.ahead ? std::clamp(0.5 * (t.z_min + t.z_max), 0.0, 1.0) : 0.5;
@@ -113,10 +124,11 @@ struct Bounded {
 
 /// Perspective-correct, the plane going on beyond the triangle's border, as renderers' do. `corners`: with their
 /// bounds.
-Bounded at_pixel(const Triangle& t, const std::array<Bounded, 3>& corners, glm::dvec3 d, const Place& at,
-                 glm::dvec2 moved, bool certain) {
-  const glm::dvec3 e(glm::dot(t.n[0], d), glm::dot(t.n[1], d), glm::dot(t.n[2], d));
-  const double weight = snap_weight(t, at, d, certain), sum = e.x + e.y + e.z;
+Bounded at_pixel(const Projected& scene, const Triangle& t, const std::array<Bounded, 3>& corners, glm::dvec3 d,
+                 const Place& at, glm::dvec2 moved, bool certain) {
+  const glm::dvec3 centre = scene.to_centre(d);
+  const glm::dvec3 e(glm::dot(t.n[0], centre), glm::dot(t.n[1], centre), glm::dot(t.n[2], centre));
+  const double weight = centre_weight(scene, t, at, d, certain), sum = e.x + e.y + e.z;
   if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0))  // no plane to rely on
     return {(corners[0].value + corners[1].value + corners[2].value) / 3.0, kInfinity};
   const auto largest = [](const glm::dvec4& v) {
@@ -137,7 +149,8 @@ Bounded at_pixel(const Triangle& t, const std::array<Bounded, 3>& corners, glm::
   for (const Bounded& corner : corners) spread = std::max(spread, largest(corner.value - value));
   // A far point of a triangle that comes near has small e_i: their errors are those of the near end, w / w_min larger.
   // The relative error of 1/w_i moves the value by its share of the spread, and so does that of w's plane.
-  const double w = std::clamp(at.w, t.w_min, t.w_max), near_end = w / t.w_min;
+  const double w = std::max(std::clamp(at.w, t.w_min, t.w_max), centre == d ? 0 : 1 / glm::dot(t.w_plane, centre));
+  const double near_end = w / t.w_min;
   const double value_weight = 1 + (weight - 1) * near_end;
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
   // A piece of a cut triangle may be so thin that snapping turns it over; its plane then goes through snapped corners.
@@ -153,7 +166,7 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   const Draw& draw = scene.draws[t.draw];
   const auto corner = [&](std::size_t i) -> const Corner& { return projected.corners[t.corner[i]]; };
   const auto attribute = [&](auto of_corner) {
-    return at_pixel(t, {of_corner(corner(0)), of_corner(corner(1)), of_corner(corner(2))}, d, at, moved,
+    return at_pixel(projected, t, {of_corner(corner(0)), of_corner(corner(1)), of_corner(corner(2))}, d, at, moved,
                     out.hit.certain);
   };
   Bounded color;
@@ -224,7 +237,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
   out.whole = t.facing_kept && !t.flat && !t.cut;
-  set_depth(t, scene.depth_clamp, d, at, moved, out);
+  set_depth(projected, t, scene.depth_clamp, d, at, moved, out);
   if (!scene.depth_clamp && std::isfinite(out.z_half) && (out.z + out.z_half < 0 || out.z - out.z_half > 1))
     return std::nullopt;
   set_color(scene, projected, t, d, at, moved, out);

@@ -9,6 +9,8 @@
 #include "reference/math/color_error.h"
 #include "reference/math/light.h"
 #include "reference/math/matrices.h"
+#include "scene/antialias.h"
+#include "stages/stages.h"
 
 namespace plumbline::math {
 
@@ -76,7 +78,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     const glm::dvec3 p_eye(m.model_view * p), n_eye = normal_in_eye_space(draw.normals, m.normal, mesh.normals[i]);
     const glm::dvec4 c = clip * p, size = clip_size * glm::abs(p);
     Corner corner;
-    corner.v = {c.x * half.x, c.y * half.y, c.w};
+    corner.v = {c.x * half.x - out.sample.x * c.w, c.y * half.y - out.sample.y * c.w, c.w};
     corner.z = c.z;
     corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
     corner.color = vertex_color(scene, draw, view, i, p_eye, n_eye);
@@ -105,12 +107,9 @@ std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& siz
 /// Distances inside the view volume's planes, each plus what float arithmetic may add; near and far first.
 std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin) {
   const glm::dvec2 reach(0.5 * scene.width + margin, 0.5 * scene.height + margin);
-  std::array<double, 6> inside{c.v.z + c.z,
-                               c.v.z - c.z,
-                               reach.x * c.v.z - c.v.x,
-                               reach.x * c.v.z + c.v.x,
-                               reach.y * c.v.z - c.v.y,
-                               reach.y * c.v.z + c.v.y};
+  const glm::dvec2 at = glm::dvec2(c.v) + scene.sample * c.v.z;  // the frame itself is not moved
+  std::array<double, 6> inside{c.v.z + c.z,           c.v.z - c.z,           reach.x * c.v.z - at.x,
+                               reach.x * c.v.z + at.x, reach.y * c.v.z - at.y, reach.y * c.v.z + at.y};
   const std::array<double, 6> error = plane_errors(scene, c.size, margin);
   for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
   if (scene.depth_clamp) {  // the sides meet at the eye: nothing is behind it
@@ -260,7 +259,8 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
 }  // namespace
 
 glm::dvec2 float_displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
-  const glm::dvec2 in_clip = (glm::dvec2(t.size) + glm::abs(glm::dvec2(d)) * t.size.w) * (t.roundings / w);
+  const glm::dvec2 from_middle = glm::abs(glm::dvec2(d)) + glm::abs(scene.sample);
+  const glm::dvec2 in_clip = (glm::dvec2(t.size) + from_middle * t.size.w) * (t.roundings / w);
   return kFloatRounding * (in_clip + kWindowRoundings * glm::dvec2(scene.width, scene.height));
 }
 
@@ -286,6 +286,7 @@ Projected project(const Scene& scene) {
   out.height = scene.frame.height;
   out.view = view_matrix(scene);
   out.depth_clamp = scene.depth_clamp;
+  out.sample = glm::dvec2(sample_place(scene.frame)) / static_cast<double>(kSubpixel);
   out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {

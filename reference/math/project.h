@@ -66,11 +66,16 @@ struct Projected {
   glm::dmat4 view{1};  ///< world to eye space
   bool perspective = true;
   bool depth_clamp = false;  ///< no near and far plane
+  /// From a pixel's centre to where it is covered, in pixels (scene/antialias.h). The window is moved by as much the
+  /// other way, so that all that is said of pixels' centres is true of these places. Colours are the centre's still.
+  glm::dvec2 sample{0};
   std::vector<Corner> corners;
   std::vector<Triangle> triangles;
 
-  /// The ray of a pixel's centre.
+  /// The ray of a pixel's centre, or sample.
   glm::dvec3 ray(int px, int py) const { return {px + 0.5 - 0.5 * width, py + 0.5 - 0.5 * height, 1}; }
+  /// The ray of the centre, of that of the sample.
+  glm::dvec3 to_centre(glm::dvec3 d) const { return d - glm::dvec3(sample, 0); }
 };
 
 Projected project(const Scene& scene);

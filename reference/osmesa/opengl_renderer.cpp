@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "reference/math/resolve.h"
 #include "reference/osmesa/gl.h"
 #include "reference/osmesa/line_records.h"
 #include "reference/osmesa/planes.h"
@@ -47,11 +48,11 @@ class OpenGlRenderer final : public Renderer {
     info.name = name_;
     info.version = version_;
     for (Ability& ability : info.stages) ability.shows = true;
-    info[Stage::texture] = {false, false, "no scene has textures yet"};
     return info;
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
+    if (scene.frame.antialias.kind != Antialias::Kind::none) return capture_resolved(scene, request);
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     context_->make_current();
     Capture capture;
@@ -66,9 +67,21 @@ class OpenGlRenderer final : public Renderer {
   }
 
  private:
+  // OpenGL itself resolves its samples; larger frames and moved pictures are averaged here.
+  Capture capture_resolved(const Scene& scene, const Request& request) {
+    Capture capture = math::capture_resolved(*this, scene, request);
+    if (scene.frame.antialias.kind != Antialias::Kind::multisample) return capture;
+    const Planes resolved = draw_picture(gl_, SceneInGl(gl_, scene));
+    capture.planes.color = resolved.color;
+    capture.planes.depth = resolved.depth;
+    return capture;
+  }
+
   void read_records(const SceneInGl& scene, const Request& request, Records<double>& records) const {
     if (!request.records.any()) return;
-    const Target target(gl_, scene.scene().frame, ColorFormat::rgba8);
+    FrameFormat frame = scene.scene().frame;
+    frame.pass.sample.reset();  // vertices have no samples
+    const Target target(gl_, frame, ColorFormat::rgba8);
     const SavedState state(gl_);
     target.bind();
     if (request.records.has(Stage::matrices)) records.matrices = read_matrices(gl_, scene);

@@ -34,18 +34,20 @@ class CountedFragments {
 
 enum class Colors {
   of_winners,  ///< each fragment that is drawn replaces what is there
-  merged       ///< as the scene is meant to look
+  merged,      ///< as the scene is meant to look
+  texels       ///< each fragment's texture source
 };
 
 void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colors colors) {
   const SavedState state(gl);
   const CountedFragments counted(gl);
   target.bind();
-  scene.clear(scene.scene().frame.clear_color);
+  scene.clear(colors == Colors::texels ? glm::vec4(0) : scene.scene().frame.clear_color);
   set_lights(gl, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     scene.set_surface(i);
+    if (colors == Colors::texels) scene.set_texture_source(i);
     scene.set_fragments(i);
     if (colors == Colors::merged) scene.set_merge(i);
     scene.draw_primitives(i);
@@ -124,6 +126,10 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   std::optional<Target> shorts;
   if (frame.color == ColorFormat::rgba16) shorts.emplace(gl, frame, ColorFormat::rgba16);
   Planes planes;
+  if (textured(scene.scene())) {
+    draw_scene(gl, scene, floats, Colors::texels);
+    planes.texel = floats.read_color();
+  }
   draw_scene(gl, scene, floats, Colors::of_winners);
   planes.shaded = floats.read_color();
   // Asked for 12 bits a channel, OpenGL gives 16: the colour is left unrounded.
@@ -137,6 +143,16 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   planes.depth = target.read_depth();
   planes.id = draw_ids(gl, scene, bytes);
   add_up_coverage(draw_weights(gl, scene, floats), planes);
+  return planes;
+}
+
+Planes draw_picture(const Gl& gl, const SceneInGl& scene) {
+  const FrameFormat& frame = scene.scene().frame;
+  const Target target(gl, frame, frame.color == ColorFormat::rgba12 ? ColorFormat::rgba32f : frame.color);
+  draw_scene(gl, scene, target, Colors::merged);
+  Planes planes;
+  planes.color = target.read_color();
+  planes.depth = target.read_depth();
   return planes;
 }
 

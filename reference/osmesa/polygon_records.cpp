@@ -239,7 +239,7 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
       if (clip) add_polygons(triangles, to_clip, records.polygons);
       if (window && outlined(mesh, draw)) {
         require_uncut(triangles);
-        const SavedState state(gl);
+        const SavedState outlines(gl);
         scene.set_fragments(i);
         triangles = fed();
       }

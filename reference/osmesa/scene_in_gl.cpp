@@ -35,6 +35,9 @@ void require_whole(const Scene& scene, const Draw& draw) {
   if (!mesh.colors.empty() && mesh.colors.size() != vertices) {
     fail(fmt::format("{} positions, but {} colours", vertices, mesh.colors.size()));
   }
+  if (!mesh.texcoords.empty() && mesh.texcoords.size() != vertices) {
+    fail(fmt::format("{} positions, but {} texture coordinates", vertices, mesh.texcoords.size()));
+  }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3 t = mesh.triangles[i];
     if (std::max({t.x, t.y, t.z}) >= vertices) {
@@ -130,12 +133,13 @@ std::vector<SceneInGl::MeshVertex> SceneInGl::vertices_of(const Mesh& mesh) {
   std::vector<MeshVertex> vertices;
   vertices.reserve(mesh.positions.size());
   for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
-    vertices.push_back({mesh.positions[i], mesh.normals[i], color_at(mesh, i)});
+    const glm::vec2 texcoord = mesh.texcoords.empty() ? glm::vec2(0) : mesh.texcoords[i];
+    vertices.push_back({mesh.positions[i], mesh.normals[i], color_at(mesh, i), texcoord});
   }
   return vertices;
 }
 
-SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene) {
+SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene), textures_(gl, scene) {
   if (const int most = limit(gl, GL_MAX_LIGHTS); scene.lights.size() > static_cast<std::size_t>(most)) {
     throw RendererFailed(fmt::format("{}: {} lights; OpenGL has {}", scene.name, scene.lights.size(), most));
   }
@@ -145,6 +149,9 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene) 
     const Mesh& mesh = scene.meshes[scene.draws[i].mesh];
     matrices_.push_back(math::float_matrices(scene, scene.draws[i]));
     std::optional<Program>& program = light_programs_.emplace_back();
+    if (is_lit_per_fragment(scene.draws[i]) && scene.draws[i].texture) {
+      throw Unsupported("OpenGL has light per fragment by a program alone, and this one has no textures");
+    }
     if (needs_light_program(scene, scene.draws[i])) {
       program.emplace(gl, light_vertex_shader(scene, scene.draws[i]), light_fragment_shader(scene, scene.draws[i]));
     }
@@ -202,11 +209,18 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
 
 void SceneInGl::set_surface(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
+  textures_.set(d);
   set_fog(draw);
   set_vertex_light(draw);
   if (!is_lit_per_fragment(d)) return;
   set_material(gl_, scene_, d);
   gl_.UseProgram(light_programs_[draw]->name());
+}
+
+void SceneInGl::set_texture_source(std::size_t draw) const {
+  textures_.set_source(scene_.draws[draw]);
+  gl_.Disable(GL_LIGHTING);
+  gl_.Color4f(0, 0, 0, 1);
 }
 
 void SceneInGl::set_fragments(std::size_t draw) const {
@@ -256,6 +270,9 @@ void SceneInGl::point_to_vertices(std::size_t draw, const MeshVertex* first) con
   gl_.EnableClientState(GL_VERTEX_ARRAY);
   gl_.EnableClientState(GL_NORMAL_ARRAY);
   if (!mesh(draw).colors.empty()) gl_.EnableClientState(GL_COLOR_ARRAY);
+  if (mesh(draw).texcoords.empty()) return;
+  gl_.TexCoordPointer(2, GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, texcoord)));
+  gl_.EnableClientState(GL_TEXTURE_COORD_ARRAY);
 }
 
 void SceneInGl::bind_corners(std::size_t draw) const {

@@ -7,6 +7,7 @@
 #include "reference/osmesa/buffer.h"
 #include "reference/osmesa/gl.h"
 #include "reference/osmesa/program.h"
+#include "reference/osmesa/textures_in_gl.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -28,7 +29,8 @@ class SceneInGl {
   /// Of that, what colours the vertices: feedback mode runs no fragments, and what they do not read would be lost in it.
   void set_vertex_light(std::size_t draw) const;
   void set_fragments(std::size_t draw) const;  ///< culling, polygon modes, widths, scissor, depth function and mask
-  void set_merge(std::size_t draw) const;      ///< blending and colour mask
+  void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels
+  void set_merge(std::size_t draw) const;           ///< blending and colour mask
 
   // The draw's mesh, under the state that is set.
   void draw_primitives(std::size_t draw) const;  ///< with normals and colours
@@ -43,6 +45,7 @@ class SceneInGl {
   struct MeshVertex {
     glm::vec3 position, normal;
     glm::vec4 color;
+    glm::vec2 texcoord;
   };
   struct Arrays {
     std::vector<MeshVertex> vertices;
@@ -61,6 +64,7 @@ class SceneInGl {
   std::vector<Matrices<double>> matrices_;
   std::vector<Arrays> arrays_;
   std::vector<std::optional<Program>> light_programs_;  ///< where the fixed function has no such light
+  TexturesInGl textures_;
 };
 
 /// GL_TRIANGLES, GL_LINES or GL_POINTS.

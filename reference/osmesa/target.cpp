@@ -1,6 +1,7 @@
 #include "reference/osmesa/target.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -59,6 +60,19 @@ void require_size(const Gl& gl, const FrameFormat& frame) {
                   frame.width, frame.height, largest, largest, viewport[0], viewport[1]));
 }
 
+// GL makes a float of a 24-bit code by a product with 1/(2^24 - 1) in float, which is not the nearest one: the code is
+// that whose product it is. (Of fewer bits the nearest code is right.)
+double window_z_of_sample(float z, DepthFormat format) {
+  const double scale = depth_scale(format);
+  if (scale == 0) return static_cast<double>(z);
+  const double nearest = std::round(static_cast<double>(z) * scale);
+  for (const double code : {nearest, nearest - 1, nearest + 1}) {
+    if (code >= 0 && code <= scale && static_cast<float>(code) * (1.0f / static_cast<float>(scale)) == z)
+      return code / scale;
+  }
+  return nearest / scale;
+}
+
 }  // namespace
 
 Target::Target(const Gl& gl, const FrameFormat& frame, ColorFormat color) : gl_(gl), frame_(frame), color_(color) {
@@ -87,6 +101,9 @@ Target::Target(const Gl& gl, const FrameFormat& frame, ColorFormat color) : gl_(
       throw RendererFailed(fmt::format("OpenGL: a frame buffer of {} x {} pixels is incomplete ({:#06x})", frame.width,
                                        frame.height, status));
     }
+    if (frame.pass.sample || frame.antialias.kind == Antialias::Kind::multisample) {
+      samples_ = std::make_unique<Multisamples>(gl, frame, bits.format, depth.format);
+    }
   } catch (...) {
     release();
     throw;
@@ -101,13 +118,23 @@ void Target::release() {
 }
 
 void Target::bind() const {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, samples_ ? samples_->frame_buffer() : frame_buffer_);
   gl_.Viewport(0, 0, frame_.width, frame_.height);
+}
+
+void Target::take_samples() const {
+  if (!samples_) return;
+  if (frame_.pass.sample) {
+    samples_->fetch_colors(*frame_.pass.sample, frame_buffer_);
+  } else {
+    samples_->resolve(frame_buffer_);
+  }
 }
 
 Plane<std::uint32_t> Target::read_codes() const { return read_codes({0, 0}, {frame_.width, frame_.height}); }
 
 Plane<std::uint32_t> Target::read_codes(glm::ivec2 origin, glm::ivec2 size) const {
+  take_samples();
   Plane<std::uint32_t> codes(size.x, size.y);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
   gl_.ReadPixels(origin.x, origin.y, size.x, size.y, GL_RGBA, GL_UNSIGNED_INT_8_8_8_8_REV, codes.values().data());
@@ -118,12 +145,14 @@ Plane<std::uint32_t> Target::read_codes(glm::ivec2 origin, glm::ivec2 size) cons
 Plane<glm::vec4> Target::read_color() const {
   Plane<glm::vec4> color(frame_.width, frame_.height);
   if (color_ == ColorFormat::rgba32f) {
+    take_samples();
     gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
     gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_RGBA, GL_FLOAT, color.values().data());
     check(gl_, "reading colours");
     return color;
   }
   if (color_ == ColorFormat::rgba16) {
+    take_samples();
     Plane<glm::u16vec4> codes(frame_.width, frame_.height);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
     gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_RGBA, GL_UNSIGNED_SHORT, codes.values().data());
@@ -140,7 +169,21 @@ Plane<glm::vec4> Target::read_color() const {
   return color;
 }
 
+Plane<double> Target::read_sample_depth() const {
+  FrameFormat floats = frame_;
+  floats.pass = {};
+  const Target to(gl_, floats, ColorFormat::rgba32f);
+  samples_->fetch_depths(*frame_.pass.sample, to.frame_buffer_);
+  const Plane<glm::vec4> fetched = to.read_color();
+  Plane<double> depth(frame_.width, frame_.height);
+  std::transform(fetched.values().begin(), fetched.values().end(), depth.values().begin(),
+                 [&](const glm::vec4& z) { return window_z_of_sample(z.r, frame_.depth); });
+  return depth;
+}
+
 Plane<double> Target::read_depth() const {
+  if (samples_ && frame_.pass.sample) return read_sample_depth();
+  take_samples();
   Plane<double> depth(frame_.width, frame_.height);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
   const auto read = [&](GLenum type, auto values, auto to_z) {

@@ -3,7 +3,10 @@
 
 #include <cstdint>
 
+#include <memory>
+
 #include "reference/osmesa/gl.h"
+#include "reference/osmesa/multisamples.h"
 #include "scene/scene.h"
 #include "stages/plane.h"
 
@@ -13,7 +16,8 @@ class Target {
  public:
   /// Of the frame's size and depth format (z24 for z8, which OpenGL does not have), with a colour format of the
   /// caller's: rgba8, rgba16 or rgba32f. Throws RendererFailed where
-  /// OpenGL cannot give that, naming its limit.
+  /// OpenGL cannot give that, naming its limit. Where the frame is of one of a pixel's samples, four are drawn, and
+  /// what is read is that one; of a multisampled frame the samples are resolved.
   Target(const Gl& gl, const FrameFormat& frame, ColorFormat color);
   ~Target();
   Target(const Target&) = delete;
@@ -33,12 +37,15 @@ class Target {
 
  private:
   void release();
+  void take_samples() const;  // before anything but a sample's depth is read
+  Plane<double> read_sample_depth() const;
 
   const Gl& gl_;
   FrameFormat frame_;
   ColorFormat color_;
   GLuint frame_buffer_ = 0;
   GLuint buffers_[2] = {0, 0};  // colour, depth
+  std::unique_ptr<Multisamples> samples_;
 };
 
 }  // namespace plumbline::osmesa

@@ -210,15 +210,15 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
   if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
   const DrawnAt drawn(scene.frame, candidate.records);
-  const bool reads = factors_read_frame(scene), thin = draws(scene, Topology::lines) || draws(scene, Topology::points),
+  const bool reads = factors_read_frame(scene),
              told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why);
   return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     const Place place{x, y, id, "color"};
-    // The fragments of lines may lie beside each other: coverage's matter.
-    const bool beside = thin && told && a.id_sum(x, y) != b.id_sum(x, y);
+    // Of other fragments (lines' may lie beside each other): coverage's matter.
+    const bool others = told && a.id_sum(x, y) != b.id_sum(x, y);
     bool disputed = false;
-    const bool open = beside || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
+    const bool open = others || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
     int fragments = 0;
     double bound = 0;
     drawn.each(x, y, [&](std::size_t i) {

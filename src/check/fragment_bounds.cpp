@@ -44,6 +44,7 @@ DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r) : width_(fr
 FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, const Capture& reference, double factor)
     : scene_(scene),
       records_(candidate.records),
+      texels_(candidate.legal.texels),
       factor_(factor),
       ranges_(draw_ranges(scene)),
       lit_apart_(columns_apart(candidate.records.lit, reference.records.lit, &Lit<double>::color,
@@ -80,28 +81,53 @@ bool FragmentBounds::reaches_behind_eye(const DrawRange& range, const Draw& draw
   return false;
 }
 
+const Draw& FragmentBounds::draw_of(std::uint32_t primitive) const {
+  const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
+                                          [&](const DrawRange& r) { return r.first_primitive <= primitive; });
+  return scene_.draws[static_cast<std::size_t>(after - ranges_.begin()) - 1];
+}
+
+Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
+  const Covered& c = records_.covered[i];
+  WindowTriangle<double> as_color = records_.triangles[c.triangle];
+  const auto& corners = records_.varyings[v].triangles;
+  if (c.triangle >= corners.size()) return Vec4<double>(std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < 3; ++k) as_color.v[k].color = corners[c.triangle][k];
+  const PlaneBounds plane = bounds_from_origin(as_color, c.x, c.y);
+  const auto& vertices_apart = v == Varying::position ? eye_apart_ : v == Varying::normal ? normals_apart_ : kNowhere;
+  return factor_ * u * plane.color + glm::abs(plane.along_color) + apart(as_color.primitive, vertices_apart, false);
+}
+
+TexelBound FragmentBounds::texel(std::size_t i) const {
+  const Draw& draw = draw_of(records_.triangles[records_.covered[i].triangle].primitive);
+  if (i >= texels_.size() || i >= records_.varyings[Varying::texture].fragments.size()) {
+    return {{}, Vec4<double>(std::numeric_limits<double>::infinity()), 1};
+  }
+  const Vec4<double>& st = records_.varyings[Varying::texture].fragments[i];
+  return texel_bound(scene_.textures.at(draw.texture->texture), texels_[i], Vec2<double>(st),
+                     Vec2<double>(varying_error(i, Varying::texture)), tolerance("osmesa.texture").factor);
+}
+
 FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Covered& c = records_.covered[i];
   const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
   const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
                                           [&](const DrawRange& r) { return r.first_primitive <= triangle.primitive; });
-  const Draw& draw = scene_.draws[static_cast<std::size_t>(after - ranges_.begin()) - 1];
-  const auto bound_of = [&](const WindowTriangle<double>& t, const Vec4<double>& apart_there) {
-    const PlaneBounds plane = bounds_from_origin(t, c.x, c.y);
-    return factor_ * u * plane.color + glm::abs(plane.along_color) + apart_there;
-  };
+  const Draw& draw = draw_of(triangle.primitive);
+  const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   FragmentFours errors;
-  errors.color = bound_of(triangle, apart(triangle.primitive, lit_apart_, true));
+  errors.color = factor_ * u * plane.color + glm::abs(plane.along_color) + apart(triangle.primitive, lit_apart_, true);
   for (const Varying v : kAllVaryings) {
-    const auto& corners = records_.varyings[v].triangles;
-    if (is_back(v) || !carries(scene_, draw, v) || c.triangle >= corners.size()) continue;
-    WindowTriangle<double> as_color = triangle;
-    for (std::size_t k = 0; k < 3; ++k) as_color.v[k].color = corners[c.triangle][k];
-    const auto& vertices_apart = v == Varying::position ? eye_apart_ : v == Varying::normal ? normals_apart_ : kNowhere;
-    errors[v] = bound_of(as_color, apart(triangle.primitive, vertices_apart, false));
+    if (!is_back(v) && carries(scene_, draw, v)) errors[v] = varying_error(i, v);
+  }
+  const FragmentFours fours = fours_of(records_, i);
+  if (draw.texture) {
+    const TexelBound bound = texel(i);
+    errors.texel =
+        glm::max(glm::abs(bound.range.hi - fours.texel), glm::abs(fours.texel - bound.range.lo)) + bound.slack;
   }
   FragmentBound out;
-  out.color = shade_error(scene_, draw, fours_of(records_, i), errors, tolerance("osmesa.shade").factor);
+  out.color = shade_error(scene_, draw, fours, errors, tolerance("osmesa.shade").factor);
   out.disputed = draw.fog && reaches_behind_eye(*(after - 1), draw, triangle.primitive);
   return out;
 }

@@ -7,6 +7,7 @@
 
 #include "check/bounds.h"
 #include "check/shade_bounds.h"
+#include "check/texture_bounds.h"
 #include "scene/scene.h"
 #include "stages/capture.h"
 
@@ -52,6 +53,9 @@ class FragmentBounds {
 
   /// Of the candidate's fragment number `i`.
   FragmentBound of_fragment(std::size_t i) const;
+  const Draw& draw_of(std::uint32_t primitive) const;
+  /// Of a fragment's texel; the draw has a texture, and the candidate's legal answers its texels.
+  TexelBound texel(std::size_t i) const;
   /// Of the winner at a pixel: the largest over the primitive's triangles, or the last fragment drawn.
   FragmentBound of_winner(std::int32_t primitive, int x, int y) const;
 
@@ -60,9 +64,11 @@ class FragmentBounds {
   Vec4<double> apart(std::uint32_t primitive, const std::vector<Vec4<double>>& apart, bool flat_applies) const;
   bool reaches_behind_eye(const DrawRange& range, const Draw& draw, std::uint32_t primitive) const;
   FragmentBound surface(std::size_t i) const;
+  Vec4<double> varying_error(std::size_t i, Varying v) const;
 
   const Scene& scene_;
   const Records<double>& records_;
+  const std::vector<TexelRange>& texels_;
   double factor_;
   std::vector<DrawRange> ranges_;
   std::vector<Vec4<double>> lit_apart_, eye_apart_, normals_apart_;  // per vertex

@@ -11,12 +11,15 @@
 #include "check/compare_lines.h"
 #include "check/compare_planes.h"
 #include "check/compare_records.h"
+#include "check/compare_texels.h"
+#include "check/judge_passes.h"
 #include "stages/seen_as.h"
 
 namespace plumbline::check {
 
 namespace {
 
+constexpr std::string_view kOnlyShaded = "it hands out the final colour alone; see shade";
 constexpr std::string_view kOverBudget = "the fragments do not fit the memory budget";
 
 // One scene's judgement of one candidate, as it grows.
@@ -111,7 +114,8 @@ void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
     case Stage::attributes:
       return c.add(name, stage, varyings(compare_attributes(mine, theirs, factor("exact.attributes"))),
                    "exact.attributes");
-    case Stage::texture: break;
+    case Stage::texture:
+      return c.add(name, stage, compare_texels(c.scene, mine, theirs, factor("exact.texture")), "exact.texture");
     case Stage::shade:
       return c.add(name, stage, compare_shaded(c.scene, mine, theirs, factor("exact.shade")),
                    is_plain(c.scene) ? "" : "exact.shade");
@@ -124,6 +128,7 @@ void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
                    compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.codes"), made.legal),
                    codes ? "exact.merge.codes" : "");
     }
+    case Stage::resolve: break;  // of passes together (judge_passes.h)
   }
 }
 
@@ -181,7 +186,6 @@ Comparison as_dispute(Comparison comparison, std::string_view why) {
   return comparison;
 }
 
-constexpr std::string_view kOnlyShaded = "it hands out the final colour alone; see shade";
 constexpr std::string_view kNo8BitDepth = "OpenGL has no 8-bit depth: it draws with 24 bits, other surfaces may win";
 
 // Whether its depths are of 8 bits, if the scene's are.
@@ -191,6 +195,12 @@ bool draws_codes_of_8_bits(const Scene& scene, const Capture& theirs) {
     const double code = z * depth_scale(scene.frame.depth);
     return std::abs(code - std::round(code)) < 1e-9;  // a double's rounding; a code of 24 bits is 1e-5 away or more
   });
+}
+
+// Whether the stage's comparison needs to know which texels are legal, and nobody told.
+bool lacks_texels(const Case& c, Stage stage) {
+  const bool of_texels = stage == Stage::texture || stage == Stage::shade || stage == Stage::merge;
+  return of_texels && textured(c.scene) && c.candidate.legal.texels.empty();
 }
 
 // What the reference shows, beside the candidate's.
@@ -227,7 +237,11 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       if (!is_plain(c.scene)) return c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
       return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
                    "osmesa.attributes");
-    case Stage::texture: return;
+    case Stage::texture: {
+      std::string note;
+      Measurement m = compare_texel_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes"), note);
+      return c.add(name, stage, std::move(m), "osmesa.texture", std::move(note));
+    }
     case Stage::shade:
       // Without textures, lights or fog per fragment, both are the one plane of the winners' colours.
       if (is_plain(c.scene)) return c.repeat(name, Stage::attributes, stage);
@@ -268,7 +282,9 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
           }
           return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
       }
+      return;
     }
+    case Stage::resolve: return;
   }
 }
 
@@ -283,9 +299,10 @@ bool runs_stages(const RendererInfo& info) {
 }
 
 // The first stage up to `stage` whose records or planes the candidate does not show, or null.
-const Ability* first_hidden(const RendererInfo& candidate, Stage stage) {
+const Ability* first_hidden(const Scene& scene, const RendererInfo& candidate, Stage stage) {
   for (std::size_t i = 0; i <= static_cast<std::size_t>(stage); ++i) {
-    if (static_cast<Stage>(i) != Stage::texture && !candidate.stages[i].shows) return &candidate.stages[i];
+    if ((static_cast<Stage>(i) != Stage::texture || textured(scene)) && !candidate.stages[i].shows)
+      return &candidate.stages[i];
   }
   return nullptr;
 }
@@ -297,7 +314,8 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
   const StageSet of_oracle = oracle_stages(c.scene);
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    if (stage != Stage::texture && !candidate[stage].shows) {
+    if (stage == Stage::resolve || (stage == Stage::texture && !textured(c.scene))) continue;
+    if (!candidate[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, candidate[stage].reason);
     } else if (info.legal && of_oracle.has(stage) && theirs.legal.empty()) {
       c.skip(name, stage, Outcome::unsupported,
@@ -319,6 +337,9 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
       c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
     } else if (stage == Stage::shade && info.legal && !exact) {
       c.repeat(name, Stage::attributes, stage);
+    } else if (!exact && lacks_texels(c, stage)) {
+      c.skip(name, stage, Outcome::unsupported,
+             over_budget(c.candidate) ? kOverBudget : "which levels of detail are legal, exact says: it is not asked");
     } else if (!exact) {
       side_by_side(c, theirs, stage, name);
     }  // An exact reference judges the other stages from the candidate's own records.
@@ -360,9 +381,10 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
   const RendererInfo info = referee.info();
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    if (stage == Stage::matrices || !info[stage].runs) continue;
+    const bool of_none = stage == Stage::matrices || stage == Stage::resolve;
+    if (of_none || !info[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
     const std::string name = info.name + " from its records";
-    if (const Ability* hidden = shown != nullptr ? first_hidden(*shown, stage) : nullptr) {
+    if (const Ability* hidden = shown != nullptr ? first_hidden(scene, *shown, stage) : nullptr) {
       c.skip(name, stage, Outcome::unsupported, hidden->reason);
       continue;
     }
@@ -376,6 +398,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
 }
 
 SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Drawn* drawn) {
+  if (scene.frame.antialias.kind != Antialias::Kind::none) return judge_passes(scene, candidate, references, drawn);
   const auto start = std::chrono::steady_clock::now();
   SceneVerdict verdict{scene.name, scene.path, {}, 0};
   const auto nothing = [&](const std::string& name, Outcome outcome, const std::string& why) {
@@ -411,6 +434,12 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
       outcomes[i] = Outcome::unsupported;
     } catch (const std::exception& e) {
       failures[i] = e.what();
+    }
+  }
+  if (mine && referee != nullptr && textured(scene)) {
+    try {
+      mine->legal.texels = referee->run_stage(scene, Stage::texture, *mine).legal.texels;
+    } catch (const std::exception&) {  // the referee's failure shows under its own name
     }
   }
   for (std::size_t i = 0; i < references.size(); ++i) {

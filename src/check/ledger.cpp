@@ -72,6 +72,15 @@ constexpr std::array kLedger = {
         "As osmesa.depth, 4 u for colour / w and for 1 / w, which the magnitude joins, and 4 more for the products by "
         "1/w at the corners and the division; besides, what the two sides' vertex colours differ by. Along a line "
         "the nearer of the two colours counts, as for osmesa.depth."},
+    Tolerance{"exact.texture", 3, "u",
+              "Texel coordinates are exact in double; two means of texels in one level and one of two levels, each "
+              "rounded to float (1 u); lambda is rounded once."},
+    Tolerance{"osmesa.texture", 8, "u",
+              "Beside what texture coordinates' errors come to (osmesa.attributes, and 4 u for their product with the "
+              "level's size, its fraction and the half texel): three means of texels, each a difference, a product "
+              "and a sum. Levels of detail may be anything between the least and the greatest at the four pixels of "
+              "a square, by a logarithm that is linear between powers of two, as the driver's.",
+              "The roundings do not all go one way, and a slope holds within half a texel."},
     Tolerance{"exact.shade", 4, "u",
               "Fog: f is computed in double from the distance in float and rounded once (1 u), so is 1 - f (1 u); two "
               "products and a sum (3 u), each of the magnitudes of shade_bounds.h."},
@@ -82,8 +91,8 @@ constexpr std::array kLedger = {
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where osmesa.attributes is below a code; for slivers its whole codes more."},
     Tolerance{"osmesa.merge.rgba16", 1, "1/65535",
-              "As osmesa.merge.rgba8: neighbours, and the whole codes that the float bound comes to."},
-    Tolerance{"osmesa.merge.blend.rgba16", 2.5, "1/65535", "TODO"},
+              "As osmesa.merge.rgba8; of the clear colour too, where its product in float may come to half a code."},
+    Tolerance{"osmesa.merge.blend.rgba16", 2.5, "1/65535", "As osmesa.merge.blend, in 16 bits."},
     Tolerance{
         "osmesa.merge.blend", 2.5, "1/255",
         "llvmpipe blends rgba8 in 8 bits. Per fragment: half a code for its colour, half a code for its alpha (or "
@@ -97,6 +106,11 @@ constexpr std::array kLedger = {
     Tolerance{"exact.merge.codes", 1, "half code",
               "A code is at most half a code from the value that was rounded, and the product by the largest code in "
               "float is 2 u off."},
+    Tolerance{
+        "exact.resolve", 1, "bound",
+        "Half a code for the rounding. Before it, of four equal samples in float: 2 u for a code's product with "
+        "1/255, 3 u for three sums, 1 u to make codes of the mean: under 8 u of the largest sample; of float colours "
+        "that alone, and of other means, which are taken in double, one rounding."},
     Tolerance{"legal.depth", 1, "step", "The legal interval, and one step of the depth format for the rounding."},
     Tolerance{"legal.attributes", 1, "bound",
               "The oracle's own bound of float arithmetic from the scene on (reference/math, color_error.h)."},

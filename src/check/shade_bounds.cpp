@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "check/bounds.h"
+#include "check/texture_bounds.h"
 
 namespace plumbline::check {
 
@@ -46,6 +47,7 @@ FragmentFours fours_of(const Records<double>& records, std::size_t i) {
   for (const Varying v : kAllVaryings) {
     if (i < records.varyings[v].fragments.size()) out[v] = records.varyings[v].fragments[i];
   }
+  if (i < records.texels.size()) out.texel = records.texels[i].color;
   return out;
 }
 
@@ -76,6 +78,16 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
   Vec4<double> color = attributes.color, error = errors.color;
   const bool lit = is_lit_per_fragment(draw);
   if (lit) error = light_error(scene, draw, attributes, errors, roundings);
+  if (draw.texture) {
+    const TextureFormat format = scene.textures.at(draw.texture->texture).format;
+    const auto environed = [&](const Vec4<double>& from) {
+      return environ_error(format, *draw.texture, from, error, attributes.texel, errors.texel, roundings);
+    };
+    Environed e = environed(lit ? Vec4<double>(0) : color);
+    if (lit) e.error = glm::max(e.error, environed(Vec4<double>(1)).error);  // whatever the light comes to
+    color = e.color;
+    error = e.error;
+  }
   if (draw.fog) {
     const auto [f, df] = fog_factor(*draw.fog, attributes[Varying::position].z, errors[Varying::position].z, roundings);
     for (int c = 0; c < 3; ++c) {

@@ -54,7 +54,11 @@ std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
       return c.stage == stage && c.outcome != Outcome::unsupported && c.outcome != Outcome::missing &&
              c.outcome != Outcome::failed;
     });
-    if (stage != Stage::texture && !judged_by_any) out.push_back(stage);  // no scene has textures
+    // Of a scene without textures, or that is not antialiased, nobody says anything of their stages.
+    const bool of_some = stage == Stage::texture || stage == Stage::resolve;
+    const bool asked =
+        !of_some || std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) { return c.stage == stage; });
+    if (asked && !judged_by_any) out.push_back(stage);
   }
   return out;
 }

@@ -68,7 +68,6 @@ RendererInfo opengl_info(const std::string& name) {
   info.name = name;
   info.version = "in a process of its own";
   for (Ability& ability : info.stages) ability.shows = true;
-  info[Stage::texture] = {false, false, "no scene has textures yet"};
   if (name == "softpipe") {
     info[Stage::window] = {false, false, "its window positions are rounded otherwise: it has no fused multiply-add"};
   }

@@ -92,7 +92,9 @@ glm::dmat4 view_matrix(const Scene& scene) {
   throw std::invalid_argument(scene.name + ": no such dialect");
 }
 
-glm::dmat4 projection_matrix(const Scene& scene) {
+namespace {
+
+glm::dmat4 unshifted_projection(const Scene& scene) {
   switch (scene.dialect) {
     case Dialect::gl: return gl_projection(scene);
     case Dialect::games101: return games101_projection(scene);
@@ -100,6 +102,15 @@ glm::dmat4 projection_matrix(const Scene& scene) {
     case Dialect::tinyrenderer: return tinyrenderer_projection(scene);
   }
   throw std::invalid_argument(scene.name + ": no such dialect");
+}
+
+}  // namespace
+
+// The picture is moved in clip space, so that the view volume is the frame's still.
+glm::dmat4 projection_matrix(const Scene& scene) {
+  const glm::dvec2 shift = scene.frame.pass.shift, pixel(2.0 / scene.frame.width, 2.0 / scene.frame.height);
+  if (shift == glm::dvec2(0)) return unshifted_projection(scene);
+  return transforms::translation({shift.x * pixel.x, shift.y * pixel.y, 0}) * unshifted_projection(scene);
 }
 
 }  // namespace plumbline

@@ -136,10 +136,13 @@ class ImageOrderRenderer final : public Renderer {
     for (Ability& ability : info.stages) ability.reason = "a ray finds what is visible, and nothing else is drawn";
     info[Stage::depth].reason = "handed out, but through corners that were never rounded: a matter of legal answers";
     info[Stage::visibility] = {true, false, ""};
+    info[Stage::resolve].reason = "it finds what is visible, not its colour";
     return info;
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
+    if (scene.frame.antialias.kind != Antialias::Kind::none)
+      throw Unsupported("it finds what is visible, not its colour");
     if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
       throw Unsupported("no ray meets a line or a point");
     }

@@ -4,10 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/antialias.h"
+#include "stages/stages.h"
+
 namespace plumbline::image_order {
 
 View::View(const Scene& scene)
-    : eye_(scene.camera.eye), parallel_(false), frame_(scene.frame.width, scene.frame.height) {
+    : eye_(scene.camera.eye),
+      parallel_(false),
+      frame_(scene.frame.width, scene.frame.height),
+      place_(0.5 + glm::dvec2(sample_place(scene.frame)) / static_cast<double>(kSubpixel) - scene.frame.pass.shift) {
   forward_ = glm::normalize(scene.camera.center - eye_);
   right_ = glm::normalize(glm::cross(forward_, scene.camera.up));
   up_ = glm::cross(right_, forward_);
@@ -75,7 +81,7 @@ void View::set_whole_centres(double half) {
 }
 
 Ray View::ray(int x, int y) const {
-  const double s = left_ + (x + 0.5) * width_ / frame_.x, t = bottom_ + (y + 0.5) * height_ / frame_.y;
+  const double s = left_ + (x + place_.x) * width_ / frame_.x, t = bottom_ + (y + place_.y) * height_ / frame_.y;
   if (parallel_) return {eye_ + s * right_ + t * up_, right_, up_, forward_};
   // forward + s right + t up is on both planes.
   return {eye_, right_ - s * forward_, up_ - t * forward_, forward_};

@@ -41,7 +41,7 @@ class View {
  public:
   explicit View(const Scene& scene);
 
-  /// The ray of pixel (x, y)'s centre, in the dialect's order of rows.
+  /// The ray of pixel (x, y)'s centre, in the dialect's order of rows, or where the frame's pass looks instead.
   Ray ray(int x, int y) const;
 
   double near() const { return near_; }
@@ -57,6 +57,7 @@ class View {
   /// The window, in the plane one unit before the eye (orthographic: in any).
   double left_, bottom_, width_, height_;
   glm::dvec2 frame_;  ///< pixels
+  glm::dvec2 place_;  ///< in a pixel
   double near_, far_;
   enum class Depth { rises, falls, of_pinhole } depth_ = Depth::rises;
   double c_ = 0;  ///< the pinhole's

@@ -12,8 +12,8 @@ CaptureTap::CaptureTap(const Scene& scene, const Request& request, std::size_t b
       request_(request),
       bytes_(bytes),
       keep_(request.records.has(Stage::coverage) || request.records.has(Stage::depth) ||
-            request.records.has(Stage::attributes) || request.records.has(Stage::shade) ||
-            request.records.has(Stage::visibility)) {
+            request.records.has(Stage::attributes) || request.records.has(Stage::texture) ||
+            request.records.has(Stage::shade) || request.records.has(Stage::visibility)) {
   carried_ = carried(scene);
   std::erase_if(carried_, is_back);
   const int w = scene.frame.width, h = scene.frame.height;
@@ -21,6 +21,7 @@ CaptureTap::CaptureTap(const Scene& scene, const Request& request, std::size_t b
   planes_.id_sum = Plane<std::uint64_t>(w, h);
   planes_.id = Plane<std::int32_t>(w, h, kBackground);
   planes_.shaded = Plane<glm::vec4>(w, h, scene.frame.clear_color);
+  if (textured(scene)) planes_.texel = Plane<glm::vec4>(w, h, glm::vec4(0));
 }
 
 bool CaptureTap::wanted(std::uint32_t primitive) const {
@@ -32,7 +33,10 @@ void CaptureTap::keep_budget() const {
   // The sorted records stand beside the fragments for a while.
   constexpr std::size_t kBytes = sizeof(Fragment) + sizeof(Covered) + sizeof(double) + sizeof(Attributes<double>) +
                                  sizeof(Shaded<double>) + sizeof(Drawn);
-  const std::size_t fours = carried_.empty() ? 0 : sizeof(Fours) + carried_.size() * sizeof(Vec4<double>);
+  const std::size_t fours = carried_.empty()
+                                ? 0
+                                : sizeof(Fours) + carried_.size() * sizeof(Vec4<double>) +
+                                      (planes_.texel.empty() ? 0 : sizeof(Texel<float>) + sizeof(Texel<double>));
   require_budget(scene_, bytes_ + fragments_.size() * (kBytes + fours), request_.memory_budget);
 }
 
@@ -44,6 +48,7 @@ void CaptureTap::add(Fragment f) {
   if (f.drawn) {
     planes_.id(f.x, f.y) = static_cast<std::int32_t>(f.primitive);
     planes_.shaded(f.x, f.y) = f.shaded;
+    if (!planes_.texel.empty()) planes_.texel(f.x, f.y) = next_texel_.color;
   }
   const auto& pixels = request_.pixels;
   const bool pixel_wanted =
@@ -52,6 +57,7 @@ void CaptureTap::add(Fragment f) {
   if (!carried_.empty()) {
     f.fours = static_cast<std::uint32_t>(fours_.size());
     fours_.push_back(next_);
+    if (!planes_.texel.empty()) texels_.push_back(next_texel_);
   }
   fragments_.push_back(f);
   if (fragments_.size() % 65536 == 0) keep_budget();
@@ -78,6 +84,10 @@ void CaptureTap::hand_out(std::span<const WindowTriangle<float>> triangles, Capt
         r.varyings[v].fragments.push_back(Vec4<double>(fours_[f.fours][static_cast<std::size_t>(v)]));
       }
     }
+    if (request_.records.has(Stage::texture) && !texels_.empty()) {
+      const Texel<float>& texel = texels_[f.fours];
+      r.texels.push_back({Vec4<double>(texel.color), texel.lod});
+    }
     if (request_.records.has(Stage::shade)) r.shaded.push_back({f.shaded});
     if (request_.records.has(Stage::visibility)) r.drawn.push_back({f.drawn});
   }
@@ -86,6 +96,7 @@ void CaptureTap::hand_out(std::span<const WindowTriangle<float>> triangles, Capt
   out.id_sum = std::move(planes_.id_sum);
   out.id = std::move(planes_.id);
   out.shaded = std::move(planes_.shaded);
+  out.texel = std::move(planes_.texel);
 }
 
 }  // namespace plumbline::pipeline

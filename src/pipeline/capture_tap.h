@@ -29,6 +29,9 @@ class CaptureTap {
       for (const Varying v : s.surface->surface->carried) {
         next_[static_cast<std::size_t>(v)] = lane_of<R>(attributes[v], i);
       }
+      if (s.surface->surface->texture) {
+        next_texel_ = {lane_of<R>(attributes.texel.color, i), lane(attributes.texel.lod, i)};
+      }
     });
   }
 
@@ -61,6 +64,7 @@ class CaptureTap {
       add({s.triangle, s.primitive, static_cast<int>(lane(p.x, i)), static_cast<int>(lane(p.y, i)), lane(z, i),
            lane_of<R>(attributes, i), lane_of<R>(shaded, i), lane(drawn, i)});
       next_ = {};
+      next_texel_ = {};
     }
   }
   void add(Fragment f);
@@ -75,7 +79,9 @@ class CaptureTap {
   std::vector<Fragment> fragments_;
   std::vector<Varying> carried_;  // to the fragments, by any draw
   Fours next_{};                  // of the fragment that comes next
-  std::vector<Fours> fours_;      // beside fragments_, before they are sorted; empty where nothing is carried
+  Texel<float> next_texel_;
+  std::vector<Texel<float>> texels_;  // beside fours_; empty where no draw has a texture
+  std::vector<Fours> fours_;          // beside fragments_, before they are sorted; empty where nothing is carried
 };
 
 }  // namespace plumbline::pipeline

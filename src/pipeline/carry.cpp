@@ -4,8 +4,9 @@ namespace plumbline::pipeline {
 
 namespace {
 
-Vec4<float> of_vertex(Varying varying, const Vertex<float>& vertex) {
+Vec4<float> of_vertex(Varying varying, const Mesh& mesh, const Vertex<float>& vertex, std::size_t number) {
   switch (varying) {
+    case Varying::texture: return {mesh.texcoords.at(number), 0.0f, 1.0f};
     case Varying::normal: return {vertex.n_eye, 0.0f};
     case Varying::position: return vertex.p_eye;
     default: return Vec4<float>(0.0f);
@@ -17,7 +18,8 @@ Vec4<float> of_vertex(Varying varying, const Vertex<float>& vertex) {
 void carry(const Scene& scene, const Draw& draw, Varying varying, std::span<const Vertex<float>> vertices,
            std::vector<Vec4<float>>& out) {
   if (!carries(scene, draw, varying)) return out.resize(out.size() + vertices.size(), Vec4<float>(0.0f));
-  for (const Vertex<float>& vertex : vertices) out.push_back(of_vertex(varying, vertex));
+  const Mesh& mesh = scene.meshes[draw.mesh];
+  for (std::size_t i = 0; i < vertices.size(); ++i) out.push_back(of_vertex(varying, mesh, vertices[i], i));
 }
 
 std::vector<Vec4<float>> colors_of(std::span<const ClipVertex<float>> vertices) {

@@ -29,6 +29,14 @@ struct Edges {
 
 Edges edges_of(const WindowTriangle<float>& triangle, TieRule rule = TieRule::small_sides_in);
 
+/// Its snapped corners counted from a place that is not the pixels' centre, but `place` (in 1/256 pixel) from it: what
+/// below says centre is then that place.
+inline WindowTriangle<float> as_seen_from(const WindowTriangle<float>& triangle, glm::ivec2 place) {
+  WindowTriangle<float> out = triangle;
+  for (WindowVertex<float>& v : out.v) v.snapped -= place;
+  return out;
+}
+
 /// The pixels whose centres lie in the triangle's bounding box, and of a line or point all that it may cover: [x0, x1)
 /// x [y0, y1).
 struct PixelBounds {

@@ -41,9 +41,26 @@ BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y
           -d1.y / twice_area, d1.x / twice_area};
 }
 
+BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place) {
+  if (place == glm::ivec2(0)) return planes;
+  const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
+  BarycentricPlanes out = planes;
+  out.x0 -= by.x;
+  out.y0 -= by.y;
+  return out;
+}
+
 DepthSetup depth_setup(const WindowTriangle<float>& triangle, double scale) {
   const double z0 = triangle.v[0].p_win.z;
   return {z0, triangle.v[1].p_win.z - z0, triangle.v[2].p_win.z - z0, scale};
+}
+
+DepthSetup moved(const DepthSetup& depth, const BarycentricPlanes& planes, glm::ivec2 place) {
+  if (place == glm::ivec2(0)) return depth;
+  const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
+  DepthSetup out = depth;
+  out.z0 += (by.x * planes.l1_x + by.y * planes.l1_y) * out.dz1 + (by.x * planes.l2_x + by.y * planes.l2_y) * out.dz2;
+  return out;
 }
 
 }  // namespace plumbline::pipeline

@@ -25,6 +25,9 @@ struct BarycentricPlanes {
 /// would be so large that double itself is too coarse.
 BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y0);
 
+/// The same for the points `place` (in 1/256 pixel) from those that they are asked for.
+BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place);
+
 template <class R>
 struct Barycentric {
   Wide<R> l0, l1, l2;
@@ -44,6 +47,8 @@ struct DepthSetup {
   double scale;
 };
 DepthSetup depth_setup(const WindowTriangle<float>& triangle, double scale);
+/// The same for the points `place` (in 1/256 pixel) from those that the barycentrics are of.
+DepthSetup moved(const DepthSetup& depth, const BarycentricPlanes& planes, glm::ivec2 place);
 
 /// The code of z in [0,1], `scale` the largest: the nearest, half to even; of 8 bits half up, as tinyrenderer's
 /// int(z + .5) (note 002).

@@ -19,12 +19,19 @@
 
 namespace plumbline::pipeline {
 
+/// From a pixel's centre to where each of its values is taken, in 1/256 pixel.
+struct Places {
+  glm::ivec2 coverage, depth, color;
+};
+
 /// The stage functions of the fragment half; a variant inherits them and hides some by its own. Attributes and colours
 /// are of whatever types the functions hand to each other.
 struct FragmentStages {
   static AttributeSetup attribute_setup(const WindowTriangle<float>& triangle, std::uint32_t) {
     return pipeline::attribute_setup(triangle);
   }
+  /// Where a pass of multisampling looks, `sample` being the pass' own.
+  static Places places(glm::ivec2 sample) { return {sample, sample, {0, 0}}; }
   static PixelBounds bounds(const WindowTriangle<float>& triangle) { return pixel_bounds(triangle); }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
   static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
@@ -54,6 +61,10 @@ struct FragmentStages {
   template <class R>
   static Color<R> shade(const Color<R>& attributes) {
     return pipeline::shade<R>(attributes);
+  }
+  template <class R>
+  static FilteredTexel<R> texture(const TextureSetup& setup, const TexCoords<R>& at, const Gradients<R>& gradients) {
+    return pipeline::texture<R>(setup, at, gradients);
   }
   /// The colour of a surface that is not plain.
   static constexpr bool has_surfaces = true;
@@ -109,8 +120,9 @@ void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Co
 
 /// What a frame's formats come to.
 struct Formats {
-  double depth_scale;  ///< the largest depth code, or 0 for float
-  float color_scale;   ///< the largest colour code, or 0 for float
+  double depth_scale;    ///< the largest depth code, or 0 for float
+  float color_scale;     ///< the largest colour code, or 0 for float
+  glm::ivec2 sample{0};  ///< from a pixel's centre to where it is covered, in 1/256 pixel (scene/antialias.h)
 };
 
 /// All that stages 5 to 11 want to know of a triangle.
@@ -132,12 +144,15 @@ using SetupOf = TriangleSetup<decltype(std::declval<const Stages&>().attribute_s
 template <class Stages>
 SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std::uint32_t triangle,
                        const Formats& formats, int x0, int y0) {
+  const Places places = stages.places(formats.sample);
+  const WindowTriangle<float> to_cover = as_seen_from(t, places.coverage);
+  const BarycentricPlanes planes = planes_of(t, x0, y0);
   return {triangle,
           t.primitive,
-          stages.bounds(t),
-          stages.edges(t),
-          planes_of(t, x0, y0),
-          depth_setup(t, formats.depth_scale),
+          stages.bounds(to_cover),
+          stages.edges(to_cover),
+          moved(planes, places.color),
+          moved(depth_setup(t, formats.depth_scale), planes, places.depth - places.color),
           stages.attribute_setup(t, triangle),
           nullptr};
 }
@@ -145,7 +160,7 @@ SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std
 /// What a surface's fragments want of the triangle besides.
 template <class Stages>
 SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const WindowTriangle<float>& t,
-                            std::uint32_t triangle) {
+                            std::uint32_t triangle, const BarycentricPlanes& planes) {
   SurfaceSetup out;
   out.surface = &surface;
   out.front = t.front;
@@ -153,16 +168,24 @@ SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const 
     const auto i = static_cast<std::size_t>(v);
     out.varyings[i] = stages.attribute_setup(with_varying(t, surface.columns[i][triangle]), triangle);
   }
+  if (surface.texture) {
+    const auto& texcoords = surface.columns[static_cast<std::size_t>(Varying::texture)][triangle];
+    out.gradients = gradient_setup(t, texcoords, planes);
+  }
   return out;
 }
 
-/// Stage 7 of a surface: every varying as the colour.
+/// Stage 7 of a surface: every varying as the colour; and stage 8.
 template <class R, class Stages>
 SurfaceAttributes<R> surface_attributes(const Stages& stages, const AttributeSetup& color, const SurfaceSetup& s,
-                                        const Barycentric<R>& b) {
-  SurfaceAttributes<R> out{stages.template attributes<R>(color, b), {}};
+                                        const Pixels<R>& p, const Barycentric<R>& b) {
+  SurfaceAttributes<R> out{stages.template attributes<R>(color, b), {}, {}};
   for (const Varying v : s.surface->carried) {
     out[v] = stages.template attributes<R>(s.varyings[static_cast<std::size_t>(v)], b);
+  }
+  if (s.surface->texture) {
+    const Color<R>& st = out[Varying::texture];
+    out.texel = stages.template texture<R>(*s.surface->texture, {st.r, st.g}, gradients<R>(s.gradients, p));
   }
   return out;
 }
@@ -208,7 +231,7 @@ void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf
   };
   if constexpr (Stages::has_surfaces) {
     if (s.surface != nullptr) {
-      const SurfaceAttributes<R> attributes = surface_attributes<R>(stages, s.attributes, *s.surface, b);
+      const SurfaceAttributes<R> attributes = surface_attributes<R>(stages, s.attributes, *s.surface, p, b);
       const SurfaceSetup& setup = *s.surface;
       return finish(attributes, stages.template shade_surface<R>(*setup.surface, setup.front, attributes));
     }

@@ -46,6 +46,10 @@ void require_columns(const Scene& scene, Stage stage, const Records<double>& r) 
     if (stage == Stage::window) require(columns.clipped.size() == r.polygons.vertices.size(), "varyings." + name);
     if (is_back(v)) continue;
     if (stage == Stage::attributes) require(columns.triangles.size() == r.triangles.size(), "varyings." + name);
+    if (stage == Stage::texture && v == Varying::texture) {
+      require(columns.triangles.size() == r.triangles.size() && columns.fragments.size() == r.covered.size(),
+              "varyings." + name);
+    }
     if (stage == Stage::shade) require(columns.fragments.size() == r.covered.size(), "varyings." + name);
   }
 }
@@ -83,6 +87,7 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   const auto before = [](const Covered& a, const Covered& b) { return a.triangle < b.triangle; };
   require(std::all_of(r.covered.begin(), r.covered.end(), inside), "covered");
   require(std::is_sorted(r.covered.begin(), r.covered.end(), before), "covered");
+  if (stage == Stage::shade && textured(scene)) require(r.texels.size() == r.covered.size(), "texels");
   if (stage == Stage::shade) require(r.attributes.size() == r.covered.size(), "attributes");
   if (stage < Stage::visibility) return;
   require(r.depth.size() == r.covered.size(), "depth");

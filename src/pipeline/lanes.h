@@ -47,6 +47,7 @@ inline double to_wide(float value) { return static_cast<double>(value); }
 inline bool any(bool mask) { return mask; }
 inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
+inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }
 
 /// To [0,1]; NaN to 0.
 template <class T>
@@ -58,6 +59,13 @@ T clamp01(T value) {
 /// Half to even, for |value| below 2^22 (float) or 2^51 (double): adding 1.5 * 2^mantissa leaves no fraction.
 inline float round_even(float value) { return (value + 12582912.0f) - 12582912.0f; }
 inline double round_even(double value) { return (value + 6755399441055744.0) - 6755399441055744.0; }
+
+/// The integer below, for |value| below 2^62.
+inline std::int64_t floor_int(double value) {
+  const auto whole = static_cast<std::int64_t>(value);
+  return static_cast<double>(whole) > value ? whole - 1 : whole;
+}
+inline double to_wide(std::int64_t value) { return static_cast<double>(value); }
 
 inline float load(const float* from) { return *from; }
 inline void store(bool mask, float value, float* to) {

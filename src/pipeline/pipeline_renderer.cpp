@@ -32,6 +32,25 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
   return out;
 }
 
+// The other way round, of colours alone.
+Frame frame_of_colors(const FrameFormat& format, const Plane<glm::vec4>& color) {
+  FrameFormat of_pass = format;
+  of_pass.width = color.width();
+  of_pass.height = color.height();
+  Frame frame(of_pass);
+  const auto scale = static_cast<float>(color_scale(format.color));
+  const auto codes = [&](auto& to, std::size_t i) {
+    if (!to.empty()) to.values()[i] = glm::round(color.values()[i] * scale);
+  };
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    codes(frame.color_rgba8, i);
+    codes(frame.color_rgba12, i);
+    codes(frame.color_rgba16, i);
+  }
+  if (scale == 0.0f) frame.color_rgba32f = color;
+  return frame;
+}
+
 // Which draw a window triangle is of.
 class DrawOfTriangle {
  public:
@@ -58,13 +77,18 @@ class PipelineRenderer : public Renderer {
   RendererInfo info() const override {
     RendererInfo info{"ours", PLUMBLINE_VERSION, {}, false};
     for (Ability& ability : info.stages) ability = {true, true, ""};
-    info[Stage::texture] = {false, false, "no scene has textures yet"};
     return info;
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     Capture out = empty_capture(scene);
+    if (scene.frame.antialias.kind != Antialias::Kind::none) {
+      const std::vector<Frame> passes = render_passes(scene, stages_);
+      out.planes = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame));
+      for (const Frame& pass : passes) out.samples.push_back(planes_of_frame(pass, formats_of(scene.frame)).color);
+      return out;
+    }
     if (request.picture && !request.records.any()) {
       out.planes = planes_of_frame(render(scene, stages_), formats_of(scene.frame));
       return out;
@@ -85,6 +109,7 @@ class PipelineRenderer : public Renderer {
 
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
     if (!info()[stage].runs) return Renderer::run_stage(scene, stage, in);
+    if (stage == Stage::resolve) return resolved(scene, in.samples);
     require_fitting(scene, stage, in);
     Capture out = empty_capture(scene);
     if (stage <= Stage::window) {
@@ -106,6 +131,15 @@ class PipelineRenderer : public Renderer {
     out.version = PLUMBLINE_VERSION;
     out.width = scene.frame.width;
     out.height = scene.frame.height;
+    return out;
+  }
+
+  Capture resolved(const Scene& scene, const std::vector<Plane<glm::vec4>>& samples) {
+    require_samples(scene, samples);
+    std::vector<Frame> passes;
+    for (const Plane<glm::vec4>& color : samples) passes.push_back(frame_of_colors(scene.frame, color));
+    Capture out = empty_capture(scene);
+    out.planes.color = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame)).color;
     return out;
   }
 
@@ -133,6 +167,7 @@ class PipelineRenderer : public Renderer {
     switch (stage) {
       case Stage::depth: return run_depth(scene, in, out);
       case Stage::attributes: return run_attributes(scene, in, out);
+      case Stage::texture: return run_texture(scene, in, out);
       default: return run_shade(scene, in, out);
     }
   }
@@ -182,6 +217,26 @@ class PipelineRenderer : public Renderer {
     }
   }
 
+  void run_texture(const Scene& scene, const Records<double>& in, Capture& out) {
+    if (!textured(scene)) return;
+    const std::vector<Surface> surfaces = surfaces_of(scene, {});
+    const DrawOfTriangle draw_of(scene, in.triangles);
+    const VaryingColumns<double>& st = in.varyings[Varying::texture];
+    each_fragment(scene, in, nullptr, [&](std::size_t i, const Pixels<float>& p, const TriangleSetup<>& setup) {
+      Texel<double>& to = out.records.texels.emplace_back();
+      const auto& of_draw = surfaces[draw_of.index(setup.triangle)].texture;
+      if (!of_draw) return;
+      const auto& corners = st.triangles.at(setup.triangle);
+      const GradientSetup gradient =
+          gradient_setup(narrow(in.triangles.at(setup.triangle)),
+                         {Vec4<float>(corners[0]), Vec4<float>(corners[1]), Vec4<float>(corners[2])}, setup.planes);
+      const Color<float> at = color_of(st.fragments.at(i));
+      const FilteredTexel<float> texel =
+          stages_.fragment.texture(*of_draw, {at.r, at.g}, gradients<float>(gradient, p));
+      to = {widen(texel.color), texel.lod};
+    });
+  }
+
   void run_shade(const Scene& scene, const Records<double>& in, Capture& out) {
     const std::vector<Surface> surfaces = surfaces_of(scene, {});
     const DrawOfTriangle draw_of(scene, in.triangles);
@@ -193,7 +248,11 @@ class PipelineRenderer : public Renderer {
         out.records.shaded.push_back({widen(stages_.fragment.shade(color))});
         continue;
       }
-      SurfaceAttributes<float> attributes{color, {}};
+      SurfaceAttributes<float> attributes{color, {}, {}};
+      if (surface.texture) {
+        const Texel<double>& texel = in.texels.at(i);
+        attributes.texel = {color_of(texel.color), static_cast<float>(texel.lod)};
+      }
       for (const Varying v : surface.carried) attributes[v] = color_of(in.varyings[v].fragments.at(i));
       const bool front = in.triangles.at(triangle).front;
       out.records.shaded.push_back({widen(stages_.fragment.shade_surface(surface, front, attributes))});

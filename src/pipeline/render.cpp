@@ -6,7 +6,16 @@ Stages production_stages() { return {geometry_stages(), fragment_functions<Fragm
 
 Frame render(const Scene& scene) { return render(scene, production_stages()); }
 
+std::vector<Frame> render_passes(const Scene& scene, const Stages& stages) {
+  std::vector<Frame> frames;
+  for (const Scene& pass : passes_of(scene)) frames.push_back(render(pass, stages));
+  return frames;
+}
+
 Frame render(const Scene& scene, const Stages& stages) {
+  if (scene.frame.antialias.kind != Antialias::Kind::none) {
+    return resolve(stages.resolve, scene.frame, render_passes(scene, stages));
+  }
   const Geometry geometry = run_geometry(scene, stages.geometry);
   Frame frame(scene.frame);
   NoTap tap;

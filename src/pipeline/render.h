@@ -3,6 +3,7 @@
 
 #include "pipeline/capture_tap.h"
 #include "pipeline/draw.h"
+#include "pipeline/resolve.h"
 #include "pipeline/tiles.h"
 
 namespace plumbline::pipeline {
@@ -14,6 +15,7 @@ struct FragmentFunctions {
   // One stage at one pixel, for calling it alone.
   float (*depth)(const TriangleSetup<>&, const Pixels<float>&);
   Color<float> (*attributes)(const TriangleSetup<>&, const Pixels<float>&);
+  FilteredTexel<float> (*texture)(const TextureSetup&, const TexCoords<float>&, const Gradients<float>&);
   Color<float> (*shade)(const Color<float>&);
   Color<float> (*shade_surface)(const Surface&, bool front, const SurfaceAttributes<float>&);
   void (*write)(const Merge&, float z, const Color<float>& shaded, float color_scale, const Stored&);
@@ -51,6 +53,7 @@ FragmentFunctions fragment_functions() {
   f.attributes = [](const TriangleSetup<>& s, const Pixels<float>& p) {
     return S::template attributes<float>(s.attributes, barycentric<float>(s.planes, p));
   };
+  f.texture = S::template texture<float>;
   f.shade = S::template shade<float>;
   f.shade_surface = S::template shade_surface<float>;
   f.write = [](const Merge& state, float z, const Color<float>& shaded, float color_scale, const Stored& to) {
@@ -67,10 +70,13 @@ FragmentFunctions fragment_functions() {
 struct Stages {
   GeometryStages geometry;
   FragmentFunctions fragment;
+  ResolveStage resolve = {};
 };
 /// Those of this folder.
 Stages production_stages();
 
+/// The frames of an antialiased scene's passes.
+std::vector<Frame> render_passes(const Scene& scene, const Stages& stages);
 /// Draws the scene.
 Frame render(const Scene& scene);
 /// Draws it with other stage functions.

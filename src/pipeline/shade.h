@@ -1,6 +1,7 @@
 // Stage 9: the fragment's colour, from its attributes.
 #pragma once
 
+#include "pipeline/environment.h"
 #include "pipeline/fog.h"
 #include "pipeline/surface.h"
 
@@ -18,6 +19,10 @@ Color<R> shade_surface(const Surface& surface, bool /*front*/, const SurfaceAttr
   Color<R> color = attributes.color;
   if (surface.light) {
     color = lit_fragment(*surface.light, color, attributes[Varying::normal], attributes[Varying::position]);
+  }
+  if (surface.texture) {
+    color =
+        apply_environment<R>(surface.texture->texture->format, *surface.draw->texture, color, attributes.texel.color);
   }
   if (surface.draw->fog) color = fogged<R>(*surface.draw->fog, color, attributes[Varying::position].b);
   return color;

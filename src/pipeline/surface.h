@@ -8,6 +8,7 @@
 
 #include "pipeline/attributes.h"
 #include "pipeline/fragment_light.h"
+#include "pipeline/texture.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -21,6 +22,8 @@ struct Surface {
   std::vector<Varying> carried;
   std::array<std::span<const std::array<Vec4<float>, 3>>, kVaryings> columns;  ///< of the scene's window triangles
 
+  std::optional<TextureSetup> texture;
+
   bool plain() const { return draw == nullptr; }
 };
 /// One per draw. Spans into the records, pointers into the scene.
@@ -31,13 +34,15 @@ struct SurfaceSetup {
   const Surface* surface;
   bool front;
   std::array<AttributeSetup, kVaryings> varyings;
+  GradientSetup gradients;  ///< of the texture coordinates, where there is a texture
 };
 
-/// A fragment's attributes: those that the surface carries.
+/// A fragment's attributes: those that the surface carries; and its texel, where it has a texture.
 template <class R>
 struct SurfaceAttributes {
   Color<R> color;
   std::array<Color<R>, kVaryings> varyings;
+  FilteredTexel<R> texel;
   const Color<R>& operator[](Varying v) const { return varyings[static_cast<std::size_t>(v)]; }
   Color<R>& operator[](Varying v) { return varyings[static_cast<std::size_t>(v)]; }
 };

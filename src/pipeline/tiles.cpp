@@ -1,12 +1,14 @@
 #include "pipeline/tiles.h"
 
+#include "scene/antialias.h"
+
 namespace plumbline::pipeline {
 
 namespace {
 
 // The tiles that a triangle's bounding box touches: [x0, x1) x [y0, y1), none if it holds no pixel of the frame.
 PixelBounds tiles_of(const WindowTriangle<float>& triangle, const FrameFormat& frame) {
-  const PixelBounds b = pixel_bounds(triangle);
+  const PixelBounds b = pixel_bounds(as_seen_from(triangle, sample_place(frame)));
   const int x0 = std::max(b.x0, 0), x1 = std::min(b.x1, frame.width);
   const int y0 = std::max(b.y0, 0), y1 = std::min(b.y1, frame.height);
   if (x0 >= x1 || y0 >= y1) return {0, 0, 0, 0};
@@ -42,7 +44,7 @@ Bins bin(std::span<const WindowTriangle<float>> triangles, const FrameFormat& fr
 }
 
 Formats formats_of(const FrameFormat& frame) {
-  return {depth_scale(frame.depth), static_cast<float>(color_scale(frame.color))};
+  return {depth_scale(frame.depth), static_cast<float>(color_scale(frame.color)), sample_place(frame)};
 }
 
 void clear(Tile& tile, const FrameFormat& frame, const Formats& formats) {

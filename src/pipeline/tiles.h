@@ -40,7 +40,7 @@ void draw_triangle(const Stages& stages, const BlockState& state, const WindowTr
   SurfaceSetup surface;
   if constexpr (Stages::has_surfaces) {
     if (state.surface != nullptr) {
-      surface = set_up_surface(stages, *state.surface, triangle, number);
+      surface = set_up_surface(stages, *state.surface, triangle, number, s.planes);
       s.surface = &surface;
     }
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "scene/scene_values.h"
+#include "scene/texture_json.h"
 
 namespace plumbline {
 namespace {
@@ -143,6 +144,11 @@ PolygonMode read_mode(const JsonNode& node) {
       {{"fill", PolygonMode::fill}, {"line", PolygonMode::line}, {"point", PolygonMode::point}});
 }
 
+constexpr std::string_view kStateKeys[] = {"transforms", "material",   "lit",        "color_material", "normals",
+                                           "shading",    "cull",       "front_mode", "back_mode",      "line_width",
+                                           "point_size", "depth_func", "fog",        "scissor",        "depth_mask",
+                                           "blend",      "color_mask", "texture"};
+
 /// What the node gives, over what the state is.
 void read_state(const JsonNode& node, DrawState& state) {
   Draw& draw = state.draw;
@@ -194,20 +200,21 @@ void read_state(const JsonNode& node, DrawState& state) {
 
 }  // namespace
 
-DrawState read_draw_state(const JsonNode& node, const DrawState& defaults) {
-  node.only({"transforms", "material", "lit", "color_material", "normals", "shading", "cull", "front_mode", "back_mode",
-             "line_width", "point_size", "depth_func", "fog", "scissor", "depth_mask", "blend", "color_mask"});
+DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
+  node.only(kStateKeys);
   DrawState state = defaults;
   read_state(node, state);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
   return state;
 }
 
-DrawState read_draw(const JsonNode& node, const DrawState& defaults) {
-  node.only({"mesh", "transforms", "material", "lit", "color_material", "normals", "shading", "cull", "front_mode",
-             "back_mode", "line_width", "point_size", "depth_func", "fog", "scissor", "depth_mask", "blend",
-             "color_mask"});
+DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures) {
+  std::vector<std::string_view> keys{"mesh"};
+  keys.insert(keys.end(), std::begin(kStateKeys), std::end(kStateKeys));
+  node.only(keys);
   DrawState state = defaults;
   read_state(node, state);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
   return state;
 }
 

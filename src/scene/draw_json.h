@@ -14,10 +14,11 @@ struct DrawState {
   bool has_material = false;  ///< the file gives one; a mesh file's own counts where not
 };
 
-/// What "defaults" holds, over the dialect's: any key of a draw but its mesh. Throws JsonError.
-DrawState read_draw_state(const JsonNode& node, const DrawState& defaults);
+/// What "defaults" holds, over the dialect's: any key of a draw but its mesh. `textures`: the scene's. Throws
+/// JsonError.
+DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures);
 
 /// A draw: its keys over the defaults'; of a material, each key for itself. Throws JsonError.
-DrawState read_draw(const JsonNode& node, const DrawState& defaults);
+DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures);
 
 }  // namespace plumbline

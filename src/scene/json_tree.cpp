@@ -99,7 +99,7 @@ void JsonNode::refuse(std::string_view expected, std::string_view found) const {
 
 std::string JsonNode::pointer_to(std::string_view key) const { return pointer_ + pointer_token(key); }
 
-void JsonNode::only(std::initializer_list<std::string_view> keys) const {
+void JsonNode::only(std::span<const std::string_view> keys) const {
   const std::string names = keys.size() == 0 ? std::string("none") : fmt::format("{}", fmt::join(keys, ", "));
   if (value_->kind != JsonValue::Kind::object) refuse(fmt::format("an object with keys among {}", names));
   for (const auto& [key, member] : value_->members) {

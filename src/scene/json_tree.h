@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -47,7 +48,8 @@ class JsonNode {
   const JsonValue& value() const { return *value_; }
 
   /// Refuses anything but an object all of whose keys are among these.
-  void only(std::initializer_list<std::string_view> keys) const;
+  void only(std::span<const std::string_view> keys) const;
+  void only(std::initializer_list<std::string_view> keys) const { only(std::span(keys.begin(), keys.size())); }
   /// Refuses anything but an object that holds exactly one key, one of these; returns it.
   std::string_view one_of(std::initializer_list<std::string_view> keys) const;
   JsonNode operator[](std::string_view key) const;

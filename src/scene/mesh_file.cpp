@@ -53,6 +53,7 @@ std::string packed(const std::vector<MeshPart>& parts) {
     bytes.put(std::span<const glm::vec3>(part.mesh.positions));
     bytes.put(std::span<const glm::vec3>(part.mesh.normals));
     bytes.put(std::span<const glm::vec4>(part.mesh.colors));
+    bytes.put(std::span<const glm::vec2>(part.mesh.texcoords));
     bytes.put(std::span<const glm::uvec3>(part.mesh.triangles));
     bytes.put(part.material ? std::span<const Material>(&*part.material, 1) : std::span<const Material>());
   }
@@ -66,6 +67,7 @@ std::vector<MeshPart> unpacked(std::string packed_parts) {
     part.mesh.positions = bytes.get<glm::vec3>();
     part.mesh.normals = bytes.get<glm::vec3>();
     part.mesh.colors = bytes.get<glm::vec4>();
+    part.mesh.texcoords = bytes.get<glm::vec2>();
     part.mesh.triangles = bytes.get<glm::uvec3>();
     for (const Material& material : bytes.get<Material>()) part.material = material;
   }

@@ -31,8 +31,8 @@ struct MeshPart {
 /// z, -y).
 ///
 /// Materials are those of OBJ (Ka, Kd, Ks, Ke, Ns, d) and 3DS as they are, Ns above 128, OpenGL's limit, as 128; of
-/// glTF the base colour (as ambient and diffuse) and the emission. Textures, skins and animations are not
-/// read.
+/// glTF the base colour (as ambient and diffuse) and the emission. Images, skins and animations are not read. Texture
+/// coordinates are the first set, t upwards; where one of the meshes that are put together has none, none.
 ///
 /// The library that reads the files crashes, hangs and guesses on some bad ones: it runs in a process of its own, for
 /// at most a minute, what it would guess is checked before, and what it complains about is refused. It opens files
@@ -41,7 +41,8 @@ struct MeshPart {
 /// Throws MeshError: not readable, longer than 256 MiB, not one of the formats, truncated; no triangles, or more than
 /// `most_triangles`; faces of fewer than three corners, polygons that are not flat or cross themselves (polygon.h);
 /// an index out of range; a position not finite or beyond kLargestCoordinate (scene_values.h); a normal zero or not
-/// finite; a colour beyond [0,1]; another file that it names and that is missing or not allowed.
+/// finite; a colour beyond [0,1]; texture coordinates not finite or beyond +-16384; another file that it
+/// names and that is missing or not allowed.
 std::vector<MeshPart> load_mesh(const std::filesystem::path& file, const AssetFolders& folders,
                                 std::size_t most_triangles);
 

@@ -131,6 +131,16 @@ void check_part(const aiMesh& part) {
              fmt::format("({}, {}, {}) in vertex {}", n.x, n.y, n.z, i));
       }
     }
+    if (part.HasTextureCoords(0)) {
+      constexpr float kLargest = 16384;
+      const aiVector3D& c = part.mTextureCoords[0][i];
+      for (const float x : {c.x, c.y}) {
+        if (!(std::abs(x) <= kLargest)) {
+          fail(fmt::format("texture coordinates from {} to {}", -kLargest, kLargest),
+               fmt::format("{} in vertex {}", x, i));
+        }
+      }
+    }
     if (part.HasVertexColors(0)) {
       const aiColor4D& c = part.mColors[0][i];
       for (const float x : {c.r, c.g, c.b, c.a}) {
@@ -198,6 +208,8 @@ class Assembly {
     }
     Mesh& mesh = parts_.back().mesh;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const bool coordinates = from.HasTextureCoords(0) && mesh.texcoords.size() == first;
+    if (!coordinates) mesh.texcoords.clear();
     const aiMatrix3x3 linear(placement);
     const bool mirrors = linear.Determinant() < 0;
     const aiMatrix3x3 for_normals = aiMatrix3x3(linear).Inverse().Transpose();
@@ -213,6 +225,7 @@ class Assembly {
       mesh.positions.emplace_back(p.x, p.y, p.z);
       const aiVector3D n = from.HasNormals() ? for_normals * from.mNormals[i] : aiVector3D(0);
       mesh.normals.emplace_back(n.x, n.y, n.z);
+      if (coordinates) mesh.texcoords.emplace_back(from.mTextureCoords[0][i].x, from.mTextureCoords[0][i].y);
       if (from.HasVertexColors(0)) {
         const aiColor4D c = from.mColors[0][i];
         mesh.colors.emplace_back(c.r, c.g, c.b, c.a);

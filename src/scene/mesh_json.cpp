@@ -47,13 +47,24 @@ std::vector<glm::vec4> read_colors(const JsonNode& node, std::size_t count) {
   return colors;
 }
 
+std::vector<glm::vec2> read_texcoords(const JsonNode& node, std::size_t count) {
+  constexpr double kLargest = 16384;
+  std::vector<glm::vec2> texcoords;
+  if (const auto list = node.find("texcoords")) {
+    for (const JsonNode& c : list->elements(count, count)) texcoords.emplace_back(c.vector<2>(-kLargest, kLargest));
+  }
+  return texcoords;
+}
+
 Mesh read_triangle(const JsonNode& node) {
-  node.only({"positions", "colors"});
-  return make_triangles(read_positions(node["positions"], 3, 3), {{0, 1, 2}}, read_colors(node, 3));
+  node.only({"positions", "colors", "texcoords"});
+  Mesh mesh = make_triangles(read_positions(node["positions"], 3, 3), {{0, 1, 2}}, read_colors(node, 3));
+  mesh.texcoords = read_texcoords(node, 3);
+  return mesh;
 }
 
 Mesh read_triangles(const JsonNode& node) {
-  node.only({"positions", "indices", "colors"});
+  node.only({"positions", "indices", "colors", "texcoords"});
   std::vector<glm::vec3> positions = read_positions(node["positions"], 3, SIZE_MAX);
   std::vector<glm::uvec3> triangles;
   for (const JsonNode& triangle : node["indices"].elements(1, SIZE_MAX)) {
@@ -69,7 +80,10 @@ Mesh read_triangles(const JsonNode& node) {
     triangles.push_back(t);
   }
   std::vector<glm::vec4> colors = read_colors(node, positions.size());
-  return make_triangles(std::move(positions), std::move(triangles), std::move(colors));
+  std::vector<glm::vec2> texcoords = read_texcoords(node, positions.size());
+  Mesh mesh = make_triangles(std::move(positions), std::move(triangles), std::move(colors));
+  mesh.texcoords = std::move(texcoords);
+  return mesh;
 }
 
 /// Primitives that have no side, and so no normal of their own: +z.
@@ -105,7 +119,7 @@ Mesh read_points(const JsonNode& node) {
 }
 
 Mesh read_quad(const JsonNode& node) {
-  node.only({"positions", "colors"});
+  node.only({"positions", "colors", "texcoords"});
   std::vector<glm::vec3> p{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   if (const auto given = node.find("positions")) {
     p = read_positions(*given, 4, 4);
@@ -121,7 +135,10 @@ Mesh read_quad(const JsonNode& node) {
   };
   std::vector<glm::uvec3> triangles{{0, 1, 2}, {0, 2, 3}};
   if (!(glm::dot(half(0, 1, 2), half(0, 2, 3)) > 0)) triangles = {{1, 2, 3}, {1, 3, 0}};
-  return make_triangles(std::move(p), std::move(triangles), read_colors(node, 4));
+  Mesh mesh = make_triangles(std::move(p), std::move(triangles), read_colors(node, 4));
+  mesh.texcoords = read_texcoords(node, 4);
+  if (mesh.texcoords.empty()) mesh.texcoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  return mesh;
 }
 
 Mesh read_soup(const JsonNode& node, std::size_t most_triangles) {
@@ -144,6 +161,13 @@ Mesh read_uv_sphere(const JsonNode& node, std::size_t most_triangles) {
   const int slices = read_count(node["slices"], 3, kMostCells), stacks = read_count(node["stacks"], 2, kMostCells);
   allow_triangles(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(stacks - 1), most_triangles);
   return make_uv_sphere(slices, stacks);
+}
+
+Mesh read_globe(const JsonNode& node, std::size_t most_triangles) {
+  node.only({"slices", "stacks"});
+  const int slices = read_count(node["slices"], 3, kMostCells), stacks = read_count(node["stacks"], 2, kMostCells);
+  allow_triangles(node, 2u * static_cast<std::size_t>(slices) * static_cast<std::size_t>(stacks - 1), most_triangles);
+  return make_globe(slices, stacks);
 }
 
 Mesh read_icosphere(const JsonNode& node, std::size_t most_triangles) {
@@ -200,6 +224,7 @@ Mesh make(std::string_view kind, const JsonNode& node, std::size_t most_triangle
   if (kind == "quad") return read_quad(node);
   if (kind == "grid") return read_grid(node, most_triangles);
   if (kind == "uv_sphere") return read_uv_sphere(node, most_triangles);
+  if (kind == "globe") return read_globe(node, most_triangles);
   if (kind == "icosphere") return read_icosphere(node, most_triangles);
   if (kind == "torus_knot") return read_torus_knot(node, most_triangles);
   if (kind == "revolution") return read_revolution(node, most_triangles);
@@ -212,7 +237,7 @@ Mesh make(std::string_view kind, const JsonNode& node, std::size_t most_triangle
 
 std::vector<MeshPart> read_mesh(const JsonNode& node, const AssetFolders& folders, std::size_t most_triangles) {
   const std::string_view kind = node.one_of({"file", "triangle", "triangles", "lines", "points", "quad", "grid", "cube",
-                                             "uv_sphere", "icosphere", "torus_knot", "revolution", "soup"});
+                                             "uv_sphere", "globe", "icosphere", "torus_knot", "revolution", "soup"});
   if (kind == "file") return read_file(node[kind], folders, most_triangles);
   return {{make(kind, node[kind], most_triangles), std::nullopt}};
 }

@@ -61,6 +61,7 @@ Mesh make_grid(int columns, int rows) {
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
       mesh.positions.emplace_back(-1 + 2.0 * i / columns, -1 + 2.0 * j / rows, 0);
+      mesh.texcoords.emplace_back(static_cast<double>(i) / columns, static_cast<double>(j) / rows);
     }
   }
   mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
@@ -98,6 +99,30 @@ Mesh make_uv_sphere(int slices, int stacks) {
     }
   }
   for (int i = 0; i < slices; ++i) mesh.triangles.emplace_back(ring(stacks - 1, i), south, ring(stacks - 1, i + 1));
+  return mesh;
+}
+
+Mesh make_globe(int slices, int stacks) {
+  Mesh mesh;
+  for (int j = 0; j <= stacks; ++j) {
+    const bool pole = j == 0 || j == stacks;
+    // The last ring, and the first, are the poles exactly; a ring's last vertex is its first.
+    const double polar = std::numbers::pi * j / stacks, radius = pole ? 0 : std::sin(polar);
+    const double y = pole ? (j == 0 ? 1 : -1) : std::cos(polar);
+    for (int i = 0; i <= slices; ++i) {
+      const double around = 2 * std::numbers::pi * (i % slices) / slices;
+      mesh.positions.emplace_back(radius * std::sin(around), y, radius * std::cos(around));
+      mesh.texcoords.emplace_back((i + (pole ? 0.5 : 0)) / slices, 1 - static_cast<double>(j) / stacks);
+    }
+  }
+  mesh.normals = mesh.positions;
+  for (int j = 0; j < stacks; ++j) {
+    for (int i = 0; i < slices; ++i) {
+      const std::uint32_t a = index(j * (slices + 1) + i), b = a + 1, c = a + index(slices + 1), d = c + 1;
+      if (j > 0) mesh.triangles.emplace_back(a, j + 1 < stacks ? d : c, b);
+      if (j + 1 < stacks) mesh.triangles.emplace_back(a, c, d);
+    }
+  }
   return mesh;
 }
 

@@ -52,6 +52,7 @@ Mesh make_cube() {
       for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
         mesh.positions.push_back(normal + at.x * u + at.y * v);
         mesh.normals.push_back(normal);
+        mesh.texcoords.push_back(0.5f * (at + 1.0f));
       }
       mesh.triangles.emplace_back(first, first + 1, first + 2);
       mesh.triangles.emplace_back(first, first + 2, first + 3);

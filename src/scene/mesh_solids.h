@@ -10,7 +10,7 @@
 
 namespace plumbline {
 
-/// [-1,1]^3: 24 vertices, so that each face has its own normals.
+/// [-1,1]^3: 24 vertices, so that each face has its own normals, and texture coordinates from (0,0) to (1,1).
 Mesh make_cube();
 
 /// The unit sphere from an icosahedron, each triangle cut into four `subdivisions` times: 20 * 4^n triangles of nearly

@@ -10,6 +10,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/texture.h"
+
 namespace plumbline {
 
 /// The conventions under which a scene's numbers are read: window origin, pixel centre, handedness, where the eye is...
@@ -33,6 +35,7 @@ struct Mesh {
   std::vector<glm::vec4> colors;      ///< empty, or as many as positions: rgba, nominally [0,1]
   std::vector<glm::uvec3> triangles;  ///< indices of positions; the last corner is the provoking vertex
   Topology topology = Topology::triangles;
+  std::vector<glm::vec2> texcoords{};  ///< s, t; empty, or as many as positions
 };
 
 struct Translate {
@@ -215,7 +218,8 @@ struct Draw {
   DepthFunc depth_func = DepthFunc::less;
   std::optional<Fog> fog;
   Merge merge;
-  std::optional<Scissor> scissor;  ///< no pixel outside of it is covered
+  std::optional<Scissor> scissor;      ///< no pixel outside of it is covered
+  std::optional<DrawTexture> texture;  ///< the mesh then has texture coordinates
 };
 
 /// Where light falls: on the vertices, or on the fragments.
@@ -225,6 +229,24 @@ inline bool is_lit_per_fragment(const Draw& draw) { return draw.lit && draw.shad
 /// The draw's material, what a vertex colour stands for replaced by `color` (OpenGL 2.1 spec 2.14.3).
 Material colored(const Draw& draw, const glm::vec4& color);
 
+/// What a pixel's colour is the mean of (antialias.h), but for `none`, where it is that at its centre.
+struct Antialias {
+  enum class Kind {
+    none,
+    multisample,  ///< OpenGL's: coverage and depth of four samples, one colour
+    supersample,  ///< a frame `factor` times as wide and as high
+    taps          ///< GzRender's: six pictures, each moved by part of a pixel
+  };
+  Kind kind = Kind::none;
+  int factor = 1;  ///< of supersample, [1, 8]
+};
+
+/// What an antialiased scene's passes differ by.
+struct Pass {
+  glm::dvec2 shift{0};        ///< of the whole picture, in pixels of the window
+  std::optional<int> sample;  ///< coverage and depth are those of OpenGL's sample 0 to 3, colours the pixel centre's
+};
+
 struct FrameFormat {
   int width = 256;   ///< pixels, [1, 16384]
   int height = 256;  ///< pixels, [1, 16384]
@@ -232,6 +254,8 @@ struct FrameFormat {
   DepthFormat depth = DepthFormat::z24;
   glm::vec4 clear_color{0, 0, 0, 1};
   double clear_depth = 1;  ///< window z, [0,1]
+  Antialias antialias = {};
+  Pass pass = {};  ///< as passes_of() sets it (antialias.h)
 };
 
 struct Scene {
@@ -245,10 +269,15 @@ struct Scene {
   bool depth_clamp = false;  ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
   LightModel light_model;
   std::vector<Light> lights;  ///< at most 8
+  std::vector<Texture> textures;
   std::vector<Mesh> meshes;
   std::vector<Draw> draws;  ///< in draw order
 };
 
+/// Whether any draw has a texture.
+inline bool textured(const Scene& scene) {
+  return std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.texture.has_value(); });
+}
 /// Whether any draw makes such primitives: is of such a mesh, or of triangles of which it draws edges or corners.
 bool draws(const Scene& scene, Topology topology);
 /// Whether a pixel's colour is that of its last fragment alone: nothing is blended, no channel masked.

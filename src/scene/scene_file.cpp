@@ -10,15 +10,41 @@
 #include "scene/mesh_json.h"
 #include "scene/scene_json.h"
 #include "scene/scene_values.h"
+#include "scene/texture_json.h"
 
 namespace plumbline {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kLargestFrame = 16384;
+
+Antialias read_antialias(const JsonNode& node, const FrameFormat& frame) {
+  const std::string_view kind = node.one_of({"samples", "supersample", "taps"});
+  const JsonNode n = node[kind];
+  if (kind == "samples") {
+    n.integer(4, 4);
+    return {Antialias::Kind::multisample, 1};
+  }
+  if (kind == "taps") return {n.choice<Antialias::Kind>({{"gzrender", Antialias::Kind::taps}}), 1};
+  const auto factor = static_cast<int>(n.integer(1, 8));
+  if (std::max(frame.width, frame.height) * factor > kLargestFrame) {
+    n.refuse(fmt::format("a factor that leaves the frame at most {} pixels a side", kLargestFrame));
+  }
+  return {Antialias::Kind::supersample, factor};
+}
+
+// OpenGL makes lines and points under multisampling rectangles and squares of their own (OpenGL 2.1, sections 3.4.4 and
+// 3.3.1), which are not drawn here; in a supersampled frame they would be thinner.
+void require_drawable(const JsonNode& frame, const Scene& scene) {
+  const Antialias::Kind kind = scene.frame.antialias.kind;
+  if (kind != Antialias::Kind::multisample && kind != Antialias::Kind::supersample) return;
+  if (!draws(scene, Topology::lines) && !draws(scene, Topology::points)) return;
+  frame["antialias"].refuse("taps, where a scene has lines or points", "another kind");
+}
+
 FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
-  constexpr int kLargestFrame = 16384;
-  node.only({"width", "height", "color", "depth", "clear_color", "clear_depth"});
+  node.only({"width", "height", "color", "depth", "clear_color", "clear_depth", "antialias"});
   if (const auto n = node.find("width")) frame.width = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("height")) frame.height = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("color")) {
@@ -33,6 +59,7 @@ FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
   }
   if (const auto n = node.find("clear_color")) frame.clear_color = glm::vec4(n->vector<4>(0, 1));
   if (const auto n = node.find("clear_depth")) frame.clear_depth = n->number(0, 1);
+  if (const auto n = node.find("antialias")) frame.antialias = read_antialias(*n, frame);
   return frame;
 }
 
@@ -153,7 +180,7 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
   std::vector<KnownMesh> known;
   std::size_t left = kMostTriangles;
   for (const JsonNode& n : node.elements(1, kMostDraws)) {
-    const DrawState state = read_draw(n, defaults);
+    const DrawState state = read_draw(n, defaults, scene.textures);
     const JsonNode mesh = n["mesh"];
     auto same = std::find_if(known.begin(), known.end(), [&](const KnownMesh& k) { return *k.json == mesh.value(); });
     if (same == known.end()) {
@@ -171,6 +198,12 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
       const std::size_t triangles = scene.meshes[draw.mesh].triangles.size();
       if (triangles > left) n.refuse(fmt::format("at most {} triangles in all", kMostTriangles), "more");
       left -= triangles;
+      if (draw.texture && scene.meshes[draw.mesh].texcoords.empty()) {
+        mesh.refuse("a mesh with texture coordinates, as the draw has a texture", "one without");
+      }
+      if (draw.texture && (draw.front_mode != PolygonMode::fill || draw.back_mode != PolygonMode::fill)) {
+        n.refuse("front_mode and back_mode fill, as the draw has a texture", "edges or corners of triangles");
+      }
       scene.draws.push_back(std::move(draw));
     }
   }
@@ -178,7 +211,7 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
 
 Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   root.only({"$schema", "include", "description", "dialect", "frame", "camera", "projection", "ambient", "light_model",
-             "lights", "defaults", "draws"});
+             "lights", "textures", "defaults", "draws"});
   if (const auto n = root.find("$schema")) n->text();
   Scene scene;
   scene.description = root["description"].text();
@@ -190,7 +223,8 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
                                         {"tinyrenderer", Dialect::tinyrenderer}});
   }
   set_defaults(scene, defaults);
-  if (const auto n = root.find("frame")) scene.frame = read_frame(*n, scene.frame);
+  const auto frame = root.find("frame");
+  if (frame) scene.frame = read_frame(*frame, scene.frame);
   if (const auto n = root.find("camera")) scene.camera = read_camera(*n);
   const auto projection = root.find("projection");
   scene.projection = read_projection(projection ? &*projection : nullptr, scene.dialect, scene.camera);
@@ -199,8 +233,10 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   if (const auto n = root.find("lights")) {
     for (const JsonNode& light : n->elements(0, 8)) scene.lights.push_back(read_light(light));
   }
-  if (const auto n = root.find("defaults")) defaults = read_draw_state(*n, defaults);
+  if (const auto n = root.find("textures")) scene.textures = read_textures(*n, folders);
+  if (const auto n = root.find("defaults")) defaults = read_draw_state(*n, defaults, scene.textures);
   read_draws(root["draws"], defaults, folders, scene);
+  if (frame) require_drawable(*frame, scene);
   return scene;
 }
 

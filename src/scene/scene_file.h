@@ -28,7 +28,8 @@ struct SceneFileOptions {
 ///   description *  what must be seen, and why
 ///   dialect        "gl", "gzrender", "games101", "tinyrenderer": how all other numbers are read (dialect/dialect.h)
 ///   frame          width, height: 1 to 16384; color: "rgba8", "rgba12", "rgba16", "rgba32f"; depth: "z8", "z16",
-///                  "z24", "z32f"; clear_color: [r, g, b, a]; clear_depth
+///                  "z24", "z32f"; clear_color: [r, g, b, a]; clear_depth; antialias: {"samples": 4},
+///                  {"supersample": 1 to 8} or {"taps": "gzrender"} (antialias.h)
 ///   camera         eye, center, up: [x, y, z]
 ///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right
 ///   *,
@@ -42,15 +43,29 @@ struct SceneFileOptions {
 ///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]};
 ///                  beside point attenuation: [k0, k1, k2] and spot: {direction *: [x, y, z], cutoff *: degrees from 0
 ///                  to 90, exponent: 0 to 128}
+///   textures       {name: {image *, format, texels, min, mag, wrap_s, wrap_t, border, lod_bias, min_lod, max_lod,
+///                  base_level, max_level}}, at most 64 (texture.h; what is left out has OpenGL's initial value)
+///     image *      one of  "file": "wood.png", a PNG, JPEG, TGA or EXR file (texture_file.h)
+///                          "texels": rows of [r, g, b, a], the first at t = 0
+///                          "checker": {width, height, columns, rows, colors: 2 x [r, g, b, a]}, "bricks": the same
+///                          "gradient": {width, height, colors: at 4 corners}, "uv_grid": {width, height, columns,
+///                          rows}, "noise": {width, height, seed}                           (texture_images.h)
+///     format       "alpha", "luminance", "luminance_alpha", "intensity", "rgb", "rgba"; else the file's, or rgba
+///     texels       "unorm8", "float32"
+///     min, mag     OpenGL's filters, wrap_s and wrap_t its wraps: names of MinFilter, MagFilter, Wrap
+///     border       [r, g, b, a]
 ///   defaults       of all draws: any of a draw's keys but mesh. A draw's own count before them, of a material one by
 ///   one draws *        1 to 4096 of
 ///     mesh *       one of  "file": "bunny.obj", an OBJ, 3DS, PLY, glTF or GLB file (mesh_file.h)
-///                          "triangle": {positions *: [[x, y, z] x 3], colors: [[r, g, b, a] x 3]}
-///                          "triangles": {positions *, indices *: [[i, j, k], ...], colors}
+///                          "triangle": {positions *: [[x, y, z] x 3], colors: [[r, g, b, a] x 3],
+///                          texcoords: [[s, t] x 3]}
+///                          "triangles": {positions *, indices *: [[i, j, k], ...], colors, texcoords}
 ///                          "lines": {positions *, indices *: [[i, j], ...], colors}
 ///                          "points": {positions *, colors}: each a point; normals of both are +z
-///                          "quad": {positions: [[x, y, z] x 4], else the square of grid; colors}
-///                          "grid": {columns *, rows *}, "uv_sphere": {slices *, stacks *}   (mesh_shapes.h)
+///                          "quad": {positions: [[x, y, z] x 4], else the square of grid; colors; texcoords, else
+///                          the unit square's}
+///                          "grid": {columns *, rows *}, "uv_sphere" and "globe": {slices *, stacks *}
+///                          (mesh_shapes.h)
 ///                          "soup": {triangles *, seed *, extent *, size *}
 ///                          "cube": {}, "icosphere": {subdivisions *: 0 to 8}                (mesh_solids.h)
 ///                          "torus_knot": {segments *, sides *, p, q, tube}
@@ -68,6 +83,9 @@ struct SceneFileOptions {
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where
 ///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth
 ///                  is then 0
+///     front_mode, back_mode  "fill", "line", "point": what is drawn of front and back faces
+///     line_width   pixels, an integer from 1 to 16
+///     point_size   pixels a side, an integer from 1 to 64
 ///     scissor      [x, y, width, height]: the pixels that may be covered; 0 to 16384 each
 ///     depth_mask   true, false: whether depth is written
 ///     blend        {source, destination, equation, alpha: {source, destination, equation}, color: [r, g, b, a]}:
@@ -75,6 +93,9 @@ struct SceneFileOptions {
 ///                  factors ("one" and "zero" where they are left out) and equations ("add", "subtract",
 ///                  "reverse_subtract", "min", "max"), alpha's as rgb's where it has none. All names: BlendFactor
 ///     color_mask   [r, g, b, a], each true or false: whether it is written
+///     texture      {name *: one of the textures, environment: "replace", "modulate", "decal", "blend", "add", color:
+///                  blend's [r, g, b, a]}; the mesh needs texture coordinates: "texcoords": [[s, t], ...] beside
+///                  positions, a file's own, or those of quad, grid, cube and globe
 ///
 /// Colours are in [0,1], lights' and ambient 0 or more. Coordinates go up to +-1e6, all draws' triangles to 2^24.
 /// Numbers that scene.h holds as float are rounded here, once. Draws of an equal mesh share it.

@@ -17,6 +17,8 @@ struct Planes {
   Plane<std::uint32_t> count;   ///< coverage: fragments of all primitives at the pixel, before any depth test
   Plane<std::uint64_t> id_sum;  ///< coverage: sum of id_weight(primitive) over those fragments
   Plane<std::int32_t> id;       ///< visibility: the winning primitive, or kBackground
+  Plane<glm::vec4> texel;       ///< texture: the winner's texel, (0, 0, 0, 1) without a texture, 0 in the background;
+                                ///< empty where no draw has one
   Plane<glm::vec4> shaded;      ///< attributes, shade: the winner's colour in float, the clear colour elsewhere
   Plane<glm::vec4> color;       ///< merge: the frame's colour; n-bit codes as code / (2^n - 1)
   Plane<double> depth;          ///< merge: the frame's depth as window z; n-bit codes as code / (2^n - 1)
@@ -46,6 +48,9 @@ struct Capture {
   int height = 0;
   Records<double> records;
   Planes planes;
+  /// Of an antialiased scene: each pass' frame colours. Its records, and the other planes, are those of the passes
+  /// alone.
+  std::vector<Plane<glm::vec4>> samples;
   Legal legal;  ///< an oracle's answer: what may be at each pixel
 };
 

@@ -128,6 +128,7 @@ void visit_capture(CaptureRef& capture, Visitor& visit) {
               Column{"y", &Covered::y});
   visit.group("depth", records.depth, ItselfColumn{"value"});
   visit.group("attributes", records.attributes, Column{"color", &Attributes<double>::color});
+  visit.group("texture", records.texels, Column{"color", &Texel<double>::color}, Column{"lod", &Texel<double>::lod});
   visit.group("shade", records.shaded, Column{"color", &Shaded<double>::color});
   visit.group("visibility", records.drawn, Column{"drawn", &Drawn::drawn});
 
@@ -144,6 +145,7 @@ void visit_capture(CaptureRef& capture, Visitor& visit) {
   visit.plane("planes.count", planes.count);
   visit.plane("planes.id_sum", planes.id_sum);
   visit.plane("planes.id", planes.id);
+  visit.plane("planes.texel", planes.texel);
   visit.plane("planes.shaded", planes.shaded);
   visit.plane("planes.color", planes.color);
   visit.plane("planes.depth", planes.depth);

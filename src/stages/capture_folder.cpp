@@ -316,6 +316,7 @@ void check_indices(const Capture& capture, const fs::path& folder) {
   beside("light.color", records.lit.size(), "vertex.*", records.vertices.size());
   beside("depth.value", records.depth.size(), "coverage.*", fragments);
   beside("attributes.color", records.attributes.size(), "coverage.*", fragments);
+  beside("texture.color", records.texels.size(), "coverage.*", fragments);
   beside("shade.color", records.shaded.size(), "coverage.*", fragments);
   beside("visibility.drawn", records.drawn.size(), "coverage.*", fragments);
   for (const Varying v : kAllVaryings) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,14 @@ struct LegalAnswer {
 /// A depth within `step` of another may compare either way. `out` is emptied first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
+/// What a fragment's texel may be where its level of detail is taken for four pixels at a time, by a logarithm that is
+/// linear between powers of two (as Mesa's drivers do), and its texture coordinates are off by a little.
+struct TexelRange {
+  glm::dvec4 lo{0}, hi{0};                                  ///< per channel, over the interval of lambda
+  glm::dvec4 slope_s{0}, slope_t{0};                        ///< by how much per unit of s and of t, within half a texel
+  glm::dvec2 gap{std::numeric_limits<double>::infinity()};  ///< in s and t, to where another texel is the nearest
+};
+
 /// The legal answers of a whole frame. Empty: not asked for, or not shown.
 struct Legal {
   Plane<std::uint32_t> certain;      ///< number of certain hits at the pixel; a group counts as one
@@ -51,6 +60,7 @@ struct Legal {
   /// The frame's colour, not rounded to codes; empty where it is that of the winner (scene.h, colors_replace). Infinite
   /// where it is open which fragments made it.
   Plane<glm::vec4> color_lo, color_hi;
+  std::vector<TexelRange> texels;  ///< of the fragments that were asked about, beside their covered
   double predicted_ambiguous = 0;  ///< pixels, from the visible edges' length and the snapping bound
 
   bool empty() const { return first.empty(); }

@@ -172,6 +172,9 @@ class ProcessRenderer : public Renderer {
     if (scene.path.empty()) {
       throw Unsupported(fmt::format("{}: a scene made in memory cannot be handed to a program", spec_.name));
     }
+    if (scene.frame.antialias.kind != Antialias::Kind::none) {
+      throw Unsupported(fmt::format("{}: the passes of an antialiased scene stand in no file", spec_.name));
+    }
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     const TemporaryFolder temporary;
     const fs::path folder = temporary.path() / "capture", log = temporary.path() / "stderr.txt";

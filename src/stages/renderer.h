@@ -80,15 +80,20 @@ class Renderer {
   virtual RendererInfo info() const = 0;
 
   /// Draws the scene. Hands out every plane it is able to show, and of the records those that the request names and
-  /// it is able to show. Throws OverBudget, RendererFailed.
+  /// it is able to show. Of an antialiased scene: its samples, planes.color and planes.depth, and no more; the rest is
+  /// handed out for its passes (scene/antialias.h). Throws OverBudget, RendererFailed.
   virtual Capture capture(const Scene& scene, const Request& request) = 0;
 
   /// Runs one stage alone on what `in` holds of the stages before it: records, for merge planes.id as well (made of the
   /// records where it is empty), for visibility and merge the frame's clear values: the returned capture holds that
   /// stage's records or planes, nothing else. Coverage hands out records.covered and the planes count and id_sum;
-  /// visibility planes.id; merge planes.color and planes.depth. Throws Unsupported where info()[stage].runs is false.
+  /// visibility planes.id; merge planes.color and planes.depth; resolve planes.color, of in.samples. Throws Unsupported
+  /// where info()[stage].runs is false.
   virtual Capture run_stage(const Scene& scene, Stage stage, const Capture& in);
 };
+
+/// Throws std::invalid_argument where the samples are not those of the scene's passes, in number and size.
+void require_samples(const Scene& scene, const std::vector<Plane<glm::vec4>>& samples);
 
 /// The bytes that planes of the scene's size take, and what their colours are made of, for checks against the budget.
 std::size_t plane_bytes(const Scene& scene);

@@ -30,11 +30,12 @@ enum class Stage {
   texture,
   shade,
   visibility,
-  merge
+  merge,
+  resolve
 };
-inline constexpr std::array<std::string_view, 12> kStageNames = {"matrices", "vertex",   "light",      "clip",
-                                                                 "window",   "coverage", "depth",      "attributes",
-                                                                 "texture",  "shade",    "visibility", "merge"};
+inline constexpr std::array<std::string_view, 13> kStageNames = {
+    "matrices",   "vertex",  "light", "clip",       "window", "coverage", "depth",
+    "attributes", "texture", "shade", "visibility", "merge",  "resolve"};
 constexpr std::string_view name_of(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }
 
 template <class T>
@@ -141,7 +142,13 @@ struct Attributes {
   Vec4<T> color;
 };
 
-// 8. (texture: no records yet)
+// 8. The texture, filtered at the fragment: source components (Cs, As) of OpenGL 2.1's table 3.21, and the level of
+//    detail lambda, bias and limits applied. (0, 0, 0, 1) and 0 where the draw has no texture.
+template <class T>
+struct Texel {
+  Vec4<T> color{0, 0, 0, 1};
+  T lod = 0;
+};
 
 // 9. The fragment's colour, not yet clamped or rounded to the frame's format.
 template <class T>
@@ -157,6 +164,9 @@ struct Drawn {
 
 // 11. The fragments drawn are merged, in draw order, into the frame: planes of final colour and depth (capture.h).
 
+// 12. An antialiased scene goes through stages 0 to 11 in passes, each of them a scene of its own; their frames are
+//     resolved: each pixel's colour is the mean of its samples' (scene/antialias.h).
+
 /// What stages 0 to 10 hand on for a whole scene. Empty: not asked for, or not shown.
 template <class T>
 struct Records {
@@ -168,6 +178,7 @@ struct Records {
   std::vector<Covered> covered;              ///< by triangle, then y, then x: the fragments
   std::vector<T> depth;                      ///< beside covered
   std::vector<Attributes<T>> attributes;     ///< beside covered
+  std::vector<Texel<T>> texels;              ///< beside covered; empty where no draw has a texture
   std::vector<Shaded<T>> shaded;             ///< beside covered
   std::vector<Drawn> drawn;                  ///< beside covered
   Varyings<T> varyings;                      ///< beside them all

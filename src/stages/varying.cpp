@@ -11,7 +11,7 @@ bool carries(const Scene&, const Draw& draw, Varying v) {
     case Varying::secondary: return false;
     case Varying::back_color: return false;
     case Varying::back_secondary: return false;
-    case Varying::texture: return false;
+    case Varying::texture: return draw.texture.has_value();
     case Varying::normal: return is_lit_per_fragment(draw);
     case Varying::position: return draw.fog.has_value() || is_lit_per_fragment(draw);
   }

@@ -92,6 +92,80 @@ TEST(CheckLines, steep_lines_have_rows_for_columns) {
   EXPECT_TRUE(fails(against({{3, 2}, {3, 3}, {4, 3}, {4, 4}, {4, 5}})));
 }
 
+TEST(CheckLines, columns_of_wide_lines_are_whole) {
+  WindowTriangle<double> wide = kFlat;
+  wide.width = 3;
+  const auto widened = [](const Pixels& lowest, int width = 3) {
+    Pixels out;
+    for (int k = 0; k < width; ++k) {
+      for (const glm::ivec2 p : lowest) out.push_back(p + glm::ivec2(0, k));
+    }
+    return out;
+  };
+  const Pixels lowest = {{2, 2}, {3, 2}, {4, 3}, {5, 3}};
+  const auto against = [&](const Pixels& theirs) {
+    return compare_covered_lines(drawn({wide}, {widened(lowest)}), drawn({wide}, {theirs}), 1);
+  };
+  EXPECT_EQ(against(widened(lowest)).ambiguous, 0u);
+  EXPECT_TRUE(passes(against(widened({{2, 2}, {3, 3}, {4, 3}, {5, 3}}))));  // a column one off
+  EXPECT_TRUE(passes(against(widened({{3, 2}, {4, 3}, {5, 3}}))));          // the first lost
+  EXPECT_TRUE(fails(against(widened({{4, 3}, {5, 3}}))));
+  EXPECT_TRUE(fails(against(widened({{2, 2}, {3, 4}, {4, 3}, {5, 3}}))));  // two off
+  EXPECT_TRUE(fails(against(widened(lowest, 2))));                         // too narrow
+  EXPECT_TRUE(fails(against(widened(lowest, 4))));                         // too wide
+  Pixels gap = widened(lowest);
+  gap[4].y += 2;  // of the column's middle, beyond its upper end
+  EXPECT_TRUE(fails(against(gap)));
+  // At the frame's border a column is cut off.
+  const WindowTriangle<double> low = [&] {
+    WindowTriangle<double> t = line_of({2.5, 0.5}, {6.5, 0.5}, 1);
+    t.width = 3;
+    return t;
+  }();
+  const Pixels two_rows = widened({{2, 0}, {3, 0}, {4, 0}, {5, 0}}, 2), one_row = {{2, 0}, {3, 0}, {4, 0}, {5, 0}};
+  EXPECT_TRUE(passes(compare_covered_lines(drawn({low}, {two_rows}), drawn({low}, {one_row}), 1)));
+  // The axis that snapping decides: as long in x as in y but for less than a step.
+  WindowTriangle<double> diagonal = line_of({2.5, 2.5}, {5.5, 5.501}, 1);
+  diagonal.width = 3;
+  const Pixels columns = {{2, 1}, {2, 2}, {2, 3}, {3, 2}, {3, 3}, {3, 4}, {4, 3}, {4, 4}, {4, 5}};
+  const Pixels rows = {{1, 2}, {2, 2}, {3, 2}, {2, 3}, {3, 3}, {4, 3}, {3, 4}, {4, 4}, {5, 4}};
+  EXPECT_TRUE(passes(compare_covered_lines(drawn({diagonal}, {columns}), drawn({diagonal}, {rows}), 1)));
+  diagonal = line_of({2.5, 2.5}, {5.5, 5.4}, 1);
+  diagonal.width = 3;
+  EXPECT_TRUE(fails(compare_covered_lines(drawn({diagonal}, {columns}), drawn({diagonal}, {rows}), 1)));
+}
+
+TEST(CheckLines, edges_of_one_triangle_are_told_apart) {
+  const WindowTriangle<double> second = line_of({6.5, 4.5}, {6.5, 8.5}, 1);
+  const Pixels upright = {{6, 4}, {6, 5}, {6, 6}, {6, 7}};
+  const Capture mine = drawn({kFlat, second}, {kFlatPixels, upright});
+  EXPECT_TRUE(passes(compare_covered_lines(mine, mine, 1)));
+  EXPECT_TRUE(passes(compare_covered_lines(mine, drawn({kFlat, second}, {kFlatPixels, {{6, 5}, {6, 6}, {6, 7}}}), 1)));
+  EXPECT_TRUE(fails(compare_covered_lines(mine, drawn({kFlat, second}, {upright, kFlatPixels}), 1), 2));
+  EXPECT_FALSE(passes(compare_covered_lines(mine, drawn({kFlat}, {kFlatPixels}), 1)));
+}
+
+TEST(CheckLines, where_edges_meet_either_may_have_been_drawn_last) {
+  const WindowTriangle<double> second = line_of({6.5, 4.5}, {6.5, 8.5}, 1);
+  const Records<double> one = drawn({kFlat}, {{}}).records, two = drawn({kFlat, second}, {{}, {}}).records;
+  EXPECT_TRUE(edge_values(one, 1, 6, 4).empty()) << "a line alone";
+  EXPECT_EQ(edge_values(two, 1, 6, 4).size(), 4u);
+  EXPECT_TRUE(edge_values(two, 1, 2, 3).empty()) << "the other edge is far";
+  EXPECT_TRUE(edge_values(two, 2, 6, 4).empty()) << "another primitive's";
+  EXPECT_NEAR(edge_values(two, 1, 6, 4)[0].depth, 0.75, 1e-12);  // the end of one, the beginning of the other
+  EXPECT_NEAR(edge_values(two, 1, 6, 4)[2].depth, 0.25, 1e-12);
+  Scene scene;
+  scene.frame.depth = DepthFormat::z32f;
+  Capture mine = drawn({kFlat, second}, {{}, {{6, 4}}}), theirs = mine;
+  mine.planes.depth(6, 4) = 0.25;
+  for (const double z : {0.25, 0.75}) {
+    theirs.planes.depth(6, 4) = z;
+    EXPECT_TRUE(passes(compare_depth_planes(scene, mine, theirs, 4))) << z;
+  }
+  theirs.planes.depth(6, 4) = 0.5;
+  EXPECT_TRUE(fails(compare_depth_planes(scene, mine, theirs, 4)));
+}
+
 TEST(CheckLines, a_line_of_no_pixel_may_have_one_at_its_end) {
   const WindowTriangle<double> dot = line_of({3.25, 2.5}, {3.5, 2.75}, 1);
   const auto against = [&](const Pixels& theirs) {

@@ -7,6 +7,7 @@
 #include "pipeline/pipeline_renderer.h"
 #include "reference/exact/barycentric.h"
 #include "reference/exact/clip.h"
+#include "reference/exact/coverage.h"
 #include "reference/exact/exact.h"
 #include "thin_scenes.h"
 
@@ -47,6 +48,77 @@ TEST(ExactLines, a_hundred_thousand_random_lines_cover_the_same_pixels) {
     fragments += capture.records.covered.size();
   }
   EXPECT_GT(fragments, 900'000u);
+}
+
+TEST(ExactLines, wide_lines_and_large_points_cover_the_same_pixels) {
+  RandomThings random(3);
+  const auto ours = pipeline::make_pipeline();
+  const auto exact = exact::make_exact();
+  for (int i = 0; i < 40; ++i) {
+    Scene scene = pixel_scene(70, 66);
+    Draw& lines = add(scene, thin_mesh(Topology::lines, random_ends(60, random)));
+    lines.line_width = 2 + random.below(15);
+    Draw& points = add(scene, thin_mesh(Topology::points, random_ends(60, random)));
+    points.point_size = 1 + random.below(64);
+    points.scissor = Scissor{3, 5, 60, 50};
+    const Capture capture =
+        ours->capture(scene, {{Stage::matrices, Stage::clip, Stage::window, Stage::coverage}, false, {}, {}});
+    const Capture judged = exact->run_stage(scene, Stage::coverage, capture);
+    const check::Measurement m = check::compare_covered(capture.records, judged.records);
+    ASSERT_EQ(m.differing, 0u) << to_string(m.worst.place);
+    ASSERT_EQ(check::compare_coverage(capture.planes, judged.planes).differing, 0u);
+  }
+}
+
+TEST(ExactLines, what_they_cover_by_hand) {
+  const auto covered = [](WindowTriangle<double> t, std::uint32_t corners, std::uint32_t width) {
+    t.corners = corners;
+    t.width = width;
+    std::vector<Covered> out;
+    exact::append_covered(t, FrameFormat{}, Draw{}, 0, out);
+    std::vector<glm::ivec2> pixels;
+    for (const Covered& c : out) pixels.emplace_back(c.x, c.y);
+    return pixels;
+  };
+  using Pixels = std::vector<glm::ivec2>;
+  WindowTriangle<double> t{};
+  t.v[0].snapped = {5 * 256, 7 * 256};
+  t.v[1].snapped = t.v[2].snapped = {7 * 256, 7 * 256};
+  EXPECT_EQ(covered(t, 2, 1), (Pixels{{5, 7}, {6, 7}}));
+  EXPECT_EQ(covered(t, 2, 3), (Pixels{{5, 6}, {6, 6}, {5, 7}, {6, 7}, {5, 8}, {6, 8}}));
+  t.v[1].snapped = t.v[2].snapped = {5 * 256, 9 * 256};
+  EXPECT_EQ(covered(t, 2, 3), (Pixels{{4, 7}, {5, 7}, {6, 7}, {4, 8}, {5, 8}, {6, 8}})) << "y-major: rows";
+  EXPECT_EQ(covered(t, 1, 2), (Pixels{{5, 7}, {6, 7}, {5, 8}, {6, 8}})) << "about (6, 8)";
+  t.v[0].snapped -= 1;
+  EXPECT_EQ(covered(t, 1, 2), (Pixels{{4, 6}, {5, 6}, {4, 7}, {5, 7}})) << "about (5, 7)";
+  EXPECT_EQ(covered(t, 1, 3).front(), glm::ivec2(4, 6));
+  EXPECT_EQ(covered(t, 1, 3).size(), 9u);
+}
+
+/// Triangles around the eye, many of them cut, not filled.
+TEST(ExactLines, every_stage_of_random_outlines_holds) {
+  const auto ours = pipeline::make_pipeline();
+  const auto exact = exact::make_exact();
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    Scene scene = thin_cloud(Topology::lines, 300, seed);
+    Mesh& mesh = scene.meshes[0];
+    mesh.topology = Topology::triangles;
+    mesh.triangles.clear();
+    for (std::uint32_t i = 0; i + 2 < mesh.positions.size(); i += 3) mesh.triangles.emplace_back(i, i + 1, i + 2);
+    Draw& draw = scene.draws[0];
+    draw.front_mode = seed % 3 == 0 ? PolygonMode::fill : PolygonMode::line;
+    draw.back_mode = seed % 2 == 0 ? PolygonMode::point : PolygonMode::line;
+    draw.cull = seed % 5 == 4 ? Cull::front : Cull::none;
+    draw.line_width = 1 + static_cast<int>(seed % 4);
+    draw.point_size = 1 + static_cast<int>(seed);
+    const Capture capture = ours->capture(scene, {StageSet::all(), false, {}, {}});
+    EXPECT_GT(capture.records.covered.size(), 50u);
+    for (const check::Comparison& c : check::judge_records(scene, capture, *exact)) {
+      EXPECT_FALSE(check::is_failure(c.outcome))
+          << name_of(c.stage) << ", seed " << seed << ": " << to_string(c.measurement.worst.place) << " "
+          << c.measurement.max_difference << c.note;
+    }
+  }
 }
 
 TEST(ExactLines, every_stage_of_random_clouds_holds) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "faults/antialias.h"
 #include "faults/light.h"
 #include "faults/notes.h"
 #include "faults/variants.h"
@@ -43,11 +44,6 @@ void lights_in_world_space(const Scene& scene, const Draw& draw, std::span<const
   pipeline::light(wrong, draw, vertices, out);
 }
 
-void normals_not_renormalised(const Matrices<float>& matrices, Normals, const Mesh& mesh,
-                              std::vector<Vertex<float>>& out) {
-  pipeline::transform(matrices, Normals::as_they_are, mesh, out);
-}
-
 // Of the vertices before their cut: the fog of a primitive that reaches behind the eye grows towards it.
 void positions_by_distance(const Scene& scene, const Draw& draw, Varying varying,
                            std::span<const Vertex<float>> vertices, std::vector<Vec4<float>>& out) {
@@ -55,6 +51,11 @@ void positions_by_distance(const Scene& scene, const Draw& draw, Varying varying
   pipeline::carry(scene, draw, varying, vertices, out);
   if (varying != Varying::position) return;
   for (std::size_t i = first; i < out.size(); ++i) out[i].z = std::abs(out[i].z);
+}
+
+void normals_not_renormalised(const Matrices<float>& matrices, Normals, const Mesh& mesh,
+                              std::vector<Vertex<float>>& out) {
+  pipeline::transform(matrices, Normals::as_they_are, mesh, out);
 }
 
 void no_near_plane(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
@@ -247,6 +248,16 @@ constexpr std::array kFaults = {
     Fault{"merge.factors_swapped", "blending takes the source's factor for the destination's, and the other way round",
           Stage::merge, with_fragment<SwappedFactors>},
     Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge, with_fragment<IgnoredColorMask>},
+    Fault{"coverage.samples_mirrored", "the samples' y is counted downwards in the pixel", Stage::coverage,
+          with_fragment<MirroredSamples>},
+    Fault{"depth.of_centre", "all samples of a pixel have the depth at its centre", Stage::depth,
+          with_fragment<DepthOfCentre>},
+    Fault{"attributes.of_sample", "a sample's colour is that at its own place, not at the pixel's centre",
+          Stage::attributes, with_fragment<ColorOfSample>},
+    Fault{"resolve.truncated", "the mean of a pixel's samples is truncated to a code, not rounded", Stage::resolve,
+          with_resolve<truncated_mean, truncated_mean>},
+    Fault{"resolve.weights_swapped", "two of the six taps have each other's weight", Stage::resolve,
+          with_resolve<pipeline::mean_of_four, mean_of_swapped>},
 };
 
 // The light's own list, where the lights stand.

@@ -42,6 +42,15 @@ RC_GTEST_PROP(RandomScenes, HoldAgainstAllReferences, ()) {
   if (!failed.empty()) RC_FAIL(failed);
 }
 
+RC_GTEST_PROP(RandomScenes, AntialiasedHoldAgainstAllReferences, ()) {
+  Scene scene = test::random_scene();
+  scene.frame.antialias = *rc::gen::weightedElement<Antialias>({{3, {Antialias::Kind::multisample, 1}},
+                                                                {1, {Antialias::Kind::supersample, 3}},
+                                                                {1, {Antialias::Kind::taps, 1}}});
+  const std::string failed = failures(judge_by_all(scene));
+  if (!failed.empty()) RC_FAIL(failed);
+}
+
 bool finite(const glm::vec4& v) { return std::isfinite(v.x + v.y + v.z + v.w); }
 
 RC_GTEST_PROP(RandomScenes, OfNumbersOfAnySizeLeaveNoNaN, ()) {

@@ -109,6 +109,31 @@ TEST_F(ImageFile, EveryTwelveBitCodeSurvives) {
   EXPECT_EQ(encode_ppm("a.ppm", odd, ColorFormat::rgba12), std::string("P6\n1 1\n4095\n\0\0\x0f\xff\0\0", 18));
 }
 
+TEST_F(ImageFile, EverySixteenBitCodeSurvives) {
+  Plane<glm::vec4> plane(256, 256);
+  for (int i = 0; i < 65536; ++i) plane(i % 256, i / 256) = glm::vec4(glm::dvec4(i, 65535 - i, i / 2, i) / 65535.0);
+  for (const char* file : {"a.png", "a.exr"}) {
+    write_file(root_ / file, encode_image(file, plane, ColorFormat::rgba16));
+    EXPECT_EQ(read_image(root_ / file).values(), plane.values()) << file;
+  }
+  // Its own reader takes 65535 of 65535 for 65534: the bytes themselves.
+  const std::string ppm = encode_image("a.ppm", plane, ColorFormat::rgba16), header = "P6\n256 256\n65535\n";
+  ASSERT_EQ(ppm.size(), header.size() + 6 * 65536);
+  for (int i = 0; i < 65536; ++i) {
+    const std::size_t row = 255 - static_cast<std::size_t>(i) / 256,
+                      at = header.size() + 6 * (256 * row + static_cast<std::size_t>(i) % 256);
+    const auto code = [&](std::size_t channel) {
+      const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(ppm[at + 2 * channel + k]); };
+      return 256 * byte(0) + byte(1);
+    };
+    ASSERT_EQ(code(0), i);
+    ASSERT_EQ(code(1), 65535 - i);
+  }
+  EXPECT_EQ(encode_ppm("a.ppm", Plane<glm::vec4>(1, 1, {1, 0, 0.5f, 0}), ColorFormat::rgba16),
+            std::string("P6\n1 1\n65535\n\xff\xff\0\0\x80\0", 19));
+  refused([] { encode_image("a.tga", make_plane(), ColorFormat::rgba16); }, "a.tga", "the frame (rgba16) more");
+}
+
 TEST_F(ImageFile, TgaHoldsNoTwelveBits) {
   const auto say = [&](auto act) {
     refused(act, "a.tga",

@@ -206,6 +206,26 @@ TEST_F(SceneFile, ReadsHowFragmentsAreMerged) {
   EXPECT_TRUE(is(own.blend->alpha, F::zero, F::one, BlendEquation::max));
 }
 
+TEST_F(SceneFile, ReadsHowFacesLinesAndPointsAreDrawn) {
+  const Scene s = load(R"({"description": "d", "frame": {"color": "rgba16"}, "defaults": {"line_width": 3},
+      "draws": [{"mesh": {"cube": {}}},
+                {"mesh": {"cube": {}}, "front_mode": "point", "back_mode": "line", "line_width": 16, "point_size": 64},
+                {"mesh": {"points": {"positions": [[0, 0, 0]]}}, "front_mode": "fill"}]})");
+  EXPECT_EQ(s.frame.color, ColorFormat::rgba16);
+  const Draw &plain = s.draws[0], &all = s.draws[1];
+  EXPECT_TRUE(plain.front_mode == PolygonMode::fill && plain.back_mode == PolygonMode::fill);
+  EXPECT_TRUE(all.front_mode == PolygonMode::point && all.back_mode == PolygonMode::line);
+  EXPECT_EQ(glm::ivec2(plain.line_width, plain.point_size), glm::ivec2(3, 1));
+  EXPECT_EQ(glm::ivec2(all.line_width, all.point_size), glm::ivec2(16, 64));
+  Scene one = s;
+  for (const std::size_t i : {0u, 1u, 2u}) {
+    one.draws = {s.draws[i]};
+    EXPECT_EQ(draws(one, Topology::triangles), i == 0) << i;
+    EXPECT_EQ(draws(one, Topology::lines), i == 1) << i;
+    EXPECT_EQ(draws(one, Topology::points), i != 0) << i;
+  }
+}
+
 TEST_F(SceneFile, DefaultsCountWhereADrawSaysNothing) {
   const Scene s = load(R"({"description": "d",
       "defaults": {"shading": "flat", "cull": "back", "lit": false, "depth_func": "always",
@@ -333,6 +353,7 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
     seen("depth ", s.frame.depth);
     seen("projection ", s.projection.index());
     seen("dialect ", s.dialect);
+    seen("antialias ", s.frame.antialias.kind);
     for (const Light& light : s.lights) seen("light ", light.kind);
     for (const Draw& draw : s.draws) {
       seen("lit ", draw.lit);
@@ -344,7 +365,7 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
       for (const Transform& transform : draw.transforms) seen("transform ", transform.index());
     }
   }
-  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 2 + 2 + 6 + 3 + 2 + 3 + 8 + 3);
+  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 4 + 2 + 2 + 6 + 3 + 2 + 3 + 8 + 3);
 }
 
 }  // namespace

@@ -35,11 +35,16 @@ struct Sample {
   Members members;
 };
 
-const std::string kInTop = R"({"description": "d", "draws": [{"mesh": {"cube": {}}}], )";
-const std::string kInDraw = R"({"description": "d", "draws": [{"mesh": {"cube": {}}, )";
+const std::string kTexture = R"("textures": {"t": {"image": {"noise": {}}}}, )";
+const std::string kTop = R"({"description": "d", "draws": [{"mesh": {"cube": {}}}])";
+const std::string kInTop = kTop + ", ";
+const std::string kInDraw = R"({"description": "d", )" + kTexture + R"("draws": [{"mesh": {"cube": {}}, )";
 std::string in_mesh(const std::string& kind) {
   return R"({"description": "d", "draws": [{"mesh": {")" + kind + R"(": $}}]})";
 }
+std::string in_textures(const std::string& texture) { return kTop + R"(, "textures": {"t": )" + texture + "}}"; }
+std::string in_image(const std::string& kind) { return in_textures(R"({"image": {")" + kind + R"(": $}})"); }
+const Members kCells = {{"width", "4"}, {"height", "3"}, {"columns", "2"}, {"rows", "3"}};
 const Members kSides = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"}, {"top", "1"}, {"near", "1"}, {"far", "2"}};
 const Members kCoordinates = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"},
                               {"top", "1"},   {"near", "1"},  {"far", "-2"}};
@@ -50,12 +55,17 @@ const Members kState = {{"transforms", "[]"},
                         {"normals", "\"rescale\""},
                         {"shading", "\"flat\""},
                         {"cull", "\"none\""},
+                        {"front_mode", "\"line\""},
+                        {"back_mode", "\"point\""},
+                        {"line_width", "16"},
+                        {"point_size", "64"},
                         {"depth_func", "\"less\""},
                         {"fog", R"({"exp": {"density": 1}})"},
                         {"scissor", "[0, 0, 1, 1]"},
                         {"depth_mask", "true"},
                         {"blend", "{}"},
-                        {"color_mask", "[true, true, true, false]"}};
+                        {"color_mask", "[true, true, true, false]"},
+                        {"texture", R"({"name": "t"})"}};
 const Members kTerm = {{"source", "\"source_alpha_saturate\""}, {"destination", "\"zero\""}, {"equation", "\"min\""}};
 const std::string kThree = "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]", kWhite = "[1, 1, 1, 1]";
 
@@ -77,6 +87,7 @@ const std::vector<Sample> kSamples = {
       {"ambient", "[0, 0, 0]"},
       {"light_model", "{}"},
       {"lights", "[]"},
+      {"textures", "{}"},
       {"defaults", "{}"},
       {"draws", R"([{"mesh": {"cube": {}}}])"}}},
     {"frame",
@@ -86,7 +97,11 @@ const std::vector<Sample> kSamples = {
       {"color", "\"rgba8\""},
       {"depth", "\"z16\""},
       {"clear_color", kWhite},
-      {"clear_depth", "1"}}},
+      {"clear_depth", "1"},
+      {"antialias", R"({"samples": 4})"}}},
+    {"antialias",
+     kInTop + R"("frame": {"antialias": $}})",
+     {{"samples", "4"}, {"supersample", "8"}, {"taps", "\"gzrender\""}}},
     {"camera", kInTop + R"("camera": $})", {{"eye", "[1, 2, 3]"}, {"center", "[0, 0, 0]"}, {"up", "[0, 1, 0]"}}},
     {"projection",
      kInTop + R"("projection": $})",
@@ -124,6 +139,40 @@ const std::vector<Sample> kSamples = {
     {"material",
      kInDraw + R"("material": $}]})",
      {{"ambient", kWhite}, {"diffuse", kWhite}, {"specular", kWhite}, {"emission", kWhite}, {"shininess", "3"}}},
+    {"texture",
+     in_textures("$"),
+     {{"image", R"({"noise": {}})"},
+      {"format", "\"rgb\""},
+      {"texels", "\"float32\""},
+      {"min", "\"linear\""},
+      {"mag", "\"nearest\""},
+      {"wrap_s", "\"repeat\""},
+      {"wrap_t", "\"clamp_to_edge\""},
+      {"border", kWhite},
+      {"lod_bias", "1"},
+      {"min_lod", "-1"},
+      {"max_lod", "2"},
+      {"base_level", "1"},
+      {"max_level", "3"}}},
+    {"image",
+     in_textures(R"({"image": $})"),
+     {{"file", "\"image.tga\""},
+      {"texels", "[[" + kWhite + "]]"},
+      {"checker", "{}"},
+      {"gradient", "{}"},
+      {"bricks", "{}"},
+      {"uv_grid", "{}"},
+      {"noise", "{}"}}},
+    {"checker", in_image("checker"), with(kCells, "colors", "[" + kWhite + ", " + kWhite + "]")},
+    {"bricks", in_image("bricks"), with(kCells, "colors", "[" + kWhite + ", " + kWhite + "]")},
+    {"gradient",
+     in_image("gradient"),
+     {{"width", "3"}, {"height", "2"}, {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + ", " + kWhite + "]"}}},
+    {"uv_grid", in_image("uv_grid"), kCells},
+    {"noise", in_image("noise"), {{"width", "3"}, {"height", "2"}, {"seed", "7"}}},
+    {"draw_texture",
+     kInDraw + R"("texture": $}]})",
+     {{"name", "\"t\""}, {"environment", "\"blend\""}, {"color", kWhite}}},
     {"fog",
      kInDraw + R"("fog": $}]})",
      {{"exp", R"({"density": 1})"}, {"exp2", R"({"density": 1})"}, {"linear", R"({"start": 1, "end": 2})"}}},
@@ -135,8 +184,8 @@ const std::vector<Sample> kSamples = {
      kInDraw + R"("transforms": [$]}]})",
      {{"translate", "[0, 0, 0]"}, {"rotate", R"({"degrees": 1, "axis": [0, 0, 1]})"}, {"scale", "[1, 1, 1]"}}},
     {"rotate", kInDraw + R"("transforms": [{"rotate": $}]}]})", {{"degrees", "1"}, {"axis", "[0, 0, 1]"}}},
-    {"defaults", kInTop + R"("defaults": $})", kState},
-    {"draw", R"({"description": "d", "draws": [$]})", with(kState, "mesh", R"({"cube": {}})")},
+    {"defaults", kInTop + kTexture + R"("defaults": $})", kState},
+    {"draw", R"({"description": "d", )" + kTexture + R"("draws": [$]})", with(kState, "mesh", R"({"cube": {}})")},
     {"mesh",
      R"({"description": "d", "draws": [{"mesh": $}]})",
      {{"file", "\"mesh.obj\""},
@@ -148,18 +197,22 @@ const std::vector<Sample> kSamples = {
       {"grid", R"({"columns": 1, "rows": 1})"},
       {"cube", "{}"},
       {"uv_sphere", R"({"slices": 3, "stacks": 2})"},
+      {"globe", R"({"slices": 3, "stacks": 2})"},
       {"icosphere", R"({"subdivisions": 0})"},
       {"torus_knot", R"({"segments": 9, "sides": 3})"},
       {"revolution", R"({"profile": [[1, 0], [1, 1], [1, 2], [1, 3]], "steps": 1, "slices": 3})"},
       {"soup", R"({"triangles": 1, "seed": 0, "extent": 1, "size": 1})"}}},
     {"triangle",
      in_mesh("triangle"),
-     {{"positions", kThree}, {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + "]"}}},
+     {{"positions", kThree},
+      {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + "]"},
+      {"texcoords", "[[0, 0], [1, 0], [0, 1]]"}}},
     {"triangles",
      in_mesh("triangles"),
      {{"positions", kThree},
       {"indices", "[[0, 1, 2]]"},
-      {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + "]"}}},
+      {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + "]"},
+      {"texcoords", "[[0, 0], [1, 0], [0, 1]]"}}},
     {"lines",
      in_mesh("lines"),
      {{"positions", "[[0, 0, 0], [1, 0, 0]]"},
@@ -169,10 +222,12 @@ const std::vector<Sample> kSamples = {
     {"quad",
      in_mesh("quad"),
      {{"positions", "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]"},
-      {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + ", " + kWhite + "]"}}},
+      {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + ", " + kWhite + "]"},
+      {"texcoords", "[[0, 0], [1, 0], [1, 1], [0, 1]]"}}},
     {"grid", in_mesh("grid"), {{"columns", "1"}, {"rows", "1"}}},
     {"cube", in_mesh("cube"), {}},
     {"uv_sphere", in_mesh("uv_sphere"), {{"slices", "3"}, {"stacks", "2"}}},
+    {"globe", in_mesh("globe"), {{"slices", "3"}, {"stacks", "2"}}},
     {"icosphere", in_mesh("icosphere"), {{"subdivisions", "0"}}},
     {"torus_knot", in_mesh("torus_knot"), {{"p", "2"}, {"q", "3"}, {"tube", "0.1"}, {"segments", "9"}, {"sides", "3"}}},
     {"revolution",
@@ -185,6 +240,9 @@ class SceneSchema : public TestFolder {
  protected:
   SceneSchema() : file_(PLUMBLINE_SOURCE_DIR "/tests/scenes/scene.schema.json"), schema_(file_.root()) {
     std::ofstream(root_ / "empty.part.json") << "{}";
+    // One texel: uncompressed, 1 x 1, 24 bits
+    std::ofstream(root_ / "image.tga", std::ios::binary)
+        << std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\30\0\1\2\3", 21);
     std::ofstream(root_ / "mesh.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   }
 
@@ -235,7 +293,10 @@ std::string expectation(const JsonNode& schema) {
     return fmt::format("an integer from {} to {}", schema["minimum"].value().integer,
                        schema["maximum"].value().integer);
   }
-  if (type == "object") return "an object with keys among";
+  if (type == "object") {  // with keys of its own, or any
+    const auto others = schema.find("additionalProperties");
+    return others && others->value().kind == JsonValue::Kind::object ? "an object" : "an object with keys among";
+  }
   const auto least = limit("minItems");
   const auto most = schema.find("maxItems");
   if (!most) return fmt::format("an array of {} or more", least);
@@ -299,7 +360,8 @@ TEST_F(SceneSchema, ItsValuesAreTheLoaders) {
   for (const Sample& sample : kSamples) {
     const JsonNode schema = definition(sample.definition);
     for (const auto& [key, value] : sample.members) {
-      const bool corners = key == "indices" || key == "colors";  // as many as positions; of these, each
+      const bool corners =
+          key == "indices" || key == "colors" || key == "texcoords";  // as many as positions; of these, each
       if (corners) continue;
       // false, as null takes a key away from what is included; where false is right, 0
       const JsonNode property = resolved(schema["properties"][key]);

@@ -1,0 +1,100 @@
+#include "reference/exact/texels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reference/exact/input.h"
+#include "reference/math/texture.h"
+
+namespace plumbline::exact {
+namespace {
+
+using Real = long double;
+using ThreeReals = std::array<Real, 3>;
+
+/// The legal interval of lambda around a pixel: from the least at its square of two by two, with a logarithm that is
+/// linear between powers of two, to the greatest. Along a row and along a column the derivative of a perspective
+/// mapping has one direction, and its length is monotone: a difference of neighbours lies between theirs. Without
+/// bound where the plane reaches the eye within the square.
+void lambda_interval(const TexturedTriangle& t, int x, int y, double& lo, double& hi) {
+  lo = std::numeric_limits<double>::infinity();
+  hi = -lo;
+  for (int k = 0; k < 4; ++k) {
+    const int qx = (x & ~1) + k % 2, qy = (y & ~1) + k / 2;
+    const auto b = t.weights.at(qx, qy);
+    Real q = 0;
+    for (std::size_t i = 0; i < 3; ++i) q += b[i] * t.triangle.v[i].inv_w;
+    const bool ahead = q * t.triangle.v[0].inv_w > 0;
+    const TextureGradient g = texture_gradient(t, qx, qy);
+    lo = std::min(lo, ahead ? math::smallest_level_of_detail(t.texture, g.d_dx, g.d_dy)
+                            : static_cast<double>(t.texture.sampler.min_lod));
+    hi = std::max(
+        hi, ahead ? math::level_of_detail(t.texture, g.d_dx, g.d_dy) : static_cast<double>(t.texture.sampler.max_lod));
+  }
+}
+
+}  // namespace
+
+TextureGradient texture_gradient(const TexturedTriangle& t, int x, int y) {
+  // Weights are affine: a step of one pixel is their derivative.
+  const auto at = t.weights.at(x, y), right = t.weights.at(x + 1, y), above = t.weights.at(x, y + 1);
+  const auto over_w = [&](const ThreeReals& b) {
+    ThreeReals sum{};  // s/w, t/w, 1/w
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Real q = b[i] * t.triangle.v[i].inv_w;
+      sum[0] += q * t.texcoords[i].s;
+      sum[1] += q * t.texcoords[i].t;
+      sum[2] += q;
+    }
+    return sum;
+  };
+  const auto change = [&](const ThreeReals& to) { return ThreeReals{to[0] - at[0], to[1] - at[1], to[2] - at[2]}; };
+  const ThreeReals f = over_w(at), d_dx = over_w(change(right)), d_dy = over_w(change(above));
+  const Real s = f[0] / f[2], r = f[1] / f[2];
+  const auto quotient = [&](const ThreeReals& d) {
+    return glm::dvec2((d[0] - s * d[2]) / f[2], (d[1] - r * d[2]) / f[2]);
+  };
+  return {quotient(d_dx), quotient(d_dy)};
+}
+
+Texel<double> texel_at(const TexturedTriangle& t, glm::dvec2 st, int x, int y) {
+  const TextureGradient g = texture_gradient(t, x, y);
+  const double lod = math::level_of_detail(t.texture, g.d_dx, g.d_dy);
+  return {math::filtered_texel(t.texture, st, lod), lod};
+}
+
+void filter_texels(const Scene& scene, const Records<double>& records, Capture& out) {
+  if (!textured(scene)) return;
+  const VaryingColumns<double>& st = records.varyings[Varying::texture];
+  require_size("records.varyings.texture", st.fragments.size(), records.covered.size());
+  require_size("records.varyings.texture", st.triangles.size(), records.triangles.size());
+  const bool own_lod = !records.texels.empty();
+  if (own_lod) require_size("records.texels", records.texels.size(), records.covered.size());
+  out.records.texels.resize(records.covered.size());
+  out.legal.texels.resize(records.covered.size());
+  const DrawOf draw_of(scene);
+  for (const FragmentRun& run : runs_by_triangle(scene, records)) {
+    const WindowTriangle<double>& triangle = records.triangles[run.triangle];
+    const Draw& draw = draw_of(triangle.primitive);
+    if (!draw.texture) {
+      for (std::size_t i = run.first; i < run.last; ++i) out.legal.texels[i].lo = out.legal.texels[i].hi = {0, 0, 0, 1};
+      continue;
+    }
+    const Barycentric weights(triangle, scene.frame.width, scene.frame.height);
+    const Texture& texture = scene.textures.at(draw.texture->texture);
+    const TexturedTriangle t{triangle, st.triangles[run.triangle], texture, weights};
+    for (std::size_t i = run.first; i < run.last; ++i) {
+      const auto [number, x, y] = records.covered[i];
+      const glm::dvec2 at(st.fragments[i]);
+      Texel<double>& texel = out.records.texels[i];
+      texel = texel_at(t, at, x, y);
+      if (own_lod) texel.color = math::filtered_texel(texture, at, records.texels[i].lod);
+      double lo = 0, hi = 0;
+      lambda_interval(t, x, y, lo, hi);
+      out.legal.texels[i] = math::texel_range(texture, at, lo, hi);
+    }
+  }
+}
+
+}  // namespace plumbline::exact

@@ -1,0 +1,29 @@
+// Stage 8: texture filtering, from OpenGL 2.1's equations (3.8.7 to 3.8.9), on real numbers; and stage 9's environment.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+#include "stages/legal.h"
+
+namespace plumbline::math {
+
+/// lambda, with the texture's bias and limits (equations 3.17 to 3.22), from the derivatives of (s, t) by window x and
+/// y; of no length, the least that is allowed.
+double level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy);
+
+/// The same with a logarithm that is linear between powers of two, of rho squared, as Mesa's drivers take it: up to
+/// 0.0431 below. (log2(m 2^e) as e + m - 1 is up to 0.0861 below; half of that.)
+double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy);
+
+/// The texture source components at (s, t), filtered at lambda.
+glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda);
+
+/// What filtered_texel() comes to where lambda is in an interval, and (s, t) not quite known.
+TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi);
+
+/// The fragment's colour and the texel's as one (tables 3.22 and 3.23). Sums are clamped to [0,1].
+glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const glm::dvec4& fragment,
+                          const glm::dvec4& texel);
+
+}  // namespace plumbline::math

@@ -1,0 +1,96 @@
+#include "check/compare_texels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "check/bounds.h"
+#include "check/fragment_bounds.h"
+#include "check/texture_bounds.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr double u = kUnitRoundoff;
+
+double outside(double value, double low, double high) {
+  if (value >= low && value <= high) return 0;
+  return std::isfinite(value) ? std::max(low - value, value - high) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor) {
+  const std::size_t count = candidate.covered.size();
+  if (candidate.texels.size() != count || reference.texels.size() != count) {
+    return mismatch("u", "not a texel for each fragment", std::max(candidate.texels.size(), count));
+  }
+  double magnitude = 1;
+  for (const Texture& texture : scene.textures) magnitude = std::max(magnitude, largest_texel(texture));
+  constexpr double kLeast = -16;
+  Meter meter("u");
+  for (std::size_t i = 0; i < count; ++i) {
+    const Covered& c = candidate.covered[i];
+    const Texel<double>&a = candidate.texels[i], &b = reference.texels[i];
+    for (int k = 0; k < 4; ++k) {
+      meter.value(difference(a.color[k], b.color[k]) / (u * magnitude), factor, {c.x, c.y, c.triangle, "texel"},
+                  a.color[k], b.color[k]);
+    }
+    const double lod = std::max(a.lod, kLeast), exact = std::max(b.lod, kLeast);
+    meter.value(difference(lod, exact) / (u * std::max(1.0, std::abs(exact))), factor,
+                {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod);
+    meter.item();
+  }
+  return meter.done();
+}
+
+Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, const Capture& reference, double factor,
+                                 std::string& note) {
+  const Planes &a = candidate.planes, &b = reference.planes;
+  std::string why;
+  if (!same_size(a.id, b.id, why) || !same_size(a.id, a.texel, why)) return mismatch("u", why, a.id.size());
+  const FragmentBounds bounds(scene, candidate, reference, factor);
+  const DrawnAt drawn(scene.frame, candidate.records);
+  double predicted = 0;
+  std::uint64_t open = 0;
+  Measurement m = compare_planes(a.texel, b.texel, "u", [&](Meter& meter, int x, int y) {
+    const std::int32_t id = a.id(x, y);
+    if (id != b.id(x, y)) return;
+    std::optional<std::size_t> last;
+    drawn.each(x, y, [&](std::size_t i) { last = i; });
+    TexelBound bound;
+    bound.range.lo = bound.range.hi = Vec4<double>(a.texel(x, y));
+    if (last) {
+      const auto& triangle = candidate.records.triangles[candidate.records.covered[*last].triangle];
+      if (bounds.draw_of(triangle.primitive).texture) bound = bounds.texel(*last);
+    }
+    predicted += bound.open_share;
+    const Place place{x, y, id, "texel"};
+    if (!std::isfinite(bound.slack.r)) {
+      ++open;
+      meter.ambiguous();
+      const bool finite = std::isfinite(b.texel(x, y).r);
+      return meter.value(finite ? 0 : std::numeric_limits<double>::infinity(), 0, place, a.texel(x, y).r,
+                         b.texel(x, y).r);
+    }
+    for (int c = 0; c < 4; ++c) {
+      const double v = a.texel(x, y)[c], w = b.texel(x, y)[c], lo = bound.range.lo[c], hi = bound.range.hi[c];
+      meter.value(std::max(outside(v, lo, hi), outside(w, lo, hi)) / u, bound.slack[c] / u, place, v, w);
+    }
+  });
+  if (open == 0) return m;
+  const double most = 2 * predicted + 3 * std::sqrt(2 * predicted + 1);
+  note = fmt::format("{} open, {:.1f} predicted", open, predicted);
+  if (static_cast<double>(open) > most) {
+    note += ": more than twice as many";
+    m.differing = std::max(m.differing, open);
+  }
+  return m;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,194 @@
+#include "check/judge_passes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "check/bounds.h"
+#include "check/ledger.h"
+#include "scene/antialias.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr double u = kUnitRoundoff;
+
+// The colours of the samples that a pixel is made of.
+class SamplesAt {
+ public:
+  explicit SamplesAt(const Scene& scene)
+      : factor_(scene.frame.antialias.factor), samples_(samples_of(scene.frame.antialias)) {}
+  // visit(share, place in a pass, pass)
+  template <class Visit>
+  void each(int x, int y, Visit visit) const {
+    int weights = 0;
+    for (const PixelSample& s : samples_) weights += s.weight;
+    for (const PixelSample& s : samples_) {
+      visit(static_cast<double>(s.weight) / weights, factor_ * glm::ivec2(x, y) + s.offset, s.pass);
+    }
+  }
+
+ private:
+  int factor_;
+  std::vector<PixelSample> samples_;
+};
+
+int severity(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::equal: return 0;
+    case Outcome::within: return 1;
+    case Outcome::ambiguous_only: return 2;
+    case Outcome::dispute: return 3;
+    case Outcome::unsupported: return 4;
+    case Outcome::different: return 5;
+    case Outcome::missing: return 6;
+    case Outcome::failed: return 7;
+  }
+  return 7;
+}
+
+// The worst of two passes' rows, with the items of both.
+Comparison joined(Comparison a, Comparison b) {
+  const Measurement &m = a.measurement, &n = b.measurement;
+  const bool b_tells = severity(b.outcome) != severity(a.outcome) ? severity(b.outcome) > severity(a.outcome)
+                                                                  : n.max_ratio > m.max_ratio;
+  const Measurement other = b_tells ? a.measurement : b.measurement;
+  Comparison out = b_tells ? std::move(b) : std::move(a);
+  Measurement& sum = out.measurement;
+  sum.items += other.items;
+  sum.differing += other.differing;
+  sum.ambiguous += other.ambiguous;
+  sum.disputed += other.disputed;
+  sum.max_difference = std::max(sum.max_difference, other.max_difference);
+  for (std::size_t i = 0; i < sum.histogram.size(); ++i) sum.histogram[i] += other.histogram[i];
+  return out;
+}
+
+// The passes' rows, each reference's stages in their order.
+std::vector<Comparison> joined(std::span<const SceneVerdict> passes) {
+  std::vector<Comparison> out;
+  for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+    for (Comparison c : passes[pass].comparisons) {
+      const auto same = [&](const Comparison& o) { return o.reference == c.reference && o.stage == c.stage; };
+      if (passes.size() > 1 && severity(c.outcome) > 0 && c.outcome != Outcome::unsupported) {
+        c.note = fmt::format("pass {}{}{}", pass, c.note.empty() ? "" : ": ", c.note);
+      }
+      const auto known = std::find_if(out.begin(), out.end(), same);
+      if (known == out.end()) {
+        out.push_back(std::move(c));
+      } else {
+        *known = joined(std::move(*known), std::move(c));
+      }
+    }
+  }
+  return out;
+}
+
+bool is_exact(const RendererInfo& info) { return info[Stage::resolve].runs; }
+
+}  // namespace
+
+Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& exact, double factor) {
+  const Plane<glm::vec4>&a = candidate.planes.color, &b = exact.planes.color;
+  const double scale = color_scale(scene.frame.color);
+  const SamplesAt samples(scene);
+  return compare_planes(a, b, "bound", [&](Meter& meter, int x, int y) {
+    Vec4<double> largest(0);
+    samples.each(x, y, [&](double, glm::ivec2 at, std::size_t pass) {
+      largest = glm::max(largest, Vec4<double>(glm::abs(candidate.samples[pass](at.x, at.y))));
+    });
+    for (int c = 0; c < 4; ++c) {
+      const double v = a(x, y)[c], w = b(x, y)[c], diff = difference(v, w);
+      const double bound = 8 * u * largest[c] + (scale > 0 ? 0.5 / scale : 0);
+      meter.value(diff == 0 ? 0 : diff / bound, factor, {x, y, -1, "color"}, v, w);
+      if (scale == 0) continue;
+      const double code = std::round(scale * v);
+      meter.value(std::abs(scale * v - code) <= scale * 2 * u ? 0 : HUGE_VAL, 0, {x, y, -1, "no code"}, v, code);
+    }
+  });
+}
+
+Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& reference) {
+  const Plane<glm::vec4>&a = candidate.planes.color, &b = reference.planes.color;
+  const double scale = color_scale(scene.frame.color);
+  const std::string unit = scale > 0 ? fmt::format("1/{}", scale) : "u";
+  const SamplesAt samples(scene);
+  return compare_planes(a, b, unit, [&](Meter& meter, int x, int y) {
+    Vec4<double> apart(0), largest(0);
+    samples.each(x, y, [&](double share, glm::ivec2 at, std::size_t pass) {
+      const Vec4<double> mine(candidate.samples[pass](at.x, at.y)), theirs(reference.samples[pass](at.x, at.y));
+      apart += share * glm::abs(mine - theirs);
+      largest = glm::max(largest, glm::max(glm::abs(mine), glm::abs(theirs)));
+    });
+    for (int c = 0; c < 4; ++c) {
+      const double v = a(x, y)[c], w = b(x, y)[c], one = scale > 0 ? 1 / scale : u;
+      const double rounding = apart[c] == 0 ? 0 : scale > 0 ? one + 4 * u : 16 * u * largest[c];
+      meter.value(difference(v, w) / one, 0, {x, y, -1, "color"}, v, w, (apart[c] + rounding) / one);
+    }
+  });
+}
+
+SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                          Drawn* drawn) {
+  SceneVerdict verdict{scene.name, scene.path, {}, 0};
+  std::vector<SceneVerdict> passes;
+  for (const Scene& pass : passes_of(scene)) {
+    passes.push_back(judge(pass, candidate, references));
+    verdict.seconds += passes.back().seconds;
+  }
+  verdict.comparisons = joined(passes);
+  const auto skip = [&](const std::string& name, Outcome outcome, const std::string& why) {
+    verdict.comparisons.push_back(not_judged(scene.name, name, Stage::resolve, outcome, why));
+  };
+  std::optional<Capture> mine;
+  try {
+    mine = candidate.capture(scene, Request{});
+    require_samples(scene, mine->samples);
+  } catch (const std::exception& e) {
+    mine.reset();
+    skip(candidate.info().name, Outcome::failed, e.what());
+  }
+  std::vector<Capture> theirs(references.size());
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (references[i].renderer == nullptr) continue;  // the passes have said so
+    Renderer& renderer = *references[i].renderer;
+    const RendererInfo info = renderer.info();
+    const std::string name = is_exact(info) ? info.name + " from its records" : info.name;
+    try {
+      if (is_exact(info) && mine) {
+        const Capture made = renderer.run_stage(scene, Stage::resolve, *mine);
+        verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve,
+                                             compare_resolved(scene, *mine, made, tolerance("exact.resolve").factor),
+                                             "exact.resolve"));
+      }
+      if (!info[Stage::resolve].shows) skip(name, Outcome::unsupported, info[Stage::resolve].reason);
+      const bool compared = mine && info[Stage::resolve].shows && !is_exact(info);
+      if (!compared && drawn == nullptr) continue;
+      theirs[i] = renderer.capture(scene, Request{});
+      if (!compared) continue;
+      require_samples(scene, theirs[i].samples);
+      if (scene.frame.color == ColorFormat::rgba12 && !info.legal) {
+        skip(name, Outcome::unsupported, "asked for 12 bits a channel, OpenGL gives 16");
+        continue;
+      }
+      verdict.comparisons.push_back(
+          judged(scene.name, name, Stage::resolve, compare_resolved(scene, *mine, theirs[i])));
+    } catch (const Unsupported& e) {
+      skip(name, Outcome::unsupported, e.what());
+    } catch (const OverBudget& e) {
+      skip(name, Outcome::unsupported, e.what());
+    } catch (const std::exception& e) {
+      skip(name, Outcome::failed, e.what());
+    }
+  }
+  if (drawn != nullptr) {
+    if (mine) drawn->candidate = std::move(*mine);
+    drawn->references = std::move(theirs);
+  }
+  return verdict;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,22 @@
+// An antialiased scene: each pass is judged as a scene of its own, then what is made of them.
+#pragma once
+
+#include <span>
+
+#include "check/judge.h"
+#include "check/measure.h"
+
+namespace plumbline::check {
+
+/// As judge(), of an antialiased scene: each row is the worst of the passes', with the items of all; row `resolve` is
+/// of the whole.
+SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Drawn* drawn);
+
+/// Resolved colours, code by code, in proportion to what `factor` times the bound of rounding allows (ledger,
+/// exact.resolve): against the mean that exact made of the candidate's own samples, not rounded.
+Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& exact, double factor);
+/// Against what another made of its own samples: where those are the candidate's, nothing may differ; where they
+/// are not (which is the passes' matter), the mean of their differences, and a rounding on either side.
+Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& reference);
+
+}  // namespace plumbline::check

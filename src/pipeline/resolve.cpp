@@ -1,0 +1,72 @@
+#include "pipeline/resolve.h"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace plumbline::pipeline {
+
+namespace {
+
+// `plane`: that of one colour format, in a frame.
+template <class T>
+void resolve_colors(Resolve channel, const FrameFormat& format, std::span<const Frame> passes, Plane<T> Frame::*plane,
+                    Frame& frame) {
+  Plane<T>& to = frame.*plane;
+  const std::vector<PixelSample> samples = samples_of(format.antialias);
+  const auto scale = static_cast<float>(color_scale(format.color));
+  std::vector<float> values(samples.size());
+  for (int y = 0; y < to.height(); ++y) {
+    for (int x = 0; x < to.width(); ++x) {
+      for (int c = 0; c < 4; ++c) {
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+          const glm::ivec2 at = glm::ivec2(x, y) * format.antialias.factor + samples[i].offset;
+          values[i] = static_cast<float>((passes[samples[i].pass].*plane)(at.x, at.y)[c]);
+        }
+        to(x, y)[c] = static_cast<typename T::value_type>(channel(values, samples, scale));
+      }
+    }
+  }
+}
+
+template <class T>
+void take_first_depths(int factor, const Frame& first, Plane<T> Frame::*plane, Frame& frame) {
+  Plane<T>& to = frame.*plane;
+  for (int y = 0; y < to.height(); ++y) {
+    for (int x = 0; x < to.width(); ++x) to(x, y) = (first.*plane)(x * factor, y * factor);
+  }
+}
+
+}  // namespace
+
+float mean_of_four(std::span<const float> values, std::span<const PixelSample>, float scale) {
+  const float code = scale == 0.0f ? 1.0f : 1.0f / scale;
+  float sum = values[0] * code;
+  for (const float value : values.subspan(1)) sum = sum + value * code;
+  const float mean = sum * 0.25f;
+  return scale == 0.0f ? mean : std::nearbyint(mean * scale);
+}
+
+float weighted_mean(std::span<const float> values, std::span<const PixelSample> samples, float scale) {
+  double sum = 0, weights = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += static_cast<double>(samples[i].weight) * static_cast<double>(values[i]);
+    weights += samples[i].weight;
+  }
+  const double mean = sum / weights;
+  return static_cast<float>(scale == 0.0f ? mean : std::floor(mean + 0.5));
+}
+
+Frame resolve(const ResolveStage& stage, const FrameFormat& format, std::span<const Frame> passes) {
+  Frame frame(format);
+  const Resolve channel = format.antialias.kind == Antialias::Kind::multisample ? stage.multisample : stage.weighted;
+  resolve_colors(channel, format, passes, &Frame::color_rgba8, frame);
+  resolve_colors(channel, format, passes, &Frame::color_rgba12, frame);
+  resolve_colors(channel, format, passes, &Frame::color_rgba16, frame);
+  resolve_colors(channel, format, passes, &Frame::color_rgba32f, frame);
+  take_first_depths(format.antialias.factor, passes[0], &Frame::depth_code, frame);
+  take_first_depths(format.antialias.factor, passes[0], &Frame::depth_z32f, frame);
+  return frame;
+}
+
+}  // namespace plumbline::pipeline

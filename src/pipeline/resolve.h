@@ -1,0 +1,32 @@
+// Stage 12: the passes of an antialiased scene (scene/antialias.h) become one frame.
+#pragma once
+
+#include <span>
+
+#include "pipeline/frame.h"
+#include "scene/antialias.h"
+#include "scene/scene.h"
+
+namespace plumbline::pipeline {
+
+/// One channel of a pixel, from its samples' values in the frame's format: codes of which `scale` is the largest, or,
+/// for scale 0, floats.
+using Resolve = float (*)(std::span<const float> values, std::span<const PixelSample> samples, float scale);
+
+/// Four equal samples are averaged in float, as colours are of which codes are a format (OpenGL 4.5, section 18.3.1,
+/// leaves it to the implementation): ((a + b) + c) + d) / 4, a code being code * (1/scale); rounded to the nearest
+/// code. That is llvmpipe's order, and where four codes have their mean half way between two, the order decides.
+float mean_of_four(std::span<const float> values, std::span<const PixelSample> samples, float scale);
+/// The weighted mean, in double, rounded once: of codes exact but for that, halves up.
+float weighted_mean(std::span<const float> values, std::span<const PixelSample> samples, float scale);
+
+/// What resolves which kind; a test can put others in their place.
+struct ResolveStage {
+  Resolve multisample = mean_of_four;
+  Resolve weighted = weighted_mean;
+};
+
+/// `passes`: the frames of passes_of(scene), in their order. The depth is that of a pixel's first sample.
+Frame resolve(const ResolveStage& stage, const FrameFormat& format, std::span<const Frame> passes);
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,80 @@
+// Textures: what OpenGL would be told of them, level by level.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace plumbline {
+
+/// OpenGL's base internal formats: which components a texture has (OpenGL 2.1 spec, table 3.15).
+enum class TextureFormat { alpha, luminance, luminance_alpha, intensity, rgb, rgba };
+/// How its components are kept: as codes of 8 bits, value = code / 255, or as floats.
+enum class TexelType { unorm8, float32 };
+
+enum class MinFilter {
+  nearest,
+  linear,
+  nearest_mipmap_nearest,
+  linear_mipmap_nearest,
+  nearest_mipmap_linear,
+  linear_mipmap_linear
+};
+enum class MagFilter { nearest, linear };
+enum class Wrap { repeat, mirrored_repeat, clamp_to_edge, clamp_to_border };
+
+constexpr bool mipmaps(MinFilter filter) { return filter >= MinFilter::nearest_mipmap_nearest; }
+
+/// A texture object's parameters, with OpenGL's initial values (OpenGL 2.1 spec, 3.8.4 and table 6.17).
+struct Sampler {
+  MinFilter min = MinFilter::nearest_mipmap_linear;
+  MagFilter mag = MagFilter::linear;
+  Wrap wrap_s = Wrap::repeat;
+  Wrap wrap_t = Wrap::repeat;
+  glm::vec4 border{0};  ///< rgba, of which the format's components count
+  float lod_bias = 0;   ///< [-16, 16]
+  float min_lod = -1000, max_lod = 1000;
+  int base_level = 0, max_level = 1000;  ///< base_level is there
+};
+
+/// A level's texels, row by row from t = 0, as texture source components (Cs, As) of OpenGL 2.1's table 3.21: what a
+/// format lacks is filled in, so that levels of all formats are filtered alike.
+struct TextureLevel {
+  int width = 0, height = 0;
+  std::vector<glm::vec4> texels;
+  const glm::vec4& at(int x, int y) const {
+    return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
+};
+
+struct Texture {
+  std::string name;
+  TextureFormat format = TextureFormat::rgb;
+  TexelType type = TexelType::unorm8;
+  Sampler sampler;
+  std::vector<TextureLevel> levels;  ///< 0: the image; each next half as wide and high, rounded down; the last 1 x 1
+};
+
+/// rgba as a texture of the format would hand it on: alpha's colour is 0, luminance's alpha 1 (OpenGL 2.1 spec, tables
+/// 3.15 and 3.21).
+glm::vec4 source_components(TextureFormat format, const glm::vec4& rgba);
+
+/// The image, rgba, in a texture's format and type, and the levels below it. Each texel is the mean of those of the
+/// level above that it lies on, by area (of sides that are not even, parts of texels count), in double, rounded to the
+/// type. OpenGL leaves that filter open (3.8.8, automatic mipmap generation): all renderers get these levels.
+void set_levels(Texture& texture, TextureLevel image);
+
+/// The highest number of a level that may be sampled: `q` of OpenGL 2.1 spec 3.8.8.
+int last_level(const Texture& texture);
+
+enum class TextureEnvironment { replace, modulate, decal, blend, add };
+
+/// A draw's texture (glTexEnv).
+struct DrawTexture {
+  std::uint32_t texture = 0;  ///< index into Scene::textures
+  TextureEnvironment environment = TextureEnvironment::modulate;
+  glm::vec4 color{0};  ///< blend's constant colour, [0,1]
+};
+
+}  // namespace plumbline

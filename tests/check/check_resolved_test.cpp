@@ -1,0 +1,103 @@
+// The comparators of resolved colours, and the rows of an antialiased scene.
+#include "check/judge_passes.h"
+#include "check_judge.h"
+#include "scene/antialias.h"
+
+namespace plumbline::check {
+namespace {
+
+constexpr float code(double c) { return static_cast<float>(c / 255); }
+
+// One pixel of four samples.
+struct Resolved : testing::Test {
+  Resolved() {
+    scene.frame.width = scene.frame.height = 1;
+    scene.frame.antialias.kind = Antialias::Kind::multisample;
+  }
+  static Capture of(const std::vector<double>& samples, double resolved) {
+    Capture c;
+    for (double s : samples) c.samples.emplace_back(1, 1, glm::vec4(code(s)));
+    c.planes.color = Plane<glm::vec4>(1, 1, glm::vec4(code(resolved)));
+    return c;
+  }
+  bool by_exact(const std::vector<double>& samples, double resolved, double mean) const {
+    return compare_resolved(scene, of(samples, resolved), of(samples, mean), 1).differing == 0;
+  }
+  bool side_by_side(const Capture& a, const Capture& b) const { return compare_resolved(scene, a, b).differing == 0; }
+  Scene scene;
+};
+
+TEST_F(Resolved, IsWithinHalfACodeOfTheMeanThatExactMakes) {
+  EXPECT_TRUE(by_exact({1, 2, 3, 4}, 2, 2.5));
+  EXPECT_TRUE(by_exact({1, 2, 3, 4}, 3, 2.5)) << "halves may go either way";
+  EXPECT_TRUE(by_exact({1, 2, 3, 5}, 3, 2.75));
+  EXPECT_FALSE(by_exact({1, 2, 3, 5}, 2, 2.75)) << "truncated";
+  EXPECT_FALSE(by_exact({1, 2, 3, 5}, 2.75, 2.75)) << "no code";
+  EXPECT_FALSE(by_exact({1, 2, 3, 5}, std::nan(""), 2.75));
+  scene.frame.color = ColorFormat::rgba32f;
+  EXPECT_TRUE(by_exact({1, 2, 3, 5}, 2.75, 2.75));
+  EXPECT_TRUE(by_exact({1, 2, 3, 5}, 2.75 * (1 + 4 * kU), 2.75));
+  EXPECT_FALSE(by_exact({1, 2, 3, 5}, 2.75 * (1 + 40 * kU), 2.75));
+}
+
+TEST_F(Resolved, IsTheReferencesWhereTheSamplesAre) {
+  EXPECT_TRUE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 2)));
+  EXPECT_FALSE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 3))) << "not a code";
+  // The samples' difference, 8 / 4, and a rounding.
+  EXPECT_TRUE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 12}, 5)));
+  EXPECT_FALSE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 12}, 6)));
+  EXPECT_FALSE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, std::nan(""))));
+  Capture other_size = of({1, 2, 3, 4}, 2);
+  other_size.planes.color = Plane<glm::vec4>(2, 1);
+  EXPECT_FALSE(side_by_side(of({1, 2, 3, 4}, 2), other_size));
+  scene.frame.color = ColorFormat::rgba32f;
+  EXPECT_TRUE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 2)));
+  EXPECT_FALSE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 2.00001)));
+}
+
+struct JudgePasses : Judge {
+  JudgePasses() { scene.frame.antialias = {Antialias::Kind::taps, 1}; }
+};
+
+TEST_F(JudgePasses, EachStageHasOneRowOfAllPassesAndTheWholeItsOwn) {
+  const Results rows = run({{"witness", &witness}, {"exact", &referee}});
+  const auto pixels = static_cast<std::uint64_t>(scene.frame.width * scene.frame.height);
+  EXPECT_EQ(rows.at({"witness", Stage::coverage}).measurement.items, 6 * pixels);
+  EXPECT_EQ(rows.at({"witness", Stage::coverage}).outcome, Outcome::equal);
+  EXPECT_EQ(rows.at({"witness", Stage::resolve}).measurement.items, pixels);
+  EXPECT_EQ(rows.at({"witness", Stage::resolve}).outcome, Outcome::equal);
+  EXPECT_EQ(rows.at({"exact from its records", Stage::resolve}).ledger_row, "exact.resolve");
+  EXPECT_EQ(first_different(verdict), nullptr);
+}
+
+TEST_F(JudgePasses, OnePassThatDiffersIsNamed) {
+  int captures = 0;
+  witness.on_capture = [&](Capture& c) {
+    if (++captures == 3) c.planes.count(1, 1) += 1;
+  };
+  const Results rows = run({{"witness", &witness}});
+  const Comparison& coverage = rows.at({"witness", Stage::coverage});
+  EXPECT_EQ(coverage.outcome, Outcome::different);
+  EXPECT_EQ(coverage.measurement.differing, 1u);
+  EXPECT_EQ(coverage.note, "pass 2");
+}
+
+TEST_F(JudgePasses, AWitnessWithoutSamplesHasNotFailedButAWrongOneHas) {
+  witness.on_info = [](RendererInfo& info) {
+    info.name = "witness";
+    for (Ability& a : info.stages) a.runs = false;
+    info.legal = false;
+    info[Stage::resolve] = {false, false, "no samples"};
+  };
+  EXPECT_EQ(run({{"witness", &witness}}).at({"witness", Stage::resolve}).outcome, Outcome::unsupported);
+  witness.on_info = [](RendererInfo& info) {
+    info.name = "witness";
+    for (Ability& a : info.stages) a.runs = false;
+    info.legal = false;
+  };
+  witness.on_capture = [](Capture& c) { c.samples.clear(); };
+  EXPECT_EQ(run({{"witness", &witness}}).at({"witness", Stage::resolve}).outcome, Outcome::failed);
+}
+
+}  // namespace
+}  // namespace plumbline::check

@@ -1,0 +1,50 @@
+// Bugs of antialiasing.
+#pragma once
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "faults/variants.h"
+#include "pipeline/resolve.h"
+
+namespace plumbline::faults {
+
+/// Samples mirrored in the pixel's middle row: y counted downwards.
+struct MirroredSamples : pipeline::FragmentStages {
+  static pipeline::Places places(glm::ivec2 sample) { return {{sample.x, -sample.y}, sample, {0, 0}}; }
+};
+
+struct DepthOfCentre : pipeline::FragmentStages {
+  static pipeline::Places places(glm::ivec2 sample) { return {sample, {0, 0}, {0, 0}}; }
+};
+
+struct ColorOfSample : pipeline::FragmentStages {
+  static pipeline::Places places(glm::ivec2 sample) { return {sample, sample, sample}; }
+};
+
+inline float truncated_mean(std::span<const float> values, std::span<const PixelSample> samples, float scale) {
+  if (scale == 0.0f) return pipeline::weighted_mean(values, samples, scale);
+  double sum = 0, weights = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += static_cast<double>(samples[i].weight) * static_cast<double>(values[i]);
+    weights += samples[i].weight;
+  }
+  return static_cast<float>(std::floor(sum / weights));
+}
+
+/// The second's and the third's weights change places: neighbours in the table.
+inline float mean_of_swapped(std::span<const float> values, std::span<const PixelSample> samples, float scale) {
+  std::vector<PixelSample> wrong(samples.begin(), samples.end());
+  if (wrong.size() > 2) std::swap(wrong[1].weight, wrong[2].weight);
+  return pipeline::weighted_mean(values, wrong, scale);
+}
+
+template <pipeline::Resolve multisample, pipeline::Resolve weighted>
+pipeline::Stages with_resolve() {
+  pipeline::Stages stages = pipeline::production_stages();
+  stages.resolve = {multisample, weighted};
+  return stages;
+}
+
+}  // namespace plumbline::faults
