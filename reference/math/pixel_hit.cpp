@@ -6,6 +6,7 @@
 
 #include "reference/math/color_error.h"
 #include "reference/math/fog.h"
+#include "reference/math/texture.h"
 
 namespace plumbline::math {
 
@@ -160,9 +161,37 @@ Bounded at_pixel(const Projected& scene, const Triangle& t, const std::array<Bou
                      value_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end * size)};
 }
 
+/// Where in its texture the hit is, and the levels of detail at the four pixels of its square of two by two: ray
+/// differentials, d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j.
+BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const std::array<glm::dvec2, 3>& texcoords,
+                              const Bounded& st, glm::dvec3 d, glm::ivec2 pixel) {
+  BoundedPlace out{glm::dvec2(st.value), st.bound, 0, kInfinity, -kInfinity};
+  const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
+  for (int k = 0; k < 4; ++k) {
+    const glm::ivec2 at((pixel.x & ~1) + k % 2, (pixel.y & ~1) + k / 2);
+    const glm::dvec3 ray = d + glm::dvec3(glm::dvec2(at - pixel), 0);
+    const glm::dvec3 e(glm::dot(t.n[0], ray), glm::dot(t.n[1], ray), glm::dot(t.n[2], ray));
+    const double sum = e.x + e.y + e.z;
+    glm::dvec2 d_dx(0), d_dy(0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double b = e[static_cast<glm::length_t>(i)] / sum;
+      d_dx += (t.n[i].x - b * n_sum.x) / sum * texcoords[i];
+      d_dy += (t.n[i].y - b * n_sum.y) / sum * texcoords[i];
+    }
+    const bool ahead = sum * t.sign > 0;
+    const double lambda = ahead ? level_of_detail(texture, d_dx, d_dy) : static_cast<double>(texture.sampler.max_lod);
+    const double least =
+        ahead ? smallest_level_of_detail(texture, d_dx, d_dy) : static_cast<double>(texture.sampler.min_lod);
+    if (at == pixel) out.lambda = lambda;
+    out.lambda_lo = std::min(out.lambda_lo, least);
+    out.lambda_hi = std::max(out.lambda_hi, lambda);
+  }
+  return out;
+}
+
 /// The fragment's colour at the pixel, from its attributes there.
-void set_color(const Scene& scene, const Projected& projected, const Triangle& t, glm::dvec3 d, const Place& at,
-               glm::dvec2 moved, PixelHit& out) {
+void set_color(const Scene& scene, const Projected& projected, const Triangle& t, glm::dvec3 d, glm::ivec2 pixel,
+               const Place& at, glm::dvec2 moved, PixelHit& out) {
   const Draw& draw = scene.draws[t.draw];
   const auto corner = [&](std::size_t i) -> const Corner& { return projected.corners[t.corner[i]]; };
   const auto attribute = [&](auto of_corner) {
@@ -186,7 +215,15 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
         known ? light_error(scene, material, projected.view, p_eye, n_eye, follows ? color.bound : 0) : kInfinity;
     color.value = light(scene, material, projected.view, p_eye.v, n_eye.v);
   }
-  if (draw.fog) {
+  if (draw.texture) {
+    const Bounded st = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.texcoord, 0, 0), 0}; });
+    const Texture& texture = scene.textures.at(draw.texture->texture);
+    const BoundedPlace place = place_in_texture(
+        texture, t, {corner(0).texcoord, corner(1).texcoord, corner(2).texcoord}, st, projected.to_centre(d), pixel);
+    const BoundedColor textured = bounded_textured_color(texture, *draw.texture, {color.value, color.bound}, place);
+    color = {textured.value, textured.bound};
+  }
+  if (draw.fog && std::isfinite(color.bound)) {
     const Bounded p = attribute([](const Corner& c) { return Bounded{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error}; });
     const double f_error = fog_factor_error(*draw.fog, p.value.z, p.bound);
     const glm::dvec3 from_fog = glm::abs(glm::dvec3(color.value) - glm::dvec3(draw.fog->color));
@@ -240,7 +277,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   set_depth(projected, t, scene.depth_clamp, d, at, moved, out);
   if (!scene.depth_clamp && std::isfinite(out.z_half) && (out.z + out.z_half < 0 || out.z - out.z_half > 1))
     return std::nullopt;
-  set_color(scene, projected, t, d, at, moved, out);
+  set_color(scene, projected, t, d, {px, py}, at, moved, out);
   out.inside = at.by_ties && at.inside && t.facing_kept && (scene.depth_clamp || (out.z >= 0 && out.z <= 1));
   return out;
 }

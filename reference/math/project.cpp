@@ -83,6 +83,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
     corner.color = vertex_color(scene, draw, view, i, p_eye, n_eye);
     corner.color_error = color_error(scene, draw, m, view, i);
+    corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
     corner.z_eye = p_eye.z;
     corner.z_eye_error = 6 * kFloatRounding * (sizes(m.model_view) * glm::abs(p)).z;  // entries, products, sums
     const Known place = eye_position(mesh, m, i), normal = eye_normal(draw, mesh, m, i);
@@ -108,8 +109,9 @@ std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& siz
 std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin) {
   const glm::dvec2 reach(0.5 * scene.width + margin, 0.5 * scene.height + margin);
   const glm::dvec2 at = glm::dvec2(c.v) + scene.sample * c.v.z;  // the frame itself is not moved
-  std::array<double, 6> inside{c.v.z + c.z,           c.v.z - c.z,           reach.x * c.v.z - at.x,
-                               reach.x * c.v.z + at.x, reach.y * c.v.z - at.y, reach.y * c.v.z + at.y};
+  std::array<double, 6> inside{
+      c.v.z + c.z,           c.v.z - c.z, reach.x * c.v.z - at.x, reach.x * c.v.z + at.x, reach.y * c.v.z - at.y,
+      reach.y * c.v.z + at.y};
   const std::array<double, 6> error = plane_errors(scene, c.size, margin);
   for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
   if (scene.depth_clamp) {  // the sides meet at the eye: nothing is behind it

@@ -29,6 +29,7 @@ struct Corner {
   glm::dvec4 size;          ///< of (X, Y, z_clip, W): the sums' terms by their absolute values
   glm::dvec4 color;         ///< lit, clamped to [0,1]
   double color_error;       ///< how far a float evaluation of `color` may be from it
+  glm::dvec2 texcoord;      ///< 0 where the mesh has none
   double z_eye;             ///< before the projection
   double z_eye_error;       ///< how far a float evaluation of it may be
   glm::dvec3 p_eye, n_eye;  ///< likewise, for light per fragment

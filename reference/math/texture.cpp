@@ -247,4 +247,29 @@ glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const 
   return fragment;
 }
 
+BoundedColor bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedColor& fragment,
+                                    const BoundedPlace& place) {
+  const TexelRange range = texel_range(texture, place.st, place.lambda_lo, place.lambda_hi);
+  const glm::dvec4 texel = filtered_texel(texture, place.st, place.lambda);
+  BoundedColor out{textured_color(texture.format, state, fragment.value, texel), 0};
+  const TextureLevel& base = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
+  const bool open = !(place.bound < std::min(range.gap.s, range.gap.t)) ||
+                    !(place.bound * std::max(base.width, base.height) < 0.5) || !std::isfinite(fragment.bound);
+  if (open) return {out.value, std::numeric_limits<double>::infinity()};
+  const glm::dvec4 slack = (range.slope_s + range.slope_t) * place.bound;
+  const glm::dvec4 lo = range.lo - slack, hi = range.hi + slack;
+  // Every environment is linear in each of Cf, Af, Cs and As: its extremes are at their ends.
+  for (unsigned ends = 0; ends < 16; ++ends) {
+    const auto low = [&](unsigned of) { return (ends >> of & 1u) == 0; };
+    const glm::dvec4 f = fragment.value + fragment.bound * glm::dvec4(glm::dvec3(low(0) ? -1 : 1), low(1) ? -1 : 1);
+    const glm::dvec4 s(glm::dvec3(low(2) ? lo : hi), low(3) ? lo.a : hi.a);
+    const glm::dvec4 apart = glm::abs(textured_color(texture.format, state, f, s) - out.value);
+    out.bound = std::max({out.bound, apart.r, apart.g, apart.b, apart.a});
+  }
+  constexpr double kRoundings = 8.0 / 16777216.0;
+  const glm::dvec4 size = glm::max(glm::abs(lo), glm::abs(hi));
+  out.bound += kRoundings * std::max({1.0, size.r, size.g, size.b, size.a});
+  return out;
+}
+
 }  // namespace plumbline::math

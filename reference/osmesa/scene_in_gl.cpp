@@ -207,6 +207,12 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
   if (light_programs_[draw]) gl_.UseProgram(light_programs_[draw]->name());
 }
 
+void SceneInGl::set_texture_source(std::size_t draw) const {
+  textures_.set_source(scene_.draws[draw]);
+  gl_.Disable(GL_LIGHTING);
+  gl_.Color4f(0, 0, 0, 1);
+}
+
 void SceneInGl::set_surface(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
   textures_.set(d);
@@ -215,12 +221,6 @@ void SceneInGl::set_surface(std::size_t draw) const {
   if (!is_lit_per_fragment(d)) return;
   set_material(gl_, scene_, d);
   gl_.UseProgram(light_programs_[draw]->name());
-}
-
-void SceneInGl::set_texture_source(std::size_t draw) const {
-  textures_.set_source(scene_.draws[draw]);
-  gl_.Disable(GL_LIGHTING);
-  gl_.Color4f(0, 0, 0, 1);
 }
 
 void SceneInGl::set_fragments(std::size_t draw) const {

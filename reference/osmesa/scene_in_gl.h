@@ -25,8 +25,9 @@ class SceneInGl {
   // What GL is told. Call within a SavedState.
   void clear(const glm::vec4& color) const;  ///< to a colour and the frame's clear depth
   void set_matrices(std::size_t draw) const;
-  void set_surface(std::size_t draw) const;    ///< lit or not, material, flat or smooth, fog
-  /// Of that, what colours the vertices: feedback mode runs no fragments, and what they do not read would be lost in it.
+  void set_surface(std::size_t draw) const;  ///< lit or not, material, flat or smooth, fog
+  /// Of that, what colours the vertices: feedback mode runs no fragments, and what they do not read would be lost in
+  /// it.
   void set_vertex_light(std::size_t draw) const;
   void set_fragments(std::size_t draw) const;  ///< culling, polygon modes, widths, scissor, depth function and mask
   void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels

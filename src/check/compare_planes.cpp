@@ -310,7 +310,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Plane<std::
       }
       return;
     }
-    if (answers.size() == 1 && !std::isfinite(answer->color_bound)) meter.ambiguous();
+    if (!std::isfinite(answer->color_bound) && answers.size() == 1) meter.ambiguous();  // open: any colour is legal
     const double bound = static_cast<double>(answer->color_bound) + half_code;
     for (int i = 0; i < 4; ++i) {
       const double v = c[i], w = clamped ? glm::clamp(answer->color[i], 0.0f, 1.0f) : answer->color[i],

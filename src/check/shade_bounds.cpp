@@ -80,13 +80,13 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
   if (lit) error = light_error(scene, draw, attributes, errors, roundings);
   if (draw.texture) {
     const TextureFormat format = scene.textures.at(draw.texture->texture).format;
-    const auto environed = [&](const Vec4<double>& from) {
-      return environ_error(format, *draw.texture, from, error, attributes.texel, errors.texel, roundings);
+    const auto after = [&](const Vec4<double>& before) {
+      return environ_error(format, *draw.texture, before, error, attributes.texel, errors.texel, roundings);
     };
-    Environed e = environed(lit ? Vec4<double>(0) : color);
-    if (lit) e.error = glm::max(e.error, environed(Vec4<double>(1)).error);  // whatever the light comes to
+    const Environed e = after(lit ? Vec4<double>(0) : color);
+    // What the light comes to is not known here: errors are largest at one end or the other.
+    error = lit ? glm::max(e.error, after(Vec4<double>(1)).error) : e.error;
     color = e.color;
-    error = e.error;
   }
   if (draw.fog) {
     const auto [f, df] = fog_factor(*draw.fog, attributes[Varying::position].z, errors[Varying::position].z, roundings);
@@ -98,6 +98,8 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
       color[c] = f * color[c] + (1 - f) * of_fog;
     }
   }
+  // Where a texel is open, so is the colour, whatever it is multiplied by.
+  for (int c = 0; c < 4; ++c) error[c] = std::isfinite(error[c]) ? error[c] : std::numeric_limits<double>::infinity();
   return error;
 }
 

@@ -9,11 +9,11 @@ std::vector<Surface> surfaces_of(const Scene& scene, const Records<float>& recor
     if (!is_plain(scene, draw)) {
       surface.scene = &scene;
       surface.draw = &draw;
-      if (is_lit_per_fragment(draw)) surface.light = fragment_light(scene, draw);
       if (draw.texture) {
         const Texture& texture = scene.textures.at(draw.texture->texture);
         surface.texture = texture_setup(texture, texture.sampler);
       }
+      if (is_lit_per_fragment(draw)) surface.light = fragment_light(scene, draw);
       for (const Varying v : kAllVaryings) {
         if (is_back(v) || !carries(scene, draw, v)) continue;
         surface.carried.push_back(v);

@@ -1,6 +1,9 @@
 #include "report/json_report.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -78,18 +81,49 @@ void write_json(const std::filesystem::path& file, const std::string& a, const s
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+namespace {
+
+// Two digits: enough to judge a tolerance by, and the same from one run to the next.
+Json share(double ratio) { return number(std::round(ratio * 100) / 100); }
+
+// Of each group of scenes, how many there are, and the largest share of each tolerance that they used.
+Json groups(std::span<const check::SceneVerdict> verdicts) {
+  struct Group {
+    int scenes = 0;
+    std::map<std::string, double> rows;
+  };
+  std::map<std::string, Group> by_name;
+  for (const check::SceneVerdict& verdict : verdicts) {
+    Group& group = by_name[verdict.scene.substr(0, verdict.scene.find('/'))];
+    ++group.scenes;
+    for (const check::Comparison& c : verdict.comparisons) {
+      if (c.ledger_row.empty()) continue;
+      double& largest = group.rows[c.ledger_row];
+      largest = std::max(largest, c.measurement.max_ratio);
+    }
+  }
+  Json out = Json::array();
+  for (const auto& [name, group] : by_name) {
+    Json rows = Json::object();
+    for (const auto& [row, largest] : group.rows) rows[row] = share(largest);
+    out.push_back({{"name", name}, {"scenes", group.scenes}, {"largest_seen", rows}});
+  }
+  return out;
+}
+
+}  // namespace
+
 void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts) {
   Json rows = Json::array();
   for (const check::LedgerUse& use : check::ledger_use(verdicts)) {
-    // Two digits: enough to judge a tolerance by, and the same from one run to the next.
-    const double seen = std::round(use.largest_ratio * 100) / 100;
     rows.push_back({{"name", use.row->name},
                     {"factor", use.row->factor},
                     {"unit", use.row->unit},
-                    {"largest_seen", use.largest_ratio < 0 ? Json(nullptr) : number(seen)},
+                    {"largest_seen", use.largest_ratio < 0 ? Json(nullptr) : share(use.largest_ratio)},
                     {"where", use.where}});
   }
-  write_file(file, Json{{"tolerances", rows}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  const Json out{{"tolerances", rows}, {"groups", groups(verdicts)}};
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace plumbline::report

@@ -204,7 +204,7 @@ DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const
   node.only(kStateKeys);
   DrawState state = defaults;
   read_state(node, state);
-  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
   return state;
 }
 
@@ -214,7 +214,7 @@ DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::
   node.only(keys);
   DrawState state = defaults;
   read_state(node, state);
-  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures);
+  if (const auto n = node.find("texture")) state.draw.texture = read_draw_texture(*n, textures, defaults.draw.texture);
   return state;
 }
 

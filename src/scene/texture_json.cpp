@@ -211,24 +211,30 @@ std::vector<Texture> read_textures(const JsonNode& node, const AssetFolders& fol
   return textures;
 }
 
-DrawTexture read_draw_texture(const JsonNode& node, const std::vector<Texture>& textures) {
+DrawTexture read_draw_texture(const JsonNode& node, const std::vector<Texture>& textures,
+                              const std::optional<DrawTexture>& of_all) {
   node.only({"name", "environment", "color"});
-  DrawTexture out;
-  const JsonNode name = node["name"];
-  const auto it =
-      std::find_if(textures.begin(), textures.end(), [&](const Texture& t) { return t.name == name.text(); });
-  if (it == textures.end()) name.refuse("the name of one of the scene's textures");
-  out.texture = static_cast<std::uint32_t>(it - textures.begin());
-  if (const auto n = node.find("environment")) {
+  DrawTexture out = of_all.value_or(DrawTexture{});
+  if (!of_all || node.find("name")) {
+    const JsonNode name = node["name"];
+    const auto it =
+        std::find_if(textures.begin(), textures.end(), [&](const Texture& t) { return t.name == name.text(); });
+    if (it == textures.end()) name.refuse("the name of one of the scene's textures");
+    out.texture = static_cast<std::uint32_t>(it - textures.begin());
+  }
+  const auto environment = node.find("environment");
+  if (environment) {
     using E = TextureEnvironment;
-    out.environment = n->choice<E>({{"replace", E::replace},
-                                    {"modulate", E::modulate},
-                                    {"decal", E::decal},
-                                    {"blend", E::blend},
-                                    {"add", E::add}});
-    if (out.environment == E::decal && it->format != TextureFormat::rgb && it->format != TextureFormat::rgba) {
-      n->refuse("decal with a texture of rgb or rgba alone: of others OpenGL leaves it undefined");
-    }
+    out.environment = environment->choice<E>({{"replace", E::replace},
+                                              {"modulate", E::modulate},
+                                              {"decal", E::decal},
+                                              {"blend", E::blend},
+                                              {"add", E::add}});
+  }
+  const TextureFormat format = textures[out.texture].format;
+  if (out.environment == TextureEnvironment::decal && format != TextureFormat::rgb && format != TextureFormat::rgba) {
+    (environment ? *environment : node)
+        .refuse("decal with a texture of rgb or rgba alone: of others OpenGL leaves it undefined");
   }
   if (const auto n = node.find("color")) out.color = glm::vec4(n->vector<4>(0, 1));
   return out;

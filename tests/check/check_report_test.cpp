@@ -248,6 +248,20 @@ TEST_F(Reports, LedgerFileHasEveryRow) {
   }
 }
 
+TEST_F(Reports, LedgerFileSaysWhatEachGroupOfScenesUsed) {
+  Comparison small = compared(Outcome::within, 1, 8), large = compared(Outcome::within, 2, 8);
+  small.measurement.max_ratio = 0.125;
+  large.measurement.max_ratio = 0.25;
+  SceneVerdict other = verdict_of({small});
+  other.scene = "another/scene";
+  write_ledger(folder / "ledger.json",
+               std::vector{verdict_of({small, large}), verdict_of({not_compared(Outcome::unsupported, "")}), other});
+  const auto groups = nlohmann::json::parse(text_of(folder / "ledger.json"))["groups"];
+  EXPECT_EQ(groups, nlohmann::json::parse(R"([
+    {"name": "another", "scenes": 1, "largest_seen": {"exact.clip": 0.13}},
+    {"name": "group", "scenes": 2, "largest_seen": {"exact.clip": 0.25}}])"));
+}
+
 Scene described(const std::string& description) {
   Scene scene;
   scene.description = description;

@@ -107,7 +107,7 @@ TEST(UnjudgedStages, AreThoseThatNobodyComparedOrAllDeclined) {
         << "who is missing or failed judged nothing";
   }
   verdict.comparisons.clear();
-  EXPECT_EQ(unjudged_stages(verdict).size(), kStageNames.size() - 1) << "all but texture";
+  EXPECT_EQ(unjudged_stages(verdict).size(), kStageNames.size() - 1) << "all but texture, of which nobody said anything";
 }
 
 TEST(UnjudgedStages, AreLostToAMissingReferenceWhereNobodyElseDeclined) {

@@ -1,29 +1,31 @@
-// Textures drawn by OSMesa, against exact's filter.
+// Textures drawn by OSMesa, against the filter in double: its levels of detail are what reference/math says of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "osmesa_scenes.h"
-#include "reference/exact/texture.h"
+#include "reference/math/texture.h"
 #include "reference/osmesa/osmesa.h"
 #include "scene/texture_images.h"
 
 namespace plumbline {
 namespace {
 
-// A frame that the mesh's square fills; s and t go from 0 to `turns`.
-Scene textured_square(const Sampler& sampler, TextureFormat format, TexelType type, int size, glm::vec2 turns) {
+constexpr int kSide = 64;
+
+// A frame filled by a square on which (s, t) go from -0.3 `turns` to 0.7 of them.
+Scene textured_square(const Sampler& sampler, TextureFormat format, TexelType type, glm::vec2 turns) {
   Scene scene;
   scene.name = "test/texture";
-  scene.frame = {64, 64, ColorFormat::rgba32f, DepthFormat::z24, glm::vec4(0), 1};
+  scene.frame = {kSide, kSide, ColorFormat::rgba32f, DepthFormat::z24, glm::vec4(0), 1};
   scene.camera = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};
   scene.projection = Orthographic{-1, 1, -1, 1, 0, 2};
   Texture texture;
   texture.format = format;
   texture.type = type;
   texture.sampler = sampler;
-  set_levels(texture, make_noise(size, size, 3));
+  set_levels(texture, make_noise(64, 64, 3));
   scene.textures.push_back(std::move(texture));
   Mesh mesh = make_grid(1, 1);
   for (glm::vec2& st : mesh.texcoords) st = (st - 0.3f) * turns;
@@ -35,33 +37,80 @@ Scene textured_square(const Sampler& sampler, TextureFormat format, TexelType ty
   return scene;
 }
 
-TEST(OsmesaTexture, Probe) {
+// The largest difference of OSMesa's texels from those filtered at `lod`.
+double largest_difference(const Capture& c, const Scene& scene, glm::vec2 turns, double lod) {
+  double largest = 0;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const glm::dvec2 st =
+          (glm::dvec2(x + 0.5, y + 0.5) / static_cast<double>(kSide) - glm::dvec2(static_cast<double>(0.3f))) *
+          glm::dvec2(turns);
+      const glm::dvec4 apart =
+          glm::abs(math::filtered_texel(scene.textures[0], st, lod) - glm::dvec4(c.planes.texel(x, y)));
+      largest = std::max({largest, apart.r, apart.g, apart.b, apart.a});
+    }
+  }
+  return largest;
+}
+
+// s and t are below 5, in texels below 320: 2^-24 times that, four times rounded, on the steepest slope of 1 a texel.
+constexpr double kTolerance = 4 * 320.0 / 16777216;
+
+TEST(OsmesaTexture, FiltersLinearlyAtLevelsOfALogarithmThatIsLinearBetweenPowers) {
   const auto osmesa = make_osmesa();
-  for (int min = 0; min < 6; ++min) {
+  for (const MinFilter min : {MinFilter::linear, MinFilter::linear_mipmap_nearest, MinFilter::linear_mipmap_linear}) {
     for (const float turns : {0.5f, 0.77f, 1.0f, 1.5f, 2.0f, 3.3f, 4.0f, 6.1f}) {
       Sampler sampler;
-      sampler.min = static_cast<MinFilter>(min);
+      sampler.min = min;
       sampler.wrap_s = Wrap::mirrored_repeat;
-      const Scene scene =
-          textured_square(sampler, TextureFormat::rgba, TexelType::float32, 64, {turns, turns * 0.5f});
-      const Capture c = osmesa->capture(scene, {});
-      double worst = 0, sum = 0, worst_lod = 0;
-      const double lod = std::log2(static_cast<double>(turns));
-      for (int y = 0; y < 64; ++y) {
-        for (int x = 0; x < 64; ++x) {
-          const double s = ((x + 0.5) / 64 - static_cast<double>(0.3f)) * turns, t = ((y + 0.5) / 64 - static_cast<double>(0.3f)) * turns * 0.5;
-          const auto at = [&](double level) {
-            const glm::dvec4 e = glm::abs(exact::filtered_texel(scene.textures[0], {s, t}, level) - glm::dvec4(c.planes.texel(x, y)));
-            return std::max({e.r, e.g, e.b, e.a});
-          };
-          worst = std::max(worst, at(lod));
-          sum += at(lod) > 1e-4;
-          double best = 9, best_at = 0;
-          for (double d = -0.2; d <= 0.2; d += 0.001) if (at(lod + d) < best) { best = at(lod + d); best_at = d; }
-          if (std::abs(best_at) > std::abs(worst_lod)) worst_lod = best_at;
-        }
-      }
-      fmt::print("min {} turns {} lod {:.4f}: worst {:.3g}, {} pixels beyond 1e-4, best lod shift {:.3f}\n", min, turns, lod, worst, sum, worst_lod);
+      const glm::vec2 both(turns, turns / 2);
+      const Scene scene = textured_square(sampler, TextureFormat::rgba, TexelType::float32, both);
+      const double step = static_cast<double>(turns) / kSide;
+      const double lod = math::smallest_level_of_detail(scene.textures[0], {step, 0}, {0, step / 2});
+      EXPECT_LE(largest_difference(osmesa->capture(scene, {}), scene, both, lod), kTolerance)
+          << "filter " << static_cast<int>(min) << ", " << turns << " texels a pixel";
+    }
+  }
+}
+
+TEST(OsmesaTexture, LevelOfDetailsLeastIsLessThan431HundredThousandthsBelow) {
+  const Scene scene = textured_square({}, TextureFormat::rgba, TexelType::float32, {1, 1});
+  double largest = 0;
+  for (double rho = 1; rho < 4; rho += 1e-3) {
+    const glm::dvec2 step(rho / 64, 0);
+    const double below = math::level_of_detail(scene.textures[0], step, {0, 0}) -
+                         math::smallest_level_of_detail(scene.textures[0], step, {0, 0});
+    EXPECT_GE(below, -1e-15);
+    largest = std::max(largest, below);
+  }
+  EXPECT_NEAR(largest, 0.0430356, 1e-6);  // (1/ln 2 - 1 + log2(ln 2)) / 2 - at m = 1/ln 2
+}
+
+TEST(OsmesaTexture, FormatsHandOnTheSourceComponentsAndBordersTheirs) {
+  const auto osmesa = make_osmesa();
+  for (int format = 0; format < 6; ++format) {
+    for (const TexelType type : {TexelType::unorm8, TexelType::float32}) {
+      Sampler sampler;
+      sampler.min = MinFilter::linear;
+      sampler.wrap_s = sampler.wrap_t = Wrap::clamp_to_border;
+      sampler.border = {0.9f, 0.6f, 0.3f, 0.2f};
+      const Scene scene = textured_square(sampler, static_cast<TextureFormat>(format), type, {2, 2});
+      EXPECT_LE(largest_difference(osmesa->capture(scene, {}), scene, {2, 2}, 1), kTolerance)
+          << "format " << format << ", type " << static_cast<int>(type);
+    }
+  }
+}
+
+TEST(OsmesaTexture, WrapsAreOurs) {
+  const auto osmesa = make_osmesa();
+  for (int s = 0; s < 4; ++s) {
+    for (int t = 0; t < 4; ++t) {
+      Sampler sampler;
+      sampler.min = MinFilter::linear;
+      sampler.wrap_s = static_cast<Wrap>(s);
+      sampler.wrap_t = static_cast<Wrap>(t);
+      const Scene scene = textured_square(sampler, TextureFormat::rgb, TexelType::unorm8, {4, 3});
+      EXPECT_LE(largest_difference(osmesa->capture(scene, {}), scene, {4, 3}, 2), kTolerance) << s << " " << t;
     }
   }
 }

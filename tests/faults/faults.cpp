@@ -7,6 +7,7 @@
 #include "faults/antialias.h"
 #include "faults/light.h"
 #include "faults/notes.h"
+#include "faults/textures.h"
 #include "faults/variants.h"
 #include "pipeline/carry.h"
 #include "pipeline/clip.h"
@@ -261,16 +262,17 @@ constexpr std::array kFaults = {
 };
 
 // The light's own list, where the lights stand.
-std::vector<Fault> with_those_of_light() {
+std::vector<Fault> with_those_of_other_files() {
   std::vector<Fault> out(kFaults.begin(), kFaults.end());
   out.insert(out.end(), of_light().begin(), of_light().end());
+  out.insert(out.end(), of_textures().begin(), of_textures().end());
   return out;
 }
 
 }  // namespace
 
 std::span<const Fault> of_stages() {
-  static const std::vector<Fault> kAll = with_those_of_light();
+  static const std::vector<Fault> kAll = with_those_of_other_files();
   return kAll;
 }
 

@@ -239,11 +239,11 @@ TEST(PipelineRenderer, SaysWhatItIsAbleToShow) {
   EXPECT_FALSE(info.legal);
   for (std::size_t k = 0; k < kStageNames.size(); ++k) {
     const auto stage = static_cast<Stage>(k);
-    EXPECT_EQ(info[stage].shows, stage != Stage::texture) << kStageNames[k];
-    EXPECT_EQ(info[stage].runs, stage != Stage::texture) << kStageNames[k];
-    EXPECT_EQ(info[stage].reason.empty(), stage != Stage::texture) << kStageNames[k];
+    EXPECT_TRUE(info[stage].shows) << kStageNames[k];
+    EXPECT_TRUE(info[stage].runs) << kStageNames[k];
+    EXPECT_TRUE(info[stage].reason.empty()) << kStageNames[k];
   }
-  EXPECT_THROW(pipeline->run_stage(boxes(), Stage::texture, {}), Unsupported);
+  EXPECT_TRUE(pipeline->run_stage(boxes(), Stage::texture, {}).records.texels.empty()) << "of a scene without textures";
 }
 
 TEST(PipelineRenderer, AnotherStageFunctionIsUsedByCaptureAndByRunStage) {

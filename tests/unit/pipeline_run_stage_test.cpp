@@ -30,7 +30,7 @@ Capture of_stage(const Capture& whole, Stage stage) {
       break;
     case Stage::depth: c.records.depth = r.depth; break;
     case Stage::attributes: c.records.attributes = r.attributes; break;
-    case Stage::texture: break;
+    case Stage::texture: c.records.texels = r.texels; break;
     case Stage::shade: c.records.shaded = r.shaded; break;
     case Stage::visibility:
       c.records.drawn = r.drawn;
