@@ -204,7 +204,11 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
   }
   gl_.Enable(GL_LIGHTING);
   set_material(gl_, scene_, d);
-  if (light_programs_[draw]) gl_.UseProgram(light_programs_[draw]->name());
+  if (!light_programs_[draw]) return;
+  gl_.UseProgram(light_programs_[draw]->name());
+  // With a vertex shader, these are not the light model's matter.
+  if (scene_.light_model.sides == LightModel::Sides::two) gl_.Enable(GL_VERTEX_PROGRAM_TWO_SIDE);
+  if (scene_.light_model.separate_specular) gl_.Enable(GL_COLOR_SUM);
 }
 
 void SceneInGl::set_texture_source(std::size_t draw) const {

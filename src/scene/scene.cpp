@@ -34,9 +34,10 @@ double depth_step(DepthFormat format, double z_win) {
   return std::max(static_cast<double>(std::nextafter(z, 2.0f)) - static_cast<double>(z), std::ldexp(1.0, -24));
 }
 
-Material colored(const Draw& draw, const glm::vec4& color) {
-  Material m = draw.material;
-  switch (draw.color_material) {
+namespace {
+
+void color(Material& m, ColorMaterial follows, const glm::vec4& color) {
+  switch (follows) {
     case ColorMaterial::none: break;
     case ColorMaterial::ambient: m.ambient = color; break;
     case ColorMaterial::diffuse: m.diffuse = color; break;
@@ -44,6 +45,17 @@ Material colored(const Draw& draw, const glm::vec4& color) {
     case ColorMaterial::specular: m.specular = color; break;
     case ColorMaterial::emission: m.emission = color; break;
   }
+}
+
+}  // namespace
+
+Material lit_material(const Scene& scene, const Draw& draw, LitPart part, const glm::vec4* vertex_color) {
+  Material m = part.back && draw.back_material ? *draw.back_material : draw.material;
+  if (vertex_color != nullptr) color(m, draw.color_material, *vertex_color);
+  if (part.secondary)
+    m.ambient = m.diffuse = m.emission = glm::vec4(0);
+  else if (scene.light_model.separate_specular)
+    m.specular = glm::vec4(0);
   return m;
 }
 
