@@ -136,6 +136,9 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene),
     const Mesh& mesh = scene.meshes[scene.draws[i].mesh];
     matrices_.push_back(math::float_matrices(scene, scene.draws[i]));
     std::optional<Program>& program = light_programs_.emplace_back();
+    if (is_lit_per_fragment(scene.draws[i]) && scene.draws[i].texture) {
+      throw Unsupported("OpenGL has light per fragment by a program alone, and this one has no textures");
+    }
     if (needs_light_program(scene, scene.draws[i])) {
       program.emplace(gl, light_vertex_shader(scene, scene.draws[i]), light_fragment_shader(scene, scene.draws[i]));
     }
@@ -191,7 +194,11 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
   }
   gl_.Enable(GL_LIGHTING);
   set_material(gl_, scene_, d);
-  if (light_programs_[draw]) gl_.UseProgram(light_programs_[draw]->name());
+  if (!light_programs_[draw]) return;
+  gl_.UseProgram(light_programs_[draw]->name());
+  // With a vertex shader, these are not the light model's matter.
+  if (scene_.light_model.sides == LightModel::Sides::two) gl_.Enable(GL_VERTEX_PROGRAM_TWO_SIDE);
+  if (scene_.light_model.separate_specular) gl_.Enable(GL_COLOR_SUM);
 }
 
 void SceneInGl::set_texture_source(std::size_t draw) const {

@@ -69,8 +69,9 @@ bool draws_thin(const Scene& scene) { return draws(scene, Topology::lines) || dr
 // The stage of a varying, which is compared as the colour is.
 Measurement compare_varying(const Scene& scene, Stage stage, Varying v, const Records<double>& mine,
                             const Records<double>& theirs) {
-  if (stage == Stage::light) return compare_carried(v, mine, theirs);
+  if (stage == Stage::light && !is_lit(v)) return compare_carried(v, mine, theirs);
   const Records<double> a = seen_as(mine, v), b = seen_as(theirs, v);
+  if (stage == Stage::light) return compare_lit(scene, a, b, factor("exact.light"), {is_back(v), is_secondary(v)});
   if (stage == Stage::clip) return compare_polygons(scene, a, b, factor("exact.clip"), is_lit(v));
   if (stage == Stage::window) return compare_window(a, b, factor("exact.window"));
   return compare_attributes(a, b, factor("exact.attributes"));

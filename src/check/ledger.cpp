@@ -85,7 +85,9 @@ constexpr std::array kLedger = {
               "The roundings do not all go one way, and a slope holds within half a texel."},
     Tolerance{"exact.shade", 4, "u",
               "Fog: f is computed in double from the distance in float and rounded once (1 u), so is 1 - f (1 u); two "
-              "products and a sum (3 u), each of the magnitudes of shade_bounds.h."},
+              "products and a sum (3 u), each of the magnitudes of shade_bounds.h. Light per fragment: as exact.light, "
+              "with its 16 u for 4.",
+              "As exact.light."},
     Tolerance{"osmesa.shade", 8, "u",
               "As exact.shade, by a renderer that evaluates attributes as osmesa.attributes says and f in float: the "
               "argument (3 u) and the exponential (its polynomial is 4 u off)."},
