@@ -4,6 +4,8 @@
 #include "reference/exact/fragments.h"
 #include "reference/exact/input.h"
 #include "reference/exact/window.h"
+#include "reference/math/light.h"
+#include "reference/math/matrices.h"
 #include "stages/seen_as.h"
 
 namespace plumbline::exact {
@@ -19,6 +21,7 @@ glm::dvec4 at_vertex(Varying varying, const Mesh& mesh, const Vertex<double>& ve
 }  // namespace
 
 void light_varyings(const Scene& scene, const Records<double>& in, Records<double>& out) {
+  const glm::dmat4 view = math::view_matrix(scene);
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   for (const Varying v : carried(scene)) {
     std::vector<glm::dvec4>& column = out.varyings[v].vertices;
@@ -27,7 +30,13 @@ void light_varyings(const Scene& scene, const Records<double>& in, Records<doubl
       if (!carries(scene, scene.draws[d], v)) continue;
       const std::size_t first = ranges[d].first_vertex, last = first + ranges[d].vertex_count;
       const Mesh& mesh = scene.meshes[scene.draws[d].mesh];
-      for (std::size_t i = first; i < last; ++i) column.at(i) = at_vertex(v, mesh, in.vertices.at(i), i - first);
+      for (std::size_t i = first; i < last; ++i) {
+        const Vertex<double>& vertex = in.vertices.at(i);
+        column.at(i) = is_lit(v)
+                           ? math::vertex_color(scene, scene.draws[d], view, static_cast<std::uint32_t>(i - first),
+                                                glm::dvec3(vertex.p_eye), vertex.n_eye, {is_back(v), is_secondary(v)})
+                           : at_vertex(v, mesh, vertex, i - first);
+      }
     }
   }
 }

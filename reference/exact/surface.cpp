@@ -8,17 +8,24 @@
 
 namespace plumbline::exact {
 
-glm::dvec4 shade(const Scene& scene, const Draw& draw, bool /*front*/, const glm::dvec4& color, const Fours& fours,
+glm::dvec4 shade(const Scene& scene, const Draw& draw, bool front, const glm::dvec4& color, const Fours& fours,
                  const glm::dvec4& texel) {
   const auto four = [&](Varying v) { return fours[static_cast<std::size_t>(v)]; };
-  glm::dvec4 out = color;
+  const LightModel& model = scene.light_model;
+  glm::dvec4 out = color, secondary = four(Varying::secondary);
   if (is_lit_per_fragment(draw)) {
-    out = math::fragment_light(scene, draw, math::view_matrix(scene), out, glm::dvec3(four(Varying::normal)),
-                               glm::dvec3(four(Varying::position)));
+    const bool back = !front && model.sides == LightModel::Sides::two;
+    const auto part = [&](bool specular) {
+      return math::fragment_light(scene, draw, {back, specular}, math::view_matrix(scene), color,
+                                  glm::dvec3(four(Varying::normal)), glm::dvec3(four(Varying::position)));
+    };
+    out = part(false);
+    if (model.separate_specular) secondary = part(true);
   }
   if (draw.texture) {
     out = math::textured_color(scene.textures.at(draw.texture->texture).format, *draw.texture, out, texel);
   }
+  if (draw.lit && model.separate_specular) out = math::color_sum(out, secondary);
   if (draw.fog) out = math::fogged(*draw.fog, out, four(Varying::position).z);
   return out;
 }

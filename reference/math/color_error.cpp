@@ -115,11 +115,12 @@ Known eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, 
 }
 
 double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, const glm::dmat4& view,
-                   std::uint32_t vertex) {
+                   std::uint32_t vertex, LitPart part) {
   if (!is_lit_per_vertex(draw)) return kFloatRounding;
   const Mesh& mesh = scene.meshes[draw.mesh];
-  return light_error(scene, material_at(scene, draw, vertex), view, eye_position(mesh, m, vertex),
-                     eye_normal(draw, mesh, m, vertex), 0);
+  Known n = eye_normal(draw, mesh, m, vertex);
+  if (part.back) n.v = -n.v;
+  return light_error(scene, material_at(scene, draw, part, vertex), view, eye_position(mesh, m, vertex), n, 0);
 }
 
 // L: the errors of the light's place and the point's over their distance. Where N.L may fall on either side of 0, the

@@ -14,7 +14,7 @@ namespace plumbline::math {
 /// Per channel, for vertex number `vertex` of the draw's mesh; `m` and `view` unrounded. At most 1: colours are
 /// clamped. Infinite where a cone's edge may be on either side of the vertex.
 double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, const glm::dmat4& view,
-                   std::uint32_t vertex);
+                   std::uint32_t vertex, LitPart part = {});
 
 /// A vector of eye space and how far it may be off, in length.
 struct Known {

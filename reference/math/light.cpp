@@ -68,32 +68,42 @@ glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, const glm::
   return glm::clamp(glm::dvec4(rgb, material.diffuse.a), 0.0, 1.0);
 }
 
-DoubleMaterial material_of(const Scene& scene, const Draw& draw, const glm::dvec4& color) {
-  const Material& own = draw.material;
+DoubleMaterial material_of(const Scene& scene, const Draw& draw, LitPart part, const glm::dvec4& color) {
+  const Material& own = part.back && draw.back_material ? *draw.back_material : draw.material;
   DoubleMaterial material{own.ambient, own.diffuse, own.specular, own.emission, own.shininess};
-  if (scene.meshes.at(draw.mesh).colors.empty()) return material;
-  const ColorMaterial follows = draw.color_material;
-  const bool both = follows == ColorMaterial::ambient_and_diffuse;
-  if (both || follows == ColorMaterial::ambient) material.ambient = color;
-  if (both || follows == ColorMaterial::diffuse) material.diffuse = color;
-  if (follows == ColorMaterial::specular) material.specular = color;
-  if (follows == ColorMaterial::emission) material.emission = color;
+  if (!scene.meshes.at(draw.mesh).colors.empty()) {
+    const ColorMaterial follows = draw.color_material;
+    const bool both = follows == ColorMaterial::ambient_and_diffuse;
+    if (both || follows == ColorMaterial::ambient) material.ambient = color;
+    if (both || follows == ColorMaterial::diffuse) material.diffuse = color;
+    if (follows == ColorMaterial::specular) material.specular = color;
+    if (follows == ColorMaterial::emission) material.emission = color;
+  }
+  const glm::dvec4 none(0);
+  if (part.secondary) return {none, none, material.specular, none, material.shininess};
+  if (scene.light_model.separate_specular) material.specular = none;
   return material;
 }
 
-DoubleMaterial material_at(const Scene& scene, const Draw& draw, std::uint32_t vertex) {
+DoubleMaterial material_at(const Scene& scene, const Draw& draw, LitPart part, std::uint32_t vertex) {
   const Mesh& mesh = scene.meshes.at(draw.mesh);
-  return material_of(scene, draw, mesh.colors.empty() ? glm::dvec4(0) : glm::dvec4(mesh.colors.at(vertex)));
+  return material_of(scene, draw, part, mesh.colors.empty() ? glm::dvec4(0) : glm::dvec4(mesh.colors.at(vertex)));
 }
 
-glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, const glm::dmat4& view, const glm::dvec4& color,
-                          glm::dvec3 n, glm::dvec3 p_eye) {
-  return light(scene, material_of(scene, draw, color), view, p_eye, unit(n));
+glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, const glm::dmat4& view,
+                          const glm::dvec4& color, glm::dvec3 n, glm::dvec3 p_eye) {
+  return light(scene, material_of(scene, draw, part, color), view, p_eye, part.back ? -unit(n) : unit(n));
+}
+
+glm::dvec4 color_sum(const glm::dvec4& primary, const glm::dvec4& secondary) {
+  return {glm::clamp(glm::dvec3(primary) + glm::dvec3(secondary), 0.0, 1.0), primary.a};
 }
 
 glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, const glm::dmat4& view, std::uint32_t vertex,
-                        glm::dvec3 p_eye, glm::dvec3 n_eye) {
-  if (is_lit_per_vertex(draw)) return light(scene, material_at(scene, draw, vertex), view, p_eye, n_eye);
+                        glm::dvec3 p_eye, glm::dvec3 n_eye, LitPart part) {
+  if (is_lit_per_vertex(draw)) {
+    return light(scene, material_at(scene, draw, part, vertex), view, p_eye, part.back ? -n_eye : n_eye);
+  }
   const Mesh& mesh = scene.meshes.at(draw.mesh);
   const glm::dvec4 color(mesh.colors.empty() ? draw.material.diffuse : mesh.colors.at(vertex));
   return glm::clamp(color, 0.0, 1.0);

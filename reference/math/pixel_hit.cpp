@@ -222,22 +222,40 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
     return at_pixel(projected, t, {of_corner(corner(0)), of_corner(corner(1)), of_corner(corner(2))}, d, at, moved,
                     out.hit.certain);
   };
-  Bounded color;
-  if (draw.shading == Shading::flat) {
-    color = {corner(2).color, corner(2).color_error + 4 * kFloatRounding};
-  } else {
-    color = attribute([](const Corner& c) { return Bounded{c.color, c.color_error}; });
+  const LightModel& model = scene.light_model;
+  const bool two = draw.lit && model.sides == LightModel::Sides::two, back = two && t.sign < 0;
+  const auto lit_part = [&](auto of_corner) {
+    if (draw.shading != Shading::flat) return attribute(of_corner);
+    Bounded last = of_corner(corner(2));
+    last.bound += 4 * kFloatRounding;
+    return last;
+  };
+  Bounded color = lit_part([&](const Corner& c) {
+    return back && is_lit_per_vertex(draw) ? Bounded{c.back_color, c.back_color_error}
+                                           : Bounded{c.color, c.color_error};
+  });
+  Bounded secondary;
+  if (is_lit_per_vertex(draw) && model.separate_specular) {
+    secondary = lit_part([&](const Corner& c) {
+      return back ? Bounded{c.back_secondary, c.back_secondary_error} : Bounded{c.secondary, c.secondary_error};
+    });
   }
   if (is_lit_per_fragment(draw)) {
     const Bounded p = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
     const Bounded n = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
-    const Known p_eye{glm::dvec3(p.value), p.bound}, n_eye = unit({glm::dvec3(n.value), n.bound});
-    const DoubleMaterial material = material_of(scene, draw, color.value);
+    const Known p_eye{glm::dvec3(p.value), p.bound};
+    Known n_eye = unit({glm::dvec3(n.value), n.bound});
+    if (back) n_eye.v = -n_eye.v;
     const bool follows = draw.color_material != ColorMaterial::none && !scene.meshes[draw.mesh].colors.empty();
     const bool known = std::isfinite(p.bound + n_eye.error + color.bound) && n_eye.error < 1;
-    color.bound =
-        known ? light_error(scene, material, projected.view, p_eye, n_eye, follows ? color.bound : 0) : kInfinity;
-    color.value = light(scene, material, projected.view, p_eye.v, n_eye.v);
+    const auto of_fragment = [&](bool specular) {
+      const DoubleMaterial material = material_of(scene, draw, {back, specular}, color.value);
+      const double bound =
+          known ? light_error(scene, material, projected.view, p_eye, n_eye, follows ? color.bound : 0) : kInfinity;
+      return Bounded{light(scene, material, projected.view, p_eye.v, n_eye.v), bound};
+    };
+    if (model.separate_specular) secondary = of_fragment(true);
+    color = of_fragment(false);
   }
   if (draw.texture) {
     const Bounded st = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.texcoord, 0, 0), 0}; });
@@ -247,6 +265,10 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
     const BoundedColor textured = bounded_textured_color(texture, *draw.texture, {color.value, color.bound}, place);
     color = {textured.value, textured.bound};
   }
+  if (draw.lit && model.separate_specular) {
+    color = {color_sum(color.value, secondary.value), color.bound + secondary.bound + kFloatRounding};
+  }
+  if (two && (t.thin || t.sign == 0)) color.bound = kInfinity;  // it may show either face
   if (draw.fog && std::isfinite(color.bound)) {
     const Bounded p = attribute([](const Corner& c) { return Bounded{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error}; });
     const double f_error = fog_factor_error(*draw.fog, p.value.z, p.bound);

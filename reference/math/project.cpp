@@ -73,6 +73,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
   const glm::dmat4 clip_size = sizes(m.projection) * sizes(m.model_view);
   const glm::dvec2 half(0.5 * scene.frame.width, 0.5 * scene.frame.height);
   const std::vector<std::uint32_t> point = weld(mesh);
+  const bool two = scene.light_model.sides == LightModel::Sides::two, separate = scene.light_model.separate_specular;
   const auto first = static_cast<std::uint32_t>(out.corners.size());
   for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
     const glm::dvec4 p(mesh.positions[i], 1);
@@ -85,6 +86,14 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.color = vertex_color(scene, draw, view, i, p_eye, n_eye);
     corner.color_error = color_error(scene, draw, m, view, i);
     corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
+    const auto lit_part = [&](LitPart part, glm::dvec4& of_part, double& error) {
+      if (!two && !separate) return;
+      of_part = vertex_color(scene, draw, view, i, p_eye, n_eye, part);
+      error = color_error(scene, draw, m, view, i, part);
+    };
+    lit_part({true, false}, corner.back_color, corner.back_color_error);
+    lit_part({false, true}, corner.secondary, corner.secondary_error);
+    lit_part({true, true}, corner.back_secondary, corner.back_secondary_error);
     corner.z_eye = p_eye.z;
     corner.z_eye_error = 6 * kFloatRounding * (sizes(m.model_view) * glm::abs(p)).z;  // entries, products, sums
     const Known place = eye_position(mesh, m, i), normal = eye_normal(draw, mesh, m, i);

@@ -25,11 +25,13 @@ inline constexpr double kSnap = 1.4142135623730951 / 512;  ///< the farthest tha
 
 /// A vertex of a draw.
 struct Corner {
-  glm::dvec3 v;             ///< (X, Y, W)
-  double z;                 ///< z_clip
-  glm::dvec4 size;          ///< of (X, Y, z_clip, W): the sums' terms by their absolute values
-  glm::dvec4 color;         ///< lit, clamped to [0,1]
-  double color_error;       ///< how far a float evaluation of `color` may be from it
+  glm::dvec3 v;        ///< (X, Y, W)
+  double z;            ///< z_clip
+  glm::dvec4 size;     ///< of (X, Y, z_clip, W): the sums' terms by their absolute values
+  glm::dvec4 color;    ///< lit, clamped to [0,1]
+  double color_error;  ///< how far a float evaluation of `color` may be from it
+  glm::dvec4 back_color{0}, secondary{0}, back_secondary{0};  ///< where the light model has them
+  double back_color_error = 0, secondary_error = 0, back_secondary_error = 0;
   glm::dvec2 texcoord;      ///< 0 where the mesh has none
   double z_eye;             ///< before the projection
   double z_eye_error;       ///< how far a float evaluation of it may be

@@ -4,15 +4,16 @@
 
 #include <fmt/format.h>
 
+#include "reference/osmesa/textures_in_gl.h"
+
 namespace plumbline::osmesa {
 namespace {
 
-/// What of the material is gl_Color.
+/// AMBIENT(m) and so on: of the material m, or gl_Color where that stands for it.
 std::string material_of(const Scene& scene, const Draw& draw) {
   const bool colors = !scene.meshes[draw.mesh].colors.empty();
   const auto define = [&](const char* name, const char* member, bool follows) {
-    return fmt::format("#define {} {}\n", name,
-                       colors && follows ? "color" : fmt::format("gl_FrontMaterial.{}", member));
+    return fmt::format("#define {}(m) {}\n", name, colors && follows ? "color" : fmt::format("m.{}", member));
   };
   const ColorMaterial f = draw.color_material;
   const bool both = f == ColorMaterial::ambient_and_diffuse;
@@ -44,43 +45,48 @@ float share(gl_LightSourceParameters light, vec3 vp) {
 }
 )";
 
-/// lit(): the colour at a point of eye space.
+/// lit(): the colour at a point of eye space, and what is added to it later.
 std::string equation_of(const Scene& scene) {
   const LightModel& model = scene.light_model;
   const char* to_eye = model.local_viewer ? "normalize(-p)" : "vec3(0.0, 0.0, 1.0)";
   const bool mirrored = model.specular == LightModel::Specular::reflection;
   const bool flips = model.sides == LightModel::Sides::flip;
   return fmt::format(R"(
-vec4 lit(vec3 p, vec3 n, vec4 color) {{
+vec4 lit(gl_MaterialParameters m, vec3 p, vec3 n, vec4 color, out vec4 secondary) {{
   vec3 e = {};
-  vec3 sum = EMISSION.rgb + AMBIENT.rgb * gl_LightModel.ambient.rgb;
+  vec3 gloss = vec3(0.0), sum = EMISSION(m).rgb + AMBIENT(m).rgb * gl_LightModel.ambient.rgb;
   for (int i = 0; i < {}; ++i) {{
     vec4 place = gl_LightSource[i].position;
     vec3 vp = place.w == 0.0 ? place.xyz : place.xyz - p;
-    vec3 l = normalize(vp), m = n;
+    vec3 l = normalize(vp), k = n;
     {}
-    float n_l = dot(m, l);
-    vec3 answer = AMBIENT.rgb * gl_LightSource[i].ambient.rgb;
+    float n_l = dot(k, l);
+    vec3 shine = vec3(0.0), answer = AMBIENT(m).rgb * gl_LightSource[i].ambient.rgb;
     if (n_l > 0.0{}) {{
       float x = max({}, 0.0);
-      float power = gl_FrontMaterial.shininess == 0.0 ? 1.0 : x > 0.0 ? min(pow(x, gl_FrontMaterial.shininess), 1e37) : 0.0;
-      answer += n_l * DIFFUSE.rgb * gl_LightSource[i].diffuse.rgb + power * SPECULAR.rgb * gl_LightSource[i].specular.rgb;
+      float power = m.shininess == 0.0 ? 1.0 : x > 0.0 ? min(pow(x, m.shininess), 1e37) : 0.0;
+      answer += n_l * DIFFUSE(m).rgb * gl_LightSource[i].diffuse.rgb;
+      {} += power * SPECULAR(m).rgb * gl_LightSource[i].specular.rgb;
     }}
     float reaches = share(gl_LightSource[i], vp);
     if (reaches > 0.0) sum += reaches * answer;
+    if (reaches > 0.0) gloss += reaches * shine;
   }}
-  return clamp(vec4(sum, DIFFUSE.a), 0.0, 1.0);
+  secondary = vec4(clamp(gloss, 0.0, 1.0), 0.0);
+  return clamp(vec4(sum, DIFFUSE(m).a), 0.0, 1.0);
 }}
 )",
-                     to_eye, scene.lights.size(), flips ? "if (dot(n, l) < 0.0 && dot(n, e) < 0.0) m = -n;" : "",
-                     flips ? " && dot(m, e) > 0.0" : "",
-                     mirrored ? "dot(2.0 * n_l * m - l, e)" : "dot(m, normalize(l + e))");
+                     to_eye, scene.lights.size(), flips ? "if (dot(n, l) < 0.0 && dot(n, e) < 0.0) k = -n;" : "",
+                     flips ? " && dot(k, e) > 0.0" : "",
+                     mirrored ? "dot(2.0 * n_l * k - l, e)" : "dot(k, normalize(l + e))",
+                     model.separate_specular ? "shine" : "answer");
 }
 
 // Mesa 22.3 (ffvertex_prog.c) leaves N.H out where the shininess is 0, and then gives a light that is attenuated or has
 // a cone the specular term (N.L)^(N.L) for 1 (measured: .239 gives .7103).
 bool mesa_is_wrong(const Scene& scene, const Draw& draw) {
-  return draw.material.shininess == 0 && std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+  const bool none = draw.material.shininess == 0 || (draw.back_material && draw.back_material->shininess == 0);
+  return none && std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
            return light.kind == Light::Kind::point && (light.spot || light.attenuation != glm::vec3(1, 0, 0));
          });
 }
@@ -124,15 +130,35 @@ std::string light_vertex_shader(const Scene& scene, const Draw& draw) {
         kPassedOn, normal);
   }
   return "#version 120\n" + material_of(scene, draw) + kShare + equation_of(scene) +
-         fmt::format(
-             "void main() {{{}  gl_FrontColor = lit(p_eye, {}, gl_Color);\n  gl_BackColor = gl_FrontColor;\n}}\n",
-             kPassedOn, normal);
+         fmt::format(R"(
+void main() {{{}
+  vec3 n = {};
+  vec4 secondary;
+  gl_FrontColor = lit(gl_FrontMaterial, p_eye, n, gl_Color, secondary);
+  gl_FrontSecondaryColor = secondary;
+  gl_BackColor = lit(gl_BackMaterial, p_eye, -n, gl_Color, secondary);
+  gl_BackSecondaryColor = secondary;
+}}
+)",
+                     kPassedOn, normal);
 }
 
 std::string light_fragment_shader(const Scene& scene, const Draw& draw) {
   if (!is_lit_per_fragment(draw)) return "";
-  return "#version 120\nvarying vec3 p, n;\n" + material_of(scene, draw) + kShare + equation_of(scene) +
-         fmt::format("void main() {{\n  vec4 color = lit(p, normalize(n), gl_Color);\n{}  gl_FragColor = color;\n}}\n",
+  const LightModel& model = scene.light_model;
+  const bool two = model.sides == LightModel::Sides::two;
+  return "#version 120\nuniform sampler2D image;\nvarying vec3 p, n;\n" + material_of(scene, draw) + kShare +
+         equation_of(scene) +
+         fmt::format(R"(
+void main() {{
+  vec3 k = normalize(n);
+  vec4 secondary;
+  vec4 color = {} ? lit(gl_FrontMaterial, p, k, gl_Color, secondary) : lit(gl_BackMaterial, p, -k, gl_Color, secondary);
+{}{}{}  gl_FragColor = color;
+}}
+)",
+                     two ? "gl_FrontFacing" : "true", environment_of(scene, draw),
+                     model.separate_specular ? "  color.rgb = clamp(color.rgb + secondary.rgb, 0.0, 1.0);\n" : "",
                      fog_of(draw));
 }
 

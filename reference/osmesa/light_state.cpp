@@ -38,6 +38,14 @@ GLenum gl_color_material(ColorMaterial follows) {
   return GL_NONE;
 }
 
+void set_face(const Gl& gl, GLenum face, const Material& m) {
+  gl.Materialfv(face, GL_AMBIENT, glm::value_ptr(m.ambient));
+  gl.Materialfv(face, GL_DIFFUSE, glm::value_ptr(m.diffuse));
+  gl.Materialfv(face, GL_SPECULAR, glm::value_ptr(m.specular));
+  gl.Materialfv(face, GL_EMISSION, glm::value_ptr(m.emission));
+  gl.Materialf(face, GL_SHININESS, m.shininess);
+}
+
 void set_normals(const Gl& gl, Normals normals) {
   gl.Disable(GL_NORMALIZE);
   gl.Disable(GL_RESCALE_NORMAL);
@@ -51,6 +59,8 @@ void set_lights(const Gl& gl, const Scene& scene) {
   const LightModel& model = scene.light_model;
   gl.LightModelfv(GL_LIGHT_MODEL_AMBIENT, glm::value_ptr(glm::vec4(model.ambient, 1)));
   gl.LightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, model.local_viewer ? GL_TRUE : GL_FALSE);
+  gl.LightModeli(GL_LIGHT_MODEL_TWO_SIDE, model.sides == LightModel::Sides::two ? GL_TRUE : GL_FALSE);
+  gl.LightModeli(GL_LIGHT_MODEL_COLOR_CONTROL, model.separate_specular ? GL_SEPARATE_SPECULAR_COLOR : GL_SINGLE_COLOR);
   // GL takes a light's place through the model-view matrix of the moment; it comes in eye space already.
   gl.MatrixMode(GL_MODELVIEW);
   gl.LoadIdentity();
@@ -68,13 +78,9 @@ void set_lights(const Gl& gl, const Scene& scene) {
 }
 
 void set_material(const Gl& gl, const Scene& scene, const Draw& draw) {
-  const Material& m = draw.material;
   gl.Disable(GL_COLOR_MATERIAL);  // it would keep the last vertex colour
-  gl.Materialfv(GL_FRONT_AND_BACK, GL_AMBIENT, glm::value_ptr(m.ambient));
-  gl.Materialfv(GL_FRONT_AND_BACK, GL_DIFFUSE, glm::value_ptr(m.diffuse));
-  gl.Materialfv(GL_FRONT_AND_BACK, GL_SPECULAR, glm::value_ptr(m.specular));
-  gl.Materialfv(GL_FRONT_AND_BACK, GL_EMISSION, glm::value_ptr(m.emission));
-  gl.Materialf(GL_FRONT_AND_BACK, GL_SHININESS, m.shininess);
+  set_face(gl, GL_FRONT, draw.material);
+  set_face(gl, GL_BACK, draw.back_material.value_or(draw.material));
   set_normals(gl, draw.normals);
   if (draw.color_material == ColorMaterial::none || scene.meshes[draw.mesh].colors.empty()) return;
   gl.ColorMaterial(GL_FRONT_AND_BACK, gl_color_material(draw.color_material));

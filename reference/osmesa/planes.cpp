@@ -46,13 +46,19 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colo
   target.bind();
   scene.clear(colors == Colors::texels ? glm::vec4(0) : scene.scene().frame.clear_color);
   set_lights(gl, scene.scene());
+  // The sum of colours is clamped (OpenGL 2.1 spec 3.9); into a frame of floats GL leaves it otherwise.
+  if (scene.scene().light_model.separate_specular) gl.ClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_TRUE);
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     scene.set_surface(i);
-    if (colors == Colors::texels) scene.set_texture_source(i);
     scene.set_fragments(i);
     if (colors == Colors::merged) scene.set_merge(i);
-    scene.draw_primitives(i);
+    if (colors == Colors::texels) {
+      scene.set_texture_source(i);
+      scene.draw_without_colors(i);
+    } else {
+      scene.draw_primitives(i);
+    }
   }
   check(gl, "drawing the scene");
 }
@@ -175,7 +181,8 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   std::optional<Target> shorts;
   if (frame.color == ColorFormat::rgba16) shorts.emplace(gl, frame, ColorFormat::rgba16);
   Planes planes;
-  if (textured(scene.scene())) {
+  // An alpha test would look at the texels' alpha, not at the fragments'.
+  if (textured(scene.scene()) && !tests_alpha(scene.scene())) {
     draw_scene(gl, scene, floats, Colors::texels);
     planes.texel = floats.read_color();
   }

@@ -136,6 +136,9 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene),
     const Mesh& mesh = scene.meshes[scene.draws[i].mesh];
     matrices_.push_back(math::float_matrices(scene, scene.draws[i]));
     std::optional<Program>& program = light_programs_.emplace_back();
+    if (is_lit_per_fragment(scene.draws[i]) && scene.draws[i].texture) {
+      throw Unsupported("OpenGL has light per fragment by a program alone, and this one has no textures");
+    }
     if (needs_light_program(scene, scene.draws[i])) {
       program.emplace(gl, light_vertex_shader(scene, scene.draws[i]), light_fragment_shader(scene, scene.draws[i]));
     }
@@ -191,12 +194,18 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
   }
   gl_.Enable(GL_LIGHTING);
   set_material(gl_, scene_, d);
-  if (light_programs_[draw]) gl_.UseProgram(light_programs_[draw]->name());
+  if (!light_programs_[draw]) return;
+  gl_.UseProgram(light_programs_[draw]->name());
+  // With a vertex shader, these are not the light model's matter.
+  if (scene_.light_model.sides == LightModel::Sides::two) gl_.Enable(GL_VERTEX_PROGRAM_TWO_SIDE);
+  if (scene_.light_model.separate_specular) gl_.Enable(GL_COLOR_SUM);
 }
 
 void SceneInGl::set_texture_source(std::size_t draw) const {
   textures_.set_source(scene_.draws[draw]);
   gl_.Disable(GL_LIGHTING);
+  gl_.Disable(GL_FOG);
+  gl_.UseProgram(0);
   gl_.Color4f(0, 0, 0, 1);
 }
 
@@ -275,6 +284,18 @@ void SceneInGl::draw_primitives(std::size_t draw) const {
   const SavedArrays arrays(gl_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
   point_to_vertices(draw, nullptr);
+  draw_elements(draw);
+}
+
+void SceneInGl::draw_without_colors(std::size_t draw) const {
+  const SavedArrays arrays(gl_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
+  point_to_vertices(draw, nullptr);
+  gl_.DisableClientState(GL_COLOR_ARRAY);
+  draw_elements(draw);
+}
+
+void SceneInGl::draw_elements(std::size_t draw) const {
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, arrays_[draw].indices.name());
   const Topology topology = mesh(draw).topology;
   gl_.DrawElements(gl_mode(topology), static_cast<GLsizei>(corner_count(topology) * ranges_[draw].primitive_count),

@@ -35,8 +35,9 @@ class SceneInGl {
   void set_merge(std::size_t draw) const;           ///< blending, logic op and colour mask
 
   // The draw's mesh, under the state that is set.
-  void draw_primitives(std::size_t draw) const;  ///< with normals and colours
-  /// Likewise, calling before(its number) before each.
+  void draw_primitives(std::size_t draw) const;      ///< with normals and colours
+  void draw_without_colors(std::size_t draw) const;  ///< with normals, in the colour that is set
+  /// As draw_primitives, calling before(its number) before each.
   void draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const;
   void draw_points(std::size_t draw) const;  ///< each vertex, with normals and colours
   void draw_ids(std::size_t draw) const;     ///< each primitive in the colour whose four bytes are its number + 1
@@ -58,6 +59,7 @@ class SceneInGl {
     Buffer corners;        ///< every primitive's corners alone, so that it can have a colour of its own
   };
   static std::vector<MeshVertex> vertices_of(const Mesh& mesh);
+  void draw_elements(std::size_t draw) const;
   void point_to_vertices(std::size_t draw, const MeshVertex* first) const;
   void bind_corners(std::size_t draw) const;
   const Mesh& mesh(std::size_t draw) const { return scene_.meshes[scene_.draws[draw].mesh]; }

@@ -211,6 +211,10 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
     const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
+      if (!std::isfinite(bound[c])) {
+        if (c == 0) open_value(meter, v, {x, y, id, "color"}, w);
+        continue;
+      }
       double diff = difference(v, w);
       for (const EdgeValue& edge : edges) {
         diff = std::min(diff, difference(std::round(scale * std::clamp(edge.color[c], 0.0, 1.0)), w));

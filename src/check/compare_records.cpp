@@ -128,7 +128,7 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
 }
 
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                        double factor) {
+                        double factor, LitPart part) {
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   std::size_t d = 0;
   if (candidate.vertices.size() != candidate.lit.size()) {
@@ -147,9 +147,10 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
       return;
     }
     const Mesh& mesh = scene.meshes[draw.mesh];
-    const Material material =
-        mesh.colors.empty() ? draw.material : colored(draw, mesh.colors[i - ranges[d].first_vertex]);
-    const LightBounds bounds = light_bounds(scene, material, candidate.vertices[i]);
+    const glm::vec4* color = mesh.colors.empty() ? nullptr : &mesh.colors[i - ranges[d].first_vertex];
+    Vertex<double> vertex = candidate.vertices[i];
+    if (part.back) vertex.n_eye = -vertex.n_eye;
+    const LightBounds bounds = light_bounds(scene, lit_material(scene, draw, part, color), vertex);
     const bool both = reference.vertices.size() == candidate.vertices.size();
     const double turned = both ? glm::distance(candidate.vertices[i].n_eye, reference.vertices[i].n_eye) : 0;
     if (bounds.jump != Vec3<double>(0) || !std::isfinite(bounds.magnitude.x)) meter.ambiguous();

@@ -20,7 +20,7 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
                              double positions, double normals, Inversion inversion = Inversion::in_double);
 /// Colours; what the two sides' normals differ by is the vertices' matter.
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                        double factor);
+                        double factor, LitPart part = {});
 
 /// Polygons as polygons: the same primitives and numbers of vertices; vertices of the mesh in the same place; each cut
 /// one on the planes that its counterpart lies on, and in the plane of its triangle, colours included. Where a corner

@@ -1,5 +1,6 @@
 #include "check/fragment_bounds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -31,6 +32,31 @@ std::vector<Vec4<double>> normals_apart(const Records<double>& a, const Records<
   return out;
 }
 
+// Per vertex, what the two sides may be apart in a part of its light that the reference does not hand out.
+std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, Varying v) {
+  std::vector<Vec4<double>> out(r.vertices.size(), Vec4<double>(0));
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  for (std::size_t d = 0; d < ranges.size(); ++d) {
+    const Draw& draw = scene.draws[d];
+    if (!carries(scene, draw, v)) continue;
+    const std::vector<glm::vec4>& colors = scene.meshes[draw.mesh].colors;
+    for (std::size_t i = 0; i < ranges[d].vertex_count && ranges[d].first_vertex + i < out.size(); ++i) {
+      Vertex<double> vertex = r.vertices[ranges[d].first_vertex + i];
+      if (is_back(v)) vertex.n_eye = -vertex.n_eye;
+      const Material material =
+          lit_material(scene, draw, {is_back(v), is_secondary(v)}, colors.empty() ? nullptr : &colors[i]);
+      const LightBounds bounds = light_bounds(scene, material, vertex);
+      out[ranges[d].first_vertex + i] = {tolerance("osmesa.light").factor * u * bounds.magnitude + bounds.jump, u};
+    }
+  }
+  return out;
+}
+
+std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<Vec4<double>>& b) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) a[i] = glm::max(a[i], b[i]);
+  return a;
+}
+
 }  // namespace
 
 DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r) : width_(frame.width), records_(r) {
@@ -47,8 +73,11 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
       texels_(candidate.legal.texels),
       factor_(factor),
       ranges_(draw_ranges(scene)),
-      lit_apart_(columns_apart(candidate.records.lit, reference.records.lit, &Lit<double>::color,
-                               u * tolerance("osmesa.light").factor)),
+      lit_apart_(larger(columns_apart(candidate.records.lit, reference.records.lit, &Lit<double>::color,
+                                      u * tolerance("osmesa.light").factor),
+                        granted(scene, candidate.records, Varying::back_color))),
+      secondary_apart_(larger(granted(scene, candidate.records, Varying::secondary),
+                              granted(scene, candidate.records, Varying::back_secondary))),
       eye_apart_(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0)),
       normals_apart_(normals_apart(candidate.records, reference.records)),
       drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
@@ -94,8 +123,11 @@ Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
   if (c.triangle >= corners.size()) return Vec4<double>(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < 3; ++k) as_color.v[k].color = corners[c.triangle][k];
   const PlaneBounds plane = bounds_from_origin(as_color, c.x, c.y);
-  const auto& vertices_apart = v == Varying::position ? eye_apart_ : v == Varying::normal ? normals_apart_ : kNowhere;
-  return factor_ * u * plane.color + glm::abs(plane.along_color) + apart(as_color.primitive, vertices_apart, false);
+  const auto& vertices_apart = v == Varying::position    ? eye_apart_
+                               : v == Varying::normal    ? normals_apart_
+                               : v == Varying::secondary ? secondary_apart_
+                                                         : kNowhere;
+  return factor_ * u * plane.color + glm::abs(plane.along_color) + apart(as_color.primitive, vertices_apart, is_lit(v));
 }
 
 TexelBound FragmentBounds::texel(std::size_t i) const {
@@ -128,7 +160,13 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   }
   FragmentBound out;
   out.color = shade_error(scene_, draw, fours, errors, tolerance("osmesa.shade").factor);
-  out.disputed = draw.fog && reaches_behind_eye(*(after - 1), draw, triangle.primitive);
+  if (draw.texture) {
+    out.disputed = switched_early(scene_.textures.at(draw.texture->texture), records_.texels.at(i).lod);
+  }
+  const bool summed = is_lit_per_vertex(draw) && scene_.light_model.separate_specular;
+  const Vec3<double> sum(fours.color + fours[Varying::secondary]);
+  const bool clamped = summed && std::max({sum.x, sum.y, sum.z}) > 1;
+  out.disputed |= draw.fog && (clamped || reaches_behind_eye(*(after - 1), draw, triangle.primitive));
   return out;
 }
 

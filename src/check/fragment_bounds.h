@@ -42,7 +42,8 @@ struct FragmentBound {
   Vec4<double> along{0};  ///< of a line, what it moves by where it goes by the major axis alone (bounds.h)
   Vec4<double> apart{0};  ///< what the two sides' vertices differ by, which is another stage's matter
   /// In fog, of a primitive that reaches behind the eye. Mesa takes |z_eye| at the vertices and interpolates that,
-  /// where the distance is the fragment's own (OpenGL 2.1 spec 3.10): what differs there is disputed.
+  /// where the distance is the fragment's own (OpenGL 2.1 spec 3.10): what differs there is disputed. So is fog over a
+  /// sum of colours beyond 1, which Mesa clamps after the fog and the specification before it (3.9).
   bool disputed = false;
 };
 
@@ -71,8 +72,8 @@ class FragmentBounds {
   const std::vector<TexelRange>& texels_;
   double factor_;
   std::vector<DrawRange> ranges_;
-  std::vector<Vec4<double>> lit_apart_, eye_apart_, normals_apart_;  // per vertex
-  std::vector<bool> plain_;                                          // per draw
+  std::vector<Vec4<double>> lit_apart_, secondary_apart_, eye_apart_, normals_apart_;  // per vertex
+  std::vector<bool> plain_;                                                            // per draw
   DrawnAt drawn_;
 };
 

@@ -54,7 +54,7 @@ FragmentFours fours_of(const Records<double>& records, std::size_t i) {
 namespace {
 
 // The error of a fragment's light.
-Vec4<double> light_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
+Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, const FragmentFours& attributes,
                          const FragmentFours& errors, double roundings) {
   const Vec4<double> anything(std::numeric_limits<double>::infinity());
   const auto length = [](const Vec4<double>& four) { return glm::length(Vec3<double>(four)); };
@@ -62,13 +62,28 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, const FragmentFou
   if (!(n > 2 * dn)) return anything;
   Vertex<double> at{};
   at.p_eye = attributes[Varying::position];
-  at.n_eye = Vec3<double>(attributes[Varying::normal]) / n;
+  at.n_eye = Vec3<double>(attributes[Varying::normal]) / (part.back ? -n : n);
   const bool colors = !scene.meshes[draw.mesh].colors.empty() && draw.color_material != ColorMaterial::none;
   const double d_color = colors ? glm::length(errors.color) : 0;
-  const LightBounds bounds = light_bounds(scene, colors ? colored(draw, glm::vec4(attributes.color)) : draw.material,
-                                          at, {length(errors[Varying::position]), dn / n + 4 * u, d_color});
+  const glm::vec4 color(attributes.color);
+  const LightBounds bounds = light_bounds(scene, lit_material(scene, draw, part, colors ? &color : nullptr), at,
+                                          {length(errors[Varying::position]), dn / n + 4 * u, d_color});
   if (!std::isfinite(bounds.magnitude.x) || bounds.jump != Vec3<double>(0)) return anything;
   return Vec4<double>(bounds.inherited + 4 * roundings * u * bounds.magnitude, d_color + u);
+}
+
+// Of the face that errs more, the sum of what is kept apart.
+Vec4<double> light_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
+                         const FragmentFours& errors, double roundings) {
+  Vec4<double> largest(0);
+  for (const bool back : {false, true}) {
+    if (back && scene.light_model.sides != LightModel::Sides::two) continue;
+    Vec4<double> sum = light_error(scene, draw, {back, false}, attributes, errors, roundings);
+    if (scene.light_model.separate_specular)
+      sum += light_error(scene, draw, {back, true}, attributes, errors, roundings) + u;
+    largest = glm::max(largest, sum);
+  }
+  return largest;
 }
 
 }  // namespace
@@ -76,23 +91,24 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, const FragmentFou
 Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
                          const FragmentFours& errors, double roundings) {
   Vec4<double> color = attributes.color, error = errors.color;
-  const bool lit = is_lit_per_fragment(draw);
-  if (lit) error = light_error(scene, draw, attributes, errors, roundings);
+  const bool per_fragment = is_lit_per_fragment(draw), summed = draw.lit && scene.light_model.separate_specular;
+  if (per_fragment) error = light_error(scene, draw, attributes, errors, roundings);
   if (draw.texture) {
     const TextureFormat format = scene.textures.at(draw.texture->texture).format;
     const auto after = [&](const Vec4<double>& before) {
       return environ_error(format, *draw.texture, before, error, attributes.texel, errors.texel, roundings);
     };
-    const Environed e = after(lit ? Vec4<double>(0) : color);
+    const Environed e = after(per_fragment ? Vec4<double>(0) : color);
     // What the light comes to is not known here: errors are largest at one end or the other.
-    error = lit ? glm::max(e.error, after(Vec4<double>(1)).error) : e.error;
+    error = per_fragment ? glm::max(e.error, after(Vec4<double>(1)).error) : e.error;
     color = e.color;
   }
+  if (summed && !per_fragment) error += errors[Varying::secondary] + roundings * u * Vec4<double>(1, 1, 1, 0);
   if (draw.fog) {
     const auto [f, df] = fog_factor(*draw.fog, attributes[Varying::position].z, errors[Varying::position].z, roundings);
     for (int c = 0; c < 3; ++c) {
       const double of_fog = draw.fog->color[c];
-      if (lit) color[c] = of_fog > 0.5 ? 0 : 1;  // as far from the fog's as light can be
+      if (per_fragment || summed) color[c] = of_fog > 0.5 ? 0 : 1;  // as far from the fog's as light can be
       const double magnitude = f * std::abs(color[c]) + (1 - f) * of_fog;
       error[c] = df * (std::abs(color[c] - of_fog) + error[c]) + f * error[c] + roundings * u * magnitude;
       color[c] = f * color[c] + (1 - f) * of_fog;

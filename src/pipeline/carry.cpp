@@ -1,5 +1,7 @@
 #include "pipeline/carry.h"
 
+#include "pipeline/light.h"
+
 namespace plumbline::pipeline {
 
 namespace {
@@ -18,6 +20,9 @@ Vec4<float> of_vertex(Varying varying, const Mesh& mesh, const Vertex<float>& ve
 void carry(const Scene& scene, const Draw& draw, Varying varying, std::span<const Vertex<float>> vertices,
            std::vector<Vec4<float>>& out) {
   if (!carries(scene, draw, varying)) return out.resize(out.size() + vertices.size(), Vec4<float>(0.0f));
+  if (is_lit(varying)) {
+    return light_part(scene, draw, {is_back(varying), is_secondary(varying)}, vertices, out);
+  }
   const Mesh& mesh = scene.meshes[draw.mesh];
   for (std::size_t i = 0; i < vertices.size(); ++i) out.push_back(of_vertex(varying, mesh, vertices[i], i));
 }

@@ -64,7 +64,6 @@ BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y
 }
 
 BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place) {
-  if (place == glm::ivec2(0)) return planes;
   const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
   BarycentricPlanes out = planes;
   out.x0 -= by.x;
@@ -94,7 +93,6 @@ DepthSetup depth_setup(const WindowTriangle<float>& triangle, const DepthState& 
 }
 
 DepthSetup moved(const DepthSetup& depth, const BarycentricPlanes& planes, glm::ivec2 place) {
-  if (place == glm::ivec2(0)) return depth;
   const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
   DepthSetup out = depth;
   out.z0 += (by.x * planes.l1_x + by.y * planes.l1_y) * out.dz1 + (by.x * planes.l2_x + by.y * planes.l2_y) * out.dz2;

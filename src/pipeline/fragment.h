@@ -165,18 +165,23 @@ using SetupOf = TriangleSetup<decltype(std::declval<const Stages&>().attribute_s
 /// (x0, y0): the lower left pixel of the tile.
 template <class Stages>
 SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std::uint32_t triangle,
-                       const DepthState& depth, glm::ivec2 sample, int x0, int y0) {
+                       const DepthState& depth_state, glm::ivec2 sample, int x0, int y0) {
+  const BarycentricPlanes planes = planes_of(t, x0, y0);
+  const DepthSetup depth = stages.depth_setup(t, depth_state);
+  const auto attributes = stages.attribute_setup(t, triangle);
+  if (sample == glm::ivec2(0)) {
+    return {triangle, t.primitive, t.front, stages.bounds(t), stages.edges(t), planes, depth, attributes, nullptr};
+  }
   const Places places = stages.places(sample);
   const WindowTriangle<float> to_cover = as_seen_from(t, places.coverage);
-  const BarycentricPlanes planes = planes_of(t, x0, y0);
   return {triangle,
           t.primitive,
           t.front,
           stages.bounds(to_cover),
           stages.edges(to_cover),
           moved(planes, places.color),
-          moved(stages.depth_setup(t, depth), planes, places.depth - places.color),
-          stages.attribute_setup(t, triangle),
+          moved(depth, planes, places.depth - places.color),
+          attributes,
           nullptr};
 }
 

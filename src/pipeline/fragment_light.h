@@ -12,18 +12,18 @@ struct FragmentLight {
   const Draw* draw;
   bool by_color;  ///< its colours stand for some of its material
   Illumination illumination;
-  Reflectance reflectance;  ///< of its own material
+  Reflectance reflectance[2][2];  ///< of its own material: front or back, without and of the specular part
 };
 FragmentLight fragment_light(const Scene& scene, const Draw& draw);
 
-/// The light equation at a point, the normal brought to unit length. `color`: the interpolated vertex colour.
-Vec4<float> lit_fragment(const FragmentLight& light, const Vec4<float>& color, const Vec3<float>& n_eye,
+/// The light equation at a point of a face, the normal brought to unit length. `color`: the interpolated vertex colour.
+Vec4<float> lit_fragment(const FragmentLight& light, LitPart part, const Vec4<float>& color, const Vec3<float>& n_eye,
                          const Vec3<float>& p_eye);
 
 /// The same of a fragment's attributes.
-inline Color<float> lit_fragment(const FragmentLight& light, const Color<float>& color, const Color<float>& n,
-                                 const Color<float>& p) {
-  const Vec4<float> out = lit_fragment(light, Vec4<float>(color.r, color.g, color.b, color.a),
+inline Color<float> lit_fragment(const FragmentLight& light, LitPart part, const Color<float>& color,
+                                 const Color<float>& n, const Color<float>& p) {
+  const Vec4<float> out = lit_fragment(light, part, Vec4<float>(color.r, color.g, color.b, color.a),
                                        Vec3<float>(n.r, n.g, n.b), Vec3<float>(p.r, p.g, p.b));
   return {out.r, out.g, out.b, out.a};
 }

@@ -13,12 +13,22 @@ void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> 
     }
     return;
   }
-  const bool by_color = draw.color_material != ColorMaterial::none && !scene.meshes[draw.mesh].colors.empty();
+  std::vector<Vec4<float>> colors;
+  light_part(scene, draw, {}, vertices, colors);
+  for (const Vec4<float>& color : colors) out.push_back({color});
+}
+
+void light_part(const Scene& scene, const Draw& draw, LitPart part, std::span<const Vertex<float>> vertices,
+                std::vector<Vec4<float>>& out) {
+  const std::vector<glm::vec4>& colors = scene.meshes[draw.mesh].colors;
+  const bool by_color = draw.color_material != ColorMaterial::none && !colors.empty();
   const Illumination lights = illumination(scene);
-  Reflectance of_vertex = reflectance(scene, draw.material);
+  Reflectance of_vertex = reflectance(scene, lit_material(scene, draw, part, nullptr));
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (by_color) of_vertex = reflectance(scene, colored(draw, scene.meshes[draw.mesh].colors[i]));
-    out.push_back({lit(lights, of_vertex, Vec3<float>(vertices[i].p_eye), vertices[i].n_eye)});
+    if (by_color) of_vertex = reflectance(scene, lit_material(scene, draw, part, &colors[i]));
+    const Vec3<float> n = part.back ? -vertices[i].n_eye : vertices[i].n_eye;
+    out.push_back(lit(lights, of_vertex, Vec3<float>(vertices[i].p_eye), n));
+    if (part.secondary) out.back().a = 0;
   }
 }
 

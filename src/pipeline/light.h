@@ -15,4 +15,8 @@ namespace plumbline::pipeline {
 /// or to be lit per fragment: the mesh's colour, or the material's diffuse.
 void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices, std::vector<Lit<float>>& out);
 
+/// One part of a lit draw's colours; of the secondary one, alpha is 0.
+void light_part(const Scene& scene, const Draw& draw, LitPart part, std::span<const Vertex<float>> vertices,
+                std::vector<Vec4<float>>& out);
+
 }  // namespace plumbline::pipeline

@@ -13,17 +13,33 @@ Color<R> shade(const Color<R>& attributes) {
   return attributes;
 }
 
-/// In OpenGL's order (2.1, figure 3.1): light, where it is per fragment, texture environment, sum of colours, fog.
+/// rgb of the two added up and clamped (OpenGL 2.1 spec 3.9).
 template <class R>
-Color<R> shade_surface(const Surface& surface, bool /*front*/, const SurfaceAttributes<R>& attributes) {
-  Color<R> color = attributes.color;
+Color<R> color_sum(const Color<R>& primary, const Color<R>& secondary) {
+  const auto sum = [](R a, R b) { return clamp01(a + b); };
+  return {sum(primary.r, secondary.r), sum(primary.g, secondary.g), sum(primary.b, secondary.b), primary.a};
+}
+
+/// In OpenGL's order (2.1, figure 3.1): light, where it is per fragment, texture environment, sum of colours, fog.
+/// `front`: the face, where light has two sides.
+template <class R>
+Color<R> shade_surface(const Surface& surface, bool front, const SurfaceAttributes<R>& attributes) {
+  Color<R> color = attributes.color, secondary = attributes[Varying::secondary];
+  const LightModel& model = surface.scene->light_model;
   if (surface.light) {
-    color = lit_fragment(*surface.light, color, attributes[Varying::normal], attributes[Varying::position]);
+    const bool back = !front && model.sides == LightModel::Sides::two;
+    const auto part = [&](bool specular) {
+      return lit_fragment(*surface.light, {back, specular}, attributes.color, attributes[Varying::normal],
+                          attributes[Varying::position]);
+    };
+    color = part(false);
+    if (model.separate_specular) secondary = part(true);
   }
   if (surface.texture) {
     color =
         apply_environment<R>(surface.texture->texture->format, *surface.draw->texture, color, attributes.texel.color);
   }
+  if (surface.draw->lit && model.separate_specular) color = color_sum<R>(color, secondary);
   if (surface.draw->fog) color = fogged<R>(*surface.draw->fog, color, attributes[Varying::position].b);
   return color;
 }

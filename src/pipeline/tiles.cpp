@@ -8,7 +8,8 @@ namespace {
 
 // The tiles that a triangle's bounding box touches: [x0, x1) x [y0, y1), none if it holds no pixel of the frame.
 PixelBounds tiles_of(const WindowTriangle<float>& triangle, const FrameFormat& frame) {
-  const PixelBounds b = pixel_bounds(as_seen_from(triangle, sample_place(frame)));
+  const glm::ivec2 sample = sample_place(frame);
+  const PixelBounds b = sample == glm::ivec2(0) ? pixel_bounds(triangle) : pixel_bounds(as_seen_from(triangle, sample));
   const int x0 = std::max(b.x0, 0), x1 = std::min(b.x1, frame.width);
   const int y0 = std::max(b.y0, 0), y1 = std::min(b.y1, frame.height);
   if (x0 >= x1 || y0 >= y1) return {0, 0, 0, 0};

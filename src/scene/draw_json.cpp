@@ -81,11 +81,11 @@ PolygonMode read_mode(const JsonNode& node) {
       {{"fill", PolygonMode::fill}, {"line", PolygonMode::line}, {"point", PolygonMode::point}});
 }
 
-constexpr std::string_view kStateKeys[] = {"transforms", "material",   "lit",         "color_material", "normals",
-                                           "shading",    "cull",       "front_mode",  "back_mode",      "line_width",
-                                           "point_size", "depth_func", "depth_range", "polygon_offset", "alpha_test",
-                                           "stencil",    "fog",        "scissor",     "depth_mask",     "blend",
-                                           "logic_op",   "color_mask", "texture"};
+constexpr std::string_view kStateKeys[] = {"transforms", "material",   "back_material", "lit",         "color_material",
+                                           "normals",    "shading",    "cull",          "front_mode",  "back_mode",
+                                           "line_width", "point_size", "depth_func",    "depth_range", "polygon_offset",
+                                           "alpha_test", "stencil",    "fog",           "scissor",     "depth_mask",
+                                           "blend",      "logic_op",   "color_mask",    "texture"};
 
 /// What the node gives, over what the state is.
 void read_state(const JsonNode& node, DrawState& state) {
@@ -94,6 +94,10 @@ void read_state(const JsonNode& node, DrawState& state) {
   if (const auto n = node.find("material")) {
     read_material(*n, draw.material);
     state.has_material = true;
+  }
+  if (const auto n = node.find("back_material")) {
+    if (!draw.back_material) draw.back_material.emplace();
+    read_material(*n, *draw.back_material);
   }
   if (const auto n = node.find("lit")) draw.lit = n->boolean();
   if (const auto n = node.find("color_material")) {

@@ -40,9 +40,10 @@ double polygon_offset_unit(DepthFormat format, double z_max) {
   return std::ldexp(1.0, std::max(z_max > 0 ? std::ilogb(z_max) : kLeastExponent, kLeastExponent) - kMantissa);
 }
 
-Material colored(const Draw& draw, const glm::vec4& color) {
-  Material m = draw.material;
-  switch (draw.color_material) {
+namespace {
+
+void color(Material& m, ColorMaterial follows, const glm::vec4& color) {
+  switch (follows) {
     case ColorMaterial::none: break;
     case ColorMaterial::ambient: m.ambient = color; break;
     case ColorMaterial::diffuse: m.diffuse = color; break;
@@ -50,6 +51,17 @@ Material colored(const Draw& draw, const glm::vec4& color) {
     case ColorMaterial::specular: m.specular = color; break;
     case ColorMaterial::emission: m.emission = color; break;
   }
+}
+
+}  // namespace
+
+Material lit_material(const Scene& scene, const Draw& draw, LitPart part, const glm::vec4* vertex_color) {
+  Material m = part.back && draw.back_material ? *draw.back_material : draw.material;
+  if (vertex_color != nullptr) color(m, draw.color_material, *vertex_color);
+  if (part.secondary)
+    m.ambient = m.diffuse = m.emission = glm::vec4(0);
+  else if (scene.light_model.separate_specular)
+    m.specular = glm::vec4(0);
   return m;
 }
 

@@ -110,15 +110,17 @@ struct LightModel {
   };
   enum class Sides {
     one,  ///< normals are as they are
+    two,  ///< back faces are lit by the normal turned over, and by the back's material (GL_LIGHT_MODEL_TWO_SIDE)
     flip  ///< GzRender's: N.L and N.E both negative: N is turned over; of different signs: the light does not count
   };
   glm::vec3 ambient{0};
   bool local_viewer = false;  ///< the eye is at eye space's origin, else infinitely far away along +z
   Specular specular = Specular::half_vector;
   Sides sides = Sides::one;
+  bool separate_specular = false;  ///< the specular term is added after texturing
 };
 
-/// glMaterial, both faces.
+/// glMaterial.
 struct Material {
   glm::vec4 ambient{0.2f, 0.2f, 0.2f, 1};
   glm::vec4 diffuse{0.8f, 0.8f, 0.8f, 1};  ///< also the colour of an unlit mesh without vertex colours
@@ -204,10 +206,11 @@ struct Merge {
 
 /// A mesh, placed, with the state it is drawn under. Counter-clockwise in the window is the front.
 struct Draw {
-  std::uint32_t mesh = 0;             ///< index into Scene::meshes
-  std::vector<Transform> transforms;  ///< in the order written, as glTranslate... would be: the last acts first
-  Material material;
-  bool lit = true;  ///< false: the mesh's colours, or the material's diffuse
+  std::uint32_t mesh = 0;                 ///< index into Scene::meshes
+  std::vector<Transform> transforms;      ///< in the order written, as glTranslate... would be: the last acts first
+  Material material;                      ///< of both faces
+  std::optional<Material> back_material;  ///< of back faces, where there is one and light has two sides
+  bool lit = true;                        ///< false: the mesh's colours, or the material's diffuse
   ColorMaterial color_material = ColorMaterial::none;
   Normals normals = Normals::normalize;
   Shading shading = Shading::gouraud;
@@ -232,9 +235,6 @@ struct Draw {
 /// Where light falls: on the vertices, or on the fragments.
 inline bool is_lit_per_vertex(const Draw& draw) { return draw.lit && draw.shading != Shading::phong; }
 inline bool is_lit_per_fragment(const Draw& draw) { return draw.lit && draw.shading == Shading::phong; }
-
-/// The draw's material, what a vertex colour stands for replaced by `color` (OpenGL 2.1 spec 2.14.3).
-Material colored(const Draw& draw, const glm::vec4& color);
 
 /// What a pixel's colour is the mean of (antialias.h), but for `none`, where it is that at its centre.
 struct Antialias {
@@ -287,6 +287,15 @@ struct Scene {
 inline bool textured(const Scene& scene) {
   return std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.texture.has_value(); });
 }
+/// One of the colours that light gives a vertex: of the front or the back, and the specular term alone, or what is left
+/// without it. Where the light model keeps nothing apart, the front's is all.
+struct LitPart {
+  bool back = false, secondary = false;
+};
+/// The material that makes that part of a lit draw's colour, what the vertex colour stands for replaced by it (OpenGL
+/// 2.1 spec 2.14.3); null: the mesh has none. Of the secondary part, alpha means nothing.
+Material lit_material(const Scene& scene, const Draw& draw, LitPart part, const glm::vec4* color);
+
 /// Whether any draw makes such primitives: is of such a mesh, or of triangles of which it draws edges or corners.
 bool draws(const Scene& scene, Topology topology);
 /// Whether a pixel's colour is that of its last fragment alone: nothing is blended, combined or masked.

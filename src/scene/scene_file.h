@@ -39,7 +39,8 @@ struct SceneFileOptions {
 ///                  gzrender      {"x_pi": {fov *: degrees}}
 ///                  tinyrenderer  {"pinhole": {c: the distance of eye and center where it is not given}}
 ///   ambient        [r, g, b], the light model's
-///   light_model    local_viewer: true, false; specular: "half_vector", "reflection"; sides: "one", "flip" (LightModel)
+///   light_model    local_viewer: true, false; specular: "half_vector", "reflection"; sides: "one", "two",
+///                  "flip"; separate_specular: true, false (LightModel)
 ///   lights         up to 8 of {"directional": [x, y, z] or "point": [x, y, z], ambient, diffuse, specular: [r, g, b]};
 ///                  beside point attenuation: [k0, k1, k2] and spot: {direction *: [x, y, z], cutoff *: degrees from 0
 ///                  to 90, exponent: 0 to 128}
@@ -74,6 +75,7 @@ struct SceneFileOptions {
 ///                  {"scale": [x, y, z]}
 ///     material     ambient, diffuse, specular, emission: [r, g, b, a]; shininess: 0 to 128. Where neither the draw nor
 ///                  the defaults have one, a mesh file's materials count; a file of several becomes several draws
+///     back_material  likewise, of back faces where light has two sides; without it, they have material's
 ///     lit          true, false
 ///     color_material  "none", "ambient", "diffuse", "ambient_and_diffuse", "specular", "emission": what of the
 ///                  material is the mesh's colours, where it has some

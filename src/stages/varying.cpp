@@ -6,11 +6,13 @@
 
 namespace plumbline {
 
-bool carries(const Scene&, const Draw& draw, Varying v) {
+bool carries(const Scene& scene, const Draw& draw, Varying v) {
+  const bool two = is_lit_per_vertex(draw) && scene.light_model.sides == LightModel::Sides::two;
+  const bool separate = is_lit_per_vertex(draw) && scene.light_model.separate_specular;
   switch (v) {
-    case Varying::secondary: return false;
-    case Varying::back_color: return false;
-    case Varying::back_secondary: return false;
+    case Varying::secondary: return separate;
+    case Varying::back_color: return two;
+    case Varying::back_secondary: return two && separate;
     case Varying::texture: return draw.texture.has_value();
     case Varying::normal: return is_lit_per_fragment(draw);
     case Varying::position: return draw.fog.has_value() || is_lit_per_fragment(draw);

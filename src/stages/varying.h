@@ -36,6 +36,8 @@ constexpr bool is_lit(Varying v) { return v <= Varying::back_secondary; }
 /// Whether it ends at the window stage, where each face gets its side's.
 constexpr bool is_back(Varying v) { return v == Varying::back_color || v == Varying::back_secondary; }
 
+constexpr bool is_secondary(Varying v) { return v == Varying::secondary || v == Varying::back_secondary; }
+
 /// Whether the draw's fragments, or the faces that they are of, need it. Those of a draw that does not are zeros where
 /// another draw's are there.
 bool carries(const Scene& scene, const Draw& draw, Varying v);

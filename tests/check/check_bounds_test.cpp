@@ -338,6 +338,25 @@ TEST_F(LightBoundsTest, LongNormalsSteepenThePower) {
   EXPECT_NEAR(at({0, 0, 0}, {0, 0, 2}).magnitude.r, 0.5 + 0.5 * (4 + 4 * 3), 1e-3);
 }
 
+TEST_F(LightBoundsTest, InheritWhatTheInputsAreOffBy) {
+  const auto inherited = [&](const LightInputs& errors) {
+    return light_bounds(scene, draw.material, {glm::dvec4(0, 0, -6, 1), glm::dvec4(0), glm::dvec3(0, 0.6, 0.8)}, errors)
+        .inherited.r;
+  };
+  draw.material.specular = glm::vec4(0);
+  light.kind = Light::Kind::point;
+  light.vector = {0, 0, 3};  // eye space: (0, 0, -2), 4 away
+  light.attenuation = {0, 1, 0};
+  scene.lights = {light};
+  EXPECT_EQ(inherited({}), 0);
+  EXPECT_NEAR(inherited({0, 0.01, 0}), 0.25 * 2 * 0.01, 1e-9) << "the normal, by the diffuse term's 2, a quarter of it";
+  // The position: 2 of it over the distance in N.L, and 1 / (d - e) for 1 / d of all.
+  const double moved = 1 / 3.99 - 0.25;
+  EXPECT_NEAR(inherited({0.01, 0, 0}), (0.25 + moved) * 2 * 0.005 + moved * (0.5 + 0.8 * 2), 1e-9);
+  // Colours: the emission and no scene's ambient light, and of the lamp a quarter of its own.
+  EXPECT_NEAR(inherited({0, 0, 0.01}), 0.01 * (1 + 0.25 * (1 + 0.8 * 4 + 2 * std::pow(0.8, 10))), 1e-9);
+}
+
 TEST_F(LightBoundsTest, OfAHighlightSeenAgainstTheLightGrows) {
   light.vector = {0, 0.1, -1};
   scene.lights = {light};

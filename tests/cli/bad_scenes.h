@@ -26,7 +26,7 @@ inline std::string mesh(const std::string& mesh) {
 
 /// The keys of a draw's state, as messages list them.
 inline const std::string kStateKeys =
-    "transforms, material, lit, color_material, normals, shading, cull, front_mode, back_mode, line_width, point_size, "
+    "transforms, material, back_material, lit, color_material, normals, shading, cull, front_mode, back_mode, line_width, point_size, "
     "depth_func, depth_range, polygon_offset, alpha_test, stencil, fog, scissor, depth_mask, blend, logic_op, color_mask, "
     "texture";
 
@@ -82,8 +82,11 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 0], "cutoff": 20}}])"), R"(at "/lights/0/spot/direction": expected a direction that is not zero, found [0, 0, 0])"},
     {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 1], "cutoff": 91}}])"), R"(at "/lights/0/spot/cutoff": expected a number from 0 to 90, found 91)"},
     {top(R"("lights": [{"point": [0, 0, 1], "spot": {"direction": [0, 0, 1], "cutoff": 20, "exponent": 129}}])"), R"(at "/lights/0/spot/exponent": expected a number from 0 to 128, found 129)"},
-    {top(R"("light_model": {"two_sided": true})"), R"(at "/light_model/two_sided": expected a key among local_viewer, specular, sides, found the unknown key "two_sided")"},
+    {top(R"("light_model": {"two_sided": true})"), R"(at "/light_model/two_sided": expected a key among local_viewer, specular, sides, separate_specular, found the unknown key "two_sided")"},
     {top(R"("light_model": {"specular": "phong"})"), R"(at "/light_model/specular": expected one of half_vector, reflection, found "phong")"},
+    {top(R"("light_model": {"sides": 2})"), R"(at "/light_model/sides": expected one of one, two, flip, found 2)"},
+    {top(R"("light_model": {"separate_specular": "yes"})"), R"(at "/light_model/separate_specular": expected true or false, found "yes")"},
+    {draw(R"("back_material": {"shininess": 129})"), R"(at "/draws/0/back_material/shininess": expected a number from 0 to 128, found 129)"},
     {top(R"("light_model": {"local_viewer": 1})"), R"(at "/light_model/local_viewer": expected true or false, found 1)"},
     {draw(R"("color_material": true)"), R"(at "/draws/0/color_material": expected one of none, ambient, diffuse, ambient_and_diffuse, specular, emission, found true)"},
     {draw(R"("normals": "unit")"), R"(at "/draws/0/normals": expected one of normalize, rescale, as_they_are, found "unit")"},

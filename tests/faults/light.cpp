@@ -6,6 +6,7 @@
 
 #include "dialect/dialect.h"
 #include "faults/variants.h"
+#include "pipeline/carry.h"
 #include "pipeline/light.h"
 #include "pipeline/math.h"
 
@@ -70,17 +71,38 @@ void specular_from_behind(const Scene& scene, const Draw& draw, Vertices vertice
   }
 }
 
-// The fragments of a surface without fog.
+void back_color_is_the_fronts(const Scene& scene, const Draw& draw, Varying varying, Vertices vertices,
+                              std::vector<Vec4<float>>& out) {
+  if (varying != Varying::back_color || !carries(scene, draw, varying)) {
+    return pipeline::carry(scene, draw, varying, vertices, out);
+  }
+  pipeline::light_part(scene, draw, {}, vertices, out);
+}
+
+// The sum of colours left out.
+struct NoColorSum : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Color<R> shade_surface(const pipeline::Surface& surface, bool front,
+                                          const pipeline::SurfaceAttributes<R>& a) {
+    pipeline::SurfaceAttributes<R> primary = a;
+    primary[Varying::secondary] = {R(0), R(0), R(0), R(0)};
+    return pipeline::shade_surface<R>(surface, front, primary);
+  }
+};
+
+// The fragments of a surface without fog, of one side.
 struct ShortNormals : pipeline::FragmentStages {
   template <class R>
   static pipeline::Color<R> shade_surface(const pipeline::Surface& surface, bool front,
                                           const pipeline::SurfaceAttributes<R>& a) {
-    if (!surface.light || surface.light->by_color || surface.draw->fog) {
+    const LightModel& model = surface.scene->light_model;
+    const bool simple = model.sides != LightModel::Sides::two && !model.separate_specular && !surface.draw->fog;
+    if (!surface.light || surface.light->by_color || !simple) {
       return pipeline::shade_surface<R>(surface, front, a);
     }
     const pipeline::Color<R>&n = a[Varying::normal], &p = a[Varying::position];
     const Vec4<float> c =
-        pipeline::lit(surface.light->illumination, surface.light->reflectance, {p.r, p.g, p.b}, {n.r, n.g, n.b});
+        pipeline::lit(surface.light->illumination, surface.light->reflectance[0][0], {p.r, p.g, p.b}, {n.r, n.g, n.b});
     return {c.r, c.g, c.b, c.a};
   }
 };
@@ -100,6 +122,9 @@ constexpr std::array kFaults = {
     of<kAmbientPerLight>("light.ambient_per_light", "the ambient light is added once more for each light"),
     Fault{"light.specular_from_behind", "highlights shine where N.L <= 0", Stage::light,
           with_geometry<&Geometry::light, specular_from_behind>},
+    Fault{"light.back_color_of_front", "back faces are lit by their front's normal and material", Stage::light,
+          with_geometry<&Geometry::carry, back_color_is_the_fronts>},
+    Fault{"shade.no_color_sum", "the separate specular colour is not added", Stage::shade, with_fragment<NoColorSum>},
     Fault{"shade.not_renormalised", "interpolated normals are not brought back to unit length", Stage::shade,
           with_fragment<ShortNormals>},
 };

@@ -134,8 +134,9 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
   }
   scene.light_model.local_viewer = *gen::arbitrary<bool>();
   scene.light_model.specular = one_of<LightModel::Specular>(2);
-  scene.light_model.sides =
-      *gen::weightedElement<LightModel::Sides>({{3, LightModel::Sides::one}, {1, LightModel::Sides::flip}});
+  scene.light_model.sides = *gen::weightedElement<LightModel::Sides>(
+      {{3, LightModel::Sides::one}, {1, LightModel::Sides::two}, {1, LightModel::Sides::flip}});
+  scene.light_model.separate_specular = *evenly(0, 4) == 0;
   const int draws = *evenly(1, 4);
   for (int i = 0; i < draws; ++i) {
     scene.meshes.push_back(random_mesh(8, of));
@@ -147,9 +148,10 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
     draw.lit = *gen::arbitrary<bool>();
     draw.color_material = one_of<ColorMaterial>(6);
     draw.normals = one_of<Normals>(3);
+    if (*evenly(0, 3) == 0) draw.back_material = Material{*color(), *color(), *color(), {0, 0, 0, 1}, 20};
     // A cosine above 1 to the power of 128 is beyond float, of which OpenGL says nothing.
     if (draw.normals != Normals::normalize) draw.material.shininess = std::min(draw.material.shininess, 20.0f);
-    draw.shading = one_of<Shading>(2);
+    draw.shading = one_of<Shading>(3);
     draw.cull = *gen::weightedElement<Cull>({{3, Cull::none}, {1, Cull::back}, {1, Cull::front}});
     draw.depth_func = *gen::weightedElement<DepthFunc>({{4, DepthFunc::less},
                                                         {1, DepthFunc::less_equal},

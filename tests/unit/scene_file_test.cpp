@@ -32,12 +32,19 @@ class SceneFile : public TestFolder {
 TEST_F(SceneFile, ReadsTheLightModelAndWhatALampHas) {
   const Scene s = load(R"({
     "description": "d",
-    "light_model": {"local_viewer": true, "specular": "reflection", "sides": "flip"},
+    "light_model": {"local_viewer": true, "specular": "reflection", "sides": "flip", "separate_specular": true},
     "lights": [{"point": [1, 2, 3], "attenuation": [0, 0.5, 2],
                 "spot": {"direction": [0, 0, -3], "cutoff": 22.5, "exponent": 128}},
                {"point": [0, 0, 0], "spot": {"direction": [0, 1, 0], "cutoff": 90}},
                {"point": [0, 0, 0]}],
-    "draws": [{"mesh": {"cube": {}}, "color_material": "ambient_and_diffuse", "normals": "as_they_are"}]})");
+    "draws": [{"mesh": {"cube": {}}, "color_material": "ambient_and_diffuse", "normals": "as_they_are"},
+              {"mesh": {"cube": {}}, "back_material": {"shininess": 5}, "shading": "phong"}]})");
+  EXPECT_TRUE(s.light_model.separate_specular);
+  EXPECT_FALSE(s.draws[0].back_material);
+  ASSERT_TRUE(s.draws[1].back_material);
+  EXPECT_EQ(s.draws[1].back_material->shininess, 5);
+  EXPECT_EQ(s.draws[1].back_material->diffuse, Material{}.diffuse);
+  EXPECT_EQ(s.draws[1].shading, Shading::phong);
   EXPECT_TRUE(s.light_model.local_viewer);
   EXPECT_EQ(s.light_model.specular, LightModel::Specular::reflection);
   EXPECT_EQ(s.light_model.sides, LightModel::Sides::flip);
@@ -399,7 +406,7 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
       for (const Transform& transform : draw.transforms) seen("transform ", transform.index());
     }
   }
-  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 4 + 2 + 2 + 6 + 3 + 2 + 3 + 8 + 3);
+  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 4 + 2 + 2 + 6 + 3 + 3 + 3 + 8 + 3);
 }
 
 }  // namespace
