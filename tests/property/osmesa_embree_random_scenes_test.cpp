@@ -43,6 +43,7 @@ RC_GTEST_PROP(RandomScenes, HoldAgainstAllReferences, ()) {
 }
 
 RC_GTEST_PROP(RandomScenes, AntialiasedHoldAgainstAllReferences, ()) {
+  if (*test::evenly(0, 8) != 0) return;  // one in eight: each is drawn up to six times, by Mesa with code made anew
   Scene scene = test::random_scene();
   scene.frame.antialias = *rc::gen::weightedElement<Antialias>({{3, {Antialias::Kind::multisample, 1}},
                                                                 {1, {Antialias::Kind::supersample, 3}},
