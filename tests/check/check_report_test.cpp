@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "check_fixtures.h"
@@ -135,7 +136,9 @@ TEST_F(Reports, SummaryIsOkOnlyWhereAllWasJudged) {
     all.back().stage = static_cast<Stage>(i);
   }
   const std::string fine = of(all, true);
-  EXPECT_TRUE(fine.starts_with("ok: 1 scenes, 11 comparisons in 1.50 s: 9 equal, 1 within, 1 ambiguous_only")) << fine;
+  const std::string expected = fmt::format(
+      "ok: 1 scenes, {} comparisons in 1.50 s: {} equal, 1 within, 1 ambiguous_only", all.size(), all.size() - 2);
+  EXPECT_TRUE(fine.starts_with(expected)) << fine;
   EXPECT_TRUE(of(all, false).starts_with("FAILED"));
   for (Outcome outcome : {Outcome::unsupported, Outcome::dispute, Outcome::missing}) {
     std::vector<Comparison> more = all;
@@ -145,7 +148,7 @@ TEST_F(Reports, SummaryIsOkOnlyWhereAllWasJudged) {
     EXPECT_TRUE(contains(text, "1 " + std::string(name_of(outcome)))) << text;
     EXPECT_TRUE(of(more, false).starts_with("FAILED")) << "--allow-missing was not given, or a stage is unjudged";
   }
-  all.pop_back();
+  std::erase_if(all, [](const Comparison& c) { return c.stage == Stage::merge; });
   EXPECT_TRUE(of(all, true).starts_with("ok where judged:")) << "nobody compared merge";
 }
 
