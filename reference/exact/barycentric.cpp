@@ -66,6 +66,10 @@ std::array<long double, 3> Barycentric::at(const Affine<T>& affine, glm::dvec2 p
   return {static_cast<long double>(1 - b1 - b2), static_cast<long double>(b1), static_cast<long double>(b2)};
 }
 
+std::array<Float128, 2> Barycentric::slope(double at_second, double at_third) const {
+  return {exact_.d1_dx * at_second + exact_.d2_dx * at_third, exact_.d1_dy * at_second + exact_.d2_dy * at_third};
+}
+
 std::array<long double, 3> Barycentric::at(int x, int y, glm::dvec2 off) const {
   const glm::dvec2 p = glm::dvec2(x, y) + 0.5 + off;  // of small multiples of 1/256: exact
   return rounded_suffices_ ? at(rounded_, p) : at(exact_, p);

@@ -26,6 +26,9 @@ class Barycentric {
   /// At pixel (x, y)'s centre, or `off` it, in pixels.
   std::array<long double, 3> at(int x, int y, glm::dvec2 off = {0, 0}) const;
 
+  /// Along x and along y, per pixel, of what is 0 at the first corner and has these values at the others.
+  std::array<Float128, 2> slope(double at_second, double at_third) const;
+
  private:
   template <class T>
   struct Affine {

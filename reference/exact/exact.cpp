@@ -69,7 +69,7 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
     case Stage::texture: filter_texels(scene, records, out); break;
     case Stage::shade: out.records.shaded = shade_fragments(scene, records); break;
     case Stage::visibility:
-      out.records.drawn = drawn_fragments(scene, records);
+      out.records.drawn = drawn_fragments(scene, records, out.planes.stencil);
       out.planes.id = visible_primitives(scene, records, out.records.drawn);
       break;
     case Stage::merge: merge_fragments(scene, in, out); break;
@@ -130,7 +130,7 @@ Fours fours_at(const Scene& scene, const Draw& draw, const Records<double>& wind
 void draw_triangles(const Scene& scene, const Records<double>& window, const Selection& selection, Capture& out) {
   const FrameFormat& frame = scene.frame;
   const DrawOf draw_of(scene);
-  DepthBuffer buffer(frame);
+  TestedFrame buffer(frame);
   ColorBuffer colors(scene);
   out.planes = cleared_planes(frame);
   if (textured(scene)) out.planes.texel = Plane<glm::vec4>(frame.width, frame.height, glm::vec4(0));
@@ -146,22 +146,29 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
     if (covered.empty()) continue;
 
     const Barycentric weights(triangle, frame.width, frame.height);
+    const DepthRule rule = depth_rule(scene, draw, triangle, weights);
     for (const Covered& c : covered) {
       add_fragment(out.planes, c.x, c.y, id_weight(triangle.primitive));
-      const double depth = depth_at(triangle, weights, frame, c.x, c.y);
-      const bool visible = buffer.test(c.x, c.y, draw, depth);
+      const double depth = depth_at(triangle, weights, rule, c.x, c.y);
       const bool recorded = wanted && selection.fragments() && selection.pixel(c.x, c.y);
-      if (!visible && !recorded) continue;
-      const glm::dvec4 color = color_at(triangle, weights, c.x, c.y);
-      const Fours fours = plain ? Fours{} : fours_at(scene, draw, window, t, weights, c.x, c.y);
+      const bool colored = recorded || draw.alpha_test;
+      glm::dvec4 color(0), shaded(0);
+      Fours fours{};
       Texel<double> texel;
-      if (draw.texture) {
-        const auto texture = static_cast<std::size_t>(Varying::texture);
-        const TexturedTriangle with_texture{triangle, window.varyings[Varying::texture].triangles[t],
-                                            scene.textures.at(draw.texture->texture), weights};
-        texel = texel_at(with_texture, glm::dvec2(fours[texture]), c.x, c.y);
-      }
-      const glm::dvec4 shaded = plain ? color : shade(scene, draw, triangle.front, color, fours, texel.color);
+      const auto colour = [&] {
+        color = color_at(triangle, weights, c.x, c.y);
+        if (!plain) fours = fours_at(scene, draw, window, t, weights, c.x, c.y);
+        if (draw.texture) {
+          const auto texture = static_cast<std::size_t>(Varying::texture);
+          const TexturedTriangle with_texture{triangle, window.varyings[Varying::texture].triangles[t],
+                                              scene.textures.at(draw.texture->texture), weights};
+          texel = texel_at(with_texture, glm::dvec2(fours[texture]), c.x, c.y);
+        }
+        shaded = plain ? color : shade(scene, draw, triangle.front, color, fours, texel.color);
+      };
+      if (colored) colour();
+      const bool visible = buffer.test({c.x, c.y, draw, triangle.front, depth, shaded.a});
+      if (visible && !colored) colour();
       if (recorded) selection.add({c, depth, color, fours, texel, shaded, visible}, out.records);
       if (!visible) continue;
       out.planes.id(c.x, c.y) = static_cast<std::int32_t>(triangle.primitive);
@@ -170,7 +177,8 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
       colors.write(c.x, c.y, draw.merge, shaded);
     }
   }
-  out.planes.depth = buffer.take();
+  out.planes.depth = buffer.take_depth();
+  out.planes.stencil = buffer.take_stencil();
   out.planes.color = colors.take();
 }
 

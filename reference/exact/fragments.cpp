@@ -6,14 +6,42 @@
 #include "scene/antialias.h"
 
 namespace plumbline::exact {
+namespace {
 
-double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const FrameFormat& frame, int x,
+/// OpenGL 2.1 spec, equations 3.10 to 3.13: m the larger of |dz/dx|, |dz/dy|.
+long double polygon_offset(DepthFormat format, const PolygonOffset& offset, const WindowTriangle<double>& triangle,
+                           const Barycentric& weights) {
+  if (triangle.corners < 3 || offset == PolygonOffset{}) return 0;
+  const double z0 = triangle.v[0].p_win.z, z1 = triangle.v[1].p_win.z, z2 = triangle.v[2].p_win.z;
+  const auto slope = weights.slope(z1 - z0, z2 - z0);
+  const auto size = [](Float128 v) { return static_cast<long double>(v < 0 ? -v : v); };
+  const long double m = std::max(size(slope[0]), size(slope[1]));
+  return m * offset.factor +
+         static_cast<long double>(polygon_offset_unit(format, std::max({z0, z1, z2}))) * offset.units;
+}
+
+}  // namespace
+
+// GL 4.5 compatibility, section 17.3.6: clamped depths go to the range that glDepthRange gives, either end first.
+DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
+                     const Barycentric& weights) {
+  DepthRule rule;
+  rule.place = glm::dvec2(sample_place(scene.frame)) / static_cast<double>(kSubpixel);
+  rule.offset = polygon_offset(scene.frame.depth, draw.polygon_offset, triangle, weights);
+  if (!scene.depth_clamp) return rule;
+  const double near = draw.depth_range.near, far = draw.depth_range.far;
+  rule.low = std::min(near, far);
+  rule.high = std::max(near, far);
+  return rule;
+}
+
+double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
                 int y) {
-  const auto b = weights.at(x, y, glm::dvec2(sample_place(frame)) / static_cast<double>(kSubpixel));
+  const auto b = weights.at(x, y, rule.place);
   // From the first corner on: the weights' sum of 1 is used in exact form, and a flat triangle's depth is exact.
   const long double z0 = triangle.v[0].p_win.z;
-  const long double z = z0 + b[1] * (triangle.v[1].p_win.z - z0) + b[2] * (triangle.v[2].p_win.z - z0);
-  return std::clamp(static_cast<double>(z), 0.0, 1.0);
+  const long double z = rule.offset + z0 + b[1] * (triangle.v[1].p_win.z - z0) + b[2] * (triangle.v[2].p_win.z - z0);
+  return std::clamp(static_cast<double>(z), rule.low, rule.high);
 }
 
 glm::dvec4 color_at(const WindowTriangle<double>& triangle, const Barycentric& weights, int x, int y) {
@@ -31,11 +59,13 @@ glm::dvec4 color_at(const WindowTriangle<double>& triangle, const Barycentric& w
 std::vector<double> fragment_depths(const Scene& scene, const Records<double>& records) {
   std::vector<double> depth;
   depth.reserve(records.covered.size());
+  const DrawOf draw_of(scene);
   for (const FragmentRun& run : runs_by_triangle(scene, records)) {
     const WindowTriangle<double>& triangle = records.triangles[run.triangle];
     const Barycentric weights(triangle, scene.frame.width, scene.frame.height);
+    const DepthRule rule = depth_rule(scene, draw_of(triangle.primitive), triangle, weights);
     for (std::size_t i = run.first; i < run.last; ++i)
-      depth.push_back(depth_at(triangle, weights, scene.frame, records.covered[i].x, records.covered[i].y));
+      depth.push_back(depth_at(triangle, weights, rule, records.covered[i].x, records.covered[i].y));
   }
   return depth;
 }

@@ -9,9 +9,18 @@
 
 namespace plumbline::exact {
 
-/// Window z at pixel (x, y)'s centre, or that of the frame's sample, by the plane through the corners, clamped to
-/// [0,1]. Not in any depth format.
-double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const FrameFormat& frame, int x,
+/// What a draw says of a triangle's depths.
+struct DepthRule {
+  glm::dvec2 place{0};       ///< of the frame's sample, from the pixel's centre
+  double low = 0, high = 1;  ///< depths beyond are clamped
+  long double offset = 0;    ///< is added before
+};
+DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
+                     const Barycentric& weights);
+
+/// Window z at pixel (x, y)'s centre, or that of the frame's sample, by the plane through the corners, moved and
+/// clamped. Not in any depth format.
+double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
                 int y);
 
 /// The perspective-correct colour at pixel (x, y)'s centre: sum(b_i c_i / w_i) / sum(b_i / w_i). Not clamped.

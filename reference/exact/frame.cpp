@@ -5,6 +5,7 @@
 
 #include "reference/exact/input.h"
 #include "reference/math/depth_format.h"
+#include "stages/fragment_outcomes.h"
 
 namespace plumbline::exact {
 
@@ -13,15 +14,21 @@ using math::passes;
 
 namespace {
 
-/// Calls visit(index of the fragment, its draw, its primitive) for each fragment in draw order.
+/// Calls visit(index of the fragment, the fragment, its primitive) for each fragment in draw order.
 template <class Visit>
 void for_each_fragment(const Scene& scene, const Records<double>& records, Visit visit) {
   require_size("records.depth", records.depth.size(), records.covered.size());
   const DrawOf draw_of(scene);
   for (const FragmentRun& run : runs_by_triangle(scene, records)) {
-    const std::uint32_t primitive = records.triangles[run.triangle].primitive;
-    const Draw& draw = draw_of(primitive);
-    for (std::size_t i = run.first; i < run.last; ++i) visit(i, draw, static_cast<std::int32_t>(primitive));
+    const WindowTriangle<double>& triangle = records.triangles[run.triangle];
+    const Draw& draw = draw_of(triangle.primitive);
+    if (draw.alpha_test) require_size("records.shaded", records.shaded.size(), records.covered.size());
+    for (std::size_t i = run.first; i < run.last; ++i) {
+      const Covered& c = records.covered[i];
+      const double alpha = draw.alpha_test ? records.shaded[i].color.a : 0;
+      visit(i, Fragment{c.x, c.y, draw, triangle.front, records.depth[i], alpha},
+            static_cast<std::int32_t>(triangle.primitive));
+    }
   }
 }
 
@@ -34,35 +41,47 @@ std::vector<Drawn> drawn_by_winners(const Scene& scene, const Records<double>& r
   const FrameFormat& frame = scene.frame;
   require_size("planes.id", id.size(), static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
   std::vector<Drawn> drawn(records.covered.size());
-  DepthBuffer buffer(frame);
+  TestedFrame buffer(frame);
   Plane<std::uint8_t> written(frame.width, frame.height, 0);
-  for_each_fragment(scene, records, [&](std::size_t i, const Draw& draw, std::int32_t primitive) {
-    const Covered& c = records.covered[i];
-    if (id(c.x, c.y) != primitive) return;
+  for_each_fragment(scene, records, [&](std::size_t i, const Fragment& f, std::int32_t primitive) {
+    if (id(f.x, f.y) != primitive) return;
     // A cut primitive may have two triangles at a pixel: the later one has to pass the earlier.
-    Draw first = {};
-    first.depth_func = DepthFunc::always;
-    first.merge.depth_mask = draw.merge.depth_mask;
-    drawn[i].drawn = buffer.test(c.x, c.y, written(c.x, c.y) == 0 ? first : draw, records.depth[i]);
-    written(c.x, c.y) = 1;
+    Draw known = f.draw;
+    known.stencil.reset();  // what was held is not known
+    if (written(f.x, f.y) == 0) known.depth_func = DepthFunc::always;
+    drawn[i].drawn = buffer.test({f.x, f.y, known, f.front, f.depth, f.alpha});
+    written(f.x, f.y) = 1;
   });
   return drawn;
 }
 
 }  // namespace
 
-DepthBuffer::DepthBuffer(const FrameFormat& frame)
-    : format_(frame.depth), plane_(frame.width, frame.height, in_format(frame.depth, frame.clear_depth)) {}
-
-bool DepthBuffer::test(int x, int y, const Draw& draw, double depth) {
-  const double incoming = in_format(format_, depth);  // equal codes are equal numbers
-  if (!passes(draw.depth_func, incoming, plane_(x, y))) return false;
-  store(x, y, draw, depth);
-  return true;
+TestedFrame::TestedFrame(const FrameFormat& frame)
+    : format_(frame.depth),
+      color_(frame.color),
+      depth_(frame.width, frame.height, in_format(frame.depth, frame.clear_depth)) {
+  if (frame.stencil != StencilFormat::none) stencil_ = {frame.width, frame.height, frame.clear_stencil};
 }
 
-void DepthBuffer::store(int x, int y, const Draw& draw, double depth) {
-  if (draw.merge.depth_mask) plane_(x, y) = in_format(format_, depth);
+bool TestedFrame::test(const Fragment& f) {
+  const Draw& draw = f.draw;
+  if (draw.alpha_test && !alpha_outcomes(*draw.alpha_test, color_, f.alpha, f.alpha).may_pass) return false;
+  const double incoming = in_format(format_, f.depth);  // equal codes are equal numbers
+  const bool nearer = passes(draw.depth_func, incoming, depth_(f.x, f.y));
+  if (draw.stencil) {
+    const StencilFace& face = f.front ? draw.stencil->front : draw.stencil->back;
+    std::uint8_t& held = stencil_(f.x, f.y);
+    const bool passed = stencil_passes(face, held);
+    held = stencil_after(face, nearer, held);
+    if (!passed) return false;
+  }
+  if (nearer) store(f);
+  return nearer;
+}
+
+void TestedFrame::store(const Fragment& f) {
+  if (f.draw.merge.depth_mask) depth_(f.x, f.y) = in_format(format_, f.depth);
 }
 
 static_assert(sizeof(math::FrameColor) <= 18 * sizeof(double), "more than plane_bytes() counts");
@@ -102,21 +121,20 @@ void ColorBuffer::take_bounds(Legal& out) const {
   }
 }
 
-std::vector<Drawn> drawn_fragments(const Scene& scene, const Records<double>& records) {
+std::vector<Drawn> drawn_fragments(const Scene& scene, const Records<double>& records, Plane<std::uint8_t>& stencil) {
   std::vector<Drawn> drawn(records.covered.size());
-  DepthBuffer buffer(scene.frame);
-  for_each_fragment(scene, records, [&](std::size_t i, const Draw& draw, std::int32_t) {
-    const Covered& c = records.covered[i];
-    drawn[i].drawn = buffer.test(c.x, c.y, draw, records.depth[i]);
-  });
+  TestedFrame buffer(scene.frame);
+  for_each_fragment(scene, records,
+                    [&](std::size_t i, const Fragment& f, std::int32_t) { drawn[i].drawn = buffer.test(f); });
+  stencil = buffer.take_stencil();
   return drawn;
 }
 
 Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>& records,
                                        const std::vector<Drawn>& drawn) {
   Plane<std::int32_t> id(scene.frame.width, scene.frame.height, kBackground);
-  for_each_fragment(scene, records, [&](std::size_t i, const Draw&, std::int32_t primitive) {
-    if (drawn[i].drawn) id(records.covered[i].x, records.covered[i].y) = primitive;
+  for_each_fragment(scene, records, [&](std::size_t i, const Fragment& f, std::int32_t primitive) {
+    if (drawn[i].drawn) id(f.x, f.y) = primitive;
   });
   return id;
 }
@@ -124,19 +142,19 @@ Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>
 void merge_fragments(const Scene& scene, const Capture& in, Capture& out) {
   const Records<double>& records = in.records;
   require_size("records.shaded", records.shaded.size(), records.covered.size());
+  Plane<std::uint8_t> stencil;  // visibility's matter
   const std::vector<Drawn> drawn = !records.drawn.empty() ? records.drawn
-                                   : in.planes.id.empty() ? drawn_fragments(scene, records)
+                                   : in.planes.id.empty() ? drawn_fragments(scene, records, stencil)
                                                           : drawn_by_winners(scene, records, in.planes.id);
   require_size("records.drawn", drawn.size(), records.covered.size());
-  DepthBuffer depth(scene.frame);
+  TestedFrame tested(scene.frame);
   ColorBuffer color(scene);
-  for_each_fragment(scene, records, [&](std::size_t i, const Draw& draw, std::int32_t) {
-    const Covered& c = records.covered[i];
+  for_each_fragment(scene, records, [&](std::size_t i, const Fragment& f, std::int32_t) {
     if (!drawn[i].drawn) return;
-    depth.store(c.x, c.y, draw, records.depth[i]);
-    color.write(c.x, c.y, draw.merge, records.shaded[i].color);
+    tested.store(f);
+    color.write(f.x, f.y, f.draw.merge, records.shaded[i].color);
   });
-  out.planes.depth = depth.take();
+  out.planes.depth = tested.take_depth();
   color.take_bounds(out.legal);
   out.planes.color = color.take();
 }

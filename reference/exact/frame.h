@@ -10,19 +10,32 @@
 
 namespace plumbline::exact {
 
-/// The depth plane in the frame's format, cleared.
-class DepthBuffer {
+/// A fragment as its tests see it.
+struct Fragment {
+  int x, y;
+  const Draw& draw;
+  bool front;    ///< a line and a point are
+  double depth;  ///< window z
+  double alpha;  ///< looked at where the draw tests it
+};
+
+/// The planes that tests go by: depth in the frame's format, and stencil values where it has them. Cleared.
+class TestedFrame {
  public:
-  explicit DepthBuffer(const FrameFormat& frame);
-  /// A fragment of window z `depth` arrives; where it passes, it is stored, if the draw writes depth.
-  bool test(int x, int y, const Draw& draw, double depth);
+  explicit TestedFrame(const FrameFormat& frame);
+  /// A fragment arrives: alpha, stencil and depth test, in that order (OpenGL 2.1 spec 4.1.4 to 4.1.6). Where it
+  /// passes, its depth is stored, if the draw writes depth; the stencil value changes either way.
+  bool test(const Fragment& fragment);
   /// One that is known to pass.
-  void store(int x, int y, const Draw& draw, double depth);
-  Plane<double> take() { return std::move(plane_); }
+  void store(const Fragment& fragment);
+  Plane<double> take_depth() { return std::move(depth_); }
+  Plane<std::uint8_t> take_stencil() { return std::move(stencil_); }
 
  private:
   DepthFormat format_;
-  Plane<double> plane_;
+  ColorFormat color_;
+  Plane<double> depth_;
+  Plane<std::uint8_t> stencil_{};
 };
 
 /// The colour plane, cleared. Clamped to [0,1] where the frame has codes, but what is written last not rounded to them;
@@ -42,9 +55,10 @@ class ColorBuffer {
   Plane<math::FrameColor> blended_{};  // or else
 };
 
-/// Stage 10, from records.triangles, covered and depth: which fragments pass all tests; and planes.id, the last of
-/// them. Both throw std::invalid_argument where the records do not fit the scene or each other.
-std::vector<Drawn> drawn_fragments(const Scene& scene, const Records<double>& records);
+/// Stage 10, from records.triangles, covered, depth and (for alpha tests) shaded: which fragments pass all tests, and
+/// the stencil plane that these leave; and planes.id, the last of them. Both throw std::invalid_argument where the
+/// records do not fit the scene or each other.
+std::vector<Drawn> drawn_fragments(const Scene& scene, const Records<double>& records, Plane<std::uint8_t>& stencil);
 Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>& records,
                                        const std::vector<Drawn>& drawn);
 

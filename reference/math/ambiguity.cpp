@@ -28,6 +28,7 @@ namespace plumbline::math {
 
 namespace {
 
+// A stencil value tells of hidden surfaces too, so that where there are stencil tests all edges and meetings count.
 /// Whether all of them look for the nearest surface, or all for the farthest: then only what meets the winner matters.
 /// Else what one function keeps decides what the next compares with, and hidden surfaces matter too.
 template <class Range, class FuncOf>
@@ -64,8 +65,8 @@ std::vector<Edge> drawn_edges(const Projected& projected) {
   return edges;
 }
 
-double z_at(const Triangle& t, glm::dvec3 d) { return 0.5 + glm::dot(t.z_plane, d); }
-double slope_of(const Triangle& t) { return std::abs(t.z_plane.x) + std::abs(t.z_plane.y); }
+double z_at(const Triangle& t, glm::dvec3 d) { return to_window(t, 0.5 + glm::dot(t.z_plane, d)); }
+double slope_of(const Triangle& t) { return range_scale(t) * (std::abs(t.z_plane.x) + std::abs(t.z_plane.y)); }
 
 /// Whether a point of depth z of `primitive` is seen in the pixel's neighbourhood, whose winner is `winner`. Surfaces
 /// may fall away within the pixel, as the winner's own neighbours do: depths within a pixel's slope count as equal.
@@ -110,10 +111,10 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
   };
   const auto sample = [&](double s) {
     const glm::dvec3 d = from + s * along;
-    const double inv_w = (1 - s) / a.z + s / b.z, z = 0.5 + 0.5 * ((1 - s) * a.w / a.z + s * b.w / b.z);
+    const double inv_w = (1 - s) / a.z + s / b.z, z_view = 0.5 + 0.5 * ((1 - s) * a.w / a.z + s * b.w / b.z);
     const int x = std::clamp(static_cast<int>(d.x + 0.5 * id.width()), 0, id.width() - 1);
     const int y = std::clamp(static_cast<int>(d.y + 0.5 * id.height()), 0, id.height() - 1);
-    return Sample{bands.all_seen || seen(scene, projected, edge.primitive, id(x, y), d, z), x, y,
+    return Sample{bands.all_seen || seen(scene, projected, edge.primitive, id(x, y), d, to_window(t, z_view)), x, y,
                   displacement(projected, t, d, 1 / inv_w)};
   };
   const double length = glm::length(along);
@@ -141,7 +142,8 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
 }  // namespace
 
 double ambiguous_by_edges(const Scene& scene, const Projected& projected, const Plane<std::int32_t>& id) {
-  const bool all_seen = !one_sense(scene.draws, [](const Draw& draw) { return draw.depth_func; });
+  const bool counted = std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.stencil.has_value(); });
+  const bool all_seen = counted || !one_sense(scene.draws, [](const Draw& draw) { return draw.depth_func; });
   Bands bands{all_seen, 0, {id.width(), id.height(), 0}};
   for (const Edge& edge : drawn_edges(projected)) add_band(scene, projected, edge, id, bands);
   const auto centres = std::count(bands.near.values().begin(), bands.near.values().end(), char{1});
@@ -161,24 +163,24 @@ void operator+=(DepthShare& a, const DepthShare& b) {
 struct Surface {
   std::int64_t order;
   DepthFunc func;
-  double z, half;
-  glm::dvec2 slope;
+  PixelDepth win, view;
 };
 
 /// The share of the band where the two meet, that this pixel stands for.
 DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
   const DepthFunc later = a.order > b.order ? a.func : b.func;  // compares the two, or does not care
   if (later == DepthFunc::always || later == DepthFunc::never) return {};
-  const double width = a.half + b.half + depth_step(frame.depth, std::clamp(std::max(a.z, b.z), 0.0, 1.0));
-  const double apart = std::abs(a.z - b.z), slope = glm::length(a.slope - b.slope);
+  const double step = depth_step(frame.depth, std::clamp(std::max(a.win.z, b.win.z), 0.0, 1.0));
+  const double width = a.win.half + b.win.half + step;
+  const double apart = std::abs(a.win.z - b.win.z), slope = glm::length(a.win.slope - b.win.slope);
   const bool within = apart <= width;
   if (slope * kStandsFor <= width) return {within ? 1.0 : 0.0, within};
   return {apart <= kStandsFor * slope ? width / slope / kStandsFor : 0, within};
 }
 
-/// The share of the band along the line where the near or far plane, at window depth `plane`, cuts the surface. Only
+/// The share of the band along the line where the near or far plane, at depth `plane`, cuts the surface. Only
 /// pixels on the visible side have the surface as a hit, so each stands for the other side as well.
-DepthShare cut(const Surface& surface, double plane) {
+DepthShare cut(const PixelDepth& surface, double plane) {
   const double apart = std::abs(surface.z - plane), slope = glm::length(surface.slope);
   const bool within = apart <= surface.half;
   if (slope * kStandsFor <= surface.half) return {within ? 1.0 : 0.0, within};
@@ -190,12 +192,12 @@ DepthShare cut(const Surface& surface, double plane) {
 
 DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner) {
   std::vector<Surface> others;
-  Surface won{kBackground, DepthFunc::always, scene.frame.clear_depth, 0, glm::dvec2(0)};
+  const PixelDepth cleared{scene.frame.clear_depth, 0, glm::dvec2(0)};
+  Surface won{kBackground, DepthFunc::always, cleared, cleared};
   for (const PixelHit& h : hits) {
-    if (h.hit.depth_func == DepthFunc::never) continue;
-    if (!std::isfinite(h.z_half)) return {1, true};
-    const double z = scene.depth_clamp ? std::clamp(h.z, 0.0, 1.0) : h.z;
-    const Surface surface{h.hit.primitive, h.hit.depth_func, z, h.z_half, h.z_slope};
+    if (h.hit.depth_func == DepthFunc::never || !h.hit.alpha_passes) continue;
+    if (!std::isfinite(h.win.half) || h.hit.alpha_fails) return {1, true};
+    const Surface surface{h.hit.primitive, h.hit.depth_func, h.win, h.view};
     if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
       others.push_back(won);
       won = surface;
@@ -205,21 +207,22 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   }
   DepthShare share;
   for (const Surface& other : others) share += meeting(scene.frame, won, other);
-  if (!one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; })) {
+  const bool counted = std::ranges::any_of(hits, [](const PixelHit& h) { return h.hit.stencil != nullptr; });
+  if (counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; })) {
     for (std::size_t i = 0; i < others.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) share += meeting(scene.frame, others[i], others[j]);
     }
   }
   if (scene.depth_clamp) return share;
   for (const Surface& other : others) {
-    if (other.order != kBackground && passes(other.func, other.z, won.z)) {
-      share += cut(other, 0);
-      share += cut(other, 1);
+    if (other.order != kBackground && passes(other.func, other.win.z, won.win.z)) {
+      share += cut(other.view, 0);
+      share += cut(other.view, 1);
     }
   }
   if (won.order != kBackground) {
-    share += cut(won, 0);
-    share += cut(won, 1);
+    share += cut(won.view, 0);
+    share += cut(won.view, 1);
   }
   return share;
 }

@@ -59,6 +59,46 @@ struct Blender {
   }
 };
 
+/// OpenGL 2.1 spec, table 4.2.
+unsigned logic(LogicOp op, unsigned s, unsigned d, unsigned all) {
+  const auto value = [&]() -> unsigned {
+    switch (op) {
+      case LogicOp::clear: return 0;
+      case LogicOp::and_: return s & d;
+      case LogicOp::and_reverse: return s & ~d;
+      case LogicOp::copy: return s;
+      case LogicOp::and_inverted: return ~s & d;
+      case LogicOp::noop: return d;
+      case LogicOp::xor_: return s ^ d;
+      case LogicOp::or_: return s | d;
+      case LogicOp::nor: return ~(s | d);
+      case LogicOp::equivalent: return ~(s ^ d);
+      case LogicOp::invert: return ~d;
+      case LogicOp::or_reverse: return s | ~d;
+      case LogicOp::copy_inverted: return ~s;
+      case LogicOp::or_inverted: return ~s | d;
+      case LogicOp::nand: return ~(s & d);
+      case LogicOp::set: return all;
+    }
+    return 0;
+  };
+  return value() & all;
+}
+
+/// Of all codes that the two may be; where those are many, any code.
+Interval logic(LogicOp op, Interval source, Interval stored, double largest) {
+  constexpr double kMost = 64;
+  if ((source.hi - source.lo + 1) * (stored.hi - stored.lo + 1) > kMost) return {0, largest};
+  Interval out{largest, 0};
+  for (double s = source.lo; s <= source.hi; ++s) {
+    for (double d = stored.lo; d <= stored.hi; ++d) {
+      const double code = logic(op, static_cast<unsigned>(s), static_cast<unsigned>(d), static_cast<unsigned>(largest));
+      out = {std::min(out.lo, code), std::max(out.hi, code)};
+    }
+  }
+  return out;
+}
+
 /// Rounded to float. Not two at a time: GCC 12 leaves the rounding out where it makes one vector of them (-O2).
 double in_float(double v) {
   const volatile float rounded = static_cast<float>(v);
@@ -96,7 +136,7 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
   ColorInterval source, result;
   for (std::size_t c = 0; c < 4; ++c) source[c] = clamped({color[c].lo * unit_, color[c].hi * unit_});
   for (std::size_t c = 0; c < 4; ++c) {
-    if (!state.blend) {
+    if (!state.blend || state.logic_op) {
       result[c] = source[c];
       continue;
     }
@@ -105,15 +145,21 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
   }
   // A colour in float, as it comes, may be a rounding off when it is brought to codes; what is blended in double a few
   // of 2^-53 of some products of codes.
-  const double either_way = state.blend ? 0x1p-36 : unit_ * 0x1p-23;
+  const bool blends = state.blend && !state.logic_op;
+  const double either_way = blends ? 0x1p-36 : unit_ * 0x1p-23;
+  const auto codes = [&](Interval v) -> Interval {
+    return {std::nearbyint(std::max(v.lo - either_way, 0.0)), std::nearbyint(std::min(v.hi + either_way, unit_))};
+  };
   for (std::size_t c = 0; c < 4; ++c) {
     if (!state.color_mask[static_cast<int>(c)]) continue;
     const auto [lo, hi] = result[c];
-    if (codes_) {
+    if (codes_ && state.logic_op) {
+      written_[c] = stored_[c] = logic(*state.logic_op, codes(result[c]), stored_[c], unit_);
+    } else if (codes_) {
       written_[c] = result[c];
-      stored_[c] = {std::nearbyint(std::max(lo - either_way, 0.0)), std::nearbyint(std::min(hi + either_way, unit_))};
+      stored_[c] = codes(result[c]);
     } else {
-      const double off = state.blend ? 0x1p-48 : 0;
+      const double off = blends ? 0x1p-48 : 0;
       written_[c] = stored_[c] = {in_float(lo - off * std::abs(lo)), in_float(hi + off * std::abs(hi))};
     }
   }

@@ -1,6 +1,6 @@
-// The colour of one pixel of the frame, as fragments are written to it (OpenGL 2.1 spec 4.1.8, 4.2.2), in intervals:
-// what may be there where a colour is known to a bound only, or its rounding may go either way. The interval is never
-// narrower than what is legal.
+// The colour of one pixel of the frame, as fragments are written to it (OpenGL 2.1 spec 4.1.8, 4.1.10, 4.2.2), in
+// intervals: what may be there where a colour is known to a bound only, or its rounding may go either way. The interval
+// is never narrower than what is legal.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ class FrameColor {
   /// Cleared.
   explicit FrameColor(const FrameFormat& frame);
 
-  /// A fragment's colour is blended with what is there, masked, and stored in the frame's format.
+  /// A fragment's colour is blended or combined with what is there, masked, and stored in the frame's format.
   void write(const Merge& state, const ColorInterval& color);
 
   /// What was last written to each channel, clamped to the format's range but not yet rounded to codes (rgba32f:

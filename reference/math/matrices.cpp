@@ -115,8 +115,9 @@ Matrices<double> double_matrices(const Scene& scene, const Draw& draw) {
   for (const Transform& transform : draw.transforms) m.model_view = times(m.model_view, transform);
   m.projection = projection_matrix(scene);
   m.normal = glm::transpose(glm::inverse(glm::dmat3(m.model_view)));
-  m.win_scale = glm::dvec3(scene.frame.width, scene.frame.height, 1) * 0.5;
-  m.win_translate = m.win_scale;
+  const double near = draw.depth_range.near, far = draw.depth_range.far;  // GL 2.1, section 2.11.1
+  m.win_scale = glm::dvec3(scene.frame.width, scene.frame.height, far - near) * 0.5;
+  m.win_translate = glm::dvec3(scene.frame.width, scene.frame.height, far + near) * 0.5;
   return m;
 }
 
@@ -125,6 +126,8 @@ Matrices<double> float_matrices(const Scene& scene, const Draw& draw) {
   round_entries(m.model_view);
   round_entries(m.projection);
   round_entries(m.normal);
+  m.win_scale = glm::dvec3(glm::vec3(m.win_scale));
+  m.win_translate = glm::dvec3(glm::vec3(m.win_translate));
   return m;
 }
 

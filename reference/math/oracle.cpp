@@ -10,6 +10,7 @@
 #include "reference/math/depth_format.h"
 #include "reference/math/frame_color.h"
 #include "reference/math/pixel_hit.h"
+#include "stages/fragment_outcomes.h"
 
 namespace plumbline::math {
 
@@ -50,6 +51,7 @@ Planes empty_planes(const FrameFormat& frame) {
   planes.shaded = {frame.width, frame.height, frame.clear_color};
   planes.color = {frame.width, frame.height, to_format(frame.color, frame.clear_color)};
   planes.depth = {frame.width, frame.height, in_format(frame.depth, frame.clear_depth)};
+  if (frame.stencil != StencilFormat::none) planes.stencil = {frame.width, frame.height, frame.clear_stencil};
   return planes;
 }
 
@@ -65,6 +67,16 @@ const Draw& draw_of(const Scene& scene, const Projected& projected, const Hit& h
   return scene.draws[projected.triangles[hit.primitive].draw];
 }
 
+/// The stencil and the depth test, which change the stencil plane.
+bool tested(const PixelHit& h, double z, Planes& planes, int x, int y) {
+  const bool nearer = passes(h.hit.depth_func, z, planes.depth(x, y));
+  if (h.hit.stencil == nullptr) return nearer;
+  std::uint8_t& held = planes.stencil(x, y);
+  const bool passed = stencil_passes(*h.hit.stencil, held);
+  held = stencil_after(*h.hit.stencil, nearer, held);
+  return passed && nearer;
+}
+
 /// Double's own picture of a pixel.
 void draw_inside(const Scene& scene, const Projected& projected, std::span<const PixelHit> hits, int x, int y,
                  Planes& planes) {
@@ -74,8 +86,8 @@ void draw_inside(const Scene& scene, const Projected& projected, std::span<const
     if (!h.inside) continue;
     ++planes.count(x, y);
     planes.id_sum(x, y) += id_weight(h.hit.primitive);
-    const double z = in_format(frame.depth, std::clamp(h.z, 0.0, 1.0));
-    if (!passes(h.hit.depth_func, z, planes.depth(x, y))) continue;
+    const double z = in_format(frame.depth, std::clamp(h.win.z, 0.0, 1.0));
+    if (!h.hit.alpha_passes || !tested(h, z, planes, x, y)) continue;
     planes.id(x, y) = static_cast<std::int32_t>(h.hit.primitive);
     if (h.hit.depth_mask) planes.depth(x, y) = z;
     planes.shaded(x, y) = glm::vec4(h.hit.color);
@@ -89,13 +101,15 @@ void fold_colors(const Scene& scene, const Projected& projected, std::span<const
                  Legal& legal) {
   FrameColor color(scene.frame);
   std::vector<LegalAnswer> before, after;
-  fold_hits({}, scene.frame, before);
   bool certain = true;
+  fold_hits({}, scene.frame, before);
   for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].alpha_passes) continue;
     fold_hits(hits.first(i + 1), scene.frame, after);
     const bool drawn = after.size() == 1 && after[0].primitive == static_cast<std::int32_t>(hits[i].primitive);
     const bool hidden = after.size() == 1 && after[0].primitive == before[0].primitive;
-    certain = certain && hits[i].certain && drawn != hidden && (!drawn || std::isfinite(hits[i].color_bound));
+    certain = certain && hits[i].certain && !hits[i].alpha_fails && drawn != hidden &&
+              (!drawn || std::isfinite(hits[i].color_bound));
     if (!certain) break;
     if (drawn) color.write(draw_of(scene, projected, hits[i]).merge, around(hits[i].color, hits[i].color_bound));
     std::swap(before, after);

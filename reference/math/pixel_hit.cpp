@@ -6,7 +6,9 @@
 
 #include "reference/math/color_error.h"
 #include "reference/math/fog.h"
+#include "reference/math/polygon_offset.h"
 #include "reference/math/texture.h"
+#include "stages/fragment_outcomes.h"
 
 namespace plumbline::math {
 
@@ -84,26 +86,49 @@ Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
   return out;
 }
 
+/// The depth interval in the window, from that of z_view. Scaling and moving it there are rounded twice more, but where
+/// nothing is scaled or moved (the rounding of [0,1] itself is counted already).
+void set_window_depth(const Triangle& t, const OffsetBounds& offset, bool clamps, double lo, double hi, double weight,
+                      PixelHit& out) {
+  const double moved = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding, scale = range_scale(t);
+  const double rounding = moved + offset.half;
+  const auto [low, high] = clamps ? std::minmax({double{t.range.near}, double{t.range.far}}) : std::pair(0.0, 1.0);
+  out.win.z = to_window(t, out.view.z);
+  if (clamps) out.win.z = std::clamp(out.win.z, low, high);
+  out.win.half = scale * out.view.half + rounding;
+  out.win.slope = (double{t.range.far} - double{t.range.near}) * out.view.slope;
+  if (!std::isfinite(rounding)) {
+    out.hit.z_lo = low;
+    out.hit.z_hi = high;
+    return;
+  }
+  const auto [nearest, farthest] = std::minmax({to_window(t, lo), to_window(t, hi)});
+  out.hit.z_lo = std::clamp(nearest - rounding, low, high);
+  out.hit.z_hi = std::clamp(farthest + rounding, low, high);
+}
+
 /// The depth interval: the plane's z at the pixel, moved by at most h + delta_E where coverage and plane are snapped
 /// alike, or by the plane's own error where only coverage is; then the corners' own depth error.
-void set_depth(const Projected& scene, const Triangle& t, bool clamps, glm::dvec3 d, const Place& at, glm::dvec2 moved,
-               PixelHit& out) {
+void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& offset, bool clamps, glm::dvec3 d,
+               const Place& at, glm::dvec2 moved, PixelHit& out) {
   const double weight = snap_weight(scene, t, at, d, out.hit.certain);
   const double w = std::clamp(at.w, t.w_min, t.w_max);
+  PixelDepth& view = out.view;
   if (t.flat || !std::isfinite(weight)) {
-    out.z = t.ahead ? std::clamp(0.5 * (t.z_min + t.z_max), 0.0, 1.0) : 0.5;
-    out.z_half = kInfinity;
+    view.z = t.ahead ? std::clamp(0.5 * (t.z_min + t.z_max), 0.0, 1.0) : 0.5;
+    out.win = {to_window(t, view.z), kInfinity, glm::dvec2(0)};
+    view.half = kInfinity;
     out.hit.z_lo = 0;
     out.hit.z_hi = 1;
     out.hit.certain = false;
     return;
   }
-  out.z = 0.5 + glm::dot(t.z_plane, d);
-  out.z_slope = glm::dvec2(t.z_plane);
-  const double z_ndc = std::clamp(std::abs(2 * out.z - 1), 0.0, 1.0);
+  view.z = 0.5 + glm::dot(t.z_plane, d);
+  view.slope = glm::dvec2(t.z_plane);
+  const double z_ndc = std::clamp(std::abs(2 * view.z - 1), 0.0, 1.0);
   const double corner_error = kFloatRounding * (t.roundings * (t.size.z + z_ndc * t.size.w) / (2 * w) + 1);
-  out.z_half = glm::dot(glm::abs(out.z_slope), kHalfStep + weight * moved) + weight * corner_error;
-  double lo = out.z - out.z_half, hi = out.z + out.z_half;
+  view.half = glm::dot(glm::abs(view.slope), kHalfStep + weight * moved) + weight * corner_error;
+  double lo = view.z - view.half, hi = view.z + view.half;
   const bool not_cut = clamps || (lo > 0 && hi < 1);  // by the near or far plane, here
   out.whole = out.whole || (t.facing_kept && not_cut);
   // Inside, every plane comes to a convex combination of the corners' depths; outside it may overshoot them.
@@ -112,8 +137,7 @@ void set_depth(const Projected& scene, const Triangle& t, bool clamps, glm::dvec
     hi = std::min(hi, t.z_max + corner_error);
   }
   out.hit.certain = out.hit.certain && not_cut;
-  out.hit.z_lo = std::clamp(lo, 0.0, 1.0);
-  out.hit.z_hi = std::clamp(hi, 0.0, 1.0);
+  set_window_depth(t, polygon_offset(t, offset, scene.depth), clamps, lo, hi, weight, out);
 }
 
 /// A value at the pixel and how far a legal renderer's may be from it; infinite: any, and not only of the corners'
@@ -256,6 +280,25 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   out.hit.color_bound = color.bound;
 }
 
+void set_tests(const Draw& draw, const Triangle& t, ColorFormat format, PixelHit& out) {
+  Hit& hit = out.hit;
+  if (draw.alpha_test) {
+    const bool bounded = std::isfinite(hit.color_bound);
+    const Outcomes alpha =
+        bounded ? alpha_outcomes(*draw.alpha_test, format, hit.color.a - hit.color_bound, hit.color.a + hit.color_bound)
+                : Outcomes{true, true};
+    hit.alpha_passes = alpha.may_pass;
+    hit.alpha_fails = alpha.may_fail;
+  }
+  if (!draw.stencil) return;
+  const bool front = t.sign > 0;
+  hit.stencil = front ? &draw.stencil->front : &draw.stencil->back;
+  // What may be turned over by snapping is not certain: wholly, or a piece of it at its border.
+  const bool either = t.flat || (!hit.certain && (t.thin || t.cut));
+  if (either) hit.or_stencil = front ? &draw.stencil->back : &draw.stencil->front;
+  hit.twice = !hit.certain && t.cut;
+}
+
 }  // namespace
 
 EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d) {
@@ -296,11 +339,13 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
   out.whole = t.facing_kept && !t.flat && !t.cut;
-  set_depth(projected, t, scene.depth_clamp, d, at, moved, out);
-  if (!scene.depth_clamp && std::isfinite(out.z_half) && (out.z + out.z_half < 0 || out.z - out.z_half > 1))
+  set_depth(projected, t, scene.draws[t.draw].polygon_offset, scene.depth_clamp, d, at, moved, out);
+  const PixelDepth& view = out.view;
+  if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))
     return std::nullopt;
   set_color(scene, projected, t, d, {px, py}, at, moved, out);
-  out.inside = at.by_ties && at.inside && t.facing_kept && (scene.depth_clamp || (out.z >= 0 && out.z <= 1));
+  set_tests(scene.draws[t.draw], t, scene.frame.color, out);
+  out.inside = at.by_ties && at.inside && t.facing_kept && (scene.depth_clamp || (view.z >= 0 && view.z <= 1));
   return out;
 }
 

@@ -12,15 +12,21 @@
 
 namespace plumbline::math {
 
+/// A surface's depth at a pixel's centre.
+struct PixelDepth {
+  double z = 0;
+  double half = 0;      ///< how far a legal renderer's may be from it; infinite where no plane can be relied on
+  glm::dvec2 slope{0};  ///< of its plane, per pixel
+};
+
 /// A triangle that certainly or possibly covers a pixel.
 struct PixelHit {
   Hit hit;              ///< as fold_hits takes it
   bool inside = false;  ///< in double the pixel is inside (ties by TieRule::small_sides_in), in depth range, not culled
   bool whole = false;   ///< neither the near nor the far plane may cut it here, and it is not culled
-  double z = 0;         ///< window z of its plane, not clamped
-  double z_half = 0;    ///< half the depth interval before clamping; infinite where no plane can be relied on
-  glm::dvec2 z_slope{0};  ///< of its plane, per pixel
-  double delta = 0;       ///< pixels: how far its outline may be moved here
+  PixelDepth view;      ///< between the near plane, 0, and the far, 1; not clamped
+  PixelDepth win;       ///< window z, clamped where the near and far plane do not cut
+  double delta = 0;     ///< pixels: how far its outline may be moved here
 };
 
 /// The triangle `primitive` at the pixel (px, py), or nothing where no legal renderer covers it.

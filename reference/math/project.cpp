@@ -9,6 +9,7 @@
 #include "reference/math/color_error.h"
 #include "reference/math/light.h"
 #include "reference/math/matrices.h"
+#include "reference/math/polygon_offset.h"
 #include "scene/antialias.h"
 #include "stages/stages.h"
 
@@ -261,6 +262,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   const Widths width = widths(p_window, part.count, 2 * t.reach);
   t.altitude = t.cut ? width.pieces : width.whole;
   t.fat_altitude = t.cut ? width.fat : width.whole;
+  t.offset = polygon_offset(t, draw.polygon_offset, scene.depth).middle;
   t.thin = t.flat || width.whole <= 2 * t.reach;
   const bool front = t.sign > 0;
   t.facing_kept = draw.cull == Cull::none || front == (draw.cull == Cull::back);
@@ -297,6 +299,7 @@ Projected project(const Scene& scene) {
   out.height = scene.frame.height;
   out.view = view_matrix(scene);
   out.depth_clamp = scene.depth_clamp;
+  out.depth = scene.frame.depth;
   out.sample = glm::dvec2(sample_place(scene.frame)) / static_cast<double>(kSubpixel);
   out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
   const std::vector<DrawRange> ranges = draw_ranges(scene);
@@ -309,6 +312,7 @@ Projected project(const Scene& scene) {
         t.corner[i] = ranges[d].first_vertex + indices[static_cast<glm::length_t>(i)];
       }
       t.draw = d;
+      t.range = draw.depth_range;
       set_up(out, draw, t);
       out.triangles.push_back(t);
     }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -52,16 +53,26 @@ struct Triangle {
   double sign = 0;           ///< of det
   std::array<glm::dvec3, 3> n;
   std::array<double, 3> per_pixel;  ///< 1 / |(n_i.x, n_i.y)|: e_i times it is the distance to the edge's line
-  glm::dvec3 z_plane;               ///< z_win = 1/2 + z_plane . d
+  glm::dvec3 z_plane;               ///< z_view = 1/2 + z_plane . d: 0 on the near plane, 1 on the far one
   glm::dvec3 w_plane;               ///< 1/w = w_plane . d
   glm::dvec4 size;                  ///< the corners' largest
   double roundings = 0;             ///< k: a clip coordinate in float is within k u size of the one in double
   double w_min = 0, w_max = 0;      ///< over its visible part
-  double z_min = 0, z_max = 0;      ///< window z over its corners, where `ahead`
+  DepthRange range;                 ///< z_win = near + (far - near) z_view + offset
+  double offset = 0;                ///< the polygon offset
+  double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
   double altitude = 0;              ///< pixels: the smallest one of all planes a renderer may set up for it
   double fat_altitude = 0;  ///< of those that are thicker than snapping may turn; thinner ones lie along its border
   double reach = 0;         ///< pixels: the largest vertex displacement over its visible part
 };
+
+/// z_win of a triangle's z_view.
+inline double to_window(const Triangle& t, double z_view) {
+  const double near = t.range.near, far = t.range.far;
+  return near + (far - near) * z_view + t.offset;
+}
+/// What a difference of z_view comes to in the window.
+inline double range_scale(const Triangle& t) { return std::abs(double{t.range.far} - double{t.range.near}); }
 
 /// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange).
 struct Projected {
@@ -69,6 +80,7 @@ struct Projected {
   glm::dmat4 view{1};  ///< world to eye space
   bool perspective = true;
   bool depth_clamp = false;  ///< no near and far plane
+  DepthFormat depth = DepthFormat::z24;
   /// From a pixel's centre to where it is covered, in pixels (scene/antialias.h). The window is moved by as much the
   /// other way, so that all that is said of pixels' centres is true of these places. Colours are the centre's still.
   glm::dvec2 sample{0};

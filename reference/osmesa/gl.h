@@ -11,24 +11,25 @@ namespace plumbline::osmesa {
 
 // clang-format off
 #define PLUMBLINE_GL_FUNCTIONS(F) \
-  F(AttachShader) F(BeginQuery) F(BeginTransformFeedback) F(BindBuffer) F(BindBufferBase) F(BindFramebuffer) \
-  F(BindRenderbuffer) F(BindTexture) F(BlendColor) F(BlendEquationSeparate) F(BlendFunc) F(BlendFuncSeparate) \
-  F(BlitFramebuffer) F(BufferData) F(CheckFramebufferStatus) F(ClampColor) F(Clear) F(ClearColor) F(ClearDepth) \
-  F(Color4f) F(Color4fv) F(ColorMask) F(ColorMaterial) F(ColorPointer) F(CompileShader) F(CreateProgram) \
-  F(CreateShader) F(CullFace) F(DeleteBuffers) F(DeleteFramebuffers) F(DeleteProgram) F(DeleteQueries) \
-  F(DeleteRenderbuffers) F(DeleteShader) F(DeleteTextures) F(DepthFunc) F(DepthMask) F(Disable) F(DrawArrays) \
+  F(ActiveTexture) F(AlphaFunc) F(AttachShader) F(BeginQuery) F(BeginTransformFeedback) F(BindBuffer) \
+  F(BindBufferBase) F(BindFramebuffer) F(BindRenderbuffer) F(BindTexture) F(BlendColor) F(BlendEquationSeparate) \
+  F(BlendFunc) F(BlendFuncSeparate) F(BlitFramebuffer) F(BufferData) F(CheckFramebufferStatus) F(ClampColor) \
+  F(Clear) F(ClearColor) F(ClearDepth) F(ClearStencil) F(Color4f) F(Color4fv) F(ColorMask) F(ColorMaterial) \
+  F(ColorPointer) F(CompileShader) F(CreateProgram) F(CreateShader) F(CullFace) F(DeleteBuffers) \
+  F(DeleteFramebuffers) F(DeleteProgram) F(DeleteQueries) F(DeleteRenderbuffers) F(DeleteShader) \
+  F(DeleteTextures) F(DepthFunc) F(DepthMask) F(DepthRange) F(Disable) F(DisableClientState) F(DrawArrays) \
   F(DrawElements) F(EdgeFlagPointer) F(Enable) F(EnableClientState) F(EndQuery) F(EndTransformFeedback) \
   F(FeedbackBuffer) F(Finish) F(Fogf) F(Fogfv) F(Fogi) F(FramebufferRenderbuffer) F(FramebufferTexture2D) \
   F(Frustum) F(GenBuffers) F(GenFramebuffers) F(GenQueries) F(GenRenderbuffers) F(GenTextures) \
   F(GetBufferSubData) F(GetError) F(GetFloatv) F(GetIntegerv) F(GetMultisamplefv) F(GetProgramInfoLog) \
   F(GetProgramiv) F(GetQueryObjectuiv) F(GetRenderbufferParameteriv) F(GetString) F(GetUniformLocation) \
   F(LightModelfv) F(LightModeli) F(Lightf) F(Lightfv) F(LineWidth) F(LinkProgram) F(LoadIdentity) F(LoadMatrixf) \
-  F(Materialf) F(Materialfv) F(MatrixMode) F(NormalPointer) F(Ortho) F(PointSize) F(PolygonMode) F(PopAttrib) \
-  F(PopClientAttrib) F(PushAttrib) F(PushClientAttrib) F(ReadPixels) F(Rectf) F(RenderMode) \
-  F(RenderbufferStorage) F(Rotated) F(Scaled) F(Scissor) F(ShadeModel) F(ShaderSource) F(TexCoordPointer) \
-  F(TexEnvfv) F(TexEnvi) F(TexImage2D) F(TexImage2DMultisample) F(TexParameterf) F(TexParameterfv) \
-  F(TexParameteri) F(TransformFeedbackVaryings) F(Translated) F(Uniform1i) F(UseProgram) F(VertexPointer) \
-  F(Viewport)
+  F(LogicOp) F(Materialf) F(Materialfv) F(MatrixMode) F(NormalPointer) F(Ortho) F(PixelStorei) F(PointSize) \
+  F(PolygonMode) F(PolygonOffset) F(PopAttrib) F(PopClientAttrib) F(PushAttrib) F(PushClientAttrib) F(ReadPixels) \
+  F(Rectf) F(RenderMode) F(RenderbufferStorage) F(Rotated) F(Scaled) F(Scissor) F(ShadeModel) F(ShaderSource) \
+  F(StencilFuncSeparate) F(StencilMaskSeparate) F(StencilOpSeparate) F(TexCoordPointer) F(TexEnvfv) F(TexEnvi) \
+  F(TexImage2D) F(TexImage2DMultisample) F(TexParameterf) F(TexParameterfv) F(TexParameteri) \
+  F(TransformFeedbackVaryings) F(Translated) F(Uniform1i) F(UseProgram) F(VertexPointer) F(Viewport)
 // clang-format on
 
 struct Gl {

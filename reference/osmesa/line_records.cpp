@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "reference/osmesa/fragment_state.h"
 #include "reference/osmesa/target.h"
 
 namespace plumbline::osmesa {
@@ -47,7 +48,7 @@ void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& r
     while (line.primitive >= scene.ranges()[draw].first_primitive + scene.ranges()[draw].primitive_count) ++draw;
     scene.set_matrices(draw);
     scene.set_fragments(draw);
-    gl.Disable(GL_DEPTH_TEST);
+    disable_tests(gl);
     target.bind();
     const Mesh& mesh = scene.scene().meshes[scene.scene().draws[draw].mesh];
     const bool of_triangle = mesh.topology == Topology::triangles;

@@ -54,6 +54,10 @@ class OpenGlRenderer final : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override {
     if (scene.frame.antialias.kind != Antialias::Kind::none) return capture_resolved(scene, request);
     require_budget(scene, plane_bytes(scene), request.memory_budget);
+    const FrameFormat& frame = scene.frame;
+    if (frame.stencil != StencilFormat::none && frame.antialias.kind == Antialias::Kind::multisample) {
+      throw Unsupported("OpenGL: multisampled stencil values are not read here");
+    }
     context_->make_current();
     Capture capture;
     capture.renderer = name_;

@@ -24,6 +24,7 @@ enum class MesaDriver { llvmpipe, softpipe };
 ///              each vertex' own, and not to be compared
 ///   coverage   planes.count and planes.id_sum: the scene without a depth test, added up
 ///   depth, merge        planes.depth, planes.color: the scene in the frame's own formats
+///   texture    planes.texel: REPLACE into RGBA32F, over fragments of (0, 0, 0, 1)
 ///   attributes, shade   planes.shaded: the scene in RGBA32F, over the frame's depth format
 ///   visibility          planes.id: a colour per primitive
 /// and runs nothing. Throws RendererFailed. Not for use by two threads at once. Each is there if it is built in.

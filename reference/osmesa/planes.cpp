@@ -1,10 +1,12 @@
 #include "reference/osmesa/planes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "reference/osmesa/fragment_state.h"
 #include "reference/osmesa/light_state.h"
 #include "reference/osmesa/target.h"
 #include "stages/renderer.h"
@@ -49,12 +51,63 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colo
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     scene.set_surface(i);
-    if (colors == Colors::texels) scene.set_texture_source(i);
     scene.set_fragments(i);
     if (colors == Colors::merged) scene.set_merge(i);
-    scene.draw_primitives(i);
+    if (colors == Colors::texels) {
+      scene.set_texture_source(i);
+      scene.draw_without_colors(i);
+    } else {
+      scene.draw_primitives(i);
+    }
   }
   check(gl, "drawing the scene");
+}
+
+// Where alpha is tested, a primitive's number must not be in its alpha.
+bool tests_alpha(const Scene& scene) {
+  return std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.alpha_test.has_value(); });
+}
+
+/// The number that the bytes of red, green and blue are.
+std::int32_t number_of(const glm::vec4& color) {
+  const auto byte = [](float v) { return static_cast<std::int32_t>(std::lround(255 * v)); };
+  return byte(color.r) | byte(color.g) << 8 | byte(color.b) << 16;
+}
+
+/// As draw_ids(), in a target of the frame's own format, whose alpha test it is.
+Plane<std::int32_t> draw_tested_ids(const Gl& gl, const SceneInGl& scene, const Target& target) {
+  {
+    const SavedState state(gl);
+    const CountedFragments counted(gl);
+    const NumberedFragments numbered(gl);
+    target.bind();
+    scene.clear(glm::vec4(0));
+    set_lights(gl, scene.scene());
+    for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
+      scene.set_matrices(i);
+      scene.set_fragments(i);
+      const SavedState of_draw(gl);
+      if (!scene.scene().draws[i].alpha_test) {
+        gl.ShadeModel(GL_FLAT);
+        scene.draw_ids(i);
+        continue;
+      }
+      scene.set_surface(i);
+      if (is_lit_per_fragment(scene.scene().draws[i])) {  // by a program, which has no texture environment
+        gl.UseProgram(0);
+        gl.Enable(GL_LIGHTING);  // at the vertices: the alpha is the material's either way
+      }
+      for (const GLenum after : {GL_FOG, GL_COLOR_SUM}) gl.Disable(after);  // they come after the texture environment
+      numbered.enable();
+      scene.draw_one_by_one(i, [&](std::uint32_t primitive) { numbered.set(primitive + 1); });
+      gl.UseProgram(0);
+    }
+    check(gl, "drawing the primitives' numbers");
+  }
+  const Plane<glm::vec4> color = target.read_color();
+  Plane<std::int32_t> ids(color.width(), color.height());
+  std::ranges::transform(color.values(), ids.values().begin(), [](const glm::vec4& c) { return number_of(c) - 1; });
+  return ids;
 }
 
 /// The scene with each primitive's number + 1 for its colour, on 0.
@@ -91,7 +144,7 @@ Plane<glm::vec4> draw_weights(const Gl& gl, const SceneInGl& scene, const Target
     for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
       scene.set_matrices(i);
       scene.set_fragments(i);
-      gl.Disable(GL_DEPTH_TEST);
+      disable_tests(gl);
       gl.Enable(GL_BLEND);
       gl.BlendFunc(GL_ONE, GL_ONE);
       scene.draw_weights(i);
@@ -128,7 +181,8 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   std::optional<Target> shorts;
   if (frame.color == ColorFormat::rgba16) shorts.emplace(gl, frame, ColorFormat::rgba16);
   Planes planes;
-  if (textured(scene.scene())) {
+  // An alpha test would look at the texels' alpha, not at the fragments'.
+  if (textured(scene.scene()) && !tests_alpha(scene.scene())) {
     draw_scene(gl, scene, floats, Colors::texels);
     planes.texel = floats.read_color();
   }
@@ -143,7 +197,8 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
     planes.color = planes.shaded;
   }
   planes.depth = target.read_depth();
-  planes.id = draw_ids(gl, scene, bytes);
+  planes.stencil = target.read_stencil();
+  planes.id = tests_alpha(scene.scene()) ? draw_tested_ids(gl, scene, target) : draw_ids(gl, scene, bytes);
   add_up_coverage(draw_weights(gl, scene, floats), planes);
   return planes;
 }

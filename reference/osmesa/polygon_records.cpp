@@ -226,7 +226,9 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
     scene.set_matrices(i);
     scene.set_vertex_light(i);
     gl.ShadeModel(GL_SMOOTH);  // flat, feedback leaves the colours of cut triangles undefined (measured)
-    const ToClip to_clip(scene.matrices(i));
+    Matrices<double> whole_range = scene.matrices(i);
+    whole_range.win_scale.z = whole_range.win_translate.z = 0.5;
+    const ToClip to_clip(whole_range);
     for (std::size_t at = 0; at < wanted.size(); at += kBatch) {
       const auto batch = std::span(wanted).subspan(at, std::min(kBatch, wanted.size() - at));
       const std::vector<Corner> corners = corners_of(mesh, range.first_primitive, batch);
@@ -236,7 +238,13 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
         return triangles_of(feedback.run(expected, run));
       };
       std::vector<FedTriangle> triangles = fed();
-      if (clip) add_polygons(triangles, to_clip, records.polygons);
+      if (clip && draw.depth_range != DepthRange{}) {  // a narrow one leaves little of the clip position's z
+        gl.DepthRange(0, 1);
+        add_polygons(fed(), to_clip, records.polygons);
+        gl.DepthRange(draw.depth_range.near, draw.depth_range.far);
+      } else if (clip) {
+        add_polygons(triangles, to_clip, records.polygons);
+      }
       if (window && outlined(mesh, draw)) {
         require_uncut(triangles);
         const SavedState outlines(gl);

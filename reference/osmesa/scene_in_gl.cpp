@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "reference/math/matrices.h"
+#include "reference/osmesa/fragment_state.h"
 #include "reference/osmesa/light_program.h"
 #include "reference/osmesa/light_state.h"
 #include "stages/capture.h"
@@ -67,20 +68,6 @@ std::vector<std::uint32_t> indices_of(const Mesh& mesh) {
     for (int i = 0; i < count; ++i) indices.push_back(primitive[i]);
   }
   return indices;
-}
-
-GLenum gl_depth_func(DepthFunc func) {
-  switch (func) {
-    case DepthFunc::never: return GL_NEVER;
-    case DepthFunc::less: return GL_LESS;
-    case DepthFunc::equal: return GL_EQUAL;
-    case DepthFunc::less_equal: return GL_LEQUAL;
-    case DepthFunc::greater: return GL_GREATER;
-    case DepthFunc::not_equal: return GL_NOTEQUAL;
-    case DepthFunc::greater_equal: return GL_GEQUAL;
-    case DepthFunc::always: return GL_ALWAYS;
-  }
-  return GL_LESS;
 }
 
 GLenum gl_polygon_mode(PolygonMode mode) {
@@ -149,9 +136,6 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene),
     const Mesh& mesh = scene.meshes[scene.draws[i].mesh];
     matrices_.push_back(math::float_matrices(scene, scene.draws[i]));
     std::optional<Program>& program = light_programs_.emplace_back();
-    if (is_lit_per_fragment(scene.draws[i]) && scene.draws[i].texture) {
-      throw Unsupported("OpenGL has light per fragment by a program alone, and this one has no textures");
-    }
     if (needs_light_program(scene, scene.draws[i])) {
       program.emplace(gl, light_vertex_shader(scene, scene.draws[i]), light_fragment_shader(scene, scene.draws[i]));
     }
@@ -167,7 +151,8 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene),
 void SceneInGl::clear(const glm::vec4& color) const {
   gl_.ClearColor(color.r, color.g, color.b, color.a);
   gl_.ClearDepth(scene_.frame.clear_depth);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_.ClearStencil(scene_.frame.clear_stencil);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
 void SceneInGl::set_matrices(std::size_t draw) const {
@@ -176,6 +161,8 @@ void SceneInGl::set_matrices(std::size_t draw) const {
   } else {
     gl_.Disable(GL_DEPTH_CLAMP);
   }
+  const DepthRange& range = scene_.draws[draw].depth_range;
+  gl_.DepthRange(range.near, range.far);
   gl_.MatrixMode(GL_PROJECTION);
   gl_.LoadMatrixf(glm::value_ptr(glm::mat4(matrices_[draw].projection)));
   gl_.MatrixMode(GL_MODELVIEW);
@@ -214,6 +201,8 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
 void SceneInGl::set_texture_source(std::size_t draw) const {
   textures_.set_source(scene_.draws[draw]);
   gl_.Disable(GL_LIGHTING);
+  gl_.Disable(GL_FOG);
+  gl_.UseProgram(0);
   gl_.Color4f(0, 0, 0, 1);
 }
 
@@ -235,13 +224,14 @@ void SceneInGl::set_fragments(std::size_t draw) const {
   gl_.PointSize(static_cast<GLfloat>(d.point_size));
   gl_.Disable(GL_DITHER);
   gl_.Enable(GL_DEPTH_TEST);
-  gl_.DepthFunc(gl_depth_func(d.depth_func));
+  gl_.DepthFunc(gl_compare(d.depth_func));
   if (d.scissor) {
     gl_.Enable(GL_SCISSOR_TEST);
     gl_.Scissor(d.scissor->x, d.scissor->y, d.scissor->width, d.scissor->height);
   } else {
     gl_.Disable(GL_SCISSOR_TEST);
   }
+  set_fragment_tests(gl_, d);
   gl_.DepthMask(d.merge.depth_mask ? GL_TRUE : GL_FALSE);
   if (d.cull == Cull::none) {
     gl_.Disable(GL_CULL_FACE);
@@ -256,6 +246,7 @@ void SceneInGl::set_merge(std::size_t draw) const {
   const auto gl_bool = [](bool on) -> GLboolean { return on ? GL_TRUE : GL_FALSE; };
   const glm::bvec4& mask = merge.color_mask;
   gl_.ColorMask(gl_bool(mask.r), gl_bool(mask.g), gl_bool(mask.b), gl_bool(mask.a));
+  set_logic_op(gl_, merge.logic_op);
   if (!merge.blend) return gl_.Disable(GL_BLEND);
   const Blend& blend = *merge.blend;
   gl_.Enable(GL_BLEND);
@@ -290,10 +281,36 @@ void SceneInGl::draw_primitives(std::size_t draw) const {
   const SavedArrays arrays(gl_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
   point_to_vertices(draw, nullptr);
+  draw_elements(draw);
+}
+
+void SceneInGl::draw_without_colors(std::size_t draw) const {
+  const SavedArrays arrays(gl_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
+  point_to_vertices(draw, nullptr);
+  gl_.DisableClientState(GL_COLOR_ARRAY);
+  draw_elements(draw);
+}
+
+void SceneInGl::draw_elements(std::size_t draw) const {
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, arrays_[draw].indices.name());
   const Topology topology = mesh(draw).topology;
   gl_.DrawElements(gl_mode(topology), static_cast<GLsizei>(corner_count(topology) * ranges_[draw].primitive_count),
                    GL_UNSIGNED_INT, nullptr);
+}
+
+void SceneInGl::draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const {
+  const SavedArrays arrays(gl_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
+  point_to_vertices(draw, nullptr);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, arrays_[draw].indices.name());
+  const Topology topology = mesh(draw).topology;
+  const std::uint32_t corners = corner_count(topology);
+  for (std::uint32_t i = 0; i < ranges_[draw].primitive_count; ++i) {
+    before(ranges_[draw].first_primitive + i);
+    gl_.DrawElements(gl_mode(topology), static_cast<GLsizei>(corners), GL_UNSIGNED_INT,
+                     offset(std::uintptr_t{i} * corners * sizeof(std::uint32_t)));
+  }
 }
 
 // From this process' memory: feedback mode never lets go of a buffer object that it has read (Mesa 22.3).

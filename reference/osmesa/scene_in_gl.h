@@ -1,6 +1,7 @@
 // A scene's meshes in GL's buffers, each draw's uploaded once, and what GL has to be told to draw them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -23,20 +24,23 @@ class SceneInGl {
   const Matrices<double>& matrices(std::size_t draw) const { return matrices_[draw]; }
 
   // What GL is told. Call within a SavedState.
-  void clear(const glm::vec4& color) const;  ///< to a colour and the frame's clear depth
-  void set_matrices(std::size_t draw) const;
-  void set_surface(std::size_t draw) const;  ///< lit or not, material, flat or smooth, fog
+  void clear(const glm::vec4& color) const;   ///< to a colour and the frame's other clear values
+  void set_matrices(std::size_t draw) const;  ///< and the depth range
+  void set_surface(std::size_t draw) const;   ///< lit or not, material, flat or smooth, fog
   /// Of that, what colours the vertices: feedback mode runs no fragments, and what they do not read would be lost in
   /// it.
   void set_vertex_light(std::size_t draw) const;
-  void set_fragments(std::size_t draw) const;  ///< culling, polygon modes, widths, scissor, depth function and mask
+  void set_fragments(std::size_t draw) const;       ///< culling, polygon modes and offset, widths, tests, depth mask
   void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels
-  void set_merge(std::size_t draw) const;           ///< blending and colour mask
+  void set_merge(std::size_t draw) const;           ///< blending, logic op and colour mask
 
   // The draw's mesh, under the state that is set.
-  void draw_primitives(std::size_t draw) const;  ///< with normals and colours
-  void draw_points(std::size_t draw) const;      ///< each vertex, with normals and colours
-  void draw_ids(std::size_t draw) const;         ///< each primitive in the colour whose four bytes are its number + 1
+  void draw_primitives(std::size_t draw) const;      ///< with normals and colours
+  void draw_without_colors(std::size_t draw) const;  ///< with normals, in the colour that is set
+  /// As draw_primitives, calling before(its number) before each.
+  void draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const;
+  void draw_points(std::size_t draw) const;  ///< each vertex, with normals and colours
+  void draw_ids(std::size_t draw) const;     ///< each primitive in the colour whose four bytes are its number + 1
   void draw_id(std::size_t draw, std::uint32_t primitive) const;  ///< this one alone
   void draw_weights(std::size_t draw) const;  ///< each primitive in the colour (1, id_weight_part 0, 1, 2)
 
@@ -55,6 +59,7 @@ class SceneInGl {
     Buffer corners;        ///< every primitive's corners alone, so that it can have a colour of its own
   };
   static std::vector<MeshVertex> vertices_of(const Mesh& mesh);
+  void draw_elements(std::size_t draw) const;
   void point_to_vertices(std::size_t draw, const MeshVertex* first) const;
   void bind_corners(std::size_t draw) const;
   const Mesh& mesh(std::size_t draw) const { return scene_.meshes[scene_.draws[draw].mesh]; }

@@ -17,6 +17,11 @@ struct DepthBits {
   GLint bits;
 };
 
+// With stencil values in one buffer, as frame buffer objects want it; there is none of 16 bits.
+GLenum with_stencil(DepthFormat format) {
+  return format == DepthFormat::z32f ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8;
+}
+
 DepthBits depth_bits(DepthFormat format) {
   switch (format) {
     case DepthFormat::z16: return {GL_DEPTH_COMPONENT16, 16};
@@ -77,6 +82,8 @@ double window_z_of_sample(float z, DepthFormat format) {
 
 Target::Target(const Gl& gl, const FrameFormat& frame, ColorFormat color) : gl_(gl), frame_(frame), color_(color) {
   if (frame.depth == DepthFormat::z8) frame_.depth = DepthFormat::z24;
+  const bool stencil = frame.stencil != StencilFormat::none;
+  if (stencil && frame.depth == DepthFormat::z16) frame_.depth = DepthFormat::z24;
   require_size(gl, frame);
   gl.GenFramebuffers(1, &frame_buffer_);
   gl.GenRenderbuffers(2, buffers_);
@@ -88,13 +95,16 @@ Target::Target(const Gl& gl, const FrameFormat& frame, ColorFormat color) : gl_(
     check(gl, "the colour buffer's storage");
     require_bits(gl, GL_RENDERBUFFER_RED_SIZE, bits.bits, "red");
     gl.BindRenderbuffer(GL_RENDERBUFFER, buffers_[1]);
-    gl.RenderbufferStorage(GL_RENDERBUFFER, depth.format, frame.width, frame.height);
+    gl.RenderbufferStorage(GL_RENDERBUFFER, stencil ? with_stencil(frame_.depth) : depth.format, frame.width,
+                           frame.height);
     check(gl, "the depth buffer's storage");
     require_bits(gl, GL_RENDERBUFFER_DEPTH_SIZE, depth.bits, "depth");
+    if (stencil) require_bits(gl, GL_RENDERBUFFER_STENCIL_SIZE, 8, "stencil");
 
     gl.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[0]);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
+    if (stencil) gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_STENCIL_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
     check(gl, "the frame buffer's parts");
     if (status != GL_FRAMEBUFFER_COMPLETE) {
@@ -167,6 +177,17 @@ Plane<glm::vec4> Target::read_color() const {
     return glm::vec4(channel(code, 0), channel(code, 8), channel(code, 16), channel(code, 24));
   });
   return color;
+}
+
+Plane<std::uint8_t> Target::read_stencil() const {
+  if (frame_.stencil == StencilFormat::none) return {};
+  Plane<std::uint8_t> stencil(frame_.width, frame_.height);
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+  gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, stencil.values().data());
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+  check(gl_, "reading stencil values");
+  return stencil;
 }
 
 Plane<double> Target::read_sample_depth() const {

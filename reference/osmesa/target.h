@@ -34,6 +34,7 @@ class Target {
   Plane<glm::vec4> read_color() const;
   /// Window z: n-bit codes as code / (2^n - 1).
   Plane<double> read_depth() const;
+  Plane<std::uint8_t> read_stencil() const;  ///< empty where the frame has none
 
  private:
   void release();

@@ -56,6 +56,36 @@ GLint gl_environment(TextureEnvironment environment) {
 
 }  // namespace
 
+// OpenGL 2.1 spec, tables 3.22 and 3.23.
+std::string environment_of(const Scene& scene, const Draw& draw) {
+  if (!draw.texture) return "";
+  const TextureFormat format = scene.textures.at(draw.texture->texture).format;
+  const bool has_color = format != TextureFormat::alpha, intensity = format == TextureFormat::intensity;
+  const bool has_alpha = format != TextureFormat::luminance && format != TextureFormat::rgb;
+  const char *rgb = "color.rgb", *alpha = "color.a * t.a";
+  switch (draw.texture->environment) {
+    case TextureEnvironment::replace:
+      rgb = "t.rgb";
+      alpha = "t.a";
+      break;
+    case TextureEnvironment::modulate: rgb = "color.rgb * t.rgb"; break;
+    case TextureEnvironment::decal:
+      rgb = format == TextureFormat::rgb ? "t.rgb" : "mix(color.rgb, t.rgb, t.a)";
+      alpha = "color.a";
+      break;
+    case TextureEnvironment::blend:
+      rgb = "mix(color.rgb, gl_TextureEnvColor[0].rgb, t.rgb)";
+      if (intensity) alpha = "mix(color.a, gl_TextureEnvColor[0].a, t.a)";
+      break;
+    case TextureEnvironment::add:
+      rgb = "clamp(color.rgb + t.rgb, 0.0, 1.0)";
+      if (intensity) alpha = "clamp(color.a + t.a, 0.0, 1.0)";
+      break;
+  }
+  return fmt::format("  vec4 t = texture2D(image, gl_TexCoord[0].st);\n  color = vec4({}, {});\n",
+                     has_color ? rgb : "color.rgb", has_alpha ? alpha : "color.a");
+}
+
 TexturesInGl::TexturesInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene), names_(scene.textures.size()) {
   const int largest = limit(gl, GL_MAX_TEXTURE_SIZE);
   gl.GenTextures(static_cast<GLsizei>(names_.size()), names_.data());

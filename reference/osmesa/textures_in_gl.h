@@ -1,12 +1,17 @@
 // A scene's textures in GL: every level uploaded as the scene has it, for automatic generation would make others.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "reference/osmesa/gl.h"
 #include "scene/scene.h"
 
 namespace plumbline::osmesa {
+
+/// The draw's environment as GLSL 1.20 that changes `vec4 color`, from `uniform sampler2D image`; empty without a
+/// texture. (What a format lacks, texture2D fills in as OpenGL 2.1 spec, table 3.21.)
+std::string environment_of(const Scene& scene, const Draw& draw);
 
 class TexturesInGl {
  public:

@@ -74,21 +74,21 @@ void gather_vertices(const Gl& gl) {
 
 std::vector<Matrices<double>> read_matrices(const Gl& gl, const SceneInGl& scene) {
   glm::vec4 viewport;
-  glm::vec2 depth;
   gl.GetFloatv(GL_VIEWPORT, glm::value_ptr(viewport));
-  gl.GetFloatv(GL_DEPTH_RANGE, glm::value_ptr(depth));
   const glm::dvec2 origin(viewport.x, viewport.y), half = glm::dvec2(viewport.z, viewport.w) / 2.0;
-  const double near = static_cast<double>(depth.x), far = static_cast<double>(depth.y);
 
   std::vector<Matrices<double>> records;
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
+    glm::vec2 depth;
+    gl.GetFloatv(GL_DEPTH_RANGE, glm::value_ptr(depth));
+    const double near = static_cast<double>(depth.x), far = static_cast<double>(depth.y);
     Matrices<double>& m = records.emplace_back();
     m.model_view = read_matrix(gl, GL_MODELVIEW_MATRIX);
     m.projection = read_matrix(gl, GL_PROJECTION_MATRIX);
     m.normal = glm::transpose(glm::inverse(glm::dmat3(m.model_view)));
-    m.win_scale = glm::dvec3(half, (far - near) / 2);
-    m.win_translate = glm::dvec3(origin + half, (far + near) / 2);
+    m.win_scale = glm::dvec3(half, static_cast<float>((far - near) / 2));  // as Mesa takes them
+    m.win_translate = glm::dvec3(origin + half, static_cast<float>((far + near) / 2));
   }
   check(gl, "reading the matrices back");
   return records;

@@ -88,6 +88,35 @@ double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<doub
   return glm::length(terms(n_matrix, terms(transposed, terms(n_matrix, n)))) / glm::length(n_matrix * n);
 }
 
+namespace {
+
+// What cancels in a gradient.
+struct Cancelled {
+  Vec2<double> e1;
+  double longest, area, share;
+};
+Cancelled cancelled_in(const WindowTriangle<double>& t) {
+  const auto& v = t.v;
+  double farthest = 0;
+  for (const auto& corner : v) farthest = std::max({farthest, std::abs(corner.p_win.x), std::abs(corner.p_win.y)});
+  // Every gradient is a sum of products of differences over the area, in float: what cancels in them is at most the
+  // longest side times the window position, and grows with the inverse of the area. (Of a line: of its squared length.)
+  const Vec2<double> e1 = Vec2<double>(v[1].p_win) - Vec2<double>(v[0].p_win);
+  const Vec2<double> e2 = Vec2<double>(v[2].p_win) - Vec2<double>(v[0].p_win);
+  const double longest = std::max({std::abs(e1.x), std::abs(e1.y), std::abs(e2.x), std::abs(e2.y)});
+  const double area = t.corners == 3 ? std::abs(e1.x * e2.y - e1.y * e2.x) : std::max(glm::dot(e1, e1), 1e-300);
+  return {e1, longest, area, (longest + farthest) / area};
+}
+
+// The error of the gradient of a plane of these values at the corners, `steepest` its size: times u.
+double gradient_bound(const WindowTriangle<double>& t, double f0, double f1, double f2, double steepest) {
+  const Cancelled c = cancelled_in(t);
+  const double range = std::max(std::abs(f1 - f0), std::abs(f2 - f0));
+  return c.longest / c.area * range + c.share * c.longest * steepest;
+}
+
+}  // namespace
+
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
   const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
   const auto& v = t.v;
@@ -97,19 +126,12 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
     y0 = std::max(y0, std::abs(corner.p_win.y));
     from_corner = std::max({from_corner, std::abs(x + 0.5 - corner.p_win.x), std::abs(y + 0.5 - corner.p_win.y)});
   }
-  // Every gradient is a sum of products of differences over the area, in float: what cancels in them is at most the
-  // longest side times the window position, and grows with the inverse of the area. (Of a line: of its squared length.)
-  const Vec2<double> e1 = Vec2<double>(v[1].p_win) - Vec2<double>(v[0].p_win);
-  const Vec2<double> e2 = Vec2<double>(v[2].p_win) - Vec2<double>(v[0].p_win);
-  const double longest = std::max({std::abs(e1.x), std::abs(e1.y), std::abs(e2.x), std::abs(e2.y)});
-  const double area = t.corners == 3 ? std::abs(e1.x * e2.y - e1.y * e2.x) : std::max(glm::dot(e1, e1), 1e-300);
-  const double cancelled = (longest + std::max(x0, y0)) / area;
+  const Vec2<double> e1 = cancelled_in(t).e1;
   // {value at the pixel, bound} of the plane through the corners' values.
   const auto plane = [&](double f0, double f1, double f2) {
     const Vec3<double> f(f0, f1, f2);
     const double d_dx = std::abs(glm::dot(b.d_dx, f)), d_dy = std::abs(glm::dot(b.d_dy, f));
-    const double range = std::max(std::abs(f1 - f0), std::abs(f2 - f0));
-    const double gradient_error = longest / area * range + cancelled * longest * std::max(d_dx, d_dy);
+    const double gradient_error = gradient_bound(t, f0, f1, f2, std::max(d_dx, d_dy));
     return std::pair(glm::dot(b.value, f), std::max({std::abs(f0), std::abs(f1), std::abs(f2)}) + d_dx * (x + x0) +
                                                d_dy * (y + y0) + gradient_error * from_corner);
   };
@@ -155,6 +177,36 @@ PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, i
     out.along_color = b.along_color;
   }
   return out;
+}
+
+OffsetErrors::OffsetErrors(const Scene& scene) : scene_(scene) {
+  const auto moves = [](const Draw& draw) { return draw.polygon_offset != PolygonOffset{}; };
+  if (std::ranges::any_of(scene.draws, moves)) ranges_ = draw_ranges(scene);
+}
+
+double OffsetErrors::of(const WindowTriangle<double>& t) const {
+  const auto after = std::ranges::upper_bound(ranges_, t.primitive, {}, &DrawRange::first_primitive);
+  if (after == ranges_.begin() || t.corners < 3) return 0;
+  const PolygonOffset& offset = scene_.draws[static_cast<std::size_t>(after - ranges_.begin()) - 1].polygon_offset;
+  if (offset == PolygonOffset{}) return 0;
+  const auto& v = t.v;
+  const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
+  const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
+  const double m = std::max(std::abs(glm::dot(b.d_dx, z)), std::abs(glm::dot(b.d_dy, z)));
+  const double factor = std::abs(static_cast<double>(offset.factor)), units = static_cast<double>(offset.units);
+  const double r = polygon_offset_unit(scene_.frame.depth, std::max({z.x, z.y, z.z}));
+  return factor * (4 * m + gradient_bound(t, z.x, z.y, z.z, m)) + 2 * (factor * m + std::abs(units) * r);
+}
+
+double OffsetErrors::of(const Records<double>& r, std::int32_t primitive) const {
+  double most = 0;
+  if (ranges_.empty()) return most;
+  auto it = std::partition_point(r.triangles.begin(), r.triangles.end(), [&](const WindowTriangle<double>& t) {
+    return static_cast<std::int32_t>(t.primitive) < primitive;
+  });
+  for (; it != r.triangles.end() && static_cast<std::int32_t>(it->primitive) == primitive; ++it)
+    most = std::max(most, of(*it));
+  return most;
 }
 
 std::vector<EdgeValue> edge_values(const Records<double>& r, std::int32_t primitive, int x, int y) {

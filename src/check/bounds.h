@@ -64,6 +64,21 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, in
 /// The largest over a primitive's triangles, at least 1.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y);
 
+/// What a polygon offset adds to the bound of a depth, times u, for a renderer that finds the slope in float and adds
+/// the offset to the corners' depths: the slope's own error (bounds_from_origin's of a gradient) and four roundings of
+/// it times |factor|, and two of the offset.
+class OffsetErrors {
+ public:
+  explicit OffsetErrors(const Scene& scene);
+  double of(const WindowTriangle<double>& triangle) const;
+  /// The largest over a primitive's triangles.
+  double of(const Records<double>& records, std::int32_t primitive) const;
+
+ private:
+  const Scene& scene_;
+  std::vector<DrawRange> ranges_;  // none: no draw has an offset
+};
+
 /// What a pixel may hold where edges of a triangle that is not filled meet, of any of those that pass it by no more
 /// than their width and two pixels: by projection, and by the place along the major axis. Empty where there is one such
 /// edge or none.

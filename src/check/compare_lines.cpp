@@ -165,20 +165,25 @@ Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, c
       !same_size(mine.depth, mine.count, why) || !same_size(mine.id, mine.count, why)) {
     return mismatch("pixels", why, mine.id.size());
   }
+  const OffsetErrors offsets(scene);
   return compare_planes(mine.id, theirs.id, "pixels", [&](Meter& meter, int x, int y) {
     const std::int32_t a = mine.id(x, y), b = theirs.id(x, y);
-    if (a == b) return;
+    const bool held = !mine.stencil.empty() && mine.stencil.size() == theirs.stencil.size();
+    const int stencil_a = held ? mine.stencil(x, y) : 0, stencil_b = held ? theirs.stencil(x, y) : 0;
+    if (a == b && stencil_a == stencil_b) return;
     const bool alike = mine.id_sum(x, y) == theirs.id_sum(x, y) && mine.count(x, y) == theirs.count(x, y);
     if (!alike) return meter.ambiguous();
+    if (a == b) return meter.value(1, 0, {x, y, -1, "stencil"}, stencil_a, stencil_b);
     // Each side's winner is the other's loser: their depths are apart by no more than one of them may be off.
     double off = 0;
     for (const std::int32_t primitive : {a, b}) {
       if (primitive == kBackground) continue;
       const PlaneBounds bounds = primitive_bounds(candidate.records, primitive, x, y);
+      const double offset = offsets.of(candidate.records, primitive);
       double by_edge = 0;  // where edges of one triangle meet, either may have won
       const std::vector<EdgeValue> edges = edge_values(candidate.records, primitive, x, y);
       for (const EdgeValue& edge : edges) by_edge = std::max(by_edge, std::abs(edge.depth - edges.front().depth));
-      off = std::max(off, factor * kUnitRoundoff * bounds.depth + std::abs(bounds.along_depth) + by_edge);
+      off = std::max(off, factor * kUnitRoundoff * (bounds.depth + offset) + std::abs(bounds.along_depth) + by_edge);
     }
     const double z = theirs.depth(x, y);
     if (std::abs(mine.depth(x, y) - z) <= off + depth_step(scene.frame.depth, z)) return meter.ambiguous();

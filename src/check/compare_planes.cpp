@@ -23,6 +23,16 @@ const LegalAnswer* find(std::span<const LegalAnswer> answers, std::int32_t primi
   return it == answers.end() ? nullptr : &*it;
 }
 
+// Of the planes' winner and the stencil value beside it.
+const LegalAnswer* find(const Legal& legal, const Planes& planes, int x, int y) {
+  const std::int32_t id = planes.id(x, y);
+  if (planes.stencil.empty()) return find(legal.at(x, y), id);
+  for (const LegalAnswer& answer : legal.at(x, y)) {
+    if (answer.primitive == id && answer.stencil == planes.stencil(x, y)) return &answer;
+  }
+  return nullptr;
+}
+
 double outside(double value, double low, double high) {
   if (value >= low && value <= high) return 0;
   return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
@@ -46,6 +56,10 @@ bool has_winners(const Planes& a, const Planes& b, const Plane<T>& plane, std::s
 void open_value(Meter& meter, double value, const Place& place, double reference) {
   meter.ambiguous();
   meter.value(std::isfinite(value) && std::isfinite(reference) ? 0 : kInfinite, 0, place, value, reference);
+}
+
+Vec4<double> codes_of(const Vec4<double>& color, double scale) {
+  return glm::roundEven(glm::clamp(color, 0.0, 1.0) * scale);
 }
 
 bool beyond(const glm::vec4& a, const glm::vec4& b, const Vec4<double>& bound) {
@@ -88,18 +102,24 @@ Measurement compare_coverage(const Planes& candidate, const Planes& reference) {
 }
 
 Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal) {
+  if (candidate.stencil.size() != reference.stencil.size()) {
+    return mismatch("pixels", "stencil values of one side alone", candidate.id.size());
+  }
   return compare_planes(candidate.id, reference.id, "pixels", [&](Meter& meter, int x, int y) {
     const std::int32_t a = candidate.id(x, y), b = reference.id(x, y);
-    if (a == b) return;
-    if (!legal.empty() && find(legal.at(x, y), a) != nullptr) {
-      if (find(legal.at(x, y), b) != nullptr) {
+    const bool held = !candidate.stencil.empty();
+    const int stencil_a = held ? candidate.stencil(x, y) : 0, stencil_b = held ? reference.stencil(x, y) : 0;
+    if (a == b && stencil_a == stencil_b) return;
+    if (!legal.empty() && find(legal, candidate, x, y) != nullptr) {
+      if (find(legal, reference, x, y) != nullptr) {
         meter.ambiguous();
       } else {
         meter.disputed();
       }
       return;
     }
-    meter.value(1, 0, {x, y, -1, "primitive"}, a, b);
+    if (a != b) return meter.value(1, 0, {x, y, -1, "primitive"}, a, b);
+    meter.value(1, 0, {x, y, -1, "stencil"}, stencil_a, stencil_b);
   });
 }
 
@@ -110,6 +130,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
   if (!has_winners(a, b, a.depth, why)) return mismatch("u", why, a.id.size());
   const Records<double> none;
   const DrawnAt drawn(scene.frame, depths_replace(scene) ? none : candidate.records);  // else any may have left it
+  const OffsetErrors offsets(scene);
   return compare_planes(a.depth, b.depth, "u", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     const double z = a.depth(x, y), z_ref = b.depth(x, y);
@@ -120,14 +141,16 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
       return;
     }
     const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
-    double bound = bounds.depth, diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));
+    double bound = bounds.depth + offsets.of(candidate.records, id),
+           diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));
     for (const EdgeValue& edge : edge_values(candidate.records, id, x, y)) {
       diff = std::min(diff, difference(edge.depth, z_ref));
     }
     drawn.each(x, y, [&](std::size_t i) {
       const Records<double>& r = candidate.records;
-      const PlaneBounds of_other = bounds_from_origin(r.triangles[r.covered[i].triangle], x, y);
-      bound = std::max(bound, of_other.depth);
+      const WindowTriangle<double>& triangle = r.triangles[r.covered[i].triangle];
+      const PlaneBounds of_other = bounds_from_origin(triangle, x, y);
+      bound = std::max(bound, of_other.depth + offsets.of(triangle));
       diff = std::min(diff, difference(z + of_other.along_depth, z_ref));
     });
     if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
@@ -188,6 +211,10 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
     const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
+      if (!std::isfinite(bound[c])) {
+        if (c == 0) open_value(meter, v, {x, y, id, "color"}, w);
+        continue;
+      }
       double diff = difference(v, w);
       for (const EdgeValue& edge : edges) {
         diff = std::min(diff, difference(std::round(scale * std::clamp(edge.color[c], 0.0, 1.0)), w));
@@ -210,36 +237,53 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
   if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
   const DrawnAt drawn(scene.frame, candidate.records);
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const auto draw_of = [&](std::uint32_t primitive) -> const Draw& {
+    const auto after = std::ranges::upper_bound(ranges, primitive, {}, &DrawRange::first_primitive);
+    return scene.draws[static_cast<std::size_t>(after - ranges.begin()) - 1];
+  };
   const bool reads = factors_read_frame(scene),
              told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why);
   return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     const Place place{x, y, id, "color"};
+    if (id != b.id(x, y)) return;  // visibility's matter
     // Of other fragments (lines' may lie beside each other): coverage's matter.
     const bool others = told && a.id_sum(x, y) != b.id_sum(x, y);
     bool disputed = false;
     const bool open = others || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
     int fragments = 0;
     double bound = 0;
+    bool combined = false, certain = true;  // by a logic op, of codes that both sides have
     drawn.each(x, y, [&](std::size_t i) {
       const FragmentBound of = bounds.of_fragment(i);
       ++fragments;
       disputed |= of.disputed;
       const Vec4<double> sum = of.color + glm::abs(of.along) + of.apart;
       bound += std::max({sum.r, sum.g, sum.b, sum.a});
+      const Records<double>& r = candidate.records;
+      const Merge& merge = draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
+      combined = combined || merge.logic_op;
+      certain = certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
+                codes_of(r.shaded[i].color - sum, scale) == codes_of(r.shaded[i].color + sum, scale);
     });
     // A fragment's error comes in as its colour, as the factor that it makes of itself, and of what is there. That is 1
     // at most, or in float one more for each fragment.
     const double layers = reads ? std::exp2(fragments) - 1 : fragments, held = scale > 0 ? 1 : std::max(1, fragments);
     if (disputed && a.color(x, y) != b.color(x, y)) return meter.disputed();
     bound *= (2 + held) * (reads ? std::exp2(fragments - 1) : 1);
+    combined = combined && scale > 0;
     for (int c = 0; c < 4; ++c) {
       const double v = a.color(x, y)[c], w = b.color(x, y)[c];
-      if (open || !std::isfinite(bound)) {
+      if (open || !std::isfinite(bound) || (combined && !certain)) {
         if (c == 0) open_value(meter, v, place, w);
       } else if (scale > 0) {
         const double code = std::round(scale * v), code_ref = std::round(scale * w);
-        meter.value(difference(code, code_ref), codes * layers, place, code, code_ref, std::floor(scale * bound));
+        if (combined) {
+          meter.value(difference(code, code_ref), 0, place, code, code_ref);
+        } else {
+          meter.value(difference(code, code_ref), codes * layers, place, code, code_ref, std::floor(scale * bound));
+        }
       } else {
         meter.value(difference(v, w) / u, bound / u + 4 * layers * held, place, v, w);
       }
@@ -287,7 +331,7 @@ Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
     const auto answers = legal.at(x, y);
     if (answers.size() > 1) meter.ambiguous();
     const std::int32_t id = candidate.id(x, y);
-    meter.value(find(answers, id) != nullptr ? 0 : 1, 0, {x, y, -1, "primitive"}, id,
+    meter.value(find(legal, candidate, x, y) != nullptr ? 0 : 1, 0, {x, y, -1, "primitive"}, id,
                 answers.empty() ? kBackground : answers.front().primitive);
   });
 }
@@ -295,15 +339,16 @@ Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
 namespace {
 
 // `half_code`: what rounding to the frame's format adds to the oracle's bound.
-Measurement compare_legal_color(const Plane<glm::vec4>& color, const Plane<std::int32_t>& id, const Legal& legal,
+Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
                                 double half_code, bool clamped, double factor) {
+  const Plane<std::int32_t>& id = candidate.id;
   std::string why;
   if (!same_size(id, legal.certain, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
     const auto answers = legal.at(x, y);
     if (answers.size() > 1) meter.ambiguous();
     const glm::vec4 c = color(x, y);
-    const LegalAnswer* answer = find(answers, id(x, y));
+    const LegalAnswer* answer = find(legal, candidate, x, y);
     if (answer == nullptr) {  // visibility's matter, but for what is no number
       for (int i = 0; i < 4; ++i) {
         meter.value(std::isfinite(c[i]) ? 0 : kInfinite, 0, {x, y, id(x, y), "color"}, c[i], 0);
@@ -329,7 +374,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
     const auto answers = legal.at(x, y);
     if (answers.size() > 1) meter.ambiguous();
     const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
-    const LegalAnswer* answer = find(answers, candidate.id(x, y));
+    const LegalAnswer* answer = find(legal, candidate, x, y);
     if (answer == nullptr) {
       return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, candidate.id(x, y), "z"}, z, 0);
     }
@@ -339,7 +384,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
 }
 
 Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor) {
-  return compare_legal_color(candidate.shaded, candidate.id, legal, 0, false, factor);
+  return compare_legal_color(candidate.shaded, candidate, legal, 0, false, factor);
 }
 
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
@@ -355,7 +400,7 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
       }
     });
   }
-  return compare_legal_color(candidate.color, candidate.id, legal, codes ? 0.5 / scale + 4 * u : 0, codes, factor);
+  return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, codes, factor);
 }
 
 }  // namespace plumbline::check

@@ -11,7 +11,7 @@ namespace plumbline::check {
 Measurement compare_coverage(const Planes& candidate, const Planes& reference);
 
 /// Winners against winners. Where they differ, `legal` decides (empty: nothing is ambiguous): both among the legal
-/// answers: ambiguous; the reference alone outside: disputed; else different.
+/// answers: ambiguous; the reference alone outside: disputed; else different. Stencil values go with them.
 Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal);
 
 /// Depth and colour where the winners are the same; the reference evaluates planes in float from the window's origin
@@ -29,7 +29,8 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
 /// Where colours are blended or masked, against a reference that does it in its own arithmetic (llvmpipe: in 8 bits):
 /// at most `codes` per fragment drawn at the pixel (twice the former's more per fragment, where a factor reads the
 /// frame), and what `factor` u of all their colours' bounds comes to; for rgba32f that alone, in u. Where it is open
-/// which fragments made the colour, any number is legal.
+/// which fragments made the colour, any number is legal. Codes that a logic op makes are equal where all fragments' own
+/// codes are certain and none was blended; else any is legal: a code's difference of one may turn every bit.
 Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
                             double codes, double factor);
 

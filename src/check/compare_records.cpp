@@ -73,9 +73,9 @@ Measurement compare_matrices_by(const Records<double>& candidate, const Records<
     add_entries(meter, a.model_view, b.model_view, unit, factor, at("model_view"));
     add_entries(meter, a.projection, b.projection, unit, factor, at("projection"));
     if (normal) add_entries(meter, a.normal, b.normal, unit, factor, at("normal"));
-    const Vec3<double> unit_win(unit(b.win_scale.x, 0), unit(b.win_scale.y, 0), unit(b.win_scale.z, 0));
-    add(meter, a.win_scale, b.win_scale, unit_win, factor, at("win_scale"));
-    add(meter, a.win_translate, b.win_translate, unit_win, factor, at("win_translate"));
+    const auto units = [&](const Vec3<double>& v) { return Vec3<double>(unit(v.x, 0), unit(v.y, 0), unit(v.z, 0)); };
+    add(meter, a.win_scale, b.win_scale, units(b.win_scale), factor, at("win_scale"));
+    add(meter, a.win_translate, b.win_translate, units(b.win_translate), factor, at("win_translate"));
   });
 }
 
@@ -189,6 +189,11 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
     return mismatch("u", "no matrices", std::max(candidate.triangles.size(), reference.triangles.size()));
   }
   Meter meter("u");
+  // Each draw may have a depth range of its own: the largest of |p_ndc * scale| + |translate|.
+  std::vector<Vec3<double>> translations;
+  for (const Matrices<double>& m : candidate.matrices) {
+    if (std::ranges::find(translations, m.win_translate) == translations.end()) translations.push_back(m.win_translate);
+  }
   // Triangles are matched by primitive, and within one by order where both have the same number.
   std::size_t i = 0, j = 0;
   const auto &a = candidate.triangles, &b = reference.triangles;
@@ -236,9 +241,8 @@ Measurement compare_window(const Records<double>& candidate, const Records<doubl
       const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i_now), field}; };
       for (std::size_t k = 0; k < 3; ++k) {
         const WindowVertex<double>&v = a[i_now].v[k], &w = b[j_now].v[k];
-        // |p_ndc * scale| + |translate|: the translation is at most the larger half of the frame, which p_win bounds.
-        const Vec3<double> size = glm::abs(w.p_win - candidate.matrices.front().win_translate) +
-                                  glm::abs(candidate.matrices.front().win_translate);
+        Vec3<double> size(0);
+        for (const Vec3<double>& t : translations) size = glm::max(size, glm::abs(w.p_win - t) + glm::abs(t));
         add(meter, v.p_win, w.p_win, u * size, factor, at("p_win"));
         meter.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w)), factor, at("inv_w"), v.inv_w, w.inv_w);
         for (int c = 0; c < 2; ++c) {

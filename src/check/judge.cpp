@@ -13,6 +13,7 @@
 #include "check/compare_records.h"
 #include "check/compare_texels.h"
 #include "check/judge_passes.h"
+#include "check/open_pixels.h"
 #include "stages/seen_as.h"
 
 namespace plumbline::check {
@@ -29,8 +30,10 @@ struct Case {
   const Legal& legal;  // an oracle's, or empty
   Renderer* referee;   // runs stages, or null
   std::vector<Comparison>& out;
+  std::uint64_t open = 0;  // pixels that the stage at hand leaves out, for the alpha test may go either way there
 
   void add(const std::string& reference, Stage stage, Measurement m, std::string_view row = "", std::string note = "") {
+    m.ambiguous += open;
     out.push_back(judged(scene.name, reference, stage, std::move(m), row, std::move(note)));
   }
   // The row of stage `of` once more, for another stage that the same plane shows.
@@ -188,10 +191,16 @@ Comparison as_dispute(Comparison comparison, std::string_view why) {
 }
 
 constexpr std::string_view kNo8BitDepth = "OpenGL has no 8-bit depth: it draws with 24 bits, other surfaces may win";
+constexpr std::string_view kNo16BitsBesideStencil =
+    "OpenGL has no 16-bit depth beside stencil values: it draws with 24 bits, other surfaces may win";
+std::string_view no_such_depth(const FrameFormat& frame) {
+  return frame.depth == DepthFormat::z8 ? kNo8BitDepth : kNo16BitsBesideStencil;
+}
 
-// Whether its depths are of 8 bits, if the scene's are.
-bool draws_codes_of_8_bits(const Scene& scene, const Capture& theirs) {
-  if (scene.frame.depth != DepthFormat::z8) return true;
+// Whether its depths are codes of the scene's format, if that is one that OpenGL lacks.
+bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
+  const bool stencil = scene.frame.stencil != StencilFormat::none;
+  if (scene.frame.depth != DepthFormat::z8 && !(stencil && scene.frame.depth == DepthFormat::z16)) return true;
   return std::ranges::all_of(theirs.planes.depth.values(), [&](double z) {
     const double code = z * depth_scale(scene.frame.depth);
     return std::abs(code - std::round(code)) < 1e-9;  // a double's rounding; a code of 24 bits is 1e-5 away or more
@@ -231,7 +240,9 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       }
       return;
     case Stage::depth:
-      if (!draws_codes_of_8_bits(c.scene, theirs)) return c.skip(name, stage, Outcome::unsupported, kNo8BitDepth);
+      if (!draws_depth_codes(c.scene, theirs)) {
+        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+      }
       return c.add(name, stage, compare_depth_planes(c.scene, c.candidate, theirs, factor("osmesa.depth")),
                    "osmesa.depth");
     case Stage::attributes:
@@ -239,6 +250,9 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
                    "osmesa.attributes");
     case Stage::texture: {
+      if (theirs.planes.texel.empty()) {
+        return c.skip(name, stage, Outcome::unsupported, "where alpha is tested, its texels are not drawn alone");
+      }
       std::string note;
       Measurement m = compare_texel_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes"), note);
       return c.add(name, stage, std::move(m), "osmesa.texture", std::move(note));
@@ -250,7 +264,9 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
                    "osmesa.shade");
     case Stage::visibility:
-      if (!draws_codes_of_8_bits(c.scene, theirs)) return c.skip(name, stage, Outcome::unsupported, kNo8BitDepth);
+      if (!draws_depth_codes(c.scene, theirs)) {
+        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+      }
       return c.add(name, stage,
                    draws_thin(c.scene) ? compare_thin_winners(c.scene, c.candidate, theirs, factor("osmesa.depth"))
                                        : compare_winners(c.candidate.planes, theirs.planes, c.legal));
@@ -341,6 +357,15 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
     } else if (!exact && lacks_texels(c, stage)) {
       c.skip(name, stage, Outcome::unsupported,
              over_budget(c.candidate) ? kOverBudget : "which levels of detail are legal, exact says: it is not asked");
+    } else if (!exact && stage > Stage::coverage && tests_alpha(c.scene)) {
+      if (over_budget(c.candidate)) {
+        c.skip(name, stage, Outcome::unsupported, kOverBudget);
+        continue;
+      }
+      Capture settled = theirs;
+      c.open = settle_alpha(c.scene, c.candidate, stage, factor("osmesa.attributes"), settled);
+      side_by_side(c, settled, stage, name);
+      c.open = 0;
     } else if (!exact) {
       side_by_side(c, theirs, stage, name);
     }  // An exact reference judges the other stages from the candidate's own records.

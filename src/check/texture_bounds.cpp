@@ -36,6 +36,13 @@ TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<dou
   return out;
 }
 
+bool switched_early(const Texture& texture, double lod) {
+  const Sampler& s = texture.sampler;
+  const bool late = s.mag == MagFilter::linear &&
+                    (s.min == MinFilter::nearest_mipmap_nearest || s.min == MinFilter::nearest_mipmap_linear);
+  return late && lod > -0.5 && lod < 1;
+}
+
 Environed environ_error(TextureFormat format, const DrawTexture& state, const Vec4<double>& f,
                         const Vec4<double>& f_error, const Vec4<double>& s, const Vec4<double>& s_error,
                         double roundings) {

@@ -77,7 +77,7 @@ class Caster {
       : scene_(scene), world_(world_of(scene)), hierarchy_(world_.triangles), view_(scene) {
     nearest_alone_ = std::all_of(scene.draws.begin(), scene.draws.end(), [](const Draw& draw) {
       const bool by_distance = draw.depth_func == DepthFunc::less || draw.depth_func == DepthFunc::less_equal;
-      return by_distance && draw.merge.depth_mask;
+      return by_distance && draw.merge.depth_mask && draw.depth_range == DepthRange{};
     });
   }
 
@@ -100,14 +100,17 @@ class Caster {
   };
 
   const Draw& draw_of(std::uint32_t primitive) const { return scene_.draws[world_.draw[primitive]]; }
-  double depth_of(double along) const { return in_format(scene_.frame.depth, view_.window_z(along)); }
+  double depth_of(const DepthRange& range, double along) const {
+    const double near = range.near, far = range.far;
+    return in_format(scene_.frame.depth, near + (far - near) * view_.window_z(along));
+  }
 
   void find_hits(const Ray& ray, int x, int y) {
     hits_.clear();
     double nearest = 2;  // window z
     // By the depth as it is compared, which never falls where the distance grows.
     const auto too_far = [&](double along) {
-      return along > view_.far() || (nearest_alone_ && depth_of(std::max(along, view_.near())) > nearest);
+      return along > view_.far() || (nearest_alone_ && depth_of({}, std::max(along, view_.near())) > nearest);
     };
     hierarchy_.walk(ray, view_.near(), too_far, [&](std::uint32_t primitive) {
       const std::optional<Crossing> at = crossing(ray, world_.triangles[primitive]);
@@ -116,7 +119,7 @@ class Caster {
       if (draw.scissor && !draw.scissor->holds(x, y)) return;
       const Cull cull = draw.cull;
       if (cull != Cull::none && at->front == (cull == Cull::front)) return;
-      hits_.push_back({primitive, depth_of(at->along)});
+      hits_.push_back({primitive, depth_of(draw.depth_range, at->along)});
       nearest = std::min(nearest, hits_.back().depth);
     });
   }
@@ -145,6 +148,11 @@ class ImageOrderRenderer final : public Renderer {
       throw Unsupported("it finds what is visible, not its colour");
     if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
       throw Unsupported("no ray meets a line or a point");
+    }
+    for (const Draw& draw : scene.draws) {
+      if (draw.alpha_test || draw.stencil || draw.polygon_offset != PolygonOffset{}) {
+        throw Unsupported("a ray here knows no alpha, no stencil value and no slope");
+      }
     }
     std::size_t triangles = 0;
     for (const DrawRange& range : draw_ranges(scene)) triangles += range.primitive_count;

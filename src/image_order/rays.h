@@ -47,8 +47,9 @@ class View {
   double near() const { return near_; }
   double far() const { return far_; }
 
-  /// Window z in [0,1] of what is `along` far along the view (GL 2.1 specification, 2.11.1 and 2.11.2, in one formula).
-  /// Where `along` grows it never falls (in games101 and tinyrenderer: never rises), not by a rounding either.
+  /// Window z in the range [0,1] of what is `along` far along the view (GL 2.1 specification, 2.11.1 and 2.11.2, in one
+  /// formula). Where `along` grows it never falls (in games101 and tinyrenderer: never rises), not by a rounding
+  /// either.
   double window_z(double along) const;
 
  private:

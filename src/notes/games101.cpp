@@ -136,9 +136,11 @@ Note games101() {
                         test("unit/raster_area", "Sampling.IsOffByAQuarterAlongStraightSidesAndASixthAlongDiagonals")}},
           {.section = "What's Wrong With This Picture?",
            .teaches = "aliasing: jaggies",
-           .where = {function("raster/triangle_area.cpp", "area_in_pixel")},
-           .shown_by = {test("unit/raster_area", "Sampling.MakesJaggies"), scene("coverage/slivers")},
-           .not_yet = "antialiasing, which is a later lecture's"},
+           .where = {function("raster/triangle_area.cpp", "area_in_pixel"),
+                     function("scene/antialias.cpp", "passes_of")},
+           .shown_by = {test("unit/raster_area", "Sampling.MakesJaggies"), scene("coverage/slivers"),
+                        test("cross/antialias_error_table", "AntialiasError.FallsWithTheNumberOfSamples"),
+                        scene("antialias/samples_wedges")}},
       }};
 }
 

@@ -1,5 +1,6 @@
 #include "pipeline/depth.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/window.h"
@@ -24,10 +25,12 @@ BarycentricPlanes along_line(const WindowTriangle<float>& line, glm::dvec2 ancho
   return {anchor.x, anchor.y, glm::dot(anchor - p0, d) / square, d.x / square, d.y / square, 0, 0, 0};
 }
 
-}  // namespace
-
-BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y0) {
-  if (triangle.corners < 3) return along_line(triangle, {x0 + 0.5, y0 + 0.5});
+// The corners that planes go through.
+struct PlaneCorners {
+  glm::dvec2 p0, d1, d2;  // d1, d2: the others' places from it
+  double twice_area;
+};
+PlaneCorners corners_of(const WindowTriangle<float>& triangle) {
   glm::dvec2 p[3];
   for (int i = 0; i < 3; ++i) p[i] = glm::dvec2(triangle.v[static_cast<std::size_t>(i)].p_win);
   double twice_area = cross(p[1] - p[0], p[2] - p[0]);
@@ -35,14 +38,32 @@ BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y
     for (int i = 0; i < 3; ++i) p[i] = glm::dvec2(triangle.v[static_cast<std::size_t>(i)].snapped) / 256.0 + 0.5;
     twice_area = cross(p[1] - p[0], p[2] - p[0]);
   }
-  const glm::dvec2 anchor(x0 + 0.5, y0 + 0.5), d1 = p[1] - p[0], d2 = p[2] - p[0], d = anchor - p[0];
+  return {p[0], p[1] - p[0], p[2] - p[0], twice_area};
+}
+
+// In window z.
+double offset_of(const WindowTriangle<float>& triangle, const DepthState& state) {
+  if (triangle.corners < 3 || state.offset == PolygonOffset{}) return 0;
+  const double z0 = triangle.v[0].p_win.z, z1 = triangle.v[1].p_win.z, z2 = triangle.v[2].p_win.z;
+  const auto [p0, d1, d2, twice_area] = corners_of(triangle);
+  const double slope_x = difference_of_products(z1 - z0, d2.y, z2 - z0, d1.y) / twice_area;
+  const double slope_y = difference_of_products(z2 - z0, d1.x, z1 - z0, d2.x) / twice_area;
+  const double m = std::max(std::abs(slope_x), std::abs(slope_y));
+  return state.offset.factor * m + state.offset.units * polygon_offset_unit(state.format, std::max({z0, z1, z2}));
+}
+
+}  // namespace
+
+BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y0) {
+  if (triangle.corners < 3) return along_line(triangle, {x0 + 0.5, y0 + 0.5});
+  const auto [p0, d1, d2, twice_area] = corners_of(triangle);
+  const glm::dvec2 anchor(x0 + 0.5, y0 + 0.5), d = anchor - p0;
   return {anchor.x,           anchor.y,           cross(d, d2) / twice_area,
           d2.y / twice_area,  -d2.x / twice_area, cross(d1, d) / twice_area,
           -d1.y / twice_area, d1.x / twice_area};
 }
 
 BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place) {
-  if (place == glm::ivec2(0)) return planes;
   const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
   BarycentricPlanes out = planes;
   out.x0 -= by.x;
@@ -50,13 +71,28 @@ BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place) {
   return out;
 }
 
-DepthSetup depth_setup(const WindowTriangle<float>& triangle, double scale) {
+// What the near and far plane do not cut is clamped to where they are (GL_ARB_depth_clamp); else to what formats hold.
+DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp) {
+  DepthState out{format};
+  out.offset = draw.polygon_offset;
+  if (!depth_clamp) return out;
+  const auto [low, high] = std::minmax(draw.depth_range.near, draw.depth_range.far);
+  out.low = low;
+  out.high = high;
+  return out;
+}
+
+DepthSetup depth_setup(const WindowTriangle<float>& triangle, const DepthState& state) {
   const double z0 = triangle.v[0].p_win.z;
-  return {z0, triangle.v[1].p_win.z - z0, triangle.v[2].p_win.z - z0, scale};
+  return {z0 + offset_of(triangle, state),
+          triangle.v[1].p_win.z - z0,
+          triangle.v[2].p_win.z - z0,
+          depth_scale(state.format),
+          state.low,
+          state.high};
 }
 
 DepthSetup moved(const DepthSetup& depth, const BarycentricPlanes& planes, glm::ivec2 place) {
-  if (place == glm::ivec2(0)) return depth;
   const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
   DepthSetup out = depth;
   out.z0 += (by.x * planes.l1_x + by.y * planes.l1_y) * out.dz1 + (by.x * planes.l2_x + by.y * planes.l2_y) * out.dz2;

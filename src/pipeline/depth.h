@@ -40,13 +40,22 @@ Barycentric<R> barycentric(const BarycentricPlanes& planes, const Pixels<R>& p) 
   return {1.0 - l1 - l2, l1, l2};
 }
 
-/// A triangle's window depths, as corner 0's and the differences from it, and the largest code of the depth format
-/// (scene.h, depth_scale; 0: float).
+/// What a draw says of its fragments' depth.
+struct DepthState {
+  DepthFormat format;
+  double low = 0, high = 1;  ///< depths beyond are clamped
+  PolygonOffset offset = {};
+};
+DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp);
+
+/// A triangle's window depths, as corner 0's and the differences from it.
 struct DepthSetup {
   double z0, dz1, dz2;
-  double scale;
+  double scale;              ///< the largest code of the depth format (scene.h, depth_scale); 0: float
+  double low = 0, high = 1;  ///< as DepthState
 };
-DepthSetup depth_setup(const WindowTriangle<float>& triangle, double scale);
+/// With the polygon offset, which moves the whole plane.
+DepthSetup depth_setup(const WindowTriangle<float>& triangle, const DepthState& state);
 /// The same for the points `place` (in 1/256 pixel) from those that the barycentrics are of.
 DepthSetup moved(const DepthSetup& depth, const BarycentricPlanes& planes, glm::ivec2 place);
 
@@ -61,7 +70,7 @@ W depth_code(const W& z, double scale) {
 /// In the depth format: a code, which a float holds exactly up to 2^24, or window z itself for z32f.
 template <class R>
 R depth(const DepthSetup& s, const Barycentric<R>& b) {
-  const Wide<R> z = clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
+  const Wide<R> z = clamped<Wide<R>>(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2, s.low, s.high);
   return to_float(s.scale == 0.0 ? z : depth_code(z, s.scale));
 }
 

@@ -12,6 +12,7 @@
 #include "pipeline/attributes.h"
 #include "pipeline/coverage.h"
 #include "pipeline/depth.h"
+#include "pipeline/fragment_tests.h"
 #include "pipeline/lanes.h"
 #include "pipeline/merge.h"
 #include "pipeline/shade.h"
@@ -46,6 +47,9 @@ struct FragmentStages {
   static Mask<R> scissor(const Scissor& box, const Pixels<R>& p) {
     return pipeline::scissor<R>(box, p);
   }
+  static DepthSetup depth_setup(const WindowTriangle<float>& triangle, const DepthState& state) {
+    return pipeline::depth_setup(triangle, state);
+  }
   template <class R>
   static R depth(const auto& s, const Barycentric<R>& b) {
     return pipeline::depth<R>(s.depth, b);
@@ -72,10 +76,18 @@ struct FragmentStages {
   static Color<R> shade_surface(const Surface& surface, bool front, const SurfaceAttributes<R>& attributes) {
     return pipeline::shade_surface<R>(surface, front, attributes);
   }
-  /// Of the fragments that pass the depth test, those that are drawn; the others leave depth and colour as they are.
+  /// Of the fragments that pass the depth test (where there is a stencil test: of all), those that are not discarded.
   template <class R>
   static Mask<R> kept(Mask<R> passes, const Color<R>&) {
     return passes;
+  }
+  template <class R>
+  static Mask<R> alpha_passes(const AlphaTest& test, R alpha, float scale) {
+    return pipeline::alpha_passes<R>(test, alpha, scale);
+  }
+  template <class R>
+  static Mask<R> stencil_test(const StencilFace& face, Mask<R> alive, Mask<R> nearer, std::uint8_t* at) {
+    return pipeline::stencil_test<R>(face, alive, nearer, at);
   }
   template <class R>
   static Color<R> merge(const Color<R>& color, float scale) {
@@ -85,21 +97,29 @@ struct FragmentStages {
   static Color<R> blend(const Blend& state, const Color<R>& source, const Color<R>& stored, float scale) {
     return pipeline::blend<R>(state, source, stored, scale);
   }
+  template <class R>
+  static Color<R> logic(LogicOp op, const Color<R>& source, const Color<R>& stored, float scale) {
+    return pipeline::logic<R>(op, source, stored, scale);
+  }
   /// A draw's merge state, asked for once.
   static Merge merge_state(const Merge& of_draw) { return of_draw; }
 };
 
 /// What of a draw's state is looked at per block.
 struct BlockState {
+  DepthState depth;
   std::optional<Scissor> scissor;
+  std::optional<AlphaTest> alpha_test;
+  std::optional<Stencil> stencil;
   Merge merge;
   const Surface* surface;  ///< null: plain
 };
 
-/// Where the next pixels' depth and colour are, in the frame's formats, as floats.
+/// Where the next pixels' values are: depth and colour in the frame's formats, as floats.
 struct Stored {
   float* depth;
   float* color[4];
+  std::uint8_t* stencil;
 };
 
 /// Of the fragments `kept`, depth and colour into the frame.
@@ -107,8 +127,9 @@ template <class R, class Stages>
 void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
            const Stored& to) {
   const auto merged = [&]() -> Color<R> {
-    if (!state.blend) return stages.template merge<R>(shaded, color_scale);
+    if (!state.blend && !state.logic_op) return stages.template merge<R>(shaded, color_scale);
     const Color<R> stored{load(to.color[0]), load(to.color[1]), load(to.color[2]), load(to.color[3])};
+    if (state.logic_op) return stages.template logic<R>(*state.logic_op, shaded, stored, color_scale);
     return stages.template blend<R>(*state.blend, shaded, stored, color_scale);
   }();
   if (state.depth_mask) store(kept, z, to.depth);
@@ -130,6 +151,7 @@ template <class Attributes = AttributeSetup>
 struct TriangleSetup {
   std::uint32_t triangle;  ///< its place among the window triangles
   std::uint32_t primitive;
+  bool front;  ///< or a line or point
   PixelBounds bounds;
   Edges edges;
   BarycentricPlanes planes;
@@ -143,17 +165,23 @@ using SetupOf = TriangleSetup<decltype(std::declval<const Stages&>().attribute_s
 /// (x0, y0): the lower left pixel of the tile.
 template <class Stages>
 SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std::uint32_t triangle,
-                       const Formats& formats, int x0, int y0) {
-  const Places places = stages.places(formats.sample);
-  const WindowTriangle<float> to_cover = as_seen_from(t, places.coverage);
+                       const DepthState& depth_state, glm::ivec2 sample, int x0, int y0) {
   const BarycentricPlanes planes = planes_of(t, x0, y0);
+  const DepthSetup depth = stages.depth_setup(t, depth_state);
+  const auto attributes = stages.attribute_setup(t, triangle);
+  if (sample == glm::ivec2(0)) {
+    return {triangle, t.primitive, t.front, stages.bounds(t), stages.edges(t), planes, depth, attributes, nullptr};
+  }
+  const Places places = stages.places(sample);
+  const WindowTriangle<float> to_cover = as_seen_from(t, places.coverage);
   return {triangle,
           t.primitive,
+          t.front,
           stages.bounds(to_cover),
           stages.edges(to_cover),
           moved(planes, places.color),
-          moved(depth_setup(t, formats.depth_scale), planes, places.depth - places.color),
-          stages.attribute_setup(t, triangle),
+          moved(depth, planes, places.depth - places.color),
+          attributes,
           nullptr};
 }
 
@@ -196,6 +224,7 @@ struct Tile {
   int x0, y0;  ///< its lower left pixel
   float depth[kTile * kTile];
   float color[4][kTile * kTile];
+  std::uint8_t stencil[kTile * kTile];  ///< left alone where the frame has none
 
   /// Of the block whose lower left pixel is (x, y), its first pixel's place.
   int offset(int x, int y) const { return ((y - y0) / kBlock * (kTile / kBlock) + (x - x0) / kBlock) * kBlockPixels; }
@@ -219,13 +248,21 @@ void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf
   const Barycentric<R> b = barycentric<R>(s.planes, p);
   const R z = stages.template depth<R>(s, b);
   const Stored stored{tile.depth + place,
-                      {tile.color[0] + place, tile.color[1] + place, tile.color[2] + place, tile.color[3] + place}};
-  const Mask<R> passes = covered & stages.template depth_passes<func, R>(z, load(stored.depth));
+                      {tile.color[0] + place, tile.color[1] + place, tile.color[2] + place, tile.color[3] + place},
+                      tile.stencil + place};
+  const Mask<R> nearer = covered & stages.template depth_passes<func, R>(z, load(stored.depth));
   if constexpr (!Tap::every_fragment) {
-    if (!any(passes)) return;
+    if (!any(nearer) && !state.stencil) return;
   }
   const auto finish = [&](const auto& attributes, const auto& shaded) {
-    const Mask<R> kept = stages.template kept<R>(passes, shaded);
+    Mask<R> kept = stages.template kept<R>(state.stencil ? covered : nearer, shaded);
+    if (state.alpha_test) {
+      kept = kept & stages.template alpha_passes<R>(*state.alpha_test, Color<R>(shaded).a, color_scale);
+    }
+    if (state.stencil) {
+      const StencilFace& face = s.front ? state.stencil->front : state.stencil->back;
+      kept = nearer & stages.template stencil_test<R>(face, kept, nearer, stored.stencil);
+    }
     tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
     write<R>(stages, state.merge, kept, z, Color<R>(shaded), color_scale, stored);
   };

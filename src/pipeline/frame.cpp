@@ -15,6 +15,7 @@ Frame::Frame(const FrameFormat& format) {
   } else {
     depth_code = Plane<std::uint32_t>(w, h);
   }
+  if (format.stencil != StencilFormat::none) stencil = Plane<std::uint8_t>(w, h);
 }
 
 }  // namespace plumbline::pipeline

@@ -20,6 +20,7 @@ struct Frame {
   Plane<glm::vec4> color_rgba32f;
   Plane<std::uint32_t> depth_code;  ///< z8, z16, z24
   Plane<float> depth_z32f;
+  Plane<std::uint8_t> stencil;  ///< empty where the format has none
 };
 
 }  // namespace plumbline::pipeline

@@ -91,7 +91,8 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   if (stage == Stage::shade) require(r.attributes.size() == r.covered.size(), "attributes");
   if (stage < Stage::visibility) return;
   require(r.depth.size() == r.covered.size(), "depth");
-  if (stage != Stage::merge) return;
+  const bool by_alpha = std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.alpha_test; });
+  if (stage != Stage::merge && !by_alpha) return;
   require(r.shaded.size() == r.covered.size(), "shaded");
   require(r.drawn.empty() || r.drawn.size() == r.covered.size(), "drawn");
   const bool winners_fit = in.planes.id.width() == scene.frame.width && in.planes.id.height() == scene.frame.height;

@@ -44,16 +44,24 @@ inline Pixels<float> block_pixels<float>(int block_x, int block_y, int i) {
 
 inline float to_float(double value) { return static_cast<float>(value); }
 inline double to_wide(float value) { return static_cast<double>(value); }
+/// Of whole numbers.
+inline std::int64_t to_int(float value) { return static_cast<std::int64_t>(value); }
+inline float to_float(std::int64_t value) { return static_cast<float>(value); }
 inline bool any(bool mask) { return mask; }
 inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }
 
+/// To [low, high]; NaN to low.
+template <class T>
+T clamped(T value, T low, T high) {
+  const T raised = select(value > low, value, low);
+  return select(raised < high, raised, high);
+}
 /// To [0,1]; NaN to 0.
 template <class T>
 T clamp01(T value) {
-  const T low = select(value > T(0), value, T(0));
-  return select(low < T(1), low, T(1));
+  return clamped(value, T(0), T(1));
 }
 
 /// Half to even, for |value| below 2^22 (float) or 2^51 (double): adding 1.5 * 2^mantissa leaves no fraction.
@@ -70,6 +78,11 @@ inline double to_wide(std::int64_t value) { return static_cast<double>(value); }
 inline float load(const float* from) { return *from; }
 inline void store(bool mask, float value, float* to) {
   if (mask) *to = value;
+}
+/// Whole numbers from 0 to 255.
+inline std::int64_t load(const std::uint8_t* from) { return *from; }
+inline void store(bool mask, std::int64_t value, std::uint8_t* to) {
+  if (mask) *to = static_cast<std::uint8_t>(value);
 }
 
 /// The value of one lane, for taps.

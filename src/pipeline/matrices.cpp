@@ -41,8 +41,9 @@ Matrices<float> matrices(const Scene& scene, const Draw& draw) {
   out.model_view = rounded(model_view);
   out.projection = rounded(projection_matrix(scene));
   out.normal = rounded(transforms::normal_matrix(model_view));
-  out.win_scale = {static_cast<float>(width / 2), static_cast<float>(height / 2), 0.5f};
-  out.win_translate = out.win_scale;
+  const double near = draw.depth_range.near, far = draw.depth_range.far;
+  out.win_scale = {static_cast<float>(width / 2), static_cast<float>(height / 2), static_cast<float>((far - near) / 2)};
+  out.win_translate = {out.win_scale.x, out.win_scale.y, static_cast<float>((far + near) / 2)};
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Stage 11: the fragment's colour, blended with the frame's, in the frame's format.
+// Stage 11: the fragment's colour, blended or combined with the frame's, in the frame's format.
 #pragma once
 
 #include "pipeline/attributes.h"
@@ -76,6 +76,24 @@ Color<R> blend(const Blend& state, const Color<R>& source, const Color<R>& store
     return to_float(round_even(select(low < unit, low, W(unit))));
   };
   return {channel(0), channel(1), channel(2), channel(3)};
+}
+
+/// `source`, in codes as merge() makes it, and what is `stored`, bit by bit (OpenGL 2.1 spec 4.1.10); a float colour
+/// replaces what is there.
+template <class R>
+Color<R> logic(LogicOp op, const Color<R>& source, const Color<R>& stored, float scale) {
+  const Color<R> code = merge<R>(source, scale);
+  if (scale == 0.0f) return code;
+  // OpenGL numbers its ops by what they make of (s, d) = (1, 1), (1, 0), (0, 1), (0, 0), from the lowest bit up.
+  const auto table = static_cast<unsigned>(op);
+  const Int<R> all(static_cast<int>(scale)), none(0);
+  const auto where = [&](unsigned bit) { return (table >> bit & 1u) != 0 ? all : none; };
+  const auto channel = [&](R from, R to) {
+    const Int<R> s = to_int(from), d = to_int(to);
+    return to_float((where(0) & s & d) | (where(1) & s & (d ^ all)) | (where(2) & (s ^ all) & d) |
+                    (where(3) & (s ^ all) & (d ^ all)));
+  };
+  return {channel(code.r, stored.r), channel(code.g, stored.g), channel(code.b, stored.b), channel(code.a, stored.a)};
 }
 
 }  // namespace plumbline::pipeline

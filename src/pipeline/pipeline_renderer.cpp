@@ -29,6 +29,7 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
     out.depth.values()[i] = frame.depth_z32f.empty() ? frame.depth_code.values()[i] / formats.depth_scale
                                                      : static_cast<double>(frame.depth_z32f.values()[i]);
   }
+  out.stencil = frame.stencil;
   return out;
 }
 
@@ -99,8 +100,9 @@ class PipelineRenderer : public Renderer {
     Frame frame(scene.frame);
     CaptureTap tap(scene, request, bytes);
     const std::vector<Surface> surfaces = surfaces_of(scene, geometry.records);
-    stages_.fragment.draw_tapped({geometry.records.triangles, geometry.first_triangle, scene.draws, surfaces},
-                                 scene.frame, frame, tap);
+    stages_.fragment.draw_tapped(
+        {geometry.records.triangles, geometry.first_triangle, scene.draws, surfaces, scene.depth_clamp}, scene.frame,
+        frame, tap);
     out.planes = planes_of_frame(frame, formats_of(scene.frame));
     tap.hand_out(geometry.records.triangles, out);
     widen_geometry(geometry.records, request, out.records);
@@ -155,7 +157,8 @@ class PipelineRenderer : public Renderer {
     Frame frame(scene.frame);
     const Request request{StageSet{Stage::coverage}, false, {}, {}};
     CaptureTap tap(scene, request, 0);
-    stages_.fragment.draw_tapped({in.triangles, first_triangle, scene.draws}, scene.frame, frame, tap);
+    stages_.fragment.draw_tapped({in.triangles, first_triangle, scene.draws, {}, scene.depth_clamp}, scene.frame, frame,
+                                 tap);
     Capture all;
     tap.hand_out(in.triangles, all);
     out.records.covered = std::move(all.records.covered);
@@ -175,7 +178,7 @@ class PipelineRenderer : public Renderer {
   // visit(fragment's number, its pixel, its triangle's set-up) for each; `corners`: a varying in the colours' place.
   void each_fragment(const Scene& scene, const Records<double>& in,
                      const std::vector<std::array<Vec4<double>, 3>>* corners, auto visit) {
-    const Formats formats = formats_of(scene.frame);
+    const DrawOfTriangle draw_of(scene, in.triangles);
     TriangleSetup<> setup{};
     setup.triangle = ~0u;
     int setup_x = 0, setup_y = 0;
@@ -185,7 +188,8 @@ class PipelineRenderer : public Renderer {
       if (setup.triangle != c.triangle || tile_x != setup_x || tile_y != setup_y) {
         WindowTriangle<double> triangle = in.triangles.at(c.triangle);
         for (std::size_t k = 0; corners != nullptr && k < 3; ++k) triangle.v[k].color = corners->at(c.triangle)[k];
-        setup = stages_.fragment.set_up(narrow(triangle), c.triangle, formats, tile_x, tile_y);
+        const DepthState depth = depth_state(draw_of(c.triangle), scene.frame.depth, scene.depth_clamp);
+        setup = stages_.fragment.set_up(narrow(triangle), c.triangle, depth, sample_place(scene.frame), tile_x, tile_y);
         setup_x = tile_x;
         setup_y = tile_y;
       }
@@ -270,37 +274,43 @@ class PipelineRenderer : public Renderer {
     clear(cleared, scene.frame, formats);
     const int w = scene.frame.width, h = scene.frame.height;
     Plane<float> depth(w, h, cleared.depth[0]);
+    const bool has_stencil = scene.frame.stencil != StencilFormat::none;
+    Plane<std::uint8_t> stencil(has_stencil ? w : 0, has_stencil ? h : 0, cleared.stencil[0]);
     Plane<std::int32_t> id(w, h, kBackground);
     Plane<glm::vec4> color(w, h, {cleared.color[0][0], cleared.color[1][0], cleared.color[2][0], cleared.color[3][0]});
     std::size_t draw = 0;
     for (std::size_t i = 0; i < in.covered.size(); ++i) {
       const Covered& c = in.covered[i];
-      const std::uint32_t primitive = in.triangles.at(c.triangle).primitive;
+      const WindowTriangle<double>& triangle = in.triangles.at(c.triangle);
+      const std::uint32_t primitive = triangle.primitive;
       while (primitive >= ranges[draw].first_primitive + ranges[draw].primitive_count) ++draw;
       const double z = in.depth.at(i);
       const auto incoming = static_cast<float>(formats.depth_scale == 0.0 ? z : depth_code(z, formats.depth_scale));
-      const auto passes = [&] {
-        return stages_.fragment.depth_passes(scene.draws[draw].depth_func, incoming, depth(c.x, c.y));
+      const Color<float> shaded = in.shaded.empty() ? Color<float>{} : color_of(in.shaded.at(i).color);
+      glm::vec4& to = color(c.x, c.y);
+      const Stored stored{&depth(c.x, c.y), {&to.r, &to.g, &to.b, &to.a}, has_stencil ? &stencil(c.x, c.y) : nullptr};
+      const auto passes = [&](const Draw& by) {
+        return stages_.fragment.passes(by, triangle.front, incoming, shaded, formats.color_scale, stored);
       };
       bool drawn = false;
       if (told) {
         drawn = in.drawn[i].drawn;
       } else if (winners_known) {  // the winner itself passes; a cut primitive may have two triangles at a pixel
-        drawn = capture.planes.id(c.x, c.y) == static_cast<std::int32_t>(primitive) &&
-                (id(c.x, c.y) == kBackground || passes());
+        Draw known = scene.draws[draw];
+        known.stencil.reset();  // what was held is not known
+        if (id(c.x, c.y) == kBackground) known.depth_func = DepthFunc::always;
+        drawn = capture.planes.id(c.x, c.y) == static_cast<std::int32_t>(primitive) && passes(known);
       } else {
-        drawn = passes();
+        drawn = passes(scene.draws[draw]);
       }
       if (stage == Stage::visibility) out.records.drawn.push_back({drawn});
       if (!drawn) continue;
       id(c.x, c.y) = static_cast<std::int32_t>(primitive);
-      const Color<float> shaded = stage == Stage::merge ? color_of(in.shaded.at(i).color) : Color<float>{};
-      glm::vec4& to = color(c.x, c.y);
-      stages_.fragment.write(scene.draws[draw].merge, incoming, shaded, formats.color_scale,
-                             {&depth(c.x, c.y), {&to.r, &to.g, &to.b, &to.a}});
+      stages_.fragment.write(scene.draws[draw].merge, incoming, shaded, formats.color_scale, stored);
     }
     if (stage == Stage::visibility) {
       out.planes.id = std::move(id);
+      out.planes.stencil = std::move(stencil);
       return;
     }
     out.planes.depth = Plane<double>(w, h);

@@ -20,8 +20,8 @@ Frame render(const Scene& scene, const Stages& stages) {
   Frame frame(scene.frame);
   NoTap tap;
   const std::vector<Surface> surfaces = surfaces_of(scene, geometry.records);
-  stages.fragment.draw({geometry.records.triangles, geometry.first_triangle, scene.draws, surfaces}, scene.frame, frame,
-                       tap);
+  stages.fragment.draw({geometry.records.triangles, geometry.first_triangle, scene.draws, surfaces, scene.depth_clamp},
+                       scene.frame, frame, tap);
   return frame;
 }
 

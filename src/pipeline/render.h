@@ -18,9 +18,11 @@ struct FragmentFunctions {
   FilteredTexel<float> (*texture)(const TextureSetup&, const TexCoords<float>&, const Gradients<float>&);
   Color<float> (*shade)(const Color<float>&);
   Color<float> (*shade_surface)(const Surface&, bool front, const SurfaceAttributes<float>&);
+  /// Alpha, stencil and depth test: whether a fragment is drawn. Changes the stencil value.
+  bool (*passes)(const Draw&, bool front, float z, const Color<float>& shaded, float color_scale, const Stored&);
   void (*write)(const Merge&, float z, const Color<float>& shaded, float color_scale, const Stored&);
-  bool (*depth_passes)(DepthFunc, float incoming, float stored);
-  TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const Formats&, int x0, int y0);
+  TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const DepthState&, glm::ivec2 sample, int x0,
+                            int y0);
 };
 
 template <class S>
@@ -36,6 +38,15 @@ bool depth_passes_for(DepthFunc func, float incoming, float stored) {
     case DepthFunc::always: return S::template depth_passes<DepthFunc::always, float>(incoming, stored);
   }
   return false;
+}
+
+template <class S>
+bool passes(const Draw& draw, bool front, float z, const Color<float>& shaded, float color_scale, const Stored& at) {
+  const bool nearer = depth_passes_for<S>(draw.depth_func, z, *at.depth);
+  if (draw.alpha_test && !S::template alpha_passes<float>(*draw.alpha_test, shaded.a, color_scale)) return false;
+  if (!draw.stencil) return nearer;
+  const StencilFace& face = front ? draw.stencil->front : draw.stencil->back;
+  return S::template stencil_test<float>(face, true, nearer, at.stencil) && nearer;
 }
 
 template <class S>
@@ -59,10 +70,9 @@ FragmentFunctions fragment_functions() {
   f.write = [](const Merge& state, float z, const Color<float>& shaded, float color_scale, const Stored& to) {
     write<float>(S(), S::merge_state(state), true, z, shaded, color_scale, to);
   };
-  f.depth_passes = depth_passes_for<S>;
-  f.set_up = [](const WindowTriangle<float>& t, std::uint32_t triangle, const Formats& formats, int x0, int y0) {
-    return set_up(S(), t, triangle, formats, x0, y0);
-  };
+  f.passes = passes<S>;
+  f.set_up = [](const WindowTriangle<float>& t, std::uint32_t triangle, const DepthState& depth, glm::ivec2 sample,
+                int x0, int y0) { return set_up(S(), t, triangle, depth, sample, x0, y0); };
   return f;
 }
 

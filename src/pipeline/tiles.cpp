@@ -8,7 +8,8 @@ namespace {
 
 // The tiles that a triangle's bounding box touches: [x0, x1) x [y0, y1), none if it holds no pixel of the frame.
 PixelBounds tiles_of(const WindowTriangle<float>& triangle, const FrameFormat& frame) {
-  const PixelBounds b = pixel_bounds(as_seen_from(triangle, sample_place(frame)));
+  const glm::ivec2 sample = sample_place(frame);
+  const PixelBounds b = sample == glm::ivec2(0) ? pixel_bounds(triangle) : pixel_bounds(as_seen_from(triangle, sample));
   const int x0 = std::max(b.x0, 0), x1 = std::min(b.x1, frame.width);
   const int y0 = std::max(b.y0, 0), y1 = std::min(b.y1, frame.height);
   if (x0 >= x1 || y0 >= y1) return {0, 0, 0, 0};
@@ -52,6 +53,7 @@ void clear(Tile& tile, const FrameFormat& frame, const Formats& formats) {
   const Color<float> color = merge<float>({c.r, c.g, c.b, c.a}, formats.color_scale);
   const double z = formats.depth_scale == 0.0 ? frame.clear_depth : depth_code(frame.clear_depth, formats.depth_scale);
   std::fill_n(tile.depth, kTile * kTile, static_cast<float>(z));
+  if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
   std::fill_n(tile.color[0], kTile * kTile, color.r);
   std::fill_n(tile.color[1], kTile * kTile, color.g);
   std::fill_n(tile.color[2], kTile * kTile, color.b);
@@ -85,6 +87,7 @@ void write_out(const Tile& tile, Frame& frame) {
   copy_out(tile, frame.color_rgba12, [&](int i) { return glm::u16vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
   copy_out(tile, frame.color_rgba16, [&](int i) { return glm::u16vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
   copy_out(tile, frame.color_rgba32f, [&](int i) { return glm::vec4(c[0][i], c[1][i], c[2][i], c[3][i]); });
+  copy_out(tile, frame.stencil, [&](int i) { return tile.stencil[i]; });
   copy_out(tile, frame.depth_code, [&](int i) { return static_cast<std::uint32_t>(tile.depth[i]); });
   copy_out(tile, frame.depth_z32f, [&](int i) { return tile.depth[i]; });
 }

@@ -18,6 +18,7 @@ struct DrawList {
   std::span<const std::uint32_t> first_triangle;
   std::span<const Draw> draws;
   std::span<const Surface> surfaces = {};  ///< per draw; empty: all are plain
+  bool depth_clamp = false;
 };
 
 /// For each tile, row by row from the bottom, the numbers of the triangles whose bounding box touches it, ascending.
@@ -36,7 +37,7 @@ void write_out(const Tile& tile, Frame& frame);
 template <class R, DepthFunc func, class Stages, class Tap>
 void draw_triangle(const Stages& stages, const BlockState& state, const WindowTriangle<float>& triangle,
                    std::uint32_t number, const Formats& formats, Tile& tile, Tap& tap) {
-  SetupOf<Stages> s = set_up(stages, triangle, number, formats, tile.x0, tile.y0);
+  SetupOf<Stages> s = set_up(stages, triangle, number, state.depth, formats.sample, tile.x0, tile.y0);
   SurfaceSetup surface;
   if constexpr (Stages::has_surfaces) {
     if (state.surface != nullptr) {
@@ -89,7 +90,8 @@ void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& f
     const Draw& draw = list.draws[d];
     const bool plain = list.surfaces.empty() || list.surfaces[d].plain();
     draw_of.push_back(draw_triangle_for<R, Stages, Tap>(draw.depth_func));
-    state_of.push_back({draw.scissor, stages.merge_state(draw.merge), plain ? nullptr : &list.surfaces[d]});
+    state_of.push_back({depth_state(draw, format.depth, list.depth_clamp), draw.scissor, draw.alpha_test, draw.stencil,
+                        stages.merge_state(draw.merge), plain ? nullptr : &list.surfaces[d]});
   }
   Tile tile{};
   for (int t = 0; t < bins.columns * bins.rows; ++t) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "stages/atomic_path.h"
@@ -86,27 +87,28 @@ namespace {
 // Two digits: enough to judge a tolerance by, and the same from one run to the next.
 Json share(double ratio) { return number(std::round(ratio * 100) / 100); }
 
-// Of each group of scenes, how many there are, and the largest share of each tolerance that they used.
+// Of each group of scenes, how many there are, and the largest differences of each reference, stage and unit; what is
+// not there is equal, or not compared.
 Json groups(std::span<const check::SceneVerdict> verdicts) {
   struct Group {
     int scenes = 0;
-    std::map<std::string, double> rows;
+    std::map<std::string, double> largest;
   };
   std::map<std::string, Group> by_name;
   for (const check::SceneVerdict& verdict : verdicts) {
     Group& group = by_name[verdict.scene.substr(0, verdict.scene.find('/'))];
     ++group.scenes;
     for (const check::Comparison& c : verdict.comparisons) {
-      if (c.ledger_row.empty()) continue;
-      double& largest = group.rows[c.ledger_row];
-      largest = std::max(largest, c.measurement.max_ratio);
+      if (!(c.measurement.max_difference > 0)) continue;
+      double& largest = group.largest[fmt::format("{}, {}, {}", c.reference, name_of(c.stage), c.measurement.unit)];
+      largest = std::max(largest, c.measurement.max_difference);
     }
   }
   Json out = Json::array();
   for (const auto& [name, group] : by_name) {
-    Json rows = Json::object();
-    for (const auto& [row, largest] : group.rows) rows[row] = share(largest);
-    out.push_back({{"name", name}, {"scenes", group.scenes}, {"largest_seen", rows}});
+    Json largest = Json::object();
+    for (const auto& [what, difference] : group.largest) largest[what] = fmt::format("{:.2g}", difference);
+    out.push_back({{"name", name}, {"scenes", group.scenes}, {"largest_difference", largest}});
   }
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/fragment_json.h"
 #include "scene/scene_values.h"
 #include "scene/texture_json.h"
 
@@ -53,70 +54,6 @@ void read_material(const JsonNode& node, Material& material) {
   if (const auto n = node.find("shininess")) material.shininess = static_cast<float>(n->number(0, 128));
 }
 
-using NamedFactor = std::pair<std::string_view, BlendFactor>;
-/// `more`: the names of factors that only one side has.
-template <class... More>
-BlendFactor read_factor(const JsonNode& node, More... more) {
-  using F = BlendFactor;
-  return node.choice<F>({{"zero", F::zero},
-                         {"one", F::one},
-                         {"source_color", F::source_color},
-                         {"one_minus_source_color", F::one_minus_source_color},
-                         {"destination_color", F::destination_color},
-                         {"one_minus_destination_color", F::one_minus_destination_color},
-                         {"source_alpha", F::source_alpha},
-                         {"one_minus_source_alpha", F::one_minus_source_alpha},
-                         {"destination_alpha", F::destination_alpha},
-                         {"one_minus_destination_alpha", F::one_minus_destination_alpha},
-                         {"constant_color", F::constant_color},
-                         {"one_minus_constant_color", F::one_minus_constant_color},
-                         {"constant_alpha", F::constant_alpha},
-                         {"one_minus_constant_alpha", F::one_minus_constant_alpha},
-                         more...});
-}
-
-void read_blend_term(const JsonNode& node, BlendTerm& term) {
-  using E = BlendEquation;
-  if (const auto n = node.find("source")) {
-    term.source = read_factor(*n, NamedFactor{"source_alpha_saturate", BlendFactor::source_alpha_saturate});
-  }
-  if (const auto n = node.find("destination")) term.destination = read_factor(*n);
-  if (const auto n = node.find("equation")) {
-    term.equation = n->choice<E>({{"add", E::add},
-                                  {"subtract", E::subtract},
-                                  {"reverse_subtract", E::reverse_subtract},
-                                  {"min", E::min},
-                                  {"max", E::max}});
-  }
-}
-
-Blend read_blend(const JsonNode& node) {
-  node.only({"source", "destination", "equation", "alpha", "color"});
-  Blend blend;
-  read_blend_term(node, blend.rgb);
-  blend.alpha = blend.rgb;
-  if (const auto n = node.find("alpha")) {
-    n->only({"source", "destination", "equation"});
-    read_blend_term(*n, blend.alpha);
-  }
-  if (const auto n = node.find("color")) blend.color = glm::vec4(n->vector<4>(0, 1));
-  return blend;
-}
-
-glm::bvec4 read_color_mask(const JsonNode& node) {
-  glm::bvec4 mask;
-  const std::vector<JsonNode> channels = node.elements(4, 4);
-  for (int i = 0; i < 4; ++i) mask[i] = channels[static_cast<std::size_t>(i)].boolean();
-  return mask;
-}
-
-Scissor read_scissor(const JsonNode& node) {
-  constexpr std::int64_t kMost = 16384;
-  const std::vector<JsonNode> n = node.elements(4, 4);
-  const auto pixels = [&](std::size_t i) { return static_cast<int>(n[i].integer(0, kMost)); };
-  return {pixels(0), pixels(1), pixels(2), pixels(3)};
-}
-
 Fog read_fog(const JsonNode& node) {
   const std::string_view kind = node.one_of({"linear", "exp", "exp2"});
   const JsonNode of_kind = node[kind];
@@ -144,10 +81,11 @@ PolygonMode read_mode(const JsonNode& node) {
       {{"fill", PolygonMode::fill}, {"line", PolygonMode::line}, {"point", PolygonMode::point}});
 }
 
-constexpr std::string_view kStateKeys[] = {"transforms", "material",   "back_material", "lit",        "color_material",
-                                           "normals",    "shading",    "cull",          "front_mode", "back_mode",
-                                           "line_width", "point_size", "depth_func",    "fog",        "scissor",
-                                           "depth_mask", "blend",      "color_mask",    "texture"};
+constexpr std::string_view kStateKeys[] = {"transforms", "material",   "back_material", "lit",         "color_material",
+                                           "normals",    "shading",    "cull",          "front_mode",  "back_mode",
+                                           "line_width", "point_size", "depth_func",    "depth_range", "polygon_offset",
+                                           "alpha_test", "stencil",    "fog",           "scissor",     "depth_mask",
+                                           "blend",      "logic_op",   "color_mask",    "texture"};
 
 /// What the node gives, over what the state is.
 void read_state(const JsonNode& node, DrawState& state) {
@@ -185,21 +123,8 @@ void read_state(const JsonNode& node, DrawState& state) {
   if (const auto n = node.find("back_mode")) draw.back_mode = read_mode(*n);
   if (const auto n = node.find("line_width")) draw.line_width = static_cast<int>(n->integer(1, 16));
   if (const auto n = node.find("point_size")) draw.point_size = static_cast<int>(n->integer(1, 64));
-  if (const auto n = node.find("depth_func")) {
-    draw.depth_func = n->choice<DepthFunc>({{"never", DepthFunc::never},
-                                            {"less", DepthFunc::less},
-                                            {"equal", DepthFunc::equal},
-                                            {"less_equal", DepthFunc::less_equal},
-                                            {"greater", DepthFunc::greater},
-                                            {"not_equal", DepthFunc::not_equal},
-                                            {"greater_equal", DepthFunc::greater_equal},
-                                            {"always", DepthFunc::always}});
-  }
   if (const auto n = node.find("fog")) draw.fog = read_fog(*n);
-  if (const auto n = node.find("scissor")) draw.scissor = read_scissor(*n);
-  if (const auto n = node.find("depth_mask")) draw.merge.depth_mask = n->boolean();
-  if (const auto n = node.find("blend")) draw.merge.blend = read_blend(*n);
-  if (const auto n = node.find("color_mask")) draw.merge.color_mask = read_color_mask(*n);
+  read_fragment_state(node, draw);
 }
 
 }  // namespace

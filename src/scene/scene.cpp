@@ -34,6 +34,12 @@ double depth_step(DepthFormat format, double z_win) {
   return std::max(static_cast<double>(std::nextafter(z, 2.0f)) - static_cast<double>(z), std::ldexp(1.0, -24));
 }
 
+double polygon_offset_unit(DepthFormat format, double z_max) {
+  constexpr int kMantissa = 23, kLeastExponent = -126;
+  if (format != DepthFormat::z32f) return 2 / depth_scale(format);
+  return std::ldexp(1.0, std::max(z_max > 0 ? std::ilogb(z_max) : kLeastExponent, kLeastExponent) - kMantissa);
+}
+
 namespace {
 
 void color(Material& m, ColorMaterial follows, const glm::vec4& color) {

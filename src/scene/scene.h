@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/fragment_state.h"
 #include "scene/texture.h"
 
 namespace plumbline {
@@ -140,9 +141,9 @@ enum class Normals { normalize, rescale, as_they_are };
 enum class Shading { flat, gouraud, phong };
 enum class Cull { none, back, front };
 enum class PolygonMode { fill, line, point };
-enum class DepthFunc { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 enum class ColorFormat { rgba8, rgba12, rgba16, rgba32f };  ///< 12 bits a channel: GzRender's 0..4095 (note 000)
 enum class DepthFormat { z8, z16, z24, z32f };              ///< 8 bits: tinyrenderer's z-buffer (note 002)
+enum class StencilFormat { none, s8 };
 
 /// glBlendFuncSeparate's factors. As a destination's, source_alpha_saturate is not allowed.
 enum class BlendFactor {
@@ -199,6 +200,8 @@ struct Merge {
   std::optional<Blend> blend;   ///< none: it replaces what is there
   glm::bvec4 color_mask{true};  ///< channels that are written
   bool depth_mask = true;       ///< whether its depth is written
+  /// Of codes, in blending's place (OpenGL 2.1 spec 4.1.10); a float colour replaces what is there.
+  std::optional<LogicOp> logic_op = std::nullopt;
 };
 
 /// A mesh, placed, with the state it is drawn under. Counter-clockwise in the window is the front.
@@ -219,6 +222,10 @@ struct Draw {
   int line_width = 1;  ///< pixels, [1, 16]
   int point_size = 1;  ///< pixels, [1, 64]: the side of a square
   DepthFunc depth_func = DepthFunc::less;
+  DepthRange depth_range;
+  PolygonOffset polygon_offset;
+  std::optional<AlphaTest> alpha_test;
+  std::optional<Stencil> stencil;  ///< in a frame that has stencil values
   std::optional<Fog> fog;
   Merge merge;
   std::optional<Scissor> scissor;      ///< no pixel outside of it is covered
@@ -254,6 +261,8 @@ struct FrameFormat {
   DepthFormat depth = DepthFormat::z24;
   glm::vec4 clear_color{0, 0, 0, 1};
   double clear_depth = 1;  ///< window z, [0,1]
+  StencilFormat stencil = StencilFormat::none;
+  std::uint8_t clear_stencil = 0;
   Antialias antialias = {};
   Pass pass = {};  ///< as passes_of() sets it (antialias.h)
 };
@@ -266,7 +275,7 @@ struct Scene {
   FrameFormat frame;
   Camera camera;
   Projection projection = Perspective{45, 1, 100};  ///< one of the dialect's
-  bool depth_clamp = false;  ///< no near and far plane: depths beyond [0,1] are clamped (GL_DEPTH_CLAMP)
+  bool depth_clamp = false;  ///< no near and far plane: depths beyond are clamped to the draw's range (GL_DEPTH_CLAMP)
   LightModel light_model;
   std::vector<Light> lights;  ///< at most 8
   std::vector<Texture> textures;
@@ -289,10 +298,10 @@ Material lit_material(const Scene& scene, const Draw& draw, LitPart part, const 
 
 /// Whether any draw makes such primitives: is of such a mesh, or of triangles of which it draws edges or corners.
 bool draws(const Scene& scene, Topology topology);
-/// Whether a pixel's colour is that of its last fragment alone: nothing is blended, no channel masked.
+/// Whether a pixel's colour is that of its last fragment alone: nothing is blended, combined or masked.
 inline bool colors_replace(const Scene& scene) {
   return std::all_of(scene.draws.begin(), scene.draws.end(),
-                     [](const Draw& d) { return !d.merge.blend && glm::all(d.merge.color_mask); });
+                     [](const Draw& d) { return !d.merge.blend && !d.merge.logic_op && glm::all(d.merge.color_mask); });
 }
 /// Whether every fragment that is drawn leaves its depth.
 inline bool depths_replace(const Scene& scene) {
@@ -334,5 +343,9 @@ constexpr double depth_scale(DepthFormat format) {
 
 /// One step of the depth format at window depth z: 1/(2^n - 1); for z32f the larger of z's ULP and 2^-24.
 double depth_step(DepthFormat format, double z_win);
+
+/// r of a triangle whose largest window z is `z_max` (PolygonOffset), as Mesa has it where OpenGL leaves it open: two
+/// steps of a unorm format; of float 2^(e - 23), e the exponent of z_max.
+double polygon_offset_unit(DepthFormat format, double z_max);
 
 }  // namespace plumbline

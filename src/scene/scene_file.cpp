@@ -44,7 +44,8 @@ void require_drawable(const JsonNode& frame, const Scene& scene) {
 }
 
 FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
-  node.only({"width", "height", "color", "depth", "clear_color", "clear_depth", "antialias"});
+  node.only(
+      {"width", "height", "color", "depth", "clear_color", "clear_depth", "stencil", "clear_stencil", "antialias"});
   if (const auto n = node.find("width")) frame.width = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("height")) frame.height = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("color")) {
@@ -59,6 +60,10 @@ FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
   }
   if (const auto n = node.find("clear_color")) frame.clear_color = glm::vec4(n->vector<4>(0, 1));
   if (const auto n = node.find("clear_depth")) frame.clear_depth = n->number(0, 1);
+  if (const auto n = node.find("stencil")) {
+    frame.stencil = n->choice<StencilFormat>({{"none", StencilFormat::none}, {"s8", StencilFormat::s8}});
+  }
+  if (const auto n = node.find("clear_stencil")) frame.clear_stencil = static_cast<std::uint8_t>(n->integer(0, 255));
   if (const auto n = node.find("antialias")) frame.antialias = read_antialias(*n, frame);
   return frame;
 }
@@ -181,6 +186,9 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
   std::size_t left = kMostTriangles;
   for (const JsonNode& n : node.elements(1, kMostDraws)) {
     const DrawState state = read_draw(n, defaults, scene.textures);
+    if (state.draw.stencil && scene.frame.stencil == StencilFormat::none) {
+      n.refuse("a frame with \"stencil\": \"s8\" for its stencil test", "one without");
+    }
     const JsonNode mesh = n["mesh"];
     auto same = std::find_if(known.begin(), known.end(), [&](const KnownMesh& k) { return *k.json == mesh.value(); });
     if (same == known.end()) {

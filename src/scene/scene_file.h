@@ -28,8 +28,8 @@ struct SceneFileOptions {
 ///   description *  what must be seen, and why
 ///   dialect        "gl", "gzrender", "games101", "tinyrenderer": how all other numbers are read (dialect/dialect.h)
 ///   frame          width, height: 1 to 16384; color: "rgba8", "rgba12", "rgba16", "rgba32f"; depth: "z8", "z16",
-///                  "z24", "z32f"; clear_color: [r, g, b, a]; clear_depth; antialias: {"samples": 4},
-///                  {"supersample": 1 to 8} or {"taps": "gzrender"} (antialias.h)
+///                  "z24", "z32f"; clear_color: [r, g, b, a]; clear_depth; stencil: "none", "s8"; clear_stencil;
+///                  antialias: {"samples": 4}, {"supersample": 1 to 8} or {"taps": "gzrender"} (antialias.h)
 ///   camera         eye, center, up: [x, y, z]
 ///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right
 ///   *,
@@ -85,6 +85,12 @@ struct SceneFileOptions {
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where
 ///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth
 ///                  is then 0
+///     depth_range  [near, far]: the window z of the near and the far plane; [0, 1]
+///     polygon_offset  {factor, units}
+///     alpha_test   {func *: one of depth_func's, reference: [0, 1]}
+///     stencil      {func, reference, mask, fail, depth_fail, pass, write_mask, back: {the same, of back faces}}:
+///     numbers
+///                  from 0 to 255, and OpenGL's ops (all names: StencilOp); the frame needs stencil "s8"
 ///     front_mode, back_mode  "fill", "line", "point": what is drawn of front and back faces
 ///     line_width   pixels, an integer from 1 to 16
 ///     point_size   pixels a side, an integer from 1 to 64
@@ -94,6 +100,7 @@ struct SceneFileOptions {
 ///     OpenGL's
 ///                  factors ("one" and "zero" where they are left out) and equations ("add", "subtract",
 ///                  "reverse_subtract", "min", "max"), alpha's as rgb's where it has none. All names: BlendFactor
+///     logic_op     one of OpenGL's 16 (LogicOp; "and", "xor" ...)
 ///     color_mask   [r, g, b, a], each true or false: whether it is written
 ///     texture      {name *: one of the textures, environment: "replace", "modulate", "decal", "blend", "add", color:
 ///                  blend's [r, g, b, a]}; the mesh needs texture coordinates: "texcoords": [[s, t], ...] beside

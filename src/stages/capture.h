@@ -21,6 +21,7 @@ struct Planes {
                                 ///< empty where no draw has one
   Plane<glm::vec4> shaded;      ///< attributes, shade: the winner's colour in float, the clear colour elsewhere
   Plane<glm::vec4> color;       ///< merge: the frame's colour; n-bit codes as code / (2^n - 1)
+  Plane<std::uint8_t> stencil;  ///< visibility: the stencil values that the tests leave, where the frame has any
   Plane<double> depth;          ///< merge: the frame's depth as window z; n-bit codes as code / (2^n - 1)
 };
 

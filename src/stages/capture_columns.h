@@ -47,6 +47,10 @@ template <>
 struct Element<std::uint16_t> : Element<double> {
   static constexpr std::string_view dtype = "u16";
 };
+template <>
+struct Element<std::uint8_t> : Element<double> {
+  static constexpr std::string_view dtype = "u8";
+};
 /// 0 or 1.
 template <>
 struct Element<bool> : Element<double> {
@@ -145,6 +149,7 @@ void visit_capture(CaptureRef& capture, Visitor& visit) {
   visit.plane("planes.count", planes.count);
   visit.plane("planes.id_sum", planes.id_sum);
   visit.plane("planes.id", planes.id);
+  visit.plane("planes.stencil", planes.stencil);
   visit.plane("planes.texel", planes.texel);
   visit.plane("planes.shaded", planes.shaded);
   visit.plane("planes.color", planes.color);

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "stages/capture.h"
+#include "stages/fragment_outcomes.h"
 
 namespace plumbline {
 
@@ -56,18 +58,30 @@ double frame_depth(const FrameFormat& frame, double z_win) {
 
 LegalAnswer background(const FrameFormat& frame) {
   const double z = frame_depth(frame, frame.clear_depth);
-  return {kBackground, 0, z, z, frame.clear_color};
+  return {kBackground, 0, z, z, frame.clear_color, frame.clear_stencil};
 }
 
 LegalAnswer answer(const Hit& hit, Interval z) {
   return {static_cast<std::int32_t>(hit.primitive), static_cast<float>(hit.color_bound), z.lo, z.hi, hit.color};
 }
 
-/// Draws one hit over every winner so far. A winner's interval is the hull of the depths that it may hold.
-void draw(const Hit& hit, bool certain, DepthFormat format, std::vector<LegalAnswer>& winners) {
+void add(const LegalAnswer& answer, std::vector<LegalAnswer>& all) {
+  for (LegalAnswer& a : all) {
+    if (a.primitive != answer.primitive || a.stencil != answer.stencil) continue;
+    a.z_lo = std::min(a.z_lo, answer.z_lo);
+    a.z_hi = std::max(a.z_hi, answer.z_hi);
+    return;
+  }
+  all.push_back(answer);
+}
+
+/// Draws one hit over every winner so far, all of one stencil value that stays. A winner's interval is the hull of the
+/// depths that it may hold.
+void draw_without_stencil(const Hit& hit, bool certain, DepthFormat format, std::vector<LegalAnswer>& winners) {
   bool may_win = false;
   Interval won{0, 0};
   std::size_t kept = 0;
+  const std::uint8_t stencil = winners.empty() ? 0 : winners.front().stencil;
   for (LegalAnswer& held : winners) {
     const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
     const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {held.z_lo, held.z_hi}, step);
@@ -84,7 +98,52 @@ void draw(const Hit& hit, bool certain, DepthFormat format, std::vector<LegalAns
     winners[kept++] = held;
   }
   winners.resize(kept);
-  if (may_win) winners.push_back(answer(hit, won));
+  if (!may_win) return;
+  winners.push_back(answer(hit, won));
+  winners.back().stencil = stencil;
+}
+
+/// The same in general.
+void draw(const Hit& hit, bool certain, const StencilFace* face, DepthFormat format,
+          std::vector<LegalAnswer>& winners) {
+  const auto alike = [&](const LegalAnswer& a) { return a.stencil == winners.front().stencil; };
+  if (face == nullptr && std::ranges::all_of(winners, alike)) {
+    return draw_without_stencil(hit, certain, format, winners);
+  }
+  std::vector<LegalAnswer> left, won;
+  const auto put = [&](LegalAnswer a, bool nearer, std::uint8_t held, std::vector<LegalAnswer>& to) {
+    a.stencil = face == nullptr ? held : stencil_after(*face, nearer, held);
+    add(a, to);
+  };
+  for (const LegalAnswer& held : winners) {
+    if (!certain) add(held, left);
+    if (face != nullptr && !stencil_passes(*face, held.stencil)) {
+      put(held, false, held.stencil, left);
+      continue;
+    }
+    const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
+    const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {held.z_lo, held.z_hi}, step);
+    if (test.may_fail) {  // it stays only by the hit's failing
+      LegalAnswer failed = held;
+      failed.z_lo = test.failed.lo;
+      failed.z_hi = test.failed.hi;
+      put(failed, false, held.stencil, left);
+    }
+    if (!test.may_pass) continue;
+    put(answer(hit, hit.depth_mask ? test.passed : test.under), true, held.stencil, won);
+  }
+  winners = std::move(left);
+  for (const LegalAnswer& a : won) add(a, winners);
+}
+
+void draw(const Hit& hit, bool certain, DepthFormat format, std::vector<LegalAnswer>& winners) {
+  if (!hit.alpha_passes) return;
+  certain = certain && !hit.alpha_fails;
+  std::vector<LegalAnswer> other = hit.or_stencil == nullptr ? std::vector<LegalAnswer>{} : winners;
+  draw(hit, certain, hit.stencil, format, winners);
+  if (hit.or_stencil == nullptr) return;
+  draw(hit, certain, hit.or_stencil, format, other);
+  for (const LegalAnswer& a : other) add(a, winners);
 }
 
 /// `chosen`: per hit, whether it counts as certain besides those that are.
@@ -93,6 +152,7 @@ void fold(std::span<const Hit> hits, const std::vector<bool>& chosen, const Fram
   winners.assign(1, background(frame));
   for (std::size_t i = 0; i < hits.size(); ++i) {
     draw(hits[i], hits[i].certain || (!chosen.empty() && chosen[i]), frame.depth, winners);
+    if (hits[i].twice && hits[i].stencil != nullptr) draw(hits[i], false, frame.depth, winners);
   }
 }
 
@@ -114,9 +174,9 @@ std::vector<std::vector<std::size_t>> groups_of(std::span<const Hit> hits) {
 
 void unite(const std::vector<LegalAnswer>& more, std::vector<LegalAnswer>& all) {
   for (const LegalAnswer& a : more) {
-    const auto before = [](const LegalAnswer& l, const LegalAnswer& r) { return l.primitive < r.primitive; };
-    const auto at = std::lower_bound(all.begin(), all.end(), a, before);
-    if (at == all.end() || at->primitive != a.primitive) {
+    const auto key = [](const LegalAnswer& l) { return std::pair(l.primitive, l.stencil); };
+    const auto at = std::ranges::lower_bound(all, key(a), {}, key);
+    if (at == all.end() || key(*at) != key(a)) {
       all.insert(at, a);
     } else {
       at->z_lo = std::min(at->z_lo, a.z_lo);

@@ -29,18 +29,25 @@ struct Hit {
   glm::dvec4 color{0};     ///< its colour at the pixel's centre
   double color_bound = 0;  ///< and how far, per channel, float arithmetic from the scene on may be from that
   bool depth_mask = true;  ///< whether its depth is written where it is drawn
+  bool alpha_passes = true, alpha_fails = false;  ///< what the alpha test may come to
+  /// What its stencil test is by; that of the other side too where it is open which one it shows. No test: null.
+  const StencilFace* stencil = nullptr;
+  const StencilFace* or_stencil = nullptr;
+  bool twice = false;  ///< two pieces of it may cover the pixel, which matters to stencil values
 };
 
-/// One winner that the rules allow.
+/// One winner that the rules allow, and the stencil value that stands beside it.
 struct LegalAnswer {
   std::int32_t primitive = -1;  ///< or kBackground
   float color_bound = 0;
   double z_lo = 0, z_hi = 0;  ///< the window z that the frame then holds
   glm::vec4 color{0};
+  std::uint8_t stencil = 0;
 };
 
-/// All legal winners of a pixel, in draw order, the background first. `hits` in draw order (ascending primitive).
-/// A depth within `step` of another may compare either way. `out` is emptied first.
+/// All legal winners of a pixel, in draw order, the background first; one for each stencil value that may go with it.
+/// `hits` in draw order (ascending primitive). A depth within `step` of another may compare either way. `out` is
+/// emptied first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
 /// What a fragment's texel may be where its level of detail is taken for four pixels at a time, by a logarithm that is

@@ -24,7 +24,9 @@ std::size_t plane_bytes(const Scene& scene) {
   // Blended colours have bounds, and a reference that folds them holds what is written and what is stored, as
   // intervals.
   constexpr std::size_t kBlended = 2 * sizeof(glm::vec4) + 18 * sizeof(double);
-  const std::size_t pixel = kPixel + (colors_replace(scene) ? 0 : kBlended) + (textured(scene) ? sizeof(glm::vec4) : 0);
+  const std::size_t pixel = kPixel + (colors_replace(scene) ? 0 : kBlended) +
+                            (textured(scene) ? sizeof(glm::vec4) : 0) +
+                            (scene.frame.stencil == StencilFormat::none ? 0 : 1);
   const Antialias& antialias = scene.frame.antialias;
   // One pass at a time, and the colours of all.
   const std::size_t samples = samples_of(antialias).size(), larger = static_cast<std::size_t>(antialias.factor);

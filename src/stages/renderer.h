@@ -87,8 +87,8 @@ class Renderer {
   /// Runs one stage alone on what `in` holds of the stages before it: records, for merge planes.id as well (made of the
   /// records where it is empty), for visibility and merge the frame's clear values: the returned capture holds that
   /// stage's records or planes, nothing else. Coverage hands out records.covered and the planes count and id_sum;
-  /// visibility planes.id; merge planes.color and planes.depth; resolve planes.color, of in.samples. Throws Unsupported
-  /// where info()[stage].runs is false.
+  /// visibility planes.id and planes.stencil; merge planes.color and planes.depth; resolve planes.color, of in.samples.
+  /// Throws Unsupported where info()[stage].runs is false.
   virtual Capture run_stage(const Scene& scene, Stage stage, const Capture& in);
 };
 

@@ -107,7 +107,8 @@ TEST(UnjudgedStages, AreThoseThatNobodyComparedOrAllDeclined) {
         << "who is missing or failed judged nothing";
   }
   verdict.comparisons.clear();
-  EXPECT_EQ(unjudged_stages(verdict).size(), kStageNames.size() - 1) << "all but texture, of which nobody said anything";
+  EXPECT_EQ(unjudged_stages(verdict).size(), kStageNames.size() - 2)
+      << "all but texture and resolve, of which nobody said anything";
 }
 
 TEST(UnjudgedStages, AreLostToAMissingReferenceWhereNobodyElseDeclined) {
@@ -119,7 +120,8 @@ TEST(UnjudgedStages, AreLostToAMissingReferenceWhereNobodyElseDeclined) {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const bool judged_or_declined = stage == Stage::depth || stage == Stage::vertex || stage == Stage::merge;
-    EXPECT_EQ(std::ranges::count(lost, stage), judged_or_declined || stage == Stage::texture ? 0 : 1) << name_of(stage);
+    const bool of_some_scenes = stage == Stage::texture || stage == Stage::resolve;
+    EXPECT_EQ(std::ranges::count(lost, stage), judged_or_declined || of_some_scenes ? 0 : 1) << name_of(stage);
   }
 }
 
@@ -145,7 +147,8 @@ std::string text_of(const std::filesystem::path& file) {
 
 TEST(Ledger, RowsAndUsesAreTheSame) {
   std::string code;
-  for (const char* file : {"judge.cpp", "compare_planes.cpp", "compare_records.cpp", "compare_polygons.cpp"}) {
+  for (const char* file :
+       {"judge.cpp", "compare_planes.cpp", "compare_records.cpp", "compare_polygons.cpp", "judge_passes.cpp"}) {
     const std::string text = text_of(std::filesystem::path(PLUMBLINE_SOURCE_DIR) / "src/check" / file);
     ASSERT_FALSE(text.empty()) << file;
     code += text;

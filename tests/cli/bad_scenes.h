@@ -26,8 +26,10 @@ inline std::string mesh(const std::string& mesh) {
 
 /// The keys of a draw's state, as messages list them.
 inline const std::string kStateKeys =
-    "transforms, material, back_material, lit, color_material, normals, shading, cull, front_mode, back_mode, line_width, point_size, "
-    "depth_func, fog, scissor, depth_mask, blend, color_mask, texture";
+    "transforms, material, back_material, lit, color_material, normals, shading, cull, front_mode, back_mode, "
+    "line_width, point_size, "
+    "depth_func, depth_range, polygon_offset, alpha_test, stencil, fog, scissor, depth_mask, blend, logic_op, color_mask, "
+    "texture";
 
 inline std::string textures(const std::string& textures) { return top("\"textures\": " + textures); }
 inline std::string textured(const std::string& mesh, const std::string& format, const std::string& environment) {
@@ -62,7 +64,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("cammera": {})"), R"(at "/cammera": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, textures, defaults, draws, found the unknown key "cammera" (did you mean "camera"?))"},
     {top(R"("a/b~c": 1)"), R"(at "/a~1b~0c": expected a key among $schema, include, description, dialect, frame, camera, projection, ambient, light_model, lights, textures, defaults, draws, found the unknown key "a/b~c")"},
     {top(R"("$schema": 3)"), R"(at "/$schema": expected a string that is not empty, found 3)"},
-    {top(R"("frame": {"depht": "z16"})"), R"(at "/frame/depht": expected a key among width, height, color, depth, clear_color, clear_depth, antialias, found the unknown key "depht" (did you mean "depth"?))"},
+    {top(R"("frame": {"depht": "z16"})"), R"(at "/frame/depht": expected a key among width, height, color, depth, clear_color, clear_depth, stencil, clear_stencil, antialias, found the unknown key "depht" (did you mean "depth"?))"},
     {top(R"("camera": {"target": [0, 0, 0]})"), R"(at "/camera/target": expected a key among eye, center, up, found the unknown key "target")"},
     {top(R"("projection": {"fisheye": {}})"), R"(at "/projection/fisheye": expected a key among perspective, orthographic, frustum, found the unknown key "fisheye")"},
     {top(R"("projection": {"perspective": {"fov": 9, "near": 1, "far": 2}})"), R"(at "/projection/perspective/fov": expected a key among fov_y, near, far, found the unknown key "fov" (did you mean "fov_y"?))"},
@@ -114,7 +116,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("dialect": "games101", "projection": {"perspective": {"fov_y": 45, "near": -9, "far": -1}})"), R"(at "/projection/perspective/far": expected a number less than near, -9, found -1)"},
     {top(R"("dialect": "tinyrenderer", "projection": {"pinhole": {"c": 0}})"), R"(at "/projection/pinhole/c": expected a number from 1e-06 to 1000000, found 0)"},
     {top(R"("projection": {"x_pi": {"fov": 45}})"), R"(at "/projection/x_pi": expected a key among perspective, orthographic, frustum, found the unknown key "x_pi")"},
-    {top(R"("frame": 3)"), R"(at "/frame": expected an object with keys among width, height, color, depth, clear_color, clear_depth, antialias, found 3)"},
+    {top(R"("frame": 3)"), R"(at "/frame": expected an object with keys among width, height, color, depth, clear_color, clear_depth, stencil, clear_stencil, antialias, found 3)"},
     {top(R"("frame": {"width": 16.0})"), R"(at "/frame/width": expected an integer from 1 to 16384, found 16.0)"},
     {top(R"("frame": {"width": "64"})"), R"(at "/frame/width": expected an integer from 1 to 16384, found "64")"},
     {top(R"("frame": {"width": true})"), R"(at "/frame/width": expected an integer from 1 to 16384, found true)"},
@@ -138,6 +140,19 @@ inline const std::vector<BadScene> kBadScenes = {
     {draw(R"("point_size": 2.5)"), R"(at "/draws/0/point_size": expected an integer from 1 to 64, found 2.5)"},
     {draw(R"("point_size": 65)"), R"(at "/draws/0/point_size": expected an integer from 1 to 64, found 65)"},
     {draw(R"("depth_func": "lequal")"), R"(at "/draws/0/depth_func": expected one of never, less, equal, less_equal, greater, not_equal, greater_equal, always, found "lequal" (did you mean "equal"?))"},
+    {draw(R"("depth_range": 0.5)"), R"(at "/draws/0/depth_range": expected an array of 2, found 0.5)"},
+    {draw(R"("depth_range": [0, 1.5])"), R"(at "/draws/0/depth_range/1": expected a number from 0 to 1, found 1.5)"},
+    {draw(R"("polygon_offset": {"factor": 1e7})"), R"(at "/draws/0/polygon_offset/factor": expected a number from -1000000 to 1000000, found 10000000.0)"},
+    {draw(R"("polygon_offset": {"unit": 1})"), R"(at "/draws/0/polygon_offset/unit": expected a key among factor, units, found the unknown key "unit" (did you mean "units"?))"},
+    {draw(R"("alpha_test": {"reference": 0.5})"), R"(at "/draws/0/alpha_test/func": expected a value, found nothing: the key is missing)"},
+    {draw(R"("alpha_test": {"func": "greater", "reference": 128})"), R"(at "/draws/0/alpha_test/reference": expected a number from 0 to 1, found 128)"},
+    {draw(R"("stencil": {})"), R"(at "/draws/0": expected a frame with "stencil": "s8" for its stencil test, found one without)"},
+    {draw(R"("stencil": {"reference": 256})"), R"(at "/draws/0/stencil/reference": expected an integer from 0 to 255, found 256)"},
+    {draw(R"("stencil": {"pass": "incr"})"), R"(at "/draws/0/stencil/pass": expected one of keep, zero, replace, increment, increment_wrap, decrement, decrement_wrap, invert, found "incr" (did you mean "invert"?))"},
+    {draw(R"("stencil": {"back": {"back": {}}})"), R"(at "/draws/0/stencil/back/back": expected a key among func, reference, mask, fail, depth_fail, pass, write_mask, found the unknown key "back" (did you mean "mask"?))"},
+    {draw(R"("logic_op": "equiv")"), R"(at "/draws/0/logic_op": expected one of clear, and, and_reverse, copy, and_inverted, noop, xor, or, nor, equivalent, invert, or_reverse, copy_inverted, or_inverted, nand, set, found "equiv")"},
+    {top(R"("frame": {"stencil": 8})"), R"(at "/frame/stencil": expected one of none, s8, found 8)"},
+    {top(R"("frame": {"clear_stencil": -1})"), R"(at "/frame/clear_stencil": expected an integer from 0 to 255, found -1)"},
     {draw(R"("fog": {"exponential": {}})"), R"(at "/draws/0/fog/exponential": expected a key among linear, exp, exp2, found the unknown key "exponential")"},
     {draw(R"("fog": {"exp": {"density": -1}})"), R"(at "/draws/0/fog/exp/density": expected a number from 0 to 1000000, found -1)"},
     {draw(R"("fog": {"linear": {"start": 2, "end": 2}})"), R"(at "/draws/0/fog/linear/end": expected another distance than "start", found 2)"},
@@ -302,7 +317,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {top(R"("include": ["link.part.json"])"), R"(at "/include/0": expected a file in the scene's folder or an asset folder (--assets), or below, found "link.part.json", which leads out of it)"},
     {top(R"("include": ["pipe.part.json"])"), R"(at "/include/0": expected a JSON file, found @group/pipe.part.json, which is no regular file)"},
     {top(R"("include": ["parts"])"), R"(at "/include/0": expected a JSON file, found the folder @group/parts)"},
-    {top(R"("include": ["bad.part.json"])"), R"(@group/bad.part.json: at "/frame/widht": expected a key among width, height, color, depth, clear_color, clear_depth, antialias, found the unknown key "widht" (did you mean "width"?))"},
+    {top(R"("include": ["bad.part.json"])"), R"(@group/bad.part.json: at "/frame/widht": expected a key among width, height, color, depth, clear_color, clear_depth, stencil, clear_stencil, antialias, found the unknown key "widht" (did you mean "width"?))"},
     {top(R"("include": ["typo.part.json"])"), R"(@group/typo.part.json: at "/frame/width": expected JSON, found parse error at line 1, column 23...)"},
     {top(R"("include": ["list.part.json"])"), R"(@group/list.part.json: at "": expected an object, found an array of 0)"},
     {top(R"("include": ["self.part.json"])"), R"(@group/self.part.json: at "/include/0": expected files that do not include themselves, found "self.part.json" on the way to it)"},

@@ -239,7 +239,7 @@ std::vector<Row> interpolation_rows() {
     WindowTriangle<float> t{};
     t.v[0].p_win.z = z0, t.v[1].p_win.z = z1;
     const double at = r.between(0, 1);
-    const float ours = pipeline::depth<float>(pipeline::depth_setup(t, 0), {1 - at, at, 0});
+    const float ours = pipeline::depth<float>(pipeline::depth_setup(t, {DepthFormat::z32f}), {1 - at, at, 0});
     return number(ours, z0 * (1 - Wide(at)) + z1 * Wide(at));
   };
   return {

@@ -66,14 +66,22 @@ TEST(OsmesaMultisamples, TheResolvedColourIsOursAndHalvesGoBothWays) {
   EXPECT_GT(down, 100) << "neither up nor to even: a matter of the sum's order";
 }
 
-TEST(OsmesaMultisamples, TheResolvedDepthIsSampleZerosToTheCode) {
+// Of 24 bits, Mesa's blit makes a float and a code of it again: at most a code more. Our reading undoes the first.
+TEST(OsmesaMultisamples, TheResolvedDepthIsSampleZeros) {
   for (const DepthFormat format : {DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
     Scene scene = soup(30, 3);
     scene.frame.depth = format;
     scene.frame.clear_depth = 0.7;
     const auto osmesa = make_osmesa();
     const Plane<double> resolved = osmesa->capture(scene, {}).planes.depth;
-    EXPECT_EQ(resolved.values(), osmesa->capture(passes_of(scene)[0], {}).planes.depth.values());
+    const Plane<double> sample = osmesa->capture(passes_of(scene)[0], {}).planes.depth;
+    const double within = format == DepthFormat::z24 ? 1.001 / 16777215 : 0;
+    int apart = 0;
+    for (std::size_t i = 0; i < resolved.size(); ++i) {
+      ASSERT_LE(std::abs(resolved.values()[i] - sample.values()[i]), within);
+      apart += resolved.values()[i] != sample.values()[i] ? 1 : 0;
+    }
+    EXPECT_EQ(apart > 0, format == DepthFormat::z24);
   }
 }
 
@@ -86,7 +94,8 @@ TEST(OsmesaMultisamples, AScissorBoxIsHalfAPixelTooWide) {
   const auto passes = passes_of(scene);
   const auto count = [](const Scene& pass, Renderer& renderer) {
     std::size_t n = 0;
-    for (const std::uint32_t c : renderer.capture(pass, {}).planes.count.values()) n += c;
+    const Planes drawn = renderer.capture(pass, {}).planes;
+    for (const std::uint32_t c : drawn.count.values()) n += c;
     return n;
   };
   const auto osmesa = make_osmesa();

@@ -30,6 +30,12 @@ Matrices<float> fov_taken_horizontally(const Scene& scene, const Draw& draw) {
   return m;
 }
 
+Matrices<float> depth_range_not_mapped(const Scene& scene, const Draw& draw) {
+  Matrices<float> m = pipeline::matrices(scene, draw);
+  m.win_scale.z = m.win_translate.z = 0.5f;
+  return m;
+}
+
 void normals_by_model_view(const Matrices<float>& matrices, Normals normals, const Mesh& mesh,
                            std::vector<Vertex<float>>& out) {
   Matrices<float> wrong = matrices;
@@ -191,6 +197,43 @@ struct ScissorWithItsFarSides : pipeline::FragmentStages {
   }
 };
 
+struct OffsetWithoutSlope : pipeline::FragmentStages {
+  static pipeline::DepthSetup depth_setup(const WindowTriangle<float>& triangle, const pipeline::DepthState& state) {
+    pipeline::DepthState wrong = state;
+    wrong.offset.factor = 0;
+    return pipeline::depth_setup(triangle, wrong);
+  }
+};
+
+struct AlphaAtTheReferenceKept : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Mask<R> alpha_passes(const AlphaTest& test, R alpha, float scale) {
+    const bool greater = test.func == CompareFunc::greater;
+    return pipeline::alpha_passes<R>({greater ? CompareFunc::greater_equal : test.func, test.reference}, alpha, scale);
+  }
+};
+
+struct SwappedDepthOps : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Mask<R> stencil_test(const StencilFace& face, pipeline::Mask<R> alive, pipeline::Mask<R> nearer,
+                                        std::uint8_t* at) {
+    StencilFace wrong = face;
+    std::swap(wrong.pass, wrong.depth_fail);
+    return pipeline::stencil_test<R>(wrong, alive, nearer, at);
+  }
+};
+
+struct SidesOfLogicOpSwapped : pipeline::FragmentStages {
+  template <class R>
+  static pipeline::Color<R> logic(LogicOp op, const pipeline::Color<R>& source, const pipeline::Color<R>& stored,
+                                  float scale) {
+    const LogicOp wrong = op == LogicOp::and_reverse    ? LogicOp::and_inverted
+                          : op == LogicOp::and_inverted ? LogicOp::and_reverse
+                                                        : op;
+    return pipeline::logic<R>(wrong, source, stored, scale);
+  }
+};
+
 struct SwappedFactors : pipeline::FragmentStages {
   static Merge merge_state(const Merge& of_draw) {
     Merge wrong = of_draw;
@@ -203,12 +246,16 @@ struct SwappedFactors : pipeline::FragmentStages {
 };
 
 struct IgnoredColorMask : pipeline::FragmentStages {
-  static Merge merge_state(const Merge& of_draw) { return {of_draw.blend, glm::bvec4(true), of_draw.depth_mask}; }
+  static Merge merge_state(const Merge& of_draw) {
+    return {of_draw.blend, glm::bvec4(true), of_draw.depth_mask, of_draw.logic_op};
+  }
 };
 
 constexpr std::array kFaults = {
     Fault{"matrices.fov_horizontal", "the vertical field of view is taken for the horizontal one", Stage::matrices,
           with_geometry<&Geometry::matrices, fov_taken_horizontally>},
+    Fault{"matrices.depth_range_not_mapped", "every draw's depths fill [0,1], whatever its depth range",
+          Stage::matrices, with_geometry<&Geometry::matrices, depth_range_not_mapped>},
     Fault{"vertex.normals_by_model_view", "normals go by the model-view matrix, not its inverse transpose",
           Stage::vertex, with_geometry<&Geometry::vertex, normals_by_model_view>},
     Fault{"vertex.not_renormalised", "normals are not brought to unit length after the model's scale", Stage::vertex,
@@ -239,15 +286,23 @@ constexpr std::array kFaults = {
     Fault{"coverage.points_off_by_half", "points' squares lie half a pixel too far right and up", Stage::coverage,
           with_fragment<PointsOffByHalf>},
     Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth, with_fragment<TruncatedDepth>},
+    Fault{"depth.offset_without_slope", "a polygon offset is of its units alone", Stage::depth,
+          with_fragment<OffsetWithoutSlope>},
     Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
           with_fragment<AffineAttributes>},
     Fault{"shade.fogged_alpha", "fog takes alpha too", Stage::shade, with_fragment<FoggedAlpha>},
     Fault{"visibility.less_equal", "an equal depth passes where only a smaller one may", Stage::visibility,
           with_fragment<LessEqualForLess>},
+    Fault{"visibility.alpha_at_reference", "an alpha equal to the reference passes where only a greater one may",
+          Stage::visibility, with_fragment<AlphaAtTheReferenceKept>},
+    Fault{"visibility.stencil_ops_swapped", "the stencil op of a depth that fails is taken for that of one that passes",
+          Stage::visibility, with_fragment<SwappedDepthOps>},
     Fault{"merge.truncated", "colours are truncated to codes, not rounded", Stage::merge,
           with_fragment<TruncatedColor>},
     Fault{"merge.factors_swapped", "blending takes the source's factor for the destination's, and the other way round",
           Stage::merge, with_fragment<SwappedFactors>},
+    Fault{"merge.logic_op_sides", "a logic op turns the wrong one over: s & ~d for ~s & d", Stage::merge,
+          with_fragment<SidesOfLogicOpSwapped>},
     Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge, with_fragment<IgnoredColorMask>},
     Fault{"coverage.samples_mirrored", "the samples' y is counted downwards in the pixel", Stage::coverage,
           with_fragment<MirroredSamples>},

@@ -39,7 +39,8 @@ void for_each_covered(const WindowTriangle<float>& triangle, Visit visit) {
 /// `scale`: scene.h, depth_scale; `anchor`: depth.h, planes_of.
 inline std::vector<Fragment> fragments(const WindowTriangle<float>& triangle, double scale, glm::ivec2 anchor) {
   const pipeline::BarycentricPlanes planes = pipeline::planes_of(triangle, anchor.x, anchor.y);
-  const pipeline::DepthSetup depth = pipeline::depth_setup(triangle, scale);
+  pipeline::DepthSetup depth = pipeline::depth_setup(triangle, {DepthFormat::z32f});
+  depth.scale = scale;
   const pipeline::AttributeSetup attributes = pipeline::attribute_setup(triangle);
   std::vector<Fragment> out;
   for_each_covered(triangle, [&](const pipeline::Pixels<float>& p) {

@@ -8,6 +8,7 @@
 
 #include <rapidcheck.h>
 
+#include "random_state.h"
 #include "scene/scene.h"
 
 namespace plumbline::test {
@@ -126,6 +127,11 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
     if (light.kind == Light::Kind::point) reach(light);
     scene.lights.push_back(light);
   }
+  const bool with_state = *evenly(0, 2) == 0;
+  if (with_state && *evenly(0, 2) == 0) {
+    scene.frame.stencil = StencilFormat::s8;
+    scene.frame.clear_stencil = static_cast<std::uint8_t>(*evenly(0, 4));
+  }
   scene.light_model.local_viewer = *gen::arbitrary<bool>();
   scene.light_model.specular = one_of<LightModel::Specular>(2);
   scene.light_model.sides = *gen::weightedElement<LightModel::Sides>(
@@ -158,6 +164,7 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
     if (*evenly(0, 3) == 0)
       draw.transforms.push_back(
           Scale{glm::dvec3(*point(gen::map(evenly(1, 5), [](int k) { return static_cast<float>(k) / 2; })))});
+    if (with_state) randomize_state(scene.frame, draw);
     scene.draws.push_back(draw);
   }
   return scene;

@@ -87,6 +87,8 @@ Capture make_capture() {
   r.depth = {f.real(), f.real()};
   r.attributes.resize(2);
   for (auto& a : r.attributes) f.fill(a.color);
+  r.texels.resize(2);
+  for (auto& t : r.texels) f.fill(t.color), t.lod = f.real();
   r.shaded.resize(2);
   for (auto& s : r.shaded) f.fill(s.color);
   r.drawn = {{true}, {false}};
@@ -103,6 +105,9 @@ Capture make_capture() {
   c.planes.count = {kWidth, kHeight, 0xffffffffu};
   c.planes.id_sum = {kWidth, kHeight, 0xfedcba9876543210u};
   c.planes.id = {kWidth, kHeight, kBackground};
+  c.planes.stencil = {kWidth, kHeight, 0xfe};
+  c.planes.texel = {kWidth, kHeight};
+  for (auto& p : c.planes.texel.values()) f.fill(p);
   c.planes.shaded = {kWidth, kHeight};
   for (auto& p : c.planes.shaded.values()) f.fill(p);
   c.planes.color = {kWidth, kHeight};
@@ -193,6 +198,7 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_TRUE(same_bits(a.records.covered, b.records.covered));
   EXPECT_TRUE(same_bits(a.records.depth, b.records.depth));
   EXPECT_TRUE(same_bits(a.records.attributes, b.records.attributes));
+  EXPECT_TRUE(same_bits(a.records.texels, b.records.texels));
   EXPECT_TRUE(same_bits(a.records.shaded, b.records.shaded));
   EXPECT_TRUE(same_bits(a.records.drawn, b.records.drawn));
   for (const Varying v : kAllVaryings) {
@@ -219,13 +225,15 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_TRUE(same_bits(a.planes.count.values(), b.planes.count.values()));
   EXPECT_TRUE(same_bits(a.planes.id_sum.values(), b.planes.id_sum.values()));
   EXPECT_TRUE(same_bits(a.planes.id.values(), b.planes.id.values()));
+  EXPECT_TRUE(same_bits(a.planes.stencil.values(), b.planes.stencil.values()));
+  EXPECT_TRUE(same_bits(a.planes.texel.values(), b.planes.texel.values()));
   EXPECT_TRUE(same_bits(a.planes.shaded.values(), b.planes.shaded.values()));
   EXPECT_TRUE(same_bits(a.planes.color.values(), b.planes.color.values()));
   EXPECT_TRUE(same_bits(a.planes.depth.values(), b.planes.depth.values()));
   EXPECT_EQ(b.planes.count(1, 2), 12u);
 
   write_capture(b, root_ / "b");
-  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 1 + 1 + 6 + 4 * kVaryings);
+  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 2 + 1 + 1 + 9 + 4 * kVaryings);
 }
 
 TEST_F(CaptureFolder, LeavesOutWhatWasNotCaptured) {

@@ -25,7 +25,9 @@ Barycentric<float> weights_at(const Triangle& t, int x, int y) {
   return barycentric<float>(planes_of(t, x / kTile * kTile, y / kTile * kTile), pixel(x, y));
 }
 float depth_at(const Triangle& t, int x, int y, double scale) {
-  return depth<float>(depth_setup(t, scale), weights_at(t, x, y));
+  DepthSetup setup = depth_setup(t, {DepthFormat::z32f});
+  setup.scale = scale;
+  return depth<float>(setup, weights_at(t, x, y));
 }
 Triangle with_depths(Triangle t, float z0, float z1, float z2) {
   t.v[0].p_win.z = z0;
@@ -331,6 +333,22 @@ TEST(PipelineDepth, TheEightDepthFunctions) {
   expect_passes<DepthFunc::not_equal>(true, false, true);
   expect_passes<DepthFunc::greater_equal>(false, true, true);
   expect_passes<DepthFunc::always>(true, true, true);
+}
+
+// Where the near and the far plane cut nothing, depths are clamped to where these are, whichever is the larger; else to
+// what every format holds.
+TEST(PipelineDepth, ClampsToTheRangeOnlyWhereNothingIsCut) {
+  Draw draw;
+  draw.depth_range = {0.75f, 0.25f};
+  const Triangle t = with_depths(window_triangle({0, 0}, {8, 0}, {0, 8}), -2, 2, -2);
+  const auto at = [&](int x, bool clamps) {
+    return depth<float>(depth_setup(t, depth_state(draw, DepthFormat::z32f, clamps)), weights_at(t, x, 0));
+  };
+  EXPECT_EQ(at(0, true), 0.25f);
+  EXPECT_EQ(at(6, true), 0.75f);
+  EXPECT_EQ(at(4, true), 0.25f);  // -2 + 4 * 4.5 / 8 = 0.25
+  EXPECT_EQ(at(0, false), 0);
+  EXPECT_EQ(at(6, false), 1);
 }
 
 }  // namespace

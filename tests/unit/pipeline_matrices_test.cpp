@@ -92,6 +92,15 @@ TEST(PipelineMatrices, WindowIsHalfTheFrame) {
   const Matrices<float> m = matrices(scene, {});
   EXPECT_EQ(m.win_scale, Vec3<float>(2.5f, 1, 0.5f));
   EXPECT_EQ(m.win_translate, Vec3<float>(2.5f, 1, 0.5f));
+
+  Draw draw;
+  // (f - n) / 2 and (n + f) / 2 (OpenGL 2.1, section 2.11.1), whichever is larger.
+  draw.depth_range = {0.75f, 0.25f};
+  EXPECT_EQ(matrices(scene, draw).win_scale, Vec3<float>(2.5f, 1, -0.25f));
+  EXPECT_EQ(matrices(scene, draw).win_translate, Vec3<float>(2.5f, 1, 0.5f));
+  draw.depth_range = {1, 1};
+  EXPECT_EQ(matrices(scene, draw).win_scale.z, 0);
+  EXPECT_EQ(matrices(scene, draw).win_translate.z, 1);
 }
 
 TEST(PipelineMatrices, DustBelow1e12IsSweptAndNothingAbove) {

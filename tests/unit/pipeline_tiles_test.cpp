@@ -54,7 +54,7 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
   for (int y = 0; y < f.height; y += 64) {
     for (int x = 0; x < f.width; x += 64) {
       for (const Triangle& t : triangles) {
-        setups_of_tile[{x / 64, y / 64}].push_back(set_up(FragmentStages(), t, 0, formats, x, y));
+        setups_of_tile[{x / 64, y / 64}].push_back(set_up(FragmentStages(), t, 0, {f.depth}, {0, 0}, x, y));
       }
     }
   }

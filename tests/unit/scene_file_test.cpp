@@ -179,17 +179,51 @@ TEST_F(SceneFile, FindsMeshFilesInItsFolderThenInTheAssets) {
   EXPECT_EQ(s.meshes[1].positions[1].x, 3);
 }
 
+TEST_F(SceneFile, ReadsHowFragmentsAreTested) {
+  const Scene s = load(R"({"description": "d", "frame": {"stencil": "s8", "clear_stencil": 200},
+    "defaults": {"polygon_offset": {"units": 3}}, "draws": [
+      {"mesh": {"cube": {}}},
+      {"mesh": {"cube": {}}, "polygon_offset": {"factor": -1.5, "units": 2}, "logic_op": "equivalent",
+       "alpha_test": {"func": "greater_equal", "reference": 0.25},
+       "stencil": {"func": "less", "reference": 3, "mask": 15, "fail": "zero", "depth_fail": "increment_wrap",
+                   "pass": "invert", "write_mask": 240, "back": {"reference": 4, "pass": "decrement"}}}]})");
+  EXPECT_EQ(s.frame.stencil, StencilFormat::s8);
+  EXPECT_EQ(s.frame.clear_stencil, 200);
+  const Draw &plain = s.draws[0], &all = s.draws[1];
+  EXPECT_EQ(plain.polygon_offset, (PolygonOffset{0, 3}));
+  EXPECT_FALSE(plain.alpha_test || plain.stencil || plain.merge.logic_op);
+  EXPECT_EQ(all.polygon_offset, (PolygonOffset{-1.5f, 2}));
+  EXPECT_EQ(all.merge.logic_op, LogicOp::equivalent);
+  ASSERT_TRUE(all.alpha_test && all.stencil);
+  EXPECT_EQ(all.alpha_test->func, CompareFunc::greater_equal);
+  EXPECT_EQ(all.alpha_test->reference, 0.25f);
+  const StencilFace &front = all.stencil->front, &back = all.stencil->back;
+  EXPECT_EQ(front.reference, 3);
+  EXPECT_EQ(back.reference, 4);
+  EXPECT_EQ(front.pass, StencilOp::invert);
+  EXPECT_EQ(back.pass, StencilOp::decrement);
+  for (const StencilFace& face : {front, back}) {
+    EXPECT_EQ(face.func, CompareFunc::less);
+    EXPECT_EQ(face.mask, 15);
+    EXPECT_EQ(face.fail, StencilOp::zero);
+    EXPECT_EQ(face.depth_fail, StencilOp::increment_wrap);
+    EXPECT_EQ(face.write_mask, 240);
+  }
+}
+
 TEST_F(SceneFile, ReadsHowFragmentsAreMerged) {
   const Scene s = load(R"({"description": "d", "defaults": {"depth_mask": false}, "draws": [
       {"mesh": {"cube": {}}},
       {"mesh": {"cube": {}}, "blend": {}, "depth_mask": true, "color_mask": [true, false, true, false],
-                              "scissor": [1, 2, 30, 16384]},
+                              "depth_range": [0.75, 0.25], "scissor": [1, 2, 30, 16384]},
       {"mesh": {"cube": {}}, "blend": {"source": "source_alpha_saturate", "destination": "constant_color",
                                        "equation": "reverse_subtract", "color": [0.1, 0.2, 0.3, 0.4]}},
       {"mesh": {"cube": {}}, "blend": {"destination": "one", "alpha": {"source": "zero", "equation": "max"}}}]})");
   const Merge &none = s.draws[0].merge, &plain = s.draws[1].merge, &both = s.draws[2].merge, &own = s.draws[3].merge;
   EXPECT_FALSE(none.blend);
   EXPECT_FALSE(none.depth_mask);
+  EXPECT_EQ(s.draws[0].depth_range, DepthRange{});
+  EXPECT_EQ(s.draws[1].depth_range, (DepthRange{0.75f, 0.25f}));
   EXPECT_FALSE(s.draws[0].scissor);
   ASSERT_TRUE(s.draws[1].scissor);
   const Scissor& box = *s.draws[1].scissor;

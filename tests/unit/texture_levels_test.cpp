@@ -181,7 +181,8 @@ TEST_F(TextureFile, ASceneHasItsTexturesAndTheDrawsNameThem) {
     "b": {"image": {"file": "a.png"}, "min": "linear", "wrap_t": "mirrored_repeat", "border": [0, 1, 0, 1]},
     "a": {"image": {"noise": {}}, "format": "luminance"}},
     "defaults": {"texture": {"name": "b", "environment": "decal"}},
-    "draws": [{"mesh": {"quad": {}}}, {"mesh": {"globe": {"slices": 4, "stacks": 3}}, "texture": {"name": "a"}}]})";
+    "draws": [{"mesh": {"quad": {}}}, {"mesh": {"globe": {"slices": 4, "stacks": 3}},
+              "texture": {"name": "a", "environment": "modulate"}}]})";
   const Scene scene = load_scene(root_ / "scene.json");
   ASSERT_EQ(scene.textures.size(), 2u);
   EXPECT_EQ(scene.textures[1].name, "b");

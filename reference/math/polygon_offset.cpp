@@ -1,0 +1,39 @@
+// The slope g of a plane through corners p_i of depth z_i obeys g . (p_i - p_j) = z_i - z_j. Corners that are moved by
+// up to d, with depths up to e off, change it by some dg with |dg . (p_i - p_j)| <= 2 (e + |g| d) along every side; a
+// linear function that varies by no more than that over the triangle has no larger slope than that over its smallest
+// altitude.
+#include "reference/math/polygon_offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::math {
+
+OffsetBounds polygon_offset(const Triangle& t, const PolygonOffset& offset, DepthFormat format) {
+  if (offset == PolygonOffset{}) return {};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (t.flat) return {0, kInfinity};
+  const double scale = range_scale(t), factor = offset.factor, units = offset.units;
+  const double corner_error =
+      kFloatRounding * (scale * t.roundings * (t.size.z + t.size.w) / (2 * t.w_min) + 3);  // as pixel_hit.cpp's
+  // r goes by the largest depth of a piece's corners, which are those of the triangle, or cuts.
+  const double near = t.range.near, far = t.range.far;
+  double least = std::min(near, far), largest = std::max(near, far);
+  if (t.ahead) {
+    const double a = near + (far - near) * t.z_min, b = near + (far - near) * t.z_max;
+    largest = std::min(largest, std::max(a, b) + corner_error);
+    if (!t.cut) least = std::max(a, b) - corner_error;
+  }
+  const double r_lo = polygon_offset_unit(format, std::max(least, 0.0)), r_hi = polygon_offset_unit(format, largest);
+  OffsetBounds out{0.5 * units * (r_lo + r_hi), 0.5 * std::abs(units) * (r_hi - r_lo)};
+  if (factor == 0) return out;
+  const double m = scale * std::max(std::abs(t.z_plane.x), std::abs(t.z_plane.y));
+  const double slope = scale * std::hypot(t.z_plane.x, t.z_plane.y);
+  const double altitude = t.altitude - 2 * t.reach;
+  out.middle += factor * m;
+  out.half += altitude > 0 ? std::abs(factor) * 2 * (corner_error + slope * t.reach) / altitude : kInfinity;
+  return out;
+}
+
+}  // namespace plumbline::math

@@ -1,0 +1,24 @@
+// Pixels at which a reference's alpha test may keep or drop another fragment than the candidate's: there its planes may
+// show something else, and both be right.
+#pragma once
+
+#include "scene/scene.h"
+#include "stages/capture.h"
+
+namespace plumbline::check {
+
+/// Whether any draw tests alpha.
+bool tests_alpha(const Scene& scene);
+
+/// 1 where some fragment of the candidate's, with an alpha off by up to its bound (fragment_bounds.h), may pass the
+/// test in the format `theirs` and fails it in the candidate's, or the other way round. The candidate's records have to
+/// be there.
+Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                  ColorFormat theirs, double factor);
+
+/// An OpenGL renderer's planes get the candidate's own values where the pixel is open; returns how many are. It draws
+/// in the frame's format, or in float where it has none such, and the colours before merge in float always.
+std::uint64_t settle_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
+                           Capture& reference);
+
+}  // namespace plumbline::check

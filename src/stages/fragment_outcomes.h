@@ -1,0 +1,25 @@
+// What the tests of a fragment come to, for those who judge: of one number, and of all that may be.
+#pragma once
+
+#include <cstdint>
+
+#include "scene/scene.h"
+
+namespace plumbline {
+
+/// What a comparison of a number within [lo, hi] with another may come to.
+struct Outcomes {
+  bool may_pass, may_fail;
+};
+Outcomes outcomes(CompareFunc func, double lo, double hi, double reference);
+
+/// Of the alpha test in a frame of that format (OpenGL 2.1 spec 4.1.4, 4.5 compatibility 17.3.4): where it has codes,
+/// the reference and the fragment's alpha are compared as codes, each the nearest, half to even.
+Outcomes alpha_outcomes(const AlphaTest& test, ColorFormat format, double lo, double hi);
+
+/// OpenGL 2.1 spec 4.1.5.
+bool stencil_passes(const StencilFace& face, std::uint8_t held);
+/// What is held after the stencil and the depth test.
+std::uint8_t stencil_after(const StencilFace& face, bool nearer, std::uint8_t held);
+
+}  // namespace plumbline
