@@ -145,7 +145,8 @@ void main() {{{}
 
 std::string light_fragment_shader(const Scene& scene, const Draw& draw) {
   if (!is_lit_per_fragment(draw)) return "";
-  const bool two = scene.light_model.sides == LightModel::Sides::two;
+  const LightModel& model = scene.light_model;
+  const bool two = model.sides == LightModel::Sides::two;
   return "#version 120\nuniform sampler2D image;\nvarying vec3 p, n;\n" + material_of(scene, draw) + kShare +
          equation_of(scene) +
          fmt::format(R"(
@@ -153,11 +154,12 @@ void main() {{
   vec3 k = normalize(n);
   vec4 secondary;
   vec4 color = {} ? lit(gl_FrontMaterial, p, k, gl_Color, secondary) : lit(gl_BackMaterial, p, -k, gl_Color, secondary);
-{}  color.rgb = clamp(color.rgb + secondary.rgb, 0.0, 1.0);
-{}  gl_FragColor = color;
+{}{}{}  gl_FragColor = color;
 }}
 )",
-                     two ? "gl_FrontFacing" : "true", environment_of(scene, draw), fog_of(draw));
+                     two ? "gl_FrontFacing" : "true", environment_of(scene, draw),
+                     model.separate_specular ? "  color.rgb = clamp(color.rgb + secondary.rgb, 0.0, 1.0);\n" : "",
+                     fog_of(draw));
 }
 
 }  // namespace plumbline::osmesa

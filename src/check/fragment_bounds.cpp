@@ -160,12 +160,12 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   }
   FragmentBound out;
   out.color = shade_error(scene_, draw, fours, errors, tolerance("osmesa.shade").factor);
-  const bool summed = is_lit_per_vertex(draw) && scene_.light_model.separate_specular;
-  const Vec3<double> sum(fours.color + fours[Varying::secondary]);
-  const bool clamped = summed && std::max({sum.x, sum.y, sum.z}) > 1;
   if (draw.texture) {
     out.disputed = switched_early(scene_.textures.at(draw.texture->texture), records_.texels.at(i).lod);
   }
+  const bool summed = is_lit_per_vertex(draw) && scene_.light_model.separate_specular;
+  const Vec3<double> sum(fours.color + fours[Varying::secondary]);
+  const bool clamped = summed && std::max({sum.x, sum.y, sum.z}) > 1;
   out.disputed |= draw.fog && (clamped || reaches_behind_eye(*(after - 1), draw, triangle.primitive));
   return out;
 }
