@@ -136,9 +136,6 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene),
     const Mesh& mesh = scene.meshes[scene.draws[i].mesh];
     matrices_.push_back(math::float_matrices(scene, scene.draws[i]));
     std::optional<Program>& program = light_programs_.emplace_back();
-    if (is_lit_per_fragment(scene.draws[i]) && scene.draws[i].texture) {
-      throw Unsupported("OpenGL has light per fragment by a program alone, and this one has no textures");
-    }
     if (needs_light_program(scene, scene.draws[i])) {
       program.emplace(gl, light_vertex_shader(scene, scene.draws[i]), light_fragment_shader(scene, scene.draws[i]));
     }
