@@ -31,6 +31,13 @@ const std::vector<Scene>& scenes() {
   return kScenes;
 }
 
+bool same_picture(const pipeline::Frame& a, const pipeline::Frame& b) {
+  const auto same = [&](auto plane) { return (a.*plane).values() == (b.*plane).values(); };
+  using F = pipeline::Frame;
+  return same(&F::color_rgba8) && same(&F::color_rgba12) && same(&F::color_rgba16) && same(&F::color_rgba32f) &&
+         same(&F::depth_code) && same(&F::depth_z32f) && same(&F::stencil);
+}
+
 class Faults : public testing::TestWithParam<faults::Fault> {};
 
 TEST_P(Faults, is_caught_and_its_stage_named) {
@@ -38,8 +45,14 @@ TEST_P(Faults, is_caught_and_its_stage_named) {
   const auto candidate = pipeline::make_pipeline(fault.stages());
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"exact", exact.get()}};
+  const pipeline::Stages stages = fault.stages();
+  // The gradients of stage 8 are taken where attributes are.
+  const auto may_be_wrong_too = [&](Stage stage) {
+    return stage == fault.stage || (fault.name == "attributes.of_sample" && stage == Stage::texture);
+  };
   int caught = 0;
   for (const Scene& scene : scenes()) {
+    if (same_picture(pipeline::render(scene, stages), pipeline::render(scene))) continue;
     const check::SceneVerdict verdict = check::judge(scene, *candidate, references);
     const check::Comparison* first = check::first_different(verdict);
     if (first == nullptr) continue;  // a scene that the fault does not affect
@@ -48,7 +61,7 @@ TEST_P(Faults, is_caught_and_its_stage_named) {
     for (const check::Comparison& c : verdict.comparisons) {
       EXPECT_NE(c.outcome, check::Outcome::failed) << c.note;
       if (c.reference == "exact from its records" && c.outcome == check::Outcome::different) {
-        EXPECT_EQ(name_of(c.stage), name_of(fault.stage)) << scene.name << ": not wrong by itself";
+        EXPECT_TRUE(may_be_wrong_too(c.stage)) << scene.name << ": " << name_of(c.stage) << " is not wrong by itself";
       }
     }
   }

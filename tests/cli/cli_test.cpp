@@ -27,7 +27,10 @@ TEST_F(Cli, check_holds_and_prints_a_row_for_each_reference_and_stage) {
        {"matrices", "vertex", "light", "clip", "window", "coverage", "depth", "attributes", "merge"}) {
     EXPECT_NE(run.text.find(stage), std::string::npos) << stage;
   }
-  EXPECT_EQ(run.text.find("\nok:"), std::string::npos) << "something is unsupported: no bare ok";
+  EXPECT_NE(run.text.find("\nok:"), std::string::npos);
+  const Outcome lines = plumb("check " + kScenes + "lines/star.json --against embree,exact");
+  EXPECT_EQ(lines.code, 0) << lines.text;
+  EXPECT_EQ(lines.text.find("\nok:"), std::string::npos) << "something is unsupported: no bare ok";
 }
 
 TEST_F(Cli, a_fault_ends_1_and_names_scene_reference_stage_and_the_command_that_repeats_it) {

@@ -194,6 +194,8 @@ TEST(ExactAttributes, EachFragmentOfItsOwnTriangle) {
 
 TEST(ExactShade, IsTheAttributesColour) {
   Records<double> in;
+  in.triangles.resize(1, window_triangle({{{0, 0, 0}, {8, 0, 0}, {0, 8, 0}}}));
+  in.covered = {{0, 0, 0}, {0, 1, 0}};
   in.attributes = {{{0.1, 2, -3, 0.5}}, {{1, 2, 3, 4}}};
   const auto shaded = run(scene_of(4, 4), Stage::shade, in).records.shaded;
   ASSERT_EQ(shaded.size(), 2u);

@@ -84,7 +84,12 @@ std::vector<Scene> all_scenes() {
   const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   std::vector<Scene> out;
   for (const auto& file : find_scenes(folder)) out.push_back(load_scene(file, {}));
-  std::erase_if(out, [](const Scene& s) { return draws(s, Topology::lines) || draws(s, Topology::points); });
+  // Those that it refuses.
+  std::erase_if(out, [](const Scene& s) {
+    return s.frame.antialias.kind != Antialias::Kind::none || draws(s, Topology::lines) || draws(s, Topology::points) ||
+           std::any_of(s.draws.begin(), s.draws.end(),
+                       [](const Draw& d) { return d.alpha_test || d.stencil || d.polygon_offset != PolygonOffset{}; });
+  });
   return out;
 }
 

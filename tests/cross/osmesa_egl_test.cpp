@@ -50,6 +50,10 @@ void compare_on(const std::vector<std::filesystem::path>& files) {
   for (const auto& file : find_scenes(files)) {
     SCOPED_TRACE(file);
     const Scene scene = load_scene(file, {});
+    if (scene.frame.antialias.kind != Antialias::Kind::none) {  // its passes stand in no file
+      EXPECT_THROW(other->capture(scene, all), Unsupported);
+      continue;
+    }
     expect_same(osmesa->capture(scene, all), other->capture(scene, all));
   }
 }

@@ -28,7 +28,7 @@ struct PassThrough {
     for (const Draw& draw : scene.draws) {
       const Mesh& mesh = scene.meshes[draw.mesh];
       const auto first = static_cast<std::uint32_t>(vertices.size());
-      transform(matrices(scene, draw), Normals::normalize, mesh, vertices);
+      transform(matrices(scene, draw), draw.normals, mesh, vertices);
       geometry_stages().light(scene, draw, std::span(vertices).subspan(first), lit);
       for (const glm::uvec3& t : mesh.triangles) triangles.push_back(t + first);
     }
@@ -46,7 +46,11 @@ struct PassThrough {
 
 /// Under which a whole scene is drawn, if it is one.
 std::optional<ProgramState> common_state(const Scene& scene) {
-  if (scene.draws.empty()) return std::nullopt;
+  // Programs have triangles, one colour and no blending.
+  if (scene.draws.empty() || !carried(scene).empty() || !colors_replace(scene) || draws(scene, Topology::lines) ||
+      draws(scene, Topology::points)) {
+    return std::nullopt;
+  }
   const Draw& first = scene.draws.front();
   for (const Draw& d : scene.draws) {
     if (d.shading != first.shading || d.cull != first.cull || d.depth_func != first.depth_func) return std::nullopt;

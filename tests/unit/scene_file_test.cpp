@@ -406,7 +406,7 @@ TEST(Scenes, AllLoadAndEveryStateOccurs) {
       for (const Transform& transform : draw.transforms) seen("transform ", transform.index());
     }
   }
-  EXPECT_EQ(states.size(), 3u + 4 + 5 + 4 + 4 + 2 + 2 + 6 + 3 + 3 + 3 + 8 + 3);
+  EXPECT_EQ(states.size(), 4u + 4 + 5 + 4 + 4 + 2 + 2 + 6 + 3 + 3 + 3 + 8 + 3);
 }
 
 }  // namespace
