@@ -43,18 +43,28 @@ void expect_same(const Capture& a, const Capture& b) {
   EXPECT_EQ(windows, a.records.triangles.empty() ? 0 : 2);
 }
 
-void compare_on(const std::vector<std::filesystem::path>& files) {
+// One of `every` scenes.
+void compare_on(const std::vector<std::filesystem::path>& folders, std::size_t every = 1) {
   const auto osmesa = make_osmesa();
   const auto other = egl();
   const Request all{StageSet::all(), false, {}, {}};
-  for (const auto& file : find_scenes(files)) {
+  const auto files = find_scenes(folders);
+  for (std::size_t i = 0; i < files.size(); i += every) {
+    const auto& file = files[i];
     SCOPED_TRACE(file);
     const Scene scene = load_scene(file, {});
     if (scene.frame.antialias.kind != Antialias::Kind::none) {  // its passes stand in no file
       EXPECT_THROW(other->capture(scene, all), Unsupported);
       continue;
     }
-    expect_same(osmesa->capture(scene, all), other->capture(scene, all));
+    Capture mine;
+    try {
+      mine = osmesa->capture(scene, all);
+    } catch (const Unsupported&) {
+      EXPECT_ANY_THROW(other->capture(scene, all));
+      continue;
+    }
+    expect_same(mine, other->capture(scene, all));
   }
 }
 
@@ -64,7 +74,10 @@ TEST(OsmesaEgl, same_bits_on_a_few_scenes) {
   compare_on({kScenes + "/clip/each_plane.json", kScenes + "/depth/z16.json", kScenes + "/light/sphere_gouraud.json"});
 }
 
-TEST(OsmesaEgl, same_bits_on_every_scene) { compare_on({kScenes}); }
+TEST(OsmesaEgl, same_bits_on_every_seventh_scene) { compare_on({kScenes}, 7); }
+
+// A process for each takes minutes: --gtest_also_run_disabled_tests.
+TEST(OsmesaEgl, DISABLED_same_bits_on_every_scene) { compare_on({kScenes}); }
 
 // Beside each other, each would draw into the other's current context without a word.
 TEST(OsmesaEgl, one_library_per_process) {
