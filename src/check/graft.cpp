@@ -1,0 +1,82 @@
+#include "check/case.h"
+#include "check/compare_planes.h"
+#include "check/compare_records.h"
+#include "check/compare_texels.h"
+#include "stages/seen_as.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// The stage of a varying, which is compared as the colour is.
+Measurement compare_varying(const Scene& scene, Stage stage, Varying v, const Records<double>& mine,
+                            const Records<double>& theirs) {
+  if (stage == Stage::light && !is_lit(v)) return compare_carried(v, mine, theirs);
+  const Records<double> a = seen_as(mine, v), b = seen_as(theirs, v);
+  if (stage == Stage::light) return compare_lit(scene, a, b, factor("exact.light"), {is_back(v), is_secondary(v)});
+  if (stage == Stage::clip) return compare_polygons(scene, a, b, factor("exact.clip"), is_lit(v));
+  if (stage == Stage::window) return compare_window(a, b, factor("exact.window"));
+  return compare_attributes(a, b, factor("exact.attributes"));
+}
+
+// That of the colour, or of a varying that tells more.
+Measurement with_varyings(const Scene& scene, Stage stage, Measurement color, const Records<double>& mine,
+                          const Records<double>& theirs) {
+  const bool to_fragments = stage > Stage::clip;
+  for (const Varying v : carried(scene)) {
+    if (to_fragments && is_back(v)) continue;
+    color = worse(std::move(color), compare_varying(scene, stage, v, mine, theirs));
+  }
+  return color;
+}
+
+}  // namespace
+
+void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
+  const Records<double>& mine = c.candidate.records;
+  if (stage >= Stage::depth && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+  const Capture made = referee.run_stage(c.scene, stage, c.candidate);
+  const Records<double>& theirs = made.records;
+  const auto varyings = [&](Measurement color) {
+    return with_varyings(c.scene, stage, std::move(color), mine, theirs);
+  };
+  switch (stage) {
+    case Stage::matrices: break;
+    case Stage::vertex:
+      return c.add(name, stage, compare_vertices(c.scene, mine, theirs, factor("exact.vertex"), factor("exact.vertex")),
+                   "exact.vertex");
+    case Stage::light:
+      return c.add(name, stage, varyings(compare_lit(c.scene, mine, theirs, factor("exact.light"))), "exact.light");
+    case Stage::clip:
+      return c.add(name, stage, varyings(compare_polygons(c.scene, mine, theirs, factor("exact.clip"))), "exact.clip");
+    case Stage::window:
+      return c.add(name, stage, varyings(compare_window(mine, theirs, factor("exact.window"))), "exact.window");
+    case Stage::coverage: {
+      Measurement planes = compare_coverage(c.candidate.planes, made.planes);
+      if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), "", std::string(kOverBudget));
+      return c.add(name, stage, worse(std::move(planes), compare_covered(mine, theirs)));
+    }
+    case Stage::depth:
+      return c.add(name, stage, compare_depth(c.scene, mine, theirs, factor("exact.depth")), "exact.depth");
+    case Stage::attributes:
+      return c.add(name, stage, varyings(compare_attributes(mine, theirs, factor("exact.attributes"))),
+                   "exact.attributes");
+    case Stage::texture:
+      return c.add(name, stage, compare_texels(c.scene, mine, theirs, factor("exact.texture")), "exact.texture");
+    case Stage::shade:
+      return c.add(name, stage, compare_shaded(c.scene, mine, theirs, factor("exact.shade")),
+                   is_plain(c.scene) ? "" : "exact.shade");
+    case Stage::visibility:
+      return c.add(name, stage,
+                   worse(compare_winners(c.candidate.planes, made.planes, Legal{}), compare_drawn(mine, theirs)));
+    case Stage::merge: {
+      const bool codes = c.scene.frame.color != ColorFormat::rgba32f;
+      return c.add(name, stage,
+                   compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.codes"), made.legal),
+                   codes ? "exact.merge.codes" : "");
+    }
+    case Stage::resolve: break;  // of passes together (judge_passes.h)
+  }
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,149 @@
+#include <cmath>
+
+#include "check/case.h"
+#include "check/compare_lines.h"
+#include "check/compare_planes.h"
+#include "check/compare_records.h"
+#include "check/compare_texels.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// Whether a reference's coverage contradicts the window triangles that it hands out itself, and the candidate's follows
+// from them: exact arithmetic on the reference's own records is the third witness. (llvmpipe culls by the unsnapped
+// area as well, once anything in a batch is clipped.)
+bool contradicts_itself(Case& c, const Capture& theirs) {
+  if (c.referee == nullptr || theirs.records.triangles.empty()) return false;
+  try {
+    const Capture settled = c.referee->run_stage(c.scene, Stage::coverage, theirs);
+    return compare_coverage(c.candidate.planes, settled.planes).differing == 0;
+  } catch (const std::exception&) {
+    return false;  // nobody settled it; the referee's failure shows under its own name
+  }
+}
+
+Comparison as_dispute(Comparison comparison, std::string_view why) {
+  Measurement& m = comparison.measurement;
+  m.disputed = std::exchange(m.differing, 0);
+  comparison.outcome = Outcome::dispute;
+  comparison.note = why;
+  return comparison;
+}
+
+constexpr std::string_view kNo8BitDepth = "OpenGL has no 8-bit depth: it draws with 24 bits, other surfaces may win";
+constexpr std::string_view kNo16BitsBesideStencil =
+    "OpenGL has no 16-bit depth beside stencil values: it draws with 24 bits, other surfaces may win";
+std::string_view no_such_depth(const FrameFormat& frame) {
+  return frame.depth == DepthFormat::z8 ? kNo8BitDepth : kNo16BitsBesideStencil;
+}
+
+// Whether its depths are codes of the scene's format, if that is one that OpenGL lacks.
+bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
+  const bool stencil = scene.frame.stencil != StencilFormat::none;
+  if (scene.frame.depth != DepthFormat::z8 && !(stencil && scene.frame.depth == DepthFormat::z16)) return true;
+  return std::ranges::all_of(theirs.planes.depth.values(), [&](double z) {
+    const double code = z * depth_scale(scene.frame.depth);
+    return std::abs(code - std::round(code)) < 1e-9;  // a double's rounding; a code of 24 bits is 1e-5 away or more
+  });
+}
+
+}  // namespace
+
+bool lacks_texels(const Case& c, Stage stage) {
+  const bool of_texels = stage == Stage::texture || stage == Stage::shade || stage == Stage::merge;
+  return of_texels && textured(c.scene) && c.candidate.legal.texels.empty();
+}
+
+void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+  const Records<double>& mine = c.candidate.records;
+  switch (stage) {
+    case Stage::matrices: return c.add(name, stage, compare_matrices_equal(mine, theirs.records));
+    case Stage::vertex:
+      return c.add(name, stage,
+                   compare_vertices(c.scene, mine, theirs.records, 0, factor("osmesa.vertex"), Inversion::in_float),
+                   "osmesa.vertex");
+    case Stage::light:
+      return c.add(name, stage, compare_lit(c.scene, mine, theirs.records, factor("osmesa.light")), "osmesa.light");
+    case Stage::clip:
+      return c.add(name, stage, compare_polygon_positions(mine, theirs.records, factor("osmesa.clip")), "osmesa.clip");
+    case Stage::window: return c.add(name, stage, compare_window_equal(mine, theirs.records), "osmesa.window");
+    case Stage::coverage:
+      if (!draws(c.scene, Topology::lines)) {
+        c.add(name, stage, compare_coverage(c.candidate.planes, theirs.planes));
+      } else if (over_budget(c.candidate)) {
+        return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      } else {
+        c.add(name, stage, compare_covered_lines(c.candidate, theirs, factor("osmesa.lines")), "osmesa.lines");
+      }
+      if (c.out.back().outcome == Outcome::different && contradicts_itself(c, theirs)) {
+        c.out.back() = as_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
+      }
+      return;
+    case Stage::depth:
+      if (!draws_depth_codes(c.scene, theirs)) {
+        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+      }
+      return c.add(name, stage, compare_depth_planes(c.scene, c.candidate, theirs, factor("osmesa.depth")),
+                   "osmesa.depth");
+    case Stage::attributes:
+      if (!is_plain(c.scene)) return c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
+      return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
+                   "osmesa.attributes");
+    case Stage::texture: {
+      if (theirs.planes.texel.empty()) {
+        return c.skip(name, stage, Outcome::unsupported, "where alpha is tested, its texels are not drawn alone");
+      }
+      std::string note;
+      Measurement m = compare_texel_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes"), note);
+      return c.add(name, stage, std::move(m), "osmesa.texture", std::move(note));
+    }
+    case Stage::shade:
+      // Without textures, lights or fog per fragment, both are the one plane of the winners' colours.
+      if (is_plain(c.scene)) return c.repeat(name, Stage::attributes, stage);
+      if (over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
+                   "osmesa.shade");
+    case Stage::visibility:
+      if (!draws_depth_codes(c.scene, theirs)) {
+        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+      }
+      return c.add(name, stage,
+                   draws_thin(c.scene) ? compare_thin_winners(c.scene, c.candidate, theirs, factor("osmesa.depth"))
+                                       : compare_winners(c.candidate.planes, theirs.planes, c.legal));
+    case Stage::merge: {
+      const bool replaced = colors_replace(c.scene);
+      if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {
+        return c.skip(name, stage, Outcome::unsupported, "which fragments are blended is not told");
+      }
+      if (!replaced && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      switch (c.scene.frame.color) {
+        case ColorFormat::rgba8:
+        case ColorFormat::rgba16: {
+          const bool bytes = c.scene.frame.color == ColorFormat::rgba8;
+          const std::string_view row = replaced ? (bytes ? "osmesa.merge.rgba8" : "osmesa.merge.rgba16")
+                                                : (bytes ? "osmesa.merge.blend" : "osmesa.merge.blend.rgba16");
+          return c.add(name, stage,
+                       replaced ? compare_codes(c.scene, c.candidate, theirs, factor(row), factor("osmesa.attributes"))
+                                : compare_blended(c.scene, c.candidate, theirs, c.legal, factor(row),
+                                                  factor("osmesa.attributes")),
+                       row);
+        }
+        case ColorFormat::rgba12:
+          return c.skip(name, stage, Outcome::unsupported,
+                        "asked for 12 bits a channel, OpenGL gives 16; attributes are compared");
+        case ColorFormat::rgba32f:
+          if (!replaced) {
+            return c.add(name, stage,
+                         compare_blended(c.scene, c.candidate, theirs, c.legal, 0, factor("osmesa.merge.blend.float")),
+                         "osmesa.merge.blend.float");
+          }
+          return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
+      }
+      return;
+    }
+    case Stage::resolve: return;
+  }
+}
+
+}  // namespace plumbline::check
