@@ -8,7 +8,7 @@
 
 namespace plumbline::pipeline {
 
-/// Name "ours". Shows and runs every stage; texture has no records yet.
+/// Name "ours". Shows and runs every stage; resolve shows in antialiased scenes alone.
 std::unique_ptr<Renderer> make_pipeline(const Stages& stages = production_stages());
 
 }  // namespace plumbline::pipeline
