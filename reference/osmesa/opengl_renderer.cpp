@@ -52,12 +52,9 @@ class OpenGlRenderer final : public Renderer {
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
+    require_shown(scene);
     if (scene.frame.antialias.kind != Antialias::Kind::none) return capture_resolved(scene, request);
     require_budget(scene, plane_bytes(scene), request.memory_budget);
-    const FrameFormat& frame = scene.frame;
-    if (frame.stencil != StencilFormat::none && frame.antialias.kind == Antialias::Kind::multisample) {
-      throw Unsupported("OpenGL: multisampled stencil values are not read here");
-    }
     context_->make_current();
     Capture capture;
     capture.renderer = name_;
@@ -71,6 +68,21 @@ class OpenGlRenderer final : public Renderer {
   }
 
  private:
+  static void require_shown(const Scene& scene) {
+    const FrameFormat& frame = scene.frame;
+    const bool samples = frame.antialias.kind == Antialias::Kind::multisample || frame.pass.sample;
+    if (samples && frame.stencil != StencilFormat::none) {
+      throw Unsupported("OpenGL: multisampled stencil values are not read here");
+    }
+    for (const Draw& draw : scene.draws) {
+      const bool one_filled = (draw.front_mode == PolygonMode::fill) != (draw.back_mode == PolygonMode::fill);
+      if (one_filled && draw.polygon_offset != PolygonOffset{}) {
+        throw Unsupported(
+            "where one face alone is filled, Mesa offsets the other's depths (OpenGL 2.1, section 3.5.5)");
+      }
+    }
+  }
+
   // OpenGL itself resolves its samples; larger frames and moved pictures are averaged here.
   Capture capture_resolved(const Scene& scene, const Request& request) {
     Capture capture = math::capture_resolved(*this, scene, request);

@@ -31,6 +31,12 @@ Vec4<double> codes_of(const Vec4<double>& color, double scale) {
   return glm::roundEven(glm::clamp(color, 0.0, 1.0) * scale);
 }
 
+// A clear colour's product in float may be rounded onto the half between two codes: how many codes off that is.
+double cleared_codes(const FrameFormat& frame, int channel) {
+  const double scale = color_scale(frame.color), code = scale * static_cast<double>(frame.clear_color[channel]);
+  return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? 1 : 0;
+}
+
 bool beyond(const glm::vec4& a, const glm::vec4& b, const Vec4<double>& bound) {
   return glm::any(glm::greaterThan(Vec4<double>(glm::abs(a - b)), bound));
 }
@@ -165,11 +171,6 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
   std::string why;
   if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
-  // A clear colour's product in float may be rounded onto the half between two codes.
-  const auto cleared_codes = [&](int c) {
-    const double code = scale * static_cast<double>(scene.frame.clear_color[c]);
-    return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? codes : 0;
-  };
   return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
     if (id != b.id(x, y)) return;
@@ -192,7 +193,8 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
         const double along = static_cast<double>(a.shaded(x, y)[c]) + fragment.along[c];
         diff = std::min(diff, difference(std::round(scale * std::clamp(along, 0.0, 1.0)), w));
       }
-      meter.value(diff, cleared ? cleared_codes(c) : codes, {x, y, id, "color"}, v, w, std::floor(scale * bound[c]));
+      meter.value(diff, cleared ? cleared_codes(scene.frame, c) : codes, {x, y, id, "color"}, v, w,
+                  std::floor(scale * bound[c]));
     }
   });
 }
@@ -251,7 +253,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
         if (combined) {
           meter.value(difference(code, code_ref), 0, place, code, code_ref);
         } else {
-          meter.value(difference(code, code_ref), codes * layers, place, code, code_ref, std::floor(scale * bound));
+          meter.value(difference(code, code_ref), codes * layers + cleared_codes(scene.frame, c), place, code, code_ref,
+                      std::floor(scale * bound));
         }
       } else {
         meter.value(difference(v, w) / u, bound / u + 4 * layers * held, place, v, w);

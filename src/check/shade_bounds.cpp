@@ -72,17 +72,12 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, con
   return Vec4<double>(bounds.inherited + 4 * roundings * u * bounds.magnitude, d_color + u);
 }
 
-// Of the face that errs more, the sum of what is kept apart.
-Vec4<double> light_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
+// Of the face that errs more; `specular`: of the part that is kept apart.
+Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, const FragmentFours& attributes,
                          const FragmentFours& errors, double roundings) {
-  Vec4<double> largest(0);
-  for (const bool back : {false, true}) {
-    if (back && scene.light_model.sides != LightModel::Sides::two) continue;
-    Vec4<double> sum = light_error(scene, draw, {back, false}, attributes, errors, roundings);
-    if (scene.light_model.separate_specular)
-      sum += light_error(scene, draw, {back, true}, attributes, errors, roundings) + u;
-    largest = glm::max(largest, sum);
-  }
+  Vec4<double> largest = light_error(scene, draw, {false, specular}, attributes, errors, roundings);
+  if (scene.light_model.sides == LightModel::Sides::two)
+    largest = glm::max(largest, light_error(scene, draw, {true, specular}, attributes, errors, roundings));
   return largest;
 }
 
@@ -92,7 +87,7 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
                          const FragmentFours& errors, double roundings) {
   Vec4<double> color = attributes.color, error = errors.color;
   const bool per_fragment = is_lit_per_fragment(draw), summed = draw.lit && scene.light_model.separate_specular;
-  if (per_fragment) error = light_error(scene, draw, attributes, errors, roundings);
+  if (per_fragment) error = light_error(scene, draw, false, attributes, errors, roundings);
   if (draw.texture) {
     const TextureFormat format = scene.textures.at(draw.texture->texture).format;
     const auto after = [&](const Vec4<double>& before) {
@@ -103,7 +98,11 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
     error = per_fragment ? glm::max(e.error, after(Vec4<double>(1)).error) : e.error;
     color = e.color;
   }
-  if (summed && !per_fragment) error += errors[Varying::secondary] + roundings * u * Vec4<double>(1, 1, 1, 0);
+  if (summed) {
+    const Vec4<double> apart =
+        per_fragment ? light_error(scene, draw, true, attributes, errors, roundings) : errors[Varying::secondary];
+    error += Vec4<double>(Vec3<double>(apart) + roundings * u, 0);
+  }
   if (draw.fog) {
     const auto [f, df] = fog_factor(*draw.fog, attributes[Varying::position].z, errors[Varying::position].z, roundings);
     for (int c = 0; c < 3; ++c) {

@@ -19,10 +19,12 @@ void expect_equal_planes(const Scene& scene) {
       const glm::vec4 tapped = capture.planes.color(x, y);
       const glm::vec4 shipped = !frame.color_rgba8.empty()    ? glm::vec4(frame.color_rgba8(x, y)) / 255.0f
                                 : !frame.color_rgba12.empty() ? glm::vec4(frame.color_rgba12(x, y)) / 4095.0f
+                                : !frame.color_rgba16.empty() ? glm::vec4(frame.color_rgba16(x, y)) / 65535.0f
                                                               : frame.color_rgba32f(x, y);
       const double z =
           frame.depth_z32f.empty() ? frame.depth_code(x, y) / scale : static_cast<double>(frame.depth_z32f(x, y));
-      if (tapped != shipped || z != capture.planes.depth(x, y)) ++differing;
+      const bool same_stencil = frame.stencil.empty() || frame.stencil(x, y) == capture.planes.stencil(x, y);
+      if (tapped != shipped || z != capture.planes.depth(x, y) || !same_stencil) ++differing;
     }
   }
   EXPECT_EQ(differing, 0u) << scene.name;
