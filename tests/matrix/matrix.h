@@ -1,6 +1,5 @@
-// The fault matrix: every fault on the scenes that it affects, pairs of faults, and legal variants, each diagnosed by
-// exact. What a renderer's author would read is asked: was it seen, and is the stage that was broken the one that is
-// named.
+// The fault matrix: every fault on the scenes that it affects, pairs of faults, and what is legal, each diagnosed by
+// exact. Asked is what a renderer's author would want: is it seen, and is what is broken what is named?
 #pragma once
 
 #include <optional>
@@ -24,26 +23,31 @@ struct Subject {
 /// One subject on one scene.
 struct Answer {
   std::size_t scene = 0;
-  std::string by;              ///< reference and stage of the first row that is different; empty: nothing was seen
+  std::string by;              ///< reference and stage of the first row that differs; empty: nothing was seen
   std::optional<Stage> first;  ///< as check::Diagnosis has them
   std::vector<Stage> wrong;
-  std::string failed;  ///< the note of a row that failed; empty: none
+  std::string failed;  ///< the note of a row that failed, or empty
+
+  bool seen() const { return !by.empty() || !wrong.empty() || !failed.empty(); }
 };
 
-/// Of one fault: its stage is the first that differs, and the one that is wrong by itself. Of more: each of them is
-/// wrong by itself.
-bool names(const Answer& answer, const Subject& subject);
+/// Of one fault: its stage is the first that differs, and the only one that is wrong by itself. Of more: each is wrong
+/// by itself. Of none: nothing is seen.
+bool is_right(const Answer& answer, const Subject& subject);
 
-/// For each subject the scenes, ascending, on which its capture is not the pipeline's own, in any bit of any record or
-/// plane.
-std::vector<std::vector<std::size_t>> affected(std::span<const Scene> scenes, std::span<const Subject> subjects,
-                                               unsigned workers);
+/// Numbers of scenes, ascending.
+using SceneList = std::vector<std::size_t>;
+
+/// For each subject the first `most` scenes on which the pipeline hands on anything else than it should: any bit of any
+/// record, or of the picture. Throws std::runtime_error that names subject and scene where it throws.
+std::vector<SceneList> affected(std::span<const Scene> scenes, std::span<const Subject> subjects, std::size_t most,
+                                unsigned workers);
 
 /// For each subject the answers for its scenes, in their order.
 std::vector<std::vector<Answer>> diagnosed(std::span<const Scene> scenes, std::span<const Subject> subjects,
-                                           std::span<const std::vector<std::size_t>> on, unsigned workers);
+                                           std::span<const SceneList> on, unsigned workers);
 
-/// At most `most` of the scenes, evenly spread over the list, which goes by groups.
-std::vector<std::size_t> sample(const std::vector<std::size_t>& scenes, std::size_t most);
+/// `most` of the scenes, evenly spread over the list, which goes by groups; or all, if they are fewer.
+SceneList spread(const SceneList& scenes, std::size_t most);
 
 }  // namespace plumbline::matrix
