@@ -21,8 +21,8 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
 void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,
                 std::span<const check::StoredComparison> comparisons);
 
-/// The ledger with the largest difference seen for each row, as a share of its tolerance, and where; and of each group of
-/// scenes (the folder) their number and the largest differences by reference, stage and unit.
+/// The ledger with the largest difference seen for each row, as a share of its tolerance, and where; and of each group
+/// of scenes (the folder) their number and the largest differences by reference, stage and unit.
 void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts);
 
 }  // namespace plumbline::report
