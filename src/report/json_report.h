@@ -7,6 +7,7 @@
 #include <string>
 
 #include "check/compare_stored.h"
+#include "check/diagnose.h"
 #include "check/verdict.h"
 
 namespace plumbline::report {
@@ -15,6 +16,11 @@ namespace plumbline::report {
 /// max_difference, unit, tolerance, worst, ...}]}. Numbers that JSON cannot hold are the strings "inf" and "nan".
 /// Text that is no UTF-8 has U+FFFD for each byte. Written whole or not at all. Throws OutputError (atomic_path.h).
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
+                const std::map<std::string, std::string>& versions);
+
+/// {"scene", "file", "versions", "first" (a stage or null), "wrong": [stages], "findings": [{stage, reference,
+/// differing, pixels, numbers, causes, picture}], "comparisons": as above}.
+void write_json(const std::filesystem::path& file, const check::Diagnosis& diagnosis,
                 const std::map<std::string, std::string>& versions);
 
 /// {"a", "b", "tolerance", "comparisons": [{what, outcome, items, differing, max_difference, codes, worst, ...}]}
