@@ -33,16 +33,15 @@ Plane<glm::vec4> difference_picture(const Plane<glm::vec4>& a, const Plane<glm::
 
 std::string row(const check::Comparison& c) {
   const check::Measurement& m = c.measurement;
-  const std::string place = m.max_difference > 0 ? check::to_string(m.worst.place) : "";
-  const std::string largest = m.max_difference > 0 ? fmt::format("{:.4g} {}", m.worst.difference, m.unit)
-                              : m.items > 0        ? "0"
-                                                   : "";
+  const check::Worst* worst = check::shown(c);
+  const std::string largest = worst != nullptr ? fmt::format("{:.4g} {}", worst->difference, m.unit)
+                              : m.items > 0    ? "0"
+                                               : "";
   return fmt::format(
       "<tr class=\"{}\"><td>{}<td>{}<td>{}<td class=number>{}<td class=number>{}<td class=number>{}<td "
       "class=number>{}<td class=number>{}<td>{}</tr>\n",
       name_of(c.outcome), escaped(c.reference), name_of(c.stage), name_of(c.outcome), m.items, m.differing, m.ambiguous,
-      escaped(largest), m.max_difference > 0 ? fmt::format("{:.4g}", m.worst.tolerance) : "",
-      escaped(place + (place.empty() || c.note.empty() ? "" : "; ") + c.note));
+      escaped(largest), worst != nullptr ? fmt::format("{:.4g}", worst->tolerance) : "", escaped(check::remark(c)));
 }
 
 }  // namespace
