@@ -44,8 +44,13 @@ Json comparison(const check::Comparison& c) {
            {"max_difference", number(m.max_difference)},
            {"unit", m.unit},
            {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
+           {"disputed", m.disputed},
            {"max_ratio", number(m.max_ratio)},
            {"histogram", m.histogram}};
+  if (m.disputed > 0) {
+    out["dispute"] = worst_of(m.dispute);
+    out["dispute"]["reason"] = m.reason;
+  }
   if (!c.ledger_row.empty()) out["ledger"] = c.ledger_row;
   if (!c.note.empty()) out["note"] = c.note;
   return out;
@@ -60,6 +65,29 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
     out["scenes"].push_back({{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}});
     for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison(c));
   }
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void write_json(const std::filesystem::path& file, const check::Diagnosis& diagnosis,
+                const std::map<std::string, std::string>& versions) {
+  Json out{{"scene", diagnosis.verdict.scene},
+           {"file", diagnosis.verdict.path},
+           {"versions", versions},
+           {"first", diagnosis.first ? Json(name_of(*diagnosis.first)) : Json(nullptr)},
+           {"wrong", Json::array()},
+           {"findings", Json::array()},
+           {"comparisons", Json::array()}};
+  for (const Stage stage : diagnosis.wrong) out["wrong"].push_back(name_of(stage));
+  for (const check::Finding& f : diagnosis.findings) {
+    out["findings"].push_back({{"stage", name_of(f.stage)},
+                               {"reference", f.reference},
+                               {"pixels", f.measurement.items},
+                               {"differing", f.measurement.differing},
+                               {"numbers", f.numbers},
+                               {"causes", f.causes},
+                               {"picture", f.picture}});
+  }
+  for (const check::Comparison& c : diagnosis.verdict.comparisons) out["comparisons"].push_back(comparison(c));
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
