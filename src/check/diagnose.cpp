@@ -6,6 +6,7 @@
 
 #include "check/case.h"
 #include "check/causes.h"
+#include "check/coverage_differences.h"
 #include "check/judge_passes.h"
 #include "check/repair.h"
 #include "check/worst_record.h"
@@ -34,7 +35,8 @@ Finding finding_of(const Evidence& evidence, const Comparison& row) {
   Finding out{row.stage, row.reference, row.measurement, worst_record(evidence, row.measurement), {}, ""};
   if (row.outcome == Outcome::failed) out.numbers = {row.note};
   for (const Cause& cause : likely_causes(evidence)) out.causes.push_back(cause.words);
-  if (row.stage == Stage::coverage) out.picture = coverage_picture(evidence);
+  if (row.stage != Stage::coverage) return out;
+  if (const auto worst = worst_triangle(evidence)) out.picture = coverage_picture(*worst);
   return out;
 }
 
