@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <numeric>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -9,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "faults/faults.h"
+#include "faults/legal.h"
 #include "matrix/report.h"
 #include "scene/scene_file.h"
 
@@ -20,12 +23,14 @@ namespace {
 struct Extent {
   bool models = false;                     // the big models' scenes too
   std::size_t affected = ~std::size_t{0};  // the first so many of a fault's scenes are looked for
-  std::size_t scenes = 48;                 // at most, of each fault; spread over those that it affects
+  std::size_t scenes = 36;                 // at most, of each fault; spread over those that it affects
   std::size_t pairs = 120, of_pair = 3;    // of the scenes that both affect
+  std::size_t of_legal = 30;               // scenes of each variant
 };
 constexpr Extent kUsual{};
-constexpr Extent kAll{.models = true, .scenes = ~std::size_t{0}, .of_pair = 10};
-constexpr Extent kQuick{.affected = 2, .pairs = 0};
+constexpr Extent kAll{
+    .models = true, .scenes = ~std::size_t{0}, .pairs = 400, .of_pair = 10, .of_legal = ~std::size_t{0}};
+constexpr Extent kQuick{.affected = 2, .pairs = 0, .of_legal = 0};
 
 std::vector<Scene> load(const std::filesystem::path& folder, bool models) {
   std::vector<Scene> out;
@@ -68,7 +73,7 @@ std::vector<Pair> draw_pairs(std::span<const faults::Fault> all, std::span<const
   return out;
 }
 
-std::vector<Row> rows_of(std::span<const Scene> scenes, std::vector<Subject> subjects, std::span<const SceneList> on,
+std::vector<Row> rows_of(std::span<const Scene> scenes, std::vector<Subject> subjects, const std::vector<SceneList>& on,
                          std::size_t most, unsigned workers) {
   std::vector<SceneList> some;
   for (const SceneList& all : on) some.push_back(spread(all, most));
@@ -80,33 +85,53 @@ std::vector<Row> rows_of(std::span<const Scene> scenes, std::vector<Subject> sub
   return out;
 }
 
-Matrix matrix_of(const std::filesystem::path& folder, const Extent& extent, unsigned workers) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::vector<Scene> scenes = load(folder, extent.models);
-  Matrix out;
-  SceneList all_scenes;
-  for (const Scene& scene : scenes) {
-    all_scenes.push_back(out.scenes.size());
-    out.scenes.push_back(scene.name);
-  }
+std::vector<Row> of_faults_and_pairs(std::span<const Scene> scenes, const Extent& extent, unsigned workers,
+                                     std::vector<Row>& of_pairs) {
   const std::vector<faults::Fault> faults = faults::all();
-  std::vector<Subject> subjects;
+  std::vector<Subject> subjects, pairs;
   for (const faults::Fault& fault : faults) subjects.push_back(subject_of(fault));
   const std::vector<SceneList> on = affected(scenes, subjects, extent.affected, workers);
-  out.faults = rows_of(scenes, std::move(subjects), on, extent.scenes, workers);
-
   std::vector<SceneList> on_both;
-  std::vector<Subject> pairs;
   for (Pair& pair : draw_pairs(faults, on, extent)) {
     pairs.push_back(std::move(pair.subject));
     on_both.push_back(std::move(pair.scenes));
   }
-  out.pairs = rows_of(scenes, std::move(pairs), on_both, extent.of_pair, workers);
+  of_pairs = rows_of(scenes, std::move(pairs), on_both, extent.of_pair, workers);
+  return rows_of(scenes, std::move(subjects), on, extent.scenes, workers);
+}
 
-  if (extent.pairs > 0) {
-    const SceneList on_all[] = {all_scenes};
-    out.legal = rows_of(scenes, {{"ours", faults::production(), {}}}, on_all, all_scenes.size(), workers);
+// The pipeline itself on all scenes; on some, what is said or drawn otherwise.
+std::vector<Row> of_legal(const std::vector<Scene>& scenes, const Extent& extent, unsigned workers) {
+  SceneList all(scenes.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<Row> out = rows_of(scenes, {{"ours", faults::production(), {}}}, {{all}}, all.size(), workers);
+  for (const faults::Variant& variant : faults::legal_variants()) {
+    Subject subject{std::string(variant.name), faults::production(), {}};
+    if (variant.apply != nullptr) variant.apply(subject.table);
+    std::vector<Scene> said;
+    SceneList where;
+    for (const std::size_t s : all) {
+      std::optional<Scene> otherwise = variant.scene == nullptr ? scenes[s] : variant.scene(scenes[s]);
+      if (!otherwise) continue;
+      said.push_back(std::move(*otherwise));
+      where.push_back(s);
+    }
+    SceneList numbers(said.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    Row row = std::move(rows_of(said, {std::move(subject)}, {{numbers}}, extent.of_legal, workers)[0]);
+    for (Answer& a : row.answers) a.scene = where[a.scene];
+    out.push_back(std::move(row));
   }
+  return out;
+}
+
+Matrix matrix_of(const std::filesystem::path& folder, const Extent& extent, unsigned workers) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<Scene> scenes = load(folder, extent.models);
+  Matrix out;
+  for (const Scene& scene : scenes) out.scenes.push_back(scene.name);
+  out.faults = of_faults_and_pairs(scenes, extent, workers, out.pairs);
+  if (extent.of_legal > 0) out.legal = of_legal(scenes, extent, workers);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
 }

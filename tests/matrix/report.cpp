@@ -139,9 +139,9 @@ std::string text_of(const Matrix& m) {
   std::string out;
   add_head(out, "fault");
   for (const Row& row : m.faults) add_row(out, row, m.scenes);
-  if (!m.pairs.empty()) add_head(out, "\npair");
+  if (!m.pairs.empty()) add_head(out += '\n', "pair");
   for (const Row& row : m.pairs) add_row(out, row, m.scenes);
-  if (!m.legal.empty()) add_head(out, "\nlegal");
+  if (!m.legal.empty()) add_head(out += '\n', "legal");
   for (const Row& row : m.legal) add_row(out, row, m.scenes);
   out += '\n';
   add_worst(out, m.faults);
