@@ -6,22 +6,15 @@
 #include <vector>
 
 #include "faults/variants.h"
-#include "pipeline/resolve.h"
 
 namespace plumbline::faults {
 
 /// Samples mirrored in the pixel's middle row: y counted downwards.
-struct MirroredSamples : pipeline::FragmentStages {
-  static pipeline::Places places(glm::ivec2 sample) { return {{sample.x, -sample.y}, sample, {0, 0}}; }
-};
+inline pipeline::Places mirrored_samples(glm::ivec2 sample) { return {{sample.x, -sample.y}, sample, {0, 0}}; }
 
-struct DepthOfCentre : pipeline::FragmentStages {
-  static pipeline::Places places(glm::ivec2 sample) { return {sample, {0, 0}, {0, 0}}; }
-};
+inline pipeline::Places depth_of_centre(glm::ivec2 sample) { return {sample, {0, 0}, {0, 0}}; }
 
-struct ColorOfSample : pipeline::FragmentStages {
-  static pipeline::Places places(glm::ivec2 sample) { return {sample, sample, sample}; }
-};
+inline pipeline::Places color_of_sample(glm::ivec2 sample) { return {sample, sample, sample}; }
 
 inline float truncated_mean(std::span<const float> values, std::span<const PixelSample> samples, float scale) {
   if (scale == 0.0f) return pipeline::weighted_mean(values, samples, scale);
@@ -38,13 +31,6 @@ inline float mean_of_swapped(std::span<const float> values, std::span<const Pixe
   std::vector<PixelSample> wrong(samples.begin(), samples.end());
   if (wrong.size() > 2) std::swap(wrong[1].weight, wrong[2].weight);
   return pipeline::weighted_mean(values, wrong, scale);
-}
-
-template <pipeline::Resolve multisample, pipeline::Resolve weighted>
-pipeline::Stages with_resolve() {
-  pipeline::Stages stages = pipeline::production_stages();
-  stages.resolve = {multisample, weighted};
-  return stages;
 }
 
 }  // namespace plumbline::faults

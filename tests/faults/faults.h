@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/render.h"
+#include "faults/table.h"
 #include "stages/stages.h"
 
 namespace plumbline::faults {
@@ -15,7 +15,10 @@ struct Fault {
   std::string_view name;     ///< stage.bug, or notes.note.mistake (notes.h)
   std::string_view changes;  ///< what it does, in words
   Stage stage;               ///< the stage that must be named
-  pipeline::Stages (*stages)();
+  void (*apply)(Table&);     ///< puts its functions in
+
+  /// The pipeline with it.
+  pipeline::Stages stages() const;
 };
 
 /// By stage.

@@ -80,36 +80,28 @@ void back_color_is_the_fronts(const Scene& scene, const Draw& draw, Varying vary
 }
 
 // The sum of colours left out.
-struct NoColorSum : pipeline::FragmentStages {
-  template <class R>
-  static pipeline::Color<R> shade_surface(const pipeline::Surface& surface, bool front,
-                                          const pipeline::SurfaceAttributes<R>& a) {
-    pipeline::SurfaceAttributes<R> primary = a;
-    primary[Varying::secondary] = {R(0), R(0), R(0), R(0)};
-    return pipeline::shade_surface<R>(surface, front, primary);
-  }
-};
+Color<float> no_color_sum(const pipeline::Surface& surface, bool front, const pipeline::SurfaceAttributes<float>& a) {
+  pipeline::SurfaceAttributes<float> primary = a;
+  primary[Varying::secondary] = {float(0), float(0), float(0), float(0)};
+  return pipeline::shade_surface<float>(surface, front, primary);
+}
 
 // The fragments of a surface without fog, of one side.
-struct ShortNormals : pipeline::FragmentStages {
-  template <class R>
-  static pipeline::Color<R> shade_surface(const pipeline::Surface& surface, bool front,
-                                          const pipeline::SurfaceAttributes<R>& a) {
-    const LightModel& model = surface.scene->light_model;
-    const bool simple = model.sides != LightModel::Sides::two && !model.separate_specular && !surface.draw->fog;
-    if (!surface.light || surface.light->by_color || !simple) {
-      return pipeline::shade_surface<R>(surface, front, a);
-    }
-    const pipeline::Color<R>&n = a[Varying::normal], &p = a[Varying::position];
-    const Vec4<float> c =
-        pipeline::lit(surface.light->illumination, surface.light->reflectance[0][0], {p.r, p.g, p.b}, {n.r, n.g, n.b});
-    return {c.r, c.g, c.b, c.a};
+Color<float> short_normals(const pipeline::Surface& surface, bool front, const pipeline::SurfaceAttributes<float>& a) {
+  const LightModel& model = surface.scene->light_model;
+  const bool simple = model.sides != LightModel::Sides::two && !model.separate_specular && !surface.draw->fog;
+  if (!surface.light || surface.light->by_color || !simple) {
+    return pipeline::shade_surface<float>(surface, front, a);
   }
-};
+  const Color<float>&n = a[Varying::normal], &p = a[Varying::position];
+  const Vec4<float> c =
+      pipeline::lit(surface.light->illumination, surface.light->reflectance[0][0], {p.r, p.g, p.b}, {n.r, n.g, n.b});
+  return {c.r, c.g, c.b, c.a};
+}
 
 template <auto change>
 constexpr Fault of(std::string_view name, std::string_view what) {
-  return {name, what, Stage::light, with_geometry<&Geometry::light, lit_otherwise<change>>};
+  return {name, what, Stage::light, put<&Geometry::light, lit_otherwise<change>>};
 }
 
 constexpr std::array kFaults = {
@@ -121,12 +113,13 @@ constexpr std::array kFaults = {
     of<kNoColorMaterial>("light.no_color_material", "vertex colours do not stand for the material"),
     of<kAmbientPerLight>("light.ambient_per_light", "the ambient light is added once more for each light"),
     Fault{"light.specular_from_behind", "highlights shine where N.L <= 0", Stage::light,
-          with_geometry<&Geometry::light, specular_from_behind>},
+          put<&Geometry::light, specular_from_behind>},
     Fault{"light.back_color_of_front", "back faces are lit by their front's normal and material", Stage::light,
-          with_geometry<&Geometry::carry, back_color_is_the_fronts>},
-    Fault{"shade.no_color_sum", "the separate specular colour is not added", Stage::shade, with_fragment<NoColorSum>},
+          put<&Geometry::carry, back_color_is_the_fronts>},
+    Fault{"shade.no_color_sum", "the separate specular colour is not added", Stage::shade,
+          put<&Fragment::shade_surface, no_color_sum>},
     Fault{"shade.not_renormalised", "interpolated normals are not brought back to unit length", Stage::shade,
-          with_fragment<ShortNormals>},
+          put<&Fragment::shade_surface, short_normals>},
 };
 
 }  // namespace
