@@ -214,6 +214,7 @@ void add_left_out(const Scene& scene, glm::ivec2 pixel, std::vector<PixelFragmen
       continue;
     }
     f.drawn = false;
+    f.triangle.reset();  // that number is of the other drawing
     fragments.push_back(std::move(f));
   }
   std::ranges::stable_sort(fragments, {}, &PixelFragment::primitive);

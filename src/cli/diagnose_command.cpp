@@ -1,15 +1,19 @@
 // plumb diagnose: one scene, every stage that is wrong.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "check/diagnose.h"
+#include "check/history.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
+#include "cli/pixel_argument.h"
 #include "cli/references.h"
 #include "report/diagnosis_text.h"
+#include "report/history_text.h"
 #include "report/json_report.h"
 #include "stages/capture_folder.h"
 #include "stages/held_renderer.h"
@@ -39,6 +43,8 @@ std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scen
 int diagnose(const DiagnoseOptions& o) {
   const Scene scene = o.scene_arguments.load(o.scene);
   require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
+  std::optional<glm::ivec2> pixel;
+  if (!o.pixel.empty()) pixel = parse_pixel("--pixel", o.pixel, scene.frame);
   const Output outputs[] = {{"--json", o.json}};
   const std::filesystem::path inputs[] = {o.scene};
   require_outputs(outputs, {}, inputs);
@@ -53,7 +59,13 @@ int diagnose(const DiagnoseOptions& o) {
   const References references = make_references(without_repeats(o.against), o.scene_arguments.assets);
   const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list);
   fmt::print("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
-  if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references));
+  std::string history;
+  if (pixel) {
+    const check::History told = check::pixel_history(scene, *candidate, references.list, *pixel);
+    fmt::print("\n{}", report::history_text(scene, told));
+    history = report::history_json(scene, told);
+  }
+  if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
   const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
                                           [](const check::Comparison& c) { return is_failure(c.outcome); });
   return holds ? kHolds : kDiffers;

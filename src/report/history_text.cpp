@@ -118,6 +118,7 @@ class Block {
                                   key.first - range.first_primitive, draw.mesh, draw_index);
     out += fields(key, "covered", "fragments", [](const PixelFragment& f) -> std::optional<std::string> {
       const char* side = f.front ? "front" : "back";
+      if (!f.held_depth) return fmt::format("would be, {}", side);  // culled, or outside its box
       return f.triangle ? fmt::format("yes, {}, window triangle {}", side, *f.triangle) : fmt::format("yes, {}", side);
     });
     out += fields(key, "depth", "depth", [&](const PixelFragment& f) -> std::optional<std::string> {
