@@ -14,6 +14,7 @@
 #include "check/compare_texels.h"
 #include "check/judge_passes.h"
 #include "check/open_pixels.h"
+#include "check/votes.h"
 
 namespace plumbline::check {
 
@@ -232,6 +233,7 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
       }
     }
   }
+  settle_votes(verdict.comparisons);
   verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (drawn != nullptr) {
     if (mine) drawn->candidate = std::move(*mine);

@@ -153,13 +153,15 @@ Measurement compare_resolved(const Scene& scene, const Capture& candidate, const
 
 SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                           Drawn* drawn) {
-  SceneVerdict verdict{scene.name, scene.path, {}, 0};
   std::vector<SceneVerdict> passes;
-  for (const Scene& pass : passes_of(scene)) {
-    passes.push_back(judge(pass, candidate, references));
-    verdict.seconds += passes.back().seconds;
-  }
-  verdict.comparisons = joined(passes);
+  for (const Scene& pass : passes_of(scene)) passes.push_back(judge(pass, candidate, references));
+  return judge_resolved(scene, passes, candidate, references, drawn);
+}
+
+SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> passes, Renderer& candidate,
+                            std::span<const Reference> references, Drawn* drawn) {
+  SceneVerdict verdict{scene.name, scene.path, joined(passes), 0};
+  for (const SceneVerdict& pass : passes) verdict.seconds += pass.seconds;
   const auto skip = [&](const std::string& name, Outcome outcome, const std::string& why) {
     verdict.comparisons.push_back(not_judged(scene.name, name, Stage::resolve, outcome, why));
   };

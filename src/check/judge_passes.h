@@ -15,6 +15,9 @@ namespace plumbline::check {
 /// As judge(), of an antialiased scene: each row is the worst of the passes', with the items of all; row `resolve` is
 /// of the whole.
 SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Drawn* drawn);
+/// The same, where the passes have been judged: their verdicts in order.
+SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> passes, Renderer& candidate,
+                            std::span<const Reference> references, Drawn* drawn = nullptr);
 
 /// Resolved colours, code by code, in proportion to what `factor` times the bound of rounding allows (ledger,
 /// exact.resolve): against the mean that exact made of the candidate's own samples, not rounded.

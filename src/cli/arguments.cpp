@@ -25,6 +25,15 @@ void add_assets(CLI::App& command, SceneArguments& arguments) {
       ->check(CLI::ExistingDirectory);
 }
 
+void add_against(CLI::App& command, std::vector<std::string>& against) {
+  command
+      .add_option("--against", against,
+                  fmt::format("References: {} (default: {})", fmt::join(known_reference_names(), ", "),
+                              fmt::join(reference_names(), ", ")))
+      ->check(CLI::IsMember(known_reference_names()))
+      ->delimiter(',');
+}
+
 template <class Options>
 void add_drawing(CLI::App& command, Options& o) {
   text(command, "scene", o.scene, "Scene file")->required();
@@ -42,17 +51,31 @@ void add(CLI::App& command, RenderOptions& o) {
 
 void add(CLI::App& command, CheckOptions& o) {
   text(command, "scenes", o.scenes, "Scene files, and folders of them")->required();
-  command
-      .add_option("--against", o.against,
-                  fmt::format("References: {} (default: {})", fmt::join(known_reference_names(), ", "),
-                              fmt::join(reference_names(), ", ")))
-      ->check(CLI::IsMember(known_reference_names()))
-      ->delimiter(',');
+  add_against(command, o.against);
   text(command, "--json", o.json, "Write one object per comparison");
   text(command, "--report", o.report, "Write a page with pictures into this folder");
   text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
   text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
+  add_assets(command, o.scene_arguments);
+}
+
+void add(CLI::App& command, DiagnoseOptions& o) {
+  text(command, "scene", o.scene, "Scene file")->required();
+  add_against(command, o.against);
+  text(command, "--json", o.json, "Write the diagnosis as JSON");
+  text(command, "--report", o.report, "Write a page with a picture of every stage into this folder");
+  text(command, "--pixel", o.pixel,
+       "X,Y: show every fragment that reached the pixel, in each renderer, and what became of it; rows count from the "
+       "bottom, in gzrender from the top");
+  CLI::Option* fault = text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
+  text(command, "--program", o.command,
+       "Diagnose what this command line leaves; {scene} and {folder} in it are the scene's file and the capture's "
+       "folder")
+      ->excludes(fault)
+      ->excludes(folder);
+  folder->excludes(fault);
   add_assets(command, o.scene_arguments);
 }
 
@@ -114,6 +137,8 @@ Parsed parse(int argc, char** argv) {
   if (argc > 0) check_options.program = argv[0];
   add_command(app, out.command, "check", "Compare our renderer with the references, stage by stage", check,
               check_options);
+  add_command(app, out.command, "diagnose", "Name every stage that is wrong, with its numbers and likely causes",
+              diagnose);
   add_command(app, out.command, "capture", "Write what a renderer hands out at every stage into a folder", capture);
   add_command(app, out.command, "compare",
               "Compare two images, or two captures, number by number; pixels count from the lower left", compare);

@@ -12,6 +12,7 @@
 #include "check/judge.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
+#include "cli/references.h"
 #include "report/html_report.h"
 #include "report/json_report.h"
 #include "report/table.h"
@@ -20,20 +21,6 @@
 namespace plumbline::cli {
 
 namespace {
-
-struct References {
-  std::vector<std::unique_ptr<Renderer>> owned;
-  std::vector<check::Reference> list;
-};
-
-References make_references(const CheckOptions& o) {
-  References out;
-  for (const std::string& name : o.against) {
-    out.owned.push_back(make_reference(name, o.scene_arguments.assets));
-    out.list.push_back({name, out.owned.back().get()});
-  }
-  return out;
-}
 
 std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& verdict) {
   std::string out = shell_word(o.program) + " check " + shell_word(verdict.path);
@@ -67,13 +54,6 @@ bool holds(const check::SceneVerdict& verdict, const CheckOptions& o) {
          });
 }
 
-// Each reference once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
-std::vector<std::string> without_repeats(const std::vector<std::string>& against) {
-  std::vector<std::string> out = known_reference_names();
-  std::erase_if(out, [&](const std::string& name) { return std::ranges::count(against, name) == 0; });
-  return out;
-}
-
 }  // namespace
 
 int check(const CheckOptions& given) {
@@ -90,11 +70,8 @@ int check(const CheckOptions& given) {
   const Output outputs[] = {{"--json", o.json}, {"--ledger", o.ledger}};
   require_outputs(outputs, {"--report", o.report}, files);
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
-  const References references = make_references(o);
-  std::map<std::string, std::string> versions{{candidate->info().name, candidate->info().version}};
-  for (const check::Reference& r : references.list) {
-    if (r.renderer != nullptr) versions[r.name] = r.renderer->info().version;
-  }
+  const References references = make_references(o.against, o.scene_arguments.assets);
+  const std::map<std::string, std::string> versions = versions_of(*candidate, references);
   std::optional<report::HtmlReport> page;
   if (!o.report.empty()) page.emplace(o.report);
   const bool terminal = isatty(STDERR_FILENO) != 0;

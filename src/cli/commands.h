@@ -25,6 +25,19 @@ struct CheckOptions {
 };
 int check(const CheckOptions& options);
 
+/// One scene: every stage that is wrong, its numbers, and what may have caused it. The candidate is our renderer, with
+/// a fault or not; a capture's folder; or what a program leaves.
+struct DiagnoseOptions {
+  std::string scene;
+  std::vector<std::string> against = reference_names();
+  std::string json, report;     ///< or empty
+  std::string fault;            ///< or empty
+  std::string folder, command;  ///< of another renderer, or empty
+  std::string pixel;            ///< X,Y: its history as well; or empty
+  SceneArguments scene_arguments;
+};
+int diagnose(const DiagnoseOptions& options);
+
 /// A scene to a picture.
 struct RenderOptions {
   std::string scene;

@@ -20,6 +20,7 @@ struct GeometryStages {
   void (*clip)(const Assembly&, ClipPolygons<float>&);
   void (*window)(const Matrices<float>&, const Draw&, const ClipPolygons<float>&, std::span<const ClipPolygon>,
                  std::vector<WindowTriangle<float>>&);
+  bool operator==(const GeometryStages&) const = default;
 };
 /// Those of this folder: matrices.h, vertex.h, light.h, carry.h, clip.h, window.h.
 GeometryStages geometry_stages();

@@ -1,6 +1,8 @@
 // A scene in, a frame out: the whole pipeline, stages 0 to 11.
 #pragma once
 
+#include <functional>
+
 #include "pipeline/capture_tap.h"
 #include "pipeline/draw.h"
 #include "pipeline/resolve.h"
@@ -8,71 +10,80 @@
 
 namespace plumbline::pipeline {
 
-/// Stages 5 to 11 as functions, instantiated from a set of fragment stages (fragment.h).
+/// Stages 5 to 11 as functions, made of a set of fragment stages (fragment.h).
 struct FragmentFunctions {
-  void (*draw)(const DrawList&, const FrameFormat&, Frame&, NoTap&);
-  void (*draw_tapped)(const DrawList&, const FrameFormat&, Frame&, CaptureTap&);
+  std::function<void(const DrawList&, const FrameFormat&, Frame&, NoTap&)> draw;
+  std::function<void(const DrawList&, const FrameFormat&, Frame&, CaptureTap&)> draw_tapped;
   // One stage at one pixel, for calling it alone.
-  float (*depth)(const TriangleSetup<>&, const Pixels<float>&);
-  Color<float> (*attributes)(const TriangleSetup<>&, const Pixels<float>&);
-  FilteredTexel<float> (*texture)(const TextureSetup&, const TexCoords<float>&, const Gradients<float>&);
-  Color<float> (*shade)(const Color<float>&);
-  Color<float> (*shade_surface)(const Surface&, bool front, const SurfaceAttributes<float>&);
+  std::function<float(const TriangleSetup<>&, const Pixels<float>&)> depth;
+  std::function<Color<float>(const TriangleSetup<>&, const Pixels<float>&)> attributes;
+  std::function<FilteredTexel<float>(const TextureSetup&, const TexCoords<float>&, const Gradients<float>&)> texture;
+  std::function<Color<float>(const Color<float>&)> shade;
+  std::function<Color<float>(const Surface&, bool front, const SurfaceAttributes<float>&)> shade_surface;
   /// Alpha, stencil and depth test: whether a fragment is drawn. Changes the stencil value.
-  bool (*passes)(const Draw&, bool front, float z, const Color<float>& shaded, float color_scale, const Stored&);
-  void (*write)(const Merge&, float z, const Color<float>& shaded, float color_scale, const Stored&);
-  TriangleSetup<> (*set_up)(const WindowTriangle<float>&, std::uint32_t, const DepthState&, glm::ivec2 sample, int x0,
-                            int y0);
+  std::function<bool(const Draw&, bool front, float z, const Color<float>& shaded, float color_scale, const Stored&)>
+      passes;
+  std::function<void(const Merge&, float z, const Color<float>& shaded, float color_scale, const Stored&)> write;
+  std::function<TriangleSetup<>(const WindowTriangle<float>&, std::uint32_t, const DepthState&, glm::ivec2 sample,
+                                int x0, int y0)>
+      set_up;
 };
 
 template <class S>
-bool depth_passes_for(DepthFunc func, float incoming, float stored) {
+bool depth_passes_for(const S& stages, DepthFunc func, float incoming, float stored) {
   switch (func) {
-    case DepthFunc::never: return S::template depth_passes<DepthFunc::never, float>(incoming, stored);
-    case DepthFunc::less: return S::template depth_passes<DepthFunc::less, float>(incoming, stored);
-    case DepthFunc::equal: return S::template depth_passes<DepthFunc::equal, float>(incoming, stored);
-    case DepthFunc::less_equal: return S::template depth_passes<DepthFunc::less_equal, float>(incoming, stored);
-    case DepthFunc::greater: return S::template depth_passes<DepthFunc::greater, float>(incoming, stored);
-    case DepthFunc::not_equal: return S::template depth_passes<DepthFunc::not_equal, float>(incoming, stored);
-    case DepthFunc::greater_equal: return S::template depth_passes<DepthFunc::greater_equal, float>(incoming, stored);
-    case DepthFunc::always: return S::template depth_passes<DepthFunc::always, float>(incoming, stored);
+    case DepthFunc::never: return stages.template depth_passes<DepthFunc::never, float>(incoming, stored);
+    case DepthFunc::less: return stages.template depth_passes<DepthFunc::less, float>(incoming, stored);
+    case DepthFunc::equal: return stages.template depth_passes<DepthFunc::equal, float>(incoming, stored);
+    case DepthFunc::less_equal: return stages.template depth_passes<DepthFunc::less_equal, float>(incoming, stored);
+    case DepthFunc::greater: return stages.template depth_passes<DepthFunc::greater, float>(incoming, stored);
+    case DepthFunc::not_equal: return stages.template depth_passes<DepthFunc::not_equal, float>(incoming, stored);
+    case DepthFunc::greater_equal:
+      return stages.template depth_passes<DepthFunc::greater_equal, float>(incoming, stored);
+    case DepthFunc::always: return stages.template depth_passes<DepthFunc::always, float>(incoming, stored);
   }
   return false;
 }
 
 template <class S>
-bool passes(const Draw& draw, bool front, float z, const Color<float>& shaded, float color_scale, const Stored& at) {
-  const bool nearer = depth_passes_for<S>(draw.depth_func, z, *at.depth);
-  if (draw.alpha_test && !S::template alpha_passes<float>(*draw.alpha_test, shaded.a, color_scale)) return false;
+bool passes(const S& stages, const Draw& draw, bool front, float z, const Color<float>& shaded, float color_scale,
+            const Stored& at) {
+  const bool nearer = depth_passes_for(stages, draw.depth_func, z, *at.depth);
+  if (draw.alpha_test && !stages.template alpha_passes<float>(*draw.alpha_test, shaded.a, color_scale)) return false;
   if (!draw.stencil) return nearer;
   const StencilFace& face = front ? draw.stencil->front : draw.stencil->back;
-  return S::template stencil_test<float>(face, true, nearer, at.stencil) && nearer;
+  return stages.template stencil_test<float>(face, true, nearer, at.stencil) && nearer;
 }
 
 template <class S>
-FragmentFunctions fragment_functions() {
+FragmentFunctions fragment_functions(const S& s = S()) {
   FragmentFunctions f;
-  f.draw = [](const DrawList& list, const FrameFormat& format, Frame& frame, NoTap& tap) {
-    draw_tiles<float>(S(), list, format, frame, tap);
+  f.draw = [s](const DrawList& list, const FrameFormat& format, Frame& frame, NoTap& tap) {
+    draw_tiles<float>(s, list, format, frame, tap);
   };
-  f.draw_tapped = [](const DrawList& list, const FrameFormat& format, Frame& frame, CaptureTap& tap) {
-    draw_tiles<float>(S(), list, format, frame, tap);
+  f.draw_tapped = [s](const DrawList& list, const FrameFormat& format, Frame& frame, CaptureTap& tap) {
+    draw_tiles<float>(s, list, format, frame, tap);
   };
-  f.depth = [](const TriangleSetup<>& s, const Pixels<float>& p) {
-    return S::template depth<float>(s, barycentric<float>(s.planes, p));
+  f.depth = [s](const TriangleSetup<>& setup, const Pixels<float>& p) {
+    return s.template depth<float>(setup, barycentric<float>(setup.planes, p));
   };
-  f.attributes = [](const TriangleSetup<>& s, const Pixels<float>& p) {
-    return S::template attributes<float>(s.attributes, barycentric<float>(s.planes, p));
+  f.attributes = [s](const TriangleSetup<>& setup, const Pixels<float>& p) {
+    return s.template attributes<float>(setup.attributes, barycentric<float>(setup.planes, p));
   };
-  f.texture = S::template texture<float>;
-  f.shade = S::template shade<float>;
-  f.shade_surface = S::template shade_surface<float>;
-  f.write = [](const Merge& state, float z, const Color<float>& shaded, float color_scale, const Stored& to) {
-    write<float>(S(), S::merge_state(state), true, z, shaded, color_scale, to);
+  f.texture = [s](const TextureSetup& texture, const TexCoords<float>& at, const Gradients<float>& gradients) {
+    return s.template texture<float>(texture, at, gradients);
   };
-  f.passes = passes<S>;
-  f.set_up = [](const WindowTriangle<float>& t, std::uint32_t triangle, const DepthState& depth, glm::ivec2 sample,
-                int x0, int y0) { return set_up(S(), t, triangle, depth, sample, x0, y0); };
+  f.shade = [s](const Color<float>& attributes) { return s.template shade<float>(attributes); };
+  f.shade_surface = [s](const Surface& surface, bool front, const SurfaceAttributes<float>& attributes) {
+    return s.template shade_surface<float>(surface, front, attributes);
+  };
+  f.write = [s](const Merge& state, float z, const Color<float>& shaded, float color_scale, const Stored& to) {
+    write<float>(s, s.merge_state(state), true, z, shaded, color_scale, to);
+  };
+  f.passes = [s](const Draw& draw, bool front, float z, const Color<float>& shaded, float color_scale,
+                 const Stored& at) { return passes(s, draw, front, z, shaded, color_scale, at); };
+  f.set_up = [s](const WindowTriangle<float>& t, std::uint32_t triangle, const DepthState& depth, glm::ivec2 sample,
+                 int x0, int y0) { return set_up(s, t, triangle, depth, sample, x0, y0); };
   return f;
 }
 

@@ -24,6 +24,7 @@ float weighted_mean(std::span<const float> values, std::span<const PixelSample> 
 struct ResolveStage {
   Resolve multisample = mean_of_four;
   Resolve weighted = weighted_mean;
+  bool operator==(const ResolveStage&) const = default;
 };
 
 /// `passes`: the frames of passes_of(scene), in their order. The depth is that of a pixel's first sample.

@@ -68,6 +68,30 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+void write_json(const std::filesystem::path& file, const check::Diagnosis& diagnosis,
+                const std::map<std::string, std::string>& versions, const std::string& pixel_history) {
+  Json out{{"scene", diagnosis.verdict.scene},
+           {"file", diagnosis.verdict.path},
+           {"versions", versions},
+           {"first", diagnosis.first ? Json(name_of(*diagnosis.first)) : Json(nullptr)},
+           {"wrong", Json::array()},
+           {"findings", Json::array()},
+           {"comparisons", Json::array()}};
+  for (const Stage stage : diagnosis.wrong) out["wrong"].push_back(name_of(stage));
+  for (const check::Finding& f : diagnosis.findings) {
+    out["findings"].push_back({{"stage", name_of(f.stage)},
+                               {"reference", f.reference},
+                               {"pixels", f.measurement.items},
+                               {"differing", f.measurement.differing},
+                               {"numbers", f.numbers},
+                               {"causes", f.causes},
+                               {"picture", f.picture}});
+  }
+  for (const check::Comparison& c : diagnosis.verdict.comparisons) out["comparisons"].push_back(comparison(c));
+  if (!pixel_history.empty()) out["pixel_history"] = Json::parse(pixel_history);
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
 void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,
                 std::span<const check::StoredComparison> comparisons) {
   Json out{{"a", a}, {"b", b}, {"tolerance", tolerance}, {"comparisons", Json::array()}};

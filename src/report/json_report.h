@@ -7,6 +7,7 @@
 #include <string>
 
 #include "check/compare_stored.h"
+#include "check/diagnose.h"
 #include "check/verdict.h"
 
 namespace plumbline::report {
@@ -17,12 +18,18 @@ namespace plumbline::report {
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
                 const std::map<std::string, std::string>& versions);
 
+/// {"scene", "file", "versions", "first" (a stage or null), "wrong": [stages], "findings": [{stage, reference,
+/// differing, pixels, numbers, causes, picture}], "comparisons": as above}; "pixel_history", where there is one
+/// (history_text.h, history_json()).
+void write_json(const std::filesystem::path& file, const check::Diagnosis& diagnosis,
+                const std::map<std::string, std::string>& versions, const std::string& pixel_history = "");
+
 /// {"a", "b", "tolerance", "comparisons": [{what, outcome, items, differing, max_difference, codes, worst, ...}]}
 void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,
                 std::span<const check::StoredComparison> comparisons);
 
-/// The ledger with the largest difference seen for each row, as a share of its tolerance, and where; and of each group of
-/// scenes (the folder) their number and the largest differences by reference, stage and unit.
+/// The ledger with the largest difference seen for each row, as a share of its tolerance, and where; and of each group
+/// of scenes (the folder) their number and the largest differences by reference, stage and unit.
 void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts);
 
 }  // namespace plumbline::report

@@ -13,7 +13,7 @@ TEST_F(Judge, AnOracleWhoseAnswersExcludeOursIsDifferent) {
     c.legal.answers[c.legal.first[i]] = {kBackground, 0, 1, 1, glm::vec4(1, 0, 1, 1)};
     c.legal.certain(where.x, where.y) = c.legal.possible(where.x, where.y) = 0;
   };
-  const Results results = run();
+  const Results results = run({{"oracle", &oracle}, {"exact", &referee}});
   for (Stage stage : {Stage::depth, Stage::attributes, Stage::merge}) {
     EXPECT_NE(results.at({"oracle", stage}).outcome, Outcome::different) << "of a winner that is not legal";
   }
@@ -87,9 +87,33 @@ TEST_F(Judge, AWitnessThatContradictsItsOwnTrianglesIsADispute) {
   EXPECT_EQ(first_different(verdict), nullptr);
   // Nobody to settle it.
   EXPECT_EQ(run({{"witness", &witness}}).at({"witness", Stage::coverage}).outcome, Outcome::different);
-  // Nor without its triangles.
+  // Nor without its triangles, if nobody else holds against it.
   witness.on_capture = [](Capture& capture) { capture.planes.count(5, 5) += 1, capture.records.triangles.clear(); };
-  EXPECT_EQ(run().at({"witness", Stage::coverage}).outcome, Outcome::different);
+  EXPECT_EQ(run({{"witness", &witness}, {"exact", &referee}}).at({"witness", Stage::coverage}).outcome,
+            Outcome::different);
+}
+
+TEST_F(Judge, AReferenceThatTheOthersOutvoteIsADispute) {
+  oracle.on_capture = [&](Capture& c) {  // of one pixel it knows another answer
+    const glm::ivec2 where = covered_pixel(c.planes);
+    c.legal.answers[c.legal.first[static_cast<std::size_t>(where.y * 24 + where.x)]].primitive = kBackground;
+    c.legal.certain(where.x, where.y) = c.legal.possible(where.x, where.y) = 0;
+  };
+  Results results = run();
+  for (Stage stage : {Stage::coverage, Stage::visibility}) {
+    const Comparison& c = results.at({"oracle", stage});
+    EXPECT_EQ(c.outcome, Outcome::dispute) << name_of(stage);
+    EXPECT_EQ(c.measurement.disputed, 1u);
+    EXPECT_EQ(c.measurement.differing, 0u);
+    EXPECT_NE(c.note.find("exact and witness"), std::string::npos) << c.note;
+  }
+  EXPECT_EQ(first_different(verdict), nullptr);
+  // Two against two, or exact's own arithmetic against us: ours.
+  candidate.on_capture = witness.on_capture = [](Capture& c) { c.planes.id.values().assign(24 * 16, kBackground); };
+  EXPECT_EQ(run().at({"oracle", Stage::visibility}).outcome, Outcome::different);
+  // A window position that is wrong, and what follows from it: exact finds it in order, and the witness shares it.
+  candidate.on_capture = witness.on_capture = [](Capture& c) { c.records.matrices[0].win_translate.x += 1; };
+  EXPECT_EQ(run().at({"oracle", Stage::coverage}).outcome, Outcome::different) << "an earlier stage differs";
 }
 
 TEST_F(Judge, ACandidateThatIsWrongIsDifferentNotADispute) {

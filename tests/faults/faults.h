@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/render.h"
+#include "faults/table.h"
 #include "stages/stages.h"
 
 namespace plumbline::faults {
@@ -15,7 +15,13 @@ struct Fault {
   std::string_view name;     ///< stage.bug, or notes.note.mistake (notes.h)
   std::string_view changes;  ///< what it does, in words
   Stage stage;               ///< the stage that must be named
-  pipeline::Stages (*stages)();
+  void (*apply)(Table&);     ///< puts its functions in
+  /// The thread of a public renderer that reports it (owner/repository#number): written from that report alone, before
+  /// its writer had read how faults are found.
+  std::string_view report = {};
+
+  /// The pipeline with it.
+  pipeline::Stages stages() const;
 };
 
 /// By stage.

@@ -110,120 +110,106 @@ void delete_behind_view_plane(const pipeline::Assembly& assembly, ClipPolygons<f
 constexpr bool is_small_side(std::int64_t step_x, std::int64_t step_y) {
   return step_x > 0 || (step_x == 0 && step_y > 0);
 }
-struct NoEdgeIn {
-  static bool owns(std::int64_t, std::int64_t) { return false; }
-};
-struct LeftEdgesIn {
-  static bool owns(std::int64_t step_x, std::int64_t) { return step_x > 0; }
-};
-struct LeftAndRightEdgesIn {
-  static bool owns(std::int64_t step_x, std::int64_t) { return step_x != 0; }
-};
+
+bool no_edge_in(std::int64_t, std::int64_t) { return false; }
+bool left_edges_in(std::int64_t step_x, std::int64_t) { return step_x > 0; }
+bool left_and_right_edges_in(std::int64_t step_x, std::int64_t) { return step_x != 0; }
 // "Consistent sign" holds whichever sign is left: only the edges whose pixels are in change sides.
-struct LeftTakenForRight {
-  static bool owns(std::int64_t step_x, std::int64_t step_y) { return !is_small_side(step_x, step_y); }
-};
+bool left_taken_for_right(std::int64_t step_x, std::int64_t step_y) { return !is_small_side(step_x, step_y); }
 
 // x_i is the first corner's x, in pixels whose centres are whole numbers.
-struct BoxOfOneVertex : pipeline::FragmentStages {
-  static pipeline::PixelBounds bounds(const WindowTriangle<float>& triangle) {
-    if (triangle.corners != 3) return pipeline::pixel_bounds(triangle);
-    const glm::ivec2 p = triangle.v[2].snapped;  // the fan's hub
-    const auto floor = [](int snapped) { return snapped >> 8; };
-    const auto ceiling = [](int snapped) { return (snapped + kSubpixel - 1) >> 8; };
-    return {floor(p.x), floor(p.y), ceiling(p.x) + 1, ceiling(p.y) + 1};
-  }
-  // Production walks whole blocks around its box, for no other pixel is covered.
-  template <class R>
-  static pipeline::Mask<R> coverage(const auto& s, const pipeline::Pixels<R>& p) {
-    const pipeline::PixelBounds& b = s.bounds;
-    return pipeline::coverage<R>(s.edges, p) & (p.x >= b.x0) & (p.x < b.x1) & (p.y >= b.y0) & (p.y < b.y1);
-  }
-};
+pipeline::PixelBounds box_of_one_vertex_bounds(const Triangle& triangle) {
+  if (triangle.corners != 3) return pipeline::pixel_bounds(triangle);
+  const glm::ivec2 p = triangle.v[2].snapped;  // the fan's hub
+  const auto floor = [](int snapped) { return snapped >> 8; };
+  const auto ceiling = [](int snapped) { return (snapped + kSubpixel - 1) >> 8; };
+  return {floor(p.x), floor(p.y), ceiling(p.x) + 1, ceiling(p.y) + 1};
+}
+
+// Production walks whole blocks around its box, for no other pixel is covered.
+bool box_of_one_vertex_coverage(const Setup& s, const Pixels<float>& p) {
+  const pipeline::PixelBounds& b = s.bounds;
+  return pipeline::coverage<float>(s.edges, p) & (p.x >= b.x0) & (p.x < b.x1) & (p.y >= b.y0) & (p.y < b.y1);
+}
 
 // y = y + k in float for each x, from where the line is exited first, and ROUND(y).
-struct IncrementalLine : pipeline::FragmentStages {
-  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) {
-    if (t.corners != 2) return pipeline::thin_pixels(t, origin, size);
-    const glm::ivec2 from = t.v[0].snapped, d = t.v[1].snapped - from;
-    const int x = std::abs(d.x) >= std::abs(d.y) ? 0 : 1, y = 1 - x;  // the major axis and the other
-    const float k = static_cast<float>(d[y]) / static_cast<float>(std::abs(d[x]));
-    const std::vector<glm::ivec2> line = pipeline::thin_pixels(t, {0, 0}, 16384);  // all of any frame
-    std::vector<glm::ivec2> out;
-    float at = 0;
-    for (glm::ivec2 p : line) {
-      const int steps = std::abs(p[x] * kSubpixel - from[x]);
-      at = p == line.front() ? (static_cast<float>(from[y]) + k * static_cast<float>(steps)) / kSubpixel : at + k;
-      p[y] = static_cast<int>(std::floor(at + 0.5f));
-      if (glm::all(glm::greaterThanEqual(p, origin)) && glm::all(glm::lessThan(p, origin + size))) out.push_back(p);
-    }
-    return out;
+std::vector<glm::ivec2> incremental_line(const Triangle& t, glm::ivec2 origin, int size) {
+  if (t.corners != 2) return pipeline::thin_pixels(t, origin, size);
+  const glm::ivec2 from = t.v[0].snapped, d = t.v[1].snapped - from;
+  const int x = std::abs(d.x) >= std::abs(d.y) ? 0 : 1, y = 1 - x;  // the major axis and the other
+  const float k = static_cast<float>(d[y]) / static_cast<float>(std::abs(d[x]));
+  const std::vector<glm::ivec2> line = pipeline::thin_pixels(t, {0, 0}, 16384);  // all of any frame
+  std::vector<glm::ivec2> out;
+  float at = 0;
+  for (glm::ivec2 p : line) {
+    const int steps = std::abs(p[x] * kSubpixel - from[x]);
+    at = p == line.front() ? (static_cast<float>(from[y]) + k * static_cast<float>(steps)) / kSubpixel : at + k;
+    p[y] = static_cast<int>(std::floor(at + 0.5f));
+    if (glm::all(glm::greaterThanEqual(p, origin)) && glm::all(glm::lessThan(p, origin + size))) out.push_back(p);
   }
-};
+  return out;
+}
 
 // (sum b z) / (sum b w), z and w before the division, b on the screen. Since z = A w + B, that is A + B / (sum b w):
 // the depth of the point whose distance is interpolated on the screen. So 002's z/w and the Z that 004 warns of are one
 // mistake.
-struct DepthOfLinearZ : pipeline::FragmentStages {
-  template <class R>
-  static R depth(const auto& setup, const pipeline::Barycentric<R>& b) {
-    const pipeline::DepthSetup& s = setup.depth;
-    const auto& inv_w = setup.attributes.inv_w;
-    const pipeline::Wide<R> b0 = b.l0 / pipeline::to_wide(inv_w[0]), b1 = b.l1 / pipeline::to_wide(inv_w[1]),
-                            b2 = b.l2 / pipeline::to_wide(inv_w[2]);
-    const pipeline::Wide<R> z = b0 * s.z0 + b1 * (s.z0 + s.dz1) + b2 * (s.z0 + s.dz2), w = b0 + b1 + b2;
-    return pipeline::depth<R>({z / w, 0, 0, s.scale}, b);
-  }
-};
+float depth_of_linear_z(const Setup& setup, const Barycentric<float>& b) {
+  const pipeline::DepthSetup& s = setup.depth;
+  const auto& inv_w = setup.attributes.inv_w;
+  const double b0 = b.l0 / pipeline::to_wide(inv_w[0]), b1 = b.l1 / pipeline::to_wide(inv_w[1]),
+               b2 = b.l2 / pipeline::to_wide(inv_w[2]);
+  const double z = b0 * s.z0 + b1 * (s.z0 + s.dz1) + b2 * (s.z0 + s.dz2), w = b0 + b1 + b2;
+  return pipeline::depth<float>({z / w, 0, 0, s.scale}, b);
+}
 
-struct EightBitDepth : pipeline::FragmentStages {
-  template <class R>
-  static R depth(const auto& setup, const pipeline::Barycentric<R>& b) {
-    const pipeline::DepthSetup& s = setup.depth;
-    const pipeline::Wide<R> z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
-    return pipeline::depth<R>({pipeline::depth_code(z, 255.0) / 255.0, 0, 0, s.scale}, b);
-  }
-};
+float eight_bit_depth(const Setup& setup, const Barycentric<float>& b) {
+  const pipeline::DepthSetup& s = setup.depth;
+  const double z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
+  return pipeline::depth<float>({pipeline::depth_code(z, 255.0) / 255.0, 0, 0, s.scale}, b);
+}
 
 constexpr std::array kNotes = {
     Fault{"notes.000.v_is_w_cross_v", "World Space -> Camera Space: v = w x v, v being up before, for w x u",
-          Stage::matrices, with_geometry<&Geometry::matrices, v_is_w_cross_v>},
+          Stage::matrices, put<&Geometry::matrices, v_is_w_cross_v>},
     Fault{"notes.000.no_clamp_of_n_l", "Shading: where N.L is below 0, directional lights take light away",
-          Stage::light, with_geometry<&Geometry::light, no_clamp_of_n_l>},
+          Stage::light, put<&Geometry::light, no_clamp_of_n_l>},
     Fault{"notes.000.flipped_normals", "Shading, GzRender's way: normals that face away from the eye are turned over",
-          Stage::light, with_geometry<&Geometry::light, flipped_normals>},
+          Stage::light, put<&Geometry::light, flipped_normals>},
     Fault{"notes.000.strict_edges", "Rasterization: alpha, beta, gamma > 0: no triangle has the pixels on its edges",
-          Stage::coverage, with_fragment<Ties<NoEdgeIn>>},
+          Stage::coverage, put<&Fragment::edges, tied<no_edge_in>>},
     Fault{"notes.000.box", "Rasterization: the bounding box is that of one vertex", Stage::coverage,
-          with_fragment<BoxOfOneVertex>},
+          [](Table& t) {
+            put<&Fragment::bounds, box_of_one_vertex_bounds>(t);
+            put<&Fragment::coverage, box_of_one_vertex_coverage>(t);
+          }},
     Fault{"notes.000.affine_color", "Rasterization: c = alpha c0 + beta c1 + gamma c2, without perspective",
-          Stage::attributes, with_fragment<AffineAttributes>},
+          Stage::attributes, put<&Fragment::attributes, affine_attributes>},
     Fault{"notes.002.lookat", "LookAt Method: the center is the origin, under a projection with its eye there",
-          Stage::matrices, with_geometry<&Geometry::matrices, lookat_without_its_projection>},
+          Stage::matrices, put<&Geometry::matrices, lookat_without_its_projection>},
     Fault{"notes.002.sum_z_over_sum_w", "Z-Buffer: depth is (sum b z) / (sum b w), b on the screen", Stage::depth,
-          with_fragment<DepthOfLinearZ>},
+          put<&Fragment::depth, depth_of_linear_z>},
     Fault{"notes.002.eight_bit_depth", "Z-Buffer: depth has 256 codes, whatever the format", Stage::depth,
-          with_fragment<EightBitDepth>},
+          put<&Fragment::depth, eight_bit_depth>},
     Fault{"notes.002.affine_color", "Fragment Shader: varying_intensity * bar, without perspective", Stage::attributes,
-          with_fragment<AffineAttributes>},
+          put<&Fragment::attributes, affine_attributes>},
     Fault{"notes.004.eye_at_c", "3.3: the eye is at c, not d behind it", Stage::matrices,
-          with_geometry<&Geometry::matrices, eye_at_c>},
+          put<&Geometry::matrices, eye_at_c>},
     Fault{"notes.004.whole_centres", "2.1, 3.2 X_sp: pixel centres are whole numbers: half a pixel off",
-          Stage::matrices, with_geometry<&Geometry::matrices, whole_centres>},
+          Stage::matrices, put<&Geometry::matrices, whole_centres>},
     Fault{"notes.004.delete_behind_view_plane", "3.2: triangles with a corner of Z < 0 are deleted, not cut",
-          Stage::clip, with_geometry<&Geometry::clip, delete_behind_view_plane>},
+          Stage::clip, put<&Geometry::clip, delete_behind_view_plane>},
     Fault{"notes.004.incremental_line", "2.2: lines by y = y + k in float, whose error builds up", Stage::coverage,
-          with_fragment<IncrementalLine>},
+          put<&Fragment::thin_pixels, incremental_line>},
     Fault{"notes.004.lee_sign", "2.5: E > 0 is taken for left, so that right edges' pixels are in for left ones'",
-          Stage::coverage, with_fragment<Ties<LeftTakenForRight>>},
+          Stage::coverage, put<&Fragment::edges, tied<left_taken_for_right>>},
     Fault{"notes.004.left_edges", "2.5: pixels on left edges are in, on horizontal ones nobody's", Stage::coverage,
-          with_fragment<Ties<LeftEdgesIn>>},
+          put<&Fragment::edges, tied<left_edges_in>>},
     Fault{"notes.004.left_right_edges", "2.5: pixels on left and right edges are in, on horizontal ones nobody's",
-          Stage::coverage, with_fragment<Ties<LeftAndRightEdgesIn>>},
+          Stage::coverage, put<&Fragment::edges, tied<left_and_right_edges_in>>},
     Fault{"notes.004.all_edges_in", "2.5: pixels on all edges are in", Stage::coverage,
-          with_fragment<Ties<AllEdgesIn>>},
+          put<&Fragment::edges, tied<all_edges_in>>},
     Fault{"notes.004.z_in_camera_space", "3.2: Z is interpolated in camera space, not in the perspective plane",
-          Stage::depth, with_fragment<DepthOfLinearZ>},
+          Stage::depth, put<&Fragment::depth, depth_of_linear_z>},
 };
 
 }  // namespace

@@ -314,7 +314,7 @@ template <DepthFunc func>
 void expect_passes(bool less, bool equal, bool greater) {
   const auto passes = [](float incoming, float stored) {
     const bool inner = depth_passes<func, float>(incoming, stored);
-    EXPECT_EQ(depth_passes_for<FragmentStages>(func, incoming, stored), inner) << "the switch over depth functions";
+    EXPECT_EQ(depth_passes_for(FragmentStages(), func, incoming, stored), inner) << "the switch over depth functions";
     return inner;
   };
   const float values[] = {

@@ -1,0 +1,64 @@
+#include "check/votes.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr std::string_view kFromScene = " from scene", kFromRecords = " from its records";
+
+// Exact has rows of two kinds, and one vote.
+std::string voter(const Comparison& row) {
+  std::string name = row.reference;
+  for (const std::string_view kind : {kFromScene, kFromRecords}) {
+    if (name.ends_with(kind)) name.resize(name.size() - kind.size());
+  }
+  return name;
+}
+
+bool holds(const Comparison& row) {
+  return row.outcome == Outcome::equal || row.outcome == Outcome::within || row.outcome == Outcome::ambiguous_only;
+}
+
+bool fails(const Comparison& row) { return row.outcome == Outcome::different || row.outcome == Outcome::failed; }
+
+// The voters that hold against `row`; none where it is not outvoted.
+std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Comparison>& rows) {
+  std::set<std::string> against;
+  std::string exact;
+  for (const Comparison& other : rows) {
+    const bool own = voter(other) == voter(row);
+    if (other.stage > row.stage || (own && other.stage == row.stage)) continue;
+    if (fails(other)) return {};
+    if (other.stage < row.stage || !holds(other)) continue;
+    if (other.reference.ends_with(kFromRecords)) exact = voter(other);
+    against.insert(voter(other));
+  }
+  return exact.empty() || against.size() < 2 ? std::set<std::string>() : against;
+}
+
+}  // namespace
+
+void settle_votes(std::vector<Comparison>& rows) {
+  std::vector<Comparison*> by_stage;  // what is settled at one stage stands in no later one's way
+  for (Comparison& row : rows) by_stage.push_back(&row);
+  std::ranges::stable_sort(by_stage, {}, &Comparison::stage);
+  for (Comparison* each : by_stage) {
+    Comparison& row = *each;
+    if (row.outcome != Outcome::different || row.reference.ends_with(kFromRecords)) continue;
+    const std::set<std::string> against = outvoted_by(row, rows);
+    if (against.empty()) continue;
+    row.outcome = Outcome::dispute;
+    row.measurement.disputed = std::exchange(row.measurement.differing, 0);
+    row.note += fmt::format("{}outvoted: ours is right by {}, and by exact's arithmetic on its own records",
+                            row.note.empty() ? "" : "; ", fmt::join(against, " and "));
+  }
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,100 @@
+// plumb diagnose: one scene, every stage that is wrong.
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "check/diagnose.h"
+#include "check/history.h"
+#include "cli/commands.h"
+#include "cli/outputs.h"
+#include "cli/pixel_argument.h"
+#include "cli/references.h"
+#include "report/diagnosis_page.h"
+#include "report/diagnosis_text.h"
+#include "report/history_text.h"
+#include "report/json_report.h"
+#include "scene/antialias.h"
+#include "stages/capture_folder.h"
+#include "stages/held_renderer.h"
+#include "stages/process_renderer.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+// Of another renderer: what it left, which is all that is known of it.
+std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scene& scene) {
+  if (!o.folder.empty()) return make_held_renderer(read_capture(o.folder), scene, o.folder);
+  std::string line = "exec " + o.command;  // a shell splits it into words
+  for (const auto& [word, parameter] : {std::pair("{scene}", "\"$1\""), std::pair("{folder}", "\"$2\"")}) {
+    for (std::size_t at = 0; (at = line.find(word, at)) != std::string::npos;)
+      line.replace(at, std::string(word).size(), parameter);
+  }
+  ProcessSpec spec;
+  spec.name = "program";
+  spec.argv = {"sh", "-c", line, "sh", "{scene}", "{folder}"};
+  return make_held_renderer(make_process_renderer(spec)->capture(scene, {StageSet::all(), false, {}, {}}), scene,
+                            "--program");
+}
+
+// The page's pictures are of one sample a pixel: of an antialiased scene, of its first pass.
+void write_page(const DiagnoseOptions& o, const Scene& scene, Renderer& candidate, const References& references,
+                const check::Diagnosis& diagnosis) {
+  const Scene pass = passes_of(scene).front();
+  const auto all_that_fits = [](auto capture_of) {
+    try {
+      return capture_of();
+    } catch (const OverBudget&) {
+      return Capture{};
+    }
+  };
+  Request request;
+  request.records = StageSet::all();
+  Capture mine = all_that_fits([&] { return candidate.capture(pass, request); });
+  if (mine.width == 0) mine = candidate.capture(pass, Request{});
+  Capture expected;
+  for (const check::Reference& r : references.list) {
+    if (r.renderer != nullptr && r.renderer->info()[Stage::vertex].runs)
+      expected = all_that_fits([&] { return check::expected_capture(pass, *r.renderer); });
+  }
+  report::write_diagnosis_page(o.report, pass, diagnosis, mine, expected);
+}
+
+}  // namespace
+
+int diagnose(const DiagnoseOptions& o) {
+  const Scene scene = o.scene_arguments.load(o.scene);
+  require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
+  std::optional<glm::ivec2> pixel;
+  if (!o.pixel.empty()) pixel = parse_pixel("--pixel", o.pixel, scene.frame);
+  const Output outputs[] = {{"--json", o.json}};
+  const std::filesystem::path inputs[] = {o.scene};
+  require_outputs(outputs, {"--report", o.report}, inputs);
+  const bool outside = !o.folder.empty() || !o.command.empty();
+  std::unique_ptr<Renderer> candidate;
+  try {
+    candidate = outside ? outside_candidate(o, scene) : make_candidate(o.fault);
+  } catch (const RendererFailed& e) {
+    fmt::print("failed {}: {}\n", scene.path, e.what());
+    return kDiffers;
+  }
+  const References references = make_references(without_repeats(o.against), o.scene_arguments.assets);
+  const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list);
+  fmt::print("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
+  std::string history;
+  if (pixel) {
+    const check::History told = check::pixel_history(scene, *candidate, references.list, *pixel);
+    fmt::print("\n{}", report::history_text(scene, told));
+    history = report::history_json(scene, told);
+  }
+  if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
+  if (!o.report.empty()) write_page(o, scene, *candidate, references, diagnosis);
+  const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
+                                          [](const check::Comparison& c) { return is_failure(c.outcome); });
+  return holds ? kHolds : kDiffers;
+}
+
+}  // namespace plumbline::cli

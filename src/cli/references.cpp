@@ -1,0 +1,32 @@
+#include "cli/references.h"
+
+#include <algorithm>
+
+#include "cli/renderers.h"
+
+namespace plumbline::cli {
+
+References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets) {
+  References out;
+  for (const std::string& name : names) {
+    out.owned.push_back(make_reference(name, assets));
+    out.list.push_back({name, out.owned.back().get()});
+  }
+  return out;
+}
+
+std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
+  std::vector<std::string> out = known_reference_names();
+  std::erase_if(out, [&](const std::string& name) { return std::ranges::count(names, name) == 0; });
+  return out;
+}
+
+std::map<std::string, std::string> versions_of(const Renderer& candidate, const References& references) {
+  std::map<std::string, std::string> out{{candidate.info().name, candidate.info().version}};
+  for (const check::Reference& r : references.list) {
+    if (r.renderer != nullptr) out[r.name] = r.renderer->info().version;
+  }
+  return out;
+}
+
+}  // namespace plumbline::cli

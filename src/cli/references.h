@@ -1,0 +1,27 @@
+// The references that a run asks.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "check/judge.h"
+#include "stages/renderer.h"
+
+namespace plumbline::cli {
+
+struct References {
+  std::vector<std::unique_ptr<Renderer>> owned;
+  std::vector<check::Reference> list;
+};
+/// `assets`: where those in processes of their own look for meshes as well.
+References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets);
+
+/// Each once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
+std::vector<std::string> without_repeats(const std::vector<std::string>& names);
+
+/// By name, the candidate's among them.
+std::map<std::string, std::string> versions_of(const Renderer& candidate, const References& references);
+
+}  // namespace plumbline::cli
