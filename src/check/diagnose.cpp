@@ -202,4 +202,18 @@ Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Refe
   return out;
 }
 
+Capture expected_capture(const Scene& scene, Renderer& referee) {
+  Capture out;
+  out.renderer = referee.info().name;
+  out.width = scene.frame.width;
+  out.height = scene.frame.height;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(Stage::merge); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (stage == Stage::texture && !textured(scene)) continue;
+    hand_on(stage, referee.run_stage(scene, stage, out), out);
+    round_to_formats(scene, stage, out);
+  }
+  return out;
+}
+
 }  // namespace plumbline::check

@@ -64,6 +64,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   text(command, "scene", o.scene, "Scene file")->required();
   add_against(command, o.against);
   text(command, "--json", o.json, "Write the diagnosis as JSON");
+  text(command, "--report", o.report, "Write a page with a picture of every stage into this folder");
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
   text(command, "--program", o.command,

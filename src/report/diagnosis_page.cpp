@@ -15,6 +15,7 @@ namespace {
 constexpr std::string_view kStyle = R"(
 pre { font: 12px/1.35 ui-monospace, monospace; overflow-x: auto; padding: .6em; border: 1px solid #8886; }
 h2.wrong::after { content: " wrong"; color: #d33232; }
+figure { vertical-align: top; }
 .slider { position: relative; display: inline-block; --cut: 50%; }
 .slider img { display: block; }
 .slider img + img { position: absolute; inset: 0; clip-path: inset(0 0 0 var(--cut)); }
@@ -25,10 +26,10 @@ svg path { fill: none; stroke-width: 1px; vector-effect: non-scaling-stroke; str
 svg .same { stroke: #8889; } svg .expected { stroke: #2a9d4a; } svg .mine { stroke: #d33232; }
 )";
 
-// Small frames are shown in whole multiples of their pixels.
+// At most 300 pixels a side; small frames in whole multiples of their pixels.
 int shown_width(const Scene& scene) {
   const int side = std::max(scene.frame.width, scene.frame.height);
-  return scene.frame.width * std::max(1, 384 / side);
+  return side > 300 ? 300 * scene.frame.width / side : scene.frame.width * (300 / side);
 }
 
 class Page {
@@ -42,7 +43,8 @@ class Page {
     const std::string mine = file(picture, "ours", picture.mine);
     const std::string expected = file(picture, "expected", picture.expected);
     const std::string differences = file(picture, "differences", picture.differences);
-    body += fmt::format("<h3>{}</h3>\n<p>{}</p>\n", escaped(picture.name), escaped(picture.says));
+    if (picture.name != name_of(picture.stage)) body += fmt::format("<h3>{}</h3>\n", escaped(picture.name));
+    body += fmt::format("<p>{}</p>\n", escaped(picture.says));
     if (!mine.empty() && !expected.empty()) {
       body += fmt::format(
           "<figure><div class=slider>{}{}</div><input type=range min=0 max=100 value=50 aria-label=\"ours or "
@@ -53,12 +55,15 @@ class Page {
     }
     figure(mine, "ours");
     figure(expected, "expected");
-    figure(differences, fmt::format("{} pixels differ", picture.differing));
+    figure(differences, picture.differing == 0
+                            ? "no pixel differs"
+                            : fmt::format("{} pixels differ, by {:.3g} at most", picture.differing, picture.largest));
   }
   void add_drawing(const std::string& svg) {
     if (svg.empty()) return;
     body += fmt::format(
-        "<h3>positions</h3>\n<p>window triangles, expected in green, ours in red where it is elsewhere</p>\n"
+        "<h3>positions</h3>\n<p>window triangles, expected in green, ours in red where it is elsewhere; of many, "
+        "5000</p>\n"
         "<figure style=\"width:{}px\">{}</figure>\n",
         2 * width_, svg);
   }

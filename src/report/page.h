@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include <glm/glm.hpp>
+
 #include "stages/atomic_path.h"
 #include "stages/plane.h"
 

@@ -61,34 +61,29 @@ Plane<glm::vec4> painted(const Plane<T>& plane, Color color) {
   return out;
 }
 
-// Red on grey; differences of a thousandth of the largest are still told from none.
+// Red on grey: full where they differ by `much` or more, the darker the less, down to a ten-thousandth of it.
 template <class T>
-void mark_differences(const Plane<T>& a, const Plane<T>& b, StagePicture& picture) {
+void mark_differences(const Plane<T>& a, const Plane<T>& b, double much, StagePicture& picture) {
   if (a.empty() || a.width() != b.width() || a.height() != b.height()) return;
-  double largest = 0;
-  std::vector<double> off(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    off[i] = apart(a.values()[i], b.values()[i]);
-    if (std::isfinite(off[i])) largest = std::max(largest, off[i]);
-    picture.differing += off[i] > 0 ? 1 : 0;
-  }
   picture.differences = picture.mine;
   for (std::size_t i = 0; i < a.size(); ++i) {
+    const double off = apart(a.values()[i], b.values()[i]);
+    picture.differing += off > 0 ? 1 : 0;
+    picture.largest = std::max(picture.largest, off);
     glm::vec4& p = picture.differences.values()[i];
     const float grey = 0.3f * glm::dot(glm::vec3(p), glm::vec3(0.2126f, 0.7152f, 0.0722f));
-    p = glm::vec4(grey, grey, grey, 1);
-    if (off[i] == 0) continue;
-    const double share = std::isfinite(off[i]) ? 1 + std::log10(std::max(off[i] / largest, 1e-3)) / 3 : 1;
-    p = {0.4f + 0.6f * static_cast<float>(share), 0, 0, 1};
+    const double share = off == 0 ? 0 : std::clamp(1 + std::log10(off / much) / 4, 0.0, 1.0);
+    p = off == 0 ? glm::vec4(grey, grey, grey, 1) : glm::vec4(0.15f + 0.85f * static_cast<float>(share), 0, 0, 1);
   }
 }
 
 template <class T, class Color>
 void add(std::vector<StagePicture>& out, Stage stage, std::string name, std::string says, const Plane<T>& mine,
-         const Plane<T>& expected, Color color) {
+         const Plane<T>& expected, double much, Color color) {
   if (mine.empty() && expected.empty()) return;
-  StagePicture picture{stage, std::move(name), std::move(says), painted(mine, color), painted(expected, color), {}, 0};
-  mark_differences(mine, expected, picture);
+  StagePicture picture{stage, std::move(name), std::move(says), painted(mine, color), painted(expected, color), {}, 0,
+                       0};
+  mark_differences(mine, expected, much, picture);
   out.push_back(std::move(picture));
 }
 
@@ -139,7 +134,8 @@ void add_depth(std::vector<StagePicture>& out, const Capture& mine, const Captur
   };
   const std::size_t before = out.size();
   add(out, Stage::depth, "depth",
-      fmt::format("window z from {:.6g} (yellow) to {:.6g} (blue), {} contour lines", lo, hi, kContours), a, b, color);
+      fmt::format("window z from {:.6g} (yellow) to {:.6g} (blue), {} contour lines", lo, hi, kContours), a, b, 1e-3,
+      color);
   if (out.size() == before) return;
   draw_contours(a, lo, hi, out.back().mine);
   draw_contours(b, lo, hi, out.back().expected);
@@ -163,6 +159,21 @@ Plane<glm::vec4> texture_coordinates(const Capture& c) {
   return of_winners(c, glm::vec4(0), fragments.size(), [&](std::size_t i) { return glm::vec4(fragments[i]); });
 }
 
+// As the records have it; else as the plane does.
+Plane<glm::vec4> texels_of_winners(const Capture& c) {
+  const auto& texels = c.records.texels;
+  Plane<glm::vec4> out =
+      of_winners(c, glm::vec4(0), texels.size(), [&](std::size_t i) { return glm::vec4(texels[i].color); });
+  return out.empty() ? c.planes.texel : out;
+}
+
+Plane<glm::vec4> shaded_winners(const Scene& scene, const Capture& c) {
+  const auto& shaded = c.records.shaded;
+  Plane<glm::vec4> out =
+      of_winners(c, scene.frame.clear_color, shaded.size(), [&](std::size_t i) { return glm::vec4(shaded[i].color); });
+  return out.empty() ? c.planes.shaded : out;
+}
+
 Plane<double> levels_of_detail(const Capture& c) {
   const auto& texels = c.records.texels;
   return of_winners(c, std::numeric_limits<double>::quiet_NaN(), texels.size(),
@@ -171,24 +182,26 @@ Plane<double> levels_of_detail(const Capture& c) {
 
 }  // namespace
 
-std::vector<StagePicture> stage_pictures(const Scene&, const Capture& mine, const Capture& expected) {
+std::vector<StagePicture> stage_pictures(const Scene& scene, const Capture& mine, const Capture& expected) {
   std::vector<StagePicture> out;
   const Planes &a = mine.planes, &b = expected.planes;
-  add(out, Stage::coverage, "coverage", "fragments at each pixel: 1 blue, 8 or more yellow", a.count, b.count,
+  add(out, Stage::coverage, "coverage", "fragments at each pixel: 1 blue, 8 or more yellow", a.count, b.count, 1,
       [](std::uint32_t n) { return n == 0 ? kNothing : ramp(static_cast<double>(n - 1) / 7); });
   add_depth(out, mine, expected);
   const auto fraction = [](float v) { return std::isfinite(v) ? v - std::floor(v) : 1.0f; };
   add(out, Stage::attributes, "texture-coordinates", "s in red, t in green: their fractions", texture_coordinates(mine),
-      texture_coordinates(expected),
+      texture_coordinates(expected), 0.1,
       [&](const glm::vec4& st) { return glm::vec4(fraction(st.x), fraction(st.y), 0, 1); });
-  add(out, Stage::texture, "texel", "the winner's texel", a.texel, b.texel, clamped);
+  add(out, Stage::texture, "texel", "the winner's texel", texels_of_winners(mine), texels_of_winners(expected), 0.1,
+      clamped);
   add(out, Stage::texture, "level-of-detail", "0 blue, 8 yellow", levels_of_detail(mine), levels_of_detail(expected),
-      [](double lod) { return std::isnan(lod) ? kNothing : ramp(lod / 8); });
-  add(out, Stage::shade, "shaded", "the winner's colour before it is merged", a.shaded, b.shaded, clamped);
-  add(out, Stage::visibility, "primitives", "a colour for each winning primitive", a.id, b.id, color_of_id);
-  add(out, Stage::visibility, "stencil", "stencil values: 0 black, 255 yellow", a.stencil, b.stencil,
+      0.5, [](double lod) { return std::isnan(lod) ? kNothing : ramp(lod / 8); });
+  add(out, Stage::shade, "shaded", "the winner's colour before it is merged", shaded_winners(scene, mine),
+      shaded_winners(scene, expected), 0.1, clamped);
+  add(out, Stage::visibility, "primitives", "a colour for each winning primitive", a.id, b.id, 1, color_of_id);
+  add(out, Stage::visibility, "stencil", "stencil values: 0 black, 255 yellow", a.stencil, b.stencil, 1,
       [](std::uint8_t s) { return s == 0 ? kNothing : ramp(s / 255.0); });
-  add(out, Stage::merge, "colour", "the frame", a.color, b.color, clamped);
+  add(out, Stage::merge, "colour", "the frame", a.color, b.color, 0.1, clamped);
   return out;
 }
 

@@ -19,6 +19,7 @@ struct StagePicture {
   Plane<glm::vec4> expected;     ///< likewise
   Plane<glm::vec4> differences;  ///< mine in grey, and red where the two differ, brighter the further they do; or empty
   std::size_t differing = 0;     ///< pixels
+  double largest = 0;            ///< difference, in the values that are shown
 };
 
 /// Fragments counted; depth in false colours with contour lines; primitives; of the winners texture coordinates, texel
@@ -27,8 +28,9 @@ struct StagePicture {
 std::vector<StagePicture> stage_pictures(const Scene& scene, const Capture& mine, const Capture& expected);
 
 /// The window triangles of both sides as an SVG drawing over the frame: expected in green, ours in red over it where it
-/// is elsewhere. At most `most` triangles of a side are drawn: those that differ first. Empty where neither has any.
+/// is elsewhere. At most `most` triangles of a side are drawn, those that differ before others. Empty where neither has
+/// any.
 std::string positions_drawing(const Scene& scene, const Capture& mine, const Capture& expected,
-                              std::size_t most = 2000);
+                              std::size_t most = 5000);
 
 }  // namespace plumbline::report
