@@ -50,14 +50,8 @@ Test depth_test(DepthFunc func, Interval hit, Interval held, double step) {
   return {true, true, hit, held, held};
 }
 
-double frame_depth(const FrameFormat& frame, double z_win) {
-  const double scale = depth_scale(frame.depth);
-  if (frame.depth == DepthFormat::z32f) return static_cast<double>(static_cast<float>(z_win));
-  return (frame.depth == DepthFormat::z8 ? std::round(z_win * scale) : std::nearbyint(z_win * scale)) / scale;
-}
-
 LegalAnswer background(const FrameFormat& frame) {
-  const double z = frame_depth(frame, frame.clear_depth);
+  const double z = depth_in_format(frame.depth, frame.clear_depth);
   return {kBackground, 0, z, z, frame.clear_color, frame.clear_stencil};
 }
 
