@@ -37,10 +37,6 @@ double cleared_codes(const FrameFormat& frame, int channel) {
   return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? 1 : 0;
 }
 
-bool beyond(const glm::vec4& a, const glm::vec4& b, const Vec4<double>& bound) {
-  return glm::any(glm::greaterThan(Vec4<double>(glm::abs(a - b)), bound));
-}
-
 // What colours of the frame are told apart in.
 std::string code_unit(const FrameFormat& frame) {
   const double scale = color_scale(frame.color);
@@ -86,12 +82,8 @@ Measurement compare_winners(const Planes& candidate, const Planes& reference, co
     const int stencil_a = held ? candidate.stencil(x, y) : 0, stencil_b = held ? reference.stencil(x, y) : 0;
     if (a == b && stencil_a == stencil_b) return;
     if (!legal.empty() && find(legal, candidate, x, y) != nullptr) {
-      if (find(legal, reference, x, y) != nullptr) {
-        meter.ambiguous();
-      } else {
-        meter.disputed();
-      }
-      return;
+      if (find(legal, reference, x, y) != nullptr) return meter.ambiguous();
+      meter.suspect("its winner is none of the legal ones, ours is");
     }
     if (a != b) return meter.value(1, 0, {x, y, -1, "primitive"}, a, b);
     meter.value(1, 0, {x, y, -1, "stencil"}, stencil_a, stencil_b);
@@ -148,7 +140,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
       return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
     }
     const FragmentBound bound = bounds.of_winner(id, x, y);
-    if (bound.disputed && beyond(a.shaded(x, y), b.shaded(x, y), bound.color + bound.apart)) return meter.disputed();
+    meter.suspect(bound.reason);
     const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
@@ -177,12 +169,12 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
     const bool cleared = id == kBackground;
     const FragmentBound fragment = cleared ? FragmentBound{} : bounds.of_winner(id, x, y);
     const Vec4<double> bound = fragment.color + fragment.apart;
-    if (fragment.disputed && beyond(a.color(x, y), b.color(x, y), bound + codes / scale)) return meter.disputed();
+    meter.suspect(fragment.reason);
     const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
       if (!std::isfinite(bound[c])) {
-        if (c == 0) open_value(meter, v, {x, y, id, "color"}, w);
+        open_value(meter, v, {x, y, id, "color"}, w);
         continue;
       }
       double diff = difference(v, w);
@@ -221,7 +213,6 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     if (id != b.id(x, y)) return;  // visibility's matter
     // Of other fragments (lines' may lie beside each other): coverage's matter.
     const bool others = told && a.id_sum(x, y) != b.id_sum(x, y);
-    bool disputed = false;
     const bool open = others || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
     int fragments = 0;
     double bound = 0;
@@ -229,7 +220,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     drawn.each(x, y, [&](std::size_t i) {
       const FragmentBound of = bounds.of_fragment(i);
       ++fragments;
-      disputed |= of.disputed;
+      if (!of.reason.empty()) meter.suspect(of.reason);
       const Vec4<double> sum = of.color + glm::abs(of.along) + of.apart;
       bound += std::max({sum.r, sum.g, sum.b, sum.a});
       const Records<double>& r = candidate.records;
@@ -241,13 +232,12 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     // A fragment's error comes in as its colour, as the factor that it makes of itself, and of what is there. That is 1
     // at most, or in float one more for each fragment.
     const double layers = reads ? std::exp2(fragments) - 1 : fragments, held = scale > 0 ? 1 : std::max(1, fragments);
-    if (disputed && a.color(x, y) != b.color(x, y)) return meter.disputed();
     bound *= (2 + held) * (reads ? std::exp2(fragments - 1) : 1);
     combined = combined && scale > 0;
     for (int c = 0; c < 4; ++c) {
       const double v = a.color(x, y)[c], w = b.color(x, y)[c];
       if (open || !std::isfinite(bound) || (combined && !certain)) {
-        if (c == 0) open_value(meter, v, place, w);
+        open_value(meter, v, place, w);
       } else if (scale > 0) {
         const double code = std::round(scale * v), code_ref = std::round(scale * w);
         if (combined) {

@@ -63,7 +63,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
     if (id != b.id(x, y)) return;
     std::optional<std::size_t> last;
     drawn.each(x, y, [&](std::size_t i) { last = i; });
-    bool disputed = false;
+    std::string_view reason;
     TexelBound bound;
     bound.range.lo = bound.range.hi = Vec4<double>(a.texel(x, y));
     if (last) {
@@ -71,7 +71,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
       const Draw& draw = bounds.draw_of(triangle.primitive);
       if (draw.texture) {
         bound = bounds.texel(*last);
-        disputed = switched_early(scene.textures.at(draw.texture->texture), candidate.records.texels.at(*last).lod);
+        reason = switched_early(scene.textures.at(draw.texture->texture), candidate.records.texels.at(*last).lod);
       }
     }
     predicted += bound.open_share;
@@ -87,7 +87,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
       return glm::any(glm::lessThan(Vec4<double>(texel), bound.range.lo - bound.slack)) ||
              glm::any(glm::greaterThan(Vec4<double>(texel), bound.range.hi + bound.slack));
     };
-    if (disputed && beyond(b.texel(x, y)) && !beyond(a.texel(x, y))) return meter.disputed();
+    if (!beyond(a.texel(x, y))) meter.suspect(reason);
     for (int c = 0; c < 4; ++c) {
       const double v = a.texel(x, y)[c], w = b.texel(x, y)[c], lo = bound.range.lo[c], hi = bound.range.hi[c];
       meter.value(std::max(outside(v, lo, hi), outside(w, lo, hi)) / u, bound.slack[c] / u, place, v, w);

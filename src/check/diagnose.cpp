@@ -6,6 +6,7 @@
 
 #include "check/case.h"
 #include "check/causes.h"
+#include "check/coverage_differences.h"
 #include "check/judge_passes.h"
 #include "check/repair.h"
 #include "check/worst_record.h"
@@ -34,7 +35,8 @@ Finding finding_of(const Evidence& evidence, const Comparison& row) {
   Finding out{row.stage, row.reference, row.measurement, worst_record(evidence, row.measurement), {}, ""};
   if (row.outcome == Outcome::failed) out.numbers = {row.note};
   for (const Cause& cause : likely_causes(evidence)) out.causes.push_back(cause.words);
-  if (row.stage == Stage::coverage) out.picture = coverage_picture(evidence);
+  if (row.stage != Stage::coverage) return out;
+  if (const auto worst = worst_triangle(evidence)) out.picture = coverage_picture(*worst);
   return out;
 }
 
@@ -195,6 +197,20 @@ Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Refe
       const Capture none;
       out.findings.push_back(finding_of({scene, first->stage, none, none}, *first));
     }
+  }
+  return out;
+}
+
+Capture expected_capture(const Scene& scene, Renderer& referee) {
+  Capture out;
+  out.renderer = referee.info().name;
+  out.width = scene.frame.width;
+  out.height = scene.frame.height;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(Stage::merge); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (stage == Stage::texture && !textured(scene)) continue;
+    hand_on(stage, referee.run_stage(scene, stage, out), out);
+    round_to_formats(scene, stage, out);
   }
   return out;
 }

@@ -41,4 +41,8 @@ inline constexpr std::string_view kRepaired = "from repaired records";
 /// scene: the passes together, and `resolve`.
 Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references);
 
+/// What all stages up to merge should hand on: each as `referee` makes it of its own records before it, rounded to
+/// the formats. Throws Unsupported where it does not run a stage, and OverBudget.
+Capture expected_capture(const Scene& scene, Renderer& referee);
+
 }  // namespace plumbline::check

@@ -12,6 +12,10 @@ namespace plumbline::check {
 namespace {
 
 constexpr double u = kUnitRoundoff;
+// What Mesa makes otherwise than OpenGL 2.1 (3.10; 3.9, 3.10).
+constexpr std::string_view kBehindEye =
+                               "Mesa interpolates |z_eye| of vertices behind the eye, fog is of a fragment's own",
+                           kClampedLate = "Mesa clamps the sum of colours after fog, the specification before";
 const Records<double> kNone;
 const std::vector<Vec4<double>> kNowhere;
 
@@ -160,13 +164,12 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   }
   FragmentBound out;
   out.color = shade_error(scene_, draw, fours, errors, tolerance("osmesa.shade").factor);
-  if (draw.texture) {
-    out.disputed = switched_early(scene_.textures.at(draw.texture->texture), records_.texels.at(i).lod);
-  }
+  if (draw.texture) out.reason = switched_early(scene_.textures.at(draw.texture->texture), records_.texels.at(i).lod);
   const bool summed = is_lit_per_vertex(draw) && scene_.light_model.separate_specular;
   const Vec3<double> sum(fours.color + fours[Varying::secondary]);
   const bool clamped = summed && std::max({sum.x, sum.y, sum.z}) > 1;
-  out.disputed |= draw.fog && (clamped || reaches_behind_eye(*(after - 1), draw, triangle.primitive));
+  if (draw.fog && clamped) out.reason = kClampedLate;
+  if (draw.fog && reaches_behind_eye(*(after - 1), draw, triangle.primitive)) out.reason = kBehindEye;
   return out;
 }
 
@@ -178,7 +181,7 @@ FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
   const auto draw = static_cast<std::size_t>(after - ranges_.begin()) - 1;
   if (!plain_[draw]) return surface(i);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
-  return {factor_ * u * plane.color, plane.along_color, apart(triangle.primitive, lit_apart_, true), false};
+  return {factor_ * u * plane.color, plane.along_color, apart(triangle.primitive, lit_apart_, true), {}};
 }
 
 FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
@@ -187,9 +190,9 @@ FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) co
       std::partition_point(ranges_.begin(), ranges_.end(), [&](const DrawRange& r) { return r.first_primitive <= p; });
   if (after == ranges_.begin() || plain_[static_cast<std::size_t>(after - ranges_.begin()) - 1]) {
     const PlaneBounds plane = primitive_bounds(records_, primitive, x, y);
-    return {factor_ * u * plane.color, plane.along_color, apart(p, lit_apart_, true), false};
+    return {factor_ * u * plane.color, plane.along_color, apart(p, lit_apart_, true), {}};
   }
-  FragmentBound out{Vec4<double>(std::numeric_limits<double>::infinity()), {}, {}, false};
+  FragmentBound out{Vec4<double>(std::numeric_limits<double>::infinity()), {}, {}, {}};
   drawn_.each(x, y, [&](std::size_t i) {
     if (records_.triangles[records_.covered[i].triangle].primitive == p) out = surface(i);
   });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "check/bounds.h"
@@ -38,13 +39,10 @@ class DrawnAt {
 
 /// Per channel.
 struct FragmentBound {
-  Vec4<double> color{0};  ///< by its own arithmetic; infinite: nothing can be said
-  Vec4<double> along{0};  ///< of a line, what it moves by where it goes by the major axis alone (bounds.h)
-  Vec4<double> apart{0};  ///< what the two sides' vertices differ by, which is another stage's matter
-  /// In fog, of a primitive that reaches behind the eye. Mesa takes |z_eye| at the vertices and interpolates that,
-  /// where the distance is the fragment's own (OpenGL 2.1 spec 3.10): what differs there is disputed. So is fog over a
-  /// sum of colours beyond 1, which Mesa clamps after the fog and the specification before it (3.9).
-  bool disputed = false;
+  Vec4<double> color{0};    ///< by its own arithmetic; infinite: nothing can be said
+  Vec4<double> along{0};    ///< of a line, what it moves by where it goes by the major axis alone (bounds.h)
+  Vec4<double> apart{0};    ///< what the two sides' vertices differ by, which is another stage's matter
+  std::string_view reason;  ///< why what is beyond that is the reference's fault; empty: it is not
 };
 
 class FragmentBounds {

@@ -62,6 +62,7 @@ Comparison joined(Comparison a, Comparison b) {
   sum.differing += other.differing;
   sum.ambiguous += other.ambiguous;
   sum.disputed += other.disputed;
+  if (other.dispute.difference > sum.dispute.difference) sum.dispute = other.dispute, sum.reason = other.reason;
   sum.max_difference = std::max(sum.max_difference, other.max_difference);
   for (std::size_t i = 0; i < sum.histogram.size(); ++i) sum.histogram[i] += other.histogram[i];
   return out;
@@ -82,6 +83,20 @@ std::vector<Comparison> joined(std::span<const SceneVerdict> passes) {
       } else {
         *known = joined(std::move(*known), std::move(c));
       }
+    }
+  }
+  return out;
+}
+
+// What the passes' rows say is this reference's fault.
+Disputed disputed_by(const std::string& reference, std::span<const SceneVerdict> passes) {
+  Disputed out{std::vector<std::set<std::pair<int, int>>>(passes.size()), ""};
+  for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+    for (const Comparison& c : passes[pass].comparisons) {
+      const Measurement& m = c.measurement;
+      if (c.reference != reference || m.disputed_at.empty()) continue;
+      for (const glm::ivec2 p : m.disputed_at) out.at[pass].emplace(p.x, p.y);
+      out.reason = m.reason;
     }
   }
   return out;
@@ -111,22 +126,27 @@ Measurement compare_resolved(const Scene& scene, const Capture& candidate, const
   });
 }
 
-Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& reference) {
+Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& reference,
+                             const Disputed& disputed) {
   const Plane<glm::vec4>&a = candidate.planes.color, &b = reference.planes.color;
   const double scale = color_scale(scene.frame.color);
   const std::string unit = scale > 0 ? fmt::format("1/{}", scale) : "u";
   const SamplesAt samples(scene);
   return compare_planes(a, b, unit, [&](Meter& meter, int x, int y) {
-    Vec4<double> apart(0), largest(0);
+    Vec4<double> apart(0), largest(0), by_fault(0);
     samples.each(x, y, [&](double share, glm::ivec2 at, std::size_t pass) {
       const Vec4<double> mine(candidate.samples[pass](at.x, at.y)), theirs(reference.samples[pass](at.x, at.y));
-      apart += share * glm::abs(mine - theirs);
+      const bool fault = pass < disputed.at.size() && disputed.at[pass].contains({at.x, at.y});
+      (fault ? by_fault : apart) += share * glm::abs(mine - theirs);
       largest = glm::max(largest, glm::max(glm::abs(mine), glm::abs(theirs)));
     });
     for (int c = 0; c < 4; ++c) {
       const double v = a(x, y)[c], w = b(x, y)[c], one = scale > 0 ? 1 / scale : u;
-      const double rounding = apart[c] == 0 ? 0 : scale > 0 ? one + 4 * u : 16 * u * largest[c];
-      meter.value(difference(v, w) / one, 0, {x, y, -1, "color"}, v, w, (apart[c] + rounding) / one);
+      const double all = apart[c] + by_fault[c], diff = difference(v, w);
+      const double rounding = all == 0 ? 0 : scale > 0 ? one + 4 * u : 16 * u * largest[c];
+      const bool explained = diff <= all + rounding;
+      meter.suspect(explained ? disputed.reason : "");
+      meter.value(diff / one, 0, {x, y, -1, "color"}, v, w, (apart[c] + rounding) / one);
     }
   });
 }
@@ -176,8 +196,8 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
         skip(name, Outcome::unsupported, "asked for 12 bits a channel, OpenGL gives 16");
         continue;
       }
-      verdict.comparisons.push_back(
-          judged(scene.name, name, Stage::resolve, compare_resolved(scene, *mine, theirs[i])));
+      verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve,
+                                           compare_resolved(scene, *mine, theirs[i], disputed_by(info.name, passes))));
     } catch (const Unsupported& e) {
       skip(name, Outcome::unsupported, e.what());
     } catch (const OverBudget& e) {

@@ -1,7 +1,11 @@
 // An antialiased scene: each pass is judged as a scene of its own, then what is made of them.
 #pragma once
 
+#include <set>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "check/judge.h"
 #include "check/measure.h"
@@ -18,8 +22,15 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
 /// Resolved colours, code by code, in proportion to what `factor` times the bound of rounding allows (ledger,
 /// exact.resolve): against the mean that exact made of the candidate's own samples, not rounded.
 Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& exact, double factor);
+/// By pass, the pixels where another's samples are its own fault; and the fault.
+struct Disputed {
+  std::vector<std::set<std::pair<int, int>>> at;
+  std::string reason;
+};
 /// Against what another made of its own samples: where those are the candidate's, nothing may differ; where they
-/// are not (which is the passes' matter), the mean of their differences, and a rounding on either side.
-Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& reference);
+/// are not (which is the passes' matter), the mean of their differences, and a rounding on either side. What disputed
+/// samples alone explain is disputed again.
+Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& reference,
+                             const Disputed& disputed = {});
 
 }  // namespace plumbline::check

@@ -38,8 +38,16 @@ void Meter::value(double diff, double tolerance, const Place& place, double cand
                   double allowance) {
   if (!(diff >= 0)) diff = kInfinite;
   if (!(tolerance >= 0) || !std::isfinite(tolerance + allowance)) tolerance = allowance = 0;
-  item_difference_ = std::max(item_difference_, diff);
   const double beyond = std::max(diff - allowance, 0.0);
+  if (beyond > tolerance && !why_.empty() && std::isfinite(diff)) {
+    if (!item_disputed_ && place.x >= 0) m_.disputed_at.emplace_back(place.x, place.y);
+    item_disputed_ = true;
+    if (diff <= m_.dispute.difference) return;
+    m_.dispute = {place, candidate, reference, diff, tolerance + allowance};
+    m_.reason = why_;
+    return;
+  }
+  item_difference_ = std::max(item_difference_, diff);
   if (beyond > tolerance) item_differs_ = true;
   if (diff == 0) return;
   const double ratio = beyond == 0 ? 0 : tolerance > 0 ? beyond / tolerance : kInfinite;
@@ -52,10 +60,13 @@ void Meter::value(double diff, double tolerance, const Place& place, double cand
 void Meter::item() {
   ++m_.items;
   if (item_differs_) ++m_.differing;
+  if (item_ambiguous_) ++m_.ambiguous;
+  if (item_disputed_) ++m_.disputed;
   m_.max_difference = std::max(m_.max_difference, item_difference_);
   ++m_.histogram[bucket(item_difference_)];
   item_difference_ = 0;
-  item_differs_ = false;
+  item_differs_ = item_ambiguous_ = item_disputed_ = false;
+  why_.clear();
 }
 
 void Meter::missing(std::uint64_t items, const Place& place) {

@@ -4,6 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
 
 #include "stages/plane.h"
 
@@ -31,10 +35,13 @@ struct Measurement {
   std::uint64_t differing = 0;  ///< items beyond their tolerance
   std::uint64_t ambiguous = 0;  ///< items for which more than one answer is legal
   std::uint64_t disputed = 0;   ///< items where the reference, not the candidate, is outside the legal answers
-  double max_difference = 0;    ///< in `unit`; infinite for NaN, a wrong size, a missing record
-  double max_ratio = 0;         ///< largest share of a tolerance that was used; above 1 something differs
+  double max_difference = 0;    ///< in `unit`, but of what is disputed; infinite: NaN, a wrong size, a missing record
+  double max_ratio = 0;         ///< likewise, largest share of a tolerance that was used; above 1 something differs
   Worst worst;
-  std::string mismatch;  ///< why nothing could be compared item by item (sizes differ), or empty
+  Worst dispute;                        ///< of what is disputed, the largest difference
+  std::string reason;                   ///< and what the reference's fault is there
+  std::vector<glm::ivec2> disputed_at;  ///< the pixels, where items are pixels
+  std::string mismatch;                 ///< why nothing could be compared item by item (sizes differ), or empty
   /// Items by difference: [0] none, [i] in [2^(i-13), 2^(i-12)) units, the ends open; [19]: not finite.
   std::array<std::uint64_t, 20> histogram{};
 };
@@ -51,10 +58,12 @@ class Meter {
   /// that is not finite as 0. `allowance`: of another row, granted before this tolerance is touched.
   void value(double diff, double tolerance, const Place& place, double candidate, double reference,
              double allowance = 0);
+  /// What the item at hand still gets beyond its tolerance is the reference's fault, and why: disputed. (Not what is no
+  /// number.) An empty reason: nothing is.
+  void suspect(std::string_view why) { why_ = why; }
+  void ambiguous() { item_ambiguous_ = true; }
   /// Ends an item that has got its values.
   void item();
-  void ambiguous() { ++m_.ambiguous; }
-  void disputed() { ++m_.disputed; }
   /// Counts whole items as different, such as missing records.
   void missing(std::uint64_t items, const Place& place);
   Measurement done() { return std::move(m_); }
@@ -62,7 +71,8 @@ class Meter {
  private:
   Measurement m_;
   double item_difference_ = 0;
-  bool item_differs_ = false;
+  bool item_differs_ = false, item_ambiguous_ = false, item_disputed_ = false;
+  std::string why_;
 };
 
 /// A measurement that says that nothing fits: every item differs.

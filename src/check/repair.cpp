@@ -7,9 +7,13 @@ namespace plumbline::check {
 
 namespace {
 
-double to_float(double value) { return static_cast<double>(static_cast<float>(value)); }
-Vec3<double> to_float(const Vec3<double>& v) { return Vec3<double>(Vec3<float>(v)); }
-Vec4<double> to_float(const Vec4<double>& v) { return Vec4<double>(Vec4<float>(v)); }
+// Volatile: GCC 12 takes a vector's way to float and back for nothing, and leaves it out (-O2, two lanes at a time).
+double to_float(double value) {
+  const volatile auto rounded = static_cast<float>(value);
+  return static_cast<double>(rounded);
+}
+Vec3<double> to_float(const Vec3<double>& v) { return {to_float(v.x), to_float(v.y), to_float(v.z)}; }
+Vec4<double> to_float(const Vec4<double>& v) { return {to_float(v.x), to_float(v.y), to_float(v.z), to_float(v.w)}; }
 
 // Entries below 1e-12 become 0, as stages.h has it.
 template <class Matrix>

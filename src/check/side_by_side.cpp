@@ -26,8 +26,9 @@ bool contradicts_itself(Case& c, const Capture& theirs) {
 Comparison as_dispute(Comparison comparison, std::string_view why) {
   Measurement& m = comparison.measurement;
   m.disputed = std::exchange(m.differing, 0);
+  m.dispute = m.worst;
+  m.reason = why;
   comparison.outcome = Outcome::dispute;
-  comparison.note = why;
   return comparison;
 }
 

@@ -36,11 +36,12 @@ TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<dou
   return out;
 }
 
-bool switched_early(const Texture& texture, double lod) {
+std::string_view switched_early(const Texture& texture, double lod) {
   const Sampler& s = texture.sampler;
   const bool late = s.mag == MagFilter::linear &&
                     (s.min == MinFilter::nearest_mipmap_nearest || s.min == MinFilter::nearest_mipmap_linear);
-  return late && lod > -0.5 && lod < 1;
+  if (!late || lod <= -0.5 || lod >= 1) return {};
+  return "Mesa switches to nearest mipmaps at a lambda of 0, the specification at 1/2";
 }
 
 Environed environ_error(TextureFormat format, const DrawTexture& state, const Vec4<double>& f,

@@ -1,6 +1,8 @@
 // Textures: how far a texel may be off, and what that comes to in the fragment's colour.
 #pragma once
 
+#include <string_view>
+
 #include "scene/scene.h"
 #include "stages/legal.h"
 #include "stages/stages.h"
@@ -21,10 +23,10 @@ struct TexelBound {
 TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<double> st, Vec2<double> st_error,
                        double factor);
 
-/// Whether the texture is between magnified and minified there, where Mesa's drivers contradict the specification:
-/// linear magnification gives way to the nearest texels of mipmaps at a lambda of 1/2 (OpenGL 2.1 spec 3.8.9, c), and
-/// theirs at 0. `lod`: the candidate's; its four pixels' may be half a level off.
-bool switched_early(const Texture& texture, double lod);
+/// Why another texel than the legal ones is Mesa's fault, where the texture is between magnified and minified: linear
+/// magnification gives way to the nearest texels of mipmaps at a lambda of 1/2 (OpenGL 2.1 spec 3.8.9, c), and theirs
+/// at 0. Empty elsewhere. `lod`: the candidate's; its four pixels' may be half a level off.
+std::string_view switched_early(const Texture& texture, double lod);
 
 /// The colour that fragment colour `f` and texel `s` become, and its error, where theirs are f_error and s_error:
 /// |d/df| f_error + |d/ds| s_error + their product, and `roundings` u of the terms (OpenGL 2.1 spec,

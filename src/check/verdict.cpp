@@ -34,6 +34,23 @@ Comparison judged(std::string scene, std::string reference, Stage stage, Measure
           std::move(m),     std::string(ledger_row), std::move(note)};
 }
 
+const Worst* shown(const Comparison& c) {
+  if (c.outcome == Outcome::dispute) return &c.measurement.dispute;
+  return c.measurement.max_difference > 0 ? &c.measurement.worst : nullptr;
+}
+
+std::string remark(const Comparison& c) {
+  const Worst* worst = shown(c);
+  std::string out = worst == nullptr ? "" : to_string(worst->place);
+  const auto add = [&](const std::string& more) { out += (out.empty() || more.empty() ? "" : "; ") + more; };
+  if (c.outcome == Outcome::dispute) {
+    add(fmt::format("{:.9g}, the reference {:.9g}", worst->candidate, worst->reference));
+    add(fmt::format("{} disputed: {}", c.measurement.disputed, c.measurement.reason));
+  }
+  add(c.note);
+  return out;
+}
+
 Comparison not_judged(std::string scene, std::string reference, Stage stage, Outcome outcome, std::string note) {
   return {std::move(scene), std::move(reference), stage, outcome, {}, "", std::move(note)};
 }

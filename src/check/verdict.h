@@ -40,6 +40,10 @@ struct Comparison {
 /// The outcome that a measurement comes to.
 Comparison judged(std::string scene, std::string reference, Stage stage, Measurement measurement,
                   std::string_view ledger_row = "", std::string note = "");
+/// What a row shows: of a dispute its largest difference, else the worst of all; null where nothing differs.
+const Worst* shown(const Comparison& comparison);
+/// Where that is, what is disputed and why, and the note.
+std::string remark(const Comparison& comparison);
 Comparison not_judged(std::string scene, std::string reference, Stage stage, Outcome outcome, std::string note);
 
 /// All comparisons of one scene, in stage order for each reference.

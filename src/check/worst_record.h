@@ -13,8 +13,4 @@ namespace plumbline::check {
 /// corners where there are such.
 std::vector<std::string> worst_record(const Evidence& evidence, const Measurement& measurement);
 
-/// Of coverage: the worst triangle's pixels, `#` both, `?` missing, `!` extra, rows from the top of the window, at most
-/// 64 x 32 about what differs, under a line that says where its lower left pixel is. Empty where none differ.
-std::string coverage_picture(const Evidence& evidence);
-
 }  // namespace plumbline::check

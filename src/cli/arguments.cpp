@@ -64,6 +64,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   text(command, "scene", o.scene, "Scene file")->required();
   add_against(command, o.against);
   text(command, "--json", o.json, "Write the diagnosis as JSON");
+  text(command, "--report", o.report, "Write a page with a picture of every stage into this folder");
   text(command, "--pixel", o.pixel,
        "X,Y: show every fragment that reached the pixel, in each renderer, and what became of it; rows count from the "
        "bottom, in gzrender from the top");

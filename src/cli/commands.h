@@ -30,7 +30,7 @@ int check(const CheckOptions& options);
 struct DiagnoseOptions {
   std::string scene;
   std::vector<std::string> against = reference_names();
-  std::string json;             ///< or empty
+  std::string json, report;     ///< or empty
   std::string fault;            ///< or empty
   std::string folder, command;  ///< of another renderer, or empty
   std::string pixel;            ///< X,Y: its history as well; or empty

@@ -12,9 +12,11 @@
 #include "cli/outputs.h"
 #include "cli/pixel_argument.h"
 #include "cli/references.h"
+#include "report/diagnosis_page.h"
 #include "report/diagnosis_text.h"
 #include "report/history_text.h"
 #include "report/json_report.h"
+#include "scene/antialias.h"
 #include "stages/capture_folder.h"
 #include "stages/held_renderer.h"
 #include "stages/process_renderer.h"
@@ -38,6 +40,29 @@ std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scen
                             "--program");
 }
 
+// The page's pictures are of one sample a pixel: of an antialiased scene, of its first pass.
+void write_page(const DiagnoseOptions& o, const Scene& scene, Renderer& candidate, const References& references,
+                const check::Diagnosis& diagnosis) {
+  const Scene pass = passes_of(scene).front();
+  const auto all_that_fits = [](auto capture_of) {
+    try {
+      return capture_of();
+    } catch (const OverBudget&) {
+      return Capture{};
+    }
+  };
+  Request request;
+  request.records = StageSet::all();
+  Capture mine = all_that_fits([&] { return candidate.capture(pass, request); });
+  if (mine.width == 0) mine = candidate.capture(pass, Request{});
+  Capture expected;
+  for (const check::Reference& r : references.list) {
+    if (r.renderer != nullptr && r.renderer->info()[Stage::vertex].runs)
+      expected = all_that_fits([&] { return check::expected_capture(pass, *r.renderer); });
+  }
+  report::write_diagnosis_page(o.report, pass, diagnosis, mine, expected);
+}
+
 }  // namespace
 
 int diagnose(const DiagnoseOptions& o) {
@@ -47,7 +72,7 @@ int diagnose(const DiagnoseOptions& o) {
   if (!o.pixel.empty()) pixel = parse_pixel("--pixel", o.pixel, scene.frame);
   const Output outputs[] = {{"--json", o.json}};
   const std::filesystem::path inputs[] = {o.scene};
-  require_outputs(outputs, {}, inputs);
+  require_outputs(outputs, {"--report", o.report}, inputs);
   const bool outside = !o.folder.empty() || !o.command.empty();
   std::unique_ptr<Renderer> candidate;
   try {
@@ -66,6 +91,7 @@ int diagnose(const DiagnoseOptions& o) {
     history = report::history_json(scene, told);
   }
   if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
+  if (!o.report.empty()) write_page(o, scene, *candidate, references, diagnosis);
   const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
                                           [](const check::Comparison& c) { return is_failure(c.outcome); });
   return holds ? kHolds : kDiffers;

@@ -44,8 +44,13 @@ Json comparison(const check::Comparison& c) {
            {"max_difference", number(m.max_difference)},
            {"unit", m.unit},
            {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
+           {"disputed", m.disputed},
            {"max_ratio", number(m.max_ratio)},
            {"histogram", m.histogram}};
+  if (m.disputed > 0) {
+    out["dispute"] = worst_of(m.dispute);
+    out["dispute"]["reason"] = m.reason;
+  }
   if (!c.ledger_row.empty()) out["ledger"] = c.ledger_row;
   if (!c.note.empty()) out["note"] = c.note;
   return out;

@@ -22,18 +22,9 @@ bool was_judged(const Comparison& c) {
 }
 
 std::string largest(const Comparison& c) {
-  const check::Measurement& m = c.measurement;
-  if (m.max_difference == 0) return "0";
-  return fmt::format("{:.4g} {} (tolerance {:.4g})", m.worst.difference, m.unit, m.worst.tolerance);
-}
-
-std::string remark(const Comparison& c) {
-  std::string out = c.note;
-  if (c.measurement.max_difference > 0) {
-    const std::string place = check::to_string(c.measurement.worst.place);
-    out = out.empty() ? place : place.empty() ? out : place + "; " + out;
-  }
-  return out;
+  const check::Worst* worst = check::shown(c);
+  if (worst == nullptr) return "0";
+  return fmt::format("{:.4g} {} (tolerance {:.4g})", worst->difference, c.measurement.unit, worst->tolerance);
 }
 
 }  // namespace
@@ -49,7 +40,7 @@ std::string table_rows(const SceneVerdict& verdict) {
     const check::Measurement& m = c.measurement;
     if (was_judged(c)) {
       out += fmt::format(kRow, c.scene, c.reference, name_of(c.stage), name_of(c.outcome), m.items, m.differing,
-                         m.ambiguous, largest(c), remark(c));
+                         m.ambiguous, largest(c), check::remark(c));
     } else {
       out += fmt::format(kRow, c.scene, c.reference, name_of(c.stage), name_of(c.outcome), "-", "-", "-", "-", c.note);
     }

@@ -82,7 +82,8 @@ TEST_F(Judge, AWitnessThatContradictsItsOwnTrianglesIsADispute) {
   EXPECT_EQ(c.outcome, Outcome::dispute);
   EXPECT_EQ(c.measurement.disputed, 1u);
   EXPECT_EQ(c.measurement.differing, 0u);
-  EXPECT_NE(c.note, "");
+  EXPECT_NE(c.measurement.reason, "");
+  EXPECT_EQ(to_string(c.measurement.dispute.place), "pixel 5,5 count");
   EXPECT_EQ(first_different(verdict), nullptr);
   // Nobody to settle it.
   EXPECT_EQ(run({{"witness", &witness}}).at({"witness", Stage::coverage}).outcome, Outcome::different);

@@ -175,13 +175,39 @@ TEST(Meter, MissingItemsAllDiffer) {
 
 TEST(Meter, CountsWhatIsAmbiguousAndDisputed) {
   Meter meter("u");
+  const auto item = [&](int x, double diff, const char* why) {
+    meter.suspect(why);
+    meter.value(diff, 2, {x, 5, -1, "z"}, 10, 10 + diff);
+    meter.value(diff / 2, 2, {x, 5, -1, "w"}, 10, 10 + diff / 2);
+    meter.item();
+  };
   meter.ambiguous();
   meter.ambiguous();
-  meter.disputed();
-  const Measurement m = meter.done();
-  EXPECT_EQ(m.ambiguous, 2u);
-  EXPECT_EQ(m.disputed, 1u);
+  meter.item();
+  item(1, 1, "within");
+  item(2, 3, "late");
+  item(3, 7, "early");
+  item(4, 6, "late");
+  Measurement m = Meter(meter).done();
+  EXPECT_EQ(m.ambiguous, 1u) << "of items";
+  EXPECT_EQ(m.disputed, 3u) << "the first is within its tolerance";
   EXPECT_EQ(m.differing, 0u);
+  EXPECT_EQ(m.max_difference, 1.5) << "of what is not disputed";
+  EXPECT_EQ(m.max_ratio, 0.75);
+  EXPECT_EQ(to_string(m.dispute.place), "pixel 3,5 z");
+  EXPECT_EQ(m.dispute.candidate, 10);
+  EXPECT_EQ(m.dispute.reference, 17);
+  EXPECT_EQ(m.dispute.difference, 7);
+  EXPECT_EQ(m.dispute.tolerance, 2);
+  EXPECT_EQ(m.reason, "early");
+  EXPECT_EQ(m.disputed_at, (std::vector<glm::ivec2>{{2, 5}, {3, 5}, {4, 5}}));
+  // No reason excuses the next item, nor what is no number.
+  meter.value(3, 2, {}, 0, 3);
+  meter.item();
+  item(5, kNaN, "late");
+  m = meter.done();
+  EXPECT_EQ(m.disputed, 3u);
+  EXPECT_EQ(m.differing, 2u);
 }
 
 TEST(Place, InWords) {

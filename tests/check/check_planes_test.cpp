@@ -108,6 +108,13 @@ TEST_F(PlanePairs, LegalAnswersDecideBetweenWinners) {
   EXPECT_EQ(counts({kBackground, 3}), (Counts{1, 0, 0})) << "theirs alone";
   EXPECT_EQ(counts({kBackground, 4}), (Counts{1, 0, 0})) << "neither";
   EXPECT_EQ(counts({}), (Counts{1, 0, 0})) << "nothing is legal there";
+  legal = {};
+  allow(3, 1, {kBackground, 5});
+  const Measurement m = run(winners(), ours);
+  EXPECT_EQ(to_string(m.dispute.place), "pixel 3,1 primitive");
+  EXPECT_EQ(m.dispute.candidate, 5);
+  EXPECT_EQ(m.dispute.reference, 3);
+  EXPECT_NE(m.reason, "");
   // And the same by the background.
   capture.planes.id(3, 1) = kBackground;
   EXPECT_EQ(counts({kBackground, 5}), (Counts{0, 1, 0}));

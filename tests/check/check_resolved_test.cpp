@@ -55,6 +55,26 @@ TEST_F(Resolved, IsTheReferencesWhereTheSamplesAre) {
   EXPECT_FALSE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 2.00001)));
 }
 
+TEST_F(Resolved, WhatDisputedSamplesAloneExplainIsDisputed) {
+  const Capture mine = of({1, 2, 3, 4}, 2);
+  Disputed disputed{{{}, {}, {}, {{0, 0}}}, "switched early"};
+  const auto against = [&](const std::vector<double>& samples, double resolved) {
+    const Measurement m = compare_resolved(scene, mine, of(samples, resolved), disputed);
+    return std::array{m.differing, m.disputed};
+  };
+  using Counts = std::array<std::uint64_t, 2>;
+  EXPECT_EQ(against({1, 2, 3, 12}, 5), (Counts{0, 1})) << "8 / 4, of the disputed sample, and a rounding";
+  EXPECT_EQ(against({1, 2, 3, 12}, 6), (Counts{1, 0})) << "more than it explains";
+  EXPECT_EQ(against({1, 2, 11, 4}, 5), (Counts{0, 0})) << "of another sample";
+  EXPECT_EQ(against({1, 2, 3, 4}, 3), (Counts{1, 0})) << "its samples are ours";
+  const Measurement m = compare_resolved(scene, mine, of({1, 2, 3, 12}, 5), disputed);
+  EXPECT_EQ(m.reason, "switched early");
+  EXPECT_EQ(to_string(m.dispute.place), "pixel 0,0 color");
+  EXPECT_NEAR(m.dispute.difference, 3, 1e-5);
+  disputed.at = {{{0, 0}}, {}, {}, {}};
+  EXPECT_EQ(against({1, 2, 3, 12}, 5), (Counts{0, 0})) << "of another pass";
+}
+
 struct JudgePasses : Judge {
   JudgePasses() { scene.frame.antialias = {Antialias::Kind::taps, 1}; }
 };

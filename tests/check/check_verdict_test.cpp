@@ -50,6 +50,20 @@ TEST(Judged, KeepsWhatItIsAbout) {
   EXPECT_NE(both.find("3 against 4"), std::string::npos);
 }
 
+TEST(Judged, ADisputeShowsItsOwnNumbers) {
+  Measurement m = measured(0, 7, 0, 3);
+  m.worst = {{1, 2, -1, "z"}, 5, 8, 3, 4};
+  m.dispute = {{3, 4, -1, "color"}, 0.5, 0.75, 0.25, 0.125};
+  m.reason = "it is late";
+  const Comparison dispute = judged("s", "r", Stage::clip, m, "", "a note");
+  EXPECT_EQ(shown(dispute)->difference, 0.25);
+  EXPECT_EQ(remark(dispute), "pixel 3,4 color; 0.5, the reference 0.75; 7 disputed: it is late; a note");
+  const Comparison within = judged("s", "r", Stage::clip, measured(0, 0, 0, 3), "", "a note");
+  EXPECT_EQ(shown(within)->difference, 0) << "of the worst, which is not given here";
+  EXPECT_EQ(remark(within), "a note");
+  EXPECT_EQ(shown(judged("s", "r", Stage::clip, measured(0, 0, 0, 0))), nullptr);
+}
+
 TEST(Judged, NotJudgedSaysWhy) {
   const Comparison c = not_judged("scene", "ref", Stage::merge, Outcome::missing, "not built in");
   EXPECT_EQ(c.outcome, Outcome::missing);

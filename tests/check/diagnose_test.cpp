@@ -1,18 +1,35 @@
 // diagnose(): every stage that is wrong is named, a second fault behind a first one too, and nothing where nothing is.
 #include "check/diagnose.h"
 
+#include <algorithm>
+
 #include "check_judge.h"
 #include "faults/faults.h"
+#include "scene/antialias.h"
 #include "scene/scene_file.h"
+#include "spoiled_renderer.h"
 
 namespace plumbline::check {
 namespace {
 
-std::unique_ptr<Renderer> with_fault(std::string_view name) {
-  for (const faults::Fault& f : faults::all()) {
-    if (f.name == name) return pipeline::make_pipeline(f.stages());
-  }
-  throw std::invalid_argument("no such fault");
+using Stages = std::vector<Stage>;
+
+faults::Fault fault(std::string_view name) {
+  const std::vector<faults::Fault> all = faults::all();
+  const auto found = std::ranges::find(all, name, &faults::Fault::name);
+  if (found == all.end()) throw std::invalid_argument("no such fault");
+  return *found;
+}
+
+// The pipeline with several faults at once.
+std::unique_ptr<Renderer> with(std::initializer_list<std::string_view> names) {
+  faults::Table table = faults::production();
+  for (const std::string_view name : names) fault(name).apply(table);
+  return pipeline::make_pipeline(faults::stages_of(table));
+}
+
+Scene suite_scene(const std::string& name) {
+  return load_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR "/tests/scenes") / (name + ".json"), {});
 }
 
 struct Diagnose : testing::Test {
@@ -24,6 +41,11 @@ struct Diagnose : testing::Test {
   std::unique_ptr<Renderer> exact = exact::make_exact();
 };
 
+// All stages that two_draws() has.
+constexpr Stage kOfScene[] = {Stage::matrices, Stage::vertex,     Stage::light, Stage::clip,
+                              Stage::window,   Stage::coverage,   Stage::depth, Stage::attributes,
+                              Stage::shade,    Stage::visibility, Stage::merge};
+
 TEST_F(Diagnose, NothingIsWrongWithTheProductionPipeline) {
   const auto ours = pipeline::make_pipeline();
   const Diagnosis d = of(*ours);
@@ -33,14 +55,137 @@ TEST_F(Diagnose, NothingIsWrongWithTheProductionPipeline) {
   EXPECT_FALSE(d.verdict.comparisons.empty());
 }
 
-TEST_F(Diagnose, NamesTheOneStageOfAFault) {
-  const auto candidate = with_fault("attributes.affine");
+TEST_F(Diagnose, NamesEachStageAlone) {
+  for (const Stage stage : kOfScene) {
+    Spoiled candidate(pipeline::make_pipeline(), {stage});
+    const Diagnosis d = of(candidate);
+    EXPECT_EQ(d.wrong, Stages{stage}) << name_of(stage);
+    ASSERT_EQ(d.findings.size(), 1u) << name_of(stage);
+    EXPECT_EQ(d.findings[0].stage, stage);
+    EXPECT_GT(d.findings[0].measurement.differing, 0u);
+    EXPECT_FALSE(d.findings[0].numbers.empty());
+  }
+}
+
+TEST_F(Diagnose, NamesEachPairAndAllAtOnce) {
+  for (const Stage a : kOfScene) {
+    for (const Stage b : kOfScene) {
+      if (a >= b) continue;
+      Spoiled candidate(pipeline::make_pipeline(), {a, b});
+      EXPECT_EQ(of(candidate).wrong, (Stages{a, b})) << name_of(a) << ", " << name_of(b);
+    }
+  }
+  Spoiled all(pipeline::make_pipeline(), {std::begin(kOfScene), std::end(kOfScene)});
+  EXPECT_EQ(of(all).wrong, Stages(std::begin(kOfScene), std::end(kOfScene)));
+}
+
+// The first leaves the second nothing to be wrong with.
+TEST_F(Diagnose, NamesWhatAFaultBeforeItHides) {
+  scene = suite_scene("interpolation/w_ratio");
+  faults::Table table = faults::production();
+  fault("attributes.affine").apply(table);
+  table.geometry.window = [](const Matrices<float>&, const Draw&, const ClipPolygons<float>&,
+                             std::span<const ClipPolygon>, std::vector<WindowTriangle<float>>&) {};
+  const auto candidate = pipeline::make_pipeline(faults::stages_of(table));
   const Diagnosis d = of(*candidate);
-  EXPECT_EQ(d.first, Stage::attributes);
-  EXPECT_EQ(d.wrong, std::vector{Stage::attributes});
-  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.first, Stage::window);
+  EXPECT_EQ(d.wrong, (Stages{Stage::window, Stage::attributes}));
+  ASSERT_EQ(d.findings.size(), 2u);
   EXPECT_EQ(d.findings[0].reference, "exact from its records");
-  EXPECT_FALSE(d.findings[0].numbers.empty());
+  EXPECT_EQ(d.findings[1].reference, "exact from repaired records");
+  // Where the candidate's stages cannot be called, the first alone shows.
+  Changed captured(pipeline::make_pipeline(faults::stages_of(table)));
+  captured.on_info = [](RendererInfo& info) {
+    for (Ability& a : info.stages) a.runs = false;
+  };
+  EXPECT_EQ(of(captured).wrong, Stages{Stage::window});
+}
+
+TEST_F(Diagnose, NamesStagesOfAnAntialiasedScenesPassesAndResolve) {
+  scene = suite_scene("antialias/samples_wedges");
+  const auto ours = pipeline::make_pipeline();
+  EXPECT_TRUE(of(*ours).wrong.empty());
+  const auto one = with({"coverage.samples_mirrored"});
+  EXPECT_EQ(of(*one).wrong, Stages{Stage::coverage});
+  const auto two = with({"coverage.samples_mirrored", "resolve.truncated"});
+  EXPECT_EQ(of(*two).wrong, (Stages{Stage::coverage, Stage::resolve}));
+  // Nothing reaches the frame: resolve shows on repaired samples alone.
+  faults::Table table = faults::production();
+  fault("resolve.truncated").apply(table);
+  table.fragment.coverage = [](const pipeline::TriangleSetup<>&, const pipeline::Pixels<float>&) { return false; };
+  const auto hidden = pipeline::make_pipeline(faults::stages_of(table));
+  EXPECT_EQ(of(*hidden).wrong, (Stages{Stage::coverage, Stage::resolve}));
+}
+
+TEST_F(Diagnose, ARendererThatFailsIsWrongInNoStage) {
+  Changed candidate(pipeline::make_pipeline());
+  candidate.before_capture = [](const Request&) { throw RendererFailed("crashed"); };
+  const Diagnosis d = of(candidate);
+  EXPECT_TRUE(d.wrong.empty());
+  ASSERT_EQ(d.verdict.comparisons.size(), 1u);
+  EXPECT_EQ(d.verdict.comparisons[0].outcome, Outcome::failed);
+}
+
+TEST_F(Diagnose, WithoutExactTheFirstDifferentStageIsTheFinding) {
+  Changed witness(pipeline::make_pipeline());
+  witness.on_info = [](RendererInfo& info) {
+    info.name = "witness";
+    for (Ability& a : info.stages) a.runs = false;
+  };
+  Spoiled candidate(pipeline::make_pipeline(), {Stage::window});
+  const Reference references[] = {{"witness", &witness}};
+  const Diagnosis d = diagnose(scene, candidate, references);
+  EXPECT_EQ(d.first, Stage::window);
+  EXPECT_TRUE(d.wrong.empty());
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].stage, Stage::window);
+}
+
+// What the compiler makes of a conversion there and back is not always nothing (repair.cpp).
+TEST(Repair, RoundsEveryNumber) {
+  const auto rounded = [](auto v) { return decltype(v)(glm::vec<decltype(v)::length(), float>(v)) == v; };
+  Capture c = exact_capture(two_draws());
+  const Scene scene = two_draws();
+  std::size_t unrounded = 0;
+  for (const auto& v : c.records.vertices) unrounded += rounded(v.n_eye) ? 0 : 1;
+  EXPECT_GT(unrounded, 0u);
+  for (const Stage stage : kOfScene) round_to_formats(scene, stage, c);
+  const Records<double>& r = c.records;
+  for (const auto& m : r.matrices)
+    EXPECT_TRUE(rounded(m.model_view[0]) && rounded(m.projection[1]) && rounded(m.normal[0]));
+  for (const auto& v : r.vertices) EXPECT_TRUE(rounded(v.p_eye) && rounded(v.p_clip) && rounded(v.n_eye));
+  for (const auto& l : r.lit) EXPECT_TRUE(rounded(l.color));
+  for (const auto& v : r.polygons.vertices) EXPECT_TRUE(rounded(v.p_clip) && rounded(v.color));
+  for (const auto& t : r.triangles) {
+    for (const auto& v : t.v) EXPECT_TRUE(rounded(v.p_win) && rounded(glm::dvec1(v.inv_w)) && rounded(v.color));
+  }
+  const double scale = depth_scale(scene.frame.depth);
+  for (const double z : r.depth) EXPECT_EQ(z, std::nearbyint(z * scale) / scale);
+  for (const auto& a : r.attributes) EXPECT_TRUE(rounded(a.color));
+  for (const auto& s : r.shaded) EXPECT_TRUE(rounded(s.color));
+  EXPECT_FALSE(r.shaded.empty());
+}
+
+// Exact's records, rounded, in the place of every other stage's: what is right raises nothing on them.
+TEST_F(Diagnose, RaisesNothingElseOnAnySceneWhereEveryOtherStageIsRepaired) {
+  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
+  std::size_t scenes = 0;
+  for (const auto& file : find_scenes(folder)) {
+    if (file.parent_path().stem() == "models") continue;
+    scene = load_scene(file, {});
+    if (scene.frame.antialias.kind != Antialias::Kind::none) scene = passes_of(scene)[0];
+    const bool even = ++scenes % 2 == 0;
+    std::set<Stage> wrong;
+    for (std::size_t i = even ? 0 : 1; i <= static_cast<std::size_t>(Stage::merge); i += 2) {
+      wrong.insert(static_cast<Stage>(i));
+    }
+    Spoiled candidate(pipeline::make_pipeline(), wrong);
+    for (const Finding& f : of(candidate).findings) {
+      EXPECT_TRUE(wrong.contains(f.stage))
+          << scene.name << ": " << name_of(f.stage) << ", " << f.reference << ": " << f.numbers[0];
+    }
+  }
+  EXPECT_GT(scenes, 100u);
 }
 
 }  // namespace

@@ -16,6 +16,9 @@ struct Fault {
   std::string_view changes;  ///< what it does, in words
   Stage stage;               ///< the stage that must be named
   void (*apply)(Table&);     ///< puts its functions in
+  /// The thread of a public renderer that reports it (owner/repository#number): written from that report alone, before
+  /// its writer had read how faults are found.
+  std::string_view report = {};
 
   /// The pipeline with it.
   pipeline::Stages stages() const;

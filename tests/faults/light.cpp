@@ -1,10 +1,10 @@
-#include "faults/light.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "dialect/dialect.h"
+#include "faults/lists.h"
 #include "faults/variants.h"
 #include "pipeline/carry.h"
 #include "pipeline/light.h"
@@ -37,6 +37,22 @@ constexpr auto kDegreesForRadians = [](Scene& scene, Draw&) {
   }
 };
 
+constexpr auto kHalfTheCone = [](Scene& scene, Draw&) {
+  for (Light& light : scene.lights) {
+    if (light.spot) light.spot->cutoff_degrees /= 2;
+  }
+};
+
+// A second light of each that has a cone shines the other way, as far as there are so many.
+constexpr auto kConesBothWays = [](Scene& scene, Draw&) {
+  const std::vector<Light> lights = scene.lights;
+  for (Light light : lights) {
+    if (!light.spot || scene.lights.size() == 8) continue;
+    light.spot->direction = -light.spot->direction;
+    scene.lights.push_back(light);
+  }
+};
+
 constexpr auto kConesIgnored = [](Scene& scene, Draw&) {
   for (Light& light : scene.lights) light.spot.reset();
 };
@@ -50,6 +66,12 @@ constexpr auto kNoColorMaterial = [](Scene&, Draw& draw) { draw.color_material =
 // The scene's ambient light once more for each light.
 constexpr auto kAmbientPerLight = [](Scene& scene, Draw&) {
   scene.light_model.ambient *= 1.0f + static_cast<float>(scene.lights.size());
+};
+
+// Eye space is the world.
+constexpr auto kWorldSpace = [](Scene& scene, Draw&) {
+  scene.dialect = Dialect::gl;
+  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
 };
 
 // Directional lights' highlights where the surface faces away from them.
@@ -79,6 +101,15 @@ void back_color_is_the_fronts(const Scene& scene, const Draw& draw, Varying vary
   pipeline::light_part(scene, draw, {}, vertices, out);
 }
 
+// Of the vertices before their cut: the fog of a primitive that reaches behind the eye grows towards it.
+void positions_by_distance(const Scene& scene, const Draw& draw, Varying varying, Vertices vertices,
+                           std::vector<Vec4<float>>& out) {
+  const std::size_t first = out.size();
+  pipeline::carry(scene, draw, varying, vertices, out);
+  if (varying != Varying::position) return;
+  for (std::size_t i = first; i < out.size(); ++i) out[i].z = std::abs(out[i].z);
+}
+
 // The sum of colours left out.
 Color<float> no_color_sum(const pipeline::Surface& surface, bool front, const pipeline::SurfaceAttributes<float>& a) {
   pipeline::SurfaceAttributes<float> primary = a;
@@ -100,14 +131,18 @@ Color<float> short_normals(const pipeline::Surface& surface, bool front, const p
 }
 
 template <auto change>
-constexpr Fault of(std::string_view name, std::string_view what) {
-  return {name, what, Stage::light, put<&Geometry::light, lit_otherwise<change>>};
+constexpr Fault of(std::string_view name, std::string_view what, std::string_view report = {}) {
+  return {name, what, Stage::light, put<&Geometry::light, lit_otherwise<change>>, report};
 }
 
 constexpr std::array kFaults = {
+    of<kWorldSpace>("light.world_space", "lights are not brought to eye space"),
     of<kNoAttenuation>("light.no_attenuation", "lights do not fade with their distance"),
     of<kDegreesForRadians>("light.cutoff_in_degrees", "a cone's angle in degrees is taken for radians"),
     of<kConesIgnored>("light.cones_ignored", "spot lights shine to all sides"),
+    of<kHalfTheCone>("light.half_the_cone", "a cone's angle from its axis is taken for that from side to side",
+                     "KhronosGroup/glTF#824"),
+    of<kConesBothWays>("light.cones_both_ways", "spot lights shine backwards too", "mrdoob/three.js#3291"),
     of<kReflection>("light.reflection_for_half_vector", "highlights are by the mirrored ray, not the half vector"),
     of<kFarViewer>("light.far_viewer", "highlights are seen from infinitely far away, not from the eye"),
     of<kNoColorMaterial>("light.no_color_material", "vertex colours do not stand for the material"),
@@ -116,6 +151,8 @@ constexpr std::array kFaults = {
           put<&Geometry::light, specular_from_behind>},
     Fault{"light.back_color_of_front", "back faces are lit by their front's normal and material", Stage::light,
           put<&Geometry::carry, back_color_is_the_fronts>},
+    Fault{"light.distance_at_vertices", "the distance for fog is taken at the vertices and interpolated", Stage::light,
+          put<&Geometry::carry, positions_by_distance>},
     Fault{"shade.no_color_sum", "the separate specular colour is not added", Stage::shade,
           put<&Fragment::shade_surface, no_color_sum>},
     Fault{"shade.not_renormalised", "interpolated normals are not brought back to unit length", Stage::shade,

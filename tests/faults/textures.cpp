@@ -1,7 +1,7 @@
-#include "faults/textures.h"
-
 #include <array>
+#include <cmath>
 
+#include "faults/lists.h"
 #include "faults/variants.h"
 
 namespace plumbline::faults {
@@ -13,8 +13,14 @@ using pipeline::Gradients;
 using pipeline::TexCoords;
 using pipeline::TextureSetup;
 
+// 8. Texture.
+
 FilteredTexel<float> flipped_t(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
-  return pipeline::texture<float>(t, {at.s, float(1) - at.t}, g);
+  return pipeline::texture<float>(t, {at.s, 1 - at.t}, g);
+}
+
+FilteredTexel<float> s_for_t(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  return pipeline::texture<float>(t, {at.t, at.s}, {g.dt_dx, g.ds_dx, g.dt_dy, g.ds_dy});
 }
 
 FilteredTexel<float> half_texel_off(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
@@ -22,27 +28,48 @@ FilteredTexel<float> half_texel_off(const TextureSetup& t, const TexCoords<float
   return pipeline::texture<float>(t, {at.s + half(t.width), at.t + half(t.height)}, g);
 }
 
-FilteredTexel<float> clamped_for_repeated(const TextureSetup& t, const TexCoords<float>& at,
-                                          const Gradients<float>& g) {
+// The remainder of |s|.
+FilteredTexel<float> negative_mirrored(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  const auto repeated = [](Wrap wrap, float v) { return wrap == Wrap::repeat ? std::abs(v) : v; };
+  return pipeline::texture<float>(t, {repeated(t.sampler.wrap_s, at.s), repeated(t.sampler.wrap_t, at.t)}, g);
+}
+
+// The stage under a sampler that says something else.
+template <auto change>
+FilteredTexel<float> texture_under(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   TextureSetup wrong = t;
-  for (Wrap* wrap : {&wrong.sampler.wrap_s, &wrong.sampler.wrap_t}) {
-    if (*wrap == Wrap::repeat) *wrap = Wrap::clamp_to_edge;
-  }
+  change(wrong);
   return pipeline::texture<float>(wrong, at, g);
 }
 
-FilteredTexel<float> bias_left_out(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
-  TextureSetup wrong = t;
-  wrong.sampler.lod_bias = 0;
-  return pipeline::texture<float>(wrong, at, g);
+void wrap_otherwise(TextureSetup& t, Wrap from, Wrap to) {
+  for (Wrap* wrap : {&t.sampler.wrap_s, &t.sampler.wrap_t}) *wrap = *wrap == from ? to : *wrap;
 }
+constexpr auto kClampForRepeat = [](TextureSetup& t) { wrap_otherwise(t, Wrap::repeat, Wrap::clamp_to_edge); };
+constexpr auto kEdgeForBorder = [](TextureSetup& t) { wrap_otherwise(t, Wrap::clamp_to_border, Wrap::clamp_to_edge); };
+constexpr auto kNoBias = [](TextureSetup& t) { t.sampler.lod_bias = 0; };
+constexpr auto kAllLevels = [](TextureSetup& t) { t.last = static_cast<int>(t.texture->levels.size()) - 1; };
+constexpr auto kMagnifiedAlways = [](TextureSetup& t) {
+  t.sampler.min = t.sampler.mag == MagFilter::linear ? MinFilter::linear : MinFilter::nearest;
+};
 
-/// The level of detail by x alone, as a scan line's stepping knows it.
+// The level of detail by x alone, as a scan line's stepping knows it.
 FilteredTexel<float> levels_by_row(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   return pipeline::texture<float>(t, at, {g.ds_dx, g.dt_dx, g.ds_dx, g.dt_dx});
 }
 
-/// Two levels mixed with each other's shares.
+// log2 of rho squared.
+FilteredTexel<float> levels_doubled(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
+  TextureSetup unlimited = t;
+  unlimited.sampler.lod_bias = 0;
+  unlimited.sampler.min_lod = -1000;
+  unlimited.sampler.max_lod = 1000;
+  const float lambda = 2 * pipeline::level_of_detail<float>(unlimited, g) + t.sampler.lod_bias;
+  const float lod = pipeline::clamped(lambda, t.sampler.min_lod, t.sampler.max_lod);
+  return {pipeline::sample(t, at, lod), lod};
+}
+
+// Two levels mixed with each other's shares.
 FilteredTexel<float> levels_swapped(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   FilteredTexel<float> out = pipeline::texture<float>(t, at, g);
   const auto whole = static_cast<float>(static_cast<int>(out.lod));
@@ -50,31 +77,94 @@ FilteredTexel<float> levels_swapped(const TextureSetup& t, const TexCoords<float
   return out;
 }
 
-Color<float> modulate_for_replace(const pipeline::Surface& surface, bool front,
-                                  const pipeline::SurfaceAttributes<float>& attributes) {
+// 9. Shade.
+
+using Attributes = pipeline::SurfaceAttributes<float>;
+
+// The stage under a draw that says something else.
+template <auto change>
+Color<float> shaded_under(const pipeline::Surface& surface, bool front, const Attributes& attributes) {
   Draw wrong = *surface.draw;
-  if (wrong.texture && wrong.texture->environment == TextureEnvironment::replace) {
-    wrong.texture->environment = TextureEnvironment::modulate;
-  }
+  change(wrong);
   pipeline::Surface with_it = surface;
   with_it.draw = &wrong;
   return pipeline::shade_surface<float>(with_it, front, attributes);
 }
 
+constexpr auto kModulateForReplace = [](Draw& draw) {
+  if (draw.texture && draw.texture->environment == TextureEnvironment::replace) {
+    draw.texture->environment = TextureEnvironment::modulate;
+  }
+};
+constexpr auto kReplaceForDecal = [](Draw& draw) {
+  if (draw.texture && draw.texture->environment == TextureEnvironment::decal) {
+    draw.texture->environment = TextureEnvironment::replace;
+  }
+};
+constexpr auto kNoEnvironmentColor = [](Draw& draw) {
+  if (draw.texture) draw.texture->color = glm::vec4(0);
+};
+constexpr auto kNoFog = [](Draw& draw) { draw.fog.reset(); };
+
+Color<float> fogged_alpha(const pipeline::Surface& surface, bool front, const Attributes& attributes) {
+  Color<float> color = pipeline::shade_surface<float>(surface, front, attributes);
+  if (surface.draw->fog) color.a *= pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
+  return color;
+}
+
+// The fog's colour `of_fog` times, the fragment's own `of_fragment` times.
+Color<float> with_fog(const pipeline::Surface& surface, const Color<float>& color, float of_fragment, float of_fog) {
+  const glm::vec3& fog = surface.draw->fog->color;
+  return {of_fragment * color.r + of_fog * fog.r, of_fragment * color.g + of_fog * fog.g,
+          of_fragment * color.b + of_fog * fog.b, color.a};
+}
+
+Color<float> fog_added(const pipeline::Surface& surface, bool front, const Attributes& attributes) {
+  if (!surface.draw->fog) return pipeline::shade_surface<float>(surface, front, attributes);
+  const float f = pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
+  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes), 1, 1 - f);
+}
+
+Color<float> fog_near(const pipeline::Surface& surface, bool front, const Attributes& attributes) {
+  if (!surface.draw->fog) return pipeline::shade_surface<float>(surface, front, attributes);
+  const float f = pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
+  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes), 1 - f, f);
+}
+
 constexpr std::array kTextures = {
     Fault{"texture.t_flipped", "textures are upside down", Stage::texture, put<&Fragment::texture, flipped_t>},
+    Fault{"texture.s_for_t", "s and t change places", Stage::texture, put<&Fragment::texture, s_for_t>},
     Fault{"texture.half_texel_off", "texels are taken for points at their lower left corners", Stage::texture,
           put<&Fragment::texture, half_texel_off>},
     Fault{"texture.clamp_for_repeat", "textures are not repeated, but drawn out from their edges", Stage::texture,
-          put<&Fragment::texture, clamped_for_repeated>},
+          put<&Fragment::texture, texture_under<kClampForRepeat>>},
+    Fault{"texture.negative_mirrored", "repeated textures are mirrored where coordinates are negative", Stage::texture,
+          put<&Fragment::texture, negative_mirrored>, "dolphin-emu/dolphin#9921"},
+    Fault{"texture.edge_for_border", "a texture's edge is drawn out where its border should be", Stage::texture,
+          put<&Fragment::texture, texture_under<kEdgeForBorder>>, "xemu-project/xemu#1005"},
     Fault{"texture.bias_left_out", "the texture's level-of-detail bias is not added", Stage::texture,
-          put<&Fragment::texture, bias_left_out>},
+          put<&Fragment::texture, texture_under<kNoBias>>},
+    Fault{"texture.max_level_ignored", "levels beyond the last that may be sampled are", Stage::texture,
+          put<&Fragment::texture, texture_under<kAllLevels>>},
+    Fault{"texture.magnified_always", "textures are filtered as where they are magnified", Stage::texture,
+          put<&Fragment::texture, texture_under<kMagnifiedAlways>>},
     Fault{"texture.levels_by_row", "the level of detail is that along x alone", Stage::texture,
           put<&Fragment::texture, levels_by_row>},
+    Fault{"texture.levels_doubled", "the level of detail is that of the pixel's area in texels", Stage::texture,
+          put<&Fragment::texture, levels_doubled>, "bochs-emu/Bochs#222"},
     Fault{"texture.levels_swapped", "of two levels mixed, each gets the other's share", Stage::texture,
           put<&Fragment::texture, levels_swapped>},
     Fault{"shade.modulate_for_replace", "the texture's colour is multiplied in where it should replace", Stage::shade,
-          put<&Fragment::shade_surface, modulate_for_replace>},
+          put<&Fragment::shade_surface, shaded_under<kModulateForReplace>>},
+    Fault{"shade.replace_for_decal", "a decal covers where its alpha should let through", Stage::shade,
+          put<&Fragment::shade_surface, shaded_under<kReplaceForDecal>>},
+    Fault{"shade.no_environment_color", "the texture environment's colour is black", Stage::shade,
+          put<&Fragment::shade_surface, shaded_under<kNoEnvironmentColor>>},
+    Fault{"shade.fogged_alpha", "fog takes alpha too", Stage::shade, put<&Fragment::shade_surface, fogged_alpha>},
+    Fault{"shade.fog_added", "fog is added to a colour, which does not fade into it", Stage::shade,
+          put<&Fragment::shade_surface, fog_added>, "godotengine/godot#12454"},
+    Fault{"shade.fog_near", "fog is thick near the eye, and thin far away", Stage::shade,
+          put<&Fragment::shade_surface, fog_near>},
 };
 
 }  // namespace

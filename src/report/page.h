@@ -1,0 +1,41 @@
+// What the pages for people share: text that is safe in HTML, and the folder that a page is written into.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <glm/glm.hpp>
+
+#include "stages/atomic_path.h"
+#include "stages/plane.h"
+
+namespace plumbline::report {
+
+/// The text with HTML's own characters written as entities; what is no UTF-8 becomes U+FFFD.
+std::string escaped(std::string_view text);
+/// A relative path that any file system takes and a link may hold as it is: letters other than ASCII's become "_".
+std::string file_name(std::string_view text);
+
+/// The style that all pages begin with: light and dark, as the reader's system has it.
+extern const std::string_view kPageStyle;
+
+/// A folder with index.html and the files that it shows. Works offline. The folder appears in the end, whole. It
+/// replaces nothing but a page like it: a list in the folder names its files.
+class PageFolder {
+ public:
+  /// Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not a page's.
+  explicit PageFolder(const std::filesystem::path& folder);
+  void write(const std::string& name, std::string_view bytes);
+  /// As a PNG.
+  void write_picture(const std::string& name, const Plane<glm::vec4>& plane);
+  /// index.html, `body` being HTML; and the folder is there.
+  void commit(const std::string& title, std::string_view style, const std::string& body);
+
+ private:
+  std::filesystem::path name_;
+  AtomicPath folder_;
+  std::string files_;  // one a line
+};
+
+}  // namespace plumbline::report

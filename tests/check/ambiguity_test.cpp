@@ -1,0 +1,127 @@
+// The prediction of how many pixels are ambiguous, on pictures whose bands are known from their sides' lengths.
+#include "reference/math/ambiguity.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "scene/scene.h"
+#include "stages/capture.h"
+
+namespace plumbline::math {
+namespace {
+
+/// White triangles in the window's coordinates, all at depth z.
+Scene flat_scene(const std::vector<std::array<glm::vec2, 3>>& triangles, float z = 0.5f) {
+  Scene scene;
+  scene.name = "flat";
+  scene.frame.width = scene.frame.height = 64;
+  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  scene.projection = Orthographic{0, 64, 0, 64, 0, 1};
+  Mesh mesh;
+  for (const auto& t : triangles) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::vec2 p : t) mesh.positions.emplace_back(p, -z);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
+  scene.meshes = {mesh};
+  Draw draw;
+  draw.lit = false;
+  scene.draws = {draw};
+  return scene;
+}
+
+/// All of them seen: the background won everywhere.
+double predicted(const Scene& scene) {
+  return ambiguous_by_edges(scene, project(scene), Plane<std::int32_t>(64, 64, kBackground));
+}
+
+/// How far the outline may be moved in the middle: nearly the same everywhere.
+double delta(const Scene& scene) {
+  const Projected projected = project(scene);
+  return displacement(projected, projected.triangles[0], {0, 0, 1}, 1);
+}
+
+// Sides 40, 30 and 50, which no centre lies on.
+constexpr std::array<glm::vec2, 3> kLower = {glm::vec2(10.25f, 10.25f), {50.25f, 10.25f}, {10.25f, 40.25f}};
+constexpr std::array<glm::vec2, 3> kUpper = {glm::vec2(50.25f, 40.25f), {10.25f, 40.25f}, {50.25f, 10.25f}};
+
+TEST(AmbiguousByEdges, IsTheAreaOfTheBandsAlongTheSides) {
+  const Scene scene = flat_scene({kLower});
+  const double area = 2 * delta(scene) * 120;
+  EXPECT_GT(area, 0.5);
+  EXPECT_NEAR(predicted(scene), area, 0.01 * area);
+}
+
+TEST(AmbiguousByEdges, CountsASideThatTwoTrianglesShareOnce) {
+  const Scene scene = flat_scene({kLower, kUpper});
+  const double area = 2 * delta(scene) * (40 + 30 + 40 + 30 + 50);
+  EXPECT_NEAR(predicted(scene), area, 0.01 * area);
+}
+
+TEST(AmbiguousByEdges, CountsTheCentresThatASideRunsThrough) {
+  // A side of 40 along a row of centres, and two through none.
+  const Scene scene = flat_scene({{glm::vec2(10.25f, 10.5f), {50.25f, 10.5f}, {10.25f, 40.3f}}});
+  EXPECT_NEAR(predicted(scene), 40, 1);
+}
+
+TEST(AmbiguousByEdges, LeavesHiddenSidesOut) {
+  const Scene scene = flat_scene({kLower, {glm::vec2(1, 1), {63, 2}, {2, 63}}}, 0.5f);
+  Scene hidden = scene;
+  for (std::size_t i = 3; i < 6; ++i) hidden.meshes[0].positions[i].z = -0.25f;  // the large one is nearer
+  const double both = ambiguous_by_edges(hidden, project(hidden), Plane<std::int32_t>(64, 64, 1));
+  Scene alone = hidden;
+  alone.meshes[0].triangles.erase(alone.meshes[0].triangles.begin());
+  EXPECT_NEAR(both, predicted(alone), 0.01 * both);
+}
+
+/// A surface at the pixel, `slope` window z per pixel.
+PixelHit surface(std::uint32_t primitive, double z, double half, glm::dvec2 slope) {
+  PixelHit out;
+  out.hit.primitive = primitive;
+  out.hit.certain = true;
+  out.view = out.win = {z, half, slope};
+  return out;
+}
+
+Scene with_24_bits() {
+  Scene scene;
+  scene.frame.depth = DepthFormat::z24;
+  return scene;
+}
+constexpr double kStep = 1.0 / ((1 << 24) - 1);
+
+TEST(AmbiguousByDepth, OfTwoSurfacesThatMeetIsTheirBandOverTheirSlope) {
+  const Scene scene = with_24_bits();
+  const PixelHit hits[] = {surface(0, 0.5, 1e-4, {0.01, 0}), surface(1, 0.505, 1e-4, {-0.01, 0})};
+  const DepthShare share = ambiguous_by_depth(scene, hits, 0);
+  EXPECT_NEAR(share.area, (2e-4 + kStep) / 0.02, 1e-6);
+  EXPECT_FALSE(share.centre) << "the line is a quarter of a pixel away";
+  const PixelHit near[] = {surface(0, 0.5, 1e-4, {0.01, 0}), surface(1, 0.5001, 1e-4, {-0.01, 0})};
+  EXPECT_TRUE(ambiguous_by_depth(scene, near, 0).centre);
+}
+
+TEST(AmbiguousByDepth, IsNothingWhereTheyMeetElsewhere) {
+  const Scene scene = with_24_bits();
+  const PixelHit hits[] = {surface(0, 0.5, 1e-4, {0.01, 0}), surface(1, 0.521, 1e-4, {-0.01, 0})};
+  EXPECT_EQ(ambiguous_by_depth(scene, hits, 0).area, 0);
+  const PixelHit parallel[] = {surface(0, 0.5, 1e-4, {0.01, 0}), surface(1, 0.50021, 1e-4, {0.01, 0})};
+  EXPECT_EQ(ambiguous_by_depth(scene, parallel, 0).area, 0);
+}
+
+TEST(AmbiguousByDepth, OfParallelSurfacesWithinReachIsThePixel) {
+  const Scene scene = with_24_bits();
+  const PixelHit hits[] = {surface(0, 0.5, 1e-4, {0.01, 0}), surface(1, 0.50019, 1e-4, {0.01, 0})};
+  EXPECT_EQ(ambiguous_by_depth(scene, hits, 0).area, 1);
+  EXPECT_TRUE(ambiguous_by_depth(scene, hits, 0).centre);
+}
+
+TEST(AmbiguousByDepth, OfASurfaceThatTheNearPlaneCutsIsTheBandOnBothSides) {
+  const Scene scene = with_24_bits();
+  const PixelHit hits[] = {surface(0, 0.005, 1e-4, {0.02, 0})};
+  EXPECT_NEAR(ambiguous_by_depth(scene, hits, 0).area, 2e-4 / 0.02, 1e-9);
+}
+
+}  // namespace
+}  // namespace plumbline::math

@@ -1,0 +1,17 @@
+// The lists that faults.h's is made of, each in the file of its name.
+#pragma once
+
+#include <span>
+
+#include "faults/faults.h"
+
+namespace plumbline::faults {
+
+std::span<const Fault> of_vertices();  ///< stages 0 and 1
+std::span<const Fault> of_light();     ///< the light equation, at the vertices (stage 2) and per fragment (stage 9)
+std::span<const Fault> of_polygons();  ///< stages 3 and 4
+std::span<const Fault> of_raster();    ///< stages 5 to 7
+std::span<const Fault> of_textures();  ///< stages 8 and 9
+std::span<const Fault> of_merge();     ///< stages 10 to 12
+
+}  // namespace plumbline::faults

@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "faults/lists.h"
+#include "faults/variants.h"
+
+namespace plumbline::faults {
+
+namespace {
+
+// 10. Visibility.
+
+// The depth test by another function for some.
+template <auto other>
+bool depth_passes_by(DepthFunc func, float incoming, float stored) {
+  return pipeline::depth_passes_for(pipeline::FragmentStages(), other(func), incoming, stored);
+}
+
+constexpr auto kLessEqualForLess = [](DepthFunc func) {
+  return func == DepthFunc::less ? DepthFunc::less_equal : func;
+};
+// a < b for b < a.
+constexpr auto kSidesSwapped = [](CompareFunc func) {
+  switch (func) {
+    case CompareFunc::less: return CompareFunc::greater;
+    case CompareFunc::greater: return CompareFunc::less;
+    case CompareFunc::less_equal: return CompareFunc::greater_equal;
+    case CompareFunc::greater_equal: return CompareFunc::less_equal;
+    default: return func;
+  }
+};
+
+bool alpha_at_the_reference_kept(const AlphaTest& test, float alpha, float scale) {
+  const bool greater = test.func == CompareFunc::greater;
+  return pipeline::alpha_passes<float>({greater ? CompareFunc::greater_equal : test.func, test.reference}, alpha,
+                                       scale);
+}
+
+bool no_alpha_test(const AlphaTest&, float, float) { return true; }
+
+// The stencil test under a face that says something else.
+template <auto change>
+bool stencil_under(const StencilFace& face, bool alive, bool nearer, std::uint8_t* at) {
+  StencilFace wrong = face;
+  change(wrong);
+  return pipeline::stencil_test<float>(wrong, alive, nearer, at);
+}
+
+constexpr auto kOpsSwapped = [](StencilFace& face) { std::swap(face.pass, face.depth_fail); };
+constexpr auto kReferenceOnTheRight = [](StencilFace& face) { face.func = kSidesSwapped(face.func); };
+constexpr auto kNoMask = [](StencilFace& face) { face.mask = 0xff; };
+constexpr auto kNoWriteMask = [](StencilFace& face) { face.write_mask = 0xff; };
+constexpr auto kNoWrap = [](StencilFace& face) {
+  for (StencilOp* op : {&face.fail, &face.depth_fail, &face.pass}) {
+    if (*op == StencilOp::increment_wrap) *op = StencilOp::increment;
+    if (*op == StencilOp::decrement_wrap) *op = StencilOp::decrement;
+  }
+};
+
+// 11. Merge.
+
+// The draw's merge state, changed.
+template <auto change>
+Merge merge_under(const Merge& of_draw) {
+  Merge wrong = of_draw;
+  change(wrong);
+  return wrong;
+}
+
+constexpr auto kFactorsSwapped = [](Merge& merge) {
+  if (!merge.blend) return;
+  std::swap(merge.blend->rgb.source, merge.blend->rgb.destination);
+  std::swap(merge.blend->alpha.source, merge.blend->alpha.destination);
+};
+constexpr auto kAlphaAsRgb = [](Merge& merge) {
+  if (merge.blend) merge.blend->alpha = merge.blend->rgb;
+};
+constexpr auto kNoColorMask = [](Merge& merge) { merge.color_mask = glm::bvec4(true); };
+constexpr auto kNoDepthMask = [](Merge& merge) { merge.depth_mask = true; };
+
+Color<float> truncated_color(const Color<float>& color, float scale) {
+  if (scale == 0.0f) return color;
+  const auto code = [&](float v) { return static_cast<float>(static_cast<int>(pipeline::clamp01(v) * scale)); };
+  return {code(color.r), code(color.g), code(color.b), code(color.a)};
+}
+
+Color<float> blue_first(const Color<float>& color, float scale) {
+  return pipeline::merge<float>({color.b, color.g, color.r, color.a}, scale);
+}
+
+Color<float> premultiplied_again(const Blend& state, const Color<float>& source, const Color<float>& stored,
+                                 float scale) {
+  const float a = source.a;
+  return pipeline::blend<float>(state, {source.r * a, source.g * a, source.b * a, a}, stored, scale);
+}
+
+// (s * a + d * (255 - a)) >> 8.
+Color<float> shifted_for_divided(const Blend& state, const Color<float>& source, const Color<float>& stored,
+                                 float scale) {
+  const Color<float> right = pipeline::blend<float>(state, source, stored, scale);
+  if (scale == 0.0f) return right;
+  const auto clamped = [](float v) { return pipeline::clamp01(v); };
+  const Color<float> sum =
+      pipeline::blend<float>(state, {clamped(source.r), clamped(source.g), clamped(source.b), clamped(source.a)},
+                             {stored.r / scale, stored.g / scale, stored.b / scale, stored.a / scale}, 0.0f);
+  const auto code = [&](const BlendTerm& term, float v, float as_is) {
+    if (term.equation == BlendEquation::min || term.equation == BlendEquation::max) return as_is;
+    return std::floor(pipeline::clamp01(v) * scale * scale / (scale + 1));
+  };
+  return {code(state.rgb, sum.r, right.r), code(state.rgb, sum.g, right.g), code(state.rgb, sum.b, right.b),
+          code(state.alpha, sum.a, right.a)};
+}
+
+Color<float> sides_of_logic_op_swapped(LogicOp op, const Color<float>& source, const Color<float>& stored,
+                                       float scale) {
+  const LogicOp wrong = op == LogicOp::and_reverse    ? LogicOp::and_inverted
+                        : op == LogicOp::and_inverted ? LogicOp::and_reverse
+                                                      : op;
+  return pipeline::logic<float>(wrong, source, stored, scale);
+}
+
+// 12. Resolve.
+
+using Values = std::span<const float>;
+using Samples = std::span<const PixelSample>;
+
+double weighted_sum(Values values, Samples samples) {
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += static_cast<double>(samples[i].weight) * static_cast<double>(values[i]);
+  }
+  return sum;
+}
+double weights(Samples samples) {
+  double sum = 0;
+  for (const PixelSample& s : samples) sum += s.weight;
+  return sum;
+}
+
+float truncated_mean(Values values, Samples samples, float scale) {
+  if (scale == 0.0f) return pipeline::weighted_mean(values, samples, scale);
+  return static_cast<float>(std::floor(weighted_sum(values, samples) / weights(samples)));
+}
+
+// The second's and the third's weights change places: neighbours in the table.
+float mean_of_swapped(Values values, Samples samples, float scale) {
+  std::vector<PixelSample> wrong(samples.begin(), samples.end());
+  if (wrong.size() > 2) std::swap(wrong[1].weight, wrong[2].weight);
+  return pipeline::weighted_mean(values, wrong, scale);
+}
+
+float first_sample(Values values, Samples, float) { return values[0]; }
+
+float first_half(Values values, Samples samples, float scale) {
+  const std::size_t half = (values.size() + 1) / 2;
+  return pipeline::weighted_mean(values.first(half), samples.first(half), scale);
+}
+
+float last_left_out(Values values, Samples samples, float scale) {
+  const std::size_t most = std::max<std::size_t>(values.size() - 1, 1);
+  const double mean = weighted_sum(values.first(most), samples.first(most)) / weights(samples);
+  return static_cast<float>(scale == 0.0f ? mean : std::floor(mean + 0.5));
+}
+
+float equal_weights(Values values, Samples samples, float scale) {
+  std::vector<PixelSample> wrong(samples.begin(), samples.end());
+  for (PixelSample& s : wrong) s.weight = 1;
+  return pipeline::weighted_mean(values, wrong, scale);
+}
+
+template <pipeline::Resolve resolve>
+void put_resolve(Table& table) {
+  table.resolve = {resolve, resolve};
+}
+
+constexpr std::array kMerge = {
+    Fault{"visibility.less_equal", "an equal depth passes where only a smaller one may", Stage::visibility,
+          put<&Fragment::depth_passes, depth_passes_by<kLessEqualForLess>>},
+    Fault{"visibility.greater_for_less", "the depth test asks for the farther one", Stage::visibility,
+          put<&Fragment::depth_passes, depth_passes_by<kSidesSwapped>>},
+    Fault{"visibility.alpha_at_reference", "an alpha equal to the reference passes where only a greater one may",
+          Stage::visibility, put<&Fragment::alpha_passes, alpha_at_the_reference_kept>},
+    Fault{"visibility.no_alpha_test", "the alpha test lets everything pass", Stage::visibility,
+          put<&Fragment::alpha_passes, no_alpha_test>},
+    Fault{"visibility.stencil_ops_swapped", "the stencil op of a depth that fails is taken for that of one that passes",
+          Stage::visibility, put<&Fragment::stencil_test, stencil_under<kOpsSwapped>>},
+    Fault{"visibility.stencil_sides_swapped", "the value held is compared with the reference, not the other way round",
+          Stage::visibility, put<&Fragment::stencil_test, stencil_under<kReferenceOnTheRight>>},
+    Fault{"visibility.stencil_mask_unused", "stencil values are compared in all bits", Stage::visibility,
+          put<&Fragment::stencil_test, stencil_under<kNoMask>>},
+    Fault{"visibility.stencil_write_mask_unused", "stencil ops change all bits", Stage::visibility,
+          put<&Fragment::stencil_test, stencil_under<kNoWriteMask>>},
+    Fault{"visibility.stencil_saturates", "stencil values stop where they should wrap", Stage::visibility,
+          put<&Fragment::stencil_test, stencil_under<kNoWrap>>, "RPCS3/rpcs3#1341"},
+    Fault{"merge.truncated", "colours are truncated to codes, not rounded", Stage::merge,
+          put<&Fragment::merge, truncated_color>},
+    Fault{"merge.blue_first", "red and blue change places", Stage::merge, put<&Fragment::merge, blue_first>},
+    Fault{"merge.factors_swapped", "blending takes the source's factor for the destination's, and the other way round",
+          Stage::merge, put<&Fragment::merge_state, merge_under<kFactorsSwapped>>},
+    Fault{"merge.alpha_as_rgb", "alpha is blended by the factors and equation of rgb", Stage::merge,
+          put<&Fragment::merge_state, merge_under<kAlphaAsRgb>>},
+    Fault{"merge.premultiplied_again", "blended colours are multiplied by their alpha once more", Stage::merge,
+          put<&Fragment::blend, premultiplied_again>, "OpenRA/TiberianDawnHD#28"},
+    Fault{"merge.shifted_for_divided", "blending divides by 256, not 255, and truncates", Stage::merge,
+          put<&Fragment::blend, shifted_for_divided>, "scummvm/scummvm#985"},
+    Fault{"merge.logic_op_sides", "a logic op turns the wrong one over: s & ~d for ~s & d", Stage::merge,
+          put<&Fragment::logic, sides_of_logic_op_swapped>},
+    Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge,
+          put<&Fragment::merge_state, merge_under<kNoColorMask>>},
+    Fault{"merge.depth_mask_ignored", "depths are written where they are masked", Stage::merge,
+          put<&Fragment::merge_state, merge_under<kNoDepthMask>>},
+    Fault{"resolve.truncated", "the mean of a pixel's samples is truncated to a code, not rounded", Stage::resolve,
+          put_resolve<truncated_mean>},
+    Fault{"resolve.first_sample", "a pixel's first sample is taken for all", Stage::resolve, put_resolve<first_sample>},
+    Fault{"resolve.half_the_samples", "only the first half of the samples count", Stage::resolve,
+          put_resolve<first_half>, "dpjudas/SurrealEngine#341"},
+    Fault{"resolve.last_left_out", "the last sample is not added, but counted: all is too dark", Stage::resolve,
+          put_resolve<last_left_out>, "mrdoob/three.js#8884"},
+    Fault{"resolve.equal_weights", "all six taps count alike", Stage::resolve,
+          put<&pipeline::ResolveStage::weighted, equal_weights>},
+    Fault{"resolve.weights_swapped", "two of the six taps have each other's weight", Stage::resolve,
+          put<&pipeline::ResolveStage::weighted, mean_of_swapped>},
+};
+
+}  // namespace
+
+std::span<const Fault> of_merge() { return kMerge; }
+
+}  // namespace plumbline::faults

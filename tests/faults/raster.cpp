@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "faults/lists.h"
+#include "faults/variants.h"
+
+namespace plumbline::faults {
+
+namespace {
+
+// 5. Coverage.
+
+bool top_edges_for_bottom(std::int64_t step_x, std::int64_t step_y) {
+  return step_x > 0 || (step_x == 0 && step_y < 0);
+}
+
+// Of 1/256 pixel squared, from triangles of some 180 x 180 pixels on.
+bool in_32_bits(const Setup& s, const Pixels<float>& p) {
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t e = s.edges.at_origin[i] + s.edges.step_x[i] * p.x + s.edges.step_y[i] * p.y;
+    if (static_cast<std::int32_t>(static_cast<std::uint32_t>(e)) < 0) return false;
+  }
+  return true;
+}
+
+constexpr glm::ivec2 kCorner(-kSubpixel / 2);
+pipeline::Edges edges_at_corner(const Triangle& t) { return pipeline::edges_of(pipeline::as_seen_from(t, kCorner)); }
+pipeline::PixelBounds bounds_at_corner(const Triangle& t) {
+  return pipeline::pixel_bounds(pipeline::as_seen_from(t, kCorner));
+}
+
+pipeline::PixelBounds bounds_one_short(const Triangle& t) {
+  pipeline::PixelBounds b = pipeline::pixel_bounds(t);
+  return {b.x0, b.y0, b.x1 - 1, b.y1 - 1};
+}
+// Production walks whole blocks around its box, for no other pixel is covered.
+bool covered_in_bounds(const Setup& s, const Pixels<float>& p) {
+  const pipeline::PixelBounds& b = s.bounds;
+  return pipeline::coverage<float>(s.edges, p) && p.x >= b.x0 && p.x < b.x1 && p.y >= b.y0 && p.y < b.y1;
+}
+
+bool scissor_with_its_far_sides(const Scissor& box, const Pixels<float>& p) {
+  return pipeline::scissor<float>({box.x, box.y, box.width + 1, box.height + 1}, p);
+}
+
+std::vector<glm::ivec2> line_end_drawn(const Triangle& t, glm::ivec2 origin, int size) {
+  std::vector<glm::ivec2> pixels = pipeline::thin_pixels(t, origin, size);
+  WindowTriangle<float> end{{t.v[1], t.v[1], t.v[1]}, t.primitive, true, 1};
+  for (const glm::ivec2 last : pipeline::thin_pixels(end, origin, size)) {
+    if (std::find(pixels.begin(), pixels.end(), last) == pixels.end()) pixels.push_back(last);
+  }
+  return pixels;
+}
+
+std::vector<glm::ivec2> steep_lines_torn(const Triangle& t, glm::ivec2 origin, int size) {
+  std::vector<glm::ivec2> pixels = pipeline::thin_pixels(t, origin, size);
+  std::vector<glm::ivec2> one_per_column;
+  for (const glm::ivec2 p : pixels) {
+    if (one_per_column.empty() || one_per_column.back().x != p.x) one_per_column.push_back(p);
+  }
+  return one_per_column;
+}
+
+// Every pixel of the thin line becomes a row of an x-major line, a column of a y-major one.
+std::vector<glm::ivec2> lines_widened_along(const Triangle& t, glm::ivec2 origin, int size) {
+  if (t.corners != 2 || t.width == 1) return pipeline::thin_pixels(t, origin, size);
+  WindowTriangle<float> thin = t;
+  thin.width = 1;
+  const auto width = static_cast<int>(t.width);
+  const glm::ivec2 d = glm::abs(t.v[1].snapped - t.v[0].snapped),
+                   along = d.x >= d.y ? glm::ivec2(1, 0) : glm::ivec2(0, 1);
+  std::vector<glm::ivec2> pixels;
+  for (const glm::ivec2 p : pipeline::thin_pixels(thin, origin - width, size + 2 * width)) {
+    for (int k = 0; k < width; ++k) {
+      const glm::ivec2 q = p + along * (k - width / 2), in_box = q - origin;
+      const bool inside = in_box.x >= 0 && in_box.y >= 0 && in_box.x < size && in_box.y < size;
+      if (inside && std::find(pixels.begin(), pixels.end(), q) == pixels.end()) pixels.push_back(q);
+    }
+  }
+  return pixels;
+}
+
+std::vector<glm::ivec2> points_off_by_half(const Triangle& t, glm::ivec2 origin, int size) {
+  WindowTriangle<float> moved = t;
+  if (t.corners == 1) moved.v[0].snapped += kSubpixel / 2;
+  return pipeline::thin_pixels(moved, origin, size);
+}
+
+// Samples mirrored in the pixel's middle row.
+pipeline::Places mirrored_samples(glm::ivec2 sample) { return {{sample.x, -sample.y}, sample, {0, 0}}; }
+
+// 6. Depth.
+
+pipeline::Places depth_of_centre(glm::ivec2 sample) { return {sample, {0, 0}, {0, 0}}; }
+
+// The triangle's plane, under a state that says something else.
+template <auto change>
+pipeline::DepthSetup depth_under(const Triangle& triangle, const pipeline::DepthState& state) {
+  pipeline::DepthState wrong = state;
+  change(wrong);
+  return pipeline::depth_setup(triangle, wrong);
+}
+
+constexpr auto kNoSlope = [](pipeline::DepthState& s) { s.offset.factor = 0; };
+constexpr auto kSlopeOfOne = [](pipeline::DepthState& s) { s.offset = {0, s.offset.factor + s.offset.units}; };
+constexpr auto kTowardsTheEye = [](pipeline::DepthState& s) { s.offset = {-s.offset.factor, -s.offset.units}; };
+constexpr auto kClampedToFormat = [](pipeline::DepthState& s) {
+  s.low = 0;
+  s.high = 1;
+};
+
+// Of all corners the mean: what painters sort by.
+pipeline::DepthSetup one_depth(const Triangle& triangle, const pipeline::DepthState& state) {
+  pipeline::DepthSetup s = pipeline::depth_setup(triangle, state);
+  s.z0 += (s.dz1 + s.dz2) / 3;
+  s.dz1 = s.dz2 = 0;
+  return s;
+}
+
+float truncated_depth(const Setup& setup, const Barycentric<float>& b) {
+  const pipeline::DepthSetup& s = setup.depth;
+  const double z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
+  return s.scale == 0.0 ? static_cast<float>(z) : static_cast<float>(static_cast<std::int64_t>(z * s.scale));
+}
+
+// 2^n for 2^n - 1, and the last code for what that makes too large.
+float scaled_by_power_of_two(const Setup& setup, const Barycentric<float>& b) {
+  const pipeline::DepthSetup& s = setup.depth;
+  if (s.scale == 0.0) return pipeline::depth<float>(s, b);
+  const double z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
+  return static_cast<float>(std::min(pipeline::round_even(z * (s.scale + 1)), s.scale));
+}
+
+float depth_at_corner(const Setup& s, const Barycentric<float>& b) {
+  const double l1 = b.l1 - (s.planes.l1_x + s.planes.l1_y) / 2, l2 = b.l2 - (s.planes.l2_x + s.planes.l2_y) / 2;
+  return pipeline::depth<float>(s.depth, {1.0 - l1 - l2, l1, l2});
+}
+
+// 7. Attributes.
+
+using Attributes = pipeline::AttributeSetup;
+
+pipeline::Places color_of_sample(glm::ivec2 sample) { return {sample, sample, sample}; }
+
+Color<float> of_wrong_corners(const Attributes& s, const Barycentric<float>& b) {
+  return pipeline::attributes<float>(s, {b.l0, b.l2, b.l1});
+}
+
+// By w for 1/w.
+Color<float> nearness_reversed(const Attributes& s, const Barycentric<float>& b) {
+  Attributes wrong = s;
+  for (float& inv_w : wrong.inv_w) inv_w = 1 / inv_w;
+  return pipeline::attributes<float>(wrong, b);
+}
+
+// Each channel of the stage's changed.
+template <auto change>
+Color<float> each_channel(const Attributes& s, const Barycentric<float>& b) {
+  const Color<float> c = pipeline::attributes<float>(s, b);
+  return {change(c.r), change(c.g), change(c.b), change(c.a)};
+}
+
+constexpr auto kClamped = [](float v) { return pipeline::clamp01(v); };
+constexpr auto kOf8Bits = [](float v) { return pipeline::round_even(v * 255) / 255; };
+
+// The sum of a / w is left at that.
+Color<float> not_divided(const Attributes& s, const Barycentric<float>& b) {
+  const double l[3] = {b.l0, b.l1, b.l2};
+  double inv_w = 0;
+  for (int i = 0; i < 3; ++i) inv_w += l[i] * static_cast<double>(s.inv_w[i]);
+  const Color<float> c = pipeline::attributes<float>(s, b);
+  const auto over_w = [&](float v) { return static_cast<float>(static_cast<double>(v) * inv_w); };
+  return {over_w(c.r), over_w(c.g), over_w(c.b), over_w(c.a)};
+}
+
+constexpr std::array kRaster = {
+    Fault{"coverage.inclusive_edges", "pixels on any edge are covered: shared edges are painted twice", Stage::coverage,
+          put<&Fragment::edges, tied<all_edges_in>>},
+    Fault{"coverage.top_for_bottom", "of horizontal edges, the one above has its pixels: the rule of y downwards",
+          Stage::coverage, put<&Fragment::edges, tied<top_edges_for_bottom>>, "nesbox/TIC-80#1644"},
+    Fault{"coverage.in_32_bits", "edge functions overflow 32 bits: large triangles have holes", Stage::coverage,
+          put<&Fragment::coverage, in_32_bits>, "vindar/tgx#31"},
+    Fault{"coverage.at_corner", "pixels are covered where their lower left corners are", Stage::coverage,
+          [](Table& t) {
+            t.fragment.edges = edges_at_corner;
+            t.fragment.bounds = bounds_at_corner;
+          },
+          "hrydgard/ppsspp#9681"},
+    Fault{"coverage.box_one_short", "the bounding box lacks its last column and row", Stage::coverage,
+          [](Table& t) {
+            t.fragment.bounds = bounds_one_short;
+            t.fragment.coverage = covered_in_bounds;
+          }},
+    Fault{"coverage.scissor_inclusive", "the scissor box has one column and one row too many", Stage::coverage,
+          put<&Fragment::scissor, scissor_with_its_far_sides>},
+    Fault{"coverage.line_end_drawn", "a line's last pixel is drawn too: lines that meet paint it twice",
+          Stage::coverage, put<&Fragment::thin_pixels, line_end_drawn>},
+    Fault{"coverage.steep_lines_torn", "lines are stepped along x in every octant: steep ones have gaps",
+          Stage::coverage, put<&Fragment::thin_pixels, steep_lines_torn>},
+    Fault{"coverage.lines_widened_along", "wide lines are widened along their major axis, not across it",
+          Stage::coverage, put<&Fragment::thin_pixels, lines_widened_along>},
+    Fault{"coverage.points_off_by_half", "points' squares lie half a pixel too far right and up", Stage::coverage,
+          put<&Fragment::thin_pixels, points_off_by_half>},
+    Fault{"coverage.samples_mirrored", "the samples' y is counted downwards in the pixel", Stage::coverage,
+          put<&Fragment::places, mirrored_samples>},
+    Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth,
+          put<&Fragment::depth, truncated_depth>},
+    Fault{"depth.scaled_by_power_of_two", "depth codes are of z times 2^n, not 2^n - 1", Stage::depth,
+          put<&Fragment::depth, scaled_by_power_of_two>},
+    Fault{"depth.at_corner", "depths are those of the pixels' lower left corners", Stage::depth,
+          put<&Fragment::depth, depth_at_corner>},
+    Fault{"depth.one_per_triangle", "a triangle has one depth, the mean of its corners'", Stage::depth,
+          put<&Fragment::depth_setup, one_depth>},
+    Fault{"depth.of_centre", "all samples of a pixel have the depth at its centre", Stage::depth,
+          put<&Fragment::places, depth_of_centre>},
+    Fault{"depth.clamped_to_format", "depths beyond the draw's range are clamped to [0,1]", Stage::depth,
+          put<&Fragment::depth_setup, depth_under<kClampedToFormat>>},
+    Fault{"depth.offset_without_slope", "a polygon offset is of its units alone", Stage::depth,
+          put<&Fragment::depth_setup, depth_under<kNoSlope>>},
+    Fault{"depth.offset_slope_of_one", "a polygon offset takes its factor for units", Stage::depth,
+          put<&Fragment::depth_setup, depth_under<kSlopeOfOne>>, "Kazade/GLdc#32"},
+    Fault{"depth.offset_sign", "a polygon offset moves the other way: that of a reversed depth buffer", Stage::depth,
+          put<&Fragment::depth_setup, depth_under<kTowardsTheEye>>, "mrdoob/three.js#34606"},
+    Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
+          put<&Fragment::attributes, affine_attributes>},
+    Fault{"attributes.not_divided", "attributes over w are not divided by the interpolated 1/w", Stage::attributes,
+          put<&Fragment::attributes, not_divided>},
+    Fault{"attributes.nearness_reversed", "corners count by w, not by 1/w", Stage::attributes,
+          put<&Fragment::attributes, nearness_reversed>},
+    Fault{"attributes.wrong_corners", "two corners have each other's barycentric coordinates", Stage::attributes,
+          put<&Fragment::attributes, of_wrong_corners>, "ssloy/tinyrenderer#40"},
+    Fault{"attributes.clamped", "all that is interpolated is clamped to [0,1]", Stage::attributes,
+          put<&Fragment::attributes, each_channel<kClamped>>},
+    Fault{"attributes.of_8_bits", "all that is interpolated is rounded to 1/255", Stage::attributes,
+          put<&Fragment::attributes, each_channel<kOf8Bits>>},
+    Fault{"attributes.of_sample", "a sample's colour is that at its own place, not at the pixel's centre",
+          Stage::attributes, put<&Fragment::places, color_of_sample>},
+};
+
+}  // namespace
+
+std::span<const Fault> of_raster() { return kRaster; }
+
+}  // namespace plumbline::faults

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <array>
+
+#include "faults/lists.h"
+#include "faults/variants.h"
+#include "pipeline/matrices.h"
+#include "pipeline/vertex.h"
+
+namespace plumbline::faults {
+
+namespace {
+
+// The stage under a draw that says something else.
+template <auto change>
+Matrices<float> matrices_of_other(const Scene& scene, const Draw& draw) {
+  Draw wrong = draw;
+  change(wrong);
+  return pipeline::matrices(scene, wrong);
+}
+
+constexpr auto kTransformsReversed = [](Draw& draw) { std::reverse(draw.transforms.begin(), draw.transforms.end()); };
+
+void turn(Draw& draw, double factor) {
+  for (Transform& t : draw.transforms) {
+    if (auto* rotate = std::get_if<Rotate>(&t)) rotate->degrees *= factor;
+  }
+}
+constexpr auto kClockwise = [](Draw& draw) { turn(draw, -1); };
+constexpr auto kDegreesForRadians = [](Draw& draw) { turn(draw, 180 / 3.14159265358979323846); };
+
+// The stage's matrices changed.
+template <auto change>
+Matrices<float> matrices_changed(const Scene& scene, const Draw& draw) {
+  Matrices<float> m = pipeline::matrices(scene, draw);
+  change(scene, m);
+  return m;
+}
+
+constexpr auto kFovHorizontal = [](const Scene& scene, Matrices<float>& m) {
+  if (!std::holds_alternative<Perspective>(scene.projection)) return;
+  const float aspect = static_cast<float>(scene.frame.width) / static_cast<float>(scene.frame.height);
+  m.projection[0][0] *= aspect;
+  m.projection[1][1] *= aspect;
+};
+
+constexpr auto kAspectOf4To3 = [](const Scene& scene, Matrices<float>& m) {
+  if (std::holds_alternative<Perspective>(scene.projection)) m.projection[0][0] = 0.75f * m.projection[1][1];
+};
+
+// The two change places in (n + f) / (n - f) and 2 n f / (n - f), and in an orthographic projection's terms: a sign.
+constexpr auto kNearFarSwapped = [](const Scene&, Matrices<float>& m) {
+  for (int column = 0; column < 4; ++column) m.projection[column].z = -m.projection[column].z;
+};
+
+constexpr auto kDepthRangeNotMapped = [](const Scene&, Matrices<float>& m) {
+  m.win_scale.z = m.win_translate.z = 0.5f;
+};
+
+constexpr auto kNormalsByInverse = [](const Scene&, Matrices<float>& m) { m.normal = glm::transpose(m.normal); };
+
+constexpr auto kViewportOneShort = [](const Scene&, Matrices<float>& m) {
+  m.win_scale.x -= 0.5f;
+  m.win_scale.y -= 0.5f;
+};
+
+// The stage under a matrix for normals of its own.
+template <auto change>
+void normals_by_other(const Matrices<float>& matrices, Normals normals, const Mesh& mesh,
+                      std::vector<Vertex<float>>& out) {
+  Matrices<float> wrong = matrices;
+  change(wrong);
+  pipeline::transform(wrong, normals, mesh, out);
+}
+
+constexpr auto kModelView = [](Matrices<float>& m) { m.normal = Mat3<float>(m.model_view); };
+constexpr auto kNotTurned = [](Matrices<float>& m) { m.normal = Mat3<float>(1); };
+
+void normals_not_renormalised(const Matrices<float>& matrices, Normals, const Mesh& mesh,
+                              std::vector<Vertex<float>>& out) {
+  pipeline::transform(matrices, Normals::as_they_are, mesh, out);
+}
+
+// The stage's vertices changed.
+template <auto change>
+void vertices_changed(const Matrices<float>& matrices, Normals normals, const Mesh& mesh,
+                      std::vector<Vertex<float>>& out) {
+  const std::size_t first = out.size();
+  pipeline::transform(matrices, normals, mesh, out);
+  for (std::size_t i = first; i < out.size(); ++i) change(matrices, mesh.positions[i - first], out[i]);
+}
+
+// A normal is taken for a place.
+constexpr auto kNormalsTranslated = [](const Matrices<float>& m, const glm::vec3&, Vertex<float>& v) {
+  const Vec3<float> n = v.n_eye + Vec3<float>(m.model_view[3]);
+  if (glm::length(n) > 0) v.n_eye = glm::normalize(n);
+};
+
+constexpr auto kEyePositionOfModel = [](const Matrices<float>&, const glm::vec3& p_model, Vertex<float>& v) {
+  v.p_eye = Vec4<float>(p_model, 1);
+};
+
+constexpr auto kWIsOne = [](const Matrices<float>&, const glm::vec3&, Vertex<float>& v) { v.p_clip.w = 1; };
+
+template <auto function>
+constexpr Fault of_matrices(std::string_view name, std::string_view changes, std::string_view report = {}) {
+  return {name, changes, Stage::matrices, put<&Geometry::matrices, function>, report};
+}
+template <auto function>
+constexpr Fault of_vertex(std::string_view name, std::string_view changes, std::string_view report = {}) {
+  return {name, changes, Stage::vertex, put<&Geometry::vertex, function>, report};
+}
+
+constexpr std::array kVertices = {
+    of_matrices<matrices_changed<kFovHorizontal>>("matrices.fov_horizontal",
+                                                  "the vertical field of view is taken for the horizontal one"),
+    of_matrices<matrices_changed<kAspectOf4To3>>("matrices.aspect_of_4_to_3", "every picture is taken to be 4 to 3",
+                                                 "avaraline/Avara#69"),
+    of_matrices<matrices_changed<kNearFarSwapped>>("matrices.near_far_swapped",
+                                                   "the near plane is taken for the far one"),
+    of_matrices<matrices_changed<kDepthRangeNotMapped>>("matrices.depth_range_not_mapped",
+                                                        "every draw's depths fill [0,1], whatever its depth range"),
+    of_matrices<matrices_changed<kViewportOneShort>>(
+        "matrices.viewport_one_short",
+        "the viewport is a pixel too narrow and too low: its sides are taken for centres"),
+    of_matrices<matrices_changed<kNormalsByInverse>>("matrices.normals_by_inverse",
+                                                     "the normals' matrix is the inverse, not transposed"),
+    of_matrices<matrices_of_other<kTransformsReversed>>(
+        "matrices.transforms_reversed", "a draw's transforms are multiplied in the other order", "glob3mobile/g3m#197"),
+    of_matrices<matrices_of_other<kClockwise>>("matrices.rotation_sign", "rotations turn clockwise"),
+    of_matrices<matrices_of_other<kDegreesForRadians>>("matrices.degrees_for_radians",
+                                                       "a rotation's degrees are taken for radians"),
+    of_vertex<normals_by_other<kModelView>>("vertex.normals_by_model_view",
+                                            "normals go by the model-view matrix, not its inverse transpose"),
+    of_vertex<normals_by_other<kNotTurned>>("vertex.normals_not_turned", "normals are not turned with the model",
+                                            "thunder-engine/thunder#61"),
+    of_vertex<normals_not_renormalised>("vertex.not_renormalised",
+                                        "normals are not brought to unit length after the model's scale"),
+    of_vertex<vertices_changed<kNormalsTranslated>>("vertex.normals_translated", "normals are moved with the model",
+                                                    "KhronosGroup/glTF-Sample-Viewer#41"),
+    of_vertex<vertices_changed<kEyePositionOfModel>>("vertex.eye_position_of_model",
+                                                     "the place that is lit is that in model space"),
+    of_vertex<vertices_changed<kWIsOne>>("vertex.w_is_one", "w of the clip position is left at 1"),
+};
+
+}  // namespace
+
+std::span<const Fault> of_vertices() { return kVertices; }
+
+}  // namespace plumbline::faults
