@@ -27,9 +27,18 @@ struct Test {
   Interval under;   ///< the held depths under which it passes
 };
 
+/// Depths that are clamped to one end are one number in every arithmetic and format: a tie, which is not open.
+bool tie_of_clamped(Interval a, Interval b) {
+  return (a.lo == 0 || a.lo == 1) && a.lo == a.hi && a.lo == b.lo && a.lo == b.hi;
+}
+
 /// `hit` against the depth that the frame holds; depths no more than `step` apart may compare either way, so that
 /// "less" and "less or equal" allow the same.
 Test depth_test(DepthFunc func, Interval hit, Interval held, double step) {
+  if (tie_of_clamped(hit, held)) {
+    const Outcomes tie = outcomes(func, hit.lo, hit.lo, held.lo);
+    return {tie.may_pass, tie.may_fail, hit, held, held};
+  }
   const bool may_be_less = hit.lo <= held.hi + step, may_be_greater = hit.hi >= held.lo - step;
   const Interval hit_if_less{hit.lo, std::min(hit.hi, held.hi + step)};
   const Interval hit_if_greater{std::max(hit.lo, held.lo - step), hit.hi};
