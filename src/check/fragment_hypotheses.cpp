@@ -101,15 +101,40 @@ bool depth_in_perspective(const Evidence& e) {
   return differ > 0 && (differ - explained) * 50 <= differ;
 }
 
-template <class Round>
-void codes_by(const Scene& scene, Plane<glm::vec4>& color, Round round) {
-  const double scale = color_scale(scene.frame.color);
-  for (glm::vec4& v : color.values()) {
-    for (int c = 0; c < 4 && scale > 0; ++c) v[c] = static_cast<float>(round(v[c] * scale) / scale);
+// Codes beside the real numbers that they stand for: whether they are those below, not the nearest. (Of a number that
+// is a whole code but for rounding, either.)
+class Truncation {
+ public:
+  void add(double code, double expected) {
+    constexpr double kRounding = 1e-3;
+    ++all_;
+    fit_ += std::floor(expected - kRounding) <= code && code <= std::floor(expected + kRounding) ? 1 : 0;
+    lower_ += code < std::nearbyint(expected) ? 1 : 0;
   }
+  bool shows() const { return lower_ > 0 && (all_ - fit_) * 50 <= lower_; }
+
+ private:
+  std::size_t all_ = 0, fit_ = 0, lower_ = 0;
+};
+
+bool depths_truncated(const Evidence& e) {
+  const std::vector<double>&mine = e.candidate.records.depth, &theirs = e.expected.records.depth;
+  const double scale = depth_scale(e.scene.frame.depth);
+  Truncation t;
+  for (std::size_t i = 0; i < std::min(mine.size(), theirs.size()); ++i)
+    t.add(std::nearbyint(mine[i] * scale), theirs[i] * scale);
+  return scale > 0 && t.shows();
 }
-// Up: what float made of a code that is one may lie a rounding below it.
-double truncated(double code) { return std::floor(code + 1e-3); }
+
+bool colors_truncated(const Evidence& e) {
+  const std::vector<glm::vec4>&mine = e.candidate.planes.color.values(), &theirs = e.expected.planes.color.values();
+  const double scale = color_scale(e.scene.frame.color);
+  Truncation t;
+  for (std::size_t i = 0; i < std::min(mine.size(), theirs.size()); ++i) {
+    for (int c = 0; c < 4; ++c) t.add(std::nearbyint(mine[i][c] * scale), theirs[i][c] * scale);
+  }
+  return scale > 0 && t.shows();
+}
 
 template <class T>
 void red_and_blue_swapped(std::vector<T>& records) {
@@ -188,12 +213,8 @@ constexpr std::array kHypotheses = {
           }),
     given(S::coverage, "coverage.samples_at_centres", "samples are taken at the pixel's centre, not at their own places",
           [](Scene& s, Capture&) { s.frame.pass.sample.reset(); }),
-    made(S::depth, "depth.truncated",
-         "all depths one code lower where the fraction is above 1/2: truncated, not rounded",
-         [](const Scene& s, const Capture&, Capture& c) {
-           const double scale = depth_scale(s.frame.depth);
-           for (double& z : c.records.depth) z = scale == 0 ? z : truncated(z * scale) / scale;
-         }),
+    seen(S::depth, "depth.truncated",
+         "all depths one code lower where the fraction is above 1/2: truncated, not rounded", depths_truncated),
     made(S::depth, "depth.reversed", "depths are 1 - z: near and far changed places",
          [](const Scene&, const Capture&, Capture& c) {
            for (double& z : c.records.depth) z = 1 - z;
@@ -338,8 +359,7 @@ constexpr std::array kHypotheses = {
           }),
     given(S::visibility, "visibility.stencil_ignored", "the stencil test rejects nothing, and nothing is written",
           [](Scene& s, Capture&) { each_draw(s, [](Draw& d) { d.stencil.reset(); }); }),
-    made(S::merge, "merge.truncated", "colours = expected, truncated to codes, not rounded",
-         [](const Scene& s, const Capture&, Capture& c) { codes_by(s, c.planes.color, truncated); }),
+    seen(S::merge, "merge.truncated", "colours = expected, truncated to codes, not rounded", colors_truncated),
     made(S::merge, "merge.red_blue_swapped", "red and blue swapped",
          [](const Scene&, const Capture&, Capture& c) {
            for (glm::vec4& color : c.planes.color.values()) std::swap(color.r, color.b);
@@ -361,8 +381,8 @@ constexpr std::array kHypotheses = {
           }),
     given(S::merge, "merge.color_mask_ignored", "masked channels are written",
           [](Scene& s, Capture&) { each_draw(s, [](Draw& d) { d.merge.color_mask = glm::bvec4(true); }); }),
-    made(S::resolve, "resolve.truncated", "the mean of a pixel's samples is truncated to a code, not rounded",
-         [](const Scene& s, const Capture&, Capture& c) { codes_by(s, c.planes.color, truncated); }),
+    seen(S::resolve, "resolve.truncated", "the mean of a pixel's samples is truncated to a code, not rounded",
+         colors_truncated),
 };
 
 }  // namespace
