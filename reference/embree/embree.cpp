@@ -38,13 +38,14 @@ class EmbreeRenderer final : public Renderer {
     const math::Projected projected = math::project(scene);
     add_by_rays(projected, candidates);
     math::add_by_edges(projected, candidates);
-    math::Oracle oracle = math::consult(scene, projected, candidates);
+    math::Oracle oracle = math::consult(scene, projected, candidates, request);
     Capture out;
     out.renderer = "embree";
     out.version = version_;
     out.width = scene.frame.width;
     out.height = scene.frame.height;
     out.planes = std::move(oracle.planes);
+    out.records = std::move(oracle.records);
     if (request.legal) out.legal = std::move(oracle.legal);
     return out;
   }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/draw_of.h"
+
 namespace plumbline::exact {
 
 void require_size(std::string_view what, std::size_t is, std::size_t expected) {
@@ -21,9 +23,7 @@ DrawOf::DrawOf(const Scene& scene) : scene_(scene), ranges_(draw_ranges(scene)) 
 std::size_t DrawOf::index(std::uint32_t primitive) const {
   const std::size_t end = ranges_.empty() ? 0 : ranges_.back().first_primitive + ranges_.back().primitive_count;
   require_index("a primitive's number", primitive, end);
-  const auto after = std::upper_bound(ranges_.begin(), ranges_.end(), primitive,
-                                      [](std::uint32_t p, const DrawRange& r) { return p < r.first_primitive; });
-  return static_cast<std::size_t>(after - ranges_.begin()) - 1;
+  return draw_of(ranges_, primitive).value();
 }
 
 std::vector<FragmentRun> runs_by_triangle(const Scene& scene, const Records<double>& records) {

@@ -17,7 +17,12 @@ using ThreeReals = std::array<Real, 3>;
 /// linear between powers of two, to the greatest. Along a row and along a column the derivative of a perspective
 /// mapping has one direction, and its length is monotone: a difference of neighbours lies between theirs. Without
 /// bound where the plane reaches the eye within the square.
-void lambda_interval(const TexturedTriangle& t, int x, int y, double& lo, double& hi) {
+/// Such differences are of coordinates in float, each a quotient of sums that is off by 3 u: by 6 u |st| together, in
+/// proportion to their length; a logarithm in float is off by some u of its own magnitude more.
+void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, double& lo, double& hi) {
+  constexpr double kRounding = 1.0 / 16777216.0;
+  const TextureLevel& base = t.texture.levels[static_cast<std::size_t>(t.texture.sampler.base_level)];
+  const glm::dvec2 size(base.width, base.height);
   lo = std::numeric_limits<double>::infinity();
   hi = -lo;
   for (int k = 0; k < 4; ++k) {
@@ -27,10 +32,14 @@ void lambda_interval(const TexturedTriangle& t, int x, int y, double& lo, double
     for (std::size_t i = 0; i < 3; ++i) q += b[i] * t.triangle.v[i].inv_w;
     const bool ahead = q * t.triangle.v[0].inv_w > 0;
     const TextureGradient g = texture_gradient(t, qx, qy);
-    lo = std::min(lo, ahead ? math::smallest_level_of_detail(t.texture, g.d_dx, g.d_dy)
+    const double rho = std::max(glm::length(size * g.d_dx), glm::length(size * g.d_dy));
+    const double error =
+        rho > 0 ? kRounding * (6 * glm::length(size * st) / rho + 4 * (1 + std::abs(std::log2(rho)))) : 0;
+    const double least = std::max(1 - error, 0.0), most = 1 + error;
+    lo = std::min(lo, ahead ? math::smallest_level_of_detail(t.texture, least * g.d_dx, least * g.d_dy)
                             : static_cast<double>(t.texture.sampler.min_lod));
-    hi = std::max(
-        hi, ahead ? math::level_of_detail(t.texture, g.d_dx, g.d_dy) : static_cast<double>(t.texture.sampler.max_lod));
+    hi = std::max(hi, ahead ? math::level_of_detail(t.texture, most * g.d_dx, most * g.d_dy)
+                            : static_cast<double>(t.texture.sampler.max_lod));
   }
 }
 
@@ -91,7 +100,7 @@ void filter_texels(const Scene& scene, const Records<double>& records, Capture& 
       texel = texel_at(t, at, x, y);
       if (own_lod) texel.color = math::filtered_texel(texture, at, records.texels[i].lod);
       double lo = 0, hi = 0;
-      lambda_interval(t, x, y, lo, hi);
+      lambda_interval(t, at, x, y, lo, hi);
       out.legal.texels[i] = math::texel_range(texture, at, lo, hi);
     }
   }

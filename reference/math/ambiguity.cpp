@@ -10,10 +10,11 @@
 // s the slope of z1 - z2 that is a band of half width w/s along the line where the surfaces meet. That line passes at
 // |z1 - z2|/s from the centre. A pixel whose centre is within r = max(1, w/s) pixels of it stands for a share of the
 // band as large as (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such
-// line; within w of each other, they are ambiguous everywhere. The near and far planes are met likewise, w the half
-// interval, by the winner and by whatever would win were it not cut off. Where a triangle has no plane to rely on, the
-// pixel is ambiguous whatever else is there. Such a line too may run through a row of centres, and again the larger of
-// the area and the number of centres in the bands is taken.
+// line; within w of each other, they are ambiguous everywhere, but not where both are clamped to the same end: that is
+// a tie, which the order of drawing settles. The near and far planes are met likewise, w the half interval, by the
+// winner and by whatever would win were it not cut off. Where a triangle has no plane to rely on, the pixel is
+// ambiguous whatever else is there. Such a line too may run through a row of centres, and again the larger of the area
+// and the number of centres in the bands is taken.
 #include "reference/math/ambiguity.h"
 
 #include <algorithm>
@@ -65,7 +66,9 @@ std::vector<Edge> drawn_edges(const Projected& projected) {
   return edges;
 }
 
-double z_at(const Triangle& t, glm::dvec3 d) { return to_window(t, 0.5 + glm::dot(t.z_plane, d)); }
+double z_at(const Triangle& t, glm::dvec3 d) {
+  return std::clamp(to_window(t, 0.5 + glm::dot(t.z_plane, d)), 0.0, 1.0);
+}
 double slope_of(const Triangle& t) { return range_scale(t) * (std::abs(t.z_plane.x) + std::abs(t.z_plane.y)); }
 
 /// Whether a point of depth z of `primitive` is seen in the pixel's neighbourhood, whose winner is `winner`. Surfaces
@@ -114,7 +117,8 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
     const double inv_w = (1 - s) / a.z + s / b.z, z_view = 0.5 + 0.5 * ((1 - s) * a.w / a.z + s * b.w / b.z);
     const int x = std::clamp(static_cast<int>(d.x + 0.5 * id.width()), 0, id.width() - 1);
     const int y = std::clamp(static_cast<int>(d.y + 0.5 * id.height()), 0, id.height() - 1);
-    return Sample{bands.all_seen || seen(scene, projected, edge.primitive, id(x, y), d, to_window(t, z_view)), x, y,
+    const double z = std::clamp(to_window(t, z_view), 0.0, 1.0);
+    return Sample{bands.all_seen || seen(scene, projected, edge.primitive, id(x, y), d, z), x, y,
                   displacement(projected, t, d, 1 / inv_w)};
   };
   const double length = glm::length(along);
@@ -173,6 +177,8 @@ DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b)
   const double step = depth_step(frame.depth, std::clamp(std::max(a.win.z, b.win.z), 0.0, 1.0));
   const double width = a.win.half + b.win.half + step;
   const double apart = std::abs(a.win.z - b.win.z), slope = glm::length(a.win.slope - b.win.slope);
+  const bool clamped = a.win.half == 0 && b.win.half == 0 && (a.win.z == 0 || a.win.z == 1);
+  if (clamped && apart == 0) return {};
   const bool within = apart <= width;
   if (slope * kStandsFor <= width) return {within ? 1.0 : 0.0, within};
   return {apart <= kStandsFor * slope ? width / slope / kStandsFor : 0, within};
@@ -197,7 +203,9 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   for (const PixelHit& h : hits) {
     if (h.hit.depth_func == DepthFunc::never || !h.hit.alpha_passes) continue;
     if (!std::isfinite(h.win.half) || h.hit.alpha_fails) return {1, true};
-    const Surface surface{h.hit.primitive, h.hit.depth_func, h.win, h.view};
+    const bool clamped = h.hit.z_lo == h.hit.z_hi;  // whatever its rounding
+    const PixelDepth win = clamped ? PixelDepth{h.hit.z_lo, 0, glm::dvec2(0)} : h.win;
+    const Surface surface{h.hit.primitive, h.hit.depth_func, win, h.view};
     if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
       others.push_back(won);
       won = surface;

@@ -78,22 +78,42 @@ bool tested(const PixelHit& h, double z, Planes& planes, int x, int y) {
 }
 
 /// Double's own picture of a pixel.
-void draw_inside(const Scene& scene, const Projected& projected, std::span<const PixelHit> hits, int x, int y,
+void draw_inside(const Scene& scene, const Projected& projected, std::span<PixelHit> hits, int x, int y,
                  Planes& planes) {
   const FrameFormat& frame = scene.frame;
   FrameColor color(frame);
-  for (const PixelHit& h : hits) {
+  for (PixelHit& h : hits) {
     if (!h.inside) continue;
     ++planes.count(x, y);
     planes.id_sum(x, y) += id_weight(h.hit.primitive);
     const double z = in_format(frame.depth, std::clamp(h.win.z, 0.0, 1.0));
     if (!h.hit.alpha_passes || !tested(h, z, planes, x, y)) continue;
+    h.drawn = true;
     planes.id(x, y) = static_cast<std::int32_t>(h.hit.primitive);
     if (h.hit.depth_mask) planes.depth(x, y) = z;
     planes.shaded(x, y) = glm::vec4(h.hit.color);
     color.write(draw_of(scene, projected, h.hit).merge, around(h.hit.color, 0));
   }
   planes.color(x, y) = to_format(frame.color, glm::vec4(middle(color.written())));
+}
+
+void add_fragments(const Projected& projected, std::span<const PixelHit> hits, int x, int y, StageSet wanted,
+                   Records<double>& out) {
+  for (const PixelHit& h : hits) {
+    if (!h.inside) continue;
+    WindowTriangle<double> triangle{};
+    triangle.primitive = h.hit.primitive;
+    triangle.front = projected.triangles[h.hit.primitive].sign > 0;
+    triangle.corners = 0;
+    if (wanted.has(Stage::coverage)) {
+      out.covered.push_back({static_cast<std::uint32_t>(out.triangles.size()), static_cast<std::uint16_t>(x),
+                             static_cast<std::uint16_t>(y)});
+      out.triangles.push_back(triangle);
+    }
+    if (wanted.has(Stage::depth)) out.depth.push_back(std::clamp(h.win.z, 0.0, 1.0));
+    if (wanted.has(Stage::shade)) out.shaded.push_back({h.hit.color});
+    if (wanted.has(Stage::visibility)) out.drawn.push_back({h.drawn});
+  }
 }
 
 /// The frame's colour at a pixel, where it is certain which fragments make it; else anything.
@@ -121,9 +141,9 @@ void fold_colors(const Scene& scene, const Projected& projected, std::span<const
 
 }  // namespace
 
-Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates) {
+Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates, const Request& request) {
   const FrameFormat& frame = scene.frame;
-  Oracle out{{}, empty_planes(frame)};
+  Oracle out{{}, empty_planes(frame), {}};
   Legal& legal = out.legal;
   legal.certain = {frame.width, frame.height, 0};
   legal.possible = {frame.width, frame.height, 0};
@@ -157,6 +177,9 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
       draw_inside(scene, projected, hits, x, y, out.planes);
+      if (std::ranges::find(request.pixels, glm::ivec2(x, y)) != request.pixels.end()) {
+        add_fragments(projected, hits, x, y, request.records, out.records);
+      }
       if (!legal.color_lo.empty()) fold_colors(scene, projected, to_fold, x, y, legal);
       const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
       by_depth += share.area;
@@ -180,7 +203,7 @@ Legal legal_by_boxes(const Scene& scene, const Request& request) {
   const Projected projected = project(scene);
   add_by_boxes(projected, candidates);
   add_by_edges(projected, candidates);
-  return consult(scene, projected, candidates).legal;
+  return consult(scene, projected, candidates, {}).legal;
 }
 
 }  // namespace plumbline::math

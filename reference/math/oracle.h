@@ -17,11 +17,15 @@ namespace plumbline::math {
 struct Oracle {
   Legal legal;
   Planes planes;
+  /// Where the request names pixels: all that these planes have there, pixel by pixel, each in draw order: triangles
+  /// (of no corners: primitive and front are all that is known of them), covered, depth, shaded, drawn, as asked for.
+  Records<double> records;
 };
 
 /// Each candidate confirmed in double, and the pixels' answers. Every triangle that a legal renderer may cover a pixel
-/// with must be among the candidates; their order does not matter.
-Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates);
+/// with must be among the candidates; their order does not matter. Of the request,
+/// pixels and records count.
+Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates, const Request& request);
 
 /// Throws OverBudget where planes and legal answers would not fit; else how many candidates the rest holds.
 std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget);

@@ -26,6 +26,7 @@ struct PixelHit {
   bool whole = false;   ///< neither the near nor the far plane may cut it here, and it is not culled
   PixelDepth view;      ///< between the near plane, 0, and the far, 1; not clamped
   PixelDepth win;       ///< window z, clamped where the near and far plane do not cut
+  bool drawn = false;   ///< inside, and double's own picture has it pass all tests (oracle.h)
   double delta = 0;     ///< pixels: how far its outline may be moved here
 };
 

@@ -143,6 +143,9 @@ void add_slopes(const Texture& texture, int number, bool linear, glm::dvec2 st, 
   const TextureLevel& level = texture.levels[static_cast<std::size_t>(number)];
   const glm::dvec2 size(level.width, level.height);
   if (!linear) {
+    const bool first = out.last_nearest < out.first_nearest;
+    out.first_nearest = first ? number : std::min(out.first_nearest, number);
+    out.last_nearest = first ? number : std::max(out.last_nearest, number);
     for (int k = 0; k < 2; ++k) {
       const double at = st[k] * size[k];
       out.gap[k] = std::min(out.gap[k], std::abs(at - std::round(at)) / size[k]);

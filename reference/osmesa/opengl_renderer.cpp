@@ -7,6 +7,7 @@
 #include "reference/math/resolve.h"
 #include "reference/osmesa/gl.h"
 #include "reference/osmesa/line_records.h"
+#include "reference/osmesa/pixel_fragments.h"
 #include "reference/osmesa/planes.h"
 #include "reference/osmesa/polygon_records.h"
 #include "reference/osmesa/scene_in_gl.h"
@@ -95,6 +96,9 @@ class OpenGlRenderer final : public Renderer {
 
   void read_records(const SceneInGl& scene, const Request& request, Records<double>& records) const {
     if (!request.records.any()) return;
+    if (!request.pixels.empty() && !request.records.has(Stage::window)) {
+      return read_pixel_fragments(gl_, scene, request, records);
+    }
     FrameFormat frame = scene.scene().frame;
     frame.pass.sample.reset();  // vertices have no samples
     const Target target(gl_, frame, ColorFormat::rgba8);

@@ -27,6 +27,9 @@ enum class MesaDriver { llvmpipe, softpipe };
 ///   texture    planes.texel: REPLACE into RGBA32F, over fragments of (0, 0, 0, 1)
 ///   attributes, shade   planes.shaded: the scene in RGBA32F, over the frame's depth format
 ///   visibility          planes.id: a colour per primitive
+///   coverage, depth, texture, shade, visibility   of single pixels, where a request names them and does not ask for
+///   the
+///              window stage: records of their fragments, one primitive drawn at a time (pixel_fragments.h)
 /// and runs nothing. Throws RendererFailed. Not for use by two threads at once. Each is there if it is built in.
 std::unique_ptr<Renderer> make_osmesa(MesaDriver driver = MesaDriver::llvmpipe);
 std::unique_ptr<Renderer> make_egl(MesaDriver driver = MesaDriver::llvmpipe);

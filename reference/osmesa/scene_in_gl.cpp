@@ -277,26 +277,31 @@ void SceneInGl::bind_corners(std::size_t draw) const {
   gl_.EnableClientState(GL_COLOR_ARRAY);
 }
 
-void SceneInGl::draw_primitives(std::size_t draw) const {
+void SceneInGl::draw_primitives(std::size_t draw) const { draw_primitives(draw, all(draw)); }
+void SceneInGl::draw_without_colors(std::size_t draw) const { draw_without_colors(draw, all(draw)); }
+void SceneInGl::draw_weights(std::size_t draw) const { draw_weights(draw, all(draw)); }
+
+void SceneInGl::draw_primitives(std::size_t draw, Primitives these) const {
   const SavedArrays arrays(gl_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
   point_to_vertices(draw, nullptr);
-  draw_elements(draw);
+  draw_elements(draw, these);
 }
 
-void SceneInGl::draw_without_colors(std::size_t draw) const {
+void SceneInGl::draw_without_colors(std::size_t draw, Primitives these) const {
   const SavedArrays arrays(gl_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
   point_to_vertices(draw, nullptr);
   gl_.DisableClientState(GL_COLOR_ARRAY);
-  draw_elements(draw);
+  draw_elements(draw, these);
 }
 
-void SceneInGl::draw_elements(std::size_t draw) const {
+void SceneInGl::draw_elements(std::size_t draw, Primitives these) const {
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, arrays_[draw].indices.name());
   const Topology topology = mesh(draw).topology;
-  gl_.DrawElements(gl_mode(topology), static_cast<GLsizei>(corner_count(topology) * ranges_[draw].primitive_count),
-                   GL_UNSIGNED_INT, nullptr);
+  const std::uint32_t corners = corner_count(topology), first = these.first - ranges_[draw].first_primitive;
+  gl_.DrawElements(gl_mode(topology), static_cast<GLsizei>(corners * these.count), GL_UNSIGNED_INT,
+                   offset(std::uintptr_t{first} * corners * sizeof(std::uint32_t)));
 }
 
 void SceneInGl::draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const {
@@ -338,12 +343,13 @@ void SceneInGl::draw_id(std::size_t draw, std::uint32_t primitive) const {
   gl_.DrawArrays(gl_mode(topology), first, count);
 }
 
-void SceneInGl::draw_weights(std::size_t draw) const {
+void SceneInGl::draw_weights(std::size_t draw, Primitives these) const {
   const SavedArrays arrays(gl_);
   bind_corners(draw);
   gl_.ColorPointer(4, GL_FLOAT, sizeof(Corner), offset(offsetof(Corner, weight)));
   const Topology topology = mesh(draw).topology;
-  gl_.DrawArrays(gl_mode(topology), 0, static_cast<GLsizei>(corner_count(topology) * ranges_[draw].primitive_count));
+  const std::uint32_t corners = corner_count(topology), first = these.first - ranges_[draw].first_primitive;
+  gl_.DrawArrays(gl_mode(topology), static_cast<GLint>(corners * first), static_cast<GLsizei>(corners * these.count));
 }
 
 }  // namespace plumbline::osmesa

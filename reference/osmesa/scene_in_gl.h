@@ -14,6 +14,11 @@
 
 namespace plumbline::osmesa {
 
+/// Some of a draw's primitives, by their numbers in the scene.
+struct Primitives {
+  std::uint32_t first, count;
+};
+
 class SceneInGl {
  public:
   /// Keeps a reference to the scene. Throws RendererFailed for meshes whose arrays do not fit each other.
@@ -43,6 +48,10 @@ class SceneInGl {
   void draw_ids(std::size_t draw) const;     ///< each primitive in the colour whose four bytes are its number + 1
   void draw_id(std::size_t draw, std::uint32_t primitive) const;  ///< this one alone
   void draw_weights(std::size_t draw) const;  ///< each primitive in the colour (1, id_weight_part 0, 1, 2)
+  // The same of `these` alone.
+  void draw_primitives(std::size_t draw, Primitives these) const;
+  void draw_without_colors(std::size_t draw, Primitives these) const;
+  void draw_weights(std::size_t draw, Primitives these) const;
 
  private:
   void set_fog(std::size_t draw) const;
@@ -59,7 +68,8 @@ class SceneInGl {
     Buffer corners;        ///< every primitive's corners alone, so that it can have a colour of its own
   };
   static std::vector<MeshVertex> vertices_of(const Mesh& mesh);
-  void draw_elements(std::size_t draw) const;
+  Primitives all(std::size_t draw) const { return {ranges_[draw].first_primitive, ranges_[draw].primitive_count}; }
+  void draw_elements(std::size_t draw, Primitives these) const;
   void point_to_vertices(std::size_t draw, const MeshVertex* first) const;
   void bind_corners(std::size_t draw) const;
   const Mesh& mesh(std::size_t draw) const { return scene_.meshes[scene_.draws[draw].mesh]; }

@@ -152,26 +152,28 @@ Plane<std::uint32_t> Target::read_codes(glm::ivec2 origin, glm::ivec2 size) cons
   return codes;
 }
 
-Plane<glm::vec4> Target::read_color() const {
-  Plane<glm::vec4> color(frame_.width, frame_.height);
+Plane<glm::vec4> Target::read_color() const { return read_color({0, 0}, {frame_.width, frame_.height}); }
+
+Plane<glm::vec4> Target::read_color(glm::ivec2 origin, glm::ivec2 size) const {
+  Plane<glm::vec4> color(size.x, size.y);
   if (color_ == ColorFormat::rgba32f) {
     take_samples();
     gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
-    gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_RGBA, GL_FLOAT, color.values().data());
+    gl_.ReadPixels(origin.x, origin.y, size.x, size.y, GL_RGBA, GL_FLOAT, color.values().data());
     check(gl_, "reading colours");
     return color;
   }
   if (color_ == ColorFormat::rgba16) {
     take_samples();
-    Plane<glm::u16vec4> codes(frame_.width, frame_.height);
+    Plane<glm::u16vec4> codes(size.x, size.y);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
-    gl_.ReadPixels(0, 0, frame_.width, frame_.height, GL_RGBA, GL_UNSIGNED_SHORT, codes.values().data());
+    gl_.ReadPixels(origin.x, origin.y, size.x, size.y, GL_RGBA, GL_UNSIGNED_SHORT, codes.values().data());
     check(gl_, "reading colours");
     std::transform(codes.values().begin(), codes.values().end(), color.values().begin(),
                    [](const glm::u16vec4& code) { return glm::vec4(code) / 65535.0f; });
     return color;
   }
-  const Plane<std::uint32_t> codes = read_codes();
+  const Plane<std::uint32_t> codes = read_codes(origin, size);
   const auto channel = [](std::uint32_t code, int shift) { return static_cast<float>(code >> shift & 0xffu) / 255.0f; };
   std::transform(codes.values().begin(), codes.values().end(), color.values().begin(), [&](std::uint32_t code) {
     return glm::vec4(channel(code, 0), channel(code, 8), channel(code, 16), channel(code, 24));

@@ -32,6 +32,7 @@ class Target {
   Plane<std::uint32_t> read_codes(glm::ivec2 origin, glm::ivec2 size) const;
   /// Codes as code / 255, code / 65535.
   Plane<glm::vec4> read_color() const;
+  Plane<glm::vec4> read_color(glm::ivec2 origin, glm::ivec2 size) const;
   /// Window z: n-bit codes as code / (2^n - 1).
   Plane<double> read_depth() const;
   Plane<std::uint8_t> read_stencil() const;  ///< empty where the frame has none

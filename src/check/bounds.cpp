@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "scene/draw_of.h"
+
 namespace plumbline::check {
 
 namespace {
@@ -185,9 +187,9 @@ OffsetErrors::OffsetErrors(const Scene& scene) : scene_(scene) {
 }
 
 double OffsetErrors::of(const WindowTriangle<double>& t) const {
-  const auto after = std::ranges::upper_bound(ranges_, t.primitive, {}, &DrawRange::first_primitive);
-  if (after == ranges_.begin() || t.corners < 3) return 0;
-  const PolygonOffset& offset = scene_.draws[static_cast<std::size_t>(after - ranges_.begin()) - 1].polygon_offset;
+  const auto draw = draw_of(ranges_, t.primitive);
+  if (!draw || t.corners < 3) return 0;
+  const PolygonOffset& offset = scene_.draws[*draw].polygon_offset;
   if (offset == PolygonOffset{}) return 0;
   const auto& v = t.v;
   const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
@@ -220,6 +222,19 @@ std::vector<EdgeValue> edge_values(const Records<double>& r, std::int32_t primit
   }
   if (out.size() <= 2) out.clear();
   return out;
+}
+
+PlaneValue color_of_plane(const WindowTriangle<double>& t, int x, int y) {
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const Vec3<double> inv_w(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
+  const double q = glm::dot(b.value, inv_w);
+  const auto sum = [&](const Vec3<double>& weights, const Vec4<double>& from) {
+    Vec4<double> out(0);
+    for (int i = 0; i < 3; ++i) out += weights[i] * inv_w[i] / q * (t.v[static_cast<std::size_t>(i)].color - from);
+    return out;
+  };
+  const Vec4<double> value = sum(b.value, Vec4<double>(0));
+  return {value, sum(b.d_dx, value), sum(b.d_dy, value)};
 }
 
 Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {

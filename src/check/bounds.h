@@ -46,6 +46,12 @@ struct LightInputs {
 LightBounds light_bounds(const Scene& scene, const Material& material, const Vertex<double>& vertex,
                          const LightInputs& errors = {});
 
+/// What the triangle's plane of colours comes to at a pixel's centre, perspective-correct, and its slopes per pixel.
+struct PlaneValue {
+  Vec4<double> value, d_dx, d_dy;
+};
+PlaneValue color_of_plane(const WindowTriangle<double>& triangle, int x, int y);
+
 /// How a plane's value at a pixel centre depends on the triangle: depth, and the colour's four channels.
 struct PlaneBounds {
   double depth;        ///< in window z, times u

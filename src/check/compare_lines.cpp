@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "check/bounds.h"
+#include "check/open_pixels.h"
 
 namespace plumbline::check {
 
@@ -166,13 +167,15 @@ Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, c
     return mismatch("pixels", why, mine.id.size());
   }
   const OffsetErrors offsets(scene);
+  const Plane<std::uint8_t> open =
+      mine.stencil.empty() ? Plane<std::uint8_t>() : open_by_depth(scene, candidate);  // hidden fragments count too
   return compare_planes(mine.id, theirs.id, "pixels", [&](Meter& meter, int x, int y) {
     const std::int32_t a = mine.id(x, y), b = theirs.id(x, y);
     const bool held = !mine.stencil.empty() && mine.stencil.size() == theirs.stencil.size();
     const int stencil_a = held ? mine.stencil(x, y) : 0, stencil_b = held ? theirs.stencil(x, y) : 0;
     if (a == b && stencil_a == stencil_b) return;
     const bool alike = mine.id_sum(x, y) == theirs.id_sum(x, y) && mine.count(x, y) == theirs.count(x, y);
-    if (!alike) return meter.ambiguous();
+    if (!alike || (held && open(x, y) != 0)) return meter.ambiguous();
     if (a == b) return meter.value(1, 0, {x, y, -1, "stencil"}, stencil_a, stencil_b);
     // Each side's winner is the other's loser: their depths are apart by no more than one of them may be off.
     double off = 0;

@@ -8,6 +8,7 @@
 #include "check/compare_words.h"
 #include "check/fragment_bounds.h"
 #include "check/ledger.h"
+#include "check/open_pixels.h"
 
 namespace plumbline::check {
 
@@ -200,11 +201,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
   if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
   const DrawnAt drawn(scene.frame, candidate.records);
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  const auto draw_of = [&](std::uint32_t primitive) -> const Draw& {
-    const auto after = std::ranges::upper_bound(ranges, primitive, {}, &DrawRange::first_primitive);
-    return scene.draws[static_cast<std::size_t>(after - ranges.begin()) - 1];
-  };
+  const Plane<std::uint8_t> tied = legal.empty() ? open_by_depth(scene, candidate) : Plane<std::uint8_t>();
   const bool reads = factors_read_frame(scene),
              told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why);
   return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
@@ -213,7 +210,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     if (id != b.id(x, y)) return;  // visibility's matter
     // Of other fragments (lines' may lie beside each other): coverage's matter.
     const bool others = told && a.id_sum(x, y) != b.id_sum(x, y);
-    const bool open = others || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x));
+    const bool open = others || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
+                      (!tied.empty() && tied(x, y) != 0);
     int fragments = 0;
     double bound = 0;
     bool combined = false, certain = true;  // by a logic op, of codes that both sides have
@@ -224,7 +222,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
       const Vec4<double> sum = of.color + glm::abs(of.along) + of.apart;
       bound += std::max({sum.r, sum.g, sum.b, sum.a});
       const Records<double>& r = candidate.records;
-      const Merge& merge = draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
+      const Merge& merge = bounds.draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
       combined = combined || merge.logic_op;
       certain = certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
                 codes_of(r.shaded[i].color - sum, scale) == codes_of(r.shaded[i].color + sum, scale);

@@ -56,7 +56,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
   if (!same_size(a.id, b.id, why) || !same_size(a.id, a.texel, why)) return mismatch("u", why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
   const DrawnAt drawn(scene.frame, candidate.records);
-  double predicted = 0;
+  double area = 0, centres = 0;
   std::uint64_t open = 0;
   Measurement m = compare_planes(a.texel, b.texel, "u", [&](Meter& meter, int x, int y) {
     const std::int32_t id = a.id(x, y);
@@ -71,10 +71,12 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
       const Draw& draw = bounds.draw_of(triangle.primitive);
       if (draw.texture) {
         bound = bounds.texel(*last);
+        const OpenShare share = bounds.open_texels(*last);
+        area += share.area;
+        centres += share.centre ? 1 : 0;
         reason = switched_early(scene.textures.at(draw.texture->texture), candidate.records.texels.at(*last).lod);
       }
     }
-    predicted += bound.open_share;
     const Place place{x, y, id, "texel"};
     if (!std::isfinite(bound.slack.r)) {
       ++open;
@@ -94,7 +96,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
     }
   });
   if (open == 0) return m;
-  const double most = 2 * predicted + 3 * std::sqrt(2 * predicted + 1);
+  const double predicted = std::max(area, centres), most = 2 * predicted + 3 * std::sqrt(2 * predicted + 1);
   note = fmt::format("{} open, {:.1f} predicted", open, predicted);
   if (static_cast<double>(open) > most) {
     note += ": more than twice as many";

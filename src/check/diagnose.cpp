@@ -47,10 +47,6 @@ struct Pass {
   Capture repaired;               // what the candidate would have handed on, were its wrong stages right
 };
 
-void find(Pass& pass, const Scene& scene, const Capture& mine, const Capture& expected, const Comparison& row) {
-  pass.findings.push_back(finding_of({scene, row.stage, mine, expected}, row));
-}
-
 // What exact makes of the records before the stage; nothing where they do not fit.
 Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, const Capture& in) {
   try {
@@ -58,6 +54,11 @@ Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, cons
   } catch (const std::exception&) {
     return {};
   }
+}
+
+void find(Pass& pass, const Scene& scene, Renderer& referee, const Capture& mine, const Comparison& row) {
+  const Capture expected = run_or_nothing(scene, referee, row.stage, mine);
+  pass.findings.push_back(finding_of({scene, row.stage, mine, expected, &referee}, row));
 }
 
 // From the first wrong stage on, each stage on records that are right.
@@ -82,7 +83,7 @@ void repair(Pass& pass, const Scene& scene, Renderer& candidate, Renderer& refer
         c.skip(name, stage, Outcome::failed, e.what());
       }
       wrong = is_wrong(rows.back());
-      if (wrong) find(pass, scene, in, run_or_nothing(scene, referee, stage, in), rows.back());
+      if (wrong) find(pass, scene, referee, in, rows.back());
       pass.verdict.comparisons.push_back(std::move(rows.back()));
     }
     if (!wrong) continue;
@@ -101,7 +102,7 @@ Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference>
   std::set<Stage> wrong;
   for (const Comparison& c : pass.verdict.comparisons) {
     if (!judges_alone(c) || !is_wrong(c) || !wrong.insert(c.stage).second) continue;
-    find(pass, scene, pass.repaired, run_or_nothing(scene, *referee, c.stage, pass.repaired), c);
+    find(pass, scene, *referee, pass.repaired, c);
   }
   if (wrong.empty()) return pass;
   try {
@@ -125,7 +126,7 @@ void judge_repaired_samples(const Scene& scene, std::span<const Pass> passes, Re
                                              compare_resolved(scene, in, made, tolerance("exact.resolve").factor),
                                              "exact.resolve"));
     if (is_wrong(out.verdict.comparisons.back()))
-      out.findings.push_back(finding_of({scene, Stage::resolve, in, made}, out.verdict.comparisons.back()));
+      out.findings.push_back(finding_of({scene, Stage::resolve, in, made, &referee}, out.verdict.comparisons.back()));
   } catch (const std::exception& e) {
     out.verdict.comparisons.push_back(not_judged(scene.name, name, Stage::resolve, Outcome::failed, e.what()));
   }
@@ -172,7 +173,7 @@ Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<con
     if (c.stage != Stage::resolve || !judges_alone(c) || !is_wrong(c)) continue;
     resolve_wrong = true;
     const Capture made = run_or_nothing(scene, *referee, Stage::resolve, drawn.candidate);
-    out.findings.push_back(finding_of({scene, Stage::resolve, drawn.candidate, made}, c));
+    out.findings.push_back(finding_of({scene, Stage::resolve, drawn.candidate, made, referee}, c));
   }
   if (wrong && !resolve_wrong) judge_repaired_samples(scene, passes, candidate, *referee, out);
   return out;
@@ -195,7 +196,7 @@ Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Refe
     out.first = first->stage;
     if (out.wrong.empty()) {
       const Capture none;
-      out.findings.push_back(finding_of({scene, first->stage, none, none}, *first));
+      out.findings.push_back(finding_of({scene, first->stage, none, none, nullptr}, *first));
     }
   }
   return out;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "check/ledger.h"
+#include "scene/draw_of.h"
 
 namespace plumbline::check {
 
@@ -36,8 +37,10 @@ std::vector<Vec4<double>> normals_apart(const Records<double>& a, const Records<
   return out;
 }
 
-// Per vertex, what the two sides may be apart in a part of its light that the reference does not hand out.
+// Per vertex, what the two sides may be apart in a part of its light that the reference does not hand out; empty where
+// there is no such part.
 std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, Varying v) {
+  if (std::ranges::none_of(scene.draws, [&](const Draw& draw) { return carries(scene, draw, v); })) return {};
   std::vector<Vec4<double>> out(r.vertices.size(), Vec4<double>(0));
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   for (std::size_t d = 0; d < ranges.size(); ++d) {
@@ -56,7 +59,9 @@ std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, 
   return out;
 }
 
+// An empty one is 0.
 std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<Vec4<double>>& b) {
+  a.resize(std::max(a.size(), b.size()), Vec4<double>(0));
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) a[i] = glm::max(a[i], b[i]);
   return a;
 }
@@ -90,11 +95,10 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
 
 Vec4<double> FragmentBounds::apart(std::uint32_t primitive, const std::vector<Vec4<double>>& apart,
                                    bool flat_applies) const {
-  const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
-                                          [&](const DrawRange& r) { return r.first_primitive <= primitive; });
-  if (after == ranges_.begin()) return Vec4<double>(0);
-  const DrawRange& range = *(after - 1);
-  const Draw& draw = scene_.draws[static_cast<std::size_t>(after - 1 - ranges_.begin())];
+  const auto number = plumbline::draw_of(ranges_, primitive);
+  if (!number) return Vec4<double>(0);
+  const DrawRange& range = ranges_[*number];
+  const Draw& draw = scene_.draws[*number];
   if (primitive - range.first_primitive >= range.primitive_count) return Vec4<double>(0);  // none of the scene
   const glm::uvec3 corner = scene_.meshes[draw.mesh].triangles[primitive - range.first_primitive];
   Vec4<double> out(0);
@@ -105,8 +109,9 @@ Vec4<double> FragmentBounds::apart(std::uint32_t primitive, const std::vector<Ve
   return out;
 }
 
-bool FragmentBounds::reaches_behind_eye(const DrawRange& range, const Draw& draw, std::uint32_t primitive) const {
-  const glm::uvec3 corner = scene_.meshes[draw.mesh].triangles[primitive - range.first_primitive];
+bool FragmentBounds::reaches_behind_eye(std::size_t draw, std::uint32_t primitive) const {
+  const DrawRange& range = ranges_[draw];
+  const glm::uvec3 corner = scene_.meshes[scene_.draws[draw].mesh].triangles[primitive - range.first_primitive];
   for (int i = 0; i < 3; ++i) {
     const std::size_t vertex = range.first_vertex + corner[i];
     if (vertex < records_.vertices.size() && records_.vertices[vertex].p_eye.z > 0) return true;
@@ -115,29 +120,43 @@ bool FragmentBounds::reaches_behind_eye(const DrawRange& range, const Draw& draw
 }
 
 const Draw& FragmentBounds::draw_of(std::uint32_t primitive) const {
-  const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
-                                          [&](const DrawRange& r) { return r.first_primitive <= primitive; });
-  return scene_.draws[static_cast<std::size_t>(after - ranges_.begin()) - 1];
+  return scene_.draws[plumbline::draw_of(ranges_, primitive).value()];
+}
+
+std::optional<WindowTriangle<double>> FragmentBounds::as_color(std::size_t i, Varying v) const {
+  const std::uint32_t number = records_.covered[i].triangle;
+  const auto& corners = records_.varyings[v].triangles;
+  if (number >= corners.size()) return std::nullopt;
+  WindowTriangle<double> out = records_.triangles[number];
+  for (std::size_t k = 0; k < 3; ++k) out.v[k].color = corners[number][k];
+  return out;
 }
 
 Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
   const Covered& c = records_.covered[i];
-  WindowTriangle<double> as_color = records_.triangles[c.triangle];
-  const auto& corners = records_.varyings[v].triangles;
-  if (c.triangle >= corners.size()) return Vec4<double>(std::numeric_limits<double>::infinity());
-  for (std::size_t k = 0; k < 3; ++k) as_color.v[k].color = corners[c.triangle][k];
-  const PlaneBounds plane = bounds_from_origin(as_color, c.x, c.y);
+  const auto triangle = as_color(i, v);
+  if (!triangle) return Vec4<double>(std::numeric_limits<double>::infinity());
+  const PlaneBounds plane = bounds_from_origin(*triangle, c.x, c.y);
   const auto& vertices_apart = v == Varying::position    ? eye_apart_
                                : v == Varying::normal    ? normals_apart_
                                : v == Varying::secondary ? secondary_apart_
                                                          : kNowhere;
-  return factor_ * u * plane.color + glm::abs(plane.along_color) + apart(as_color.primitive, vertices_apart, is_lit(v));
+  return factor_ * u * plane.color + glm::abs(plane.along_color) +
+         apart(triangle->primitive, vertices_apart, is_lit(v));
+}
+
+OpenShare FragmentBounds::open_texels(std::size_t i) const {
+  const auto triangle = as_color(i, Varying::texture);
+  if (!triangle || i >= texels_.size()) return {1, true};
+  const Covered& c = records_.covered[i];
+  return open_share(scene_.textures.at(draw_of(triangle->primitive).texture->texture), texels_[i],
+                    color_of_plane(*triangle, c.x, c.y), Vec2<double>(varying_error(i, Varying::texture)));
 }
 
 TexelBound FragmentBounds::texel(std::size_t i) const {
   const Draw& draw = draw_of(records_.triangles[records_.covered[i].triangle].primitive);
   if (i >= texels_.size() || i >= records_.varyings[Varying::texture].fragments.size()) {
-    return {{}, Vec4<double>(std::numeric_limits<double>::infinity()), 1};
+    return {{}, Vec4<double>(std::numeric_limits<double>::infinity())};
   }
   const Vec4<double>& st = records_.varyings[Varying::texture].fragments[i];
   return texel_bound(scene_.textures.at(draw.texture->texture), texels_[i], Vec2<double>(st),
@@ -147,9 +166,8 @@ TexelBound FragmentBounds::texel(std::size_t i) const {
 FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Covered& c = records_.covered[i];
   const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
-  const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
-                                          [&](const DrawRange& r) { return r.first_primitive <= triangle.primitive; });
-  const Draw& draw = draw_of(triangle.primitive);
+  const std::size_t number = plumbline::draw_of(ranges_, triangle.primitive).value();
+  const Draw& draw = scene_.draws[number];
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   FragmentFours errors;
   errors.color = factor_ * u * plane.color + glm::abs(plane.along_color) + apart(triangle.primitive, lit_apart_, true);
@@ -169,26 +187,22 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Vec3<double> sum(fours.color + fours[Varying::secondary]);
   const bool clamped = summed && std::max({sum.x, sum.y, sum.z}) > 1;
   if (draw.fog && clamped) out.reason = kClampedLate;
-  if (draw.fog && reaches_behind_eye(*(after - 1), draw, triangle.primitive)) out.reason = kBehindEye;
+  if (draw.fog && reaches_behind_eye(number, triangle.primitive)) out.reason = kBehindEye;
   return out;
 }
 
 FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
   const Covered& c = records_.covered[i];
   const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
-  const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
-                                          [&](const DrawRange& r) { return r.first_primitive <= triangle.primitive; });
-  const auto draw = static_cast<std::size_t>(after - ranges_.begin()) - 1;
-  if (!plain_[draw]) return surface(i);
+  if (!plain_[plumbline::draw_of(ranges_, triangle.primitive).value()]) return surface(i);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   return {factor_ * u * plane.color, plane.along_color, apart(triangle.primitive, lit_apart_, true), {}};
 }
 
 FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
   const auto p = static_cast<std::uint32_t>(primitive);
-  const auto after =
-      std::partition_point(ranges_.begin(), ranges_.end(), [&](const DrawRange& r) { return r.first_primitive <= p; });
-  if (after == ranges_.begin() || plain_[static_cast<std::size_t>(after - ranges_.begin()) - 1]) {
+  const auto draw = plumbline::draw_of(ranges_, p);
+  if (!draw || plain_[*draw]) {
     const PlaneBounds plane = primitive_bounds(records_, primitive, x, y);
     return {factor_ * u * plane.color, plane.along_color, apart(p, lit_apart_, true), {}};
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -55,14 +56,18 @@ class FragmentBounds {
   const Draw& draw_of(std::uint32_t primitive) const;
   /// Of a fragment's texel; the draw has a texture, and the candidate's legal answers its texels.
   TexelBound texel(std::size_t i) const;
+  /// How much of the fragment's pixel is open, by the triangle's planes (texture_bounds.h).
+  OpenShare open_texels(std::size_t i) const;
   /// Of the winner at a pixel: the largest over the primitive's triangles, or the last fragment drawn.
   FragmentBound of_winner(std::int32_t primitive, int x, int y) const;
 
  private:
   /// What the two sides' columns of a primitive's vertices differ by.
   Vec4<double> apart(std::uint32_t primitive, const std::vector<Vec4<double>>& apart, bool flat_applies) const;
-  bool reaches_behind_eye(const DrawRange& range, const Draw& draw, std::uint32_t primitive) const;
+  bool reaches_behind_eye(std::size_t draw, std::uint32_t primitive) const;
   FragmentBound surface(std::size_t i) const;
+  /// The fragment's triangle, a varying's corners for its colours; none: nothing can be said.
+  std::optional<WindowTriangle<double>> as_color(std::size_t i, Varying v) const;
   Vec4<double> varying_error(std::size_t i, Varying v) const;
 
   const Scene& scene_;

@@ -81,7 +81,8 @@ constexpr std::array kLedger = {
               "Beside what texture coordinates' errors come to (osmesa.attributes, and 4 u for their product with the "
               "level's size, its fraction and the half texel): three means of texels, each a difference, a product "
               "and a sum. Levels of detail may be anything between the least and the greatest at the four pixels of "
-              "a square, by a logarithm that is linear between powers of two, as the driver's."},
+              "a square, by a logarithm that is linear between powers of two, as the driver's, of differences of "
+              "coordinates in float."},
     Tolerance{"exact.shade", 4, "u",
               "Fog: f is computed in double from the distance in float and rounded once (1 u), so is 1 - f (1 u); two "
               "products and a sum (3 u), each of the magnitudes of shade_bounds.h. Light per fragment: as exact.light, "

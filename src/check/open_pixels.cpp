@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "check/fragment_bounds.h"
+#include "check/ledger.h"
+#include "scene/draw_of.h"
 #include "stages/fragment_outcomes.h"
 
 namespace plumbline::check {
@@ -38,11 +40,9 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
   for (std::size_t i = 0; i < std::min(r.covered.size(), r.shaded.size()); ++i) {
     const Covered& c = r.covered[i];
     if (c.triangle >= r.triangles.size() || c.x >= open.width() || c.y >= open.height()) continue;
-    const auto range =
-        std::ranges::upper_bound(ranges, r.triangles[c.triangle].primitive, {}, &DrawRange::first_primitive);
-    if (range == ranges.begin()) continue;
-    const Draw& draw = scene.draws[static_cast<std::size_t>(range - ranges.begin()) - 1];
-    if (!draw.alpha_test) continue;
+    const auto number = draw_of(ranges, r.triangles[c.triangle].primitive);
+    if (!number || !scene.draws[*number].alpha_test) continue;
+    const Draw& draw = scene.draws[*number];
     const double alpha = r.shaded[i].color.a;
     const FragmentBound bound = bounds.of_fragment(i);
     const double off = bound.color.a + std::abs(bound.along.a) + bound.apart.a;
@@ -50,6 +50,51 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
     const Outcomes other =
         std::isfinite(off) ? theirs_of(*draw.alpha_test, theirs, alpha - off, alpha + off) : Outcomes{true, true};
     if (mine ? other.may_fail : other.may_pass) open(c.x, c.y) = 1;
+  }
+  return open;
+}
+
+namespace {
+
+// How far a reference's depth of a fragment may be from the candidate's.
+double depth_error(const Records<double>& r, const OffsetErrors& offsets, std::size_t fragment) {
+  const Covered& c = r.covered[fragment];
+  const WindowTriangle<double>& triangle = r.triangles[c.triangle];
+  const PlaneBounds bounds = bounds_from_origin(triangle, c.x, c.y);
+  double by_edge = 0;  // where edges of one triangle meet, either may be the fragment's
+  if (triangle.corners == 2) {
+    const auto edges = edge_values(r, static_cast<std::int32_t>(triangle.primitive), c.x, c.y);
+    for (const EdgeValue& edge : edges) by_edge = std::max(by_edge, std::abs(edge.depth - edges.front().depth));
+  }
+  return tolerance("osmesa.depth").factor * kUnitRoundoff * (bounds.depth + offsets.of(triangle)) +
+         std::abs(bounds.along_depth) + by_edge;
+}
+
+}  // namespace
+
+Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) {
+  const Records<double>& r = candidate.records;
+  const int width = scene.frame.width, height = scene.frame.height;
+  Plane<std::uint8_t> open(width, height, 0);
+  if (r.drawn.size() != r.covered.size() || r.depth.size() != r.covered.size()) return open;
+  struct Held {
+    double z, error;
+  };
+  Plane<Held> held(width, height, {scene.frame.clear_depth, 0});
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const OffsetErrors offsets(scene);
+  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+    const Covered& c = r.covered[i];
+    if (c.triangle >= r.triangles.size() || c.x >= width || c.y >= height) continue;
+    const auto number = draw_of(ranges, r.triangles[c.triangle].primitive);
+    if (!number) continue;
+    const Draw& draw = scene.draws[*number];
+    Held& before = held(c.x, c.y);
+    const double z = r.depth[i], error = depth_error(r, offsets, i);
+    const bool compares = draw.depth_func != DepthFunc::always && draw.depth_func != DepthFunc::never;
+    const double apart = std::abs(z - before.z);
+    if (compares && !(apart > error + before.error + depth_step(scene.frame.depth, z))) open(c.x, c.y) = 1;
+    if (r.drawn[i].drawn && draw.merge.depth_mask) before = {z, error};
   }
   return open;
 }

@@ -1,5 +1,5 @@
-// Pixels at which a reference's alpha test may keep or drop another fragment than the candidate's: there its planes may
-// show something else, and both be right.
+// Pixels at which a reference's alpha or depth test may keep or drop another fragment than the candidate's: there its
+// planes may show something else, and both be right.
 #pragma once
 
 #include "scene/scene.h"
@@ -15,6 +15,11 @@ bool tests_alpha(const Scene& scene);
 /// be there.
 Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   ColorFormat theirs, double factor);
+
+/// 1 where some fragment's depth is so near to what the frame held that the bounds of compare_depth_planes, and what goes
+/// by the major axis (bounds.h), let its depth test come out otherwise: also of one that another hides later. Needs the
+/// candidate's records of stages 5, 6 and 10; without them nothing is open.
+Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate);
 
 /// An OpenGL renderer's planes get the candidate's own values where the pixel is open; returns how many are. It draws
 /// in the frame's format, or in float where it has none such, and the colours before merge in float always.

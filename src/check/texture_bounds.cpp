@@ -27,12 +27,29 @@ TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<dou
                        double factor) {
   const TextureLevel& level = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
   const Vec2<double> error = st_error + 4 * u * glm::abs(st), size(level.width, level.height), texels = error * size;
-  TexelBound out{range, Vec4<double>(0), 0};
-  const bool nearest = std::isfinite(range.gap.s);
-  out.open_share = nearest ? std::min(1.0, 2 * (texels.s + texels.t)) : 0;
-  const bool open = !(error.s < range.gap.s && error.t < range.gap.t && std::max(texels.s, texels.t) < 0.5);
+  TexelBound out{range, Vec4<double>(0)};
+  const auto known = [&](int k) { return error[k] == 0 || error[k] < range.gap[k]; };
+  const bool open = !(known(0) && known(1) && std::max(texels.s, texels.t) < 0.5);
   out.slack = open ? Vec4<double>(std::numeric_limits<double>::infinity())
                    : range.slope_s * error.s + range.slope_t * error.t + factor * u * largest_texel(texture);
+  return out;
+}
+
+OpenShare open_share(const Texture& texture, const TexelRange& range, const PlaneValue& plane, Vec2<double> st_error) {
+  OpenShare out;
+  for (int number = range.first_nearest; number <= range.last_nearest; ++number) {
+    const TextureLevel& level = texture.levels[static_cast<std::size_t>(number)];
+    const Vec2<double> size(level.width, level.height);
+    for (int k = 0; k < 2; ++k) {
+      const double at = size[k] * plane.value[k], from_line = std::abs(at - std::round(at));
+      const double w = size[k] * (st_error[k] + 4 * u * std::abs(plane.value[k]));
+      if (!std::isfinite(w + at)) return {1, true};
+      const double slope = std::min(size[k] * std::hypot(plane.d_dx[k], plane.d_dy[k]), 0.5);
+      out.centre = out.centre || (w > 0 && from_line <= w);
+      if (w > 0 && from_line <= std::max(w, slope)) out.area += std::min(1.0, w / slope);
+    }
+  }
+  out.area = std::min(out.area, 1.0);
   return out;
 }
 

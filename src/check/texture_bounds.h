@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "check/bounds.h"
 #include "scene/scene.h"
 #include "stages/legal.h"
 #include "stages/stages.h"
@@ -16,12 +17,23 @@ double largest_texel(const Texture& texture);
 struct TexelBound {
   TexelRange range;
   Vec4<double> slack{0};  ///< by its texture coordinates' errors and its own arithmetic; infinite: it is open
-  double open_share = 0;  ///< how probable it is that it is open, for a place that knows nothing of texels
 };
 /// `st_error`: of its texture coordinates (s, t); 4 u of them more for its texel coordinates, and `factor` u of the
-/// texture's largest component. Within st_error of where another texel is the nearest, it is open.
+/// texture's largest component. Within st_error of where another texel is the nearest, it is open; of a coordinate that
+/// has no error (it is 0 everywhere) that is known.
 TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<double> st, Vec2<double> st_error,
                        double factor);
+
+/// What a pixel has of the bands, st_error to either side, along the lines where another texel is the nearest. With w
+/// the error and s the slope in texels, a band of half width w/s pixels; a pixel within one of such a line stands for a
+/// share w/s of it, and where lines are closer than two pixels, for as much as lies between two. Where the coordinate
+/// moves by less than its error (s <= w) there is no such line: the pixel is in the band or it is not. `plane`:
+/// coordinates and slopes by the triangle's corners, not by the fragment's record, which is what is judged.
+struct OpenShare {
+  double area = 0;      ///< pixels, [0,1]
+  bool centre = false;  ///< whether its centre is in one
+};
+OpenShare open_share(const Texture& texture, const TexelRange& range, const PlaneValue& plane, Vec2<double> st_error);
 
 /// Why another texel than the legal ones is Mesa's fault, where the texture is between magnified and minified: linear
 /// magnification gives way to the nearest texels of mipmaps at a lambda of 1/2 (OpenGL 2.1 spec 3.8.9, c), and theirs

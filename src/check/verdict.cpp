@@ -97,6 +97,7 @@ std::vector<LedgerUse> ledger_use(std::span<const SceneVerdict> verdicts) {
   for (const Tolerance& row : ledger()) uses.push_back({&row, -1, ""});
   for (const SceneVerdict& verdict : verdicts) {
     for (const Comparison& c : verdict.comparisons) {
+      if (c.outcome == Outcome::dispute) continue;  // the reference's fault, where it is a small one too
       for (LedgerUse& use : uses) {
         if (c.ledger_row != use.row->name || c.measurement.max_ratio <= use.largest_ratio) continue;
         use.largest_ratio = c.measurement.max_ratio;

@@ -56,8 +56,9 @@ void settle_votes(std::vector<Comparison>& rows) {
     if (against.empty()) continue;
     row.outcome = Outcome::dispute;
     row.measurement.disputed = std::exchange(row.measurement.differing, 0);
-    row.note += fmt::format("{}outvoted: ours is right by {}, and by exact's arithmetic on its own records",
-                            row.note.empty() ? "" : "; ", fmt::join(against, " and "));
+    row.measurement.dispute = row.measurement.worst;
+    row.measurement.reason = fmt::format("outvoted: ours is right by {}, and by exact's arithmetic on its own records",
+                                         fmt::join(against, " and "));
   }
 }
 

@@ -65,6 +65,9 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   add_against(command, o.against);
   text(command, "--json", o.json, "Write the diagnosis as JSON");
   text(command, "--report", o.report, "Write a page with a picture of every stage into this folder");
+  text(command, "--pixel", o.pixel,
+       "X,Y: show every fragment that reached the pixel, in each renderer, and what became of it; rows count from the "
+       "bottom, in gzrender from the top");
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
   text(command, "--program", o.command,

@@ -33,6 +33,7 @@ struct DiagnoseOptions {
   std::string json, report;     ///< or empty
   std::string fault;            ///< or empty
   std::string folder, command;  ///< of another renderer, or empty
+  std::string pixel;            ///< X,Y: its history as well; or empty
   SceneArguments scene_arguments;
 };
 int diagnose(const DiagnoseOptions& options);

@@ -1,16 +1,20 @@
 // plumb diagnose: one scene, every stage that is wrong.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "check/diagnose.h"
+#include "check/history.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
+#include "cli/pixel_argument.h"
 #include "cli/references.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_text.h"
+#include "report/history_text.h"
 #include "report/json_report.h"
 #include "scene/antialias.h"
 #include "stages/capture_folder.h"
@@ -64,6 +68,8 @@ void write_page(const DiagnoseOptions& o, const Scene& scene, Renderer& candidat
 int diagnose(const DiagnoseOptions& o) {
   const Scene scene = o.scene_arguments.load(o.scene);
   require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
+  std::optional<glm::ivec2> pixel;
+  if (!o.pixel.empty()) pixel = parse_pixel("--pixel", o.pixel, scene.frame);
   const Output outputs[] = {{"--json", o.json}};
   const std::filesystem::path inputs[] = {o.scene};
   require_outputs(outputs, {"--report", o.report}, inputs);
@@ -78,7 +84,13 @@ int diagnose(const DiagnoseOptions& o) {
   const References references = make_references(without_repeats(o.against), o.scene_arguments.assets);
   const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list);
   fmt::print("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
-  if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references));
+  std::string history;
+  if (pixel) {
+    const check::History told = check::pixel_history(scene, *candidate, references.list, *pixel);
+    fmt::print("\n{}", report::history_text(scene, told));
+    history = report::history_json(scene, told);
+  }
+  if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
   if (!o.report.empty()) write_page(o, scene, *candidate, references, diagnosis);
   const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
                                           [](const check::Comparison& c) { return is_failure(c.outcome); });

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "scene/draw_of.h"
+
 namespace plumbline::pipeline {
 
 namespace {
@@ -24,9 +26,7 @@ bool in_draw_order(const std::vector<Record>& records, std::uint32_t primitives)
 // `least_of_triangle` are enough.
 bool corners_fit(const Scene& scene, const std::vector<DrawRange>& ranges, std::uint32_t primitive,
                  std::uint32_t corners, std::uint32_t least_of_triangle, std::uint32_t most) {
-  const auto after = std::partition_point(ranges.begin(), ranges.end(),
-                                          [&](const DrawRange& r) { return r.first_primitive <= primitive; });
-  const Draw& draw = scene.draws[static_cast<std::size_t>(after - ranges.begin()) - 1];
+  const Draw& draw = scene.draws[draw_of(ranges, primitive).value()];
   const std::uint32_t of_mesh = corner_count(scene.meshes[draw.mesh].topology);
   if (of_mesh < 3) return corners == of_mesh;
   const bool filled = draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;

@@ -6,6 +6,7 @@
 #include "pipeline/clip.h"
 #include "pipeline/convert.h"
 #include "pipeline/input.h"
+#include "scene/draw_of.h"
 
 namespace plumbline::pipeline {
 
@@ -59,9 +60,7 @@ class DrawOfTriangle {
       : scene_(scene), triangles_(triangles), ranges_(draw_ranges(scene)) {}
   std::size_t index(std::uint32_t triangle) const {
     const std::uint32_t primitive = triangles_.at(triangle).primitive;
-    const auto after = std::partition_point(ranges_.begin(), ranges_.end(),
-                                            [&](const DrawRange& r) { return r.first_primitive <= primitive; });
-    return static_cast<std::size_t>(after - ranges_.begin()) - 1;
+    return draw_of(ranges_, primitive).value();
   }
   const Draw& operator()(std::uint32_t triangle) const { return scene_.draws[index(triangle)]; }
 

@@ -69,7 +69,7 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
 }
 
 void write_json(const std::filesystem::path& file, const check::Diagnosis& diagnosis,
-                const std::map<std::string, std::string>& versions) {
+                const std::map<std::string, std::string>& versions, const std::string& pixel_history) {
   Json out{{"scene", diagnosis.verdict.scene},
            {"file", diagnosis.verdict.path},
            {"versions", versions},
@@ -88,6 +88,7 @@ void write_json(const std::filesystem::path& file, const check::Diagnosis& diagn
                                {"picture", f.picture}});
   }
   for (const check::Comparison& c : diagnosis.verdict.comparisons) out["comparisons"].push_back(comparison(c));
+  if (!pixel_history.empty()) out["pixel_history"] = Json::parse(pixel_history);
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -19,9 +19,10 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
                 const std::map<std::string, std::string>& versions);
 
 /// {"scene", "file", "versions", "first" (a stage or null), "wrong": [stages], "findings": [{stage, reference,
-/// differing, pixels, numbers, causes, picture}], "comparisons": as above}.
+/// differing, pixels, numbers, causes, picture}], "comparisons": as above}; "pixel_history", where there is one
+/// (history_text.h, history_json()).
 void write_json(const std::filesystem::path& file, const check::Diagnosis& diagnosis,
-                const std::map<std::string, std::string>& versions);
+                const std::map<std::string, std::string>& versions, const std::string& pixel_history = "");
 
 /// {"a", "b", "tolerance", "comparisons": [{what, outcome, items, differing, max_difference, codes, worst, ...}]}
 void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,

@@ -157,14 +157,14 @@ std::vector<JsonNode> JsonNode::elements(std::size_t least, std::size_t most) co
 double JsonNode::number(double lo, double hi) const {
   const bool is_number = value_->kind == JsonValue::Kind::integer || value_->kind == JsonValue::Kind::real;
   if (!is_number || !(value_->real >= lo && value_->real <= hi)) {
-    refuse(fmt::format("a number from {} to {}", lo, hi));
+    refuse(lo == hi ? fmt::format("{}", lo) : fmt::format("a number from {} to {}", lo, hi));
   }
   return value_->real;
 }
 
 std::int64_t JsonNode::integer(std::int64_t lo, std::int64_t hi) const {
   if (value_->kind != JsonValue::Kind::integer || value_->integer < lo || value_->integer > hi) {
-    refuse(fmt::format("an integer from {} to {}", lo, hi));
+    refuse(lo == hi ? fmt::format("{}", lo) : fmt::format("an integer from {} to {}", lo, hi));
   }
   return value_->integer;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -22,9 +23,11 @@ Size read_size(const JsonNode& node, std::size_t most_texels) {
     return n ? static_cast<int>(n->integer(1, kLargestTexture)) : 64;
   };
   const Size size{side("width"), side("height")};
-  if (static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) > most_texels) {
-    node.refuse(fmt::format("at most {} texels in all, of which {} are left", kMostTexels, most_texels),
-                fmt::format("{} x {}", size.width, size.height));
+  const std::size_t texels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+  if (texels > most_texels) {
+    const std::string left = most_texels == kMostTexels ? "" : fmt::format(", {} more beside the others", most_texels);
+    node.refuse(fmt::format("at most {} texels in all of the scene's textures{}", kMostTexels, left),
+                fmt::format("{} x {} = {}", size.width, size.height, texels));
   }
   return size;
 }

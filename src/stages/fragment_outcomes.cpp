@@ -20,6 +20,12 @@ Outcomes outcomes(CompareFunc func, double lo, double hi, double reference) {
   return {true, true};
 }
 
+double depth_in_format(DepthFormat format, double z_win) {
+  const double scale = depth_scale(format);
+  if (format == DepthFormat::z32f) return static_cast<double>(static_cast<float>(z_win));
+  return (format == DepthFormat::z8 ? std::round(z_win * scale) : std::nearbyint(z_win * scale)) / scale;
+}
+
 Outcomes alpha_outcomes(const AlphaTest& test, ColorFormat format, double lo, double hi) {
   const double reference = test.reference, scale = color_scale(format);
   if (scale == 0) return outcomes(test.func, lo, hi, reference);

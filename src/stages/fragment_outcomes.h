@@ -13,6 +13,10 @@ struct Outcomes {
 };
 Outcomes outcomes(CompareFunc func, double lo, double hi, double reference);
 
+/// Window z in [0,1] as the format's number: code / (2^n - 1), the nearest code, half to even (z8: half up); z32f: as
+/// float.
+double depth_in_format(DepthFormat format, double z_win);
+
 /// Of the alpha test in a frame of that format (OpenGL 2.1 spec 4.1.4, 4.5 compatibility 17.3.4): where it has codes,
 /// the reference and the fragment's alpha are compared as codes, each the nearest, half to even.
 Outcomes alpha_outcomes(const AlphaTest& test, ColorFormat format, double lo, double hi);

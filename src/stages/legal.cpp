@@ -27,9 +27,18 @@ struct Test {
   Interval under;   ///< the held depths under which it passes
 };
 
+/// Depths that are clamped to one end are one number in every arithmetic and format: a tie, which is not open.
+bool tie_of_clamped(Interval a, Interval b) {
+  return (a.lo == 0 || a.lo == 1) && a.lo == a.hi && a.lo == b.lo && a.lo == b.hi;
+}
+
 /// `hit` against the depth that the frame holds; depths no more than `step` apart may compare either way, so that
 /// "less" and "less or equal" allow the same.
 Test depth_test(DepthFunc func, Interval hit, Interval held, double step) {
+  if (tie_of_clamped(hit, held)) {
+    const Outcomes tie = outcomes(func, hit.lo, hit.lo, held.lo);
+    return {tie.may_pass, tie.may_fail, hit, held, held};
+  }
   const bool may_be_less = hit.lo <= held.hi + step, may_be_greater = hit.hi >= held.lo - step;
   const Interval hit_if_less{hit.lo, std::min(hit.hi, held.hi + step)};
   const Interval hit_if_greater{std::max(hit.lo, held.lo - step), hit.hi};
@@ -50,14 +59,8 @@ Test depth_test(DepthFunc func, Interval hit, Interval held, double step) {
   return {true, true, hit, held, held};
 }
 
-double frame_depth(const FrameFormat& frame, double z_win) {
-  const double scale = depth_scale(frame.depth);
-  if (frame.depth == DepthFormat::z32f) return static_cast<double>(static_cast<float>(z_win));
-  return (frame.depth == DepthFormat::z8 ? std::round(z_win * scale) : std::nearbyint(z_win * scale)) / scale;
-}
-
 LegalAnswer background(const FrameFormat& frame) {
-  const double z = frame_depth(frame, frame.clear_depth);
+  const double z = depth_in_format(frame.depth, frame.clear_depth);
   return {kBackground, 0, z, z, frame.clear_color, frame.clear_stencil};
 }
 

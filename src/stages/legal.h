@@ -56,6 +56,7 @@ struct TexelRange {
   glm::dvec4 lo{0}, hi{0};                                  ///< per channel, over the interval of lambda
   glm::dvec4 slope_s{0}, slope_t{0};                        ///< by how much per unit of s and of t, within half a texel
   glm::dvec2 gap{std::numeric_limits<double>::infinity()};  ///< in s and t, to where another texel is the nearest
+  int first_nearest = 0, last_nearest = -1;                 ///< the levels whose nearest texel it may be; or none
 };
 
 /// The legal answers of a whole frame. Empty: not asked for, or not shown.

@@ -49,6 +49,34 @@ TEST_F(BlendedPairs, WhereItIsOpenWhichFragmentsMadeItAnyNumberIsLegal) {
   EXPECT_EQ(most(2, 2), 2);
 }
 
+// The hidden fragment at (3, 1) lies so near to the one before it that it may have been drawn: not where it is a step
+// and the bounds of both farther.
+TEST_F(BlendedPairs, AHiddenFragmentWhoseDepthTestIsOpenMayHaveBeenDrawn) {
+  const double step = depth_step(scene.frame.depth, 0.5);
+  const auto at = [&](double apart) { capture.records.depth = {0.5, 0.5, 0.5 + apart, 0.25}; };
+  at(step);
+  EXPECT_EQ(most(3, 1), 99);
+  EXPECT_EQ(run(blended(), kUnchanged).ambiguous, 1u);
+  EXPECT_EQ(most(2, 2), 2);
+  at(0.125);
+  EXPECT_EQ(most(3, 1), 5);
+  at(-step);
+  EXPECT_EQ(most(3, 1), 99) << "drawn here, and hidden there";
+  scene.draws[0].depth_func = DepthFunc::always;
+  EXPECT_EQ(most(3, 1), 5) << "nothing is compared";
+  scene.draws[0].depth_func = DepthFunc::less;
+  capture.records.depth = {0.5, 0.5, 0.25 + step, 0.25};
+  capture.records.drawn[2].drawn = true;
+  EXPECT_EQ(most(3, 1), 99) << "of what was held last";
+  scene.draws[0].merge.depth_mask = false;
+  EXPECT_EQ(most(3, 1), 7) << "nothing is held but the cleared depth; three are drawn";
+  at(step);
+  legal.color_lo = legal.color_hi = Plane<glm::vec4>(kWidth, kHeight);
+  allow(0, 0, {});
+  scene.draws[0].merge.depth_mask = true;
+  EXPECT_EQ(most(3, 1), 7) << "where an oracle has been asked, it decides";
+}
+
 TEST_F(BlendedPairs, OtherFragmentsAreCoveragesMatterAndALinesColourGoesAlongItsMajorAxis) {
   const Change beside = [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r += code(40); };
   scene.meshes[0].topology = Topology::lines;

@@ -4,8 +4,6 @@
 // Where it says so, idiff (OpenImageIO 2.4.7, ImageBufAlgo::compare) finds nothing: it takes any infinity for any other
 // and NaN for NaN, does not count the value at which it first meets a number that is not finite, lets NaN's comparisons
 // count nothing, and reads channels and pixels that one image lacks as 0.
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +15,7 @@
 // After fmt: it would include it as headers only (image_file.cpp).
 #include <OpenImageIO/imageio.h>
 
+#include "../unit/test_folder.h"
 #include "check/compare_stored.h"
 #include "check_fixtures.h"
 
@@ -112,13 +111,7 @@ void save(const fs::path& file, const Picture& p) {
   ASSERT_TRUE(written && out->close()) << out->geterror();
 }
 
-struct ImagePairs : testing::Test {
-  ImagePairs() {
-    std::string name = (fs::temp_directory_path() / "plumbline-pairs-XXXXXX").string();
-    folder = mkdtemp(name.data());
-  }
-  ~ImagePairs() override { fs::remove_all(folder); }
-
+struct ImagePairs : TestFolder {
   std::vector<StoredComparison> compared(const std::string& ending_a, const Picture& a, const std::string& ending_b,
                                          const Picture& b, double tolerance, bool turned) {
     save(folder / ("a" + ending_a), a);
@@ -127,7 +120,7 @@ struct ImagePairs : testing::Test {
                       stored_b = read_stored(folder / ("b" + ending_b));
     return turned ? compare_images(stored_b, stored_a, tolerance) : compare_images(stored_a, stored_b, tolerance);
   }
-  fs::path folder;
+  const fs::path& folder = root_;
 };
 
 struct Pair {

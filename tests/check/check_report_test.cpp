@@ -1,13 +1,11 @@
 // Reports: what a person or a program reads of a verdict.
-#include <unistd.h>
-
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "../unit/test_folder.h"
 #include "check_fixtures.h"
 #include "report/html_report.h"
 #include "report/json_report.h"
@@ -26,25 +24,15 @@ using check::Measurement;
 using check::Outcome;
 using check::SceneVerdict;
 
-// A folder of its own, gone afterwards.
-struct Reports : testing::Test {
-  Reports() {
-    std::string name = (fs::temp_directory_path() / "plumbline-report-XXXXXX").string();
-    folder = mkdtemp(name.data());
-  }
-  ~Reports() override { fs::remove_all(folder); }
-  static std::string text_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+struct Reports : TestFolder {
   static std::size_t entries(const fs::path& of) {
     return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(of), {}));
   }
   nlohmann::json json(const std::vector<SceneVerdict>& verdicts) const {
     write_json(folder / "out.json", verdicts, {{"ours", "0.1"}, {"osmesa", "Mesa \"22\""}});
-    return nlohmann::json::parse(text_of(folder / "out.json"));
+    return nlohmann::json::parse(read(folder / "out.json"));
   }
-  fs::path folder;
+  const fs::path& folder = root_;
 };
 
 Comparison compared(Outcome outcome, double difference = 0, double tolerance = 0) {
@@ -238,7 +226,7 @@ TEST_F(Reports, LedgerFileHasEveryRow) {
   Comparison c = compared(Outcome::within, 1.234, 8);
   c.measurement.max_ratio = 0.15425;
   write_ledger(folder / "ledger.json", std::vector{verdict_of({c})});
-  const auto out = nlohmann::json::parse(text_of(folder / "ledger.json"));
+  const auto out = nlohmann::json::parse(read(folder / "ledger.json"));
   ASSERT_EQ(out["tolerances"].size(), check::ledger().size());
   for (const auto& row : out["tolerances"]) {
     if (row["name"] == "exact.clip") {
@@ -257,7 +245,7 @@ TEST_F(Reports, LedgerFileHasEachGroupsLargestDifferences) {
   write_ledger(folder / "ledger.json",
                std::vector{verdict_of({compared(Outcome::within, 1, 8), compared(Outcome::within, 2, 8)}),
                            verdict_of({not_compared(Outcome::unsupported, "")}), other});
-  const auto groups = nlohmann::json::parse(text_of(folder / "ledger.json"))["groups"];
+  const auto groups = nlohmann::json::parse(read(folder / "ledger.json"))["groups"];
   ASSERT_EQ(groups.size(), 2u);
   EXPECT_EQ(groups[0]["name"], "another");
   EXPECT_EQ(groups[0]["scenes"], 1);
@@ -283,7 +271,7 @@ TEST_F(Reports, HtmlEscapesAllText) {
   HtmlReport page(folder / "page");
   page.add(verdict, {}, {}, described(odd));
   page.write(odd);
-  const std::string text = text_of(folder / "page/index.html");
+  const std::string text = read(folder / "page/index.html");
   EXPECT_FALSE(contains(text, "<script>"));
   EXPECT_FALSE(contains(text, "<a &"));
   EXPECT_FALSE(contains(text, "\"b\""));
@@ -308,7 +296,7 @@ TEST_F(Reports, HtmlShowsOursTheReferenceAndTheDifference) {
   HtmlReport page(folder);
   page.add(verdict_of({}), references, drawn, {});
   page.write("");
-  const std::string text = text_of(folder / "index.html");
+  const std::string text = read(folder / "index.html");
   for (const char* name : {"ours", "osmesa", "osmesa-difference", "exact"}) {
     const std::string file = std::string("group/scene/") + name + ".png";
     EXPECT_TRUE(fs::exists(folder / file)) << file;
@@ -330,7 +318,7 @@ TEST_F(Reports, HtmlReplacesWhatIsNoUtf8AndNothingElse) {
   page.add(verdict_of({}), {}, {}, described(odd + "|" + fine));
   page.write("");
   const std::string r = "\xef\xbf\xbd";
-  const std::string text = text_of(folder / "index.html");
+  const std::string text = read(folder / "index.html");
   EXPECT_TRUE(contains(text, r + r + " " + r + r + r + " " + r + r + r + r + " " + r + " " + r + r + "|" + fine))
       << text;
 }
@@ -346,7 +334,7 @@ TEST_F(Reports, ScenesOfOneNameHaveFoldersOfTheirOwn) {
     page.add(verdict, {}, drawn, {});
   }
   page.write("");
-  const std::string text = text_of(folder / "index.html");
+  const std::string text = read(folder / "index.html");
   i = 0;
   for (const std::string name : {"g/s", "g/s-2", "g/s-2-2", "_./_./s", "g/_s", "g/s-3"}) {
     EXPECT_EQ(read_image(folder / name / "ours.png").width(), static_cast<int>(++i)) << name;
@@ -367,7 +355,7 @@ TEST_F(Reports, APageAppearsWholeOrNotAtAll) {
   HtmlReport late(folder / "a/b");
   write_file(folder / "a/b/notes.txt", "made while it ran");
   EXPECT_THROW(late.write(""), OutputError);
-  EXPECT_EQ(text_of(folder / "a/b/notes.txt"), "made while it ran");
+  EXPECT_EQ(read(folder / "a/b/notes.txt"), "made while it ran");
 }
 
 TEST_F(Reports, WhereItCannotBeWrittenTheErrorNamesTheFile) {
@@ -382,7 +370,7 @@ TEST_F(Reports, WhereItCannotBeWrittenTheErrorNamesTheFile) {
     EXPECT_THROW(write_ledger(target, {}), OutputError);
   }
   EXPECT_EQ(entries(folder), 1u) << "nothing is left behind";
-  EXPECT_EQ(text_of(folder / "file"), "kept");
+  EXPECT_EQ(read(folder / "file"), "kept");
 }
 
 }  // namespace

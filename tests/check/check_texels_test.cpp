@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "check/bounds.h"
@@ -136,6 +137,135 @@ TEST(EnvironError, IsZeroWhereNothingIsOff) {
   const glm::dvec4 c(0.5, 0.25, 0.75, 1), zero(0);
   const DrawTexture state{0, TextureEnvironment::replace, glm::vec4(0)};
   EXPECT_EQ(environ_error(TextureFormat::rgba, state, c, zero, c, zero, 1).error, zero) << "nothing is computed";
+}
+
+TEST(TexelBound, KnowsACoordinateWithoutError) {
+  const Texture texture = noise(MinFilter::nearest);
+  const auto open = [&](Vec2<double> st, Vec2<double> error) {
+    return std::isinf(texel_bound(texture, math::texel_range(texture, st, 0, 0), st, error, 8).slack.r);
+  };
+  EXPECT_FALSE(open({0.03, 0}, {1e-4, 0})) << "0 everywhere: row 0";
+  EXPECT_TRUE(open({0.03, 0}, {1e-4, 1e-9}));
+  EXPECT_TRUE(open({0.03, 0.5}, {1e-4, 0})) << "its texel coordinate is a product, and rounded";
+}
+
+// Of planes of all slopes, from less than the error over 100 pixels to more than a texel each, the shares sum to what
+// is open, which is counted.
+TEST(OpenShare, SumsToWhatIsOpen) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-1, 1), exponent(-5, 0.5);
+  const Texture texture = noise(MinFilter::nearest);
+  const Vec2<double> error(4e-4, 3e-4);
+  double predicted = 0, centres = 0, counted = 0;
+  for (int round = 0; round < 400; ++round) {
+    PlaneValue plane{{place(random), place(random), 0, 0}, Vec4<double>(0), Vec4<double>(0)};
+    for (int k = 0; k < 2; ++k) {
+      plane.d_dx[k] = std::pow(10.0, exponent(random)) / 16;
+      plane.d_dy[k] = -std::pow(10.0, exponent(random)) / 16;
+    }
+    const Vec4<double> corner = plane.value;
+    for (int i = 0; i < 900; ++i) {
+      plane.value = corner + static_cast<double>(i % 30) * plane.d_dx + static_cast<double>(i / 30) * plane.d_dy;
+      const Vec2<double> st(plane.value);
+      const TexelRange range = math::texel_range(texture, st, 0, 0);
+      const OpenShare share = open_share(texture, range, plane, error);
+      predicted += share.area;
+      centres += share.centre ? 1 : 0;
+      counted += std::isinf(texel_bound(texture, range, st, error, 8).slack.r) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(counted, 1000);
+  EXPECT_EQ(centres, counted) << "for a record that is where its plane is";
+  EXPECT_NEAR(predicted / counted, 1, 0.15);
+}
+
+TEST(OpenShare, OfACoordinateThatDoesNotMoveIsAllOrNothing) {
+  const Texture texture = noise(MinFilter::nearest);
+  const auto share = [&](double s) {
+    const PlaneValue plane{{s, 0.28, 0, 0}, Vec4<double>(0), Vec4<double>(0)};
+    return open_share(texture, math::texel_range(texture, {s, 0.28}, 0, 0), plane, {1e-6, 1e-6});
+  };
+  EXPECT_EQ(share(0.5).area, 1);
+  EXPECT_TRUE(share(0.5).centre);
+  EXPECT_EQ(share(0.52).area, 0);
+  EXPECT_FALSE(share(0.52).centre);
+  const Texture smooth = noise(MinFilter::linear);
+  const PlaneValue plane{{0.5, 0.5, 0, 0}, Vec4<double>(0), Vec4<double>(0)};
+  EXPECT_EQ(open_share(smooth, math::texel_range(smooth, {0.5, 0.5}, -1, -1), plane, {1e-6, 1e-6}).area, 0);
+}
+
+// A frame of one textured triangle, unsmoothed.
+struct TexelPlanes : testing::Test {
+  static constexpr int kSide = 12;
+  TexelPlanes() {
+    scene.frame.width = scene.frame.height = kSide;
+    scene.textures = {noise(MinFilter::nearest)};
+    scene.meshes.resize(1);
+    scene.meshes[0].triangles = {{0, 1, 2}};
+    scene.meshes[0].positions.resize(3);
+    scene.draws.resize(1);
+    scene.draws[0].texture = DrawTexture{};
+    WindowTriangle<double> triangle{};
+    const Vec3<double> corners[] = {{-1, -1, 0.5}, {40, -1, 0.5}, {-1, 40, 0.5}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle.v[i] = {corners[i], 1, glm::ivec2(256.0 * (Vec2<double>(corners[i]) - 0.5)), Vec4<double>(0)};
+    }
+    triangle.front = true;
+    capture.records.triangles = {triangle};
+    capture.planes.id = Plane<std::int32_t>(kSide, kSide, 0);
+    capture.planes.texel = Plane<glm::vec4>(kSide, kSide);
+  }
+  // The corners' coordinates, and every fragment's, or what its plane comes to.
+  Measurement of(std::array<Vec2<double>, 3> corners, std::optional<Vec2<double>> record = {}) {
+    Records<double>& r = capture.records;
+    auto& columns = r.varyings[Varying::texture];
+    r.covered.clear(), columns.fragments.clear(), r.texels.clear(), capture.legal.texels.clear();
+    std::array<Vec4<double>, 3> sts;
+    WindowTriangle<double> as_color = r.triangles[0];
+    for (std::size_t i = 0; i < 3; ++i) as_color.v[i].color = sts[i] = Vec4<double>(corners[i], 0, 1);
+    columns.triangles = {sts};
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const Vec2<double> st = record.value_or(Vec2<double>(color_of_plane(as_color, x, y).value));
+        r.covered.push_back({0, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+        columns.fragments.emplace_back(st, 0, 1);
+        r.texels.push_back({math::filtered_texel(scene.textures[0], st, 0), 0});
+        capture.legal.texels.push_back(math::texel_range(scene.textures[0], st, 0, 0));
+        capture.planes.texel(x, y) = glm::vec4(r.texels.back().color);
+      }
+    }
+    r.drawn.assign(r.covered.size(), {true});
+    note.clear();
+    return compare_texel_planes(scene, capture, capture, 64, note);
+  }
+  Scene scene;
+  Capture capture;
+  std::string note;
+};
+
+TEST_F(TexelPlanes, OpenPixelsAreAsManyAsTheTrianglesPlanesPredict) {
+  const auto still = [](double s, double t) { return std::array<Vec2<double>, 3>{{{s, t}, {s, t}, {s, t}}}; };
+  Measurement m = of(still(0.5, 0.5));
+  EXPECT_EQ(m.ambiguous, 144u);
+  EXPECT_EQ(m.differing, 0u) << note;
+  EXPECT_EQ(note, "144 open, 144.0 predicted");
+  m = of(still(0.53, 0.53));
+  EXPECT_EQ(m.ambiguous, 0u);
+  // Two texels to a pixel: borders at all centres, and a quarter of a texel beside them.
+  const auto moved = [](double by) {
+    const double first = by - 1.0 / 8, last = by + 40.0 / 8;
+    return std::array<Vec2<double>, 3>{{{first, 0.03}, {last, 0.03}, {first, 0.03}}};
+  };
+  m = of(moved(0));
+  EXPECT_EQ(m.ambiguous, 144u);
+  EXPECT_EQ(m.differing, 0u) << note;
+  EXPECT_EQ(of(moved(1.0 / 64)).ambiguous, 0u);
+}
+
+TEST_F(TexelPlanes, ARecordOnABorderThatItsPlaneIsNotOnIsBeyondTheBudget) {
+  const Measurement m = of({{{0.53, 0.53}, {0.53, 0.53}, {0.53, 0.53}}}, Vec2<double>(0.5, 0.5));
+  EXPECT_EQ(m.differing, 144u);
+  EXPECT_EQ(note, "144 open, 0.0 predicted: more than twice as many");
 }
 
 }  // namespace

@@ -182,6 +182,8 @@ TEST(LedgerUse, KeepsTheLargestRatioOfEachRow) {
   std::vector<SceneVerdict> verdicts(2);
   verdicts[0].comparisons = {compared(0.25, 1, "exact.clip"), compared(0.75, 2, "exact.clip"), compared(9, 3, "")};
   verdicts[1].comparisons = {compared(0.5, 4, "exact.clip"), compared(0, 5, "exact.light")};
+  verdicts[1].comparisons.push_back(compared(0.9, 6, "exact.clip"));
+  verdicts[1].comparisons.back().outcome = Outcome::dispute;  // of which nobody knows what is the tolerance's
   std::size_t seen = 0;
   for (const LedgerUse& use : ledger_use(verdicts)) {
     ++seen;

@@ -105,6 +105,30 @@ TEST(FoldHits, DepthsWithinAStepMayCompareEitherWay) {
   EXPECT_EQ(winners({hit(0, 0.5, 0.5), hit(1, 0.5 + 0.9 * step, 0.5 + 0.9 * step)}, frame), (Ids{0}));
 }
 
+TEST(FoldHits, DepthsClampedToOneEndAreATieThatTheFunctionSettles) {
+  for (const double end : {0.0, 1.0}) {
+    FrameFormat frame;
+    frame.clear_depth = 0.5;
+    const auto pair = [&](DepthFunc func) {
+      return winners({hit(0, end, end, DepthFunc::always), hit(1, end, end, func)}, frame);
+    };
+    EXPECT_EQ(pair(DepthFunc::never), (Ids{0}));
+    EXPECT_EQ(pair(DepthFunc::less), (Ids{0}));
+    EXPECT_EQ(pair(DepthFunc::equal), (Ids{1}));
+    EXPECT_EQ(pair(DepthFunc::less_equal), (Ids{1}));
+    EXPECT_EQ(pair(DepthFunc::greater), (Ids{0}));
+    EXPECT_EQ(pair(DepthFunc::not_equal), (Ids{0}));
+    EXPECT_EQ(pair(DepthFunc::greater_equal), (Ids{1}));
+    EXPECT_EQ(pair(DepthFunc::always), (Ids{1}));
+    // Which may or may not be clamped is open still.
+    const double other = end == 0 ? 1e-9 : 1 - 1e-9, lo = std::min(end, other), hi = std::max(end, other);
+    EXPECT_EQ(winners({hit(0, end, end, DepthFunc::always), hit(1, lo, hi)}, frame), (Ids{0, 1}));
+    EXPECT_EQ(winners({hit(0, lo, hi, DepthFunc::always), hit(1, end, end)}, frame), (Ids{0, 1}));
+  }
+  EXPECT_EQ(winners({hit(0, 1, 1)}), (Ids{-1})) << "the cleared depth is such an end too";
+  EXPECT_EQ(winners({hit(0, 0.25, 0.25), hit(1, 0.25, 0.25)}), (Ids{0, 1})) << "no end: rounded by who knows whom";
+}
+
 TEST(FoldHits, PassingAndFailingNarrowTheInterval) {
   const auto all = answers({hit(0, 0.4, 0.5), hit(1, 0.45, 0.6)});
   const double step = depth_step(DepthFormat::z24, 0.6);

@@ -124,6 +124,28 @@ std::vector<int> ids(const Legal& legal, int x, int y) {
 }
 using Ids = std::vector<int>;
 
+// Two triangles in one place, both moved beyond depth 0: a tie, which is no ambiguity, and none is predicted. Where no
+// format tells their depths apart it is one, and is.
+TEST(Prediction, KnowsTiesOfClampedDepths) {
+  const auto legal_of = [](float units, double nearer) {
+    Scene scene = flat_scene(40, 40);
+    scene.frame.depth = DepthFormat::z16;
+    for (const double z : {0.5, nearer}) {
+      add_triangle(scene, {{{2.3, 2.3}, {37.1, 2.7}, {3.9, 36.3}}}, z);
+      scene.draws.back().polygon_offset.units = units;
+    }
+    return math::legal_by_boxes(scene, Request{});
+  };
+  constexpr double kCovered = 585;
+  const Legal tied = legal_of(-1e6f, 0.25), apart = legal_of(0, 0.25), open = legal_of(0, 0.5);
+  EXPECT_LT(ambiguous(tied), 20);
+  EXPECT_LT(tied.predicted_ambiguous, 20) << "nor would the budget allow all of them to be open";
+  EXPECT_EQ(ids(tied, 12, 12), (Ids{0})) << "the first";
+  EXPECT_EQ(ids(apart, 12, 12), (Ids{1})) << "the nearer";
+  EXPECT_GE(ambiguous(open), kCovered);
+  EXPECT_GE(open.predicted_ambiguous, kCovered);
+}
+
 TEST(HandKnown, InsideOutsideAndNearAnEdge) {
   Scene scene = flat_scene(16, 8);
   add_triangle(scene, {{{0, 0}, {8.5 - 0.002, 0}, {8.5 - 0.002, 8}}}, 0.5);  // its right edge: 0.002 short of centres

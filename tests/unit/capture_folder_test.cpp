@@ -289,7 +289,7 @@ TEST_F(CaptureFolder, RefusesBrokenManifests) {
   refused([](const fs::path& f) { fs::resize_file(f / "manifest.json", 300); }, {"manifest.json", "expected JSON"});
   refused_manifest(R"("plumbline capture")", R"("other")", {"manifest.json", "/format"});
   refused_manifest(R"("format":"plumbline capture",)", "", {"/format", "missing"});
-  refused_manifest(R"("version":1)", R"("version":2)", {"/version", "an integer from 1 to 1"});
+  refused_manifest(R"("version":1)", R"("version":2)", {"/version", "expected 1"});
   refused_manifest(R"("little")", R"("big")", {"/byte_order", "\"little\""});
   refused_manifest(R"("width":5)", R"("width":0)", {"/width", "from 1 to 16384"});
   refused_manifest(R"("width":5)", R"("width":6)", {"planes.count", "[3, 6]"});

@@ -305,6 +305,7 @@ std::string expectation(const JsonNode& schema) {
   if (type == "string") return "a string that is not empty";
   if (type == "number") return fmt::format("a number from {} to {}", limit("minimum"), limit("maximum"));
   if (type == "integer") {
+    if (limit("minimum") == limit("maximum")) return fmt::format("{}", limit("minimum"));
     return fmt::format("an integer from {} to {}", schema["minimum"].value().integer,
                        schema["maximum"].value().integer);
   }
