@@ -76,14 +76,10 @@ void add(CLI::App& command, DiagnoseOptions& o) {
       ->excludes(fault)
       ->excludes(folder);
   folder->excludes(fault);
-  CLI::Option* picture =
-      text(command, "--picture", o.picture, "Name the known bugs that draw pictures like this one, which is all there is");
-  for (CLI::Option* other : command.get_options()) {
-    if (other->get_lnames() != std::vector<std::string>{"picture"} && !other->get_lnames().empty() &&
-        other != command.get_help_ptr()) {
-      picture->excludes(other);
-    }
-  }
+  CLI::Option* picture = text(command, "--picture", o.picture,
+                              "Name the known bugs that draw pictures like this one, which is all there is");
+  for (const char* other : {"--against", "--json", "--report", "--pixel", "--fault", "--capture", "--program"})
+    picture->excludes(command.get_option(other));
   add_assets(command, o.scene_arguments);
 }
 

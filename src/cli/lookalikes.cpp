@@ -31,9 +31,8 @@ std::size_t pixels_apart(const Picture& a, const Picture& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const glm::vec3 p = glm::clamp(glm::vec3(a.values()[i]), 0.0f, 1.0f), q(b.values()[i]);
     const glm::vec3 off = glm::abs(p - glm::clamp(q, 0.0f, 1.0f));
-    count += off.x <= 1.5f * kCode && off.y <= 1.5f * kCode && off.z <= 1.5f * kCode && !std::isnan(q.x + q.y + q.z)
-                 ? 0
-                 : 1;
+    count +=
+        off.x <= 1.5f * kCode && off.y <= 1.5f * kCode && off.z <= 1.5f * kCode && !std::isnan(q.x + q.y + q.z) ? 0 : 1;
   }
   return count;
 }
@@ -64,10 +63,11 @@ std::vector<Lookalike> of_files(const Picture& right, const Picture& given) {
     const glm::vec4 c = glm::clamp(right(x, y), 0.0f, 1.0f);
     return glm::vec4(encoded(c.r), encoded(c.g), encoded(c.b), 1);
   };
-  return {{pixels_apart(given, upside_down(right)), "file.rows_reversed", "the rows are written from the other end"},
-          {pixels_apart(given, changed(right, mirrored)), "file.mirrored", "the columns are written from the other end"},
-          {pixels_apart(given, changed(right, swapped)), "file.bgr", "red and blue are swapped"},
-          {pixels_apart(given, changed(right, srgb)), "file.srgb", "colours are encoded as sRGB once more"}};
+  return {
+      {pixels_apart(given, upside_down(right)), "file.rows_reversed", "the rows are written from the other end"},
+      {pixels_apart(given, changed(right, mirrored)), "file.mirrored", "the columns are written from the other end"},
+      {pixels_apart(given, changed(right, swapped)), "file.bgr", "red and blue are swapped"},
+      {pixels_apart(given, changed(right, srgb)), "file.srgb", "colours are encoded as sRGB once more"}};
 }
 
 }  // namespace
