@@ -39,24 +39,29 @@ Capture made_with(const Hypothesis& h, const Scene& scene, const Capture& in, Re
   return made;
 }
 
+std::vector<Hypothesis> all_hypotheses() {
+  std::vector<Hypothesis> out;
+  for (const auto& list : {geometry_hypotheses(), raster_hypotheses(), fragment_hypotheses()})
+    out.insert(out.end(), list.begin(), list.end());
+  return out;
+}
+
 std::vector<Cause> likely_causes(const Evidence& e) {
   std::vector<Cause> out;
   if (e.referee == nullptr) return out;
   const std::uint64_t all = differing(e, e.expected);
   if (all == 0) return out;
-  for (const auto& list : {geometry_hypotheses(), fragment_hypotheses()}) {
-    for (const Hypothesis& h : list) {
-      if (h.stage != e.stage) continue;
-      try {
-        if (h.shows != nullptr) {
-          if (h.shows(e)) out.push_back({h.name, std::string(h.words)});
-          continue;
-        }
-        const std::uint64_t left = differing(e, made_with(h, e.scene, e.candidate, *e.referee));
-        if (left <= all / 50)
-          out.push_back({h.name, fmt::format("{} (explains {} of {} that differ)", h.words, all - left, all)});
-      } catch (const std::exception&) {  // the bug makes what exact refuses: it is not this one
+  for (const Hypothesis& h : all_hypotheses()) {
+    if (h.stage != e.stage) continue;
+    try {
+      if (h.shows != nullptr) {
+        if (h.shows(e)) out.push_back({h.name, std::string(h.words)});
+        continue;
       }
+      const std::uint64_t left = differing(e, made_with(h, e.scene, e.candidate, *e.referee));
+      if (left <= all / 50)
+        out.push_back({h.name, fmt::format("{} (explains {} of {} that differ)", h.words, all - left, all)});
+    } catch (const std::exception&) {  // the bug makes what exact refuses: it is not this one
     }
   }
   return out;

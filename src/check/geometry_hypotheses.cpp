@@ -48,19 +48,22 @@ double distance(const Vec4<double>& p, std::size_t plane) {
   return upper ? p.w - v : p.w + v;
 }
 
-// Whether all that is wrong with polygons is what a missing plane leaves: a part outside of that plane alone.
+bool outside(const ClipVertex<double>& v, std::size_t plane) {
+  return distance(v.p_clip, plane) < -1e-5 * (std::abs(v.p_clip.w) + std::abs(v.p_clip[static_cast<int>(plane / 2)]));
+}
+
+// Whether polygons reach out of that plane, which they should not, and of no other.
 template <std::size_t plane>
 bool not_cut(const Evidence& e) {
   bool any = false;
-  const ClipPolygons<double>& mine = e.candidate.records.polygons;
-  for (const ClipVertex<double>& v : mine.vertices) {
+  for (const ClipVertex<double>& v : e.candidate.records.polygons.vertices) {
     for (std::size_t p = 0; p < 6; ++p) {
-      const bool outside = distance(v.p_clip, p) < -1e-5 * (std::abs(v.p_clip.w) + std::abs(v.p_clip[2]));
-      if (outside && p != plane) return false;
-      any = any || outside;
+      if (outside(v, p) && p != plane) return false;
+      any = any || outside(v, p);
     }
   }
-  return any;
+  return any && std::ranges::none_of(e.expected.records.polygons.vertices,
+                                     [](const ClipVertex<double>& v) { return outside(v, plane); });
 }
 
 // visit(mine, theirs) of each primitive that has polygons on either side, null where there is none; until it is false.
@@ -80,35 +83,45 @@ bool each_polygon(const Evidence& e, Visit visit) {
 
 bool cut_polygons_dropped(const Evidence& e) {
   const auto& vertices = e.expected.records.polygons.vertices;
-  return each_polygon(e, [&](const ClipPolygon* mine, const ClipPolygon* theirs) {
-    if (theirs == nullptr) return false;
-    bool cut = false;
-    for (std::uint32_t i = 0; i < theirs->count; ++i) cut = cut || vertices[theirs->first + i].cut;
-    return mine != nullptr || cut;
-  });
-}
-
-bool one_vertex_lost(const Evidence& e) {
   bool any = false;
   const bool all = each_polygon(e, [&](const ClipPolygon* mine, const ClipPolygon* theirs) {
     if (theirs == nullptr) return false;
-    const std::uint32_t count = mine == nullptr ? 0 : mine->count;
-    any = any || count != theirs->count;
-    return count == theirs->count || count + 1 == theirs->count;
+    if (mine != nullptr) return mine->count == theirs->count;
+    any = true;
+    return std::any_of(vertices.begin() + theirs->first, vertices.begin() + theirs->first + theirs->count,
+                       [](const ClipVertex<double>& v) { return v.cut; });
   });
   return any && all;
 }
 
-// At cuts a corner's colour, not one between.
+bool one_vertex_lost(const Evidence& e) {
+  const auto &mine_of = e.candidate.records.polygons.vertices, &theirs_of = e.expected.records.polygons.vertices;
+  bool any = false;
+  const bool all = each_polygon(e, [&](const ClipPolygon* mine, const ClipPolygon* theirs) {
+    if (theirs == nullptr || mine == nullptr) return theirs != nullptr && theirs->count == 3;
+    any = any || mine->count + 1 == theirs->count;
+    if (mine->count != theirs->count && mine->count + 1 != theirs->count) return false;
+    for (std::uint32_t i = 0; i < mine->count; ++i) {  // what is left stands where it should
+      const Vec4<double>& p = mine_of[mine->first + i].p_clip;
+      const double near = 1e-5 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + std::abs(p.w));
+      if (std::none_of(theirs_of.begin() + theirs->first, theirs_of.begin() + theirs->first + theirs->count,
+                       [&](const ClipVertex<double>& v) { return glm::distance(v.p_clip, p) <= near; }))
+        return false;
+    }
+    return true;
+  });
+  return any && all;
+}
+
+// At cuts a corner's colour, where it should be one between.
 bool not_interpolated_at_cuts(const Evidence& e) {
-  const Records<double>& r = e.candidate.records;
-  std::size_t cuts = 0, copied = 0;
-  for (const ClipVertex<double>& v : r.polygons.vertices) {
-    if (!v.cut) continue;
-    ++cuts;
-    copied += std::ranges::any_of(r.lit, [&](const Lit<double>& l) { return l.color == v.color; }) ? 1 : 0;
-  }
-  return cuts > 0 && copied == cuts;
+  const std::vector<Lit<double>>& corners = e.candidate.records.lit;
+  const auto copied = [&](const ClipVertex<double>& v) {
+    return !v.cut ||
+           std::ranges::any_of(corners, [&](const Lit<double>& l) { return glm::distance(l.color, v.color) < 1e-6; });
+  };
+  return std::ranges::all_of(e.candidate.records.polygons.vertices, copied) &&
+         !std::ranges::all_of(e.expected.records.polygons.vertices, copied);
 }
 
 void first_vertex_provokes(const Scene& scene, const Capture& in, Capture& made) {
@@ -189,6 +202,11 @@ constexpr std::array kHypotheses = {
          }),
     made(S::matrices, "matrices.y_flipped", "y mirrored: the window's origin is taken for the upper left corner",
          [](const Scene&, const Capture&, Capture& c) { each_matrices(c, [](auto& m) { m.win_scale.y *= -1; }); }),
+    made(S::matrices, "matrices.size_less_one", "the viewport is scaled by width - 1 and height - 1",
+         [](const Scene& s, const Capture&, Capture& c) {
+           const glm::dvec3 size(s.frame.width, s.frame.height, 1), less = glm::dvec3(size.x - 1, size.y - 1, 1) / size;
+           each_matrices(c, [&](auto& m) { m.win_scale *= less, m.win_translate *= less; });
+         }),
     made(S::matrices, "matrices.half_pixel_less",
          "window positions half a pixel too low in x and y: pixel centres at integers",
          [](const Scene&, const Capture&, Capture& c) {
