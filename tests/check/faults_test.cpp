@@ -1,21 +1,20 @@
-// Every fault is caught, and its stage named, on the scenes of the suite: as the first stage that differs, and as the
-// one stage that is wrong by itself.
+// What the faults are, how the fault matrix asks of them, and that nothing is said of what has none. That each is seen,
+// and its stage named: test `fault_matrix`, and scripts/fault_matrix.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "check/judge.h"
 #include "faults/faults.h"
+#include "matrix/matrix.h"
+#include "matrix/report.h"
 #include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
 #include "scene/scene_file.h"
 
 namespace plumbline {
-
-namespace faults {
-void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
-}  // namespace faults
 
 namespace {
 
@@ -31,50 +30,6 @@ const std::vector<Scene>& scenes() {
   }();
   return kScenes;
 }
-
-bool same_picture(const pipeline::Frame& a, const pipeline::Frame& b) {
-  const auto same = [&](auto plane) { return (a.*plane).values() == (b.*plane).values(); };
-  using F = pipeline::Frame;
-  return same(&F::color_rgba8) && same(&F::color_rgba12) && same(&F::color_rgba16) && same(&F::color_rgba32f) &&
-         same(&F::depth_code) && same(&F::depth_z32f) && same(&F::stencil);
-}
-
-class Faults : public testing::TestWithParam<faults::Fault> {};
-
-TEST_P(Faults, is_caught_and_its_stage_named) {
-  const faults::Fault fault = GetParam();
-  const auto candidate = pipeline::make_pipeline(fault.stages());
-  const auto exact = exact::make_exact();
-  const check::Reference references[] = {{"exact", exact.get()}};
-  const pipeline::Stages stages = fault.stages();
-  // The gradients of stage 8 are taken where attributes are.
-  const auto may_be_wrong_too = [&](Stage stage) {
-    return stage == fault.stage || (fault.name == "attributes.of_sample" && stage == Stage::texture);
-  };
-  int caught = 0;
-  for (const Scene& scene : scenes()) {
-    if (same_picture(pipeline::render(scene, stages), pipeline::render(scene))) continue;
-    const check::SceneVerdict verdict = check::judge(scene, *candidate, references);
-    const check::Comparison* first = check::first_different(verdict);
-    if (first == nullptr) continue;  // a scene that the fault does not affect
-    ++caught;
-    EXPECT_EQ(name_of(first->stage), name_of(fault.stage)) << scene.name << ", against " << first->reference;
-    for (const check::Comparison& c : verdict.comparisons) {
-      EXPECT_NE(c.outcome, check::Outcome::failed) << c.note;
-      if (c.reference == "exact from its records" && c.outcome == check::Outcome::different) {
-        EXPECT_TRUE(may_be_wrong_too(c.stage)) << scene.name << ": " << name_of(c.stage) << " is not wrong by itself";
-      }
-    }
-  }
-  EXPECT_GT(caught, 0);
-}
-
-INSTANTIATE_TEST_SUITE_P(all, Faults, testing::ValuesIn(faults::of_stages().begin(), faults::of_stages().end()),
-                         [](const auto& fault) {
-                           std::string name(fault.param.name);
-                           for (char& c : name) c = c == '.' ? '_' : c;
-                           return name;
-                         });
 
 TEST(Faults, there_are_five_in_each_stage_and_twenty_that_others_report) {
   std::map<Stage, int> count;
@@ -99,6 +54,81 @@ TEST(Faults, production_is_not_caught) {
   for (const Scene& scene : scenes()) {
     EXPECT_EQ(check::first_different(check::judge(scene, *candidate, references)), nullptr) << scene.name;
   }
+}
+
+matrix::Subject subject_of(std::string_view name) {
+  for (const faults::Fault& fault : faults::all()) {
+    if (fault.name != name) continue;
+    matrix::Subject out{std::string(name), faults::production(), {fault.stage}};
+    fault.apply(out.table);
+    return out;
+  }
+  throw std::out_of_range(std::string(name));
+}
+
+Scene scene_of(std::string_view file) {
+  return load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/").append(file), {});
+}
+
+// Geometry, pixels, records alone and what is resolved; and nothing where it is not asked for.
+TEST(FaultMatrix, a_fault_affects_the_scenes_that_it_changes) {
+  const std::vector<Scene> scenes = {scene_of("coverage/shared_edges.json"), scene_of("antialias/supersample_3.json"),
+                                     scene_of("light/flat_sphere.json")};
+  const std::vector<matrix::Subject> subjects = {
+      {"ours", faults::production(), {}}, subject_of("window.y_flipped"),     subject_of("coverage.inclusive_edges"),
+      subject_of("texture.t_flipped"),    subject_of("resolve.first_sample"), subject_of("vertex.not_renormalised")};
+  const std::vector<matrix::SceneList> on = matrix::affected(scenes, subjects, 3, 2);
+  using L = matrix::SceneList;
+  EXPECT_EQ(on[0], L());
+  EXPECT_EQ(on[1], (L{0, 1, 2}));
+  EXPECT_TRUE(std::ranges::count(on[2], 0u) == 1);
+  EXPECT_EQ(on[3], L());
+  EXPECT_EQ(on[4], (L{1}));
+  EXPECT_TRUE(std::ranges::count(on[5], 2u) == 1);
+  EXPECT_EQ(matrix::affected(scenes, subjects, 1, 1)[1], (L{0}));
+}
+
+TEST(FaultMatrix, right_is_the_stage_and_no_other) {
+  using S = std::vector<Stage>;
+  const matrix::Subject fault{"", {}, {Stage::depth}}, pair{"", {}, {Stage::light, Stage::depth}}, legal{"", {}, {}};
+  const auto answer = [](std::optional<Stage> first, S wrong, std::string failed = "") {
+    return matrix::Answer{0, first ? "a row" : "", first, std::move(wrong), std::move(failed)};
+  };
+  EXPECT_TRUE(is_right(answer(Stage::depth, {Stage::depth}), fault));
+  EXPECT_FALSE(is_right(answer(Stage::light, {Stage::depth}), fault));
+  EXPECT_FALSE(is_right(answer(Stage::depth, {Stage::depth, Stage::merge}), fault));
+  EXPECT_FALSE(is_right(answer(Stage::depth, {}), fault));
+  EXPECT_FALSE(is_right(answer(std::nullopt, {}), fault));
+  EXPECT_FALSE(is_right(answer(Stage::depth, {Stage::depth}, "crashed"), fault));
+  EXPECT_TRUE(is_right(answer(Stage::light, {Stage::light, Stage::depth}), pair));
+  EXPECT_FALSE(is_right(answer(Stage::light, {Stage::light}), pair));
+  EXPECT_TRUE(is_right(answer(std::nullopt, {}), legal));
+  EXPECT_FALSE(is_right(answer(Stage::depth, {}), legal));
+  EXPECT_FALSE(is_right(answer(std::nullopt, {Stage::depth}), legal));
+}
+
+TEST(FaultMatrix, what_must_hold) {
+  const matrix::Answer right{0, "a row", Stage::depth, {Stage::depth}, ""}, not_seen{0, "", {}, {}, ""};
+  const matrix::Subject depth{"", {}, {Stage::depth}};
+  matrix::Matrix m;
+  m.faults = {{depth, 100, std::vector<matrix::Answer>(97, right)}};
+  EXPECT_TRUE(holds(shares(m)));
+  m.faults[0].answers.resize(100, not_seen);
+  EXPECT_TRUE(holds(shares(m))) << "97 of 100";
+  m.faults[0].answers[0] = not_seen;
+  EXPECT_FALSE(holds(shares(m))) << "96 of 100";
+  m.faults[0].answers.assign(100, right);
+  m.faults.push_back({depth, 1, {not_seen}});
+  EXPECT_FALSE(holds(shares(m))) << "a fault that is nowhere seen";
+  m.faults.pop_back();
+  m.legal = {{{"", {}, {}}, 1, {right}}};
+  EXPECT_FALSE(holds(shares(m))) << "an alarm";
+}
+
+TEST(FaultMatrix, the_sample_is_spread) {
+  const matrix::SceneList six = {0, 2, 4, 6, 8, 10};
+  EXPECT_EQ(matrix::spread(six, 3), (matrix::SceneList{0, 4, 8}));
+  EXPECT_EQ(matrix::spread(six, 9), six);
 }
 
 }  // namespace
