@@ -122,7 +122,21 @@ std::span<const ClipVertex<double>> vertices_of(const ClipPolygon& polygon, cons
   return {r.polygons.vertices.data() + polygon.first, polygon.count};
 }
 
-// A polygon that lies within rounding of one plane may be there or not.
+// Whether all corners are inside, or all beyond one plane: which is never open, for the sum of two floats has its sign
+// in float too.
+bool uncut(const Corners& c) {
+  const auto all_corners = [&](std::size_t plane, auto are) {
+    return std::ranges::all_of(c.p_clip, [&](const Vec4<double>& corner) { return are(distances(corner)[plane]); });
+  };
+  bool inside = true, outside = false;
+  for (std::size_t p = 0; p < c.planes; ++p) {
+    inside &= all_corners(p, [](double d) { return d >= 0; });
+    outside |= all_corners(p, [](double d) { return d < 0; });
+  }
+  return inside || outside;
+}
+
+// A polygon that lies within rounding of one plane, which cuts it, may be there or not.
 bool may_vanish(std::span<const ClipVertex<double>> polygon, std::size_t planes, double tolerance) {
   for (std::size_t p = 0; p < planes; ++p) {
     if (std::all_of(polygon.begin(), polygon.end(), [&](const auto& v) { return on_plane(v, p, tolerance); }))
@@ -261,8 +275,8 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
     const Corners corners = corners_of(scene, ranges, d, primitive, candidate, flat_applies);
     if (a != nullptr && b != nullptr) {
       compare_polygon(meter, *a, *b, candidate, reference, corners, factor);
-    } else if (may_vanish(a != nullptr ? vertices_of(*a, candidate) : vertices_of(*b, reference), corners.planes,
-                          factor * u * corners.scale)) {
+    } else if (!uncut(corners) && may_vanish(a != nullptr ? vertices_of(*a, candidate) : vertices_of(*b, reference),
+                                             corners.planes, factor * u * corners.scale)) {
       meter.ambiguous();
     } else {
       meter.value(kInfinite, 0, {-1, -1, primitive, a == nullptr ? "polygon lacking" : "polygon extra"}, 0, 0);

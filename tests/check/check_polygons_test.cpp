@@ -304,12 +304,26 @@ TEST_F(Polygons, NorForALostCorner) {
   })));
 }
 
-TEST_F(Polygons, ATriangleWithinRoundingOfAPlaneMayVanish) {
-  set({{{-0.5, 0, 1 - 1e-7, 1}, {0.5, 0, 1, 1}, {0, 0.5, 1, 1}}});
+TEST_F(Polygons, ATriangleWithinRoundingOfAPlaneThatCutsItMayVanish) {
+  set({{{-0.5, 0, 1 - 0x1p-23, 1}, {0.5, 0, 1, 1}, {0, 0.5, 1 + 0x1p-23, 1}}});
   ASSERT_EQ(records.polygons.polygons.size(), 1u);
   const Measurement m = compare([](auto& r) { r.polygons = {}; });
   EXPECT_TRUE(passes(m));
   EXPECT_EQ(m.ambiguous, 1u);
+}
+
+TEST_F(Polygons, ButNotWhereItLiesInThePlane) {
+  for (const double z : {1.0, 1 - 0x1p-23}) {
+    set({{{-0.5, 0, z, 1}, {0.5, 0, 1, 1}, {0, 0.5, 1, 1}}});
+    ASSERT_EQ(records.polygons.polygons.size(), 1u);
+    EXPECT_TRUE(fails(compare([](auto& r) { r.polygons = {}; }))) << z;
+  }
+}
+
+TEST_F(Polygons, NorMayOneAppearThatLiesBeyondThePlane) {
+  set({{{-0.5, 0, 1, 1}, {0.5, 0, 1, 1}, {0, 0.5, 1, 1}}});
+  for (Vertex<double>& v : records.vertices) v.p_clip.z = 1 + 0x1p-23;
+  EXPECT_TRUE(fails(compare(kUnchanged, [](auto& r) { r.polygons = {}; })));
 }
 
 }  // namespace
