@@ -88,7 +88,7 @@ std::string diagnosis_text(const check::Diagnosis& diagnosis) {
   for (const check::Finding& f : diagnosis.findings) out += finding_text(f);
   for (const Comparison& c : diagnosis.verdict.comparisons) {
     if (c.outcome == Outcome::failed || c.outcome == Outcome::missing || c.outcome == Outcome::dispute)
-      out += fmt::format("{}: {}, {}: {}\n", name_of(c.outcome), c.reference, name_of(c.stage), c.note);
+      out += fmt::format("{}: {}, {}: {}\n", name_of(c.outcome), c.reference, name_of(c.stage), check::remark(c));
   }
   return out;
 }

@@ -105,7 +105,7 @@ TEST_F(Judge, AReferenceThatTheOthersOutvoteIsADispute) {
     EXPECT_EQ(c.outcome, Outcome::dispute) << name_of(stage);
     EXPECT_EQ(c.measurement.disputed, 1u);
     EXPECT_EQ(c.measurement.differing, 0u);
-    EXPECT_NE(c.note.find("exact and witness"), std::string::npos) << c.note;
+    EXPECT_NE(c.measurement.reason.find("exact and witness"), std::string::npos) << c.measurement.reason;
   }
   EXPECT_EQ(first_different(verdict), nullptr);
   // Two against two, or exact's own arithmetic against us: ours.

@@ -33,7 +33,7 @@ TEST(Votes, WhoStandsAloneIsADisputeWithTheEvidence) {
   EXPECT_EQ(c.outcome, Outcome::dispute);
   EXPECT_EQ(c.measurement.disputed, 3u);
   EXPECT_EQ(c.measurement.differing, 0u);
-  EXPECT_NE(c.note.find("embree and exact"), std::string::npos) << c.note;
+  EXPECT_NE(c.measurement.reason.find("embree and exact"), std::string::npos) << c.measurement.reason;
   EXPECT_EQ(settled(rows({row("osmesa", Stage::merge, Outcome::different)})).outcome, Outcome::dispute)
       << "a later stage is another matter";
 }
