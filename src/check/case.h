@@ -65,6 +65,9 @@ inline bool draws_thin(const Scene& scene) { return draws(scene, Topology::lines
 /// The stage as `referee` makes it of the candidate's own records, against the candidate's.
 void graft(Case& c, Renderer& referee, Stage stage, const std::string& name);
 
+/// The stage as it was made of the candidate's own records, against the candidate's. Not of matrices, nor of resolve.
+void judge_made(Case& c, const Capture& made, Stage stage, const std::string& name);
+
 /// What the reference shows, beside the candidate's.
 void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name);
 

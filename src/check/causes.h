@@ -1,4 +1,5 @@
-// Likely causes of a wrong stage, in words: patterns that the differences of all its records fit.
+// Likely causes of a wrong stage, in words: exact makes the same mistake if the bug is put into what it is given, or
+// into what it made of it; or the differences of all records show the bug's pattern.
 #pragma once
 
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "scene/scene.h"
 #include "stages/capture.h"
+#include "stages/renderer.h"
 
 namespace plumbline::check {
 
@@ -14,8 +16,9 @@ namespace plumbline::check {
 struct Evidence {
   const Scene& scene;
   Stage stage;
-  const Capture& candidate;  ///< with the records that came in
-  const Capture& expected;   ///< exact's, of that stage alone: real numbers
+  const Capture& candidate;     ///< with the records that came in
+  const Capture& expected;      ///< exact's, of that stage alone: real numbers
+  Renderer* referee = nullptr;  ///< that made it; null: nobody to try a bug with
 };
 
 struct Cause {
@@ -23,7 +26,8 @@ struct Cause {
   std::string words;      ///< the bug, and what shows it
 };
 
-/// Those that the differences fit, the likeliest first; empty where no pattern does.
+/// Those that explain at least 49 in 50 of the records that differ, in the order of hypotheses.h; empty where none do.
+/// (The rest: ties, and what rounding decides.)
 std::vector<Cause> likely_causes(const Evidence& evidence);
 
 }  // namespace plumbline::check

@@ -31,25 +31,26 @@ bool judges_alone(const Comparison& c) {
          (c.stage == Stage::matrices && c.reference.ends_with("from scene"));
 }
 
-Finding finding_of(const Evidence& evidence, const Comparison& row) {
-  Finding out{row.stage, row.reference, row.measurement, worst_record(evidence, row.measurement), {}, ""};
-  if (row.outcome == Outcome::failed) out.numbers = {row.note};
-  for (const Cause& cause : likely_causes(evidence)) out.causes.push_back(cause.words);
-  if (row.stage != Stage::coverage) return out;
-  if (const auto worst = worst_triangle(evidence)) out.picture = coverage_picture(*worst);
-  return out;
+// What a finding says beyond who judged and by how much.
+using Explain = void (*)(const Evidence&, Finding&);
+
+void in_full(const Evidence& evidence, Finding& finding) {
+  finding.numbers = worst_record(evidence, finding.measurement);
+  for (const Cause& cause : likely_causes(evidence)) finding.causes.push_back(cause.words);
+  if (finding.stage != Stage::coverage) return;
+  if (const auto worst = worst_triangle(evidence)) finding.picture = coverage_picture(*worst);
 }
+void in_brief(const Evidence&, Finding&) {}
+
+Finding finding_of(const Comparison& row) { return {row.stage, row.reference, row.measurement, {}, {}, ""}; }
 
 // One scene of one sample a pixel.
 struct Pass {
   SceneVerdict verdict;
   std::vector<Finding> findings;  // of the stages that are wrong by themselves
+  std::optional<Finding> first;   // or, where there is none, of the first different stage
   Capture repaired;               // what the candidate would have handed on, were its wrong stages right
 };
-
-void find(Pass& pass, const Scene& scene, const Capture& mine, const Capture& expected, const Comparison& row) {
-  pass.findings.push_back(finding_of({scene, row.stage, mine, expected}, row));
-}
 
 // What exact makes of the records before the stage; nothing where they do not fit.
 Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, const Capture& in) {
@@ -60,14 +61,37 @@ Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, cons
   }
 }
 
+// Who finds, and how it is said.
+struct Finder {
+  const Scene& scene;
+  Renderer& referee;
+  Explain explain;
+  Finding operator()(const Capture& mine, const Comparison& row) const {
+    Finding out = finding_of(row);
+    if (row.outcome == Outcome::failed) {
+      out.numbers = {row.note};
+    } else if (explain != in_brief) {
+      const Capture expected = run_or_nothing(scene, referee, row.stage, mine);
+      explain({scene, row.stage, mine, expected, &referee}, out);
+    }
+    return out;
+  }
+};
+
 // From the first wrong stage on, each stage on records that are right.
-void repair(Pass& pass, const Scene& scene, Renderer& candidate, Renderer& referee, const std::set<Stage>& known) {
+void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<Stage>& known) {
+  const Scene& scene = find.scene;
+  Renderer& referee = find.referee;
   Capture& in = pass.repaired;
   const RendererInfo info = candidate.info(), referee_info = referee.info();
+  const bool fragments_are_here = !over_budget(in);
+  for (auto i = static_cast<std::size_t>(*known.begin()); i <= static_cast<std::size_t>(Stage::merge); ++i) {
+    hand_on(static_cast<Stage>(i), {}, in);  // what was made of wrong records fits right ones no longer
+  }
   for (auto i = static_cast<std::size_t>(*known.begin()); i <= static_cast<std::size_t>(Stage::merge); ++i) {
     const auto stage = static_cast<Stage>(i);
     if (stage == Stage::texture && !textured(scene)) continue;
-    if (stage >= Stage::coverage && over_budget(in)) return;
+    if (stage >= Stage::coverage && !fragments_are_here) return;
     if (!info[stage].runs || !referee_info[stage].runs) return;
     bool wrong = known.contains(stage);
     if (!wrong) {
@@ -82,7 +106,7 @@ void repair(Pass& pass, const Scene& scene, Renderer& candidate, Renderer& refer
         c.skip(name, stage, Outcome::failed, e.what());
       }
       wrong = is_wrong(rows.back());
-      if (wrong) find(pass, scene, in, run_or_nothing(scene, referee, stage, in), rows.back());
+      if (wrong) pass.findings.push_back(find(in, rows.back()));
       pass.verdict.comparisons.push_back(std::move(rows.back()));
     }
     if (!wrong) continue;
@@ -92,43 +116,59 @@ void repair(Pass& pass, const Scene& scene, Renderer& candidate, Renderer& refer
   }
 }
 
-Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference> references) {
+// The first different stage beside what the reference showed of it.
+std::optional<Finding> first_finding(const Scene& scene, const SceneVerdict& verdict, const Capture& mine,
+                                     std::span<const Reference> references, std::span<const Capture> theirs,
+                                     Explain explain) {
+  const Comparison* row = first_different(verdict);
+  if (row == nullptr) return std::nullopt;
+  Finding out = finding_of(*row);
+  for (std::size_t i = 0; i < theirs.size(); ++i) {
+    if (row->reference == references[i].name) explain({scene, row->stage, mine, theirs[i], nullptr}, out);
+  }
+  return out;
+}
+
+Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Explain explain) {
   Drawn drawn;
-  Pass pass{judge(scene, candidate, references, &drawn), {}, {}};
+  Pass pass{judge(scene, candidate, references, &drawn), {}, {}, {}};
   pass.repaired = std::move(drawn.candidate);
   Renderer* referee = referee_of(references);
-  if (referee == nullptr || pass.repaired.width == 0) return pass;
   std::set<Stage> wrong;
   for (const Comparison& c : pass.verdict.comparisons) {
-    if (!judges_alone(c) || !is_wrong(c) || !wrong.insert(c.stage).second) continue;
-    find(pass, scene, pass.repaired, run_or_nothing(scene, *referee, c.stage, pass.repaired), c);
+    if (referee == nullptr || !judges_alone(c) || !is_wrong(c) || !wrong.insert(c.stage).second) continue;
+    pass.findings.push_back(Finder{scene, *referee, explain}(pass.repaired, c));
   }
-  if (wrong.empty()) return pass;
+  if (wrong.empty()) {
+    pass.first = first_finding(scene, pass.verdict, pass.repaired, references, drawn.references, explain);
+    return pass;
+  }
   try {
-    repair(pass, scene, candidate, *referee, wrong);
+    repair(pass, {scene, *referee, explain}, candidate, wrong);
   } catch (const std::exception&) {  // exact cannot go on; what was found stands
   }
   return pass;
 }
 
 // Resolve on the passes' repaired colours.
-void judge_repaired_samples(const Scene& scene, std::span<const Pass> passes, Renderer& candidate, Renderer& referee,
-                            Diagnosis& out) {
-  if (!candidate.info()[Stage::resolve].runs) return;
+void judge_repaired_samples(const Finder& find, std::span<const Pass> passes, Renderer& candidate, Diagnosis& out) {
+  const Scene& scene = find.scene;
+  const auto reached_the_end = [](const Pass& pass) { return !pass.repaired.planes.color.empty(); };
+  if (!candidate.info()[Stage::resolve].runs || !std::ranges::all_of(passes, reached_the_end)) return;
   Capture in;
   for (const Pass& pass : passes) in.samples.push_back(pass.repaired.planes.color);
-  const std::string name = referee.info().name + " " + std::string(kRepaired);
+  const std::string name = find.referee.info().name + " " + std::string(kRepaired);
+  Comparison row;
   try {
     hand_on(Stage::resolve, candidate.run_stage(scene, Stage::resolve, in), in);
-    const Capture made = referee.run_stage(scene, Stage::resolve, in);
-    out.verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve,
-                                             compare_resolved(scene, in, made, tolerance("exact.resolve").factor),
-                                             "exact.resolve"));
-    if (is_wrong(out.verdict.comparisons.back()))
-      out.findings.push_back(finding_of({scene, Stage::resolve, in, made}, out.verdict.comparisons.back()));
+    const Capture made = find.referee.run_stage(scene, Stage::resolve, in);
+    row = judged(scene.name, name, Stage::resolve, compare_resolved(scene, in, made, tolerance("exact.resolve").factor),
+                 "exact.resolve");
   } catch (const std::exception& e) {
-    out.verdict.comparisons.push_back(not_judged(scene.name, name, Stage::resolve, Outcome::failed, e.what()));
+    row = not_judged(scene.name, name, Stage::resolve, Outcome::failed, e.what());
   }
+  if (is_wrong(row)) out.findings.push_back(find(in, row));
+  out.verdict.comparisons.push_back(std::move(row));
 }
 
 bool tells_more(const Finding& a, const Finding& b) {
@@ -152,53 +192,61 @@ std::vector<Finding> worst_of_each(std::vector<Finding> all) {
 }
 
 // An antialiased scene's passes, and what is made of them.
-Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references) {
+Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                          Explain explain, std::optional<Finding>& first) {
   Diagnosis out;
   std::vector<Pass> passes;
   std::vector<SceneVerdict> verdicts;
-  bool wrong = false;
   for (const Scene& pass : passes_of(scene)) {
-    passes.push_back(look_at(pass, candidate, references));
+    passes.push_back(look_at(pass, candidate, references, explain));
     verdicts.push_back(passes.back().verdict);
-    wrong |= !passes.back().findings.empty();
+    if (!first) first = passes.back().first;
     std::ranges::move(passes.back().findings, std::back_inserter(out.findings));
   }
+  const bool repaired = !out.findings.empty();
   Drawn drawn;
   out.verdict = judge_resolved(scene, verdicts, candidate, references, &drawn);
   Renderer* referee = referee_of(references);
   if (referee == nullptr) return out;
+  const Finder find{scene, *referee, explain};
   bool resolve_wrong = false;
   for (const Comparison& c : out.verdict.comparisons) {
     if (c.stage != Stage::resolve || !judges_alone(c) || !is_wrong(c)) continue;
     resolve_wrong = true;
-    const Capture made = run_or_nothing(scene, *referee, Stage::resolve, drawn.candidate);
-    out.findings.push_back(finding_of({scene, Stage::resolve, drawn.candidate, made}, c));
+    out.findings.push_back(find(drawn.candidate, c));
   }
-  if (wrong && !resolve_wrong) judge_repaired_samples(scene, passes, candidate, *referee, out);
+  if (repaired && !resolve_wrong) judge_repaired_samples(find, passes, candidate, out);
+  return out;
+}
+
+Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Explain explain) {
+  Diagnosis out;
+  std::optional<Finding> first;
+  if (scene.frame.antialias.kind == Antialias::Kind::none) {
+    Pass pass = look_at(scene, candidate, references, explain);
+    out.verdict = std::move(pass.verdict);
+    out.findings = std::move(pass.findings);
+    first = std::move(pass.first);
+  } else {
+    out = diagnose_passes(scene, candidate, references, explain, first);
+  }
+  out.findings = worst_of_each(std::move(out.findings));
+  for (const Finding& f : out.findings) out.wrong.push_back(f.stage);
+  if (const Comparison* row = first_different(out.verdict)) {
+    out.first = row->stage;
+    if (out.wrong.empty()) out.findings.push_back(first ? *first : finding_of(*row));
+  }
   return out;
 }
 
 }  // namespace
 
 Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references) {
-  Diagnosis out;
-  if (scene.frame.antialias.kind == Antialias::Kind::none) {
-    Pass pass = look_at(scene, candidate, references);
-    out.verdict = std::move(pass.verdict);
-    out.findings = std::move(pass.findings);
-  } else {
-    out = diagnose_passes(scene, candidate, references);
-  }
-  out.findings = worst_of_each(std::move(out.findings));
-  for (const Finding& f : out.findings) out.wrong.push_back(f.stage);
-  if (const Comparison* first = first_different(out.verdict)) {
-    out.first = first->stage;
-    if (out.wrong.empty()) {
-      const Capture none;
-      out.findings.push_back(finding_of({scene, first->stage, none, none}, *first));
-    }
-  }
-  return out;
+  return diagnosed(scene, candidate, references, in_full);
+}
+
+Diagnosis diagnose_in_brief(const Scene& scene, Renderer& candidate, std::span<const Reference> references) {
+  return diagnosed(scene, candidate, references, in_brief);
 }
 
 Capture expected_capture(const Scene& scene, Renderer& referee) {

@@ -40,6 +40,8 @@ inline constexpr std::string_view kRepaired = "from repaired records";
 /// stages before it (matrices: from the scene), or from repaired ones, is `different` or `failed`. Of an antialiased
 /// scene: the passes together, and `resolve`.
 Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references);
+/// The same stages; findings say who and by how much, without numbers, causes and pictures. For many runs.
+Diagnosis diagnose_in_brief(const Scene& scene, Renderer& candidate, std::span<const Reference> references);
 
 /// What all stages up to merge should hand on: each as `referee` makes it of its own records before it, rounded to
 /// the formats. Throws Unsupported where it does not run a stage, and OverBudget.

@@ -33,10 +33,12 @@ Measurement with_varyings(const Scene& scene, Stage stage, Measurement color, co
 }  // namespace
 
 void graft(Case& c, Renderer& referee, Stage stage, const std::string& name) {
-  const Records<double>& mine = c.candidate.records;
   if (stage >= Stage::depth && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
-  const Capture made = referee.run_stage(c.scene, stage, c.candidate);
-  const Records<double>& theirs = made.records;
+  judge_made(c, referee.run_stage(c.scene, stage, c.candidate), stage, name);
+}
+
+void judge_made(Case& c, const Capture& made, Stage stage, const std::string& name) {
+  const Records<double>&mine = c.candidate.records, &theirs = made.records;
   const auto varyings = [&](Measurement color) {
     return with_varyings(c.scene, stage, std::move(color), mine, theirs);
   };

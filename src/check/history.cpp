@@ -187,9 +187,14 @@ void tell_fates(const Scene& scene, const Planes& planes, glm::ivec2 pixel, Pixe
     }
   };
   const std::int32_t winner = last == nullptr ? kBackground : static_cast<std::int32_t>(last->primitive);
-  if (!planes.count.empty()) note("number of fragments", arrived, std::size_t{planes.count(pixel.x, pixel.y)});
+  if (!planes.count.empty()) note("count", arrived, std::size_t{planes.count(pixel.x, pixel.y)});
   if (!planes.id.empty()) note("winner", winner, planes.id(pixel.x, pixel.y));
-  if (history.depth && !history.lacks.contains("depth")) note("depth", held.depth, *history.depth);
+  const bool in_format = !history.depth || depth_in_format(frame.depth, *history.depth) == *history.depth;
+  if (!in_format) {  // OpenGL has no 8 bits
+    history.notes.push_back("its depths are of another format than the scene's, by which they are compared here");
+  } else if (history.depth && !history.lacks.contains("depth")) {
+    note("depth", held.depth, *history.depth);
+  }
   if (history.stencil && held.stencil) note("stencil value", *held.stencil, *history.stencil);
 }
 

@@ -7,7 +7,7 @@
 
 namespace plumbline::check {
 
-/// One scene's rows: `different` becomes `dispute`, with the evidence in its note, where a reference is outvoted: of
+/// One scene's rows: `different` becomes `dispute`, with the evidence as its reason, where a reference is outvoted: of
 /// one stage its row alone differs; exact, from the candidate's own records of the stage before, holds, and so does
 /// another reference that judges the stage. And no row of an earlier stage differs: what is wrong from the input on
 /// would come out of exact's arithmetic as it went in, and be right by two votes that cannot know. (Embree and exact

@@ -117,6 +117,12 @@ TEST_F(Diagnose, NamesStagesOfAnAntialiasedScenesPassesAndResolve) {
   EXPECT_EQ(of(*hidden).wrong, (Stages{Stage::coverage, Stage::resolve}));
 }
 
+TEST_F(Diagnose, WhatWasMadeOfWrongRecordsIsForgotten) {
+  scene = suite_scene("alpha_test/bands");  // visibility looks at shaded fragments, of which there are fewer now
+  EXPECT_EQ(of(*with({"matrices.fov_horizontal"})).wrong, Stages{Stage::matrices});
+  EXPECT_EQ(of(*with({"window.snap_truncates"})).wrong, Stages{Stage::window});
+}
+
 TEST_F(Diagnose, ARendererThatFailsIsWrongInNoStage) {
   Changed candidate(pipeline::make_pipeline());
   candidate.before_capture = [](const Request&) { throw RendererFailed("crashed"); };
@@ -139,6 +145,22 @@ TEST_F(Diagnose, WithoutExactTheFirstDifferentStageIsTheFinding) {
   EXPECT_TRUE(d.wrong.empty());
   ASSERT_EQ(d.findings.size(), 1u);
   EXPECT_EQ(d.findings[0].stage, Stage::window);
+  const auto says = [&](const std::string& word) {
+    return std::ranges::any_of(d.findings[0].numbers, [&](const auto& l) { return l.find(word) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("p_win") && says("p_clip")) << "both sides' records are there";
+}
+
+TEST_F(Diagnose, InBriefNamesTheSameStages) {
+  Spoiled candidate(pipeline::make_pipeline(), {Stage::light, Stage::coverage, Stage::merge});
+  const Reference references[] = {{"exact", exact.get()}};
+  const Diagnosis brief = diagnose_in_brief(scene, candidate, references), full = of(candidate);
+  EXPECT_EQ(brief.wrong, full.wrong);
+  EXPECT_EQ(brief.first, full.first);
+  ASSERT_EQ(brief.findings.size(), 3u);
+  EXPECT_EQ(brief.findings[1].measurement.differing, full.findings[1].measurement.differing);
+  EXPECT_TRUE(brief.findings[1].picture.empty());
+  EXPECT_NE(full.findings[1].picture.find('?'), std::string::npos) << full.findings[1].picture;
 }
 
 // What the compiler makes of a conversion there and back is not always nothing (repair.cpp).
@@ -180,7 +202,8 @@ TEST_F(Diagnose, RaisesNothingElseOnAnySceneWhereEveryOtherStageIsRepaired) {
       wrong.insert(static_cast<Stage>(i));
     }
     Spoiled candidate(pipeline::make_pipeline(), wrong);
-    for (const Finding& f : of(candidate).findings) {
+    const Reference references[] = {{"exact", exact.get()}};
+    for (const Finding& f : diagnose_in_brief(scene, candidate, references).findings) {
       EXPECT_TRUE(wrong.contains(f.stage))
           << scene.name << ": " << name_of(f.stage) << ", " << f.reference << ": " << f.numbers[0];
     }

@@ -87,6 +87,17 @@ TEST_F(All, scenes_of_the_suite) {
   }
 }
 
+TEST_F(All, opengl_has_no_depth_of_8_bits) {
+  Scene scene = fates_scene();
+  scene.frame.depth = DepthFormat::z8;
+  const History history = ask(scene, {1, 1});
+  for (const PixelHistory& h : history.samples[0].renderers) {
+    EXPECT_EQ(h.notes.size(), h.renderer == "osmesa" ? 1u : 0u) << h.renderer;
+    for (const std::string& note : h.notes) EXPECT_TRUE(note.starts_with("its depths are of another format"));
+    EXPECT_EQ(h.fragments[6].fate, Fate::winner) << h.renderer;
+  }
+}
+
 TEST_F(All, four_samples_are_told_apart) {
   Scene scene = fates_scene();
   scene.frame.stencil = StencilFormat::none;

@@ -1,0 +1,72 @@
+// plumb diagnose: ours, a fault, what another renderer left, and a program.
+#include "run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+const std::string kScene = kScenes + "coverage/shared_edges.json";
+
+TEST_F(Cli, diagnose_of_ours_ends_0_and_names_nothing) {
+  const Outcome run = plumb("diagnose " + kScene + " --against exact");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("first different stage: none\nwrong by itself: none\n")) << run.text;
+  EXPECT_TRUE(run.says("   coverage    ambiguous 14      equal\n")) << run.text;
+  EXPECT_FALSE(run.says("->"));
+}
+
+TEST_F(Cli, diagnose_of_a_fault_ends_1_and_says_stage_numbers_cause_and_picture) {
+  const Outcome run =
+      plumb("diagnose " + kScene + " --against exact --fault coverage.inclusive_edges --json " + at("d.json"));
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("-> coverage ")) << run.text;
+  EXPECT_TRUE(run.says("first different stage: coverage (against exact from scene; exact from its records)"));
+  EXPECT_TRUE(run.says("wrong by itself: coverage\n"));
+  EXPECT_TRUE(run.says("  its corner 2: p_win (32.5 32.5 0.444444478)"));
+  EXPECT_TRUE(run.says("likely cause: covered sets differ only on edges, all of them extra"));
+  EXPECT_TRUE(run.says("1 extra (!); lower left is pixel 32,32\n"));
+  EXPECT_TRUE(run.says("\n!....")) << "the lowest row";
+  const std::string json = read(at("d.json"));
+  for (const char* part : {"\"first\": \"coverage\"", "\"wrong\": [\n  \"coverage\"\n ]", "\"causes\": [",
+                           "\"picture\": ", "\"reference\": \"exact from its records\"", "\"versions\": {"}) {
+    EXPECT_NE(json.find(part), std::string::npos) << part << "\n" << json.substr(0, 2000);
+  }
+}
+
+TEST_F(Cli, diagnose_of_a_folder_judges_what_is_in_it) {
+  ASSERT_EQ(plumb("capture " + kScene + " " + at("good")).code, 0);
+  const Outcome good = plumb("diagnose " + kScene + " --against exact --capture " + at("good"));
+  EXPECT_EQ(good.code, 0) << good.text;
+  ASSERT_EQ(plumb("capture " + kScene + " " + at("bad") + " --fault coverage.inclusive_edges").code, 0);
+  const Outcome bad = plumb("diagnose " + kScene + " --against exact --capture " + at("bad"));
+  EXPECT_EQ(bad.code, 1) << bad.text;
+  EXPECT_TRUE(bad.says("wrong by itself: coverage\n"));
+  EXPECT_FALSE(bad.says("from repaired records")) << "its stages cannot be called";
+}
+
+TEST_F(Cli, diagnose_refuses_a_folder_that_is_not_of_the_scene) {
+  ASSERT_EQ(plumb("capture " + kScene + " " + at("capture")).code, 0);
+  const std::string folder = " --against exact --capture " + at("capture");
+  const Outcome size = plumb("diagnose " + kScenes + "interpolation/w_ratio.json" + folder);
+  EXPECT_EQ(size.code, 2);
+  EXPECT_TRUE(size.says(at("capture") + ": expected a capture of the scene's ")) << size.text;
+  const Outcome samples = plumb("diagnose " + kScenes + "antialias/samples_wedges.json" + folder);
+  EXPECT_EQ(samples.code, 2);
+  EXPECT_TRUE(samples.says("expected a scene of one sample a pixel")) << samples.text;
+  EXPECT_EQ(plumb("diagnose " + kScene + " --against exact --capture " + at("nothing")).code, 2);
+  EXPECT_EQ(plumb("diagnose " + kScene + folder + " --fault coverage.inclusive_edges").code, 2);
+}
+
+TEST_F(Cli, diagnose_runs_a_program) {
+  const std::string program = "'" PLUMBLINE_PLUMB " capture {scene} {folder}";
+  EXPECT_EQ(plumb("diagnose " + kScene + " --against exact --program " + program + "'").code, 0);
+  const Outcome bad =
+      plumb("diagnose " + kScene + " --against exact --program " + program + " --fault depth.truncated'");
+  EXPECT_EQ(bad.code, 1) << bad.text;
+  EXPECT_TRUE(bad.says("wrong by itself: depth\n")) << bad.text;
+  const Outcome failed = plumb("diagnose " + kScene + " --against exact --program 'sh -c \"echo no use >&2; exit 3\"'");
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_TRUE(failed.says("exited with status 3") && failed.says("no use")) << failed.text;
+}
+
+}  // namespace
+}  // namespace plumbline
