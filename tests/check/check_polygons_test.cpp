@@ -53,6 +53,18 @@ TEST_F(Polygons, AnyCornerMayBeTheFirst) {
   }
 }
 
+// Which of two cuts makes a corner where they meet is a matter of their order.
+TEST_F(Polygons, WhichCutsCornerStandsTwiceDoesNotMatter) {
+  for (std::size_t p : {1u, 2u}) {
+    for (std::uint32_t i : cuts(p)) {
+      for (std::uint32_t j : cuts(p)) {
+        const Change mine = [&](auto& r) { repeat_vertex(r, p, i); };
+        EXPECT_TRUE(passes(compare(mine, [&](auto& r) { repeat_vertex(r, p, j); }))) << p << " " << i << " " << j;
+      }
+    }
+  }
+}
+
 TEST_F(Polygons, TheOtherWayRoundFails) {
   for (std::size_t p = 0; p < 4; ++p) {
     EXPECT_TRUE(fails(compare([&](auto& r) {
