@@ -45,7 +45,7 @@ class ExactOnce : public Renderer {
 Answer answer_of(const Scene& scene, std::size_t number, const Subject& subject, Renderer& exact) {
   const auto candidate = pipeline::make_pipeline(faults::stages_of(subject.table));
   const check::Reference references[] = {{"exact", &exact}};
-  const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references);
+  const check::Diagnosis diagnosis = check::diagnose_in_brief(scene, *candidate, references);
   Answer out{number, "", diagnosis.first, diagnosis.wrong, ""};
   if (const check::Comparison* row = check::first_different(diagnosis.verdict)) {
     out.by = fmt::format("{}: {}", row->reference, name_of(row->stage));

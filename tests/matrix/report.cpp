@@ -57,13 +57,12 @@ std::vector<std::pair<std::string, std::size_t>> seen_by(const Row& row) {
 
 std::string text_of(const Answer& a) {
   if (!a.failed.empty()) return "failed: " + a.failed;
-  if (!a.seen()) return "not seen";
   return fmt::format("{}, wrong by itself: {}", a.by,
                      a.wrong.empty() ? "none" : fmt::to_string(fmt::join(names_of(a.wrong), ", ")));
 }
 
 void add_head(std::string& out, std::string_view what) {
-  out += fmt::format("{:<40} {:<11} {:>8} {:>6} {:>5} {:>5}  {}\n", what, "stage", "affected", "judged", "seen",
+  out += fmt::format("{:<42} {:<11} {:>8} {:>6} {:>5} {:>5}  {}\n", what, "stage", "affected", "judged", "seen",
                      "right", "first seen by");
 }
 
@@ -71,11 +70,18 @@ void add_head(std::string& out, std::string_view what) {
 void add_row(std::string& out, const Row& row, const std::vector<std::string>& scenes) {
   const auto by = seen_by(row);
   const std::string_view stage = row.subject.broken.size() == 1 ? name_of(row.subject.broken[0]) : "";
-  out += fmt::format("{:<40} {:<11} {:>8} {:>6} {:>5} {:>5}  {}\n", row.subject.name, stage, row.affected,
+  out += fmt::format("{:<42} {:<11} {:>8} {:>6} {:>5} {:>5}  {}\n", row.subject.name, stage, row.affected,
                      row.answers.size(), row.seen(), row.right(), by.empty() ? "" : by[0].first);
+  std::vector<std::string_view> not_seen;
   for (const Answer& a : row.answers) {
-    if (!is_right(a, row.subject)) out += fmt::format("    {}: {}\n", scenes[a.scene], text_of(a));
+    if (is_right(a, row.subject)) continue;
+    if (a.seen()) {
+      out += fmt::format("    {}: {}\n", scenes[a.scene], text_of(a));
+    } else {
+      not_seen.push_back(scenes[a.scene]);
+    }
   }
+  if (!not_seen.empty()) out += fmt::format("    not seen: {}\n", fmt::join(not_seen, " "));
 }
 
 void add_worst(std::string& out, const std::vector<Row>& rows) {
