@@ -245,10 +245,14 @@ Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
   const double k1 = std::abs(q.y / sum), k2 = std::abs(q.z / sum);
   const Vec4<double> d1 = t.v[1].color - t.v[0].color, d2 = t.v[2].color - t.v[0].color;
   const Vec4<double> mean = t.v[0].color + (q.y / sum) * d1 + (q.z / sum) * d2;
-  // Where a line's share is nearly 0, its own rounding in double is left: 2^-52 of terms that are anchored a tile away.
-  const double share = t.corners == 2 ? 0x1p-28 * (1 + 128 * (std::abs(b.d_dx[1]) + std::abs(b.d_dy[1]))) : 0;
-  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + condition * (k1 * glm::abs(d1) + k2 * glm::abs(d2)) +
-         share * glm::abs(d1);
+  // Where a corner's share is nearly 0, its own rounding in double is left: 2^-52 of terms that are anchored a tile
+  // away.
+  const auto share = [&](int i) {
+    const double terms = 1 + 128 * (std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]));
+    return 0x1p-28 * terms * std::abs(t.v[static_cast<std::size_t>(i)].inv_w / sum);
+  };
+  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + (condition * k1 + share(1)) * glm::abs(d1) +
+         (condition * k2 + share(2)) * glm::abs(d2);
 }
 
 }  // namespace plumbline::check

@@ -96,8 +96,8 @@ std::vector<EdgeValue> edge_values(const Records<double>& records, std::int32_t 
 
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
 /// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
-/// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|); along a line, what double arithmetic
-/// leaves of a share that is 0.
+/// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|), and what double arithmetic leaves of a
+/// share that is 0.
 Vec4<double> bounds_of_mean(const WindowTriangle<double>& triangle, int x, int y);
 
 }  // namespace plumbline::check

@@ -131,6 +131,35 @@ bool may_vanish(std::span<const ClipVertex<double>> polygon, std::size_t planes,
   return false;
 }
 
+// A corner made by a cut that coincides with the next says nothing: where cuts meet, their order decides who makes it.
+void drop_coincident(std::vector<ClipVertex<double>>& polygon, double tolerance) {
+  for (std::size_t i = 0; i < polygon.size() && polygon.size() > 1;) {
+    const ClipVertex<double>&v = polygon[i], &next = polygon[(i + 1) % polygon.size()];
+    const Vec4<double> apart = glm::abs(v.p_clip - next.p_clip);
+    const bool coincide = std::max({apart.x, apart.y, apart.z, apart.w}) <= tolerance;
+    if (coincide && (v.cut || next.cut)) {
+      polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(v.cut ? i : (i + 1) % polygon.size()));
+    } else {
+      ++i;
+    }
+  }
+}
+
+// How many corners `mine` is turned on from `theirs`, of as many: the turn by which they lie nearest.
+std::size_t turn_of(std::span<const ClipVertex<double>> mine, std::span<const ClipVertex<double>> theirs) {
+  std::size_t best = 0;
+  double least = kInfinite;
+  for (std::size_t turn = 0; turn < mine.size(); ++turn) {
+    double sum = 0;
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      sum += glm::distance(mine[(i + turn) % mine.size()].p_clip, theirs[i].p_clip);
+    }
+    if (sum < least) best = turn;
+    least = std::min(least, sum);
+  }
+  return best;
+}
+
 void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, const Records<double>& candidate,
                      const Records<double>& reference, const Corners& corners, double factor) {
   const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(a.primitive), field}; };
@@ -149,11 +178,18 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   };
   std::copy_if(all_mine.begin(), all_mine.end(), std::back_inserter(mine), settled);
   std::copy_if(all_theirs.begin(), all_theirs.end(), std::back_inserter(theirs), settled);
+  if (a.count > 2 && a.count == b.count) {
+    drop_coincident(mine, factor * unit);
+    drop_coincident(theirs, factor * unit);
+  }
   if (mine.size() != theirs.size()) {
     meter.value(kInfinite, 0, at("vertices of primitive"), a.count, b.count);
     return;
   }
   if (a.count != b.count) meter.ambiguous();
+  // A polygon may begin at any of its corners; a line runs from its first to its last.
+  if (a.count > 2)
+    std::rotate(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(turn_of(mine, theirs)), mine.end());
   for (std::size_t i = 0; i < mine.size(); ++i) {
     const ClipVertex<double>&v = mine[i], &w = theirs[i];
     if (v.cut != w.cut && a.count < 3 &&

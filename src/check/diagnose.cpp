@@ -219,6 +219,14 @@ Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<con
   return out;
 }
 
+// Whether the stage does right by the candidate's own records. If all before it do so as well, what a reference has
+// against it is of a later one: from the scene, the depth stage is seen in the frame's last depths.
+bool holds_alone(const SceneVerdict& verdict, Stage stage) {
+  return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
+    return c.stage == stage && judges_alone(c) && !is_wrong(c) && c.outcome != Outcome::unsupported;
+  });
+}
+
 Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Explain explain) {
   Diagnosis out;
   std::optional<Finding> first;
@@ -234,6 +242,8 @@ Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Ref
   for (const Finding& f : out.findings) out.wrong.push_back(f.stage);
   if (const Comparison* row = first_different(out.verdict)) {
     out.first = row->stage;
+    if (!out.wrong.empty() && row->stage < out.wrong[0] && holds_alone(out.verdict, row->stage))
+      out.first = out.wrong[0];
     if (out.wrong.empty()) out.findings.push_back(first ? *first : finding_of(*row));
   }
   return out;

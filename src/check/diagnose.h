@@ -24,8 +24,9 @@ struct Finding {
 };
 
 struct Diagnosis {
-  SceneVerdict verdict;           ///< judge()'s, and the rows of repaired records
-  std::optional<Stage> first;     ///< the first different stage
+  SceneVerdict verdict;  ///< judge()'s, and the rows of repaired records
+  std::optional<Stage>
+      first;  ///< the first different stage; not one that does right by itself, before the first that does not
   std::vector<Stage> wrong;       ///< every stage that is wrong by itself, in order
   std::vector<Finding> findings;  ///< one for each of `wrong`; of the first different stage where there is none
 };

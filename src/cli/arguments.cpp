@@ -76,6 +76,10 @@ void add(CLI::App& command, DiagnoseOptions& o) {
       ->excludes(fault)
       ->excludes(folder);
   folder->excludes(fault);
+  CLI::Option* picture = text(command, "--picture", o.picture,
+                              "Name the known bugs that draw pictures like this one, which is all there is");
+  for (const char* other : {"--against", "--json", "--report", "--pixel", "--fault", "--capture", "--program"})
+    picture->excludes(command.get_option(other));
   add_assets(command, o.scene_arguments);
 }
 

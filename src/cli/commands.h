@@ -31,12 +31,15 @@ struct DiagnoseOptions {
   std::string scene;
   std::vector<std::string> against = reference_names();
   std::string json, report;     ///< or empty
+  std::string picture;          ///< of another renderer, which is all that it left, or empty
   std::string fault;            ///< or empty
   std::string folder, command;  ///< of another renderer, or empty
   std::string pixel;            ///< X,Y: its history as well; or empty
   SceneArguments scene_arguments;
 };
 int diagnose(const DiagnoseOptions& options);
+/// The same of a picture alone: the known bugs whose pictures are nearest to it.
+int diagnose_picture(const DiagnoseOptions& options);
 
 /// A scene to a picture.
 struct RenderOptions {

@@ -66,6 +66,7 @@ void write_page(const DiagnoseOptions& o, const Scene& scene, Renderer& candidat
 }  // namespace
 
 int diagnose(const DiagnoseOptions& o) {
+  if (!o.picture.empty()) return diagnose_picture(o);
   const Scene scene = o.scene_arguments.load(o.scene);
   require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
   std::optional<glm::ivec2> pixel;

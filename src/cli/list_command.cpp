@@ -34,7 +34,10 @@ void list_renderers() {
 }
 
 void list_faults() {
-  for (const FaultInfo& fault : fault_infos()) fmt::print("{:<36} {:<10} {}\n", fault.name, fault.stage, fault.changes);
+  for (const FaultInfo& fault : fault_infos()) {
+    const std::string report = fault.report.empty() ? "" : fmt::format(" ({})", fault.report);
+    fmt::print("{:<36} {:<10} {}{}\n", fault.name, fault.stage, fault.changes, report);
+  }
 }
 
 void list_scenes(const std::vector<std::string>& folders, const SceneArguments& arguments) {

@@ -125,7 +125,9 @@ std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vec
 #ifdef PLUMBLINE_FAULTS
 std::vector<FaultInfo> fault_infos() {
   std::vector<FaultInfo> out;
-  for (const faults::Fault& fault : faults::all()) out.push_back({fault.name, name_of(fault.stage), fault.changes});
+  for (const faults::Fault& fault : faults::all()) {
+    out.push_back({fault.name, name_of(fault.stage), fault.changes, fault.report});
+  }
   return out;
 }
 

@@ -69,7 +69,8 @@ void CaptureTap::hand_out(std::span<const WindowTriangle<float>> triangles, Capt
   std::vector<std::uint32_t> number(triangles.size());
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < triangles.size(); ++i) number[i] = wanted(triangles[i].primitive) ? next++ : next;
-  std::sort(fragments_.begin(), fragments_.end(), [](const Fragment& a, const Fragment& b) {
+  // Stable: a faulty triangle may cover a pixel twice, and which fragment was first decides.
+  std::stable_sort(fragments_.begin(), fragments_.end(), [](const Fragment& a, const Fragment& b) {
     return std::tie(a.triangle, a.y, a.x) < std::tie(b.triangle, b.y, b.x);
   });
   const double scale = formats_of(scene_.frame).depth_scale;

@@ -169,6 +169,14 @@ TEST(Bounds, OfAFlatTriangleAreThoseOfItsValue) {
   }
 }
 
+// On the edge from corner 0 to corner 2, corner 1's share is 0, and what double makes of it some 2^-52.
+TEST(Bounds, OfAMeanLeaveRoomForAShareThatIsNearlyZero) {
+  WindowTriangle<double> t = triangle_of({{{0.5, 0.5, 0}, {48.5, 16.5, 0}, {32.5, 32.5, 0}}});
+  for (std::size_t i = 0; i < 3; ++i) t.v[i].color = Vec4<double>(i == 1 ? 1 : 0, 0, 0, 1);
+  EXPECT_GT(kU * bounds_of_mean(t, 20, 20).r, 0x1p-52);
+  EXPECT_LT(kU * bounds_of_mean(t, 20, 20).r, 0x1p-48);
+}
+
 TEST(Bounds, GrowWithTheGradientAndTheDistanceFromTheOrigin) {
   const auto at = [](double offset, double slope) {
     return bounds_from_origin(

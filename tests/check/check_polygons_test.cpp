@@ -1,6 +1,8 @@
 // The comparator of stage 3: polygons as polygons.
 #include "check_polygons.h"
 
+#include <algorithm>
+
 namespace plumbline::check {
 namespace {
 
@@ -27,6 +29,48 @@ TEST_F(Polygons, AVertexOfTheMeshMovedByOneUlpFails) {
         }
       }
     }
+  }
+}
+
+Change rotated(std::size_t p, std::ptrdiff_t by) {
+  return [=](auto& r) {
+    const auto begin = r.polygons.vertices.begin() + r.polygons.polygons[p].first;
+    std::rotate(begin, begin + by, begin + r.polygons.polygons[p].count);
+  };
+}
+
+TEST_F(Polygons, AnyCornerMayBeTheFirst) {
+  for (std::size_t p = 0; p < 4; ++p) {
+    for (std::ptrdiff_t by = 1; by < records.polygons.polygons[p].count; ++by) {
+      EXPECT_TRUE(passes(compare(rotated(p, by)))) << p << " " << by;
+      EXPECT_TRUE(passes(compare(kUnchanged, rotated(p, by)))) << p << " " << by;
+      EXPECT_TRUE(fails(compare([&](auto& r) {
+        rotated(p, by)(r);
+        for (int c = 0; c < 4; ++c) at(r, p, 0).p_clip[c] += 1e-4;
+      }))) << p
+           << " " << by;
+    }
+  }
+}
+
+// Which of two cuts makes a corner where they meet is a matter of their order.
+TEST_F(Polygons, WhichCutsCornerStandsTwiceDoesNotMatter) {
+  for (std::size_t p : {1u, 2u}) {
+    for (std::uint32_t i : cuts(p)) {
+      for (std::uint32_t j : cuts(p)) {
+        const Change mine = [&](auto& r) { repeat_vertex(r, p, i); };
+        EXPECT_TRUE(passes(compare(mine, [&](auto& r) { repeat_vertex(r, p, j); }))) << p << " " << i << " " << j;
+      }
+    }
+  }
+}
+
+TEST_F(Polygons, TheOtherWayRoundFails) {
+  for (std::size_t p = 0; p < 4; ++p) {
+    EXPECT_TRUE(fails(compare([&](auto& r) {
+      const auto begin = r.polygons.vertices.begin() + r.polygons.polygons[p].first;
+      std::reverse(begin, begin + r.polygons.polygons[p].count);
+    }))) << p;
   }
 }
 

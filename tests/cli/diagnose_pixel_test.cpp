@@ -27,8 +27,7 @@ TEST_F(Cli, without_it_there_is_none) {
 TEST_F(Cli, a_bad_pixel_ends_the_run_with_the_frames_size) {
   const Outcome fits = plumb("diagnose " + kScene + " --against exact --pixel 0,0");
   EXPECT_EQ(fits.code, 0) << fits.text;
-  for (const char* bad : {"5", "5,", ",5", "x,5", "5,5,5", "'5 5'", "' 5,5'", "5,5.0", "-1,0", "97,0", "0,83",
-                          "99999999999,1", "1,99999999999"}) {
+  for (const char* bad : {"5", "5,x", "5,5,5", "' 5,5'", "-1,0", "97,0", "0,83", "99999999999,1"}) {
     const Outcome run = plumb("diagnose " + kScene + " --against exact --json " + at("out.json") + " --pixel=" + bad);
     EXPECT_EQ(run.code, 2) << bad;
     EXPECT_TRUE(run.says("expected X,Y, a pixel of the frame's ")) << bad << ": " << run.text;

@@ -110,6 +110,8 @@ MaybeScene draws_split(const Scene& of) {
 }
 
 MaybeScene colors_at_vertices(const Scene& of) {
+  const auto has_none = [&](const Draw& d) { return !d.lit && of.meshes[d.mesh].colors.empty(); };
+  if (std::none_of(of.draws.begin(), of.draws.end(), has_none)) return {};
   return with_own_meshes(of, [](const Draw& draw, Mesh& mesh) {
     if (!draw.lit && mesh.colors.empty()) mesh.colors.assign(mesh.positions.size(), draw.material.diffuse);
   });
@@ -202,11 +204,10 @@ void positions_in_two_steps(const Matrices<float>& m, Normals normals, const Mes
   for (std::size_t i = first; i < out.size(); ++i) out[i].p_clip = m.projection * out[i].p_eye;
 }
 
-void planes_backwards(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
-  const auto all = pipeline::view_volume();
-  std::vector<Vec4<float>> planes(all.begin(), all.begin() + (assembly.depth_clamp ? 4 : 6));
-  std::reverse(planes.begin(), planes.end());
-  pipeline::clip_at(planes, assembly, out);
+void near_plane_first(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
+  const auto p = pipeline::view_volume();  // right, left, top, bottom, near, far
+  const std::array<Vec4<float>, 6> near_first = {p[4], p[5], p[0], p[1], p[2], p[3]};
+  pipeline::clip_at(std::span(near_first).subspan(assembly.depth_clamp ? 2 : 0), assembly, out);
 }
 
 void polygons_rotated(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
@@ -281,7 +282,8 @@ constexpr std::array kVariants = {
     said("draw_out_of_sight", "the last draw again, where no pixel is", draw_out_of_sight, true),
     said("world_doubled", "all lengths, and with them w, are twice as large", world_doubled, true),
     drawn("positions_in_two_steps", "P (M p) for (P M) p", put<&Geometry::vertex, positions_in_two_steps>),
-    drawn("planes_backwards", "the far plane cuts first, the right one last", put<&Geometry::clip, planes_backwards>),
+    drawn("near_plane_first", "the near plane cuts first, then the far one, and then the sides",
+          put<&Geometry::clip, near_plane_first>),
     drawn("polygons_rotated", "cut polygons begin, and are fanned, at another corner",
           put<&Geometry::clip, polygons_rotated>),
     drawn("larger_box", "a bounding box with a pixel more on each side", put<&Fragment::bounds, larger_box>, true),

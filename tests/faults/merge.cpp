@@ -79,7 +79,6 @@ constexpr auto kAlphaAsRgb = [](Merge& merge) {
   if (merge.blend) merge.blend->alpha = merge.blend->rgb;
 };
 constexpr auto kNoColorMask = [](Merge& merge) { merge.color_mask = glm::bvec4(true); };
-constexpr auto kNoDepthMask = [](Merge& merge) { merge.depth_mask = true; };
 
 Color<float> truncated_color(const Color<float>& color, float scale) {
   if (scale == 0.0f) return color;
@@ -210,8 +209,6 @@ constexpr std::array kMerge = {
           put<&Fragment::logic, sides_of_logic_op_swapped>},
     Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge,
           put<&Fragment::merge_state, merge_under<kNoColorMask>>},
-    Fault{"merge.depth_mask_ignored", "depths are written where they are masked", Stage::merge,
-          put<&Fragment::merge_state, merge_under<kNoDepthMask>>},
     Fault{"resolve.truncated", "the mean of a pixel's samples is truncated to a code, not rounded", Stage::resolve,
           put_resolve<truncated_mean>},
     Fault{"resolve.first_sample", "a pixel's first sample is taken for all", Stage::resolve, put_resolve<first_sample>},

@@ -67,12 +67,12 @@ Matrices<float> whole_centres(const Scene& scene, const Draw& draw) {
 }
 
 // N.L below 0 takes light away: what an opposite light of negative colour does. (Of GzRender's lights, which are
-// directional.)
+// directional. A scene has 8 lights at most.)
 void no_clamp_of_n_l(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
                      std::vector<Lit<float>>& out) {
   Scene wrong = scene;
   for (const Light& l : scene.lights) {
-    if (l.kind == Light::Kind::directional) {
+    if (l.kind == Light::Kind::directional && wrong.lights.size() < 8) {
       wrong.lights.push_back({l.kind, -l.vector, glm::vec3(0), -l.diffuse, glm::vec3(0)});
     }
   }
