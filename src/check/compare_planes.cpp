@@ -22,10 +22,17 @@ void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Ve
   }
 }
 
-// Whether both sides' winners are there, and of the size of the plane that they decide about.
-template <class T>
-bool has_winners(const Planes& a, const Planes& b, const Plane<T>& plane, std::string& why) {
-  return same_size(a.id, b.id, why) && same_size(a.id, plane, why);
+// Pixel by pixel what visit(meter, x, y, winner) gives of a plane where both sides' winners are the same: where they
+// are not, it is visibility's matter.
+template <class T, class Visit>
+Measurement where_winners_agree(const Planes& a, const Planes& b, Plane<T> Planes::*plane, const std::string& unit,
+                                Visit visit) {
+  std::string why;
+  if (!same_size(a.id, b.id, why) || !same_size(a.id, a.*plane, why)) return mismatch(unit, why, a.id.size());
+  return compare_planes(a.*plane, b.*plane, unit, [&](Meter& meter, int x, int y) {
+    const std::int32_t id = a.id(x, y);
+    if (id == b.id(x, y)) visit(meter, x, y, id);
+  });
 }
 
 Vec4<double> codes_of(const Vec4<double>& color, double scale) {
@@ -94,16 +101,12 @@ Measurement compare_winners(const Planes& candidate, const Planes& reference, co
 Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
                                  double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
-  std::string why;
-  if (!has_winners(a, b, a.depth, why)) return mismatch("u", why, a.id.size());
   const Records<double> none;
   const DrawnAt drawn(scene.frame, depths_replace(scene) ? none : candidate.records);  // else any may have left it
   const OffsetErrors offsets(scene);
-  return compare_planes(a.depth, b.depth, "u", [&](Meter& meter, int x, int y) {
-    const std::int32_t id = a.id(x, y);
+  return where_winners_agree(a, b, &Planes::depth, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const double z = a.depth(x, y), z_ref = b.depth(x, y);
     const Place place{x, y, id, "z"};
-    if (id != b.id(x, y)) return;  // visibility's matter
     if (id == kBackground) {
       meter.value(difference(z, z_ref) / u, 0, place, z, z_ref);
       return;
@@ -130,12 +133,8 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
 Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
-  std::string why;
-  if (!has_winners(a, b, a.shaded, why)) return mismatch("u", why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
-  return compare_planes(a.shaded, b.shaded, "u", [&](Meter& meter, int x, int y) {
-    const std::int32_t id = a.id(x, y);
-    if (id != b.id(x, y)) return;
+  return where_winners_agree(a, b, &Planes::shaded, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const Place place{x, y, id, "color"};
     if (id == kBackground) {
       return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
@@ -160,13 +159,9 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
                           double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   const double scale = color_scale(scene.frame.color);
-  const std::string unit = code_unit(scene.frame);
-  std::string why;
-  if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
-  return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
-    const std::int32_t id = a.id(x, y);
-    if (id != b.id(x, y)) return;
+  const std::string unit = code_unit(scene.frame);
+  return where_winners_agree(a, b, &Planes::color, unit, [&](Meter& meter, int x, int y, std::int32_t id) {
     const bool cleared = id == kBackground;
     const FragmentBound fragment = cleared ? FragmentBound{} : bounds.of_winner(id, x, y);
     const Vec4<double> bound = fragment.color + fragment.apart;
@@ -196,18 +191,15 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
                             double codes, double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   const double scale = color_scale(scene.frame.color);
-  const std::string unit = code_unit(scene.frame);
-  std::string why;
-  if (!has_winners(a, b, a.color, why)) return mismatch(unit, why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
   const DrawnAt drawn(scene.frame, candidate.records);
   const Plane<std::uint8_t> tied = legal.empty() ? open_by_depth(scene, candidate) : Plane<std::uint8_t>();
+  std::string why;
+  const std::string unit = code_unit(scene.frame);
   const bool reads = factors_read_frame(scene),
              told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why);
-  return compare_planes(a.color, b.color, unit, [&](Meter& meter, int x, int y) {
-    const std::int32_t id = a.id(x, y);
+  return where_winners_agree(a, b, &Planes::color, unit, [&](Meter& meter, int x, int y, std::int32_t id) {
     const Place place{x, y, id, "color"};
-    if (id != b.id(x, y)) return;  // visibility's matter
     // Of other fragments (lines' may lie beside each other): coverage's matter.
     const bool others = told && a.id_sum(x, y) != b.id_sum(x, y);
     const bool open = others || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||

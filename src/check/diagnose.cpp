@@ -28,7 +28,7 @@ bool is_wrong(const Comparison& c) { return c.outcome == Outcome::different || c
 // Whether the row judges its stage by itself.
 bool judges_alone(const Comparison& c) {
   return c.reference.ends_with("from its records") || c.reference.ends_with(kRepaired) ||
-         (c.stage == Stage::matrices && c.reference.ends_with("from scene"));
+         c.reference.ends_with(kAtWorst) || (c.stage == Stage::matrices && c.reference.ends_with("from scene"));
 }
 
 // What a finding says beyond who judged and by how much.
@@ -129,6 +129,39 @@ std::optional<Finding> first_finding(const Scene& scene, const SceneVerdict& ver
   return out;
 }
 
+// The worst pixel of each row that differs, and those about it, row by row.
+std::vector<glm::ivec2> worst_pixels(const Scene& scene, const SceneVerdict& verdict) {
+  std::vector<glm::ivec2> out;
+  for (const Comparison& c : verdict.comparisons) {
+    const Place& at = c.measurement.worst.place;
+    if (c.outcome != Outcome::different || at.x < 0) continue;
+    for (int y = std::max(at.y - 2, 0); y <= std::min(at.y + 2, scene.frame.height - 1); ++y) {
+      for (int x = std::max(at.x - 2, 0); x <= std::min(at.x + 2, scene.frame.width - 1); ++x) {
+        if (std::ranges::find(out, glm::ivec2(x, y)) == out.end()) out.emplace_back(x, y);
+      }
+    }
+  }
+  return out;
+}
+
+// Where all fragments do not fit the budget, those of a few pixels do.
+void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
+  const std::vector<glm::ivec2> pixels = worst_pixels(find.scene, pass.verdict);
+  if (pixels.empty()) return;
+  try {
+    const Capture mine = candidate.capture(find.scene, {StageSet::all(), false, {}, pixels});
+    const std::string name = find.referee.info().name + " " + std::string(kAtWorst);
+    const Legal none;
+    Case c{find.scene, mine, none, &find.referee, pass.verdict.comparisons};
+    for (const Stage stage : {Stage::depth, Stage::attributes, Stage::texture, Stage::shade}) {
+      if ((stage == Stage::texture && !textured(find.scene)) || over_budget(mine)) continue;
+      graft(c, find.referee, stage, name);
+      if (is_wrong(c.out.back())) pass.findings.push_back(find(mine, c.out.back()));
+    }
+  } catch (const std::exception&) {  // what the planes show stands
+  }
+}
+
 Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Explain explain) {
   Drawn drawn;
   Pass pass{judge(scene, candidate, references, &drawn), {}, {}, {}};
@@ -139,7 +172,9 @@ Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference>
     if (referee == nullptr || !judges_alone(c) || !is_wrong(c) || !wrong.insert(c.stage).second) continue;
     pass.findings.push_back(Finder{scene, *referee, explain}(pass.repaired, c));
   }
+  if (referee != nullptr && over_budget(pass.repaired)) look_at_worst(pass, {scene, *referee, explain}, candidate);
   if (wrong.empty()) {
+    if (!pass.findings.empty()) return pass;
     pass.first = first_finding(scene, pass.verdict, pass.repaired, references, drawn.references, explain);
     return pass;
   }

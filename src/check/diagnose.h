@@ -37,6 +37,10 @@ struct Diagnosis {
 /// where the candidate runs stages.
 inline constexpr std::string_view kRepaired = "from repaired records";
 
+/// And of a scene whose fragments do not fit the memory budget: stages 6 to 9 of the fragments about the pixels that
+/// are worst in the planes, captured once more.
+inline constexpr std::string_view kAtWorst = "from its records at the worst pixels";
+
 /// As judge(), and what it comes to. A stage is wrong by itself where exact, from the candidate's own records of the
 /// stages before it (matrices: from the scene), or from repaired ones, is `different` or `failed`. Of an antialiased
 /// scene: the passes together, and `resolve`.

@@ -128,7 +128,7 @@ constexpr std::array kHypotheses = {
     seen(S::texture, "texture.lod_one_less", "levels of detail are one too low", lod_off_by<-1>),
     made(S::texture, "texture.red_blue_swapped", "red and blue of texels swapped",
          [](const Scene&, const Capture&, Capture& c) { swap_red_and_blue(c.records.texels); }),
-    made(S::shade, "shade.red_blue_swapped", "red and blue swapped",
+    made(S::shade, "shade.red_blue_swapped", "red and blue of shaded fragments swapped",
          [](const Scene&, const Capture&, Capture& c) { swap_red_and_blue(c.records.shaded); }),
     given(S::shade, "shade.fog_ignored", "fog is left out",
           [](Scene& s, Capture&) { each_draw(s, [](Draw& d) { d.fog.reset(); }); }),
@@ -136,13 +136,6 @@ constexpr std::array kHypotheses = {
           [](Scene& s, Capture&) {
             each_draw(s, [](Draw& d) {
               if (d.fog && d.fog->mode == Fog::Mode::exp2) d.fog->mode = Fog::Mode::exp;
-            });
-          }),
-    given(S::shade, "shade.modulate_for_replace", "the texture's colour is multiplied in where it should replace",
-          [](Scene& s, Capture&) {
-            each_draw(s, [](Draw& d) {
-              if (d.texture && d.texture->environment == TextureEnvironment::replace)
-                d.texture->environment = TextureEnvironment::modulate;
             });
           }),
     given(S::shade, "shade.replace_for_modulate", "the texture's colour replaces where it should be multiplied in",
@@ -187,7 +180,7 @@ constexpr std::array kHypotheses = {
     given(S::visibility, "visibility.stencil_ignored", "the stencil test rejects nothing, and nothing is written",
           [](Scene& s, Capture&) { each_draw(s, [](Draw& d) { d.stencil.reset(); }); }),
     seen(S::merge, "merge.truncated", "colours = expected, truncated to codes, not rounded", colors_truncated),
-    made(S::merge, "merge.red_blue_swapped", "red and blue swapped",
+    made(S::merge, "merge.red_blue_swapped", "red and blue swapped in the frame",
          [](const Scene&, const Capture&, Capture& c) {
            for (glm::vec4& color : c.planes.color.values()) std::swap(color.r, color.b);
          }),

@@ -200,7 +200,7 @@ constexpr std::array kHypotheses = {
               std::tie(t.v[0].color, t.v[1].color, t.v[2].color) = std::tuple(t.v[2].color, t.v[0].color, t.v[1].color);
             each_triangle_of_varyings(in, [](auto& c) { std::ranges::rotate(c, c.begin() + 2); });
           }),
-    made(S::attributes, "attributes.red_blue_swapped", "red and blue swapped",
+    made(S::attributes, "attributes.red_blue_swapped", "red and blue of interpolated colours swapped",
          [](const Scene&, const Capture&, Capture& c) { swap_red_and_blue(c.records.attributes); }),
 };
 

@@ -23,15 +23,6 @@ bool contradicts_itself(Case& c, const Capture& theirs) {
   }
 }
 
-Comparison as_dispute(Comparison comparison, std::string_view why) {
-  Measurement& m = comparison.measurement;
-  m.disputed = std::exchange(m.differing, 0);
-  m.dispute = m.worst;
-  m.reason = why;
-  comparison.outcome = Outcome::dispute;
-  return comparison;
-}
-
 constexpr std::string_view kNo8BitDepth = "OpenGL has no 8-bit depth: it draws with 24 bits, other surfaces may win";
 constexpr std::string_view kNo16BitsBesideStencil =
     "OpenGL has no 16-bit depth beside stencil values: it draws with 24 bits, other surfaces may win";
@@ -78,7 +69,7 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
         c.add(name, stage, compare_covered_lines(c.candidate, theirs, factor("osmesa.lines")), "osmesa.lines");
       }
       if (c.out.back().outcome == Outcome::different && contradicts_itself(c, theirs)) {
-        c.out.back() = as_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
+        to_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
       }
       return;
     case Stage::depth:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,14 @@ Comparison judged(std::string scene, std::string reference, Stage stage, Measure
   if (!m.mismatch.empty()) note = m.mismatch;
   return {std::move(scene), std::move(reference),    stage,          outcome,
           std::move(m),     std::string(ledger_row), std::move(note)};
+}
+
+void to_dispute(Comparison& c, std::string why) {
+  Measurement& m = c.measurement;
+  c.outcome = Outcome::dispute;
+  m.disputed += std::exchange(m.differing, 0);
+  m.dispute = m.worst;
+  m.reason = std::move(why);
 }
 
 const Worst* shown(const Comparison& c) {

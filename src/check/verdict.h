@@ -40,6 +40,8 @@ struct Comparison {
 /// The outcome that a measurement comes to.
 Comparison judged(std::string scene, std::string reference, Stage stage, Measurement measurement,
                   std::string_view ledger_row = "", std::string note = "");
+/// Makes what differs in the row the reference's fault, and says why.
+void to_dispute(Comparison& comparison, std::string why);
 /// What a row shows: of a dispute its largest difference, else the worst of all; null where nothing differs.
 const Worst* shown(const Comparison& comparison);
 /// Where that is, what is disputed and why, and the note.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -54,11 +53,8 @@ void settle_votes(std::vector<Comparison>& rows) {
     if (row.outcome != Outcome::different || row.reference.ends_with(kFromRecords)) continue;
     const std::set<std::string> against = outvoted_by(row, rows);
     if (against.empty()) continue;
-    row.outcome = Outcome::dispute;
-    row.measurement.disputed = std::exchange(row.measurement.differing, 0);
-    row.measurement.dispute = row.measurement.worst;
-    row.measurement.reason = fmt::format("outvoted: ours is right by {}, and by exact's arithmetic on its own records",
-                                         fmt::join(against, " and "));
+    to_dispute(row, fmt::format("outvoted: ours is right by {}, and by exact's arithmetic on its own records",
+                                fmt::join(against, " and ")));
   }
 }
 

@@ -1,6 +1,7 @@
 // The prediction of how many pixels are ambiguous, on pictures whose bands are known from their sides' lengths.
 #include "reference/math/ambiguity.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -81,6 +82,8 @@ PixelHit surface(std::uint32_t primitive, double z, double half, glm::dvec2 slop
   PixelHit out;
   out.hit.primitive = primitive;
   out.hit.certain = true;
+  out.hit.z_lo = std::clamp(z - half, 0.0, 1.0);
+  out.hit.z_hi = std::clamp(z + half, 0.0, 1.0);
   out.view = out.win = {z, half, slope};
   return out;
 }
@@ -115,6 +118,22 @@ TEST(AmbiguousByDepth, OfParallelSurfacesWithinReachIsThePixel) {
   const PixelHit hits[] = {surface(0, 0.5, 1e-4, {0.01, 0}), surface(1, 0.50019, 1e-4, {0.01, 0})};
   EXPECT_EQ(ambiguous_by_depth(scene, hits, 0).area, 1);
   EXPECT_TRUE(ambiguous_by_depth(scene, hits, 0).centre);
+}
+
+TEST(AmbiguousByDepth, IsNothingWhereBothAreClampedToOneEnd) {
+  Scene scene = with_24_bits();
+  scene.depth_clamp = true;
+  const auto share = [&](double a, double b) {
+    const PixelHit hits[] = {surface(0, a, 1e-4, {0.01, 0}), surface(1, b, 1e-4, {0.01, 0})};
+    return ambiguous_by_depth(scene, hits, 0);
+  };
+  for (const double beyond : {-0.25, 1.25}) {
+    EXPECT_EQ(share(beyond, beyond).area, 0) << "a tie";
+    EXPECT_FALSE(share(beyond, beyond).centre);
+    EXPECT_EQ(share(beyond, beyond > 0 ? 1.5 : -0.5).area, 0) << "at that end too";
+    EXPECT_TRUE(share(beyond, beyond > 0 ? 0.99995 : 0.00005).centre) << "one of them may not be clamped";
+  }
+  EXPECT_EQ(share(-0.25, 1.25).area, 0);
 }
 
 TEST(AmbiguousByDepth, OfASurfaceThatTheNearPlaneCutsIsTheBandOnBothSides) {

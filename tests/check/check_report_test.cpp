@@ -362,7 +362,7 @@ TEST_F(Reports, WhereItCannotBeWrittenTheErrorNamesTheFile) {
   write_file(folder / "file", "kept");
   for (const fs::path& target : {folder / "no such folder" / "a.txt", folder / "file" / "a.txt"}) {
     try {
-      write_json(target, {}, {});
+      write_json(target, std::vector<SceneVerdict>{}, {});
       FAIL() << target;
     } catch (const OutputError& e) {
       EXPECT_TRUE(contains(e.what(), target.string())) << e.what();

@@ -123,6 +123,26 @@ TEST_F(Diagnose, WhatWasMadeOfWrongRecordsIsForgotten) {
   EXPECT_EQ(of(*with({"window.snap_truncates"})).wrong, Stages{Stage::window});
 }
 
+TEST_F(Diagnose, WhatDoesNotFitTheBudgetIsLookedAtAboutTheWorstPixels) {
+  scene = suite_scene("interpolation/w_ratio");
+  faults::Table table = faults::production();
+  fault("attributes.affine").apply(table);
+  Changed candidate(pipeline::make_pipeline(faults::stages_of(table)));
+  std::size_t pixels = 0;
+  candidate.before_capture = [&](const Request& request) {
+    if (request.records.has(Stage::coverage) && request.pixels.empty()) throw OverBudget("too many fragments");
+    if (!request.pixels.empty()) pixels = request.pixels.size();
+  };
+  const Diagnosis d = of(candidate);
+  EXPECT_EQ(d.wrong, Stages{Stage::attributes});
+  EXPECT_GE(pixels, 9u);
+  EXPECT_LE(pixels, 200u);
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].reference, "exact from its records at the worst pixels");
+  ASSERT_EQ(d.findings[0].causes.size(), 1u);
+  EXPECT_TRUE(d.findings[0].causes[0].starts_with("error grows with the spread of 1/w"));
+}
+
 TEST_F(Diagnose, ARendererThatFailsIsWrongInNoStage) {
   Changed candidate(pipeline::make_pipeline());
   candidate.before_capture = [](const Request&) { throw RendererFailed("crashed"); };

@@ -1,0 +1,199 @@
+// Likely causes: each is named for the bug that it is, and for no other.
+#include "check/causes.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "check/diagnose.h"
+#include "check/hypotheses.h"
+#include "check/repair.h"
+#include "check_fixtures.h"
+#include "faults/faults.h"
+#include "pipeline/pipeline_renderer.h"
+#include "scene/antialias.h"
+#include "scene/scene_file.h"
+
+namespace plumbline::check {
+namespace {
+
+Scene suite_scene(const std::string& name) {
+  return load_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR "/tests/scenes") / (name + ".json"), {});
+}
+
+std::string_view name_by_words(const std::string& words) {
+  for (const Hypothesis& h : all_hypotheses()) {
+    if (words.starts_with(h.words)) return h.name;
+  }
+  return "no such cause";
+}
+
+// The causes that diagnose() names of a fault.
+std::set<std::string_view> causes_of(const std::string& fault_name, const std::string& scene) {
+  const std::vector<faults::Fault> all = faults::all();
+  const auto fault = std::ranges::find(all, fault_name, &faults::Fault::name);
+  if (fault == all.end()) return {"no such fault"};
+  const auto candidate = pipeline::make_pipeline(fault->stages());
+  const auto exact = exact::make_exact();
+  const Reference references[] = {{"exact", exact.get()}};
+  std::set<std::string_view> out;
+  for (const Finding& f : diagnose(suite_scene(scene), *candidate, references).findings) {
+    for (const std::string& cause : f.causes) out.insert(name_by_words(cause));
+  }
+  return out;
+}
+
+struct Proof {
+  const char *fault, *scene, *cause;
+};
+constexpr Proof kProofs[] = {
+    {"attributes.affine", "alpha_test/bands", "attributes.affine"},
+    {"attributes.wrong_corners", "alpha_test/bands", "attributes.corners_swapped"},
+    {"notes.004.delete_behind_view_plane", "antialias/samples_cut", "clip.cut_dropped"},
+    {"clip.no_far_plane", "antialias/taps_fog_cut", "clip.far_not_cut"},
+    {"clip.first_vertex_provokes", "antialias/samples_games101", "clip.first_vertex_provokes"},
+    {"clip.no_near_plane", "clip/corners_on_planes", "clip.near_not_cut"},
+    {"clip.attributes_not_cut", "alpha_test/bands", "clip.not_interpolated"},
+    {"clip.corner_lost", "alpha_test/bands", "clip.vertex_lost"},
+    {"coverage.box_one_short", "alpha_test/bands", "coverage.box_one_short"},
+    {"coverage.at_corner", "alpha_test/bands", "coverage.half_pixel_more"},
+    {"coverage.inclusive_edges", "antialias/samples_ties", "coverage.inclusive_edges"},
+    {"coverage.scissor_inclusive", "antialias/samples_blend", "coverage.scissor_inclusive"},
+    {"notes.000.strict_edges", "alpha_test/functions_rgba12", "coverage.strict_edges"},
+    {"coverage.top_for_bottom", "antialias/samples_ties", "coverage.wrong_corner"},
+    {"depth.of_centre", "antialias/samples_blend", "depth.of_centre"},
+    {"depth.offset_sign", "polygon_offset/clamped", "depth.offset_negated"},
+    {"depth.offset_without_slope", "polygon_offset/clamped", "depth.offset_without_slope"},
+    {"depth.truncated", "alpha_test/bands", "depth.truncated"},
+    {"light.no_attenuation", "light/all_at_once", "light.attenuation_left_out"},
+    {"light.no_color_material", "light/all_at_once", "light.color_material_ignored"},
+    {"light.cones_ignored", "light/all_at_once", "light.cones_ignored"},
+    {"notes.000.no_clamp_of_n_l", "antialias/samples_blend", "light.negative_not_clamped"},
+    {"light.reflection_for_half_vector", "antialias/samples_knot", "light.reflection_for_half_vector"},
+    {"light.far_viewer", "light/all_at_once", "light.viewer_turned"},
+    {"light.world_space", "alpha_test/cutout", "light.world_space"},
+    {"matrices.degrees_for_radians", "alpha_test/cutout", "matrices.degrees_for_radians"},
+    {"matrices.depth_range_not_mapped", "depth_range/clamped", "matrices.depth_range_not_mapped"},
+    {"matrices.fov_horizontal", "alpha_test/bands", "matrices.fov_horizontal"},
+    {"matrices.near_far_swapped", "alpha_test/bands", "matrices.near_far_swapped"},
+    {"matrices.rotation_sign", "alpha_test/cutout", "matrices.rotations_reversed"},
+    {"matrices.transforms_reversed", "alpha_test/cutout", "matrices.transforms_reversed"},
+    {"merge.color_mask_ignored", "antialias/samples_blend", "merge.color_mask_ignored"},
+    {"merge.factors_swapped", "alpha_test/before_blending", "merge.factors_swapped"},
+    {"merge.logic_op_sides", "logic_op/gradients", "merge.logic_op_sides"},
+    {"merge.blue_first", "alpha_test/bands", "merge.red_blue_swapped"},
+    {"merge.truncated", "alpha_test/bands", "merge.truncated"},
+    {"resolve.truncated", "antialias/samples_beyond_rgba8", "resolve.truncated"},
+    {"shade.no_color_sum", "light/separate_reflection", "shade.no_color_sum"},
+    {"texture.bias_left_out", "texture/floor_bias_up", "texture.bias_left_out"},
+    {"texture.clamp_for_repeat", "antialias/samples_textured", "texture.clamp_for_repeat"},
+    {"texture.half_texel_off", "alpha_test/cutout", "texture.half_texel_off"},
+    {"texture.s_for_t", "antialias/samples_textured", "texture.s_t_swapped"},
+    {"texture.t_flipped", "alpha_test/cutout", "texture.t_flipped"},
+    {"vertex.normals_by_model_view", "camera/mirrored", "vertex.normals_by_model_view"},
+    {"vertex.not_renormalised", "alpha_test/leaves", "vertex.not_renormalised"},
+    {"visibility.alpha_at_reference", "alpha_test/bands", "visibility.alpha_at_reference"},
+    {"visibility.no_alpha_test", "alpha_test/bands", "visibility.alpha_test_ignored"},
+    {"merge.depth_mask_ignored", "antialias/samples_blend", "visibility.depth_mask_ignored"},
+    {"visibility.greater_for_less", "alpha_test/bands", "visibility.depth_reversed"},
+    {"visibility.less_equal", "camera/scales_apart", "visibility.less_equal"},
+    {"visibility.stencil_ops_swapped", "stencil/everything", "visibility.stencil_ops_swapped"},
+    {"window.other_side_culled", "blend/together", "window.cull_other_face"},
+    {"window.mode_of_other_face", "polygon_mode/blended", "window.mode_of_other_face"},
+    {"window.snap_truncates", "alpha_test/bands", "window.snap_truncates"},
+    {"window.y_flipped", "alpha_test/bands", "window.y_flipped"},
+};
+
+TEST(Causes, AFaultOfThePipelineIsNamedAndNoOther) {
+  std::set<std::string_view> proven;
+  for (const Proof& p : kProofs) {
+    EXPECT_EQ(causes_of(p.fault, p.scene), std::set<std::string_view>{p.cause}) << p.fault << " on " << p.scene;
+    proven.insert(p.cause);
+  }
+  EXPECT_GE(proven.size(), 20u);
+}
+
+TEST(Causes, SayNothingWhereNoPatternFits) {
+  for (const Proof& p :
+       {Proof{"shade.fogged_alpha", "fog/backwards", ""},
+        Proof{"texture.levels_swapped", "antialias/samples_textured", ""},
+        Proof{"depth.at_corner", "alpha_test/bands", ""}, Proof{"clip.winding_reversed", "alpha_test/bands", ""}}) {
+    EXPECT_EQ(causes_of(p.fault, p.scene), std::set<std::string_view>{}) << p.fault;
+  }
+}
+
+// A bug that a hypothesis puts into the stage is found again, and on some scene it alone is.
+TEST(Causes, EachThatCanBeMadeIsTold) {
+  const auto exact = exact::make_exact();
+  const auto ours = pipeline::make_pipeline();
+  std::set<std::string_view> open, alone;
+  for (const Hypothesis& h : all_hypotheses()) {
+    if (h.shows == nullptr) open.insert(h.name);
+  }
+  for (const char* name : {"camera/transform_chain",
+                           "cull/both_windings",
+                           "texture/wall_clamp_to_edge",
+                           "texture/wall_mirrored_repeat",
+                           "texture/wall_mirrored_nearest",
+                           "texture/floor_bias_up",
+                           "alpha_test/cutout",
+                           "texture/dialect_gzrender",
+                           "depth_range/halves_z16",
+                           "interpolation/w_ratio",
+                           "light/all_at_once",
+                           "light/eight_spots",
+                           "light/separate_two_sided",
+                           "light/color_material",
+                           "antialias/samples_blend",
+                           "polygon_mode/each_face",
+                           "polygon_offset/decals_z16",
+                           "coverage/shared_edges",
+                           "texture/floor_bias_down",
+                           "texture/environment_rgba",
+                           "antialias/samples_textured",
+                           "fog/backwards",
+                           "light/separate_specular",
+                           "depth/ties",
+                           "depth/functions",
+                           "light/emission",
+                           "light/two_sided_gouraud",
+                           "light/local_viewer",
+                           "light/highlight_reflection",
+                           "fog/exp2",
+                           "scissor/windows",
+                           "masks/no_depth",
+                           "alpha_test/functions_rgba8",
+                           "alpha_test/bands",
+                           "stencil/everything",
+                           "blend/equations",
+                           "logic_op/gradients",
+                           "masks/sixteen"}) {
+    const Scene scene = passes_of(suite_scene(name))[0];
+    const Capture in = ours->capture(scene, {StageSet::all(), false, {}, {}});
+    for (const Hypothesis& h : all_hypotheses()) {
+      if (alone.contains(h.name) || h.shows != nullptr || (h.stage == Stage::texture && !textured(scene))) continue;
+      Capture wrong = in;
+      hand_on(h.stage, {}, wrong);
+      try {
+        Capture made = made_with(h, scene, wrong, *exact);
+        round_to_formats(scene, h.stage, made);
+        hand_on(h.stage, made, wrong);
+      } catch (const std::exception&) {
+        continue;  // exact refuses it on this scene
+      }
+      const Capture expected = exact->run_stage(scene, h.stage, wrong);
+      const std::vector<Cause> causes = likely_causes({scene, h.stage, wrong, expected, exact.get()});
+      if (causes.empty()) continue;  // changes nothing here
+      EXPECT_EQ(std::ranges::count(causes, h.name, &Cause::name), 1) << h.name << " on " << name;
+      open.erase(h.name);
+      if (causes.size() == 1) alone.insert(h.name);
+    }
+  }
+  for (const std::string_view name : open) ADD_FAILURE() << name << " is never told";
+  for (const Hypothesis& h : all_hypotheses()) {
+    EXPECT_TRUE(h.shows != nullptr || alone.contains(h.name)) << h.name << " is nowhere told from others";
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::check
