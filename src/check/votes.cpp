@@ -51,6 +51,7 @@ void settle_votes(std::vector<Comparison>& rows) {
   for (Comparison* each : by_stage) {
     Comparison& row = *each;
     if (row.outcome != Outcome::different || row.reference.ends_with(kFromRecords)) continue;
+    if (row.measurement.max_ratio <= 1) continue;  // its budget of ambiguity alone: no number that others contradict
     const std::set<std::string> against = outvoted_by(row, rows);
     if (against.empty()) continue;
     to_dispute(row, fmt::format("outvoted: ours is right by {}, and by exact's arithmetic on its own records",

@@ -1,6 +1,8 @@
 // The rule of votes, on rows made up.
 #include "check/votes.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace plumbline::check {
@@ -10,6 +12,7 @@ Comparison row(const std::string& reference, Stage stage, Outcome outcome) {
   Comparison c{"test", reference, stage, outcome, {}, "", ""};
   c.measurement.items = 10;
   c.measurement.differing = outcome == Outcome::different ? 3 : 0;
+  c.measurement.max_ratio = outcome == Outcome::different ? HUGE_VAL : 0;
   return c;
 }
 
@@ -60,6 +63,12 @@ TEST(Votes, OneMoreThatDiffersIsOurs) {
   }
   EXPECT_EQ(settled(rows({row("osmesa", Stage::window, Outcome::different)})).outcome, Outcome::different)
       << "its own earlier stage, which two cannot outvote";
+}
+
+TEST(Votes, ABudgetOfAmbiguityIsNobodysNumber) {
+  std::vector<Comparison> all = rows();
+  all[0].measurement.max_ratio = 1;  // no item is beyond its tolerance: too many are open
+  EXPECT_EQ(settled(all).outcome, Outcome::different);
 }
 
 TEST(Votes, ExactHasOneVoteAndIsNeverOutvoted) {
