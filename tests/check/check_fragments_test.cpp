@@ -165,6 +165,23 @@ TEST_F(Fragments, ShadedInFogAreAsNearAsItsArithmeticAllows) {
   EXPECT_TRUE(fails(run(shaded(), [&](auto& r) { r.shaded[3].color.a += u; }))) << "alpha is copied";
 }
 
+TEST_F(Fragments, CarriedVaryingsAreEqual) {
+  records.varyings[Varying::texture].vertices.assign(3, {0.5, 0.25, 0, 1});
+  const Compare carried = [](const auto& a, const auto& b) { return compare_carried(Varying::texture, a, b); };
+  EXPECT_TRUE(passes(run(carried, kUnchanged)));
+  EXPECT_EQ(run(carried, kUnchanged).items, 3u);
+  for (int c = 0; c < 4; ++c) {
+    const Change ulp = [&](auto& r) {
+      double& v = r.varyings[Varying::texture].vertices[1][c];
+      v = float_above(v);
+    };
+    EXPECT_TRUE(fails(run(carried, ulp))) << c;
+    EXPECT_TRUE(fails(run(carried, kUnchanged, ulp))) << c;
+    EXPECT_EQ(run(carried, ulp).worst.place.record, 1);
+  }
+  EXPECT_TRUE(fails(run(carried, [](auto& r) { r.varyings[Varying::texture].vertices.pop_back(); }), 3));
+}
+
 TEST_F(Fragments, WhatIsNoNumberFails) {
   for (double bad : not_numbers()) {
     const Change z = [&](auto& r) { r.depth[2] = bad; };

@@ -1,4 +1,6 @@
 // Comparators of planes against another renderer's planes, stages 5 to 11.
+#include <fmt/format.h>
+
 #include "check_planes.h"
 
 namespace plumbline::check {
@@ -124,6 +126,32 @@ TEST_F(PlanePairs, LegalAnswersDecideBetweenWinners) {
 TEST_F(PlanePairs, LegalAnswersOfAnotherPixelDecideNothing) {
   allow(1, 3, {3, 5});  // x and y exchanged
   EXPECT_TRUE(fails(run(winners(), [](Planes& p) { p.id(3, 1) = 5; })));
+}
+
+TEST_F(PlanePairs, StencilValuesAreHeldLikeWinners) {
+  capture.planes.stencil = Plane<std::uint8_t>(kWidth, kHeight, 5);
+  EXPECT_TRUE(passes(run(winners(), kUnchanged)));
+  for (const auto& [x, y] : {std::pair(3, 1), std::pair(0, 0)}) {  // a primitive's, and the background's
+    const Change other = [x = x, y = y](Planes& p) { p.stencil(x, y) = 4; };
+    const Measurement m = run(winners(), other);
+    EXPECT_TRUE(fails(m));
+    EXPECT_TRUE(fails(run(winners(), kUnchanged, other)));
+    EXPECT_EQ(to_string(m.worst.place), fmt::format("pixel {},{} stencil", x, y));
+  }
+  EXPECT_FALSE(passes(run(winners(), [](Planes& p) { p.stencil = {}; })));
+  EXPECT_FALSE(passes(run(winners(), kUnchanged, [](Planes& p) { p.stencil = {}; })));
+  const auto counts = [&](std::uint8_t one, std::uint8_t another) {
+    legal = {};
+    allow(3, 1, {3, 3});
+    const std::uint32_t first = legal.first[1 * kWidth + 3];
+    legal.answers[first].stencil = one, legal.answers[first + 1].stencil = another;
+    const Measurement m = run(winners(), [](Planes& p) { p.stencil(3, 1) = 4; });
+    return std::array{m.differing, m.ambiguous, m.disputed};
+  };
+  using Counts = std::array<std::uint64_t, 3>;
+  EXPECT_EQ(counts(4, 5), (Counts{0, 1, 0})) << "both are legal";
+  EXPECT_EQ(counts(4, 6), (Counts{0, 0, 1})) << "ours alone";
+  EXPECT_EQ(counts(5, 6), (Counts{1, 0, 0})) << "theirs alone";
 }
 
 TEST_F(PlanePairs, DepthIsHeldToTheBoundAndOneStep) {

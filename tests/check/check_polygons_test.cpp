@@ -153,6 +153,46 @@ TEST_F(Polygons, ACutAlongANearlyParallelEdgeMaySlideButNotLeaveItsPlane) {
   }
 }
 
+TEST_F(Polygons, ACutAlongANearlyParallelEdgeMayNotSlideOutOfTheView) {
+  // An edge that leaves through the far plane at x = 0.95 and, were it not for that, through the right one: by z it
+  // moves 2e-6 for each unit of x, so that 0.1 of x is within the rounding of the far plane either way.
+  set({{{0.5, 0, 1 - 0.9e-6, 1}, {1.4, 0, 1 + 0.9e-6, 1}, {0.5, -0.5, 0, 1}}});
+  const ClipVertex<double> a{records.vertices[0].p_clip, records.lit[0].color, false};
+  std::uint32_t cut = 0;
+  for (std::uint32_t i : cuts(0)) {
+    if (std::abs(at(records, 0, i).p_clip.x - 0.95) < 1e-3) cut = i;
+  }
+  ASSERT_NEAR(at(records, 0, cut).p_clip.x, 0.95, 1e-3);
+  const auto slid_to = [&](double x) { return compare([&](auto& r) { slide(at(r, 0, cut), a, (0.95 - x) / 0.45); }); };
+  EXPECT_TRUE(passes(slid_to(0.85)));
+  EXPECT_TRUE(passes(slid_to(0.99)));
+  EXPECT_TRUE(fails(slid_to(1.01)));
+  EXPECT_STREQ(slid_to(1.01).worst.place.field, "outside a plane");
+}
+
+// A triangle over the edge of the view volume where right and top meet: the polygon has a corner there.
+TEST_F(Polygons, WhereTwoPlanesMeetInsideATriangleNothingIsOpen) {
+  set({{{0, 0, 0, 1}, {4, 0.5, 0, 1}, {0.25, 4, 0, 1}}});
+  const auto on_both = [](const glm::dvec4& p) { return p.x == p.w && p.y == p.w; };
+  int corners = 0;
+  for (std::uint32_t i = 0; i < records.polygons.polygons[0].count; ++i) {
+    EXPECT_TRUE(fails(compare([&](auto& r) { erase_vertex(r, 0, i); }))) << i;
+    EXPECT_TRUE(fails(compare(kUnchanged, [&](auto& r) { erase_vertex(r, 0, i); }))) << i;
+    if (!on_both(at(records, 0, i).p_clip)) continue;
+    ++corners;
+    for (double by : {-1.0, 1.0}) {
+      EXPECT_TRUE(passes(compare([&](auto& r) { at(r, 0, i).p_clip.z += by * kU; })));
+      EXPECT_TRUE(passes(compare([&](auto& r) { at(r, 0, i).color.g += by * kU; })));
+      for (const Measurement& m : {compare([&](auto& r) { at(r, 0, i).p_clip.z += by * 1e-4; }),
+                                   compare([&](auto& r) { at(r, 0, i).color.g += by * 1e-4; })}) {
+        EXPECT_TRUE(fails(m));
+        EXPECT_STREQ(m.worst.place.field, "off its triangle") << "it is on both planes";
+      }
+    }
+  }
+  EXPECT_EQ(corners, 1);
+}
+
 TEST_F(Polygons, OutsideAnotherPlaneFails) {
   // Cut by two planes; on both of them at one vertex, off the second at the other.
   set({{{0, 0, 0, 1}, {4, 0.5, 0, 1}, {0.25, 4, 0, 1}}});

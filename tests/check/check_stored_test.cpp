@@ -150,6 +150,20 @@ TEST(StoredCaptures, OtherNumbersAndSizesAreTold) {
     EXPECT_EQ(by_name[name], Outcome::different) << name;
   }
   EXPECT_EQ(by_name["planes.color"], Outcome::equal);
+  by_name = outcomes(compare_captures(other, whole, 1e300));  // the fewer first
+  EXPECT_EQ(by_name["window.p_win"], Outcome::different);
+  EXPECT_EQ(by_name["window.front"], Outcome::different);
+}
+
+TEST(StoredCaptures, FramesOfAnotherWidthOrHeightAreTold) {
+  const Capture whole = whole_capture();
+  Capture wider = whole, higher = whole;  // of their planes, as they are handed out, the sizes are compared by plane
+  ++wider.width, ++higher.height;
+  EXPECT_EQ(outcomes(compare_captures(whole, whole, 0)).count("frame"), 0u);
+  for (const Capture& other : {wider, higher}) {
+    EXPECT_EQ(outcomes(compare_captures(whole, other, 0))["frame"], Outcome::different);
+    EXPECT_EQ(outcomes(compare_captures(other, whole, 0))["frame"], Outcome::different);
+  }
 }
 
 StoredImage image_of(std::vector<std::pair<std::string, double>> channels) {

@@ -8,6 +8,7 @@
 
 #include "check/bounds.h"
 #include "check/compare_texels.h"
+#include "check/ledger.h"
 #include "check/texture_bounds.h"
 #include "reference/math/texture.h"
 #include "scene/texture_images.h"
@@ -56,7 +57,7 @@ TEST(CompareTexels, JudgesTheLevelOfDetail) {
   Two two = equal_texels();
   two.mine.texels[0].lod += 4.4 * u;  // 3 u of 1.5
   EXPECT_EQ(compare_texels(two.scene, two.mine, two.theirs, 3).differing, 0u);
-  two.mine.texels[0].lod += 1e-3;
+  two.mine.texels[0].lod += 0.2 * u;
   EXPECT_EQ(compare_texels(two.scene, two.mine, two.theirs, 3).differing, 1u);
   two = equal_texels();
   two.mine.texels[1].lod = -498;  // the logarithm of next to nothing
@@ -260,6 +261,26 @@ TEST_F(TexelPlanes, OpenPixelsAreAsManyAsTheTrianglesPlanesPredict) {
   EXPECT_EQ(m.ambiguous, 144u);
   EXPECT_EQ(m.differing, 0u) << note;
   EXPECT_EQ(of(moved(1.0 / 64)).ambiguous, 0u);
+}
+
+TEST_F(TexelPlanes, BothSidesAreHeldToTheLegalTexels) {
+  const std::array<Vec2<double>, 3> inside = {{{0.53, 0.53}, {0.53, 0.53}, {0.53, 0.53}}};
+  EXPECT_EQ(of(inside).max_difference, 0);
+  // A texel that is read, not interpolated, is granted the ledger's u; a float below 1 rounds by half of one at most.
+  const auto moved = [&](double share) {
+    Capture other = capture;
+    other.planes.texel(3, 4).g += static_cast<float>(share * tolerance("osmesa.texture").factor * u);
+    return other;
+  };
+  const Capture near = moved(0.75), far = moved(1.25);
+  EXPECT_EQ(compare_texel_planes(scene, near, capture, 64, note).differing, 0u);
+  EXPECT_EQ(compare_texel_planes(scene, capture, near, 64, note).differing, 0u);
+  for (const Measurement& m :
+       {compare_texel_planes(scene, far, capture, 64, note), compare_texel_planes(scene, capture, far, 64, note)}) {
+    EXPECT_EQ(m.differing, 1u);
+    EXPECT_EQ(to_string(m.worst.place), "pixel 3,4 record 0 texel");
+  }
+  EXPECT_EQ(compare_texel_planes(scene, far, far, 64, note).differing, 1u) << "alike, and both wrong";
 }
 
 TEST_F(TexelPlanes, ARecordOnABorderThatItsPlaneIsNotOnIsBeyondTheBudget) {

@@ -203,6 +203,29 @@ TEST_F(Window, AVanishedTriangleOfAFanDoesNotExcuseOrBlameTheOthers) {
   }
 }
 
+TEST_F(Window, AnOutlineThatSnappingMayTurnIsOpenAndNoOther) {
+  // A triangle drawn as lines, its base 20 pixels, so many steps high. Twice its area is 5120 steps' times that, its
+  // perimeter a little over 10240: it may turn up to 2 * 10240 + 4, a height of four.
+  for (const auto& [steps, may_turn] : {std::pair(1, true), std::pair(4, true), std::pair(5, false)}) {
+    const glm::dvec3 p(30, 40, 0.5), q(50, 40, 0.5), r(40, 40 + steps / 256.0, 0.5);
+    std::vector<WindowTriangle<double>> edges = {triangle_of({p, q, q}, {1, 1, 1}, 4),
+                                                 triangle_of({q, r, r}, {1, 1, 1}, 4),
+                                                 triangle_of({r, p, p}, {1, 1, 1}, 4)};
+    for (auto& edge : edges) edge.corners = 2;
+    const Change outlined = [&](auto& to) { to.triangles.insert(to.triangles.end(), edges.begin(), edges.end()); };
+    const Change bad = [&](auto& to) {
+      outlined(to);
+      to.triangles[5].v[1].inv_w = 2;
+    };
+    EXPECT_TRUE(passes(compare(outlined, outlined)));
+    for (const Measurement& m :
+         {compare(bad, outlined), compare(kUnchanged, outlined), compare(outlined, kUnchanged)}) {
+      EXPECT_EQ(passes(m), may_turn) << steps;
+      EXPECT_EQ(m.ambiguous, may_turn ? 1u : 0u) << steps;
+    }
+  }
+}
+
 TEST_F(Window, WithoutMatricesFailsAndDoesNotCrash) {
   EXPECT_FALSE(passes(compare([](auto& r) { r.matrices.clear(); })));
 }
