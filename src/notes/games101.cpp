@@ -117,7 +117,7 @@ Note games101() {
            .mistake = "of a point on an edge nothing is said: drawn by both neighbours, or by neither",
            .mistake_shown_by = {test("unit/notes_triangles",
                                      "NotesTriangles.WithHorizontalEdgesInAllSharedOnesAreDrawnTwice"),
-                                fault("faults", "coverage.inclusive_edges")}},
+                                fault("raster", "coverage.inclusive_edges")}},
           {.section = "Checking All Pixels on the Screen: Use a Bounding Box",
            .teaches = "only pixels of the box that is aligned with the axes are tried",
            .where = {function("raster/triangle_cross_products.cpp", "cover_by_cross_products"),

@@ -97,7 +97,7 @@ Note gzrender() {
            .where = {function("pipeline/window.cpp", "to_window")},
            .shown_by = {test("cross/formulas_table", "FormulasTable.Projection"), scene("notes/gzrender_meeting")},
            .mistake = "nothing is said of w <= 0: triangles that reach behind the eye must be cut first",
-           .mistake_shown_by = {fault("faults", "clip.no_near_plane"),
+           .mistake_shown_by = {fault("polygons", "clip.no_near_plane"),
                                 test("unit/pipeline_clip", "PipelineClip.AcrossTheEyePlaneTheNearPlaneCuts"),
                                 scene("notes/gzrender_cut")}},
           {.section = "Perspective Space -> Screen Space",

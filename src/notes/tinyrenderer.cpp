@@ -46,7 +46,7 @@ Note tinyrenderer() {
                      function("pipeline/vertex.cpp", "transform")},
            .shown_by = {test("property/transforms", "Transforms.NormalsStayAtRightAnglesToTheirPlane"),
                         test("cross/transforms_table", "TransformsTable.WindowAndNormals"), scene("light/squeezed"),
-                        fault("faults", "vertex.normals_by_model_view")}},
+                        fault("vertices", "vertex.normals_by_model_view")}},
           {.section = "Rendering Pipeline",
            .teaches = "a vertex and a fragment shader, as in OpenGL 2, and fixed stages about them",
            .where = {function("pipeline/program.h", "draw_program"), function("pipeline/program.h", "Program"),

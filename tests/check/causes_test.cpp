@@ -94,7 +94,6 @@ constexpr Proof kProofs[] = {
     {"vertex.not_renormalised", "alpha_test/leaves", "vertex.not_renormalised"},
     {"visibility.alpha_at_reference", "alpha_test/bands", "visibility.alpha_at_reference"},
     {"visibility.no_alpha_test", "alpha_test/bands", "visibility.alpha_test_ignored"},
-    {"merge.depth_mask_ignored", "antialias/samples_blend", "visibility.depth_mask_ignored"},
     {"visibility.greater_for_less", "alpha_test/bands", "visibility.depth_reversed"},
     {"visibility.less_equal", "camera/scales_apart", "visibility.less_equal"},
     {"visibility.stencil_ops_swapped", "stencil/everything", "visibility.stencil_ops_swapped"},

@@ -157,8 +157,8 @@ TEST(NotesMap, AWrongNameIsSeen) {
   EXPECT_EQ(wrong(notes::scene("notes/gl_solids")), "");
   EXPECT_NE(wrong(notes::scene("notes/gl_solid")), "");
   EXPECT_NE(wrong(notes::scene("notes/solids.part")), "") << "a part of scenes";
-  EXPECT_EQ(wrong(notes::fault("faults", "attributes.affine")), "");
-  EXPECT_NE(wrong(notes::fault("faults", "attributes.affin")), "");
+  EXPECT_EQ(wrong(notes::fault("raster", "attributes.affine")), "");
+  EXPECT_NE(wrong(notes::fault("raster", "attributes.affin")), "");
 }
 
 TEST(NotesMap, ARowWithNothingInItIsSeen) {
