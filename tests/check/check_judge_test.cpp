@@ -222,6 +222,7 @@ TEST_F(Judge, EveryStageOfTheCandidateIsHeldToItsOwnRecords) {
     candidate.on_capture = fault;
     const Results results = run({{"exact", &referee}});
     EXPECT_EQ(results.at({"exact from its records", stage}).outcome, Outcome::different) << name_of(stage);
+    ASSERT_NE(first_different(verdict), nullptr) << name_of(stage);
     EXPECT_EQ(first_different(verdict)->stage, stage);
   }
 }
