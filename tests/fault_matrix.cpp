@@ -29,8 +29,7 @@ struct Extent {
   bool until_seen = false;                 // of a fault's scenes one after the other, until it is seen
 };
 constexpr Extent kUsual{};
-constexpr Extent kAll{
-    .models = true, .scenes = ~std::size_t{0}, .pairs = 400, .of_pair = 10, .of_legal = ~std::size_t{0}};
+constexpr Extent kAll{.models = true, .scenes = ~std::size_t{0}, .pairs = 400, .of_pair = 10, .of_legal = 100};
 constexpr Extent kQuick{.affected = 24, .pairs = 0, .of_legal = 0, .until_seen = true};
 
 std::vector<Scene> load(const std::filesystem::path& folder, bool models) {
