@@ -97,6 +97,7 @@ double level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy)
 glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda) {
   const Sampler& s = texture.sampler;
   const int base = s.base_level, q = last_level(texture);
+  if (std::isnan(lambda)) return glm::dvec4(lambda);  // another renderer's records may hold anything
   if (lambda <= magnified_up_to(s)) return in_level(texture, base, s.mag == MagFilter::linear, st);
   switch (s.min) {
     case MinFilter::nearest: return in_level(texture, base, false, st);
@@ -133,7 +134,7 @@ bool filters_linearly(const Sampler& s, double lambda) {
 /// The levels that are filtered at lambda.
 std::pair<int, int> levels_at(const Texture& texture, double lambda) {
   const int base = texture.sampler.base_level, q = last_level(texture);
-  if (lambda <= magnified_up_to(texture.sampler) || !mipmaps(texture.sampler.min)) return {base, base};
+  if (!(lambda > magnified_up_to(texture.sampler)) || !mipmaps(texture.sampler.min)) return {base, base};
   const double at = std::min(base + std::max(lambda, 0.0), static_cast<double>(q));
   return {static_cast<int>(std::floor(at)), static_cast<int>(std::ceil(at))};
 }

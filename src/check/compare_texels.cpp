@@ -96,7 +96,8 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
     }
   });
   if (open == 0) return m;
-  const double predicted = std::max(area, centres), most = 2 * predicted + 3 * std::sqrt(2 * predicted + 1);
+  // A level of detail is that of four pixels: they are open together, and such counts scatter twice as far.
+  const double predicted = std::max(area, centres), most = 2 * predicted + 6 * std::sqrt(2 * predicted + 1);
   note = fmt::format("{} open, {:.1f} predicted", open, predicted);
   if (static_cast<double>(open) > most) {
     note += ": more than twice as many";

@@ -184,7 +184,12 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   out.color = shade_error(scene_, draw, fours, errors, tolerance("osmesa.shade").factor);
   if (draw.texture) out.reason = switched_early(scene_.textures.at(draw.texture->texture), records_.texels.at(i).lod);
   const bool summed = is_lit_per_vertex(draw) && scene_.light_model.separate_specular;
-  const Vec3<double> sum(fours.color + fours[Varying::secondary]);
+  Vec4<double> primary = fours.color;
+  if (draw.texture) {
+    const TextureFormat format = scene_.textures.at(draw.texture->texture).format;
+    primary = environ_error(format, *draw.texture, primary, errors.color, fours.texel, errors.texel, 1).color;
+  }
+  const Vec3<double> sum(primary + fours[Varying::secondary]);
   const bool clamped = summed && std::max({sum.x, sum.y, sum.z}) > 1;
   if (draw.fog && clamped) out.reason = kClampedLate;
   if (draw.fog && reaches_behind_eye(number, triangle.primitive)) out.reason = kBehindEye;

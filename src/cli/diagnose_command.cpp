@@ -41,7 +41,7 @@ std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scen
 }
 
 // The page's pictures are of one sample a pixel: of an antialiased scene, of its first pass.
-void write_page(const DiagnoseOptions& o, const Scene& scene, Renderer& candidate, const References& references,
+void write_page(report::PageFolder& folder, const Scene& scene, Renderer& candidate, const References& references,
                 const check::Diagnosis& diagnosis) {
   const Scene pass = passes_of(scene).front();
   const auto all_that_fits = [](auto capture_of) {
@@ -60,7 +60,7 @@ void write_page(const DiagnoseOptions& o, const Scene& scene, Renderer& candidat
     if (r.renderer != nullptr && r.renderer->info()[Stage::vertex].runs)
       expected = all_that_fits([&] { return check::expected_capture(pass, *r.renderer); });
   }
-  report::write_diagnosis_page(o.report, pass, diagnosis, mine, expected);
+  report::write_diagnosis_page(folder, pass, diagnosis, mine, expected);
 }
 
 }  // namespace
@@ -72,8 +72,13 @@ int diagnose(const DiagnoseOptions& o) {
   std::optional<glm::ivec2> pixel;
   if (!o.pixel.empty()) pixel = parse_pixel("--pixel", o.pixel, scene.frame);
   const Output outputs[] = {{"--json", o.json}};
-  const std::filesystem::path inputs[] = {o.scene};
+  std::vector<std::filesystem::path> inputs = {o.scene};
+  if (!o.folder.empty() && std::filesystem::is_directory(o.folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(o.folder)) inputs.push_back(entry.path());
+  }
   require_outputs(outputs, {"--report", o.report}, inputs);
+  std::optional<report::PageFolder> page;
+  if (!o.report.empty()) page.emplace(o.report);
   const bool outside = !o.folder.empty() || !o.command.empty();
   std::unique_ptr<Renderer> candidate;
   try {
@@ -92,7 +97,7 @@ int diagnose(const DiagnoseOptions& o) {
     history = report::history_json(scene, told);
   }
   if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
-  if (!o.report.empty()) write_page(o, scene, *candidate, references, diagnosis);
+  if (page) write_page(*page, scene, *candidate, references, diagnosis);
   const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
                                           [](const check::Comparison& c) { return is_failure(c.outcome); });
   return holds ? kHolds : kDiffers;

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "report/diagnosis_text.h"
-#include "report/page.h"
 #include "report/stage_pictures.h"
 
 namespace plumbline::report {
@@ -34,8 +33,7 @@ int shown_width(const Scene& scene) {
 
 class Page {
  public:
-  Page(const std::filesystem::path& folder, const Scene& scene)
-      : folder_(folder), scene_(scene), width_(shown_width(scene)) {}
+  Page(PageFolder& folder, const Scene& scene) : folder_(folder), scene_(scene), width_(shown_width(scene)) {}
 
   std::string body;
 
@@ -85,14 +83,14 @@ class Page {
                         image(name, caption), caption);
   }
 
-  PageFolder folder_;
+  PageFolder& folder_;
   const Scene& scene_;
   int width_;
 };
 
 }  // namespace
 
-void write_diagnosis_page(const std::filesystem::path& folder, const Scene& scene, const check::Diagnosis& diagnosis,
+void write_diagnosis_page(PageFolder& folder, const Scene& scene, const check::Diagnosis& diagnosis,
                           const Capture& mine, const Capture& expected) {
   Page page(folder, scene);
   page.body = fmt::format("<h1>{}</h1>\n<p>{}</p>\n<pre>{}</pre>\n", escaped(scene.name), escaped(scene.description),
@@ -102,8 +100,8 @@ void write_diagnosis_page(const std::filesystem::path& folder, const Scene& scen
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const bool has_drawing = stage == Stage::window && !drawing.empty();
-    if (!has_drawing && std::ranges::count(pictures, stage, &StagePicture::stage) == 0) continue;
     const bool wrong = std::ranges::count(diagnosis.wrong, stage) > 0;
+    if (!wrong && !has_drawing && std::ranges::count(pictures, stage, &StagePicture::stage) == 0) continue;
     page.body += fmt::format("<h2{}>{}</h2>\n", wrong ? " class=wrong" : "", name_of(stage));
     if (has_drawing) page.add_drawing(drawing);
     for (const StagePicture& picture : pictures) {

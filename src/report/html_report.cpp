@@ -60,7 +60,9 @@ void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::
   const auto picture = [&](const Plane<glm::vec4>& plane, const std::string& name, const std::string& caption) {
     if (plane.empty()) return;
     const std::string file = fmt::format("{}/{}.png", scene_folder, file_name(name));
-    page_.write_picture(file, rows_from_top(scene.dialect) ? upside_down(plane) : plane);
+    Plane<glm::vec4> opaque = rows_from_top(scene.dialect) ? upside_down(plane) : plane;
+    for (glm::vec4& color : opaque.values()) color.a = 1;  // what is behind the page is none of the frame's
+    page_.write_picture(file, opaque);
     body_ += fmt::format(
         "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" loading=lazy></a>"
         "<figcaption>{1}</figcaption></figure>\n",

@@ -236,7 +236,7 @@ class Reader {
     read_bytes(array, bytes.data(), bytes.size());
     if constexpr (std::is_same_v<T, bool>) {
       const auto odd = std::find_if(bytes.begin(), bytes.end(), [](char b) { return b != 0 && b != 1; });
-      if (odd != bytes.end()) fail(array, fmt::format("expected 0 or 1, found {}", static_cast<int>(*odd)));
+      if (odd != bytes.end()) fail(array, fmt::format("expected 0 or 1, found {}", static_cast<unsigned char>(*odd)));
     }
     const char* from = bytes.data();
     for (Record& record : records) {

@@ -105,7 +105,8 @@ TEST(DiagnosisPage, HoldsThePicturesThatItNames) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "plumbline_diagnosis_page";
   std::filesystem::remove_all(folder);
   const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references);
-  write_diagnosis_page(folder, scene, diagnosis, drawn(scene), check::expected_capture(scene, *exact));
+  PageFolder page_folder(folder);
+  write_diagnosis_page(page_folder, scene, diagnosis, drawn(scene), check::expected_capture(scene, *exact));
   std::ostringstream text;
   text << std::ifstream(folder / "index.html").rdbuf();
   const std::string page = text.str();
