@@ -32,6 +32,8 @@ constexpr Extent kUsual{};
 constexpr Extent kAll{.models = true, .scenes = ~std::size_t{0}, .pairs = 400, .of_pair = 10, .of_legal = 100};
 constexpr Extent kQuick{.affected = 24, .pairs = 0, .of_legal = 0, .until_seen = true};
 
+bool is_model(const Scene& scene) { return scene.name.starts_with("models/"); }
+
 std::vector<Scene> load(const std::filesystem::path& folder, bool models) {
   std::vector<Scene> out;
   for (const auto& file : find_scenes({&folder, 1})) {
@@ -132,6 +134,7 @@ std::vector<Row> of_legal(const std::vector<Scene>& scenes, const Extent& extent
     std::vector<Scene> said;
     SceneList where;
     for (const std::size_t s : all) {
+      if (is_model(scenes[s])) continue;  // said at greater length, they do not fit the budget of memory
       std::optional<Scene> otherwise = variant.scene == nullptr ? scenes[s] : variant.scene(scenes[s]);
       if (!otherwise) continue;
       said.push_back(std::move(*otherwise));
