@@ -102,6 +102,8 @@ void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<
       try {
         hand_on(stage, candidate.run_stage(scene, stage, in), in);
         graft(c, referee, stage, name);
+      } catch (const OverBudget&) {
+        return;
       } catch (const std::exception& e) {
         c.skip(name, stage, Outcome::failed, e.what());
       }

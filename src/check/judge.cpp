@@ -164,6 +164,8 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
     }
     try {
       graft(c, referee, stage, name);
+    } catch (const OverBudget& e) {
+      c.skip(name, stage, Outcome::unsupported, e.what());
     } catch (const std::exception& e) {
       c.skip(name, stage, Outcome::failed, e.what());
     }

@@ -59,6 +59,18 @@ TEST_F(Judge, MoreAmbiguityThanPredictedIsDifferent) {
   EXPECT_NE(none.note.find("384 ambiguous, 0.0 predicted"), std::string::npos) << none.note;
 }
 
+TEST_F(Judge, ARefereeBeyondItsBudgetIsNoFailure) {
+  referee.before_run = [](Stage stage) {
+    if (stage == Stage::coverage) throw OverBudget("too many fragments");
+    if (stage == Stage::depth) throw std::runtime_error("too many fragments");
+  };
+  const Results results = run();
+  const Comparison& c = results.at({"exact from its records", Stage::coverage});
+  EXPECT_EQ(c.outcome, Outcome::unsupported);
+  EXPECT_EQ(c.note, "too many fragments");
+  EXPECT_EQ(results.at({"exact from its records", Stage::depth}).outcome, Outcome::failed);
+}
+
 TEST_F(Judge, ARefereeThatThrowsOverADisputeDoesNotFailTheWitness) {
   referee.before_run = [](Stage stage) {
     if (stage == Stage::coverage) throw std::runtime_error("out of range");
