@@ -104,7 +104,20 @@ constexpr std::array kHypotheses = {
             });
           }),
     given(S::texture, "texture.repeat_for_clamp", "textures are repeated, not drawn out from their edges",
-          [](Scene& s, Capture&) { each_sampler(s, [](Sampler& t) { t.wrap_s = t.wrap_t = Wrap::repeat; }); }),
+          [](Scene& s, Capture&) {
+            each_sampler(s, [](Sampler& t) {
+              if (t.wrap_s == Wrap::clamp_to_edge) t.wrap_s = Wrap::repeat;
+              if (t.wrap_t == Wrap::clamp_to_edge) t.wrap_t = Wrap::repeat;
+            });
+          }),
+    given(S::texture, "texture.edge_for_border",
+          "textures are drawn out from their edges, where the border's colour is",
+          [](Scene& s, Capture&) {
+            each_sampler(s, [](Sampler& t) {
+              if (t.wrap_s == Wrap::clamp_to_border) t.wrap_s = Wrap::clamp_to_edge;
+              if (t.wrap_t == Wrap::clamp_to_border) t.wrap_t = Wrap::clamp_to_edge;
+            });
+          }),
     given(S::texture, "texture.repeat_for_mirror", "textures are repeated, but not mirrored",
           [](Scene& s, Capture&) {
             each_sampler(s, [](Sampler& t) {

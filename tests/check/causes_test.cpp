@@ -132,6 +132,7 @@ TEST(Causes, EachThatCanBeMadeIsTold) {
   for (const char* name : {"camera/transform_chain",
                            "cull/both_windings",
                            "texture/wall_clamp_to_edge",
+                           "texture/wall_clamp_to_border",
                            "texture/wall_mirrored_repeat",
                            "texture/wall_mirrored_nearest",
                            "texture/floor_bias_up",
