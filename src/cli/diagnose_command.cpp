@@ -42,7 +42,7 @@ std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scen
 
 // The page's pictures are of one sample a pixel: of an antialiased scene, of its first pass.
 void write_page(report::PageFolder& folder, const Scene& scene, Renderer& candidate, const References& references,
-                const check::Diagnosis& diagnosis) {
+                const check::Diagnosis& diagnosis, const std::string& history) {
   const Scene pass = passes_of(scene).front();
   const auto all_that_fits = [](auto capture_of) {
     try {
@@ -60,7 +60,7 @@ void write_page(report::PageFolder& folder, const Scene& scene, Renderer& candid
     if (r.renderer != nullptr && r.renderer->info()[Stage::vertex].runs)
       expected = all_that_fits([&] { return check::expected_capture(pass, *r.renderer); });
   }
-  report::write_diagnosis_page(folder, pass, diagnosis, mine, expected);
+  report::write_diagnosis_page(folder, pass, diagnosis, mine, expected, history);
 }
 
 }  // namespace
@@ -90,14 +90,15 @@ int diagnose(const DiagnoseOptions& o) {
   const References references = make_references(without_repeats(o.against), o.scene_arguments.assets);
   const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list);
   fmt::print("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
-  std::string history;
+  std::string history, history_text;
   if (pixel) {
     const check::History told = check::pixel_history(scene, *candidate, references.list, *pixel);
-    fmt::print("\n{}", report::history_text(scene, told));
+    history_text = report::history_text(scene, told);
+    fmt::print("\n{}", history_text);
     history = report::history_json(scene, told);
   }
   if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
-  if (page) write_page(*page, scene, *candidate, references, diagnosis);
+  if (page) write_page(*page, scene, *candidate, references, diagnosis, history_text);
   const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
                                           [](const check::Comparison& c) { return is_failure(c.outcome); });
   return holds ? kHolds : kDiffers;

@@ -91,10 +91,11 @@ class Page {
 }  // namespace
 
 void write_diagnosis_page(PageFolder& folder, const Scene& scene, const check::Diagnosis& diagnosis,
-                          const Capture& mine, const Capture& expected) {
+                          const Capture& mine, const Capture& expected, std::string_view more) {
   Page page(folder, scene);
   page.body = fmt::format("<h1>{}</h1>\n<p>{}</p>\n<pre>{}</pre>\n", escaped(scene.name), escaped(scene.description),
                           escaped(diagnosis_text(diagnosis)));
+  if (!more.empty()) page.body += fmt::format("<pre>{}</pre>\n", escaped(more));
   const std::vector<StagePicture> pictures = stage_pictures(scene, mine, expected);
   const std::string drawing = positions_drawing(scene, mine, expected);
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {

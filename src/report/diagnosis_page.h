@@ -1,6 +1,8 @@
 // A diagnosis as a page for people: the stage table, the findings, and a picture of every stage.
 #pragma once
 
+#include <string_view>
+
 #include "check/diagnose.h"
 #include "report/page.h"
 #include "scene/scene.h"
@@ -12,6 +14,6 @@ namespace plumbline::report {
 /// records and planes as they should have been. Where a picture is there of both sides, a slider lays one over the
 /// other. Throws OutputError.
 void write_diagnosis_page(PageFolder& folder, const Scene& scene, const check::Diagnosis& diagnosis,
-                          const Capture& mine, const Capture& expected);
+                          const Capture& mine, const Capture& expected, std::string_view more = "");
 
 }  // namespace plumbline::report

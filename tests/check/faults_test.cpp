@@ -3,33 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
+
+#include <fmt/format.h>
 
 #include "check/judge.h"
 #include "faults/faults.h"
+#include "faults/legal.h"
 #include "matrix/matrix.h"
 #include "matrix/report.h"
 #include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
-#include "scene/scene_file.h"
+#include "suite_scenes.h"
 
 namespace plumbline {
 
 namespace {
-
-// All but the big models.
-const std::vector<Scene>& scenes() {
-  static const std::vector<Scene> kScenes = [] {
-    const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-    std::vector<Scene> out;
-    for (const auto& file : find_scenes(folder)) {
-      if (file.parent_path().stem() != "models") out.push_back(load_scene(file, {}));
-    }
-    return out;
-  }();
-  return kScenes;
-}
 
 TEST(Faults, there_are_five_in_each_stage_and_twenty_that_others_report) {
   std::map<Stage, int> count;
@@ -47,11 +39,23 @@ TEST(Faults, there_are_five_in_each_stage_and_twenty_that_others_report) {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) EXPECT_GE(count[static_cast<Stage>(i)], 5) << kStageNames[i];
 }
 
+TEST(Faults, are_as_many_as_the_readme_says) {
+  std::ostringstream text;
+  text << std::ifstream(PLUMBLINE_SOURCE_DIR "/README.md").rdbuf();
+  const auto reported = std::ranges::count_if(faults::of_stages(), [](const auto& f) { return !f.report.empty(); });
+  const std::size_t all = faults::all().size(), of_stages = faults::of_stages().size();
+  for (const std::string& part : {fmt::format("{} bugs ({} of them from public bug reports", of_stages, reported),
+                                  fmt::format("the notes' {} mistakes", all - of_stages),
+                                  fmt::format("{} legal variants", faults::legal_variants().size())}) {
+    EXPECT_NE(text.str().find(part), std::string::npos) << part;
+  }
+}
+
 TEST(Faults, production_is_not_caught) {
   const auto candidate = pipeline::make_pipeline();
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"exact", exact.get()}};
-  for (const Scene& scene : scenes()) {
+  for (const Scene& scene : suite_scenes()) {
     EXPECT_EQ(check::first_different(check::judge(scene, *candidate, references)), nullptr) << scene.name;
   }
 }

@@ -5,8 +5,8 @@
 #include "faults/legal.h"
 #include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
-#include "scene/scene_file.h"
 #include "stages/capture_folder.h"
+#include "suite_scenes.h"
 
 namespace plumbline {
 
@@ -15,19 +15,6 @@ void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; 
 }  // namespace faults
 
 namespace {
-
-// All but the big models.
-const std::vector<Scene>& scenes() {
-  static const std::vector<Scene> kScenes = [] {
-    const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-    std::vector<Scene> out;
-    for (const auto& file : find_scenes(folder)) {
-      if (file.parent_path().stem() != "models") out.push_back(load_scene(file, {}));
-    }
-    return out;
-  }();
-  return kScenes;
-}
 
 bool same_picture(const pipeline::Frame& a, const pipeline::Frame& b) {
   const auto same = [&](auto plane) { return (a.*plane).values() == (b.*plane).values(); };
@@ -49,7 +36,7 @@ TEST_P(LegalVariants, raises_nothing) {
   const check::Reference references[] = {{"exact", exact.get()}};
   std::size_t next = 7 * variant.name.size();
   int judged = 0;
-  for (const Scene& scene : scenes()) {
+  for (const Scene& scene : suite_scenes()) {
     const std::optional<Scene> said = variant.scene != nullptr ? variant.scene(scene) : scene;
     if (!said || ++next % 40 != 0) continue;
     ++judged;

@@ -72,5 +72,37 @@ TEST_F(Cli, diagnose_runs_a_program) {
   EXPECT_TRUE(failed.says("exited with status 3") && failed.says("no use")) << failed.text;
 }
 
+TEST_F(Cli, diagnose_of_a_picture_names_the_bugs_that_draw_it) {
+  ASSERT_EQ(plumb("render " + kScene + " -o " + at("right.png")).code, 0);
+  const Outcome right = plumb("diagnose " + kScene + " --picture " + at("right.png"));
+  EXPECT_EQ(right.code, 0) << right.text;
+  EXPECT_TRUE(right.says(": 0 of ")) << right.text;
+  ASSERT_EQ(plumb("render " + kScene + " -o " + at("wrong.png") + " --fault window.half_pixel_off").code, 0);
+  const Outcome wrong = plumb("diagnose " + kScene + " --picture " + at("wrong.png"));
+  EXPECT_EQ(wrong.code, 1) << wrong.text;
+  EXPECT_TRUE(wrong.says("       0 window.half_pixel_off ")) << wrong.text;
+}
+
+TEST_F(Cli, diagnose_of_a_picture_refuses_what_is_no_picture_of_the_scene) {
+  ASSERT_EQ(plumb("render " + kScenes + "texture/globe.json -o " + at("other.png")).code, 0);
+  const Outcome other = plumb("diagnose " + kScene + " --picture " + at("other.png"));
+  EXPECT_EQ(other.code, 2) << other.text;
+  EXPECT_TRUE(other.says("expected a picture of the scene's 128 x 128 pixels, found one of 112 x 96")) << other.text;
+  write(at("no.png"), "no picture");
+  EXPECT_EQ(plumb("diagnose " + kScene + " --picture " + at("no.png")).code, 2);
+  EXPECT_EQ(plumb("diagnose " + kScene + " --picture " + at("other.png") + " --fault depth.truncated").code, 2);
+}
+
+TEST_F(Cli, diagnose_writes_a_page_with_the_pixels_history_or_nothing) {
+  const Outcome run = plumb("diagnose " + kScene + " --against exact --pixel 32,32 --report " + at("page"));
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_NE(read(at("page/index.html")).find("pixel 32,32 of"), std::string::npos);
+  fs::create_directories(at("full"));
+  write(at("full/other"), "");
+  const Outcome full = plumb("diagnose " + kScene + " --against exact --report " + at("full"));
+  EXPECT_EQ(full.code, 2);
+  EXPECT_FALSE(full.says("wrong by itself")) << "before the work";
+}
+
 }  // namespace
 }  // namespace plumbline
