@@ -101,8 +101,15 @@ std::string describe(const GoldenDifference& d) {
   return out;
 }
 
-std::vector<Comparison> golden_rows(const Scene& scene, const GoldenDifference& d) {
-  if (!d.why.empty()) return {not_judged(scene.name, "golden", Stage::merge, Outcome::failed, d.why)};
+std::vector<Comparison> golden_rows(const Scene& scene, Renderer& candidate, const GoldenSet& goldens) {
+  const std::string name(kGolden);
+  GoldenDifference d;
+  try {
+    d = compare_golden(scene, candidate, goldens);
+  } catch (const std::exception& error) {
+    d.why = error.what();
+  }
+  if (!d.why.empty()) return {not_judged(scene.name, name, Stage::merge, Outcome::failed, d.why)};
   const Stage last = d.drawn.stages.back() ? Stage::resolve : Stage::merge;
   std::vector<Comparison> out;
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
@@ -120,7 +127,7 @@ std::vector<Comparison> golden_rows(const Scene& scene, const GoldenDifference& 
       m.differing = 1;
       m.max_difference = m.max_ratio = HUGE_VAL;
     }
-    out.push_back(judged(scene.name, "golden", stage, std::move(m), "", differs ? hashes_at(d, stage) : ""));
+    out.push_back(judged(scene.name, name, stage, std::move(m), "", differs ? hashes_at(d, stage) : ""));
   }
   return out;
 }

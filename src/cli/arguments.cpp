@@ -55,6 +55,7 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--json", o.json, "Write one object per comparison");
   text(command, "--report", o.report, "Write a page with pictures into this folder");
   text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
+  text(command, "--golden", o.golden, "Compare with the goldens in this folder as well, stage by stage");
   text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
   add_assets(command, o.scene_arguments);

@@ -18,7 +18,8 @@ struct CheckOptions {
   std::vector<std::string> scenes;  ///< files, and folders of them
   std::vector<std::string> against = reference_names();
   std::string json, report, ledger;
-  std::string fault;  ///< a bug to put into our renderer, or empty
+  std::string golden;  ///< the folder of goldens, whose rows stand beside the references'; or empty
+  std::string fault;   ///< a bug to put into our renderer, or empty
   bool allow_missing = false;
   SceneArguments scene_arguments;
   std::string program = "plumb";  ///< as it was called, for the command that repeats a failure
