@@ -59,6 +59,13 @@ OIIO::ImageSpec spec_of(int width, int height, int channels, OIIO::TypeDesc type
   return spec;
 }
 
+/// Of an EXR file: without a date OpenImageIO writes today's, and no two files were the same.
+OIIO::ImageSpec exr_spec_of(int width, int height, int channels) {
+  OIIO::ImageSpec spec = spec_of(width, height, channels, OIIO::TypeDesc::FLOAT);
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
+  return spec;
+}
+
 /// The file's bytes; its ending says the format.
 Bytes encode(const fs::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
   const std::string name = file.string();
@@ -178,7 +185,7 @@ Bytes encode_exr(const fs::path& file, const Plane<glm::vec4>& plane) {
   std::vector<glm::vec4> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](const glm::vec4& p) { pixels.push_back(p); });
-  return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::FLOAT), pixels.data());
+  return encode(file, exr_spec_of(plane.width(), plane.height(), 4), pixels.data());
 }
 
 Bytes encode_depth_exr(const fs::path& file, const Plane<double>& plane) {
@@ -187,7 +194,7 @@ Bytes encode_depth_exr(const fs::path& file, const Plane<double>& plane) {
   std::vector<float> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](double z) { pixels.push_back(static_cast<float>(z)); });
-  OIIO::ImageSpec spec = spec_of(plane.width(), plane.height(), 1, OIIO::TypeDesc::FLOAT);
+  OIIO::ImageSpec spec = exr_spec_of(plane.width(), plane.height(), 1);
   spec.channelnames = {"Z"};
   spec.z_channel = 0;
   return encode(file, spec, pixels.data());

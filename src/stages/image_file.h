@@ -35,7 +35,7 @@ Bytes encode_tga(const std::filesystem::path& file, const Plane<glm::vec4>& plan
 /// .ppm: binary, the codes themselves of red, green and blue, of at most 255, 4095 or 65535. No alpha.
 Bytes encode_ppm(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                  ColorFormat format = ColorFormat::rgba8);
-/// .exr: 32-bit float RGBA, bit for bit, lossless compression.
+/// .exr: 32-bit float RGBA, bit for bit, lossless compression; the same bytes whenever it is written.
 Bytes encode_exr(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
 /// .exr, one channel "Z": window z rounded to 32-bit float.
 Bytes encode_depth_exr(const std::filesystem::path& file, const Plane<double>& plane);
