@@ -74,9 +74,10 @@ void add(CLI::App& command, DiagnoseOptions& o) {
       ->capture_default_str();
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
-  text(command, "--program", o.command,
-       "Diagnose what this command line leaves; {scene} and {folder} in it are the scene's file and the capture's "
-       "folder")
+  text(
+      command, "--program", o.command,
+      "Diagnose what this command line leaves within a minute; {scene} and {folder} in it are the scene's file and the "
+      "capture's folder")
       ->excludes(fault)
       ->excludes(folder);
   folder->excludes(fault);

@@ -143,6 +143,19 @@ TEST_F(Diagnose, WhatDoesNotFitTheBudgetIsLookedAtAboutTheWorstPixels) {
   EXPECT_TRUE(d.findings[0].causes[0].starts_with("error grows with the spread of 1/w"));
 }
 
+TEST_F(Diagnose, AVaryingIsToldByItsName) {
+  scene = suite_scene("texture/globe");
+  Changed candidate(pipeline::make_pipeline());
+  candidate.on_capture = [](Capture& c) {
+    if (!c.records.varyings[Varying::texture].fragments.empty())
+      c.records.varyings[Varying::texture].fragments[0].s += 1;
+  };
+  const Diagnosis d = of(candidate);
+  ASSERT_FALSE(d.findings.empty());
+  EXPECT_EQ(d.findings[0].stage, Stage::attributes);
+  EXPECT_STREQ(d.findings[0].measurement.worst.place.field, "texture");
+}
+
 TEST_F(Diagnose, OfTooManyFragmentsNoTriangleIsDrawnAsMissing) {
   const auto candidate = with({"coverage.at_corner"});
   const Reference references[] = {{"exact", exact.get()}};
