@@ -54,6 +54,22 @@ std::string HtmlReport::free_folder(const std::string& scene) {
   return free;
 }
 
+namespace {
+
+// What a judge of records has drawn nothing for, it draws for the reader; empty where it cannot.
+Plane<glm::vec4> picture_of(const Scene& scene, const check::Reference& reference, const Capture& drawn) {
+  if (!drawn.planes.color.empty() || reference.renderer == nullptr) return drawn.planes.color;
+  try {
+    Request request;
+    request.planes = WantedPlanes::picture;
+    return reference.renderer->capture(scene, request).planes.color;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+}  // namespace
+
 void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
                      const check::Drawn& drawn, const Scene& scene) {
   const std::string scene_folder = free_folder(verdict.scene);
@@ -73,7 +89,7 @@ void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::
   const Plane<glm::vec4>& ours = drawn.candidate.planes.color;
   picture(ours, "ours", "ours");
   for (std::size_t i = 0; i < references.size() && i < drawn.references.size(); ++i) {
-    const Plane<glm::vec4>& theirs = drawn.references[i].planes.color;
+    const Plane<glm::vec4> theirs = picture_of(scene, references[i], drawn.references[i]);
     picture(theirs, references[i].name, references[i].name);
     if (ours.size() != theirs.size() || ours.width() != theirs.width()) continue;
     picture(difference_picture(ours, theirs), references[i].name + "-difference",
