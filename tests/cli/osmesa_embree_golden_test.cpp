@@ -262,7 +262,7 @@ TEST_F(GoldenCommand, check_beside_the_references_has_a_row_for_each_stage) {
 // The whole program, killed anywhere between its start and its end. (Where it writes: golden_kill_test.)
 TEST_F(GoldenCommand, a_killed_update_leaves_the_old_set_or_the_new_one) {
   const char* said = std::getenv("PLUMBLINE_KILLS");
-  const int kills = said != nullptr ? std::atoi(said) : 10;
+  const int kills = said != nullptr ? std::atoi(said) : 5;
   const std::string words[] = {"\"description\": \"", "\"description\": \"Changed. "};
   const fs::path manifest = folder_ / "golden/manifest.json";
   const std::string arguments = "golden update " + scene().string() + " --golden " + at("golden");
