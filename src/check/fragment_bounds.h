@@ -77,6 +77,7 @@ class FragmentBounds {
   std::vector<DrawRange> ranges_;
   std::vector<Vec4<double>> lit_apart_, secondary_apart_, eye_apart_, normals_apart_;  // per vertex
   std::vector<bool> plain_;                                                            // per draw
+  std::vector<double> texel_arithmetic_;                                               // per texture
   DrawnAt drawn_;
 };
 

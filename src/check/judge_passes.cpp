@@ -191,9 +191,8 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
       }
       if (!info[Stage::resolve].shows) skip(name, Outcome::unsupported, info[Stage::resolve].reason);
       const bool compared = mine && info[Stage::resolve].shows && !is_exact(info);
-      if (!compared && drawn == nullptr) continue;
-      theirs[i] = renderer.capture(scene, Request{});
       if (!compared) continue;
+      theirs[i] = renderer.capture(scene, Request{});
       require_samples(scene, theirs[i].samples);
       if (scene.frame.color == ColorFormat::rgba12 && !info.legal) {
         skip(name, Outcome::unsupported, "asked for 12 bits a channel, OpenGL gives 16");

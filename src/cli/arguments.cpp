@@ -68,17 +68,23 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   text(command, "--pixel", o.pixel,
        "X,Y: show every fragment that reached the pixel, in each renderer, and what became of it; rows count from the "
        "bottom, in gzrender from the top");
+  command
+      .add_option("--fragments", o.most_fragments,
+                  "Of a scene with more fragments, look at those about the worst pixels alone")
+      ->capture_default_str();
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
-  text(command, "--program", o.command,
-       "Diagnose what this command line leaves; {scene} and {folder} in it are the scene's file and the capture's "
-       "folder")
+  text(
+      command, "--program", o.command,
+      "Diagnose what this command line leaves within a minute; {scene} and {folder} in it are the scene's file and the "
+      "capture's folder")
       ->excludes(fault)
       ->excludes(folder);
   folder->excludes(fault);
   CLI::Option* picture = text(command, "--picture", o.picture,
                               "Name the known bugs that draw pictures like this one, which is all there is");
-  for (const char* other : {"--against", "--json", "--report", "--pixel", "--fault", "--capture", "--program"})
+  for (const char* other :
+       {"--against", "--json", "--report", "--pixel", "--fragments", "--fault", "--capture", "--program"})
     picture->excludes(command.get_option(other));
   add_assets(command, o.scene_arguments);
 }

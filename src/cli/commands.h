@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "check/diagnose.h"
 #include "cli/renderers.h"
 #include "cli/scene_arguments.h"
 
@@ -35,6 +36,7 @@ struct DiagnoseOptions {
   std::string fault;            ///< or empty
   std::string folder, command;  ///< of another renderer, or empty
   std::string pixel;            ///< X,Y: its history as well; or empty
+  std::uint64_t most_fragments = check::kMostFragments;
   SceneArguments scene_arguments;
 };
 int diagnose(const DiagnoseOptions& options);

@@ -88,7 +88,7 @@ int diagnose(const DiagnoseOptions& o) {
     return kDiffers;
   }
   const References references = make_references(without_repeats(o.against), o.scene_arguments.assets);
-  const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list);
+  const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list, o.most_fragments);
   fmt::print("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
   std::string history, history_text;
   if (pixel) {

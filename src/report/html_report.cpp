@@ -59,13 +59,25 @@ std::string_view outcome_of(const check::SceneVerdict& verdict, bool fails) {
   return name_of(Outcome::unsupported);
 }
 
+// What a judge of records has drawn nothing for, it draws for the reader; empty where it cannot.
+Planes planes_of(const Scene& scene, const check::Reference& reference, const Capture& drawn) {
+  if (!drawn.planes.color.empty() || reference.renderer == nullptr) return drawn.planes;
+  try {
+    return reference.renderer->capture(scene, Request{}).planes;
+  } catch (const std::exception&) {
+    return drawn.planes;
+  }
+}
+
 Viewed viewed_of(const std::string& name, std::span<const check::Reference> references, const check::Drawn& drawn,
                  const Scene& scene) {
   const Plane<glm::vec4>& ours = drawn.candidate.planes.color;
   Viewed out{name, ours.width(), ours.height(), rows_from_top(scene.dialect), {"ours"}, {}};
+  std::vector<Planes> drawn_for_reader;
+  drawn_for_reader.reserve(references.size());
   std::vector<const Planes*> sides{&drawn.candidate.planes};
   for (std::size_t i = 0; i < references.size() && i < drawn.references.size(); ++i) {
-    const Planes& planes = drawn.references[i].planes;
+    const Planes& planes = drawn_for_reader.emplace_back(planes_of(scene, references[i], drawn.references[i]));
     if (planes.color.empty() && planes.depth.empty()) continue;
     out.sides.push_back(references[i].name);
     sides.push_back(&planes);
