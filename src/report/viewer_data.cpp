@@ -42,12 +42,15 @@ Json packed_layer(const Layer& layer, const Box& box) {
   return {{"name", layer.name}, {"says", layer.says}, {"paint", layer.paint}, {"judged", judged}, {"sides", sides}};
 }
 
+// Pixels of a pass beside one of the frame, which a resolved one is of.
+int factor_of(const check::Comparison& c, int factor) { return c.stage == Stage::resolve ? 1 : factor; }
+
 // 1: beyond the tolerance; 2: disputed.
 std::string packed_marks(const check::Comparison& c, int factor, const Box& box) {
   Plane<std::uint8_t> marks(box.width, box.height);
   const auto mark = [&](const std::vector<glm::ivec2>& places, std::uint8_t as) {
     for (const glm::ivec2 place : places) {
-      const glm::ivec2 at = place / factor - glm::ivec2(box.x, box.y);
+      const glm::ivec2 at = place / factor_of(c, factor) - glm::ivec2(box.x, box.y);
       if (at.x >= 0 && at.y >= 0 && at.x < box.width && at.y < box.height) marks(at.x, at.y) = as;
     }
   };
@@ -77,6 +80,10 @@ Json viewed_json(const Viewed& viewed, std::span<const check::Comparison> compar
   for (const check::Comparison& c : comparisons) {
     Json row = comparison_json(c);
     row.erase("scene");
+    for (const char* worst : {"worst", "dispute"}) {
+      if (!row.contains(worst) || row[worst].is_null() || !row[worst].contains("pixel")) continue;
+      for (Json& coordinate : row[worst]["pixel"]) coordinate = coordinate.get<int>() / factor_of(c, factor);
+    }
     if (!c.measurement.disputed_at.empty() || !c.measurement.differing_at.empty()) {
       const auto [at, is_new] = known.emplace(packed_marks(c, factor, box), known.size());
       if (is_new) out["marks"].push_back(at->first);
@@ -104,11 +111,12 @@ glm::ivec2 worst_pixel(const Viewed& viewed, std::span<const check::Comparison> 
     const auto rank = [](const check::Comparison& row) {
       return std::pair(row.outcome == check::Outcome::dispute, row.stage);
     };
-    if (check::shown(c)->place.x >= 0 && (first == nullptr || rank(c) < rank(*first))) first = &c;
+    const check::Worst* worst = check::shown(c);  // null where more is open than was predicted, and nothing is apart
+    if (worst != nullptr && worst->place.x >= 0 && (first == nullptr || rank(c) < rank(*first))) first = &c;
   }
   if (first == nullptr) return {viewed.width / 2, viewed.height / 2};
   const check::Place& place = check::shown(*first)->place;
-  return {place.x / factor, place.y / factor};
+  return glm::ivec2(place.x, place.y) / factor_of(*first, factor);
 }
 
 Layer layer_of(std::string name, std::string says, std::string paint, std::vector<Stage> judged,

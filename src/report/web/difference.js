@@ -45,7 +45,8 @@ function differencePainter(difference, painter, much) {
       return Array(3).fill(0.3 * (0.2126 * r + 0.7152 * g + 0.0722 * b));
     }
     if (kind === 4) return CLASSES[kind].color;
-    const share = Math.min(Math.max(1 + Math.log10(difference.sizes[p] / much) / 4, 0.5), 1);
+    const least = kind === 1 ? 0.2 : 0.5;  // what no row objects to stays in the background
+    const share = Math.min(Math.max(1 + Math.log10(difference.sizes[p] / much) / 2, least), 1);
     return CLASSES[kind].color.map((v) => v * share);
   };
 }

@@ -116,10 +116,10 @@ function histogram(row) {
   return element('figure', {}, svg, element('figcaption', {}, `items by difference, in ${row.unit || 'units'}; heights by logarithm`));
 }
 
-/** The row that says most of a layer, against a side; or null. */
+/** The row that says most of a layer, against a side (what is expected, any judge says); or null. */
 function rowOf(rows, layer, side) {
   for (const stage of layer.judged) {
-    const found = rows.filter((row) => row.stage === stage && row.reference.split(' ')[0] === side);
+    const found = rows.filter((row) => row.stage === stage && (side === 'expected' || row.reference.split(' ')[0] === side));
     const told = found.find((row) => row.mark !== undefined) ?? found.find(isJudged);
     if (told) return told;
   }

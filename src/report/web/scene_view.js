@@ -12,7 +12,7 @@ class SceneView {
     this.viewer = new Viewer(view, (viewer) => { this.follow(viewer); changed(viewer); });
     const failure = scene.failure.replace(/^ *repeat: .*\n?/m, '');  // it stands below, to be copied
     const said = failure ? element('pre', {className: 'bad'}, failure) : '';
-    this.host = element('div', {}, element('p', {}, scene.description), said,
+    this.host = element('div', {}, scene.description ? element('p', {}, scene.description) : '', said,
                         scene.repeat ? copied(scene.repeat) : '', this.viewer.host, element('h2', {}, 'stages'),
                         element('div', {className: 'judged'}, this.table.host, this.details));
     const worst = [...this.rows].sort((a, b) => SEVERITY.indexOf(b.outcome) - SEVERITY.indexOf(a.outcome))[0];
