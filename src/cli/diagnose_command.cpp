@@ -59,10 +59,10 @@ std::vector<report::Pictured> pictured(const Scene& scene, Renderer& candidate, 
   request.records = StageSet::all();
   Capture mine = all_that_fits([&] { return candidate.capture(passes.front(), request); });
   if (mine.width == 0) mine = candidate.capture(passes.front(), Request{});
-  out.push_back({antialiased ? fmt::format("the first of {} passes", passes.size()) : "stage by stage",
-                 passes.front(),
-                 std::move(mine),
-                 {}});
+  const std::string title = !antialiased         ? "stage by stage"
+                            : passes.size() == 1 ? "its samples"
+                                                 : fmt::format("the first of its {} passes", passes.size());
+  out.push_back({title, passes.front(), std::move(mine), {}});
   for (const check::Reference& r : references.list) {
     if (r.renderer == nullptr || !r.renderer->info()[Stage::vertex].runs) continue;
     out.back().expected = all_that_fits([&] { return check::expected_capture(passes.front(), *r.renderer); });

@@ -63,13 +63,13 @@ function differenceText(difference, numbers, paint) {
   return `${off} pixels differ${by}`;
 }
 
-function differenceLegend(difference) {
+function differenceLegend(difference, isJudged) {
   const host = element('div', {className: 'legend'});
   CLASSES.forEach(({name, color}, kind) => {
     const shown = kind === 0 ? [70, 70, 70] : color;
     if (difference.counts[kind] === 0) return;
     host.append(element('span', {}, element('i', {style: `background: rgb(${shown.join(' ')})`}),
-                        `${name}: ${difference.counts[kind]}`));
+                        `${kind === 1 && isJudged ? 'apart, within the tolerance' : name}: ${difference.counts[kind]}`));
   });
   return host;
 }

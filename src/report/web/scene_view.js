@@ -31,7 +31,7 @@ class SceneView {
     this.details.replaceChildren(rowDetails(row));
   }
   marksOf(row) {
-    return {marks: row.mark === undefined ? null : this.viewer.view.marks[row.mark]};
+    return {marks: row.mark === undefined ? null : this.viewer.view.marks[row.mark], judging: row.stage};
   }
   /** Where the viewer goes to what another row is about, that row is chosen. */
   follow({view, layer, against}) {

@@ -15,6 +15,7 @@ class Viewer {
     this.mode = MODES[0];
     this.pixel = null;
     this.marks = null;
+    this.judging = '';  // the stage whose tolerance the marks are beyond
     this.scale = 0;  // screen pixels a pixel; 0: the whole picture fits
     this.middle = [view.columns / 2, view.rows / 2];  // of what is shown, in pixels from the upper left
     this.second = false;  // which one flicker shows
@@ -65,7 +66,7 @@ class Viewer {
       `here, from ${view.x},${view.y}: about the worst, as many as a page of small size holds`);
   }
 
-  /** Any of layer, against, mode (names), pixel ([x, y] of the frame, or null), scale, marks. */
+  /** Any of layer, against, mode (names), pixel ([x, y] of the frame, or null), scale; marks and the stage that is judging. */
   set(state) {
     const {view} = this;
     const before = this.seen();
@@ -74,6 +75,7 @@ class Viewer {
     if (MODES.includes(state.mode)) this.mode = state.mode;
     if (state.scale !== undefined) this.scale = Math.min(Math.max(Number(state.scale) || 0, 0), MOST);
     if (state.marks !== undefined) this.marks = state.marks;
+    this.judging = state.judging ?? this.judging;
     if (state.pixel !== undefined) {
       this.pixel = this.inside(state.pixel) ? state.pixel : null;
       if (this.pixel && state.centred) this.middle = this.place(this.pixel).map((v) => v + 0.5);
@@ -84,7 +86,7 @@ class Viewer {
   }
   /** What the pictures are made of. */
   seen() {
-    return [this.layer?.name, this.against, this.mode, this.view.marks.indexOf(this.marks)];
+    return [this.layer?.name, this.against, this.mode, this.view.marks.indexOf(this.marks), this.judging];
   }
 
   inside(pixel) {
@@ -133,7 +135,7 @@ class Viewer {
     const {layer, difference, against, view} = this;
     if (!layer) return [element('p', {className: 'quiet'}, 'no picture: nothing was drawn')];
     const out = [element('p', {className: 'quiet'}, `${layer.name}: ${layer.says}`)];
-    if (difference) out.push(differenceLegend(difference));
+    if (difference) out.push(differenceLegend(difference, layer.judged.includes(this.judging)));
     else if (against > 0) out.push(element('p', {}, `${view.sides[layer.planes[0] ? against : 0]} hands out none`));
     return out;
   }
