@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -63,6 +64,8 @@ Comparison joined(Comparison a, Comparison b) {
   sum.ambiguous += other.ambiguous;
   sum.disputed += other.disputed;
   if (other.dispute.difference > sum.dispute.difference) sum.dispute = other.dispute, sum.reason = other.reason;
+  std::ranges::copy(other.differing_at, std::back_inserter(sum.differing_at));
+  std::ranges::copy(other.disputed_at, std::back_inserter(sum.disputed_at));
   sum.max_difference = std::max(sum.max_difference, other.max_difference);
   for (std::size_t i = 0; i < sum.histogram.size(); ++i) sum.histogram[i] += other.histogram[i];
   return out;

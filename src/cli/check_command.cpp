@@ -94,12 +94,14 @@ int check(const CheckOptions& given) {
                         std::back_inserter(verdicts.back().comparisons));
     fmt::print("{}", report::table_rows(verdicts.back()));
     std::fflush(stdout);
+    const std::string repeat = repeat_command(o, verdicts.back());
+    std::string failure;
     if (!holds(verdicts.back(), o)) {
       all_hold = false;
-      failures +=
-          report::failure_lines(verdicts.back(), unjudged(verdicts.back(), o), repeat_command(o, verdicts.back()));
+      failure = report::failure_lines(verdicts.back(), unjudged(verdicts.back(), o), repeat);
+      failures += failure;
     }
-    if (page) page->add(verdicts.back(), references.list, drawn, scene);
+    if (page) page->add(verdicts.back(), references.list, drawn, scene, failure, repeat);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string summary = report::summary(verdicts, all_hold, seconds);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "report/comparison_json.h"
 #include "stages/atomic_path.h"
 
 namespace plumbline::report {
@@ -32,7 +33,9 @@ Json worst_of(const check::Worst& worst) {
   return out;
 }
 
-Json comparison(const check::Comparison& c) {
+}  // namespace
+
+Json comparison_json(const check::Comparison& c) {
   const check::Measurement& m = c.measurement;
   Json out{{"scene", c.scene},
            {"reference", c.reference},
@@ -56,14 +59,12 @@ Json comparison(const check::Comparison& c) {
   return out;
 }
 
-}  // namespace
-
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
                 const std::map<std::string, std::string>& versions) {
   Json out{{"versions", versions}, {"scenes", Json::array()}, {"comparisons", Json::array()}};
   for (const check::SceneVerdict& verdict : verdicts) {
     out["scenes"].push_back({{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}});
-    for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison(c));
+    for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
   }
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
@@ -87,7 +88,7 @@ void write_json(const std::filesystem::path& file, const check::Diagnosis& diagn
                                {"causes", f.causes},
                                {"picture", f.picture}});
   }
-  for (const check::Comparison& c : diagnosis.verdict.comparisons) out["comparisons"].push_back(comparison(c));
+  for (const check::Comparison& c : diagnosis.verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
   if (!pixel_history.empty()) out["pixel_history"] = Json::parse(pixel_history);
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
