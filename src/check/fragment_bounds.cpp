@@ -90,6 +90,7 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
       eye_apart_(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0)),
       normals_apart_(normals_apart(candidate.records, reference.records)),
       drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
+  for (const Texture& texture : scene.textures) largest_texels_.push_back(largest_texel(texture));
   for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));
 }
 
@@ -160,7 +161,8 @@ TexelBound FragmentBounds::texel(std::size_t i) const {
   }
   const Vec4<double>& st = records_.varyings[Varying::texture].fragments[i];
   return texel_bound(scene_.textures.at(draw.texture->texture), texels_[i], Vec2<double>(st),
-                     Vec2<double>(varying_error(i, Varying::texture)), tolerance("osmesa.texture").factor);
+                     Vec2<double>(varying_error(i, Varying::texture)), tolerance("osmesa.texture").factor,
+                     largest_texels_.at(draw.texture->texture));
 }
 
 FragmentBound FragmentBounds::surface(std::size_t i) const {

@@ -76,6 +76,7 @@ class FragmentBounds {
   double factor_;
   std::vector<DrawRange> ranges_;
   std::vector<Vec4<double>> lit_apart_, secondary_apart_, eye_apart_, normals_apart_;  // per vertex
+  std::vector<double> largest_texels_;                                                 // per texture
   std::vector<bool> plain_;                                                            // per draw
   DrawnAt drawn_;
 };
