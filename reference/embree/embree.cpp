@@ -34,16 +34,13 @@ class EmbreeRenderer final : public Renderer {
     if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
       throw Unsupported("no ray meets a line or a point");
     }
+    if (request.planes == WantedPlanes::none && !request.legal && request.pixels.empty()) return empty_capture(scene);
     math::Candidates candidates(math::candidate_budget(scene, request.memory_budget));
     const math::Projected projected = math::project(scene);
     add_by_rays(projected, candidates);
     math::add_by_edges(projected, candidates);
     math::Oracle oracle = math::consult(scene, projected, candidates, request);
-    Capture out;
-    out.renderer = "embree";
-    out.version = version_;
-    out.width = scene.frame.width;
-    out.height = scene.frame.height;
+    Capture out = empty_capture(scene);
     out.planes = std::move(oracle.planes);
     out.records = std::move(oracle.records);
     if (request.legal) out.legal = std::move(oracle.legal);
@@ -51,6 +48,15 @@ class EmbreeRenderer final : public Renderer {
   }
 
  private:
+  Capture empty_capture(const Scene& scene) const {
+    Capture out;
+    out.renderer = "embree";
+    out.version = version_;
+    out.width = scene.frame.width;
+    out.height = scene.frame.height;
+    return out;
+  }
+
   std::string version_ = version();
 };
 

@@ -204,10 +204,11 @@ Capture Exact::capture(const Scene& scene, const Request& request) {
   const std::size_t fragments = selected_fragments(scene, selection, window.triangles);
   require_budget(scene, plane_bytes(scene) + geometry_bytes(records) + fragments * selection.bytes_per_fragment(),
                  request.memory_budget);
-  selection.reserve(fragments, records);
-  draw_triangles(scene, window, selection, out);
   if (request.legal && !draws(scene, Topology::lines) && !draws(scene, Topology::points))
     out.legal = math::legal_by_boxes(scene, request);
+  if (request.planes == WantedPlanes::none && !selection.fragments()) return out;
+  selection.reserve(fragments, records);
+  draw_triangles(scene, window, selection, out);
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "reference/math/project.h"
@@ -20,8 +21,10 @@ struct Candidate {
 /// through a foreign library's call.
 class Candidates {
  public:
-  explicit Candidates(std::size_t most) : most_(most) {}
+  /// `wanted`: by pixel, others are left out; empty: all.
+  explicit Candidates(std::size_t most, std::vector<bool> wanted = {}) : most_(most), wanted_(std::move(wanted)) {}
   void add(std::uint32_t pixel, std::uint32_t primitive) {
+    if (!wanted_.empty() && !wanted_[pixel]) return;
     if (all_.size() < most_) {
       all_.push_back({pixel, primitive});
     } else {
@@ -34,6 +37,7 @@ class Candidates {
 
  private:
   std::size_t most_;
+  std::vector<bool> wanted_;
   bool dropped_ = false;
   std::vector<Candidate> all_;
 };

@@ -199,7 +199,15 @@ std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget) {
 }
 
 Legal legal_by_boxes(const Scene& scene, const Request& request) {
-  Candidates candidates(candidate_budget(scene, request.memory_budget));
+  const FrameFormat& frame = scene.frame;
+  std::vector<bool> wanted;
+  for (const glm::ivec2 p : request.pixels) {
+    wanted.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+    if (p.x >= 0 && p.y >= 0 && p.x < frame.width && p.y < frame.height)
+      wanted[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(p.x)] =
+          true;
+  }
+  Candidates candidates(candidate_budget(scene, request.memory_budget), std::move(wanted));
   const Projected projected = project(scene);
   add_by_boxes(projected, candidates);
   add_by_edges(projected, candidates);

@@ -17,7 +17,7 @@
 namespace plumbline::check {
 
 inline constexpr std::string_view kOnlyShaded = "it hands out the final colour alone; see shade";
-inline constexpr std::string_view kOverBudget = "the fragments do not fit the memory budget";
+inline constexpr std::string_view kOverBudget = "more fragments than are looked at one by one";
 
 /// One scene's judgement of one candidate, as it grows.
 struct Case {

@@ -234,7 +234,8 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
     for (std::size_t i_edge : {1u, 2u}) {
       if (distance_from_edge(w, corners, i_edge) < distance_from_edge(w, corners, edge)) edge = i_edge;
     }
-    meter.value(distance_from_edge(v, corners, edge) / u, factor, at("off its edge"), 0, 0);
+    const double off = distance_from_edge(v, corners, edge);
+    meter.value(off / u, factor, at("off its edge"), off, distance_from_edge(w, corners, edge));
   }
 }
 

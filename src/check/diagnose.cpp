@@ -37,7 +37,7 @@ using Explain = void (*)(const Evidence&, Finding&);
 void in_full(const Evidence& evidence, Finding& finding) {
   finding.numbers = worst_record(evidence, finding.measurement);
   for (const Cause& cause : likely_causes(evidence)) finding.causes.push_back(cause.words);
-  if (finding.stage != Stage::coverage) return;
+  if (finding.stage != Stage::coverage || over_budget(evidence.candidate)) return;  // without fragments, all would be missing
   if (const auto worst = worst_triangle(evidence)) finding.picture = coverage_picture(*worst);
 }
 void in_brief(const Evidence&, Finding&) {}
@@ -146,7 +146,7 @@ std::vector<glm::ivec2> worst_pixels(const Scene& scene, const SceneVerdict& ver
   return out;
 }
 
-// Where all fragments do not fit the budget, those of a few pixels do.
+// Where there are too many fragments, those of a few pixels are not.
 void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
   const std::vector<glm::ivec2> pixels = worst_pixels(find.scene, pass.verdict);
   if (pixels.empty()) return;
@@ -164,9 +164,10 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
   }
 }
 
-Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Explain explain) {
+Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+             std::uint64_t most_fragments, Explain explain) {
   Drawn drawn;
-  Pass pass{judge(scene, candidate, references, &drawn), {}, {}, {}};
+  Pass pass{judge(scene, candidate, references, &drawn, most_fragments), {}, {}, {}};
   pass.repaired = std::move(drawn.candidate);
   Renderer* referee = referee_of(references);
   std::set<Stage> wrong;
@@ -230,12 +231,13 @@ std::vector<Finding> worst_of_each(std::vector<Finding> all) {
 
 // An antialiased scene's passes, and what is made of them.
 Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
-                          Explain explain, std::optional<Finding>& first) {
+                          std::uint64_t most_fragments, Explain explain, std::optional<Finding>& first) {
   Diagnosis out;
   std::vector<Pass> passes;
   std::vector<SceneVerdict> verdicts;
-  for (const Scene& pass : passes_of(scene)) {
-    passes.push_back(look_at(pass, candidate, references, explain));
+  const std::vector<Scene> scenes = passes_of(scene);
+  for (const Scene& pass : scenes) {
+    passes.push_back(look_at(pass, candidate, references, most_fragments / scenes.size(), explain));
     verdicts.push_back(passes.back().verdict);
     if (!first) first = passes.back().first;
     std::ranges::move(passes.back().findings, std::back_inserter(out.findings));
@@ -264,16 +266,17 @@ bool holds_alone(const SceneVerdict& verdict, Stage stage) {
   });
 }
 
-Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Explain explain) {
+Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                    std::uint64_t most_fragments, Explain explain) {
   Diagnosis out;
   std::optional<Finding> first;
   if (scene.frame.antialias.kind == Antialias::Kind::none) {
-    Pass pass = look_at(scene, candidate, references, explain);
+    Pass pass = look_at(scene, candidate, references, most_fragments, explain);
     out.verdict = std::move(pass.verdict);
     out.findings = std::move(pass.findings);
     first = std::move(pass.first);
   } else {
-    out = diagnose_passes(scene, candidate, references, explain, first);
+    out = diagnose_passes(scene, candidate, references, most_fragments, explain, first);
   }
   out.findings = worst_of_each(std::move(out.findings));
   for (const Finding& f : out.findings) out.wrong.push_back(f.stage);
@@ -288,12 +291,13 @@ Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Ref
 
 }  // namespace
 
-Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references) {
-  return diagnosed(scene, candidate, references, in_full);
+Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                   std::uint64_t most_fragments) {
+  return diagnosed(scene, candidate, references, most_fragments, in_full);
 }
 
 Diagnosis diagnose_in_brief(const Scene& scene, Renderer& candidate, std::span<const Reference> references) {
-  return diagnosed(scene, candidate, references, in_brief);
+  return diagnosed(scene, candidate, references, kMostFragments, in_brief);
 }
 
 Capture expected_capture(const Scene& scene, Renderer& referee) {

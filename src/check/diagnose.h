@@ -1,6 +1,7 @@
 // One scene's diagnosis: which stages of the candidate are wrong, by what numbers, and what may have caused it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,14 +38,18 @@ struct Diagnosis {
 /// where the candidate runs stages.
 inline constexpr std::string_view kRepaired = "from repaired records";
 
-/// And of a scene whose fragments do not fit the memory budget: stages 6 to 9 of the fragments about the pixels that
+/// And of a scene of more fragments than are looked at one by one: stages 6 to 9 of the fragments about the pixels that
 /// are worst in the planes, captured once more.
 inline constexpr std::string_view kAtWorst = "from its records at the worst pixels";
+
+/// The fragments that a diagnosis looks at one by one, an antialiased scene's passes together: some seconds' work.
+inline constexpr std::uint64_t kMostFragments = std::uint64_t{1} << 20;
 
 /// As judge(), and what it comes to. A stage is wrong by itself where exact, from the candidate's own records of the
 /// stages before it (matrices: from the scene), or from repaired ones, is `different` or `failed`. Of an antialiased
 /// scene: the passes together, and `resolve`.
-Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references);
+Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                   std::uint64_t most_fragments = kMostFragments);
 /// The same stages; findings say who and by how much, without numbers, causes and pictures. For many runs.
 Diagnosis diagnose_in_brief(const Scene& scene, Renderer& candidate, std::span<const Reference> references);
 

@@ -90,8 +90,9 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
       eye_apart_(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0)),
       normals_apart_(normals_apart(candidate.records, reference.records)),
       drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
-  for (const Texture& texture : scene.textures) largest_texels_.push_back(largest_texel(texture));
   for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));
+  for (const Texture& texture : scene.textures)
+    texel_arithmetic_.push_back(tolerance("osmesa.texture").factor * u * largest_texel(texture));
 }
 
 Vec4<double> FragmentBounds::apart(std::uint32_t primitive, const std::vector<Vec4<double>>& apart,
@@ -160,9 +161,9 @@ TexelBound FragmentBounds::texel(std::size_t i) const {
     return {{}, Vec4<double>(std::numeric_limits<double>::infinity())};
   }
   const Vec4<double>& st = records_.varyings[Varying::texture].fragments[i];
-  return texel_bound(scene_.textures.at(draw.texture->texture), texels_[i], Vec2<double>(st),
-                     Vec2<double>(varying_error(i, Varying::texture)), tolerance("osmesa.texture").factor,
-                     largest_texels_.at(draw.texture->texture));
+  const std::size_t texture = draw.texture->texture;
+  return texel_bound(scene_.textures.at(texture), texels_[i], Vec2<double>(st),
+                     Vec2<double>(varying_error(i, Varying::texture)), texel_arithmetic_[texture]);
 }
 
 FragmentBound FragmentBounds::surface(std::size_t i) const {

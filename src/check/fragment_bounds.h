@@ -76,8 +76,8 @@ class FragmentBounds {
   double factor_;
   std::vector<DrawRange> ranges_;
   std::vector<Vec4<double>> lit_apart_, secondary_apart_, eye_apart_, normals_apart_;  // per vertex
-  std::vector<double> largest_texels_;                                                 // per texture
   std::vector<bool> plain_;                                                            // per draw
+  std::vector<double> texel_arithmetic_;                                               // per texture
   DrawnAt drawn_;
 };
 

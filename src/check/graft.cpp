@@ -1,3 +1,5 @@
+#include <string_view>
+
 #include "check/case.h"
 #include "check/compare_planes.h"
 #include "check/compare_records.h"
@@ -19,13 +21,19 @@ Measurement compare_varying(const Scene& scene, Stage stage, Varying v, const Re
   return compare_attributes(a, b, factor("exact.attributes"));
 }
 
+// It is told by its own name, not by that of the colour which it was compared as.
+Measurement named(Measurement m, Varying v) {
+  if (std::string_view(m.worst.place.field) == "color") m.worst.place.field = name_of(v).data();
+  return m;
+}
+
 // That of the colour, or of a varying that tells more.
 Measurement with_varyings(const Scene& scene, Stage stage, Measurement color, const Records<double>& mine,
                           const Records<double>& theirs) {
   const bool to_fragments = stage > Stage::clip;
   for (const Varying v : carried(scene)) {
     if (to_fragments && is_back(v)) continue;
-    color = worse(std::move(color), compare_varying(scene, stage, v, mine, theirs));
+    color = worse(std::move(color), named(compare_varying(scene, stage, v, mine, theirs), v));
   }
   return color;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -84,8 +85,7 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
       c.skip(name, stage, Outcome::unsupported, candidate[stage].reason);
     } else if (info.legal && of_oracle.has(stage) && theirs.legal.empty()) {
       c.skip(name, stage, Outcome::unsupported,
-             draws_thin(c.scene) ? "its legal answers are of triangles alone"
-                                 : "the legal answers do not fit the memory budget");
+             draws_thin(c.scene) ? "its legal answers are of triangles alone" : "too many fragments for legal answers");
     } else if (info.legal && of_oracle.has(stage)) {
       ask_oracle(c, theirs.legal, stage, name);
     } else if (exact && stage == Stage::matrices) {
@@ -120,28 +120,60 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
   }
 }
 
-// Everything; where the fragments do not fit the budget, everything but them.
-Capture capture_all(const Scene& scene, Renderer& renderer) {
-  Request request{StageSet::all(), false, {}, {}};
+constexpr StageSet kGeometry{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
+
+bool more_than(std::uint64_t most_fragments, const Capture& capture) {
+  const std::vector<std::uint32_t>& count = capture.planes.count.values();
+  return std::accumulate(count.begin(), count.end(), std::uint64_t{0}) > most_fragments;
+}
+
+// Everything; where the fragments are too many, or do not fit the budget, everything but them.
+Capture capture_all(const Scene& scene, Renderer& renderer, std::uint64_t most_fragments) {
   try {
-    return renderer.capture(scene, request);
+    if (most_fragments != ~std::uint64_t{0}) {
+      Capture counted = renderer.capture(scene, {kGeometry, false, {}, {}});
+      if (more_than(most_fragments, counted)) return counted;
+    }
+    return renderer.capture(scene, {StageSet::all(), false, {}, {}});
   } catch (const OverBudget&) {
-    request.records = {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
-    return renderer.capture(scene, request);
+    return renderer.capture(scene, {kGeometry, false, {}, {}});
   }
 }
 
-// What the judgement wants of a reference: an oracle's answers, if they fit the budget, and records of the vertices;
-// its fragments are not compared, but those of lines.
-Capture capture_reference(const Scene& scene, Renderer& renderer) {
-  Request request{
-      {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window}, renderer.info().legal, {}, {}};
+// What the judgement wants of a reference: an oracle's answers, if they fit the budget, and no planes beside them where
+// it runs stages; records of the vertices; of the fragments, those of lines.
+Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal) {
+  const RendererInfo info = renderer.info();
+  Request request{kGeometry, legal && info.legal, {}, {}};
   if (draws(scene, Topology::lines)) request.records.add(Stage::coverage);  // which line covers what
+  if (runs_stages(info) || (info.legal && !legal)) request.planes = WantedPlanes::none;
   try {
     return renderer.capture(scene, request);
   } catch (const OverBudget&) {
     request.legal = false;
     return renderer.capture(scene, request);
+  }
+}
+
+// Where the frame's answers are too many: those of the pixels that show another winner.
+Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle) {
+  Request request{{}, true, {}, {}};
+  request.planes = WantedPlanes::none;
+  const auto apart = [&](int x, int y) {
+    return std::ranges::any_of(theirs, [&](const Capture& c) {
+      return c.planes.id.size() == mine.planes.id.size() && c.planes.id(x, y) != mine.planes.id(x, y);
+    });
+  };
+  for (int y = 0; y < mine.planes.id.height(); ++y) {
+    for (int x = 0; x < mine.planes.id.width(); ++x) {
+      if (apart(x, y)) request.pixels.emplace_back(x, y);
+    }
+  }
+  if (request.pixels.empty()) return {};
+  try {
+    return oracle.capture(scene, request).legal;
+  } catch (const std::exception&) {  // it has nothing to say
+    return {};
   }
 }
 
@@ -173,7 +205,8 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
   return out;
 }
 
-SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Drawn* drawn) {
+SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Drawn* drawn,
+                   std::uint64_t most_fragments) {
   if (scene.frame.antialias.kind != Antialias::Kind::none) return judge_passes(scene, candidate, references, drawn);
   const auto start = std::chrono::steady_clock::now();
   SceneVerdict verdict{scene.name, scene.path, {}, 0};
@@ -182,13 +215,14 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
   };
   std::optional<Capture> mine;
   try {
-    mine = capture_all(scene, candidate);
+    mine = capture_all(scene, candidate, most_fragments);
   } catch (const std::exception& e) {
     nothing(candidate.info().name, Outcome::failed, e.what());
   }
   std::vector<Capture> theirs(references.size());
   std::vector<std::string> failures(references.size());
   std::vector<Outcome> outcomes(references.size(), Outcome::failed);
+  const bool ask_legal = !mine || !more_than(most_fragments, *mine);
   const Legal none;
   const Legal* legal = &none;
   Renderer* referee = nullptr;
@@ -199,7 +233,7 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
       continue;
     }
     try {
-      theirs[i] = capture_reference(scene, *references[i].renderer);
+      theirs[i] = capture_reference(scene, *references[i].renderer, ask_legal);
       if (legal->empty()) legal = &theirs[i].legal;
       if (runs_stages(references[i].renderer->info())) referee = references[i].renderer;
     } catch (const Unsupported& e) {
@@ -211,6 +245,11 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
     } catch (const std::exception& e) {
       failures[i] = e.what();
     }
+  }
+  Legal somewhere;
+  if (mine && legal->empty() && referee != nullptr && referee->info().legal) {
+    somewhere = legal_where_apart(scene, *mine, theirs, *referee);
+    legal = &somewhere;
   }
   if (mine && referee != nullptr && textured(scene)) {
     try {

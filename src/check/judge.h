@@ -1,6 +1,7 @@
 // One scene, the candidate and its references: everything that can be compared is compared.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -25,8 +26,11 @@ struct Drawn {
 /// References are told apart by what they are able to do (renderer.h), not by name: one that runs stages is a judge of
 /// the candidate's own records, stage by stage ("from its records"); one that hands out legal answers is an oracle
 /// for coverage, depth, visibility and colour; of any, what it shows is compared side by side.
+///
+/// Where the candidate's planes count more than `most_fragments`, or its fragments do not fit the memory budget, their
+/// records are not asked for; with the first, an oracle's answers are where another winner is seen, and nowhere else.
 SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
-                   Drawn* drawn = nullptr);
+                   Drawn* drawn = nullptr, std::uint64_t most_fragments = ~std::uint64_t{0});
 
 /// The part of it that needs no scene but for what is drawn: each stage but the first as `referee` makes it of the
 /// candidate's own records, against the candidate's.

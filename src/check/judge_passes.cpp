@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -64,6 +65,8 @@ Comparison joined(Comparison a, Comparison b) {
   sum.ambiguous += other.ambiguous;
   sum.disputed += other.disputed;
   if (other.dispute.difference > sum.dispute.difference) sum.dispute = other.dispute, sum.reason = other.reason;
+  std::ranges::copy(other.differing_at, std::back_inserter(sum.differing_at));
+  std::ranges::copy(other.disputed_at, std::back_inserter(sum.disputed_at));
   sum.max_difference = std::max(sum.max_difference, other.max_difference);
   for (std::size_t i = 0; i < sum.histogram.size(); ++i) sum.histogram[i] += other.histogram[i];
   return out;
@@ -189,9 +192,8 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
       }
       if (!info[Stage::resolve].shows) skip(name, Outcome::unsupported, info[Stage::resolve].reason);
       const bool compared = mine && info[Stage::resolve].shows && !is_exact(info);
-      if (!compared && drawn == nullptr) continue;
-      theirs[i] = renderer.capture(scene, Request{});
       if (!compared) continue;
+      theirs[i] = renderer.capture(scene, Request{});
       require_samples(scene, theirs[i].samples);
       if (scene.frame.color == ColorFormat::rgba12 && !info.legal) {
         skip(name, Outcome::unsupported, "asked for 12 bits a channel, OpenGL gives 16");

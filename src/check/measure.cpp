@@ -10,6 +10,7 @@ namespace plumbline::check {
 
 namespace {
 
+constexpr std::size_t kMostPlaces = 1u << 16;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::size_t bucket(double diff) {
@@ -48,6 +49,8 @@ void Meter::value(double diff, double tolerance, const Place& place, double cand
     return;
   }
   item_difference_ = std::max(item_difference_, diff);
+  if (beyond > tolerance && !item_differs_ && place.x >= 0 && m_.differing_at.size() < kMostPlaces)
+    m_.differing_at.emplace_back(place.x, place.y);
   if (beyond > tolerance) item_differs_ = true;
   if (diff == 0) return;
   const double ratio = beyond == 0 ? 0 : tolerance > 0 ? beyond / tolerance : kInfinite;

@@ -24,14 +24,14 @@ double largest_texel(const Texture& texture) {
 }
 
 TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<double> st, Vec2<double> st_error,
-                       double factor, double largest) {
+                       double arithmetic) {
   const TextureLevel& level = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
   const Vec2<double> error = st_error + 4 * u * glm::abs(st), size(level.width, level.height), texels = error * size;
   TexelBound out{range, Vec4<double>(0)};
   const auto known = [&](int k) { return error[k] == 0 || error[k] < range.gap[k]; };
   const bool open = !(known(0) && known(1) && std::max(texels.s, texels.t) < 0.5);
   out.slack = open ? Vec4<double>(std::numeric_limits<double>::infinity())
-                   : range.slope_s * error.s + range.slope_t * error.t + factor * u * largest;
+                   : range.slope_s * error.s + range.slope_t * error.t + arithmetic;
   return out;
 }
 

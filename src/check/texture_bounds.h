@@ -18,12 +18,11 @@ struct TexelBound {
   TexelRange range;
   Vec4<double> slack{0};  ///< by its texture coordinates' errors and its own arithmetic; infinite: it is open
 };
-/// `st_error`: of its texture coordinates (s, t); 4 u of them more for its texel coordinates, and `factor` u of the
-/// texture's largest component. Within st_error of where another texel is the nearest, it is open; of a coordinate that
-/// has no error (it is 0 everywhere) that is known. `largest`: largest_texel(texture), for it is asked of each
-/// fragment.
+/// `st_error`: of its texture coordinates (s, t); 4 u of them more for its texel coordinates, and `arithmetic` of the
+/// texel itself. Within st_error of where another texel is the nearest, it is open; of a coordinate that
+/// has no error (it is 0 everywhere) that is known.
 TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<double> st, Vec2<double> st_error,
-                       double factor, double largest);
+                       double arithmetic);
 
 /// What a pixel has of the bands, st_error to either side, along the lines where another texel is the nearest. With w
 /// the error and s the slope in texels, a band of half width w/s pixels; a pixel within one of such a line stands for a

@@ -62,6 +62,7 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--expect", o.expect, "Known differences, each with reason, issue and last day");
   text(command, "--today", o.today, "YYYY-MM-DD, for their last days (default: the clock's)");
   text(command, "--shard", o.shard, "I/N: every Nth scene, from number I on");
+  text(command, "--golden", o.golden, "Compare with the goldens in this folder as well, stage by stage");
   text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
   add_assets(command, o.scene_arguments);
@@ -75,17 +76,23 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   text(command, "--pixel", o.pixel,
        "X,Y: show every fragment that reached the pixel, in each renderer, and what became of it; rows count from the "
        "bottom, in gzrender from the top");
+  command
+      .add_option("--fragments", o.most_fragments,
+                  "Of a scene with more fragments, look at those about the worst pixels alone")
+      ->capture_default_str();
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
-  text(command, "--program", o.command,
-       "Diagnose what this command line leaves; {scene} and {folder} in it are the scene's file and the capture's "
-       "folder")
+  text(
+      command, "--program", o.command,
+      "Diagnose what this command line leaves within a minute; {scene} and {folder} in it are the scene's file and the "
+      "capture's folder")
       ->excludes(fault)
       ->excludes(folder);
   folder->excludes(fault);
   CLI::Option* picture = text(command, "--picture", o.picture,
                               "Name the known bugs that draw pictures like this one, which is all there is");
-  for (const char* other : {"--against", "--json", "--report", "--pixel", "--fault", "--capture", "--program"})
+  for (const char* other :
+       {"--against", "--json", "--report", "--pixel", "--fragments", "--fault", "--capture", "--program"})
     picture->excludes(command.get_option(other));
   add_assets(command, o.scene_arguments);
 }
@@ -104,6 +111,31 @@ void add(CLI::App& command, CompareOptions& o) {
   text(command, "--amplify", o.amplify, "By what the difference is multiplied (default: the largest is white)");
   text(command, "--json", o.json, "Write one object per comparison");
   command.add_flag("--allow-missing", o.allow_missing, "What one capture alone holds is no failure");
+}
+
+void add_golden(CLI::App& command, GoldenOptions& o) {
+  text(command, "scenes", o.scenes, "Scene files, and folders of them (default: the whole suite)");
+  text(command, "--suite", o.suite, "The folder of all scenes that have goldens")->capture_default_str();
+  text(command, "--golden", o.golden, "The folder of goldens")->capture_default_str();
+  text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  add_assets(command, o.scene_arguments);
+}
+
+// plumb golden check, plumb golden update.
+void add_golden_commands(CLI::App& app, std::function<int()>& chosen, const std::string& program) {
+  CLI::App* golden = app.add_subcommand("golden", "Compare scenes with their goldens, or make goldens anew");
+  golden->require_subcommand(1);
+  const auto o = std::make_shared<GoldenOptions>();
+  o->program = program;
+  CLI::App* check = golden->add_subcommand("check", "Compare what we draw with the goldens, bit for bit");
+  CLI::App* update =
+      golden->add_subcommand("update", "Write the goldens that every reference vouches for; ends 1 if so");
+  add_golden(*check, *o);
+  add_golden(*update, *o);
+  update->add_flag("--check", o->check, "Write nothing");
+  text(*update, "--report", o->report, "Write a page of old, new and difference into this folder");
+  check->callback([&chosen, o] { chosen = [o] { return golden_check(*o); }; });
+  update->callback([&chosen, o] { chosen = [o] { return golden_update(*o); }; });
 }
 
 void add(CLI::App& command, ListOptions& o) {
@@ -174,6 +206,7 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "capture", "Write what a renderer hands out at every stage into a folder", capture);
   add_command(app, out.command, "compare",
               "Compare two images, or two captures, number by number; pixels count from the lower left", compare);
+  add_golden_commands(app, out.command, check_options.program);
   add_command(app, out.command, "list", "Show the stages, renderers, faults and scenes that there are", list);
   CLI::App* report = app.add_subcommand("report", "Compare and merge runs of plumb check by the JSON that they left");
   report->require_subcommand(1);

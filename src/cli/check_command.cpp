@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "check/expectations.h"
+#include "check/golden.h"
 #include "check/judge.h"
 #include "cli/check_failures.h"
 #include "cli/commands.h"
@@ -86,6 +87,8 @@ int check(const CheckOptions& given) {
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
   const References references = make_references(o.against, o.scene_arguments.assets);
   const std::map<std::string, std::string> versions = versions_of(*candidate, references);
+  std::optional<check::GoldenSet> goldens;
+  if (!o.golden.empty()) goldens.emplace(o.golden, check::GoldenSet::Access::read);
   std::optional<report::HtmlReport> page;
   if (!o.report.empty()) page.emplace(o.report);
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -99,6 +102,8 @@ int check(const CheckOptions& given) {
     check::Drawn drawn;
     check::SceneVerdict& verdict =
         verdicts.emplace_back(check::judge(scene, *candidate, references.list, page ? &drawn : nullptr));
+    if (goldens)
+      std::ranges::move(check::golden_rows(scene, *candidate, *goldens), std::back_inserter(verdict.comparisons));
     std::ranges::move(settle(verdict, o, expectations, day), std::back_inserter(settled));
     fmt::print("{}", report::table_rows(verdict));
     std::fflush(stdout);
@@ -108,7 +113,7 @@ int check(const CheckOptions& given) {
     }
     if (!o.rows.empty()) leave_rows(o.rows, verdict, failure);
     failures += failure;
-    if (page) page->add(verdict, references.list, drawn, scene);
+    if (page) page->add(verdict, references.list, drawn, scene, verdict.failure, verdict.repeat);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string nowhere = is_whole(o, verdicts) ? lines_of_nowhere(expectations, verdicts) : "";

@@ -12,6 +12,7 @@
 #include "report/page.h"
 #include "report/table.h"
 #include "stages/atomic_path.h"
+#include "stages/image_file.h"
 
 namespace plumbline::cli {
 
@@ -20,6 +21,7 @@ namespace {
 std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& verdict) {
   std::string out = shell_word(o.program) + " check " + shell_word(verdict.path);
   if (o.against != reference_names()) out += fmt::format(" --against {}", fmt::join(o.against, ","));
+  if (!o.golden.empty()) out += " --golden " + shell_word(o.golden);
   if (!o.fault.empty()) out += " --fault " + shell_word(o.fault);
   if (!o.expect.empty()) out += " --expect " + shell_word(o.expect);
   if (!o.today.empty()) out += " --today " + o.today;
@@ -49,7 +51,9 @@ std::vector<Stage> unjudged(const check::SceneVerdict& verdict, const CheckOptio
 
 std::vector<check::Settled> settle(check::SceneVerdict& verdict, const CheckOptions& o,
                                    const std::vector<check::Expectation>& expectations, std::chrono::sys_days today) {
-  std::vector<check::Settled> out = check::settle(expectations, o.against, today, verdict);
+  std::vector<std::string> asked = o.against;
+  if (!o.golden.empty()) asked.emplace_back(check::kGolden);
+  std::vector<check::Settled> out = check::settle(expectations, asked, today, verdict);
   std::string lines;
   for (const check::Settled& settled : out) {
     if (settled.fate != check::Fate::occurred) lines += settled.line + "\n";
@@ -78,18 +82,20 @@ std::string leave_report(const std::string& folder, const Scene& scene, const ch
   report::HtmlReport page(to);
   check::Drawn drawn;
   check::judge(scene, candidate, references, &drawn);
-  page.add(verdict, references, drawn, scene);
+  page.add(verdict, references, drawn, scene, verdict.failure, verdict.repeat);
   page.write(verdict.failure);
   std::string out = fmt::format("  report: {}\n", (to / "index.html").string());
   if (std::getenv("DASHBOARD_TEST_FROM_CTEST") == nullptr) return out;
-  std::vector<std::filesystem::path> pictures;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(to)) {
-    if (entry.path().extension() == ".png") pictures.push_back(std::filesystem::absolute(entry.path()));
-  }
-  std::ranges::sort(pictures);
-  for (const auto& picture : pictures) {
-    out += fmt::format("<CTestMeasurementFile type=\"image/png\" name=\"{}\">{}</CTestMeasurementFile>\n",
-                       picture.stem().string(), picture.string());
+  const auto attach = [&](const std::string& name, const Plane<glm::vec4>& color) {
+    if (color.empty()) return;
+    const std::filesystem::path file = std::filesystem::absolute(to.string() + "-" + name + ".png");
+    write_image(file, color);
+    out += fmt::format("<CTestMeasurementFile type=\"image/png\" name=\"{}\">{}</CTestMeasurementFile>\n", name,
+                       file.string());
+  };
+  attach("ours", drawn.candidate.planes.color);
+  for (std::size_t i = 0; i < drawn.references.size(); ++i) {
+    attach(references[i].name, drawn.references[i].planes.color);
   }
   return out;
 }

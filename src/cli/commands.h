@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "check/diagnose.h"
 #include "cli/renderers.h"
 #include "cli/scene_arguments.h"
 
@@ -23,6 +24,7 @@ struct CheckOptions {
   std::string expect;    ///< a file of known differences (check/expectations.h)
   std::string today;     ///< YYYY-MM-DD, for their last days; empty: the clock's, UTC
   std::string shard;     ///< I/N: every Nth scene, from number I on
+  std::string golden;    ///< the folder of goldens, whose rows stand beside the references'; or empty
   std::string fault;     ///< a bug to put into our renderer, or empty
   bool allow_missing = false;
   SceneArguments scene_arguments;
@@ -40,6 +42,7 @@ struct DiagnoseOptions {
   std::string fault;            ///< or empty
   std::string folder, command;  ///< of another renderer, or empty
   std::string pixel;            ///< X,Y: its history as well; or empty
+  std::uint64_t most_fragments = check::kMostFragments;
   SceneArguments scene_arguments;
 };
 int diagnose(const DiagnoseOptions& options);
@@ -74,6 +77,22 @@ struct CompareOptions {
   bool allow_missing = false;  ///< what one capture alone holds is no failure
 };
 int compare(const CompareOptions& options);
+
+/// Scenes against their goldens, and goldens anew.
+struct GoldenOptions {
+  std::vector<std::string> scenes;                        ///< files, and folders of them; none: the whole suite
+  std::string suite = "tests/scenes", golden = "golden";  ///< folders
+  std::string report;                                     ///< of an update, or empty
+  std::string fault;                                      ///< or empty
+  bool check = false;                                     ///< an update writes nothing
+  SceneArguments scene_arguments;
+  std::string program = "plumb";
+};
+/// Ends 1 where a golden is not what is drawn, is missing, or has no scene.
+int golden_check(const GoldenOptions& options);
+/// Writes what the references vouch for, refuses the rest, and ends 1 if there was anything to write or to refuse: a
+/// run that blesses is no run that passes.
+int golden_update(const GoldenOptions& options);
 
 /// What there is.
 struct ListOptions {

@@ -40,27 +40,35 @@ std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scen
                             "--program");
 }
 
-// The page's pictures are of one sample a pixel: of an antialiased scene, of its first pass.
-void write_page(report::PageFolder& folder, const Scene& scene, Renderer& candidate, const References& references,
-                const check::Diagnosis& diagnosis, const std::string& history) {
-  const Scene pass = passes_of(scene).front();
+// Of an antialiased scene its frame, and the stages of its first pass; else the stages of the frame.
+std::vector<report::Pictured> pictured(const Scene& scene, Renderer& candidate, const References& references) {
   const auto all_that_fits = [](auto capture_of) {
     try {
       return capture_of();
     } catch (const OverBudget&) {
       return Capture{};
+    } catch (const Unsupported&) {
+      return Capture{};
     }
   };
+  std::vector<report::Pictured> out;
+  const bool antialiased = scene.frame.antialias.kind != Antialias::Kind::none;
+  if (antialiased) out.push_back({"the frame", scene, candidate.capture(scene, Request{}), {}});
+  const std::vector<Scene> passes = passes_of(scene);
   Request request;
   request.records = StageSet::all();
-  Capture mine = all_that_fits([&] { return candidate.capture(pass, request); });
-  if (mine.width == 0) mine = candidate.capture(pass, Request{});
-  Capture expected;
+  Capture mine = all_that_fits([&] { return candidate.capture(passes.front(), request); });
+  if (mine.width == 0) mine = candidate.capture(passes.front(), Request{});
+  const std::string title = !antialiased         ? "stage by stage"
+                            : passes.size() == 1 ? "its samples"
+                                                 : fmt::format("the first of its {} passes", passes.size());
+  out.push_back({title, passes.front(), std::move(mine), {}});
   for (const check::Reference& r : references.list) {
-    if (r.renderer != nullptr && r.renderer->info()[Stage::vertex].runs)
-      expected = all_that_fits([&] { return check::expected_capture(pass, *r.renderer); });
+    if (r.renderer == nullptr || !r.renderer->info()[Stage::vertex].runs) continue;
+    out.back().expected = all_that_fits([&] { return check::expected_capture(passes.front(), *r.renderer); });
+    if (antialiased) out.front().expected = all_that_fits([&] { return r.renderer->capture(scene, Request{}); });
   }
-  report::write_diagnosis_page(folder, pass, diagnosis, mine, expected, history);
+  return out;
 }
 
 }  // namespace
@@ -88,7 +96,7 @@ int diagnose(const DiagnoseOptions& o) {
     return kDiffers;
   }
   const References references = make_references(without_repeats(o.against), o.scene_arguments.assets);
-  const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list);
+  const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list, o.most_fragments);
   fmt::print("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
   std::string history, history_text;
   if (pixel) {
@@ -98,7 +106,9 @@ int diagnose(const DiagnoseOptions& o) {
     history = report::history_json(scene, told);
   }
   if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
-  if (page) write_page(*page, scene, *candidate, references, diagnosis, history_text);
+  if (page) {
+    report::write_diagnosis_page(*page, scene, diagnosis, pictured(scene, *candidate, references), history_text);
+  }
   const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
                                           [](const check::Comparison& c) { return is_failure(c.outcome); });
   return holds ? kHolds : kDiffers;

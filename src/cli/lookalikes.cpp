@@ -20,7 +20,7 @@ constexpr float kCode = 1.0f / 255;
 
 Picture drawn(const Scene& scene, const std::string& fault) {
   Request request;
-  request.picture = true;
+  request.planes = WantedPlanes::picture;
   Picture out = make_candidate(fault)->capture(scene, request).planes.color;
   return rows_from_top(scene.dialect) ? upside_down(out) : out;
 }

@@ -47,7 +47,7 @@ int render(const RenderOptions& o) {
   require_outputs(files, {}, inputs);
   const std::unique_ptr<Renderer> renderer = renderer_of(o.with, o.fault);
   Request request;
-  request.picture = true;
+  request.planes = WantedPlanes::picture;
   const Scene scene = o.scene_arguments.load(o.scene);
   require_image_name(o.output, scene.frame.color);
   Capture drawn = renderer->capture(scene, request);

@@ -35,10 +35,10 @@ int report_merge(const MergeOptions& o) {
   const Output outputs[] = {
       {"--output", o.output}, {"--junit", o.junit}, {"--markdown", o.markdown}, {"--ledger", o.ledger}};
   require_outputs(outputs, {}, inputs);
-  std::vector<report::Run> runs;
+  std::vector<report::CheckRun> runs;
   for (const std::string& file : o.runs) runs.push_back(report::read_run(file));
   const report::Merged merged = report::merge(std::move(runs));
-  const report::Run& run = merged.run;
+  const report::CheckRun& run = merged.run;
   const bool holds = report::all_hold(run.verdicts) && merged.missing.empty();
   std::string lines;
   for (const check::SceneVerdict& verdict : run.verdicts) lines += verdict.failure;

@@ -50,6 +50,7 @@ struct ImageToEncode {
 };
 
 struct ImageCodec {
+  const char* version;  ///< of OpenImageIO
   /// Null where the file is no image: `error` says why.
   std::unique_ptr<OpenImage> (*open)(const std::string& name, std::string& error);
   /// Empty where it cannot be encoded: `error` says why.

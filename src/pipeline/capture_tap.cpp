@@ -17,6 +17,9 @@ CaptureTap::CaptureTap(const Scene& scene, const Request& request, std::size_t b
   carried_ = carried(scene);
   std::erase_if(carried_, is_back);
   const int w = scene.frame.width, h = scene.frame.height;
+  if (!request.pixels.empty()) pixels_ = Plane<std::uint8_t>(w, h);
+  for (const glm::ivec2 p : request.pixels)
+    if (p.x >= 0 && p.y >= 0 && p.x < w && p.y < h) pixels_(p.x, p.y) = 1;
   planes_.count = Plane<std::uint32_t>(w, h);
   planes_.id_sum = Plane<std::uint64_t>(w, h);
   planes_.id = Plane<std::int32_t>(w, h, kBackground);
@@ -50,10 +53,7 @@ void CaptureTap::add(Fragment f) {
     planes_.shaded(f.x, f.y) = f.shaded;
     if (!planes_.texel.empty()) planes_.texel(f.x, f.y) = next_texel_.color;
   }
-  const auto& pixels = request_.pixels;
-  const bool pixel_wanted =
-      pixels.empty() || std::find(pixels.begin(), pixels.end(), glm::ivec2(f.x, f.y)) != pixels.end();
-  if (!keep_ || !pixel_wanted || !wanted(f.primitive)) return;
+  if (!keep_ || (!pixels_.empty() && pixels_(f.x, f.y) == 0) || !wanted(f.primitive)) return;
   if (!carried_.empty()) {
     f.fours = static_cast<std::uint32_t>(fours_.size());
     fours_.push_back(next_);

@@ -75,6 +75,7 @@ class CaptureTap {
   const Request& request_;
   std::size_t bytes_;
   bool keep_;  // fragments, not planes alone
+  Plane<std::uint8_t> pixels_;  // whether their fragments are wanted; empty: all
   Planes planes_;
   std::vector<Fragment> fragments_;
   std::vector<Varying> carried_;  // to the fragments, by any draw

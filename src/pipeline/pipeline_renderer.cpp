@@ -89,7 +89,7 @@ class PipelineRenderer : public Renderer {
       for (const Frame& pass : passes) out.samples.push_back(planes_of_frame(pass, formats_of(scene.frame)).color);
       return out;
     }
-    if (request.picture && !request.records.any()) {
+    if (request.planes == WantedPlanes::picture && !request.records.any()) {
       out.planes = planes_of_frame(render(scene, stages_), formats_of(scene.frame));
       return out;
     }

@@ -1,115 +1,76 @@
 #include "report/diagnosis_page.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "report/diagnosis_text.h"
 #include "report/stage_pictures.h"
+#include "report/viewer_data.h"
+#include "report/web_files.h"
 
 namespace plumbline::report {
 
 namespace {
 
-constexpr std::string_view kStyle = R"(
-pre { font: 12px/1.35 ui-monospace, monospace; overflow-x: auto; padding: .6em; border: 1px solid #8886; }
-h2.wrong::after { content: " wrong"; color: #d33232; }
-figure { vertical-align: top; }
-.slider { position: relative; display: inline-block; --cut: 50%; }
-.slider img { display: block; }
-.slider img + img { position: absolute; inset: 0; clip-path: inset(0 0 0 var(--cut)); }
-.slider::after { content: ""; position: absolute; top: 0; bottom: 0; left: var(--cut); border-left: 1px solid #d33232; }
-input[type=range] { display: block; width: 100%; margin: 2px 0 0; }
-svg { border: 1px solid #8888; background: #0003; overflow: hidden; }
-svg path { fill: none; stroke-width: 1px; vector-effect: non-scaling-stroke; stroke-linecap: round; }
-svg .same { stroke: #8889; } svg .expected { stroke: #2a9d4a; } svg .mine { stroke: #d33232; }
-)";
+using Json = nlohmann::ordered_json;
 
-// At most 300 pixels a side; small frames in whole multiples of their pixels.
-int shown_width(const Scene& scene) {
-  const int side = std::max(scene.frame.width, scene.frame.height);
-  return side > 300 ? 300 * scene.frame.width / side : scene.frame.width * (300 / side);
+// One scene may take more than each of hundreds: some 512 x 512 pixels of noise in every picture.
+constexpr std::size_t kBytes = std::size_t{16} << 20;
+
+// The row that a view begins at: of the first different stage, exact's from the candidate's own records before others.
+Json first_row(const check::Diagnosis& diagnosis, const std::vector<check::Comparison>& rows) {
+  Json out = nullptr;
+  for (std::size_t i = 0; diagnosis.first && i < rows.size(); ++i) {
+    if (rows[i].stage != *diagnosis.first || rows[i].outcome != check::Outcome::different) continue;
+    if (out.is_null() || rows[i].reference.ends_with("its records")) out = i;
+  }
+  return out;
 }
 
-class Page {
- public:
-  Page(PageFolder& folder, const Scene& scene) : folder_(folder), scene_(scene), width_(shown_width(scene)) {}
+std::string view_json(const Pictured& p, const check::Diagnosis& diagnosis) {
+  const bool resolved = p.scene.frame.antialias.kind != Antialias::Kind::none;
+  std::vector<check::Comparison> rows = diagnosis.verdict.comparisons;
+  std::erase_if(rows, [&](const check::Comparison& c) { return (c.stage == Stage::resolve) != resolved; });
+  const Viewed viewed{p.title,
+                      p.scene.frame.width,
+                      p.scene.frame.height,
+                      rows_from_top(p.scene.dialect),
+                      {"ours", "expected"},
+                      stage_layers(p.scene, p.mine, p.expected)};
+  return fmt::format("{{\"first\": {}, \"view\": {}}}", first_row(diagnosis, rows).dump(),
+                     viewer_json(viewed, rows, 1, kBytes));
+}
 
-  std::string body;
-
-  void add(const StagePicture& picture) {
-    const std::string mine = file(picture, "ours", picture.mine);
-    const std::string expected = file(picture, "expected", picture.expected);
-    const std::string differences = file(picture, "differences", picture.differences);
-    if (picture.name != name_of(picture.stage)) body += fmt::format("<h3>{}</h3>\n", escaped(picture.name));
-    body += fmt::format("<p>{}</p>\n", escaped(picture.says));
-    if (!mine.empty() && !expected.empty()) {
-      body += fmt::format(
-          "<figure><div class=slider>{}{}</div><input type=range min=0 max=100 value=50 aria-label=\"ours or "
-          "expected\" "
-          "oninput=\"this.previousSibling.style.setProperty('--cut', this.value + '%')\">"
-          "<figcaption>ours | expected</figcaption></figure>\n",
-          image(mine, "ours"), image(expected, "expected"));
-    }
-    figure(mine, "ours");
-    figure(expected, "expected");
-    figure(differences, picture.differing == 0
-                            ? "no pixel differs"
-                            : fmt::format("{} pixels differ, by {:.3g} at most", picture.differing, picture.largest));
-  }
-  void add_drawing(const std::string& svg) {
-    if (svg.empty()) return;
-    body += fmt::format(
-        "<h3>positions</h3>\n<p>window triangles, expected in green, ours in red where it is elsewhere; of many, "
-        "5000</p>\n"
-        "<figure style=\"width:{}px\">{}</figure>\n",
-        2 * width_, svg);
-  }
-  void commit(const std::string& title) { folder_.commit(title, kStyle, body); }
-
- private:
-  std::string file(const StagePicture& picture, const char* side, const Plane<glm::vec4>& plane) {
-    if (plane.empty()) return {};
-    const std::string name = file_name(fmt::format("{}-{}.png", picture.name, side));
-    folder_.write_picture(name, rows_from_top(scene_.dialect) ? upside_down(plane) : plane);
-    return name;
-  }
-  std::string image(const std::string& name, std::string_view alt) const {
-    return fmt::format("<img src=\"{}\" alt=\"{}\" width={}>", name, alt, width_);
-  }
-  void figure(const std::string& name, const std::string& caption) {
-    if (name.empty()) return;
-    body += fmt::format("<figure><a href=\"{}\">{}</a><figcaption>{}</figcaption></figure>\n", name,
-                        image(name, caption), caption);
-  }
-
-  PageFolder& folder_;
-  const Scene& scene_;
-  int width_;
-};
+std::string drawing(const Pictured& p) {
+  const std::string svg = positions_drawing(p.scene, p.mine, p.expected);
+  if (svg.empty()) return {};
+  return fmt::format(
+      "<h2>positions, {}</h2>\n<p>window triangles, expected in green, ours in red where it is elsewhere; of many, "
+      "5000</p>\n{}",
+      escaped(p.title), svg);
+}
 
 }  // namespace
 
 void write_diagnosis_page(PageFolder& folder, const Scene& scene, const check::Diagnosis& diagnosis,
-                          const Capture& mine, const Capture& expected, std::string_view more) {
-  Page page(folder, scene);
-  page.body = fmt::format("<h1>{}</h1>\n<p>{}</p>\n<pre>{}</pre>\n", escaped(scene.name), escaped(scene.description),
-                          escaped(diagnosis_text(diagnosis)));
-  if (!more.empty()) page.body += fmt::format("<pre>{}</pre>\n", escaped(more));
-  const std::vector<StagePicture> pictures = stage_pictures(scene, mine, expected);
-  const std::string drawing = positions_drawing(scene, mine, expected);
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    const auto stage = static_cast<Stage>(i);
-    const bool has_drawing = stage == Stage::window && !drawing.empty();
-    const bool wrong = std::ranges::count(diagnosis.wrong, stage) > 0;
-    if (!wrong && !has_drawing && std::ranges::count(pictures, stage, &StagePicture::stage) == 0) continue;
-    page.body += fmt::format("<h2{}>{}</h2>\n", wrong ? " class=wrong" : "", name_of(stage));
-    if (has_drawing) page.add_drawing(drawing);
-    for (const StagePicture& picture : pictures) {
-      if (picture.stage == stage) page.add(picture);
-    }
+                          std::span<const Pictured> pictured, std::string_view more) {
+  std::string body = fmt::format(
+      "<header class=bar><h1>{}</h1><div id=tools class=set style=\"margin-left: auto\"></div></header>\n<main>\n"
+      "<p>{}</p>\n<pre tabindex=0>{}</pre>\n",
+      escaped(scene.name), escaped(scene.description), escaped(diagnosis_text(diagnosis)));
+  if (!more.empty()) body += fmt::format("<pre tabindex=0>{}</pre>\n", escaped(more));
+  body += "<div id=views></div>\n";
+  std::string views;
+  for (const Pictured& p : pictured) {
+    views += (views.empty() ? "" : ",\n") + view_json(p, diagnosis);
+    body += drawing(p);
   }
-  page.commit(scene.name + ": diagnosis");
+  const std::string script =
+      web_files({"dom.js", "planes.js", "difference.js", "viewer.js", "rows.js", "scene_view.js", "diagnosis_page.js"});
+  folder.commit(scene.name + ": diagnosis", web_file("viewer.css"),
+                fmt::format("{}</main>\n<script type=\"application/json\" id=\"diagnosis\">{{\"stages\": {}, "
+                            "\"views\": [\n{}]}}</script>\n<script>\n{}</script>\n",
+                            body, Json(kStageNames).dump(), in_script(views), script));
 }
 
 }  // namespace plumbline::report

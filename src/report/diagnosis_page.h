@@ -1,6 +1,8 @@
-// A diagnosis as a page for people: the stage table, the findings, and a picture of every stage.
+// A diagnosis as a page for people: the stage table, the findings, and pictures of every stage.
 #pragma once
 
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "check/diagnose.h"
@@ -10,10 +12,16 @@
 
 namespace plumbline::report {
 
-/// A folder (page.h) with index.html and <stage's picture>-{ours,expected,differences}.png. `expected`: the same
-/// records and planes as they should have been. Where a picture is there of both sides, a slider lays one over the
-/// other. Throws OutputError.
+/// What a page shows pictures of: a scene's frame, or one of its passes.
+struct Pictured {
+  std::string title;
+  Scene scene;
+  Capture mine, expected;  ///< the same records and planes as they should have been
+};
+
+/// A folder (page.h) with index.html, which holds all numbers that it shows. `more`: text to stand below the findings.
+/// Throws OutputError.
 void write_diagnosis_page(PageFolder& folder, const Scene& scene, const check::Diagnosis& diagnosis,
-                          const Capture& mine, const Capture& expected, std::string_view more = "");
+                          std::span<const Pictured> pictured, std::string_view more = "");
 
 }  // namespace plumbline::report

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "check/case.h"
+
 namespace plumbline::report {
 
 using check::Comparison;
@@ -85,6 +87,9 @@ std::string diagnosis_text(const check::Diagnosis& diagnosis) {
   std::string out = stage_table(diagnosis.verdict);
   out += fmt::format("\nfirst different stage: {}\nwrong by itself: {}\n", first_line(diagnosis),
                      stage_names(diagnosis.wrong));
+  if (std::ranges::any_of(diagnosis.verdict.comparisons,
+                          [](const Comparison& c) { return c.note == check::kOverBudget; }))
+    out += fmt::format("{}: those about the worst pixels alone were (--fragments)\n", check::kOverBudget);
   for (const check::Finding& f : diagnosis.findings) out += finding_text(f);
   for (const Comparison& c : diagnosis.verdict.comparisons) {
     if (c.outcome == Outcome::failed || c.outcome == Outcome::missing || c.outcome == Outcome::dispute)

@@ -4,90 +4,145 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "report/viewer_data.h"
+#include "report/web_files.h"
+#include "stages/image_file.h"
 
 namespace plumbline::report {
 
 namespace {
 
-constexpr std::string_view kStyle = R"(
-img { width: 256px; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; }
-tr.different td, tr.failed td, tr.missing td { background: #d3323233; }
-tr.dispute td { background: #d3a03233; }
-tr.unsupported td { opacity: .55; }
-)";
+using Json = nlohmann::ordered_json;
 
-// |a - b| per channel, times 8, so that a small difference is seen; opaque. White where one side is not finite.
-Plane<glm::vec4> difference_picture(const Plane<glm::vec4>& a, const Plane<glm::vec4>& b) {
-  Plane<glm::vec4> out(a.width(), a.height());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    glm::vec4 d(1);
-    for (int c = 0; c < 3; ++c) {
-      const double diff = check::difference(a.values()[i][c], b.values()[i][c]);
-      d[c] = std::isfinite(diff) ? static_cast<float>(std::min(8 * diff, 1.0)) : 1.0f;
+// A hundred scenes are below 5 MB, with their share of the overview.
+constexpr std::size_t kBytesOfScene = 46000;
+
+std::string text_of(const Json& json) { return in_script(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
+
+// At most 96 pixels a side, each the mean of those that it stands for; opaque, for what is behind the page is none of
+// the frame's.
+Plane<glm::vec4> thumbnail(const Plane<glm::vec4>& plane) {
+  constexpr int kSide = 96;
+  const int side = std::max(plane.width(), plane.height());
+  const auto shrunk = [&](int length) { return side > kSide ? std::max(1, length * kSide / side) : length; };
+  Plane<glm::vec4> out(shrunk(plane.width()), shrunk(plane.height()));
+  for (int y = 0; y < out.height(); ++y) {
+    for (int x = 0; x < out.width(); ++x) {
+      const auto from = [](int at, int of, int all) { return static_cast<int>(std::int64_t{at} * all / of); };
+      glm::vec4 sum(0);
+      for (int v = from(y, out.height(), plane.height()); v < from(y + 1, out.height(), plane.height()); ++v) {
+        for (int u = from(x, out.width(), plane.width()); u < from(x + 1, out.width(), plane.width()); ++u) {
+          for (int c = 0; c < 3; ++c) {
+            const float value = plane(u, v)[c];
+            sum[c] += std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 1.0f;
+          }
+          sum.a += 1;
+        }
+      }
+      out(x, y) = sum / sum.a;
     }
-    out.values()[i] = d;
   }
   return out;
 }
 
-std::string row(const check::Comparison& c) {
-  const check::Measurement& m = c.measurement;
-  const check::Worst* worst = check::shown(c);
-  const std::string largest = worst != nullptr ? fmt::format("{:.4g} {}", worst->difference, m.unit)
-                              : m.items > 0    ? "0"
-                                               : "";
-  return fmt::format(
-      "<tr class=\"{}\"><td>{}<td>{}<td>{}<td class=number>{}<td class=number>{}<td class=number>{}<td "
-      "class=number>{}<td class=number>{}<td>{}</tr>\n",
-      name_of(c.outcome), escaped(c.reference), name_of(c.stage), name_of(c.outcome), m.items, m.differing, m.ambiguous,
-      escaped(largest), worst != nullptr ? fmt::format("{:.4g}", worst->tolerance) : "", escaped(check::remark(c)));
+// The worst of its rows; `unjudged` where the run fails for no row.
+std::string_view outcome_of(const check::SceneVerdict& verdict, bool fails) {
+  using check::Outcome;
+  constexpr Outcome kWorstFirst[] = {Outcome::failed,         Outcome::missing, Outcome::different, Outcome::dispute,
+                                     Outcome::ambiguous_only, Outcome::within,  Outcome::equal};
+  for (const Outcome outcome : kWorstFirst) {
+    if (fails && !is_failure(outcome)) return "unjudged";
+    if (std::ranges::count(verdict.comparisons, outcome, &check::Comparison::outcome) > 0) return name_of(outcome);
+  }
+  return name_of(Outcome::unsupported);
+}
+
+// What a judge of records has drawn nothing for, it draws for the reader; empty where it cannot.
+Planes planes_of(const Scene& scene, const check::Reference& reference, const Capture& drawn) {
+  if (!drawn.planes.color.empty() || reference.renderer == nullptr) return drawn.planes;
+  try {
+    return reference.renderer->capture(scene, Request{}).planes;
+  } catch (const std::exception&) {
+    return drawn.planes;
+  }
+}
+
+Viewed viewed_of(const std::string& name, std::span<const check::Reference> references, const check::Drawn& drawn,
+                 const Scene& scene) {
+  const Plane<glm::vec4>& ours = drawn.candidate.planes.color;
+  Viewed out{name, ours.width(), ours.height(), rows_from_top(scene.dialect), {"ours"}, {}};
+  std::vector<Planes> drawn_for_reader;
+  drawn_for_reader.reserve(references.size());
+  std::vector<const Planes*> sides{&drawn.candidate.planes};
+  for (std::size_t i = 0; i < references.size() && i < drawn.references.size(); ++i) {
+    const Planes& planes = drawn_for_reader.emplace_back(planes_of(scene, references[i], drawn.references[i]));
+    if (planes.color.empty() && planes.depth.empty()) continue;
+    out.sides.push_back(references[i].name);
+    sides.push_back(&planes);
+  }
+  if (ours.empty()) {  // what was expected is shown nevertheless
+    out.width = scene.frame.width;
+    out.height = scene.frame.height;
+  }
+  out.layers = frame_layers(scene, sides);
+  return out;
 }
 
 }  // namespace
 
 // Scenes of two folders may have one name.
-std::string HtmlReport::free_folder(const std::string& scene) {
+std::string HtmlReport::free_name(const std::string& scene) {
   const std::string name = file_name(scene);
   std::string free = name;
-  for (int i = 2; !folders_.insert(free).second; ++i) free = fmt::format("{}-{}", name, i);
+  for (int i = 2; !names_.insert(free).second; ++i) free = fmt::format("{}-{}", name, i);
   return free;
 }
 
 void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
-                     const check::Drawn& drawn, const Scene& scene) {
-  const std::string scene_folder = free_folder(verdict.scene);
-  const auto picture = [&](const Plane<glm::vec4>& plane, const std::string& name, const std::string& caption) {
-    if (plane.empty()) return;
-    const std::string file = fmt::format("{}/{}.png", scene_folder, file_name(name));
-    Plane<glm::vec4> opaque = rows_from_top(scene.dialect) ? upside_down(plane) : plane;
-    for (glm::vec4& color : opaque.values()) color.a = 1;  // what is behind the page is none of the frame's
-    page_.write_picture(file, opaque);
-    body_ += fmt::format(
-        "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" loading=lazy></a>"
-        "<figcaption>{1}</figcaption></figure>\n",
-        file, escaped(caption));
-  };
-  body_ += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n", scene_folder, escaped(verdict.scene),
-                       escaped(scene.description));
-  const Plane<glm::vec4>& ours = drawn.candidate.planes.color;
-  picture(ours, "ours", "ours");
-  for (std::size_t i = 0; i < references.size() && i < drawn.references.size(); ++i) {
-    const Plane<glm::vec4>& theirs = drawn.references[i].planes.color;
-    picture(theirs, references[i].name, references[i].name);
-    if (ours.size() != theirs.size() || ours.width() != theirs.width()) continue;
-    picture(difference_picture(ours, theirs), references[i].name + "-difference",
-            "ours - " + references[i].name + ", times 8");
+                     const check::Drawn& drawn, const Scene& scene, const std::string& failure,
+                     const std::string& repeat) {
+  const std::string key = free_name(verdict.scene);
+  const check::Comparison* first = check::first_different(verdict);
+  std::size_t budget = kBytesOfScene;
+  Json card{{"key", key},
+            {"name", verdict.scene},
+            {"group", verdict.scene.substr(0, verdict.scene.find('/'))},
+            {"description", scene.description},
+            {"outcome", outcome_of(verdict, !failure.empty())},
+            {"fails", !failure.empty()},
+            {"first", first != nullptr ? Json(name_of(first->stage)) : Json(nullptr)},
+            {"file", key + ".js"},
+            {"thumbnail", nullptr}};
+  if (const Plane<glm::vec4>& ours = drawn.candidate.planes.color; !ours.empty()) {
+    const Plane<glm::vec4> small = thumbnail(ours);
+    card["thumbnail"] = key + ".png";
+    const Bytes png = encode_png(key + ".png", rows_from_top(scene.dialect) ? upside_down(small) : small);
+    page_.write(key + ".png", png);
+    budget -= std::min(png.size(), budget);
   }
-  body_ +=
-      "<table><tr><th>reference<th>stage<th>outcome<th>pixels<th>differing<th>ambiguous<th>largest<th>tolerance"
-      "<th>worst</tr>\n";
-  for (const check::Comparison& c : verdict.comparisons) body_ += row(c);
-  body_ += "</table>\n";
+  const Json about{{"description", scene.description},
+                   {"failure", failure},
+                   {"repeat", repeat},
+                   {"first", first != nullptr ? Json(first - verdict.comparisons.data()) : Json(nullptr)}};
+  page_.write(key + ".js",
+              fmt::format("sceneArrived({{...{}, view: {}}});\n", text_of(about),
+                          in_script(viewer_json(viewed_of(verdict.scene, references, drawn, scene), verdict.comparisons,
+                                                scene.frame.antialias.factor, budget))));
+  scenes_ += (scenes_.empty() ? "" : ",\n") + text_of(card);
 }
 
 void HtmlReport::write(const std::string& summary) {
-  page_.commit("plumbline", kStyle, fmt::format("<h1>plumbline check</h1>\n<p>{}</p>\n{}", escaped(summary), body_));
+  std::string html(web_file("check_page.html"));
+  const std::string_view here = "{summary}";
+  html.replace(html.find(here), here.size(), escaped(summary));
+  const std::string script =
+      web_files({"dom.js", "planes.js", "difference.js", "viewer.js", "rows.js", "scene_view.js", "check_page.js"});
+  page_.commit("plumbline check", web_file("viewer.css"),
+               fmt::format("{}<script type=\"application/json\" id=\"report\">{{\"stages\": {}, \"scenes\": [\n{}]}}"
+                           "</script>\n<script>\n{}</script>\n",
+                           html, Json(kStageNames).dump(), scenes_, script));
 }
 
 }  // namespace plumbline::report

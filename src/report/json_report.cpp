@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "report/comparison_json.h"
 #include "stages/atomic_path.h"
 
 namespace plumbline::report {
@@ -32,7 +33,9 @@ Json worst_of(const check::Worst& worst) {
   return out;
 }
 
-Json comparison(const check::Comparison& c) {
+}  // namespace
+
+Json comparison_json(const check::Comparison& c) {
   const check::Measurement& m = c.measurement;
   Json out{{"scene", c.scene},
            {"reference", c.reference},
@@ -56,8 +59,6 @@ Json comparison(const check::Comparison& c) {
   return out;
 }
 
-}  // namespace
-
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
                 const std::map<std::string, std::string>& versions, const Shard& shard) {
   Json out{{"versions", versions},
@@ -70,7 +71,7 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
     Json scene{{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}};
     if (!verdict.failure.empty()) scene["failure"] = verdict.failure, scene["repeat"] = verdict.repeat;
     out["scenes"].push_back(std::move(scene));
-    for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison(c));
+    for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
   }
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
@@ -94,7 +95,7 @@ void write_json(const std::filesystem::path& file, const check::Diagnosis& diagn
                                {"causes", f.causes},
                                {"picture", f.picture}});
   }
-  for (const check::Comparison& c : diagnosis.verdict.comparisons) out["comparisons"].push_back(comparison(c));
+  for (const check::Comparison& c : diagnosis.verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
   if (!pixel_history.empty()) out["pixel_history"] = Json::parse(pixel_history);
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -6,20 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "report/web_files.h"
 #include "stages/image_file.h"
 
 namespace plumbline::report {
-
-const std::string_view kPageStyle = R"(
-:root { color-scheme: light dark; }
-body { font: 14px/1.4 system-ui, sans-serif; margin: 2em; max-width: 100em; }
-h1 { font-size: 1.4em; } h2 { font-size: 1.1em; margin-top: 2em; }
-figure { display: inline-block; margin: 0 1em 1em 0; }
-img { image-rendering: pixelated; height: auto; border: 1px solid #8888; }
-figcaption { font-size: 12px; }
-table { border-collapse: collapse; font-size: 12px; }
-th, td { text-align: left; padding: 1px 10px 1px 0; white-space: nowrap; }
-)";
 
 namespace {
 
@@ -94,9 +84,10 @@ void PageFolder::write_picture(const std::string& name, const Plane<glm::vec4>& 
 }
 
 void PageFolder::commit(const std::string& title, std::string_view style, const std::string& body) {
-  write("index.html", fmt::format("<!doctype html>\n<html lang=en><meta charset=utf-8><title>{}</title>\n"
-                                  "<style>{}{}</style>\n{}</html>\n",
-                                  escaped(title), kPageStyle, style, body));
+  write("index.html", fmt::format("<!doctype html>\n<html lang=en><meta charset=utf-8>\n"
+                                  "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
+                                  "<title>{}</title>\n<style>\n{}{}</style>\n{}</html>\n",
+                                  escaped(title), web_file("page.css"), style, body));
   folder_.write_inside(kList, fmt::format("{}\n{}\n{}", kListHead, kList, files_));
   require_writable_folder(name_, files_of_page(name_));  // the run was long
   folder_.commit();

@@ -17,9 +17,6 @@ std::string escaped(std::string_view text);
 /// A relative path that any file system takes and a link may hold as it is: letters other than ASCII's become "_".
 std::string file_name(std::string_view text);
 
-/// The style that all pages begin with: light and dark, as the reader's system has it.
-extern const std::string_view kPageStyle;
-
 /// A folder with index.html and the files that it shows. Works offline. The folder appears in the end, whole. It
 /// replaces nothing but a page like it: a list in the folder names its files.
 class PageFolder {
@@ -29,7 +26,8 @@ class PageFolder {
   void write(const std::string& name, std::string_view bytes);
   /// As a PNG.
   void write_picture(const std::string& name, const Plane<glm::vec4>& plane);
-  /// index.html, `body` being HTML; and the folder is there.
+  /// index.html, `body` being HTML under the style of all pages (web/page.css) and the one given; and the folder is
+  /// there.
   void commit(const std::string& title, std::string_view style, const std::string& body);
 
  private:

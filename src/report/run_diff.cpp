@@ -25,13 +25,13 @@ void insert(std::map<std::string, Value>& map, std::string key, Value value) {
   for (int i = 2; !map.try_emplace(free, value).second; ++i) free = fmt::format("{} ({})", key, i);
 }
 
-std::map<std::string, const SceneVerdict*> scenes_of(const Run& run) {
+std::map<std::string, const SceneVerdict*> scenes_of(const CheckRun& run) {
   std::map<std::string, const SceneVerdict*> out;
   for (const SceneVerdict& verdict : run.verdicts) insert(out, verdict.scene, &verdict);
   return out;
 }
 
-std::map<std::string, const Comparison*> rows_of(const Run& run) {
+std::map<std::string, const Comparison*> rows_of(const CheckRun& run) {
   std::map<std::string, const Comparison*> out;
   for (const SceneVerdict& verdict : run.verdicts) {
     for (const Comparison& c : verdict.comparisons) {
@@ -106,7 +106,7 @@ std::vector<Kind> kinds(const RunDiff& d) {
 
 }  // namespace
 
-RunDiff diff(const Run& before, const Run& now, const DiffLimits& limits) {
+RunDiff diff(const CheckRun& before, const CheckRun& now, const DiffLimits& limits) {
   RunDiff out;
   const auto old_rows = rows_of(before), rows = rows_of(now);
   for (const auto& [what, was] : old_rows) {

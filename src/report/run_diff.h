@@ -33,7 +33,7 @@ struct RunDiff {
   std::vector<Change> times;        ///< of scenes
 };
 
-RunDiff diff(const Run& before, const Run& now, const DiffLimits& limits = {});
+RunDiff diff(const CheckRun& before, const CheckRun& now, const DiffLimits& limits = {});
 /// Nothing broken and nothing lost.
 bool holds(const RunDiff& diff);
 

@@ -118,9 +118,9 @@ Shard shard_at(const JsonNode& node) {
 
 }  // namespace
 
-Run read_run(const std::filesystem::path& path) {
+CheckRun read_run(const std::filesystem::path& path) {
   constexpr std::size_t kMostBytes = std::size_t{1} << 30;
-  Run run;
+  CheckRun run;
   run.file = path.string();
   const JsonValue value = read_json_file(path, run.file, kMostBytes);
   const JsonNode root(value, "");

@@ -13,7 +13,7 @@
 
 namespace plumbline::report {
 
-struct Run {
+struct CheckRun {
   std::string file;
   std::map<std::string, std::string> versions;  ///< by renderer
   std::map<std::string, double> tolerances;     ///< the ledger's factors, by row
@@ -23,7 +23,7 @@ struct Run {
 };
 
 /// Throws JsonError (json_tree.h): not what write_json() leaves.
-Run read_run(const std::filesystem::path& file);
+CheckRun read_run(const std::filesystem::path& file);
 
 bool all_hold(std::span<const check::SceneVerdict> verdicts);
 double seconds(std::span<const check::SceneVerdict> verdicts);

@@ -32,7 +32,7 @@ bool same(const SceneVerdict& a, const SceneVerdict& b) {
                             [](const Comparison& x, const Comparison& y) { return same(x, y); });
 }
 
-void require_one_run(const Run& first, const Run& other) {
+void require_one_run(const CheckRun& first, const CheckRun& other) {
   const auto refuse = [&](std::string_view what) {
     throw std::runtime_error(fmt::format("{} and {} are not of one run: {}", first.file, other.file, what));
   };
@@ -44,7 +44,7 @@ void require_one_run(const Run& first, const Run& other) {
   }
 }
 
-void require_these_tolerances(const Run& run) {
+void require_these_tolerances(const CheckRun& run) {
   std::map<std::string, double> ours;
   for (const check::Tolerance& row : check::ledger()) ours[std::string(row.name)] = row.factor;
   if (ours != run.tolerances) {
@@ -55,15 +55,15 @@ void require_these_tolerances(const Run& run) {
 
 }  // namespace
 
-Merged merge(std::vector<Run> runs) {
+Merged merge(std::vector<CheckRun> runs) {
   Merged out;
-  Run& all = out.run;
+  CheckRun& all = out.run;
   all.versions = runs.front().versions;
   all.tolerances = runs.front().tolerances;
   require_these_tolerances(runs.front());
-  std::map<std::string, std::pair<const SceneVerdict*, const Run*>> by_file;
+  std::map<std::string, std::pair<const SceneVerdict*, const CheckRun*>> by_file;
   std::set<int> there;
-  for (const Run& run : runs) {
+  for (const CheckRun& run : runs) {
     require_one_run(runs.front(), run);
     there.insert(run.shard.index);
     for (const SceneVerdict& verdict : run.verdicts) {

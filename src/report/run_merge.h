@@ -9,12 +9,12 @@
 namespace plumbline::report {
 
 struct Merged {
-  Run run;                           ///< scenes in the order of their files
+  CheckRun run;                      ///< scenes in the order of their files
   std::vector<std::string> missing;  ///< lines: shards that are not there, and what is lacking with them
 };
 
 /// At least one run. Throws std::runtime_error naming the files: versions or tolerances that differ, from each other or
 /// from this program's; shards of another run; a scene twice, with results that differ (times may).
-Merged merge(std::vector<Run> runs);
+Merged merge(std::vector<CheckRun> runs);
 
 }  // namespace plumbline::report

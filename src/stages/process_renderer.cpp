@@ -48,6 +48,31 @@ class TemporaryFolder {
   fs::path path_;
 };
 
+/// SIGINT, SIGTERM and SIGHUP wait until this thread has cleaned up: the process and its folder are gone before we are.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    ::sigemptyset(&held_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&held_, signal);
+    ::pthread_sigmask(SIG_BLOCK, &held_, &before_);
+  }
+  ~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+  const sigset_t& before() const { return before_; }
+  bool any_came() const {
+    sigset_t pending;
+    if (::sigpending(&pending) != 0) return false;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      if (::sigismember(&pending, signal) == 1 && ::sigismember(&before_, signal) == 0) return true;
+    }
+    return false;
+  }
+
+ private:
+  sigset_t held_{}, before_{};
+};
+
 std::string replaced(std::string text, std::string_view what, std::string_view by) {
   for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += by.size()) text.replace(at, what.size(), by);
   return text;
@@ -71,9 +96,10 @@ std::vector<std::string> merged_environment(const std::map<std::string, std::str
   return all;
 }
 
-/// Starts a process as the head of a group of its own: nothing to read, stdout thrown away, stderr into `log`. Returns
-/// 0 or an errno.
-int spawn(std::vector<std::string> argv, std::vector<std::string> environment, const fs::path& log, pid_t& pid) {
+/// Starts a process as the head of a group of its own: nothing to read, stdout thrown away, stderr into `log`, signals
+/// as they were before we held them. Returns 0 or an errno.
+int spawn(std::vector<std::string> argv, std::vector<std::string> environment, const fs::path& log,
+          const HeldSignals& signals, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
@@ -81,7 +107,8 @@ int spawn(std::vector<std::string> argv, std::vector<std::string> environment, c
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+  posix_spawnattr_setsigmask(&attributes, &signals.before());
   posix_spawnattr_setpgroup(&attributes, 0);
   const int error =
       ::posix_spawnp(&pid, argv[0].c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
@@ -91,14 +118,14 @@ int spawn(std::vector<std::string> argv, std::vector<std::string> environment, c
 }
 
 /// How a process ended, in words; empty: with exit status 0. Its whole group is gone afterwards.
-std::string wait_for(pid_t pid, std::chrono::milliseconds timeout) {
+std::string wait_for(pid_t pid, std::chrono::milliseconds timeout, const HeldSignals& signals) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point deadline = Clock::now() + timeout;
   std::chrono::milliseconds pause{1};
   siginfo_t info{};
   // WNOWAIT: it stays a zombie, and its number its own, until its group is killed.
   while (::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) == 0 || errno == EINTR) {
-    if (info.si_pid != 0 || Clock::now() >= deadline) break;
+    if (info.si_pid != 0 || Clock::now() >= deadline || signals.any_came()) break;
     std::this_thread::sleep_for(pause);
     pause = std::min(pause * 2, std::chrono::milliseconds{20});
   }
@@ -108,6 +135,7 @@ std::string wait_for(pid_t pid, std::chrono::milliseconds timeout) {
   while (::waitpid(pid, &status, 0) < 0) {
     if (errno != EINTR) return fmt::format("could not be waited for: {}", std::strerror(errno));
   }
+  if (hung && signals.any_came()) return "was killed, for we were told to end";
   if (hung) return fmt::format("took longer than {} and was killed", timeout);
   if (WIFSIGNALED(status)) {
     return fmt::format("was killed by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
@@ -176,6 +204,7 @@ class ProcessRenderer : public Renderer {
       throw Unsupported(fmt::format("{}: the passes of an antialiased scene stand in no file", spec_.name));
     }
     require_budget(scene, plane_bytes(scene), request.memory_budget);
+    const HeldSignals signals;
     const TemporaryFolder temporary;
     const fs::path folder = temporary.path() / "capture", log = temporary.path() / "stderr.txt";
     fs::create_directory(folder);
@@ -186,10 +215,10 @@ class ProcessRenderer : public Renderer {
           replaced(replaced(argument, "{folder}", folder.string()), "{scene}", fs::absolute(scene.path).string());
     }
     pid_t pid = 0;
-    if (const int error = spawn(argv, merged_environment(spec_.environment), log, pid); error != 0) {
+    if (const int error = spawn(argv, merged_environment(spec_.environment), log, signals, pid); error != 0) {
       fail(argv, fmt::format("cannot be started: {}", std::strerror(error)), log);
     }
-    if (const std::string how = wait_for(pid, spec_.timeout); !how.empty()) fail(argv, how, log);
+    if (const std::string how = wait_for(pid, spec_.timeout, signals); !how.empty()) fail(argv, how, log);
     if (!fs::is_directory(folder)) fail(argv, "left no capture: its folder is gone", log);
     require_budget(scene, bytes_below(folder), request.memory_budget);
     try {

@@ -34,14 +34,21 @@ class StageSet {
   std::uint32_t bits_ = 0;
 };
 
-/// What to capture. Planes always; records and the legal answers on demand.
+/// The planes that a capture is wanted for. What is not wanted may be handed out all the same.
+enum class WantedPlanes {
+  all,
+  picture,  ///< color and depth are enough: drawn as it ships, nothing is watched
+  none      ///< records and legal answers are enough
+};
+
+/// What to capture. Records and the legal answers on demand.
 struct Request {
   StageSet records;                       ///< stages whose records are wanted
-  bool legal = false;                     ///< an oracle's legal answers
+  bool legal = false;                     ///< an oracle's legal answers; of `pixels` at least
   std::vector<std::uint32_t> primitives;  ///< only these primitives' records, ascending; empty: all. Planes show all.
   std::vector<glm::ivec2> pixels;         ///< only these pixels' fragments (stages 5 to 9); empty: all
   std::size_t memory_budget = std::size_t{512} << 20;  ///< bytes a capture may take
-  bool picture = false;  ///< planes.color and planes.depth are enough: drawn as it ships, nothing is watched
+  WantedPlanes planes = WantedPlanes::all;
 };
 
 /// What a renderer is able to show of one stage.

@@ -27,6 +27,37 @@ TEST_F(Judge, AnOracleWhoseAnswersExcludeOursIsDifferent) {
   EXPECT_EQ(first_different(verdict)->reference, "oracle");
 }
 
+TEST_F(Judge, OfManyFragmentsAWinnerApartIsSettledByTheAnswersAtThatPixel) {
+  const glm::ivec2 where = covered_pixel(referee.capture(scene, Request{}).planes);
+  referee.on_info = [](RendererInfo& info) { info.legal = true; };
+  witness.on_capture = [&](Capture& c) { c.planes.id(where.x, where.y) += 1; };
+  bool either = false;
+  std::vector<glm::ivec2> asked;
+  referee.before_capture = [&](const Request& r) {
+    if (r.legal) asked = r.pixels;
+  };
+  referee.on_capture = [&](Capture& c) {
+    if (!either || c.legal.empty()) return;
+    Legal& legal = c.legal;
+    const auto i = static_cast<std::size_t>(where.y * 24 + where.x);
+    LegalAnswer other = legal.at(where.x, where.y)[0];
+    other.primitive += 1;
+    legal.answers.insert(legal.answers.begin() + legal.first[i], other);
+    for (std::size_t k = i + 1; k < legal.first.size(); ++k) ++legal.first[k];
+  };
+  const auto visibility = [&] {
+    const Reference references[] = {{"witness", &witness}, {"exact", &referee}};
+    for (const Comparison& c : judge(scene, candidate, references, nullptr, 0).comparisons) {
+      if (c.reference == "witness" && c.stage == Stage::visibility) return c.outcome;
+    }
+    return Outcome::missing;
+  };
+  EXPECT_EQ(visibility(), Outcome::dispute) << "its winner is not legal, ours is";
+  EXPECT_EQ(asked, std::vector{where});
+  either = true;
+  EXPECT_EQ(visibility(), Outcome::ambiguous_only);
+}
+
 TEST_F(Judge, MoreAmbiguityThanPredictedIsDifferent) {
   double predicted = 0;
   oracle.on_capture = [&](Capture& c) {

@@ -29,7 +29,7 @@ TEST_F(Judge, WhereAllAgreeEveryStageIsJudgedAndNothingFails) {
   }
   EXPECT_EQ(drawn.candidate.planes.color.width(), 24);
   ASSERT_EQ(drawn.references.size(), 3u);
-  for (const Capture& c : drawn.references) EXPECT_EQ(c.planes.color.height(), 16);
+  for (int i : {0, 1}) EXPECT_EQ(drawn.references[static_cast<std::size_t>(i)].planes.color.height(), 16);
 }
 
 TEST_F(Judge, ACandidateThatThrowsHasFailed) {
@@ -169,12 +169,29 @@ TEST_F(Judge, FragmentsBeyondTheBudgetAreUnsupportedTheRestIsJudged) {
   for (Stage stage : {Stage::depth, Stage::attributes, Stage::shade}) {
     const Comparison& c = results.at({"exact from its records", stage});
     EXPECT_EQ(c.outcome, Outcome::unsupported) << name_of(stage);
-    EXPECT_NE(c.note.find("budget"), std::string::npos) << c.note;
+    EXPECT_NE(c.note.find("more fragments"), std::string::npos) << c.note;
   }
   for (Stage stage : {Stage::vertex, Stage::light, Stage::clip, Stage::window, Stage::coverage}) {
     EXPECT_GT(results.at({"exact from its records", stage}).measurement.items, 0u) << name_of(stage);
   }
   EXPECT_EQ(results.at({"witness", Stage::merge}).outcome, Outcome::equal);
+}
+
+TEST_F(Judge, OfMoreFragmentsThanGivenNoneIsRecordedAndNoFrameOfLegalAnswersAskedFor) {
+  const auto judged_up_to = [&](std::uint64_t most) {
+    std::size_t recorded = 0, legal = 0;
+    candidate.before_capture = [&](const Request& r) { recorded += r.records.has(Stage::depth) ? 1 : 0; };
+    oracle.before_capture = [&](const Request& r) { legal += r.legal ? 1 : 0; };
+    const Reference references[] = {{"witness", &witness}, {"oracle", &oracle}, {"exact", &referee}};
+    verdict = judge(scene, candidate, references, nullptr, most);
+    EXPECT_EQ(first_different(verdict), nullptr);
+    return std::pair(recorded, legal);
+  };
+  const Capture all = referee.capture(scene, Request{});
+  std::uint64_t fragments = 0;
+  for (const std::uint32_t n : all.planes.count.values()) fragments += n;
+  EXPECT_EQ(judged_up_to(fragments), std::pair(std::size_t{1}, std::size_t{1}));
+  EXPECT_EQ(judged_up_to(fragments - 1), std::pair(std::size_t{0}, std::size_t{0}));
 }
 
 TEST_F(Judge, ACandidateBeyondEveryBudgetHasFailed) {

@@ -208,6 +208,19 @@ TEST(Meter, CountsWhatIsAmbiguousAndDisputed) {
   m = meter.done();
   EXPECT_EQ(m.disputed, 3u);
   EXPECT_EQ(m.differing, 2u);
+  EXPECT_EQ(m.differing_at, (std::vector<glm::ivec2>{{5, 5}})) << "once an item, and not the one that has no pixel";
+}
+
+TEST(Meter, KeepsTheFirstPlacesAlone) {
+  Meter meter("u");
+  for (int i = 0; i < 70000; ++i) {
+    meter.value(1, 0, {i, 1, -1, ""}, 0, 1);
+    meter.item();
+  }
+  const Measurement m = meter.done();
+  EXPECT_EQ(m.differing, 70000u);
+  EXPECT_EQ(m.differing_at.size(), 65536u);
+  EXPECT_EQ(m.differing_at.back(), glm::ivec2(65535, 1));
 }
 
 TEST(Place, InWords) {

@@ -7,11 +7,10 @@
 
 #include "../unit/test_folder.h"
 #include "check_fixtures.h"
-#include "report/html_report.h"
+#include "check_verdicts.h"
 #include "report/json_report.h"
 #include "report/table.h"
 #include "stages/atomic_path.h"
-#include "stages/image_file.h"
 
 namespace plumbline::report {
 namespace {
@@ -34,29 +33,6 @@ struct Reports : TestFolder {
   }
   const fs::path& folder = root_;
 };
-
-Comparison compared(Outcome outcome, double difference = 0, double tolerance = 0) {
-  Measurement m;
-  m.unit = "u";
-  m.items = 1536;
-  m.differing = outcome == Outcome::different ? 17 : 0;
-  m.ambiguous = outcome == Outcome::ambiguous_only ? 5 : 0;
-  m.max_difference = m.worst.difference = difference;
-  m.max_ratio = tolerance > 0 ? difference / tolerance : difference;
-  m.worst.place = {12, 34, 56, "p_clip"};
-  m.worst.tolerance = tolerance;
-  m.worst.candidate = 0.5;
-  m.worst.reference = 0.25;
-  m.histogram[0] = 1536;
-  return {"group/scene", "osmesa", Stage::clip, outcome, m, "exact.clip", ""};
-}
-Comparison not_compared(Outcome outcome, std::string why) {
-  return check::not_judged("group/scene", "embree", Stage::light, outcome, std::move(why));
-}
-SceneVerdict verdict_of(std::vector<Comparison> comparisons) {
-  return {"group/scene", "scenes/group/scene.json", std::move(comparisons), 0.5};
-}
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_F(Reports, ATableRowSaysAll) {
   const std::string rows = table_rows(verdict_of({compared(Outcome::different, 3.5, 8)}));
@@ -254,108 +230,6 @@ TEST_F(Reports, LedgerFileHasEachGroupsLargestDifferences) {
   EXPECT_EQ(groups[0]["largest_difference"].items().begin().value(), "1.3");
   EXPECT_EQ(groups[1]["largest_difference"].items().begin().value(), "2");
   EXPECT_EQ(groups[1]["largest_difference"].items().begin().key(), "osmesa, clip, u");
-}
-
-Scene described(const std::string& description) {
-  Scene scene;
-  scene.description = description;
-  return scene;
-}
-
-TEST_F(Reports, HtmlEscapesAllText) {
-  const std::string odd = "<script>\"a\" & 'b'</script>";
-  Comparison c = not_compared(Outcome::failed, odd);
-  c.reference = odd;
-  SceneVerdict verdict = verdict_of({c, compared(Outcome::within, 2, 8)});
-  verdict.scene = "group/<a & \"b\">";
-  HtmlReport page(folder / "page");
-  page.add(verdict, {}, {}, described(odd));
-  page.write(odd);
-  const std::string text = read(folder / "page/index.html");
-  EXPECT_FALSE(contains(text, "<script>"));
-  EXPECT_FALSE(contains(text, "<a &"));
-  EXPECT_FALSE(contains(text, "\"b\""));
-  std::size_t escaped = 0;
-  for (std::size_t at = 0; (at = text.find("&lt;script&gt;&quot;a&quot; &amp; ", at)) != std::string::npos; ++at)
-    ++escaped;
-  EXPECT_EQ(escaped, 4u) << "description, reference, note and summary";
-  EXPECT_TRUE(contains(text, "id=\"group/_a____b__\">group/&lt;a &amp; &quot;b&quot;&gt;</h2>"));
-  EXPECT_TRUE(contains(text, "pixel 12,34 record 56 p_clip"));
-  EXPECT_TRUE(contains(text, "class=\"failed\""));
-}
-
-TEST_F(Reports, HtmlShowsOursTheReferenceAndTheDifference) {
-  check::Drawn drawn;
-  drawn.candidate.planes.color = Plane<glm::vec4>(3, 2, glm::vec4(0.5, 0.5, 0.5, 1));
-  drawn.references.resize(3);
-  Plane<glm::vec4>& theirs = drawn.references[0].planes.color = drawn.candidate.planes.color;
-  theirs(2, 0).r += 0.1f;
-  theirs(0, 1).g = std::numeric_limits<float>::quiet_NaN();
-  drawn.references[2].planes.color = Plane<glm::vec4>(2, 3);  // as many pixels, of another shape
-  const check::Reference references[] = {{"osmesa", nullptr}, {"embree", nullptr}, {"exact", nullptr}};
-  HtmlReport page(folder);
-  page.add(verdict_of({}), references, drawn, {});
-  page.write("");
-  const std::string text = read(folder / "index.html");
-  for (const char* name : {"ours", "osmesa", "osmesa-difference", "exact"}) {
-    const std::string file = std::string("group/scene/") + name + ".png";
-    EXPECT_TRUE(fs::exists(folder / file)) << file;
-    EXPECT_TRUE(contains(text, "src=\"" + file + "\"")) << file;
-  }
-  EXPECT_FALSE(fs::exists(folder / "group/scene/embree.png")) << "it drew nothing";
-  EXPECT_FALSE(fs::exists(folder / "group/scene/exact-difference.png"));
-  const Plane<glm::vec4> difference = read_image(folder / "group/scene/osmesa-difference.png");
-  EXPECT_NEAR(difference(2, 0).r, 0.8, 0.01) << "times 8";
-  EXPECT_EQ(difference(0, 1).g, 1) << "white where it is no number";
-  EXPECT_EQ(difference(1, 0), glm::vec4(0, 0, 0, 1));
-}
-
-TEST_F(Reports, HtmlReplacesWhatIsNoUtf8AndNothingElse) {
-  // Overlong, surrogate, beyond U+10FFFF, a lone continuation, cut short; the others are characters.
-  const std::string odd = "\xc0\xaf \xed\xa0\x80 \xf4\x90\x80\x80 \x80 \xe2\x82";
-  const std::string fine = "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x98\x80 \xed\x9f\xbf \xf4\x8f\xbf\xbf";
-  HtmlReport page(folder);
-  page.add(verdict_of({}), {}, {}, described(odd + "|" + fine));
-  page.write("");
-  const std::string r = "\xef\xbf\xbd";
-  const std::string text = read(folder / "index.html");
-  EXPECT_TRUE(contains(text, r + r + " " + r + r + r + " " + r + r + r + r + " " + r + " " + r + r + "|" + fine))
-      << text;
-}
-
-TEST_F(Reports, ScenesOfOneNameHaveFoldersOfTheirOwn) {
-  check::Drawn drawn;
-  HtmlReport page(folder);
-  std::size_t i = 0;
-  for (const char* name : {"g/s", "g/s", "g/s-2", "../../s", "g/.s", "g/s"}) {
-    drawn.candidate.planes.color = Plane<glm::vec4>(static_cast<int>(++i), 1, glm::vec4(1));
-    SceneVerdict verdict = verdict_of({});
-    verdict.scene = name;
-    page.add(verdict, {}, drawn, {});
-  }
-  page.write("");
-  const std::string text = read(folder / "index.html");
-  i = 0;
-  for (const std::string name : {"g/s", "g/s-2", "g/s-2-2", "_./_./s", "g/_s", "g/s-3"}) {
-    EXPECT_EQ(read_image(folder / name / "ours.png").width(), static_cast<int>(++i)) << name;
-    EXPECT_TRUE(contains(text, "src=\"" + name + "/ours.png\"")) << name;
-  }
-}
-
-TEST_F(Reports, APageAppearsWholeOrNotAtAll) {
-  {
-    HtmlReport page(folder / "a/b");
-    page.add(verdict_of({}), {}, {}, {});
-    EXPECT_FALSE(fs::exists(folder / "a/b"));
-  }
-  EXPECT_EQ(entries(folder), 0u) << "not written, so nothing is left";
-  HtmlReport page(folder / "a/b");
-  page.write("");
-  EXPECT_TRUE(fs::exists(folder / "a/b/index.html"));
-  HtmlReport late(folder / "a/b");
-  write_file(folder / "a/b/notes.txt", "made while it ran");
-  EXPECT_THROW(late.write(""), OutputError);
-  EXPECT_EQ(read(folder / "a/b/notes.txt"), "made while it ran");
 }
 
 TEST_F(Reports, WhereItCannotBeWrittenTheErrorNamesTheFile) {

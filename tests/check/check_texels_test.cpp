@@ -84,7 +84,7 @@ TEST(TexelBound, HoldsWhereverThePlaceMayBe) {
     const glm::dvec2 st(coordinate(random), coordinate(random)), error(0.003, 0.002);
     const double lo = level(random), hi = lo + 0.2;
     const TexelBound bound =
-        texel_bound(texture, math::texel_range(texture, st, lo, hi), st, error, 8, largest_texel(texture));
+        texel_bound(texture, math::texel_range(texture, st, lo, hi), st, error, 8 * u * largest_texel(texture));
     open += std::isinf(bound.slack.r) ? 1 : 0;
     for (int i = 0; i < 20; ++i) {
       const glm::dvec2 at = st + error * glm::dvec2(share(random), share(random));
@@ -107,7 +107,7 @@ TEST(TexelBound, IsTightOnARamp) {
   texture.type = TexelType::float32;
   set_levels(texture, ramp);
   const TexelBound bound =
-      texel_bound(texture, math::texel_range(texture, {0.5, 0.5}, -1, -1), {0.5, 0.5}, {0.01, 0}, 0, 1);
+      texel_bound(texture, math::texel_range(texture, {0.5, 0.5}, -1, -1), {0.5, 0.5}, {0.01, 0}, 0);
   EXPECT_NEAR(bound.slack.r, 0.01, 4 * u);  // red is s
   EXPECT_NEAR(bound.slack.g, 0, 1e-12);
 }
@@ -145,7 +145,7 @@ TEST(TexelBound, KnowsACoordinateWithoutError) {
   const Texture texture = noise(MinFilter::nearest);
   const auto open = [&](Vec2<double> st, Vec2<double> error) {
     return std::isinf(
-        texel_bound(texture, math::texel_range(texture, st, 0, 0), st, error, 8, largest_texel(texture)).slack.r);
+        texel_bound(texture, math::texel_range(texture, st, 0, 0), st, error, 8 * u * largest_texel(texture)).slack.r);
   };
   EXPECT_FALSE(open({0.03, 0}, {1e-4, 0})) << "0 everywhere: row 0";
   EXPECT_TRUE(open({0.03, 0}, {1e-4, 1e-9}));
@@ -174,7 +174,7 @@ TEST(OpenShare, SumsToWhatIsOpen) {
       const OpenShare share = open_share(texture, range, plane, error);
       predicted += share.area;
       centres += share.centre ? 1 : 0;
-      counted += std::isinf(texel_bound(texture, range, st, error, 8, largest_texel(texture)).slack.r) ? 1 : 0;
+      counted += std::isinf(texel_bound(texture, range, st, error, 8 * u * largest_texel(texture)).slack.r) ? 1 : 0;
     }
   }
   EXPECT_GT(counted, 1000);

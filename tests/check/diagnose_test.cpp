@@ -144,6 +144,30 @@ TEST_F(Diagnose, WhatDoesNotFitTheBudgetIsLookedAtAboutTheWorstPixels) {
   EXPECT_TRUE(d.findings[0].causes[0].starts_with("error grows with the spread of 1/w"));
 }
 
+TEST_F(Diagnose, AVaryingIsToldByItsName) {
+  scene = suite_scene("texture/globe");
+  Changed candidate(pipeline::make_pipeline());
+  candidate.on_capture = [](Capture& c) {
+    if (!c.records.varyings[Varying::texture].fragments.empty())
+      c.records.varyings[Varying::texture].fragments[0].s += 1;
+  };
+  const Diagnosis d = of(candidate);
+  ASSERT_FALSE(d.findings.empty());
+  EXPECT_EQ(d.findings[0].stage, Stage::attributes);
+  EXPECT_STREQ(d.findings[0].measurement.worst.place.field, "texture");
+}
+
+TEST_F(Diagnose, OfTooManyFragmentsNoTriangleIsDrawnAsMissing) {
+  const auto candidate = with({"coverage.at_corner"});
+  const Reference references[] = {{"exact", exact.get()}};
+  for (const std::uint64_t most : {std::uint64_t{0}, kMostFragments}) {
+    const Diagnosis d = diagnose(scene, *candidate, references, most);
+    EXPECT_EQ(d.wrong, Stages{Stage::coverage});
+    ASSERT_EQ(d.findings.size(), 1u);
+    EXPECT_EQ(d.findings[0].picture.empty(), most == 0);
+  }
+}
+
 TEST_F(Diagnose, ARendererThatFailsIsWrongInNoStage) {
   Changed candidate(pipeline::make_pipeline());
   candidate.before_capture = [](const Request&) { throw RendererFailed("crashed"); };

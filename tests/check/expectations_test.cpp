@@ -107,7 +107,7 @@ TEST_F(Expectations, FilesAreRefusedWithTheirPlace) {
   refused(with("2030-06-30", "2030-6-30"), "/expectations/0/expires", "a day as YYYY-MM-DD");
   refused(with("\"depth\"", "\"dept\""), "/expectations/0/stage", "a stage (matrices to resolve)");
   refused(with("a driver's bug", ""), "/expectations/0/reason", "");
-  refused(with("\"issue\": \"mesa 123\",", ""), "/expectations/0", "");
+  refused(with("\"issue\": \"mesa 123\",", ""), "/expectations/0/issue", "a value");
   refused(with("\"issue\"", "\"isue\""), "/expectations/0/isue", "");
   refused(with("\"stage\"", "\"outcome\": \"equal\", \"stage\""), "/expectations/0/outcome", "");
   EXPECT_THROW(day_of("2026-02-30"), std::invalid_argument);

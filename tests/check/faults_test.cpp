@@ -14,6 +14,7 @@
 #include "faults/legal.h"
 #include "matrix/matrix.h"
 #include "matrix/report.h"
+#include "scene/scene_file.h"
 
 namespace plumbline {
 

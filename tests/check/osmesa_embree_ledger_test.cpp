@@ -15,8 +15,8 @@ namespace {
 
 class Suite : public testing::Test {
  protected:
-  static report::Run all() {
-    std::vector<report::Run> runs;
+  static report::CheckRun all() {
+    std::vector<report::CheckRun> runs;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(PLUMBLINE_SUITE)) {
       if (entry.path().extension() == ".json") runs.push_back(report::read_run(entry.path()));
     }
@@ -26,7 +26,7 @@ class Suite : public testing::Test {
 };
 
 TEST_F(Suite, holds_every_scene_and_more_than_a_thousand_comparisons) {
-  const report::Run run = all();
+  const report::CheckRun run = all();
   const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   std::set<std::filesystem::path> judged;
   std::size_t comparisons = 0;
@@ -41,7 +41,7 @@ TEST_F(Suite, holds_every_scene_and_more_than_a_thousand_comparisons) {
 }
 
 TEST_F(Suite, uses_every_row_of_the_ledger_and_none_is_loose) {
-  const report::Run run = all();
+  const report::CheckRun run = all();
   for (const check::LedgerUse& use : check::ledger_use(run.verdicts)) {
     ASSERT_GE(use.largest_ratio, 0) << use.row->name << ": no comparison uses the row";
     EXPECT_LE(use.largest_ratio, 1) << use.row->name << ": " << use.where;

@@ -44,7 +44,8 @@ SceneVerdict failing(const std::string& name) {
 
 struct RunFiles : TestFolder {
   std::string at(const std::string& name) const { return (root_ / name).string(); }
-  Run run(const std::vector<SceneVerdict>& verdicts, const Shard& shard = {}, const std::string& version = "1") const {
+  CheckRun run(const std::vector<SceneVerdict>& verdicts, const Shard& shard = {},
+               const std::string& version = "1") const {
     write_json(at("run.json"), verdicts, {{"osmesa", version}}, shard);
     return read_run(at("run.json"));
   }
@@ -73,7 +74,7 @@ TEST_F(RunFiles, AreReadBackWhole) {
   const std::vector<SceneVerdict> verdicts = {
       failing("light/a"),
       scene("light/b", {disputed, check::not_judged("light/b", "embree", Stage::light, Outcome::unsupported, "why")})};
-  const Run back = run(verdicts, {2, 3, 5});
+  const CheckRun back = run(verdicts, {2, 3, 5});
   EXPECT_EQ(back.shard, (Shard{2, 3, 5}));
   EXPECT_EQ(back.versions.at("osmesa"), "1");
   EXPECT_EQ(back.tolerances.size(), check::ledger().size());
@@ -102,13 +103,13 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
   both.push_back(b[0]);
   run(both);
   const std::string whole = read(at("run.json"));
-  const auto merged = [&](std::vector<Run> runs) {
+  const auto merged = [&](std::vector<CheckRun> runs) {
     const Merged m = merge(std::move(runs));
     write_json(at("merged.json"), m.run.verdicts, m.run.versions, m.run.shard);
     return m.missing;
   };
   const auto runs = [](auto... each) {
-    std::vector<Run> out;
+    std::vector<CheckRun> out;
     (out.push_back(std::move(each)), ...);
     return out;
   };
@@ -118,7 +119,7 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
   EXPECT_EQ(merged(runs(run(b, {2, 3, 4}))),
             (std::vector<std::string>{"missing: shard 1, 3 of 3", "missing: 3 of 4 scenes"}));
 
-  const auto refuses = [&](std::vector<Run> of, const std::string& says) {
+  const auto refuses = [&](std::vector<CheckRun> of, const std::string& says) {
     try {
       merge(std::move(of));
       ADD_FAILURE() << "merged: " << says;
@@ -131,7 +132,7 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
   refuses(runs(run(a, {1, 2, 2}), run(b, {2, 2, 3})), "of 2 scenes and of 3");
   refuses(runs(run(a), run({scene("light/a", {row("light/a", Stage::depth, Outcome::equal)})})),
           "twice, with results that differ");
-  Run other = run(a);
+  CheckRun other = run(a);
   other.tolerances.begin()->second += 1;
   refuses(runs(other), "are not this program's");
   refuses(runs(run(b), other), "their tolerances differ");
@@ -142,7 +143,7 @@ TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
     return run(
         {scene("light/a", {row("light/a", Stage::clip, clip, 1), row("light/a", Stage::depth, depth, largest)})});
   };
-  const Run before = rows(Outcome::within, Outcome::equal);
+  const CheckRun before = rows(Outcome::within, Outcome::equal);
   EXPECT_EQ(diff_text(diff(before, before)), "nothing has changed\n");
   EXPECT_TRUE(holds(diff(before, before)));
 
@@ -179,7 +180,7 @@ TEST_F(RunFiles, ADiffNamesWhatMovedBeyondItsLimits) {
     v.seconds = seconds;
     return run({v});
   };
-  const Run before = with(4, 1);
+  const CheckRun before = with(4, 1);
   EXPECT_TRUE(diff(before, with(5, 1)).differences.empty()) << "a quarter more is not told";
   EXPECT_EQ(diff(before, with(5.1, 1)).differences.at(0).now, "5.1 steps");
   EXPECT_EQ(diff(before, with(3.1, 1)).differences.size(), 1u);
@@ -188,7 +189,7 @@ TEST_F(RunFiles, ADiffNamesWhatMovedBeyondItsLimits) {
   EXPECT_EQ(diff(before, with(4, 1.6)).times.at(0).now, "1.60 s");
   EXPECT_EQ(diff(before, with(4, 0.6)).times.size(), 1u);
   EXPECT_TRUE(diff(with(4, 0.01), with(4, 0.1)).times.empty()) << "less than a quarter of a second";
-  Run moved = with(4, 1);
+  CheckRun moved = with(4, 1);
   const std::string name = moved.tolerances.begin()->first;
   moved.tolerances[name] *= 2;
   moved.versions["osmesa"] = "2";
@@ -213,7 +214,9 @@ TEST_F(RunFiles, AsJUnit) {
   EXPECT_NE(text.find("<failure message=\"different light/a: first different stage: depth\">"), std::string::npos);
   EXPECT_NE(text.find("a &quot;note&quot; &amp; &lt;more&gt;"), std::string::npos) << "the rows";
   SceneVerdict odd = failing("light/a");
-  odd.failure = "a\x01b\xff";
+  odd.failure =
+      "a\x01"
+      "b\xff";
   EXPECT_NE(junit(std::vector{odd}).find("a?b\xef\xbf\xbd"), std::string::npos) << "XML holds neither";
 }
 

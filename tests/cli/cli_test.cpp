@@ -177,7 +177,7 @@ TEST_F(Cli, json_and_page_are_written) {
     EXPECT_NE(json.find(key), std::string::npos) << key;
   }
   EXPECT_NE(read(at("page/index.html")).find("cull/both_windings"), std::string::npos);
-  EXPECT_TRUE(fs::exists(at("page/cull/both_windings/ours.png")));
+  for (const char* kind : {".png", ".js"}) EXPECT_TRUE(fs::exists(at("page/cull/both_windings") + kind)) << kind;
   EXPECT_EQ(plumb("check " + kScenes + "cull --against exact --json " + at("no/such/out.json")).code, 2);
 }
 

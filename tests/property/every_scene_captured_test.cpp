@@ -26,7 +26,7 @@ TEST(EveryScene, HasTheSamePlanesWatchedOrNot) {
     const Scene scene = load_scene(file, {});
     for (const Scene& pass : passes_of(scene)) {
       Request picture, all;
-      picture.picture = true;
+      picture.planes = WantedPlanes::picture;
       all.records = StageSet::all();
       const Capture drawn = pipeline->capture(pass, picture);
       try {

@@ -64,7 +64,7 @@ TEST(PipelineRenderer, APictureIsDrawnAsItShips) {
   Stages unwatched = production_stages();
   unwatched.fragment.draw_tapped = nullptr;  // would crash
   Request picture;
-  picture.picture = true;
+  picture.planes = WantedPlanes::picture;
   for (const auto& [color, depth] : kFormats) {
     const Scene scene = boxes(color, depth);
     const Capture drawn = make_pipeline(unwatched)->capture(scene, picture);
@@ -74,7 +74,7 @@ TEST(PipelineRenderer, APictureIsDrawnAsItShips) {
     EXPECT_TRUE(drawn.planes.count.empty()) << "nobody watched";
   }
   Request more = everything();
-  more.picture = true;
+  more.planes = WantedPlanes::picture;
   EXPECT_FALSE(make_pipeline()->capture(boxes(), more).records.covered.empty()) << "records need watching";
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -55,6 +57,17 @@ class Process : public TestFolder {
     c.records.depth = {0.25};
     write_capture(c, root_ / "good");
     return root_ / "good";
+  }
+
+  /// An orphan is reaped by init, or stays a zombie where init does not: dead either way.
+  static bool dies(pid_t process) {
+    const auto dead = [&] {
+      std::string pid, name, state;
+      std::ifstream(fs::path("/proc") / std::to_string(process) / "stat") >> pid >> name >> state;
+      return state.empty() || state == "Z" || state == "X";
+    };
+    for (int i = 0; i < 100 && !dead(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    return dead();
   }
 
   Scene scene_;
@@ -130,14 +143,40 @@ TEST_F(Process, KillsAHangingProgramAndAllThatItStarted) {
   pid_t child = 0;
   std::ifstream(root_ / "pid") >> child;
   ASSERT_GT(child, 1);
-  // An orphan is reaped by init, or stays a zombie where init does not: dead either way.
-  const auto dead = [&] {
-    std::string pid, name, state;
-    std::ifstream(fs::path("/proc") / std::to_string(child) / "stat") >> pid >> name >> state;
-    return state.empty() || state == "Z" || state == "X";
-  };
-  for (int i = 0; i < 100 && !dead(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds{20});
-  EXPECT_TRUE(dead());
+  EXPECT_TRUE(dies(child));
+}
+
+TEST_F(Process, AnEndFromOutsideLeavesNeitherProgramNorFolder) {
+  const fs::path pid_file = root_ / "pid", temporary = root_ / "temporary";
+  fs::create_directory(temporary);
+  const pid_t self = ::fork();
+  ASSERT_GE(self, 0);
+  if (self == 0) {
+    ::setenv("TMPDIR", temporary.c_str(), 1);
+    try {
+      make_process_renderer({.name = "outside",
+                             .version = "",
+                             .argv = {"sh", "-c", "echo $$ > '" + pid_file.string() + "'; exec sleep 60"},
+                             .environment = {},
+                             .shows = {}})
+          ->capture(scene_, {});
+    } catch (...) {
+    }
+    ::_exit(0);  // not reached: the signal comes once the folder is gone
+  }
+  pid_t program = 0;
+  for (int i = 0; i < 500 && program == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    std::ifstream(pid_file) >> program;
+  }
+  ASSERT_GT(program, 1);
+  ASSERT_FALSE(fs::is_empty(temporary));
+  ASSERT_EQ(::kill(self, SIGTERM), 0);
+  int status = 0;
+  ASSERT_EQ(::waitpid(self, &status, 0), self);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) << status;
+  EXPECT_TRUE(fs::is_empty(temporary));
+  EXPECT_TRUE(dies(program));
 }
 
 TEST_F(Process, RefusesWhatItCannotHandOver) {

@@ -80,6 +80,8 @@ std::string encode(const ImageToEncode& image, std::string& error) {
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), type_of(image.type));
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("compression", "zip");
+  // Of an EXR file: without a date OpenImageIO writes today's, and no two files were the same.
+  if (image.type == SampleType::float32) spec.attribute("DateTime", "1970:01:01 00:00:00");
   spec.channelnames = image.channels;
   for (int c = 0; c < spec.nchannels; ++c) {
     if (spec.channel_name(c) == "Z") spec.z_channel = c;
@@ -102,4 +104,4 @@ std::string encode(const ImageToEncode& image, std::string& error) {
 }  // namespace plumbline
 
 extern "C" __attribute__((visibility("default")))
-const plumbline::ImageCodec plumbline_image_codec = {plumbline::open, plumbline::encode};
+const plumbline::ImageCodec plumbline_image_codec = {OIIO_VERSION_STRING, plumbline::open, plumbline::encode};
