@@ -54,7 +54,12 @@ bool agrees(Outcome o) { return o == Outcome::equal || o == Outcome::within || o
 
 GoldenDifference compare_golden(const Scene& scene, Renderer& candidate, const GoldenSet& goldens) {
   GoldenDifference out;
-  out.drawn = fingerprint(scene, candidate);
+  try {
+    out.drawn = fingerprint(scene, candidate);
+  } catch (const std::exception& error) {
+    out.why = fmt::format("{} failed: {}", candidate.info().name, error.what());
+    return out;
+  }
   const auto golden = goldens.manifest().scenes.find(scene.name);
   if (golden == goldens.manifest().scenes.end()) {
     out.why = "it has no golden: scripts/regenerate_goldens makes one";
@@ -103,12 +108,7 @@ std::string describe(const GoldenDifference& d) {
 
 std::vector<Comparison> golden_rows(const Scene& scene, Renderer& candidate, const GoldenSet& goldens) {
   const std::string name(kGolden);
-  GoldenDifference d;
-  try {
-    d = compare_golden(scene, candidate, goldens);
-  } catch (const std::exception& error) {
-    d.why = error.what();
-  }
+  const GoldenDifference d = compare_golden(scene, candidate, goldens);
   if (!d.why.empty()) return {not_judged(scene.name, name, Stage::merge, Outcome::failed, d.why)};
   const Stage last = d.drawn.stages.back() ? Stage::resolve : Stage::merge;
   std::vector<Comparison> out;
@@ -139,11 +139,13 @@ Vouch vouch(const SceneVerdict& verdict, const std::string& candidate, std::span
   if (names.size() < 3) out.refusals.push_back(fmt::format("{} references are asked, of three", names.size()));
   std::map<std::string, std::map<Outcome, std::set<Stage>>> rows;
   std::set<Stage> judged, agreed;
+  std::set<std::string> against;
   for (const Comparison& c : verdict.comparisons) {
     rows[c.reference][c.outcome].insert(c.stage);
     const std::string reference = voter(c);
     if (is_failure(c.outcome)) {
       const std::string more = remark(c);
+      against.insert(reference);
       out.refusals.push_back(fmt::format("{}, {}: {}{}{}", c.reference, name_of(c.stage), name_of(c.outcome),
                                          more.empty() ? "" : ": ", more));
     } else if (reference == candidate) {
@@ -158,6 +160,7 @@ Vouch vouch(const SceneVerdict& verdict, const std::string& candidate, std::span
       if (std::ranges::count(out.by, reference) == 0) out.by.push_back(reference);
     }
   }
+  std::erase_if(out.by, [&](const std::string& reference) { return against.contains(reference); });
   for (const Stage stage : unjudged_stages(verdict)) {
     out.refusals.push_back(fmt::format("{}: nobody judges it", name_of(stage)));
   }

@@ -13,13 +13,14 @@ namespace plumbline::check {
 
 /// What of a scene is not as its golden has it.
 struct GoldenDifference {
-  std::string why;            ///< why there is nothing to compare: no golden, of another scene, a broken file; or empty
+  /// Why there is nothing to compare: the renderer failed, no golden, one of another scene, a broken file; or empty.
+  std::string why;
   Fingerprint golden, drawn;  ///< empty where they are not known
   std::vector<Stage> stages;  ///< whose hashes differ, in order
   Measurement color, depth;   ///< pixels that differ in a bit, the differences in steps of the format
   bool any() const { return !why.empty() || !stages.empty() || color.differing > 0 || depth.differing > 0; }
 };
-/// Draws the scene. Throws what Renderer::capture does.
+/// Draws the scene.
 GoldenDifference compare_golden(const Scene& scene, Renderer& candidate, const GoldenSet& goldens);
 
 /// For a person: the first stage that differs, the pixels, the worst one. Lines.
@@ -31,9 +32,9 @@ std::vector<Comparison> golden_rows(const Scene& scene, Renderer& candidate, con
 
 /// Whether the references vouch for what was judged.
 struct Vouch {
-  std::vector<std::string> refusals;                                     ///< none: they do
-  std::vector<std::string> by;                                           ///< those that judged a stage and agree
-  std::vector<std::string> disputed;                                     ///< where a reference is at fault, and why
+  std::vector<std::string> refusals;  ///< none: they do
+  std::vector<std::string> by;        ///< those that agree where they judge, and fail it nowhere
+  std::vector<std::string> disputed;  ///< where a reference is at fault, and why
   std::map<std::string, std::map<std::string, std::string>> references;  ///< as in the manifest
 };
 /// Of all that `asked` says: three references or more, none of them the candidate. They vouch if no comparison is a

@@ -55,8 +55,9 @@ void add_material(Hasher& hasher, const Material& m) {
   hasher.add_value(m.shininess);
 }
 
-// What a capture's array belongs to: "clip.polygon", "planes.id", "varyings.normal.window" ...
-Stage stage_of(std::string_view name) {
+// What a capture's array belongs to: "clip.polygon", "planes.id", "varyings.normal.window" ... The winners' texels and
+// colours are other ones where another fragment wins: beside the records of all fragments they say no more than that.
+Stage stage_of(std::string_view name, bool fragments) {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     if (name.substr(0, name.find('.')) == kStageNames[i]) return static_cast<Stage>(i);
   }
@@ -69,19 +70,22 @@ Stage stage_of(std::string_view name) {
   }
   if (last == "count" || last == "id_sum") return Stage::coverage;
   if (last == "id" || last == "stencil") return Stage::visibility;
-  if (last == "texel") return Stage::texture;
-  return last == "shaded" ? Stage::shade : Stage::merge;
+  if (last == "texel") return fragments ? Stage::visibility : Stage::texture;
+  if (last == "shaded") return fragments ? Stage::visibility : Stage::shade;
+  return Stage::merge;
 }
 
 class StageHashers {
  public:
+  /// Whether a capture holds the records of all fragments.
+  void next(const Capture& capture) { fragments_ = !capture.records.shaded.empty(); }
   template <class Record, class... Columns>
   void group(std::string_view name, const std::vector<Record>& records, const Columns&... columns) {
     if (!records.empty()) (column(name, records, columns), ...);
   }
   template <class T>
   void plane(std::string_view name, const Plane<T>& plane) {
-    if (!plane.empty()) array(stage_of(name), name, plane.values().data(), plane.size() * sizeof(T));
+    if (!plane.empty()) array(stage_of(name, fragments_), name, plane.values().data(), plane.size() * sizeof(T));
   }
   void array(Stage stage, std::string_view name, const void* bytes, std::size_t size) {
     const auto i = static_cast<std::size_t>(stage);
@@ -107,9 +111,10 @@ class StageHashers {
     for (const Record& record : records) {
       for (std::size_t k = 0; k < kPerRecord; ++k, to += sizeof(T)) std::memcpy(to, &column.at(record, k), sizeof(T));
     }
-    array(stage_of(group), fmt::format("{}.{}", group, column.name), bytes.data(), bytes.size());
+    array(stage_of(group, fragments_), fmt::format("{}.{}", group, column.name), bytes.data(), bytes.size());
   }
 
+  bool fragments_ = false;
   std::array<std::optional<Hasher>, kStageNames.size()> hashers_;
 };
 
@@ -155,11 +160,13 @@ Fingerprint fingerprint(const Scene& scene, Renderer& renderer) {
   StageHashers hashers;
   if (scene.frame.antialias.kind == Antialias::Kind::none) {
     Capture all = all_that_fits(scene, renderer);
+    hashers.next(all);
     visit_capture(std::as_const(all), hashers);
     return {hashers.done(), std::move(all.planes.color), std::move(all.planes.depth)};
   }
   for (const Scene& pass : passes_of(scene)) {
     const Capture all = all_that_fits(pass, renderer);
+    hashers.next(all);
     visit_capture(all, hashers);
   }
   Capture frame = renderer.capture(scene, Request{});

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// A set of goldens of 40 scenes, whose pictures go by `shade`.
+// A set of goldens of 20 scenes, whose pictures go by `shade`.
 struct Update {
   GoldenManifest manifest;
   std::map<std::string, std::string> files;
@@ -28,7 +28,7 @@ Update update_of(float shade) {
   Update out;
   const std::map<std::string, std::string> versions = {{"ours", fmt::format("{}", shade)}};
   out.manifest.versions[key_of(versions)] = versions;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 20; ++i) {
     Scene scene;
     scene.name = fmt::format("group{}/scene{}", i % 4, i);
     Fingerprint drawn;

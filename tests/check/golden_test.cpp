@@ -159,6 +159,30 @@ TEST_F(Goldens, a_last_bit_of_colour_of_depth_or_of_a_stage_is_told) {
   }
 }
 
+class Broken : public Renderer {
+ public:
+  RendererInfo info() const override { return {"broken", "1", {}, false}; }
+  Capture capture(const Scene&, const Request&) override { throw RendererFailed("it fell over"); }
+};
+
+TEST_F(Goldens, a_renderer_that_fails_is_a_difference_not_the_end) {
+  const Scene scene = load_scene(kScenes / "cull/both_windings.json");
+  bless(scene, fingerprint(scene, *ours_));
+  Broken broken;
+  const GoldenSet set(folder_ / "golden", GoldenSet::Access::read);
+  EXPECT_EQ(compare_golden(scene, broken, set).why, "broken failed: it fell over");
+  const auto rows = golden_rows(scene, broken, set);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].outcome, Outcome::failed);
+}
+
+TEST_F(Goldens, the_golden_is_no_judge) {
+  SceneVerdict verdict{"group/scene", "", {judged("group/scene", std::string(kGolden), Stage::light, {})}, 0};
+  EXPECT_EQ(std::ranges::count(unjudged_stages(verdict), Stage::light), 1);
+  verdict.comparisons.push_back(judged("group/scene", "exact", Stage::light, {}));
+  EXPECT_EQ(std::ranges::count(unjudged_stages(verdict), Stage::light), 0);
+}
+
 TEST_F(Goldens, minus_zero_is_not_zero) {
   Scene scene = load_scene(kScenes / "cull/both_windings.json");
   scene.frame.color = ColorFormat::rgba32f;
@@ -204,6 +228,7 @@ TEST(golden_vouch, any_failure_refuses_and_says_why) {
     verdict.comparisons[5].outcome = outcome;
     const Vouch v = vouch(verdict, "ours", asked);
     ASSERT_EQ(v.refusals.size(), 1u) << name_of(outcome);
+    EXPECT_EQ(v.by, (std::vector<std::string>{"embree", "exact"}));
     EXPECT_TRUE(v.refusals[0].starts_with(fmt::format("osmesa, coverage: {}", name_of(outcome)))) << v.refusals[0];
   }
 }

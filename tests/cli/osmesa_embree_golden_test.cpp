@@ -177,6 +177,33 @@ TEST_F(GoldenCommand, a_fault_is_refused_with_the_reason_and_nothing_is_written)
   EXPECT_TRUE(files() == before);
 }
 
+// scripts/break_stages does it with edits of the sources. One line for each stage; the scene shows the fault.
+TEST(golden_stages, a_fault_in_any_stage_is_named_by_the_goldens_and_by_the_references) {
+  struct Break {
+    const char *stage, *fault, *scene;
+  };
+  constexpr Break kBreaks[] = {{"matrices", "matrices.rotation_sign", "camera/transform_chain"},
+                               {"vertex", "vertex.w_is_one", "camera/wide"},
+                               {"light", "light.ambient_per_light", "light/sphere_gouraud"},
+                               {"clip", "clip.no_near_plane", "clip/each_plane"},
+                               {"window", "window.snap_truncates", "cull/both_windings"},
+                               {"coverage", "coverage.inclusive_edges", "coverage/shared_edges"},
+                               {"depth", "depth.truncated", "depth/functions"},
+                               {"attributes", "attributes.affine", "interpolation/w_ratio"},
+                               {"texture", "texture.t_flipped", "texture/globe"},
+                               {"shade", "shade.fog_near", "fog/exp"},
+                               {"visibility", "visibility.less_equal", "depth/ties"},
+                               {"merge", "merge.truncated", "cull/both_windings"},
+                               {"resolve", "resolve.truncated", "antialias/samples_meeting_z16"}};
+  for (const Break& b : kBreaks) {
+    const Outcome run = plumb(fmt::format("golden check {}{}.json --golden {}/golden --fault {}", kScenes, b.scene,
+                                          PLUMBLINE_SOURCE_DIR, b.fault));
+    EXPECT_EQ(run.code, 1) << b.fault;
+    EXPECT_TRUE(run.says(fmt::format("first stage that differs: {} (", b.stage))) << b.fault << run.text;
+    EXPECT_TRUE(run.says(fmt::format("first different stage: {} (against", b.stage))) << b.fault << run.text;
+  }
+}
+
 TEST_F(GoldenCommand, a_scene_that_is_gone_takes_its_golden_with_it) {
   fs::remove(at("suite/cull/both_windings.json"));
   const Outcome orphan = golden("check");
@@ -235,7 +262,7 @@ TEST_F(GoldenCommand, check_beside_the_references_has_a_row_for_each_stage) {
 // The whole program, killed anywhere between its start and its end. (Where it writes: golden_kill_test.)
 TEST_F(GoldenCommand, a_killed_update_leaves_the_old_set_or_the_new_one) {
   const char* said = std::getenv("PLUMBLINE_KILLS");
-  const int kills = said != nullptr ? std::atoi(said) : 10;
+  const int kills = said != nullptr ? std::atoi(said) : 5;
   const std::string words[] = {"\"description\": \"", "\"description\": \"Changed. "};
   const fs::path manifest = folder_ / "golden/manifest.json";
   const std::string arguments = "golden update " + scene().string() + " --golden " + at("golden");
