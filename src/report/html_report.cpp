@@ -16,8 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A hundred scenes are below 5 MB, with their share of the overview.
-constexpr std::size_t kBytesOfScene = 46000;
+constexpr std::size_t kBytesOfPage = 5'000'000, kBytesOfScene = 46'000, kBytesOfColor = 7'000;
 
 std::string text_of(const Json& json) { return in_script(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
@@ -100,17 +99,23 @@ std::string HtmlReport::free_name(const std::string& scene) {
   return free;
 }
 
+void HtmlReport::put(const std::string& file, std::string_view bytes) {
+  page_.write(file, bytes);
+  written_ += bytes.size();
+}
+
 void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
                      const check::Drawn& drawn, const Scene& scene, const std::string& failure,
                      const std::string& repeat) {
   const std::string key = free_name(verdict.scene);
   const check::Comparison* first = check::first_different(verdict);
+  const std::string_view outcome = outcome_of(verdict, !failure.empty());
   std::size_t budget = kBytesOfScene;
   Json card{{"key", key},
             {"name", verdict.scene},
             {"group", verdict.scene.substr(0, verdict.scene.find('/'))},
             {"description", scene.description},
-            {"outcome", outcome_of(verdict, !failure.empty())},
+            {"outcome", outcome},
             {"fails", !failure.empty()},
             {"first", first != nullptr ? Json(name_of(first->stage)) : Json(nullptr)},
             {"file", key + ".js"},
@@ -119,18 +124,23 @@ void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::
     const Plane<glm::vec4> small = thumbnail(ours);
     card["thumbnail"] = key + ".png";
     const Bytes png = encode_png(key + ".png", rows_from_top(scene.dialect) ? upside_down(small) : small);
-    page_.write(key + ".png", png);
+    put(key + ".png", png);
     budget -= std::min(png.size(), budget);
   }
   const Json about{{"description", scene.description},
                    {"failure", failure},
                    {"repeat", repeat},
                    {"first", first != nullptr ? Json(first - verdict.comparisons.data()) : Json(nullptr)}};
-  page_.write(key + ".js",
-              fmt::format("sceneArrived({{...{}, view: {}}});\n", text_of(about),
-                          in_script(viewer_json(viewed_of(verdict.scene, references, drawn, scene), verdict.comparisons,
-                                                scene.frame.antialias.factor, budget))));
+  Viewed viewed = viewed_of(verdict.scene, references, drawn, scene);
+  const auto script = [&](std::size_t bytes) {
+    return fmt::format("sceneArrived({{...{}, view: {}}});\n", text_of(about),
+                       in_script(viewer_json(viewed, verdict.comparisons, scene.frame.antialias.factor, bytes)));
+  };
+  const std::string all = script(budget);
   scenes_ += (scenes_.empty() ? "" : ",\n") + text_of(card);
+  if (!failure.empty() || outcome == name_of(check::Outcome::dispute)) return put(key + ".js", all);
+  std::erase_if(viewed.layers, [](const Layer& layer) { return layer.name != "colour"; });
+  holding_.push_back({key + ".js", all, script(kBytesOfColor)});
 }
 
 void HtmlReport::write(const std::string& summary) {
@@ -139,10 +149,19 @@ void HtmlReport::write(const std::string& summary) {
   html.replace(html.find(here), here.size(), escaped(summary));
   const std::string script =
       web_files({"dom.js", "planes.js", "difference.js", "viewer.js", "rows.js", "scene_view.js", "check_page.js"});
-  page_.commit("plumbline check", web_file("viewer.css"),
-               fmt::format("{}<script type=\"application/json\" id=\"report\">{{\"stages\": {}, \"scenes\": [\n{}]}}"
-                           "</script>\n<script>\n{}</script>\n",
-                           html, Json(kStageNames).dump(), scenes_, script));
+  const std::string body = fmt::format(
+      "{}<script type=\"application/json\" id=\"report\">{{\"stages\": {}, \"scenes\": [\n{}]}}</script>\n"
+      "<script>\n{}</script>\n",
+      html, Json(kStageNames).dump(), scenes_, script);
+  std::size_t least = written_ + body.size();
+  for (const Holding& scene : holding_) least += scene.color_alone.size();
+  for (const Holding& scene : holding_) {
+    const std::size_t more = scene.all.size() - std::min(scene.all.size(), scene.color_alone.size());
+    const bool fits = least + more <= kBytesOfPage;
+    if (fits) least += more;
+    put(scene.file, fits ? scene.all : scene.color_alone);
+  }
+  page_.commit("plumbline check", web_file("viewer.css"), body);
 }
 
 }  // namespace plumbline::report
