@@ -73,7 +73,7 @@ int check(const CheckOptions& given) {
   const References references = make_references(o.against, o.scene_arguments.assets);
   const std::map<std::string, std::string> versions = versions_of(*candidate, references);
   std::optional<report::HtmlReport> page;
-  if (!o.report.empty()) page.emplace(o.report);
+  if (!o.report.empty()) page.emplace(o.report, scenes.size());
   const bool terminal = isatty(STDERR_FILENO) != 0;
   std::vector<check::SceneVerdict> verdicts;
   std::string failures;

@@ -16,7 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kBytesOfPage = 5'000'000, kBytesOfScene = 46'000, kBytesOfColor = 7'000;
+// 5 MB, but for the style and the list of files.
+constexpr std::size_t kBytesOfPage = 4'930'000, kBytesOfScene = 46'000, kBytesOfColor = 7'000;
 
 std::string text_of(const Json& json) { return in_script(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
@@ -91,6 +92,9 @@ Viewed viewed_of(const std::string& name, std::span<const check::Reference> refe
 
 }  // namespace
 
+HtmlReport::HtmlReport(const std::filesystem::path& folder, std::size_t scenes)
+    : page_(folder), share_(std::max(kBytesOfScene, 100 * kBytesOfScene / std::max<std::size_t>(scenes, 1))) {}
+
 // Scenes of two folders may have one name.
 std::string HtmlReport::free_name(const std::string& scene) {
   const std::string name = file_name(scene);
@@ -110,7 +114,7 @@ void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::
   const std::string key = free_name(verdict.scene);
   const check::Comparison* first = check::first_different(verdict);
   const std::string_view outcome = outcome_of(verdict, !failure.empty());
-  std::size_t budget = kBytesOfScene;
+  std::size_t budget = share_;
   Json card{{"key", key},
             {"name", verdict.scene},
             {"group", verdict.scene.substr(0, verdict.scene.find('/'))},

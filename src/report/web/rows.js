@@ -79,7 +79,7 @@ function rowDetails(row) {
       say('the reference', sayNumberInFull(worst.reference));
       say('apart', `${sayNumber(worst.difference)} ${row.unit}`);
       say('tolerance', `${sayNumber(worst.tolerance)} ${row.unit}${row.ledger ? ` (ledger: ${row.ledger})` : ''}`);
-      say('used of it', row.outcome === 'dispute' ? '' : sayNumber(row.max_ratio));
+      say('times the tolerance', row.outcome === 'dispute' ? '' : sayNumber(row.max_ratio));
     }
     say('disputed, for', row.dispute?.reason);
   }
@@ -94,7 +94,7 @@ const sayNumberInFull = (v) => (typeof v === 'number' ? numberText(v) : v);
 function histogram(row) {
   const total = row.histogram.reduce((sum, n) => sum + n, 0);
   if (total === 0) return '';
-  const name = (i) => (i === 0 ? 'equal' : i === 19 ? 'no no.' : `2^${i - 13}`);
+  const name = (i) => (i === 0 ? 'equal' : i === 19 ? 'no number' : `2^${i - 13}`);
   const svgElement = (tag, attributes, text = '') => {
     const out = document.createElementNS('http://www.w3.org/2000/svg', tag);
     for (const [key, value] of Object.entries(attributes)) out.setAttribute(key, value);
@@ -102,7 +102,7 @@ function histogram(row) {
     return out;
   };
   const said = row.histogram.map((n, i) => (n > 0 ? `${name(i)}: ${n}` : '')).filter(Boolean).join(', ');
-  const svg = svgElement('svg', {viewBox: '-12 0 504 116', class: 'histogram', role: 'img', 'aria-label': `differences: ${said}`});
+  const svg = svgElement('svg', {viewBox: '-12 0 520 116', class: 'histogram', role: 'img', 'aria-label': `differences: ${said}`});
   const most = Math.log1p(Math.max(...row.histogram));
   row.histogram.forEach((n, i) => {
     const height = n === 0 ? 0 : Math.max(2, 80 * Math.log1p(n) / most);
