@@ -37,6 +37,9 @@ struct Comparison {
   std::string note;        ///< why unsupported, missing, failed; what is ambiguous
 };
 
+/// The reference of rows that compare a scene with its golden (golden.h): what was drawn before, which judges nothing.
+inline constexpr std::string_view kGolden = "golden";
+
 /// The outcome that a measurement comes to.
 Comparison judged(std::string scene, std::string reference, Stage stage, Measurement measurement,
                   std::string_view ledger_row = "", std::string note = "");

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view kFromScene = " from scene", kFromRecords = " from its records";
 
-// Exact has rows of two kinds, and one vote.
+}  // namespace
+
 std::string voter(const Comparison& row) {
   std::string name = row.reference;
   for (const std::string_view kind : {kFromScene, kFromRecords}) {
@@ -20,6 +21,8 @@ std::string voter(const Comparison& row) {
   }
   return name;
 }
+
+namespace {
 
 bool holds(const Comparison& row) {
   return row.outcome == Outcome::equal || row.outcome == Outcome::within || row.outcome == Outcome::ambiguous_only;

@@ -14,4 +14,7 @@ namespace plumbline::check {
 /// share the formula of what is legal: of that they are one vote, and the arithmetic on records the other.)
 void settle_votes(std::vector<Comparison>& rows);
 
+/// Who makes the row: exact has rows of two kinds, and one vote.
+std::string voter(const Comparison& row);
+
 }  // namespace plumbline::check

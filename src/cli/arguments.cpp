@@ -55,6 +55,7 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--json", o.json, "Write one object per comparison");
   text(command, "--report", o.report, "Write a page with pictures into this folder");
   text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
+  text(command, "--golden", o.golden, "Compare with the goldens in this folder as well, stage by stage");
   text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
   add_assets(command, o.scene_arguments);
@@ -105,6 +106,31 @@ void add(CLI::App& command, CompareOptions& o) {
   command.add_flag("--allow-missing", o.allow_missing, "What one capture alone holds is no failure");
 }
 
+void add_golden(CLI::App& command, GoldenOptions& o) {
+  text(command, "scenes", o.scenes, "Scene files, and folders of them (default: the whole suite)");
+  text(command, "--suite", o.suite, "The folder of all scenes that have goldens")->capture_default_str();
+  text(command, "--golden", o.golden, "The folder of goldens")->capture_default_str();
+  text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  add_assets(command, o.scene_arguments);
+}
+
+// plumb golden check, plumb golden update.
+void add_golden_commands(CLI::App& app, std::function<int()>& chosen, const std::string& program) {
+  CLI::App* golden = app.add_subcommand("golden", "Compare scenes with their goldens, or make goldens anew");
+  golden->require_subcommand(1);
+  const auto o = std::make_shared<GoldenOptions>();
+  o->program = program;
+  CLI::App* check = golden->add_subcommand("check", "Compare what we draw with the goldens, bit for bit");
+  CLI::App* update =
+      golden->add_subcommand("update", "Write the goldens that every reference vouches for; ends 1 if so");
+  add_golden(*check, *o);
+  add_golden(*update, *o);
+  update->add_flag("--check", o->check, "Write nothing");
+  text(*update, "--report", o->report, "Write a page of old, new and difference into this folder");
+  check->callback([&chosen, o] { chosen = [o] { return golden_check(*o); }; });
+  update->callback([&chosen, o] { chosen = [o] { return golden_update(*o); }; });
+}
+
 void add(CLI::App& command, ListOptions& o) {
   command.add_option("what", o.what, "all, stages, renderers, faults, scenes")
       ->check(CLI::IsMember({"all", "stages", "renderers", "faults", "scenes"}));
@@ -152,6 +178,7 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "capture", "Write what a renderer hands out at every stage into a folder", capture);
   add_command(app, out.command, "compare",
               "Compare two images, or two captures, number by number; pixels count from the lower left", compare);
+  add_golden_commands(app, out.command, check_options.program);
   add_command(app, out.command, "list", "Show the stages, renderers, faults and scenes that there are", list);
   add_command(app, out.command, "notes",
               "Show what each section of the course notes teaches, and where it is done and shown here", notes);

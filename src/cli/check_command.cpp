@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "check/golden.h"
 #include "check/judge.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
@@ -25,6 +27,7 @@ namespace {
 std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& verdict) {
   std::string out = shell_word(o.program) + " check " + shell_word(verdict.path);
   if (o.against != reference_names()) out += fmt::format(" --against {}", fmt::join(o.against, ","));
+  if (!o.golden.empty()) out += " --golden " + shell_word(o.golden);
   if (!o.fault.empty()) out += " --fault " + shell_word(o.fault);
   if (o.allow_missing) out += " --allow-missing";
   return out + o.scene_arguments.repeated();
@@ -72,6 +75,8 @@ int check(const CheckOptions& given) {
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
   const References references = make_references(o.against, o.scene_arguments.assets);
   const std::map<std::string, std::string> versions = versions_of(*candidate, references);
+  std::optional<check::GoldenSet> goldens;
+  if (!o.golden.empty()) goldens.emplace(o.golden, check::GoldenSet::Access::read);
   std::optional<report::HtmlReport> page;
   if (!o.report.empty()) page.emplace(o.report, scenes.size());
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -84,6 +89,9 @@ int check(const CheckOptions& given) {
     if (terminal) fmt::print(stderr, "\r\x1b[K[{}/{}] {}\r", i + 1, scenes.size(), scene.path);
     check::Drawn drawn;
     verdicts.push_back(check::judge(scene, *candidate, references.list, page ? &drawn : nullptr));
+    if (goldens)
+      std::ranges::move(check::golden_rows(scene, *candidate, *goldens),
+                        std::back_inserter(verdicts.back().comparisons));
     fmt::print("{}", report::table_rows(verdicts.back()));
     std::fflush(stdout);
     const std::string repeat = repeat_command(o, verdicts.back());

@@ -19,7 +19,8 @@ struct CheckOptions {
   std::vector<std::string> scenes;  ///< files, and folders of them
   std::vector<std::string> against = reference_names();
   std::string json, report, ledger;
-  std::string fault;  ///< a bug to put into our renderer, or empty
+  std::string golden;  ///< the folder of goldens, whose rows stand beside the references'; or empty
+  std::string fault;   ///< a bug to put into our renderer, or empty
   bool allow_missing = false;
   SceneArguments scene_arguments;
   std::string program = "plumb";  ///< as it was called, for the command that repeats a failure
@@ -71,6 +72,22 @@ struct CompareOptions {
   bool allow_missing = false;  ///< what one capture alone holds is no failure
 };
 int compare(const CompareOptions& options);
+
+/// Scenes against their goldens, and goldens anew.
+struct GoldenOptions {
+  std::vector<std::string> scenes;                        ///< files, and folders of them; none: the whole suite
+  std::string suite = "tests/scenes", golden = "golden";  ///< folders
+  std::string report;                                     ///< of an update, or empty
+  std::string fault;                                      ///< or empty
+  bool check = false;                                     ///< an update writes nothing
+  SceneArguments scene_arguments;
+  std::string program = "plumb";
+};
+/// Ends 1 where a golden is not what is drawn, is missing, or has no scene.
+int golden_check(const GoldenOptions& options);
+/// Writes what the references vouch for, refuses the rest, and ends 1 if there was anything to write or to refuse: a
+/// run that blesses is no run that passes.
+int golden_update(const GoldenOptions& options);
 
 /// What there is.
 struct ListOptions {

@@ -266,6 +266,7 @@ Scene load_scene(const fs::path& file, const SceneFileOptions& options) {
     Scene scene = read_scene(json.root(), assets);
     scene.name = (whole.parent_path().filename() / whole.stem()).generic_string();
     scene.path = file.string();
+    scene.files = json.files();
     return scene;
   } catch (const JsonError& error) {
     throw SceneError(error.what());

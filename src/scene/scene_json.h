@@ -22,6 +22,8 @@ class SceneJson {
   SceneJson(const SceneJson&) = delete;
   SceneJson& operator=(const SceneJson&) = delete;
   JsonNode root() const { return {root_, ""}; }
+  /// The file, and those it includes, in the order in which they are read.
+  std::vector<std::string> files() const { return {names_.begin(), names_.end()}; }
 
  private:
   JsonValue read(const std::filesystem::path& file, const AssetFolders& folders);

@@ -59,6 +59,13 @@ OIIO::ImageSpec spec_of(int width, int height, int channels, OIIO::TypeDesc type
   return spec;
 }
 
+/// Of an EXR file: without a date OpenImageIO writes today's, and no two files were the same.
+OIIO::ImageSpec exr_spec_of(int width, int height, int channels) {
+  OIIO::ImageSpec spec = spec_of(width, height, channels, OIIO::TypeDesc::FLOAT);
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
+  return spec;
+}
+
 /// The file's bytes; its ending says the format.
 Bytes encode(const fs::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
   const std::string name = file.string();
@@ -178,7 +185,7 @@ Bytes encode_exr(const fs::path& file, const Plane<glm::vec4>& plane) {
   std::vector<glm::vec4> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](const glm::vec4& p) { pixels.push_back(p); });
-  return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::FLOAT), pixels.data());
+  return encode(file, exr_spec_of(plane.width(), plane.height(), 4), pixels.data());
 }
 
 Bytes encode_depth_exr(const fs::path& file, const Plane<double>& plane) {
@@ -187,10 +194,19 @@ Bytes encode_depth_exr(const fs::path& file, const Plane<double>& plane) {
   std::vector<float> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](double z) { pixels.push_back(static_cast<float>(z)); });
-  OIIO::ImageSpec spec = spec_of(plane.width(), plane.height(), 1, OIIO::TypeDesc::FLOAT);
+  OIIO::ImageSpec spec = exr_spec_of(plane.width(), plane.height(), 1);
   spec.channelnames = {"Z"};
   spec.z_channel = 0;
   return encode(file, spec, pixels.data());
+}
+
+Bytes encode_depth_codes(const fs::path& file, const Plane<double>& plane, DepthFormat format) {
+  Plane<double> codes = plane;
+  const double scale = depth_scale(format);
+  if (scale > 0) {
+    for (double& z : codes.values()) z = std::round(z * scale);
+  }
+  return encode_depth_exr(file, codes);
 }
 
 Bytes encode_image(const fs::path& file, const Plane<glm::vec4>& plane, ColorFormat format) {
@@ -266,5 +282,43 @@ Plane<glm::vec4> read_image(const fs::path& file) {
   if (channels == 2 || channels == 4) copy(channels - 1, 3);
   return plane;
 }
+
+namespace {
+
+void require_channels(const fs::path& file, const StoredImage& image, std::size_t count, double scale) {
+  if (image.channels.size() == count && image.channels[0].scale == scale) return;
+  throw ImageError(fmt::format("{}: expected {} channels of {}, found {} of {}", file.string(), count,
+                               scale == 1 ? "floats" : fmt::format("codes up to {}", scale), image.channels.size(),
+                               image.channels[0].scale));
+}
+
+}  // namespace
+
+Plane<glm::vec4> frame_color(const fs::path& file, const StoredImage& image, ColorFormat format) {
+  const double largest = color_scale(format);
+  const double scale = largest == 0 ? 1 : largest == 255 ? 255 : 65535;  // 12-bit codes are spread over 16 bits
+  require_channels(file, image, 4, scale);
+  Plane<glm::vec4> out(image.data.width, image.data.height);
+  for (int c = 0; c < 4; ++c) {
+    const std::vector<double>& stored = image.channels[static_cast<std::size_t>(c)].values.values();
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double code = largest == 0 ? stored[i] : std::round(stored[i] * largest / scale);
+      out.values()[i][c] =
+          largest == 0 ? static_cast<float>(code) : static_cast<float>(code) / static_cast<float>(largest);
+    }
+  }
+  return out;
+}
+
+Plane<double> frame_depth(const fs::path& file, const StoredImage& image, DepthFormat format) {
+  require_channels(file, image, 1, 1);
+  Plane<double> out = image.channels[0].values;
+  if (const double scale = depth_scale(format); scale > 0) {
+    for (double& z : out.values()) z /= scale;
+  }
+  return out;
+}
+
+std::string image_library_version() { return OIIO_VERSION_STRING; }
 
 }  // namespace plumbline

@@ -35,10 +35,13 @@ Bytes encode_tga(const std::filesystem::path& file, const Plane<glm::vec4>& plan
 /// .ppm: binary, the codes themselves of red, green and blue, of at most 255, 4095 or 65535. No alpha.
 Bytes encode_ppm(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                  ColorFormat format = ColorFormat::rgba8);
-/// .exr: 32-bit float RGBA, bit for bit, lossless compression.
+/// .exr: 32-bit float RGBA, bit for bit, lossless compression; the same bytes whenever it is written.
 Bytes encode_exr(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
 /// .exr, one channel "Z": window z rounded to 32-bit float.
 Bytes encode_depth_exr(const std::filesystem::path& file, const Plane<double>& plane);
+/// .exr, one channel "Z": the codes of the depth format as numbers, which 32-bit float holds without loss up to 24
+/// bits; of z32f window z itself. (Window z of 24 bits, a quotient, would be rounded.)
+Bytes encode_depth_codes(const std::filesystem::path& file, const Plane<double>& plane, DepthFormat format);
 /// One of them, by the ending; `format`: of the frame that the plane is of.
 Bytes encode_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                    ColorFormat format = ColorFormat::rgba8);
@@ -69,7 +72,15 @@ struct StoredImage {
 /// deep pixels, volumes.
 StoredImage read_stored(const std::filesystem::path& file);
 
+/// Frames from such images, bit for bit as the frame holds them: of one that encode_image wrote, of encode_depth_codes.
+/// Throw ImageError, naming `file`, where the image is not of their channels and numbers.
+Plane<glm::vec4> frame_color(const std::filesystem::path& file, const StoredImage& image, ColorFormat format);
+Plane<double> frame_depth(const std::filesystem::path& file, const StoredImage& image, DepthFormat format);
+
 /// The same of 1 to 4 channels, in float. One channel comes as red, green and blue, a missing alpha as 1.
 Plane<glm::vec4> read_image(const std::filesystem::path& file);
+
+/// Of OpenImageIO, which reads and writes them.
+std::string image_library_version();
 
 }  // namespace plumbline

@@ -1,0 +1,203 @@
+// plumb golden: what we draw against what was blessed, and blessing.
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "check/diagnose.h"
+#include "check/golden.h"
+#include "cli/commands.h"
+#include "cli/outputs.h"
+#include "cli/references.h"
+#include "report/diagnosis_text.h"
+#include "report/golden_page.h"
+#include "scene/scene_file.h"
+#include "stages/atomic_path.h"
+#include "stages/image_file.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A diagnosis takes as long as a hundred goldens: of a change that breaks all of them a few tell the cause.
+constexpr std::size_t kMostDiagnosed = 3;
+
+struct Suite {
+  std::vector<Scene> scenes;
+  std::vector<fs::path> files;
+  bool whole = false;  // only then a golden without a scene is known
+};
+
+Suite load(const GoldenOptions& o) {
+  Suite out;
+  out.whole = o.scenes.empty();
+  const std::vector<fs::path> paths =
+      out.whole ? std::vector<fs::path>{o.suite} : std::vector<fs::path>(o.scenes.begin(), o.scenes.end());
+  out.files = find_scenes(paths);
+  std::set<std::string> names;
+  for (const fs::path& file : out.files) {
+    out.scenes.push_back(o.scene_arguments.load(file));
+    require_budget(out.scenes.back(), plane_bytes(out.scenes.back()), Request{}.memory_budget);
+    if (!names.insert(out.scenes.back().name).second) {
+      throw SceneError(
+          fmt::format("{}: expected scenes of different names, found {} twice", file.string(), out.scenes.back().name));
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> orphans(const Suite& suite, const check::GoldenManifest& manifest) {
+  std::vector<std::string> out;
+  for (const auto& [name, golden] : manifest.scenes) {
+    const auto has_name = [&](const Scene& scene) { return scene.name == name; };
+    if (suite.whole && std::ranges::none_of(suite.scenes, has_name)) out.push_back(name);
+  }
+  return out;
+}
+
+std::string command(const GoldenOptions& o, const std::string& verb, const std::string& scene) {
+  std::string out = fmt::format("{} golden {} {}", shell_word(o.program), verb, shell_word(scene));
+  if (o.golden != GoldenOptions{}.golden) out += " --golden " + shell_word(o.golden);
+  if (!o.fault.empty()) out += " --fault " + shell_word(o.fault);
+  return out + o.scene_arguments.repeated();
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <class T>
+bool same_bits(const Plane<T>& a, const Plane<T>& b) {
+  return a.width() == b.width() && a.height() == b.height() &&
+         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
+}
+
+}  // namespace
+
+int golden_check(const GoldenOptions& o) {
+  const auto start = std::chrono::steady_clock::now();
+  const Suite suite = load(o);
+  const check::GoldenSet goldens(o.golden, check::GoldenSet::Access::read);
+  const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
+  std::vector<const Scene*> wrong;
+  std::size_t failures = 0;
+  for (const Scene& scene : suite.scenes) {
+    const check::GoldenDifference difference = check::compare_golden(scene, *candidate, goldens);
+    if (!difference.any()) continue;
+    ++failures;
+    if (difference.why.empty()) wrong.push_back(&scene);
+    fmt::print("different {}\n{}  repeat: {}\n", scene.name, describe(difference), command(o, "check", scene.path));
+    std::fflush(stdout);
+  }
+  for (const std::string& name : orphans(suite, goldens.manifest())) {
+    ++failures;
+    fmt::print("orphan {}: a golden of a scene that is not there: scripts/regenerate_goldens removes it\n", name);
+  }
+  const check::GoldenSet::Strays strays = goldens.strays();
+  for (const std::string& file : strays.others) {
+    ++failures;
+    fmt::print("extra {}: a file that the manifest does not name\n", (fs::path(o.golden) / file).string());
+  }
+  if (!strays.leftovers.empty()) {
+    fmt::print("{} files are left of an update that was killed, such as {}: the next one removes them\n",
+               strays.leftovers.size(), strays.leftovers[0]);
+  }
+  const std::string summary =
+      fmt::format("{}: {} scenes against their goldens in {:.1f} s, {} failures\n", failures == 0 ? "ok" : "FAILED",
+                  suite.scenes.size(), seconds_since(start), failures);
+  if (!wrong.empty()) {
+    const References references = make_references(reference_names(), o.scene_arguments.assets);
+    for (const Scene* scene : std::span(wrong).first(std::min(wrong.size(), kMostDiagnosed))) {
+      fmt::print("\n{}: what the references say of it\n{}", scene->path,
+                 report::diagnosis_text(check::diagnose(*scene, *candidate, references.list)));
+      std::fflush(stdout);
+    }
+    if (wrong.size() > kMostDiagnosed) {
+      fmt::print("\n{} more differ; each has its diagnosis alone: {}\n", wrong.size() - kMostDiagnosed,
+                 command(o, "check", wrong[kMostDiagnosed]->path));
+    }
+    fmt::print("\nIf the change is meant: scripts/regenerate_goldens, which asks the references.\n");
+  }
+  fmt::print("{}", summary);
+  return failures == 0 ? kHolds : kDiffers;
+}
+
+int golden_update(const GoldenOptions& o) {
+  const auto start = std::chrono::steady_clock::now();
+  const Suite suite = load(o);
+  if (!o.check) {
+    fs::create_directories(o.golden);
+    require_writable_file(fs::path(o.golden) / "manifest.json");
+  }
+  check::GoldenSet goldens(o.golden, check::GoldenSet::Access::update);
+  if (!o.check) goldens.remove_leftovers();
+  std::optional<report::GoldenPage> page;
+  if (!o.report.empty()) page.emplace(o.report);
+  const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
+  const RendererInfo ours = candidate->info();
+  std::optional<References> references;  // starting them takes longer than a look at all goldens
+  check::GoldenManifest next = goldens.manifest();
+  std::map<std::string, std::string> files;
+  std::size_t written = 0, refused = 0, removed = 0;
+  for (const Scene& scene : suite.scenes) {
+    const check::GoldenDifference difference = check::compare_golden(scene, *candidate, goldens);
+    if (!difference.any()) continue;
+    if (!references) references = make_references(reference_names(), o.scene_arguments.assets);
+    check::Drawn drawn;
+    const check::SceneVerdict verdict = check::judge(scene, *candidate, references->list, &drawn);
+    check::Vouch vouch = check::vouch(verdict, ours.name, reference_names());
+    if (!o.fault.empty()) vouch.refusals.push_back("drawn with the fault " + o.fault + ": never blessed");
+    if (!same_bits(drawn.candidate.planes.color, difference.drawn.color) ||
+        !same_bits(drawn.candidate.planes.depth, difference.drawn.depth)) {
+      vouch.refusals.push_back(fmt::format("{} drew another picture when it was judged", ours.name));
+    }
+    const bool granted = vouch.refusals.empty();
+    const std::string says = granted ? o.check ? "would be written" : "written" : "refused";
+    fmt::print("{} {}\n{}", says, scene.name, describe(difference));
+    for (const std::string& refusal : vouch.refusals) fmt::print("  because of {}\n", refusal);
+    if (granted) fmt::print("  vouched for by {}\n", fmt::join(vouch.by, ", "));
+    for (const std::string& dispute : vouch.disputed) fmt::print("  disputed: {}\n", dispute);
+    std::fflush(stdout);
+    if (page) page->add(scene, says, difference, vouch);
+    if (!granted) {
+      ++refused;
+      continue;
+    }
+    ++written;
+    std::map<std::string, std::string> versions = versions_of(*candidate, *references);
+    versions["OpenImageIO"] = image_library_version();
+    check::Golden golden = check::make_golden(scene, difference.drawn, files);
+    golden.producer = ours.name + " " + ours.version;
+    golden.versions = check::key_of(versions);
+    golden.references = std::move(vouch.references);
+    golden.vouched = std::move(vouch.by);
+    golden.disputed = std::move(vouch.disputed);
+    next.versions[golden.versions] = std::move(versions);
+    next.scenes[scene.name] = std::move(golden);
+  }
+  for (const std::string& name : orphans(suite, goldens.manifest())) {
+    fmt::print("{} {}: its scene is not there\n", o.check ? "would be removed" : "removed", name);
+    next.scenes.erase(name);
+    ++removed;
+  }
+  const bool change = written + removed > 0;
+  if (change && !o.check) goldens.write(std::move(next), files);
+  const std::string summary = fmt::format("{}: {} scenes in {:.1f} s, {} goldens {}, {} refused, {} removed\n",
+                                          refused > 0 ? "REFUSED"
+                                          : !change   ? "nothing to write"
+                                          : o.check   ? "would write"
+                                                      : "written: look at them, then commit",
+                                          suite.scenes.size(), seconds_since(start), written,
+                                          o.check ? "to write" : "written", refused, removed);
+  if (page) page->write(summary);
+  fmt::print("{}", summary);
+  return change || refused > 0 ? kDiffers : kHolds;
+}
+
+}  // namespace plumbline::cli

@@ -1,0 +1,304 @@
+// plumb golden as a user meets it: what is told, what is refused, what is written, and how a run ends.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+// A suite of four small scenes, and goldens of theirs made of the project's own: no reference need be asked.
+class GoldenCommand : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    const std::string project = read(PLUMBLINE_SOURCE_DIR "/golden/manifest.json");
+    std::string manifest = project.substr(0, project.find("\"scenes\": {") + 11);
+    for (const char* scene :
+         {"cull/both_windings", "coverage/shared_edges", "depth/on_clear", "frame/one_pixel_float"}) {
+      fs::create_directories((folder_ / "suite" / scene).parent_path());
+      fs::copy(kScenes + scene + ".json", folder_ / "suite" / (scene + std::string(".json")));
+      fs::create_directories(folder_ / "golden" / scene);
+      fs::copy(std::string(PLUMBLINE_SOURCE_DIR "/golden/") + scene, folder_ / "golden" / scene);
+      const std::size_t line = project.find(fmt::format("\n\"{}\": ", scene));  // each has a line
+      manifest += (manifest.ends_with('}') ? "," : "") + project.substr(line, project.find("},\n", line) + 1 - line);
+    }
+    write(folder_ / "golden/manifest.json", manifest + "}}\n");
+    write(folder_ / "golden/tolerances.json", "{}");
+  }
+  Outcome golden(const std::string& verb, const std::string& more = "") const {
+    return plumb("golden " + verb + " --suite " + at("suite") + " --golden " + at("golden") + " " + more);
+  }
+  void change_scene(const std::string& from, const std::string& to) const {
+    std::string text = read(scene());
+    const std::size_t place = text.find(from);
+    ASSERT_NE(place, std::string::npos);
+    write(scene(), text.replace(place, from.size(), to));
+  }
+  fs::path scene() const { return folder_ / "suite/cull/both_windings.json"; }
+  fs::path file(const std::string& kind) const {
+    for (const auto& entry : fs::directory_iterator(folder_ / "golden/cull/both_windings")) {
+      if (entry.path().filename().string().starts_with(kind)) return entry.path();
+    }
+    return {};
+  }
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> out;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "golden")) {
+      if (entry.is_regular_file()) out[entry.path().string()] = read(entry.path());
+    }
+    return out;
+  }
+};
+
+TEST_F(GoldenCommand, check_holds_and_ends_0) {
+  const Outcome run = golden("check");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("ok: ")) << run.text;
+}
+
+TEST_F(GoldenCommand, files_that_are_not_what_the_manifest_says_are_failures) {
+  const std::string picture = read(file("color"));
+  for (const auto& [what, bytes] :
+       std::map<std::string, std::string>{{"truncated", picture.substr(0, picture.size() / 2)},
+                                          {"a bit", std::string(picture).replace(60, 1, "~")},
+                                          {"empty", ""}}) {
+    write(file("color"), bytes);
+    const Outcome run = golden("check");
+    EXPECT_EQ(run.code, 1) << what << run.text;
+    EXPECT_TRUE(run.says(file("color").string() + ": expected the ")) << what << run.text;
+    EXPECT_TRUE(run.says("different cull/both_windings")) << what << run.text;
+  }
+  fs::remove(file("color"));
+  const Outcome run = golden("check");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_TRUE(run.says("is not there")) << run.text;
+}
+
+TEST_F(GoldenCommand, update_makes_a_broken_file_anew) {
+  for (const char* kind : {"color", "depth", "stages"}) {
+    const fs::path broken = file(kind);
+    const std::string whole = read(broken);
+    write(broken, "");
+    EXPECT_EQ(golden("update").code, 1);
+    EXPECT_TRUE(read(broken) == whole) << "the same bytes, on any day: " << broken;
+  }
+  EXPECT_EQ(golden("check").code, 0);
+}
+
+TEST_F(GoldenCommand, an_extra_file_is_a_failure_what_a_kill_left_is_not) {
+  write(folder_ / "golden/cull/both_windings/.plumb-1-2", "half");
+  write(folder_ / "golden/cull/both_windings/color.0123456789abcdef.png", "half");
+  const Outcome left = golden("check");
+  EXPECT_EQ(left.code, 0) << left.text;
+  EXPECT_TRUE(left.says("2 files are left of an update")) << left.text;
+  write(folder_ / "golden/cull/notes.txt", "mine");
+  const Outcome extra = golden("check");
+  EXPECT_EQ(extra.code, 1);
+  EXPECT_TRUE(extra.says("extra " + at("golden/cull/notes.txt"))) << extra.text;
+  EXPECT_EQ(golden("update").code, 0);
+  EXPECT_FALSE(fs::exists(at("golden/cull/both_windings/.plumb-1-2")));
+  EXPECT_FALSE(fs::exists(at("golden/cull/both_windings/color.0123456789abcdef.png")));
+  EXPECT_TRUE(fs::exists(at("golden/cull/notes.txt"))) << "nobody else's file is removed";
+}
+
+TEST_F(GoldenCommand, a_manifest_that_a_hand_has_changed_ends_2) {
+  const fs::path manifest = folder_ / "golden/manifest.json";
+  const std::string text = read(manifest);
+  const std::string line = "\"cull/both_windings\": ";
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string out = text;
+    out.replace(out.find(from, out.find(line)), from.size(), to);
+    write(manifest, out);
+    return golden("check");
+  };
+  const Outcome vouched = with("\"vouched\":[\"osmesa\",", "\"vouched\":[\"ours\",");
+  EXPECT_EQ(vouched.code, 2);
+  EXPECT_TRUE(vouched.says(manifest.string() + ": at \"/scenes/cull~1both_windings/seal\": expected the seal"))
+      << vouched.text;
+  EXPECT_EQ(with("\"equal\":\"", "\"equal\":\"window ").code, 2);
+  EXPECT_EQ(with("/color.", "/../color.").code, 2);
+  EXPECT_EQ(with("\"bytes\":", "\"bytes\":1").code, 2);
+  EXPECT_EQ(with("\"scene\":\"", "\"scene\":\"x").code, 2);
+  EXPECT_EQ(with("\"files\":{", "\"files\":{\"more\":1,").code, 2);
+  write(manifest, text.substr(0, text.size() / 2));
+  EXPECT_EQ(golden("check").code, 2);
+  EXPECT_EQ(golden("update").code, 2) << "a set that is not understood is not replaced";
+  fs::remove(manifest);
+  EXPECT_EQ(golden("check").code, 2);
+}
+
+TEST_F(GoldenCommand, a_scene_that_changed_is_stale_until_the_references_vouch_again) {
+  change_scene("\"description\": \"", "\"description\": \"Changed. ");
+  const Outcome stale = golden("check");
+  EXPECT_EQ(stale.code, 1);
+  EXPECT_TRUE(stale.says("the scene changed since its golden was made")) << stale.text;
+  const auto before = files();
+  const Outcome would = golden("update", "--check");
+  EXPECT_EQ(would.code, 1);
+  EXPECT_TRUE(would.says("would be written cull/both_windings")) << would.text;
+  EXPECT_TRUE(would.says("vouched for by osmesa, embree, exact")) << would.text;
+  EXPECT_TRUE(files() == before) << "--check writes nothing";
+  const Outcome written = golden("update", "--report " + at("page"));
+  EXPECT_EQ(written.code, 1) << "a run that writes does not pass";
+  EXPECT_TRUE(written.says("written cull/both_windings")) << written.text;
+  EXPECT_TRUE(fs::exists(at("page/index.html")));
+  EXPECT_TRUE(fs::exists(at("page/cull/both_windings/new.png")));
+  const auto after = files();
+  EXPECT_TRUE(after != before);
+  const Outcome again = golden("update");
+  EXPECT_EQ(again.code, 0) << again.text;
+  EXPECT_TRUE(again.says("nothing to write")) << again.text;
+  EXPECT_TRUE(files() == after) << "twice in a row: the second changes nothing";
+  EXPECT_EQ(golden("check").code, 0);
+}
+
+TEST_F(GoldenCommand, a_fault_is_refused_with_the_reason_and_nothing_is_written) {
+  const auto before = files();
+  const Outcome check = golden("check", "--fault coverage.inclusive_edges");
+  EXPECT_EQ(check.code, 1);
+  EXPECT_TRUE(check.says("first stage that differs: coverage")) << check.text;
+  EXPECT_TRUE(check.says("wrong by itself: coverage")) << check.text;
+  EXPECT_TRUE(check.says("pixels differ, the worst at pixel")) << check.text;
+  const Outcome update = golden("update", "--fault coverage.inclusive_edges");
+  EXPECT_EQ(update.code, 1);
+  EXPECT_TRUE(update.says("refused coverage/shared_edges")) << update.text;
+  EXPECT_TRUE(update.says("because of osmesa, coverage: different")) << update.text;
+  EXPECT_TRUE(update.says("because of exact from its records, coverage: different")) << update.text;
+  EXPECT_TRUE(files() == before);
+}
+
+// scripts/break_stages does it with edits of the sources. One line for each stage; the scene shows the fault.
+TEST(golden_stages, a_fault_in_any_stage_is_named_by_the_goldens_and_by_the_references) {
+  struct Break {
+    const char *stage, *fault, *scene;
+  };
+  constexpr Break kBreaks[] = {{"matrices", "matrices.rotation_sign", "camera/transform_chain"},
+                               {"vertex", "vertex.w_is_one", "camera/wide"},
+                               {"light", "light.ambient_per_light", "light/sphere_gouraud"},
+                               {"clip", "clip.no_near_plane", "clip/each_plane"},
+                               {"window", "window.snap_truncates", "cull/both_windings"},
+                               {"coverage", "coverage.inclusive_edges", "coverage/shared_edges"},
+                               {"depth", "depth.truncated", "depth/functions"},
+                               {"attributes", "attributes.affine", "interpolation/w_ratio"},
+                               {"texture", "texture.t_flipped", "texture/globe"},
+                               {"shade", "shade.fog_near", "fog/exp"},
+                               {"visibility", "visibility.less_equal", "depth/ties"},
+                               {"merge", "merge.truncated", "cull/both_windings"},
+                               {"resolve", "resolve.truncated", "antialias/samples_meeting_z16"}};
+  for (const Break& b : kBreaks) {
+    const Outcome run = plumb(fmt::format("golden check {}{}.json --golden {}/golden --fault {}", kScenes, b.scene,
+                                          PLUMBLINE_SOURCE_DIR, b.fault));
+    EXPECT_EQ(run.code, 1) << b.fault;
+    EXPECT_TRUE(run.says(fmt::format("first stage that differs: {} (", b.stage))) << b.fault << run.text;
+    EXPECT_TRUE(run.says(fmt::format("first different stage: {} (against", b.stage))) << b.fault << run.text;
+  }
+}
+
+TEST_F(GoldenCommand, a_scene_that_is_gone_takes_its_golden_with_it) {
+  fs::remove(at("suite/cull/both_windings.json"));
+  const Outcome orphan = golden("check");
+  EXPECT_EQ(orphan.code, 1);
+  EXPECT_TRUE(orphan.says("orphan cull/both_windings")) << orphan.text;
+  const Outcome update = golden("update");
+  EXPECT_EQ(update.code, 1);
+  EXPECT_TRUE(update.says("removed cull/both_windings")) << update.text;
+  EXPECT_FALSE(fs::exists(at("golden/cull/both_windings")));
+  EXPECT_TRUE(fs::exists(at("golden/tolerances.json")));
+  EXPECT_EQ(golden("check").code, 0);
+  EXPECT_EQ(golden("update").code, 0);
+}
+
+TEST_F(GoldenCommand, one_update_at_a_time) {
+  const int folder = ::open(at("golden").c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(::flock(folder, LOCK_EX), 0);
+  for (const char* verb : {"update", "check"}) {
+    const Outcome run = golden(verb);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_TRUE(run.says(at("golden") + ": another run")) << run.text;
+  }
+  ASSERT_EQ(::flock(folder, LOCK_SH), 0);
+  EXPECT_EQ(golden("check").code, 0) << "many may read";
+  EXPECT_EQ(golden("update").code, 2);
+  ::close(folder);
+}
+
+TEST_F(GoldenCommand, bad_input_ends_2) {
+  EXPECT_EQ(plumb("golden").code, 2);
+  EXPECT_EQ(plumb("golden bless").code, 2);
+  EXPECT_EQ(golden("check", at("no_such.json")).code, 2);
+  EXPECT_EQ(golden("check", "--fault nonsense").code, 2);
+  EXPECT_EQ(plumb("golden check --suite " + at("suite") + " --golden " + at("nowhere")).code, 2);
+  EXPECT_EQ(plumb("golden check --suite " + at("nowhere") + " --golden " + at("golden")).code, 2);
+  EXPECT_EQ(golden("check", "--against exact").code, 2) << "who is asked is not for the run to choose";
+  EXPECT_EQ(golden("update", "--against exact").code, 2);
+}
+
+TEST_F(GoldenCommand, check_beside_the_references_has_a_row_for_each_stage) {
+  const std::string scene = at("suite/coverage/shared_edges.json") + " --golden " + at("golden");
+  const Outcome holds = plumb("check " + scene);
+  EXPECT_EQ(holds.code, 0) << holds.text;
+  EXPECT_TRUE(holds.says("golden                   visibility equal")) << holds.text;
+  const Outcome fault = plumb("check " + scene + " --against exact --fault coverage.inclusive_edges");
+  EXPECT_EQ(fault.code, 1);
+  EXPECT_TRUE(fault.says("golden                   coverage   different")) << fault.text;
+  EXPECT_TRUE(fault.says("golden                   window     equal")) << fault.text;
+  EXPECT_TRUE(fault.says("--golden " + at("golden") + " --fault")) << fault.text;
+  fs::remove_all(folder_ / "golden/coverage/shared_edges");
+  const Outcome gone = plumb("check " + scene + " --against exact");
+  EXPECT_EQ(gone.code, 1);
+  EXPECT_TRUE(gone.says("golden                   merge      failed")) << gone.text;
+}
+
+// The whole program, killed anywhere between its start and its end. (Where it writes: golden_kill_test.)
+TEST_F(GoldenCommand, a_killed_update_leaves_the_old_set_or_the_new_one) {
+  const char* said = std::getenv("PLUMBLINE_KILLS");
+  const int kills = said != nullptr ? std::atoi(said) : 5;
+  const std::string words[] = {"\"description\": \"", "\"description\": \"Changed. "};
+  const fs::path manifest = folder_ / "golden/manifest.json";
+  const std::string arguments = "golden update " + scene().string() + " --golden " + at("golden");
+  const auto start = std::chrono::steady_clock::now();
+  change_scene(words[0], words[1]);
+  ASSERT_EQ(plumb(arguments).code, 1);
+  const auto whole = std::chrono::steady_clock::now() - start;
+  std::mt19937 random(7);
+  bool changed = true;
+  int olds = 0;
+  for (int i = 0; i < kills; ++i) {
+    const std::string before = read(manifest);
+    change_scene(words[changed], words[!changed]);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::execl("/bin/sh", "sh", "-c", ("exec " PLUMBLINE_PLUMB " " + arguments + " > /dev/null").c_str(), nullptr);
+      ::_exit(127);
+    }
+    std::this_thread::sleep_for(whole * (static_cast<double>(random()) / std::mt19937::max() * 1.2));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    const bool old = read(manifest) == before;
+    olds += old;
+    const Outcome check = plumb("golden check " + scene().string() + " --golden " + at("golden"));
+    ASSERT_EQ(check.code, old ? 1 : 0) << check.text;
+    ASSERT_EQ(check.says("the scene changed since"), old) << check.text;
+    if (old) {
+      change_scene(words[!changed], words[changed]);  // the old scene still has its golden, whole
+      ASSERT_EQ(plumb("golden check " + scene().string() + " --golden " + at("golden")).code, 0);
+    } else {
+      changed = !changed;
+    }
+  }
+  fmt::print("{} kills: {} left the old set, {} the new one\n", kills, olds, kills - olds);
+}
+
+}  // namespace
+}  // namespace plumbline
