@@ -24,7 +24,7 @@ class HtmlReport {
  public:
   /// For so many scenes. Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not
   /// ours.
-  HtmlReport(const std::filesystem::path& folder, std::size_t scenes);
+  explicit HtmlReport(const std::filesystem::path& folder, std::size_t scenes = 1);
   /// `failure`: why the run fails for this scene (table.h, failure_lines()), or empty; `repeat`: the command.
   void add(const check::SceneVerdict& verdict, std::span<const check::Reference> references, const check::Drawn& drawn,
            const Scene& scene, const std::string& failure = "", const std::string& repeat = "");
