@@ -30,7 +30,7 @@ struct Extent {
 };
 constexpr Extent kUsual{};
 constexpr Extent kAll{.models = true, .scenes = ~std::size_t{0}, .pairs = 400, .of_pair = 10, .of_legal = 100};
-constexpr Extent kQuick{.affected = 24, .pairs = 0, .of_legal = 0, .until_seen = true};
+constexpr Extent kQuick{.affected = 2, .pairs = 0, .of_legal = 0, .until_seen = true};
 
 bool is_model(const Scene& scene) { return scene.name.starts_with("models/"); }
 
@@ -119,8 +119,14 @@ std::vector<Row> of_faults_and_pairs(std::span<const Scene> scenes, const Extent
     on_both.push_back(std::move(pair.scenes));
   }
   of_pairs = rows_of(scenes, std::move(pairs), on_both, extent.of_pair, workers);
-  return extent.until_seen ? until_seen(scenes, std::move(subjects), on, workers)
-                           : rows_of(scenes, std::move(subjects), on, extent.scenes, workers);
+  if (!extent.until_seen) return rows_of(scenes, std::move(subjects), on, extent.scenes, workers);
+  std::vector<Row> rows = until_seen(scenes, std::move(subjects), on, workers);
+  for (Row& row : rows) {  // looking for more scenes takes long, and few faults need them
+    if (row.seen() > 0) continue;
+    const std::vector<SceneList> more = affected(scenes, {&row.subject, 1}, 24, workers);
+    row = std::move(until_seen(scenes, {row.subject}, more, workers)[0]);
+  }
+  return rows;
 }
 
 // The pipeline itself on all scenes; on some, what is said or drawn otherwise.

@@ -9,8 +9,8 @@
 namespace plumbline::check {
 
 std::string_view name_of(Outcome outcome) {
-  constexpr std::array<std::string_view, 8> kNames = {"equal",   "within",      "ambiguous_only", "different",
-                                                      "dispute", "unsupported", "missing",        "failed"};
+  constexpr std::array<std::string_view, kOutcomes> kNames = {
+      "equal", "within", "ambiguous_only", "different", "dispute", "unsupported", "missing", "failed", "expected"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
 

@@ -1,6 +1,7 @@
 // A verdict: per scene, reference and stage, one comparison with its outcome.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -21,8 +22,10 @@ enum class Outcome {
   dispute,         ///< the reference, not the candidate, is outside the legal answers: listed, not our failure
   unsupported,     ///< the reference does not show the stage
   missing,         ///< the reference is not here
-  failed           ///< a renderer crashed, hung, or broke the protocol
+  failed,          ///< a renderer crashed, hung, or broke the protocol
+  expected         ///< one of the three above, and known (expectations.h)
 };
+inline constexpr std::size_t kOutcomes = 9;
 std::string_view name_of(Outcome outcome);
 /// different, failed, missing.
 bool is_failure(Outcome outcome);
@@ -57,6 +60,8 @@ struct SceneVerdict {
   std::string path;
   std::vector<Comparison> comparisons;
   double seconds = 0;
+  std::string failure{};  ///< lines: why it does not hold; empty: it does
+  std::string repeat{};   ///< the command that repeats the failure
 };
 
 /// The first comparison, by stage, that is different; null if none. Of several at one stage, the first listed.

@@ -55,6 +55,13 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--json", o.json, "Write one object per comparison");
   text(command, "--report", o.report, "Write a page with pictures into this folder");
   text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
+  text(command, "--junit", o.junit, "Write a test case per scene as JUnit's XML");
+  text(command, "--markdown", o.markdown, "Write a summary for a CI page");
+  text(command, "--rows", o.rows, "Leave each scene's rows, and whether it holds, in this folder");
+  text(command, "--failures", o.failures, "Leave a page of each scene that does not hold in this folder");
+  text(command, "--expect", o.expect, "Known differences, each with reason, issue and last day");
+  text(command, "--today", o.today, "YYYY-MM-DD, for their last days (default: the clock's)");
+  text(command, "--shard", o.shard, "I/N: every Nth scene, from number I on");
   text(command, "--golden", o.golden, "Compare with the goldens in this folder as well, stage by stage");
   text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
@@ -145,6 +152,27 @@ void add(CLI::App& command, NotesOptions& o) {
       ->check(CLI::IsMember(numbers));
 }
 
+void add(CLI::App& command, DiffOptions& o) {
+  text(command, "OLD", o.before, "What plumb check --json wrote, then")->required();
+  text(command, "NEW", o.now, "and now")->required();
+  text(command, "--json", o.json, "Write the changes as JSON");
+  text(command, "--markdown", o.markdown, "Write the changes for a CI page");
+  command.add_option("--moved", o.factor, "By which factor a largest difference is larger or smaller to be told")
+      ->check(CLI::Range(1.0, 1e9))
+      ->capture_default_str();
+  command.add_option("--slower", o.slower, "By which factor a scene's time is, and by 0.25 s")
+      ->check(CLI::Range(1.0, 1e9))
+      ->capture_default_str();
+}
+
+void add(CLI::App& command, MergeOptions& o) {
+  text(command, "runs", o.runs, "What plumb check --json wrote for each shard, or for one run")->required();
+  text(command, "-o,--output", o.output, "Write them as one run's JSON");
+  text(command, "--junit", o.junit, "Write a test case per scene as JUnit's XML");
+  text(command, "--markdown", o.markdown, "Write a summary for a CI page");
+  text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
+}
+
 // A subcommand whose options, once parsed, `run` is called with.
 template <class Options>
 void add_command(CLI::App& app, std::function<int()>& chosen, const std::string& name, const std::string& help,
@@ -180,6 +208,11 @@ Parsed parse(int argc, char** argv) {
               "Compare two images, or two captures, number by number; pixels count from the lower left", compare);
   add_golden_commands(app, out.command, check_options.program);
   add_command(app, out.command, "list", "Show the stages, renderers, faults and scenes that there are", list);
+  CLI::App* report = app.add_subcommand("report", "Compare and merge runs of plumb check by the JSON that they left");
+  report->require_subcommand(1);
+  add_command(*report, out.command, "diff", "What is newly broken or fixed, not run any more, or has moved",
+              report_diff);
+  add_command(*report, out.command, "merge", "Shards of a run, as that run", report_merge);
   add_command(app, out.command, "notes",
               "Show what each section of the course notes teaches, and where it is done and shown here", notes);
   try {

@@ -6,55 +6,62 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "check/expectations.h"
 #include "check/golden.h"
 #include "check/judge.h"
+#include "cli/check_failures.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
 #include "cli/references.h"
+#include "cli/shard_argument.h"
 #include "report/html_report.h"
 #include "report/json_report.h"
+#include "report/junit.h"
+#include "report/markdown.h"
+#include "report/run_file.h"
 #include "report/table.h"
 #include "scene/scene_file.h"
+#include "stages/atomic_path.h"
 
 namespace plumbline::cli {
 
 namespace {
 
-std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& verdict) {
-  std::string out = shell_word(o.program) + " check " + shell_word(verdict.path);
-  if (o.against != reference_names()) out += fmt::format(" --against {}", fmt::join(o.against, ","));
-  if (!o.golden.empty()) out += " --golden " + shell_word(o.golden);
-  if (!o.fault.empty()) out += " --fault " + shell_word(o.fault);
-  if (o.allow_missing) out += " --allow-missing";
-  return out + o.scene_arguments.repeated();
+std::chrono::sys_days today(const CheckOptions& o) {
+  if (!o.today.empty()) return check::day_of(o.today);
+  return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
 }
 
-// Whether the references are asked that are asked where none are named, others beside them or not.
-bool all_asked(const CheckOptions& o) {
-  return std::ranges::all_of(reference_names(),
-                             [&](const std::string& name) { return std::ranges::count(o.against, name) > 0; });
+// The whole suite was asked: a folder of several groups, no shard of it. Then each expectation must be of a scene in
+// it.
+bool is_whole(const CheckOptions& o, std::span<const check::SceneVerdict> verdicts) {
+  std::set<std::string> groups;
+  for (const check::SceneVerdict& v : verdicts) groups.insert(v.scene.substr(0, v.scene.find('/')));
+  return o.shard.empty() && groups.size() > 1 &&
+         std::ranges::any_of(o.scenes, [](const std::string& path) { return std::filesystem::is_directory(path); });
 }
 
-// The stages whose lack of a judge is a failure: with all references asked, all but what --allow-missing forgives.
-// Where a renderer failed, that is the failure.
-std::vector<Stage> unjudged(const check::SceneVerdict& verdict, const CheckOptions& o) {
-  const auto failed = [](const check::Comparison& c) { return c.outcome == check::Outcome::failed; };
-  if (!all_asked(o) || std::ranges::any_of(verdict.comparisons, failed)) return {};
-  std::vector<Stage> out = check::unjudged_stages(verdict);
-  if (!o.allow_missing) return out;
-  const std::vector<Stage> forgiven = check::stages_lost_to_missing(verdict);
-  std::erase_if(out, [&](Stage stage) { return std::ranges::count(forgiven, stage) > 0; });
+std::string lines_of_nowhere(const std::vector<check::Expectation>& expectations,
+                             std::span<const check::SceneVerdict> verdicts) {
+  std::string out;
+  for (const check::Expectation& e : expectations) {
+    if (std::ranges::find(verdicts, e.scene, &check::SceneVerdict::scene) == verdicts.end()) {
+      out += fmt::format("expectation of {}: there is no such scene\n", e.scene);
+    }
+  }
   return out;
 }
 
-bool holds(const check::SceneVerdict& verdict, const CheckOptions& o) {
-  return unjudged(verdict, o).empty() && std::ranges::none_of(verdict.comparisons, [&](const check::Comparison& c) {
-           return is_failure(c.outcome) && !(o.allow_missing && c.outcome == check::Outcome::missing);
-         });
+// What the table does not hold because nobody asked, if any.
+std::string not_asked_line(const CheckOptions& o) {
+  std::vector<std::string> names = reference_names();
+  std::erase_if(names, [&](const std::string& name) { return std::ranges::count(o.against, name) > 0; });
+  return names.empty() ? "" : fmt::format("not asked: {}\n", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -64,13 +71,18 @@ int check(const CheckOptions& given) {
   o.against = without_repeats(given.against);
   const auto start = std::chrono::steady_clock::now();
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
-  const std::vector<std::filesystem::path> files = find_scenes(paths);
+  std::vector<std::filesystem::path> files = find_scenes(paths);
+  const report::Shard shard = take_shard(files, o.shard);
+  const std::chrono::sys_days day = today(o);
+  std::vector<check::Expectation> expectations;
+  if (!o.expect.empty()) expectations = check::read_expectations(o.expect);
   std::vector<Scene> scenes;  // all of them first: a bad one ends the run before anything is written
   for (const auto& file : files) {
     scenes.push_back(o.scene_arguments.load(file));
     require_budget(scenes.back(), plane_bytes(scenes.back()), Request{}.memory_budget);
   }
-  const Output outputs[] = {{"--json", o.json}, {"--ledger", o.ledger}};
+  const Output outputs[] = {
+      {"--json", o.json}, {"--ledger", o.ledger}, {"--junit", o.junit}, {"--markdown", o.markdown}};
   require_outputs(outputs, {"--report", o.report}, files);
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
   const References references = make_references(o.against, o.scene_arguments.assets);
@@ -81,35 +93,41 @@ int check(const CheckOptions& given) {
   if (!o.report.empty()) page.emplace(o.report, scenes.size());
   const bool terminal = isatty(STDERR_FILENO) != 0;
   std::vector<check::SceneVerdict> verdicts;
+  std::vector<check::Settled> settled;
   std::string failures;
-  bool all_hold = true;
   fmt::print("{}", report::table_head());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const Scene& scene = scenes[i];
     if (terminal) fmt::print(stderr, "\r\x1b[K[{}/{}] {}\r", i + 1, scenes.size(), scene.path);
     check::Drawn drawn;
-    verdicts.push_back(check::judge(scene, *candidate, references.list, page ? &drawn : nullptr));
+    check::SceneVerdict& verdict =
+        verdicts.emplace_back(check::judge(scene, *candidate, references.list, page ? &drawn : nullptr));
     if (goldens)
-      std::ranges::move(check::golden_rows(scene, *candidate, *goldens),
-                        std::back_inserter(verdicts.back().comparisons));
-    fmt::print("{}", report::table_rows(verdicts.back()));
+      std::ranges::move(check::golden_rows(scene, *candidate, *goldens), std::back_inserter(verdict.comparisons));
+    std::ranges::move(settle(verdict, o, expectations, day), std::back_inserter(settled));
+    fmt::print("{}", report::table_rows(verdict));
     std::fflush(stdout);
-    const std::string repeat = repeat_command(o, verdicts.back());
-    std::string failure;
-    if (!holds(verdicts.back(), o)) {
-      all_hold = false;
-      failure = report::failure_lines(verdicts.back(), unjudged(verdicts.back(), o), repeat);
-      failures += failure;
+    std::string failure = verdict.failure;
+    if (!failure.empty() && !o.failures.empty()) {
+      failure += leave_report(o.failures, scene, verdict, *candidate, references.list);
     }
-    if (page) page->add(verdicts.back(), references.list, drawn, scene, failure, repeat);
+    if (!o.rows.empty()) leave_rows(o.rows, verdict, failure);
+    failures += failure;
+    if (page) page->add(verdict, references.list, drawn, scene, verdict.failure, verdict.repeat);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string summary = report::summary(verdicts, all_hold, seconds);
-  fmt::print("\n{}{}{}", failures, report::group_lines(verdicts), summary);
-  if (!o.json.empty()) report::write_json(o.json, verdicts, versions);
+  const std::string nowhere = is_whole(o, verdicts) ? lines_of_nowhere(expectations, verdicts) : "";
+  const bool holds = report::all_hold(verdicts) && nowhere.empty();
+  std::string summary = not_asked_line(o);
+  if (!o.expect.empty()) summary += settled_line(settled, expectations.size());
+  summary += report::summary(verdicts, holds, seconds);
+  fmt::print("\n{}{}{}{}", failures, nowhere, report::group_lines(verdicts), summary);
+  if (!o.json.empty()) report::write_json(o.json, verdicts, versions, shard);
   if (!o.ledger.empty()) report::write_ledger(o.ledger, verdicts);
+  if (!o.junit.empty()) write_file(o.junit, report::junit(verdicts));
+  if (!o.markdown.empty()) write_file(o.markdown, report::markdown(verdicts, nowhere + summary));
   if (page) page->write(summary);
-  return all_hold ? kHolds : kDiffers;
+  return holds ? kHolds : kDiffers;
 }
 
 }  // namespace plumbline::cli

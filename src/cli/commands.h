@@ -18,9 +18,14 @@ enum Exit { kHolds = 0, kDiffers = 1, kBadInput = 2 };
 struct CheckOptions {
   std::vector<std::string> scenes;  ///< files, and folders of them
   std::vector<std::string> against = reference_names();
-  std::string json, report, ledger;
-  std::string golden;  ///< the folder of goldens, whose rows stand beside the references'; or empty
-  std::string fault;   ///< a bug to put into our renderer, or empty
+  std::string json, report, ledger, junit, markdown;
+  std::string rows;      ///< a folder: each scene's rows, and what fails, in <group>/<scene>.txt
+  std::string failures;  ///< a folder: of each scene that does not hold, a page in <group>/<scene>
+  std::string expect;    ///< a file of known differences (check/expectations.h)
+  std::string today;     ///< YYYY-MM-DD, for their last days; empty: the clock's, UTC
+  std::string shard;     ///< I/N: every Nth scene, from number I on
+  std::string golden;    ///< the folder of goldens, whose rows stand beside the references'; or empty
+  std::string fault;     ///< a bug to put into our renderer, or empty
   bool allow_missing = false;
   SceneArguments scene_arguments;
   std::string program = "plumb";  ///< as it was called, for the command that repeats a failure
@@ -96,6 +101,19 @@ struct ListOptions {
   SceneArguments scene_arguments;
 };
 int list(const ListOptions& options);
+
+/// Runs of plumb check, by the JSON that they left: what changed, shards as one run, and other forms of one.
+struct DiffOptions {
+  std::string before, now;
+  std::string json, markdown;  ///< or empty
+  double factor = 1.25, slower = 1.5;
+};
+int report_diff(const DiffOptions& options);
+struct MergeOptions {
+  std::vector<std::string> runs;
+  std::string output, junit, markdown, ledger;  ///< or empty
+};
+int report_merge(const MergeOptions& options);
 
 /// What each section of the course notes teaches, and where it is done and shown here.
 struct NotesOptions {

@@ -60,10 +60,17 @@ Json comparison_json(const check::Comparison& c) {
 }
 
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
-                const std::map<std::string, std::string>& versions) {
-  Json out{{"versions", versions}, {"scenes", Json::array()}, {"comparisons", Json::array()}};
+                const std::map<std::string, std::string>& versions, const Shard& shard) {
+  Json out{{"versions", versions},
+           {"tolerances", Json::object()},
+           {"shard", {{"index", shard.index}, {"of", shard.of}, {"scenes", std::max(shard.scenes, verdicts.size())}}},
+           {"scenes", Json::array()},
+           {"comparisons", Json::array()}};
+  for (const check::Tolerance& row : check::ledger()) out["tolerances"][std::string(row.name)] = row.factor;
   for (const check::SceneVerdict& verdict : verdicts) {
-    out["scenes"].push_back({{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}});
+    Json scene{{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}};
+    if (!verdict.failure.empty()) scene["failure"] = verdict.failure, scene["repeat"] = verdict.repeat;
+    out["scenes"].push_back(std::move(scene));
     for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
   }
   write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");

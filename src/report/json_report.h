@@ -12,11 +12,20 @@
 
 namespace plumbline::report {
 
-/// {"versions": {renderer: version}, "comparisons": [{scene, reference, stage, outcome, pixels, differing, ambiguous,
-/// max_difference, unit, tolerance, worst, ...}]}. Numbers that JSON cannot hold are the strings "inf" and "nan".
-/// Text that is no UTF-8 has U+FFFD for each byte. Written whole or not at all. Throws OutputError (atomic_path.h).
+/// A part of a run: of the scenes in their order, every of-th, beginning with number `index` (from 1).
+struct Shard {
+  int index = 1, of = 1;
+  std::size_t scenes = 0;  ///< of all shards together
+  bool operator==(const Shard&) const = default;
+};
+
+/// {"versions": {renderer: version}, "tolerances": {the ledger's row: factor}, "shard": {index, of, scenes}, "scenes":
+/// [{scene, file, seconds, failure, repeat}] (the last two where it does not hold), "comparisons": [{scene, reference,
+/// stage, outcome, pixels, differing, ambiguous, max_difference, unit, tolerance, worst, ...}]}. Numbers that JSON
+/// cannot hold are the strings "inf" and "nan". Text that is no UTF-8 has U+FFFD for each byte. Written whole or not at
+/// all. Throws OutputError (atomic_path.h).
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
-                const std::map<std::string, std::string>& versions);
+                const std::map<std::string, std::string>& versions, const Shard& shard = {});
 
 /// {"scene", "file", "versions", "first" (a stage or null), "wrong": [stages], "findings": [{stage, reference,
 /// differing, pixels, numbers, causes, picture}], "comparisons": as above}; "pixel_history", where there is one

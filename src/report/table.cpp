@@ -79,7 +79,7 @@ namespace {
 
 // How many comparisons came to what.
 struct Tally {
-  std::array<std::size_t, 8> of_outcome{};
+  std::array<std::size_t, check::kOutcomes> of_outcome{};
   std::size_t scenes = 0, comparisons = 0;
 
   void add(const SceneVerdict& verdict) {
@@ -118,7 +118,7 @@ std::string summary(std::span<const SceneVerdict> verdicts, bool all_hold, doubl
     tally.add(verdict);
     complete &= check::unjudged_stages(verdict).empty();
   }
-  for (Outcome outcome : {Outcome::unsupported, Outcome::missing, Outcome::dispute}) {
+  for (Outcome outcome : {Outcome::unsupported, Outcome::missing, Outcome::dispute, Outcome::expected}) {
     complete &= tally.count(outcome) == 0;
   }
   const char* word = !all_hold                ? "FAILED"

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-// After fmt: OpenImageIO would include it as headers only, without exceptions, and this file's copy of fmt's functions
-// would be the whole program's.
-#include <OpenImageIO/imageio.h>
+#include "images/image_codec.h"
 
 namespace plumbline {
 namespace {
@@ -27,24 +27,27 @@ template <class T>
 constexpr double kScale = std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1.0;
 
 template <class T>
-std::vector<double> read_values(OIIO::ImageInput& in, OIIO::TypeDesc type, std::size_t count, const fs::path& file) {
+std::vector<double> read_values(OpenImage& in, SampleType type, const fs::path& file) {
+  const ImageHeader& header = in.header();
+  const std::size_t count =
+      static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height) * header.channels.size();
   std::vector<T> stored(count);
-  if (!in.read_image(0, 0, 0, -1, type, stored.data())) fail(file, "an image that is whole", in.geterror());
+  if (!in.read(0, static_cast<int>(header.channels.size()), type, stored.data())) {
+    fail(file, "an image that is whole", in.error());
+  }
   std::vector<double> values(count);
   std::transform(stored.begin(), stored.end(), values.begin(),
                  [](T value) { return static_cast<double>(value) / kScale<T>; });
   return values;
 }
 
-std::vector<double> read_values(OIIO::ImageInput& in, const OIIO::ImageSpec& spec, const fs::path& file) {
-  const std::size_t count = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                            static_cast<std::size_t>(spec.nchannels);
-  switch (spec.format.basetype) {
-    case OIIO::TypeDesc::UINT8: return read_values<std::uint8_t>(in, OIIO::TypeDesc::UINT8, count, file);
-    case OIIO::TypeDesc::UINT16: return read_values<std::uint16_t>(in, OIIO::TypeDesc::UINT16, count, file);
-    case OIIO::TypeDesc::HALF:
-    case OIIO::TypeDesc::FLOAT: return read_values<float>(in, OIIO::TypeDesc::FLOAT, count, file);
-    default: fail(file, "codes of 8 or 16 bits, or floats", spec.format.c_str());
+std::vector<double> read_values(OpenImage& in, const fs::path& file) {
+  switch (in.header().type) {
+    case SampleType::uint8: return read_values<std::uint8_t>(in, SampleType::uint8, file);
+    case SampleType::uint16: return read_values<std::uint16_t>(in, SampleType::uint16, file);
+    case SampleType::float16:
+    case SampleType::float32: return read_values<float>(in, SampleType::float32, file);
+    default: fail(file, "codes of 8 or 16 bits, or floats", in.header().type_name);
   }
 }
 
@@ -57,32 +60,29 @@ TextureImage load_texture_image(const fs::path& file, std::size_t most_texels) {
   if (std::find(endings.begin(), endings.end(), ending) == endings.end()) {
     fail(file, "an image ending in .png, .jpg, .jpeg, .tga or .exr", fmt::format("\"{}\"", ending));
   }
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  config.attribute("oiio:RawColor", 1);
-  const auto in = OIIO::ImageInput::open(file.string(), &config);
-  if (!in) fail(file, "an image", OIIO::geterror());
-  if (in->seek_subimage(0, 1) || in->seek_subimage(1, 0) || !in->seek_subimage(0, 0)) {
-    fail(file, "one image", "several (parts, frames or MIP levels)");
-  }
-  const OIIO::ImageSpec spec = in->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.deep || spec.nchannels < 1 || spec.nchannels > 4) {
+  std::string error;
+  const auto in = image_codec().open(file.string(), error);
+  if (!in) fail(file, "an image", error);
+  const ImageHeader& header = in->header();
+  if (header.several) fail(file, "one image", "several (parts, frames or MIP levels)");
+  const std::size_t channels = header.channels.size();
+  if (header.width < 1 || header.height < 1 || header.depth != 1 || header.deep || channels < 1 || channels > 4) {
     fail(file, "flat texels of 1 to 4 channels",
-         fmt::format("{} channels of {} x {} x {}{}", spec.nchannels, spec.width, spec.height, spec.depth,
-                     spec.deep ? ", deep" : ""));
+         fmt::format("{} channels of {} x {} x {}{}", channels, header.width, header.height, header.depth,
+                     header.deep ? ", deep" : ""));
   }
-  if (spec.width > kLargestTexture || spec.height > kLargestTexture ||
-      static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) > most_texels) {
+  if (header.width > kLargestTexture || header.height > kLargestTexture ||
+      static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height) > most_texels) {
     fail(file, fmt::format("at most {} texels a side, and {} more in all", kLargestTexture, most_texels),
-         fmt::format("{} x {}", spec.width, spec.height));
+         fmt::format("{} x {}", header.width, header.height));
   }
-  const std::vector<double> values = read_values(*in, spec, file);
-  const auto channels = static_cast<std::size_t>(spec.nchannels), width = static_cast<std::size_t>(spec.width);
+  const std::vector<double> values = read_values(*in, file);
+  const auto width = static_cast<std::size_t>(header.width);
   constexpr double kLargest = 65504;
-  TextureImage image{{spec.width, spec.height, std::vector<glm::vec4>(values.size() / channels, glm::vec4(1))},
-                     spec.nchannels};
+  TextureImage image{{header.width, header.height, std::vector<glm::vec4>(values.size() / channels, glm::vec4(1))},
+                     static_cast<int>(channels)};
   for (std::size_t i = 0; i < image.rgba.texels.size(); ++i) {
-    const std::size_t x = i % width, row = static_cast<std::size_t>(spec.height) - 1 - i / width;  // files go down
+    const std::size_t x = i % width, row = static_cast<std::size_t>(header.height) - 1 - i / width;  // files go down
     const double* from = &values[(row * width + x) * channels];
     for (std::size_t c = 0; c < channels; ++c) {
       if (!(std::abs(from[c]) <= kLargest)) {

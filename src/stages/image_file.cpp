@@ -12,11 +12,7 @@
 
 #include <fmt/format.h>
 
-// After fmt: OpenImageIO would include it as headers only, without exceptions, and this file's copy of fmt's functions
-// would be the whole program's.
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
+#include "images/image_codec.h"
 #include "stages/atomic_path.h"
 
 namespace plumbline {
@@ -52,32 +48,18 @@ std::vector<unsigned> codes_of(const Plane<glm::vec4>& plane, int channels, doub
   return codes;
 }
 
-OIIO::ImageSpec spec_of(int width, int height, int channels, OIIO::TypeDesc type) {
-  OIIO::ImageSpec spec(width, height, channels, type);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("compression", "zip");
-  return spec;
+/// The file's bytes; its ending says the format. `pixels` are of the type, all channels of each.
+template <class T>
+Bytes encode(const fs::path& file, const Plane<T>& plane, std::vector<std::string> channels, SampleType type,
+             const void* pixels) {
+  std::string error;
+  Bytes out =
+      image_codec().encode({file.string(), plane.width(), plane.height(), std::move(channels), type, pixels}, error);
+  if (out.empty()) throw ImageError(fmt::format("{}: cannot be encoded: {}", file.string(), error));
+  return out;
 }
 
-/// Of an EXR file: without a date OpenImageIO writes today's, and no two files were the same.
-OIIO::ImageSpec exr_spec_of(int width, int height, int channels) {
-  OIIO::ImageSpec spec = spec_of(width, height, channels, OIIO::TypeDesc::FLOAT);
-  spec.attribute("DateTime", "1970:01:01 00:00:00");
-  return spec;
-}
-
-/// The file's bytes; its ending says the format.
-Bytes encode(const fs::path& file, const OIIO::ImageSpec& spec, const void* pixels) {
-  const std::string name = file.string();
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput proxy(bytes);
-  const auto out = OIIO::ImageOutput::create(name, &proxy);
-  if (!out) throw ImageError(fmt::format("{}: cannot be encoded: {}", name, OIIO::geterror()));
-  if (!out->open(name, spec) || !out->write_image(spec.format, pixels) || !out->close()) {
-    throw ImageError(fmt::format("{}: cannot be encoded: {}", name, out->geterror()));
-  }
-  return {bytes.begin(), bytes.end()};
-}
+const std::vector<std::string> kRgba = {"R", "G", "B", "A"};
 
 std::string ending_of(const fs::path& file) {
   std::string ending = file.extension().string();
@@ -98,41 +80,40 @@ void require_pixels(const fs::path& file, const Plane<T>& plane) {
 
 /// Adds the channels from `first` to before `last`, read as `type`, which is T.
 template <class T>
-void add_channels(OIIO::TypeDesc type, OIIO::ImageInput& in, const OIIO::ImageSpec& spec, int first, int last,
-                  const fs::path& file, StoredImage& image) {
+void add_channels(SampleType type, OpenImage& in, int first, int last, const fs::path& file, StoredImage& image) {
+  const ImageHeader& header = in.header();
   const auto count = static_cast<std::size_t>(last - first);
-  std::vector<T> pixels(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * count);
-  if (!in.read_image(0, 0, first, last, type, pixels.data())) {
-    throw ImageError(fmt::format("{}: cannot be read: {}", file.string(), in.geterror()));
+  std::vector<T> pixels(static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height) * count);
+  if (!in.read(first, last, type, pixels.data())) {
+    throw ImageError(fmt::format("{}: cannot be read: {}", file.string(), in.error()));
   }
   constexpr double kScale = std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1.0;
   for (std::size_t c = 0; c < count; ++c) {
-    Plane<double> values(spec.width, spec.height);
+    Plane<double> values(header.width, header.height);
     auto from = pixels.begin() + static_cast<std::ptrdiff_t>(c);
-    for (int y = spec.height - 1; y >= 0; --y) {
-      for (int x = 0; x < spec.width; ++x, from += last - first) values(x, y) = static_cast<double>(*from);
+    for (int y = header.height - 1; y >= 0; --y) {
+      for (int x = 0; x < header.width; ++x, from += last - first) values(x, y) = static_cast<double>(*from);
     }
-    image.channels.push_back({spec.channelnames.at(static_cast<std::size_t>(first) + c), kScale, std::move(values)});
+    image.channels.push_back({header.channels.at(static_cast<std::size_t>(first) + c).name, kScale, std::move(values)});
   }
 }
 
-void add_channels_of_type(OIIO::TypeDesc type, OIIO::ImageInput& in, const OIIO::ImageSpec& spec, int first, int last,
-                          const fs::path& file, StoredImage& image) {
-  switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8: return add_channels<std::uint8_t>(type, in, spec, first, last, file, image);
-    case OIIO::TypeDesc::INT8: return add_channels<std::int8_t>(type, in, spec, first, last, file, image);
-    case OIIO::TypeDesc::UINT16: return add_channels<std::uint16_t>(type, in, spec, first, last, file, image);
-    case OIIO::TypeDesc::INT16: return add_channels<std::int16_t>(type, in, spec, first, last, file, image);
-    case OIIO::TypeDesc::UINT32: return add_channels<std::uint32_t>(type, in, spec, first, last, file, image);
-    case OIIO::TypeDesc::INT32: return add_channels<std::int32_t>(type, in, spec, first, last, file, image);
-    case OIIO::TypeDesc::HALF:
-    case OIIO::TypeDesc::FLOAT:
-    case OIIO::TypeDesc::DOUBLE:
-      return add_channels<double>(OIIO::TypeDesc::DOUBLE, in, spec, first, last, file, image);
-    default:
-      throw ImageError(
-          fmt::format("{}: expected integers of up to 32 bits or floats, found {}", file.string(), type.c_str()));
+void add_channels_of_type(OpenImage& in, int first, int last, const fs::path& file, StoredImage& image) {
+  const ImageHeader::Channel& channel = in.header().channels.at(static_cast<std::size_t>(first));
+  switch (channel.type) {
+    case SampleType::uint8: return add_channels<std::uint8_t>(channel.type, in, first, last, file, image);
+    case SampleType::int8: return add_channels<std::int8_t>(channel.type, in, first, last, file, image);
+    case SampleType::uint16: return add_channels<std::uint16_t>(channel.type, in, first, last, file, image);
+    case SampleType::int16: return add_channels<std::int16_t>(channel.type, in, first, last, file, image);
+    case SampleType::uint32: return add_channels<std::uint32_t>(channel.type, in, first, last, file, image);
+    case SampleType::int32: return add_channels<std::int32_t>(channel.type, in, first, last, file, image);
+    case SampleType::float16:
+    case SampleType::float32:
+    case SampleType::float64: return add_channels<double>(SampleType::float64, in, first, last, file, image);
+    case SampleType::other: break;
   }
+  throw ImageError(
+      fmt::format("{}: expected integers of up to 32 bits or floats, found {}", file.string(), channel.type_name));
 }
 
 }  // namespace
@@ -143,7 +124,7 @@ Bytes encode_bytes(const fs::path& file, const Plane<glm::vec4>& plane) {
   require_pixels(file, plane);
   const std::vector<unsigned> codes = codes_of(plane, 4, 255);
   const std::vector<std::uint8_t> pixels(codes.begin(), codes.end());
-  return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::UINT8), pixels.data());
+  return encode(file, plane, kRgba, SampleType::uint8, pixels.data());
 }
 
 }  // namespace
@@ -157,7 +138,7 @@ Bytes encode_png(const fs::path& file, const Plane<glm::vec4>& plane, ColorForma
   for (unsigned c : codes_of(plane, 4, largest)) {
     pixels.push_back(static_cast<std::uint16_t>((c * 65535u + largest / 2) / largest));
   }
-  return encode(file, spec_of(plane.width(), plane.height(), 4, OIIO::TypeDesc::UINT16), pixels.data());
+  return encode(file, plane, kRgba, SampleType::uint16, pixels.data());
 }
 
 Bytes encode_tga(const fs::path& file, const Plane<glm::vec4>& plane, ColorFormat format) {
@@ -185,7 +166,7 @@ Bytes encode_exr(const fs::path& file, const Plane<glm::vec4>& plane) {
   std::vector<glm::vec4> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](const glm::vec4& p) { pixels.push_back(p); });
-  return encode(file, exr_spec_of(plane.width(), plane.height(), 4), pixels.data());
+  return encode(file, plane, kRgba, SampleType::float32, pixels.data());
 }
 
 Bytes encode_depth_exr(const fs::path& file, const Plane<double>& plane) {
@@ -194,10 +175,7 @@ Bytes encode_depth_exr(const fs::path& file, const Plane<double>& plane) {
   std::vector<float> pixels;
   pixels.reserve(plane.size());
   top_down(plane, [&](double z) { pixels.push_back(static_cast<float>(z)); });
-  OIIO::ImageSpec spec = exr_spec_of(plane.width(), plane.height(), 1);
-  spec.channelnames = {"Z"};
-  spec.z_channel = 0;
-  return encode(file, spec, pixels.data());
+  return encode(file, plane, {"Z"}, SampleType::float32, pixels.data());
 }
 
 Bytes encode_depth_codes(const fs::path& file, const Plane<double>& plane, DepthFormat format) {
@@ -238,31 +216,28 @@ StoredImage read_stored(const fs::path& file) {
   constexpr std::int64_t kMostValues = std::int64_t{1} << 28;
   const std::string name = file.string();
   if (!fs::is_regular_file(file)) throw ImageError(fmt::format("{}: expected an image file, found none", name));
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  config.attribute("oiio:RawColor", 1);
-  const auto in = OIIO::ImageInput::open(name, &config);
-  if (!in) throw ImageError(fmt::format("{}: cannot be read: {}", name, OIIO::geterror()));
-  if (in->seek_subimage(0, 1) || in->seek_subimage(1, 0) || !in->seek_subimage(0, 0)) {
+  std::string error;
+  const auto in = image_codec().open(name, error);
+  if (!in) throw ImageError(fmt::format("{}: cannot be read: {}", name, error));
+  const ImageHeader& header = in->header();
+  if (header.several) {
     throw ImageError(fmt::format("{}: expected one image, found several (parts, frames or MIP levels)", name));
   }
-  const OIIO::ImageSpec spec = in->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.depth != 1 || spec.deep || spec.width > kLargest ||
-      spec.height > kLargest || spec.nchannels < 1 ||
-      spec.nchannels > kMostValues / (std::int64_t{spec.width} * spec.height)) {
+  const auto channels = static_cast<int>(header.channels.size());
+  if (header.width < 1 || header.height < 1 || header.depth != 1 || header.deep || header.width > kLargest ||
+      header.height > kLargest || channels < 1 ||
+      channels > kMostValues / (std::int64_t{header.width} * header.height)) {
     throw ImageError(fmt::format(
         "{}: expected flat pixels, up to {} x {} of them and 2^28 values, found {} channels of {} x {} x {}{}", name,
-        kLargest, kLargest, spec.nchannels, spec.width, spec.height, spec.depth, spec.deep ? ", deep" : ""));
+        kLargest, kLargest, channels, header.width, header.height, header.depth, header.deep ? ", deep" : ""));
   }
   StoredImage image;
-  image.data = {spec.x, spec.y, spec.width, spec.height};
-  image.display = {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
-  if (spec.channelformats.empty()) {
-    add_channels_of_type(spec.format, *in, spec, 0, spec.nchannels, file, image);
+  image.data = {header.x, header.y, header.width, header.height};
+  image.display = {header.full_x, header.full_y, header.full_width, header.full_height};
+  if (std::ranges::all_of(header.channels, [&](const auto& c) { return c.type == header.channels[0].type; })) {
+    add_channels_of_type(*in, 0, channels, file, image);
   } else {
-    for (int c = 0; c < spec.nchannels; ++c) {
-      add_channels_of_type(spec.channelformat(c), *in, spec, c, c + 1, file, image);
-    }
+    for (int c = 0; c < channels; ++c) add_channels_of_type(*in, c, c + 1, file, image);
   }
   return image;
 }
@@ -319,6 +294,6 @@ Plane<double> frame_depth(const fs::path& file, const StoredImage& image, DepthF
   return out;
 }
 
-std::string image_library_version() { return OIIO_VERSION_STRING; }
+std::string image_library_version() { return image_codec().version; }
 
 }  // namespace plumbline

@@ -1,5 +1,6 @@
 // diagnose(): every stage that is wrong is named, a second fault behind a first one too, and nothing where nothing is.
 #include "check/diagnose.h"
+#include "../extent.h"
 
 #include <algorithm>
 
@@ -241,6 +242,7 @@ TEST_F(Diagnose, RaisesNothingElseOnAnySceneWhereEveryOtherStageIsRepaired) {
     scene = load_scene(file, {});
     if (scene.frame.antialias.kind != Antialias::Kind::none) scene = passes_of(scene)[0];
     const bool even = ++scenes % 2 == 0;
+    if (scenes / 2 % one_of(10) != 0) continue;
     std::set<Stage> wrong;
     for (std::size_t i = even ? 0 : 1; i <= static_cast<std::size_t>(Stage::merge); i += 2) {
       wrong.insert(static_cast<Stage>(i));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../extent.h"
 #include "check/compare_stored.h"
 #include "reference/osmesa/osmesa.h"
 #include "scene/scene_file.h"
@@ -74,10 +75,8 @@ TEST(OsmesaEgl, same_bits_on_a_few_scenes) {
   compare_on({kScenes + "/clip/each_plane.json", kScenes + "/depth/z16.json", kScenes + "/light/sphere_gouraud.json"});
 }
 
-TEST(OsmesaEgl, same_bits_on_every_seventh_scene) { compare_on({kScenes}, 7); }
-
-// A process for each takes minutes: --gtest_also_run_disabled_tests.
-TEST(OsmesaEgl, DISABLED_same_bits_on_every_scene) { compare_on({kScenes}); }
+// A process for each.
+TEST(OsmesaEgl, same_bits_on_scenes_of_all_kinds) { compare_on({kScenes}, one_of(50)); }
 
 // Beside each other, each would draw into the other's current context without a word.
 TEST(OsmesaEgl, one_library_per_process) {

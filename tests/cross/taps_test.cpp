@@ -1,6 +1,7 @@
 // What ships and what is captured are one path: the planes without a tap equal those with it, bit for bit.
 #include <gtest/gtest.h>
 
+#include "../extent.h"
 #include "pipeline/pipeline_renderer.h"
 #include "random_scenes.h"
 #include "scene/scene_file.h"
@@ -32,7 +33,8 @@ void expect_equal_planes(const Scene& scene) {
 
 TEST(Taps, planes_are_equal_on_every_scene) {
   const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-  for (const auto& file : find_scenes(folder)) expect_equal_planes(load_scene(file, {}));
+  const auto files = find_scenes(folder);
+  for (std::size_t i = 0; i < files.size(); i += one_of(8)) expect_equal_planes(load_scene(files[i], {}));
 }
 
 TEST(Taps, planes_are_equal_on_random_triangles) {

@@ -3,6 +3,7 @@
 #include <bitset>
 #include <cstdint>
 #include <cstring>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -223,11 +224,12 @@ class Unfaulted {
 std::vector<SceneList> affected(std::span<const Scene> scenes, std::span<const Subject> subjects, std::size_t most,
                                 unsigned workers) {
   std::vector<std::optional<Unfaulted>> unfaulted(scenes.size());
-  in_parallel(scenes.size(), workers, [&](std::size_t s) { unfaulted[s].emplace(scenes[s]); });
+  std::vector<std::once_flag> is_there(scenes.size());  // where a few scenes are enough, most are not looked at
   std::vector<SceneList> out(subjects.size());
   in_parallel(subjects.size(), workers, [&](std::size_t i) {
     for (std::size_t s = 0; s < scenes.size() && out[i].size() < most; ++s) {
       try {
+        std::call_once(is_there[s], [&] { unfaulted[s].emplace(scenes[s]); });
         if (unfaulted[s]->changed_by(subjects[i].table)) out[i].push_back(s);
       } catch (const std::exception& e) {
         throw std::runtime_error(fmt::format("{} on {}: {}", subjects[i].name, scenes[s].name, e.what()));

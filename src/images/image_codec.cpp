@@ -1,0 +1,22 @@
+#include "images/image_codec.h"
+
+#include <dlfcn.h>
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace plumbline {
+
+const ImageCodec& image_codec() {
+  // Never unloaded: what it handed out may live until the end.
+  static const ImageCodec* const kCodec = [] {
+    void* module = dlopen("plumbline_openimageio.so", RTLD_LAZY | RTLD_LOCAL);
+    const void* codec = module == nullptr ? nullptr : dlsym(module, "plumbline_image_codec");
+    if (codec == nullptr) throw std::runtime_error(fmt::format("images cannot be read or written: {}", dlerror()));
+    return static_cast<const ImageCodec*>(codec);
+  }();
+  return *kCodec;
+}
+
+}  // namespace plumbline

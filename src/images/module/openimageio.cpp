@@ -1,0 +1,107 @@
+// The module that image_codec.h speaks of: the one file that knows OpenImageIO.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "images/image_codec.h"
+
+namespace plumbline {
+namespace {
+
+SampleType type_of(OIIO::TypeDesc type) {
+  switch (type.basetype) {
+    case OIIO::TypeDesc::UINT8: return SampleType::uint8;
+    case OIIO::TypeDesc::INT8: return SampleType::int8;
+    case OIIO::TypeDesc::UINT16: return SampleType::uint16;
+    case OIIO::TypeDesc::INT16: return SampleType::int16;
+    case OIIO::TypeDesc::UINT32: return SampleType::uint32;
+    case OIIO::TypeDesc::INT32: return SampleType::int32;
+    case OIIO::TypeDesc::HALF: return SampleType::float16;
+    case OIIO::TypeDesc::FLOAT: return SampleType::float32;
+    case OIIO::TypeDesc::DOUBLE: return SampleType::float64;
+    default: return SampleType::other;
+  }
+}
+
+OIIO::TypeDesc type_of(SampleType type) {
+  switch (type) {
+    case SampleType::uint8: return OIIO::TypeDesc::UINT8;
+    case SampleType::int8: return OIIO::TypeDesc::INT8;
+    case SampleType::uint16: return OIIO::TypeDesc::UINT16;
+    case SampleType::int16: return OIIO::TypeDesc::INT16;
+    case SampleType::uint32: return OIIO::TypeDesc::UINT32;
+    case SampleType::int32: return OIIO::TypeDesc::INT32;
+    case SampleType::float16: return OIIO::TypeDesc::HALF;
+    case SampleType::float32: return OIIO::TypeDesc::FLOAT;
+    case SampleType::float64: return OIIO::TypeDesc::DOUBLE;
+    case SampleType::other: break;
+  }
+  return OIIO::TypeDesc::UNKNOWN;
+}
+
+class File : public OpenImage {
+ public:
+  explicit File(std::unique_ptr<OIIO::ImageInput> in) : in_(std::move(in)) {
+    header_.several = in_->seek_subimage(0, 1) || in_->seek_subimage(1, 0) || !in_->seek_subimage(0, 0);
+    const OIIO::ImageSpec& spec = in_->spec();
+    header_.x = spec.x, header_.y = spec.y;
+    header_.width = spec.width, header_.height = spec.height, header_.depth = spec.depth;
+    header_.full_x = spec.full_x, header_.full_y = spec.full_y;
+    header_.full_width = spec.full_width, header_.full_height = spec.full_height;
+    header_.deep = spec.deep;
+    header_.type = type_of(spec.format);
+    header_.type_name = spec.format.c_str();
+    for (int c = 0; c < spec.nchannels; ++c) {
+      const OIIO::TypeDesc type = spec.channelformat(c);
+      header_.channels.push_back({spec.channel_name(c), type_of(type), type.c_str()});
+    }
+  }
+  bool read(int first, int last, SampleType as, void* to) override {
+    return in_->read_image(0, 0, first, last, type_of(as), to);
+  }
+  std::string error() const override { return in_->geterror(); }
+
+ private:
+  std::unique_ptr<OIIO::ImageInput> in_;
+};
+
+std::unique_ptr<OpenImage> open(const std::string& name, std::string& error) {
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  config.attribute("oiio:RawColor", 1);
+  auto in = OIIO::ImageInput::open(name, &config);
+  if (!in) {
+    error = OIIO::geterror();
+    return nullptr;
+  }
+  return std::make_unique<File>(std::move(in));
+}
+
+std::string encode(const ImageToEncode& image, std::string& error) {
+  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), type_of(image.type));
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  spec.attribute("compression", "zip");
+  // Of an EXR file: without a date OpenImageIO writes today's, and no two files were the same.
+  if (image.type == SampleType::float32) spec.attribute("DateTime", "1970:01:01 00:00:00");
+  spec.channelnames = image.channels;
+  for (int c = 0; c < spec.nchannels; ++c) {
+    if (spec.channel_name(c) == "Z") spec.z_channel = c;
+  }
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput proxy(bytes);
+  const auto out = OIIO::ImageOutput::create(image.name, &proxy);
+  if (!out) {
+    error = OIIO::geterror();
+    return {};
+  }
+  if (!out->open(image.name, spec) || !out->write_image(spec.format, image.pixels) || !out->close()) {
+    error = out->geterror();
+    return {};
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+}  // namespace plumbline
+
+extern "C" __attribute__((visibility("default")))
+const plumbline::ImageCodec plumbline_image_codec = {OIIO_VERSION_STRING, plumbline::open, plumbline::encode};

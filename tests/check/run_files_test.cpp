@@ -1,0 +1,239 @@
+// Runs by the JSON that they left: read back, merged, compared; and what CI systems read.
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "../unit/test_folder.h"
+#include "report/junit.h"
+#include "report/markdown.h"
+#include "report/run_diff.h"
+#include "report/run_merge.h"
+#include "scene/json_tree.h"
+
+namespace plumbline::report {
+namespace {
+
+using check::Comparison;
+using check::Outcome;
+using check::SceneVerdict;
+
+Comparison row(const std::string& scene, Stage stage, Outcome outcome, double largest = 0) {
+  Comparison c;
+  c.scene = scene, c.reference = "osmesa", c.stage = stage, c.outcome = outcome;
+  check::Measurement& m = c.measurement;
+  m.unit = "steps", m.items = 100, m.differing = outcome == Outcome::different ? 7 : 0;
+  m.max_difference = m.max_ratio = m.worst.difference = largest;
+  m.worst.place = {3, 4, 5, "depth"};
+  m.worst.candidate = 0.1, m.worst.reference = 1.0 / 3, m.worst.tolerance = 1e-300;
+  m.histogram[19] = 2;
+  c.ledger_row = "osmesa.depth", c.note = "a \"note\" & <more>";
+  return c;
+}
+
+SceneVerdict scene(const std::string& name, std::vector<Comparison> rows) {
+  return {name, "scenes/" + name + ".json", std::move(rows), 0.5};
+}
+
+SceneVerdict failing(const std::string& name) {
+  SceneVerdict v =
+      scene(name, {row(name, Stage::depth, Outcome::different, 9), row(name, Stage::merge, Outcome::equal)});
+  v.failure = "different " + name + ": first different stage: depth\n  repeat: plumb check x\n";
+  v.repeat = "plumb check x";
+  return v;
+}
+
+struct RunFiles : TestFolder {
+  std::string at(const std::string& name) const { return (root_ / name).string(); }
+  CheckRun run(const std::vector<SceneVerdict>& verdicts, const Shard& shard = {},
+               const std::string& version = "1") const {
+    write_json(at("run.json"), verdicts, {{"osmesa", version}}, shard);
+    return read_run(at("run.json"));
+  }
+  void refused(const std::string& from, const std::string& to, const std::string& says) const {
+    write_json(at("run.json"), std::vector{failing("light/a")}, {{"osmesa", "1"}});
+    std::string text = read(at("run.json"));
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(at("run.json")) << text;
+    try {
+      read_run(at("run.json"));
+      ADD_FAILURE() << "taken: " << to;
+    } catch (const JsonError& e) {
+      EXPECT_NE(std::string(e.what()).find(says), std::string::npos) << e.what();
+    }
+  }
+};
+
+TEST_F(RunFiles, AreReadBackWhole) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Comparison disputed = row("light/b", Stage::depth, Outcome::dispute, kInf);
+  disputed.measurement.disputed = 3;
+  disputed.measurement.dispute = disputed.measurement.worst;
+  disputed.measurement.dispute.place = {-1, -1, 12, "p_clip.x"};
+  disputed.measurement.reason = "theirs";
+  const std::vector<SceneVerdict> verdicts = {
+      failing("light/a"),
+      scene("light/b", {disputed, check::not_judged("light/b", "embree", Stage::light, Outcome::unsupported, "why")})};
+  const CheckRun back = run(verdicts, {2, 3, 5});
+  EXPECT_EQ(back.shard, (Shard{2, 3, 5}));
+  EXPECT_EQ(back.versions.at("osmesa"), "1");
+  EXPECT_EQ(back.tolerances.size(), check::ledger().size());
+  write_json(at("again.json"), back.verdicts, back.versions, back.shard);
+  EXPECT_EQ(read(at("again.json")), read(at("run.json")));
+  EXPECT_NE(read(at("again.json")).find("pixel 3,4 record 5 depth"), std::string::npos);
+  EXPECT_FALSE(all_hold(back.verdicts));
+  EXPECT_EQ(seconds(back.verdicts), 1.0);
+}
+
+TEST_F(RunFiles, OfOthersAreRefusedWithTheirPlace) {
+  refused("\"shard\"", "\"shart\"", "at \"/shart\"");
+  refused("\"different\"", "\"differs\"", "at \"/comparisons/0/outcome\": expected an outcome (equal to expected)");
+  refused("\"pixels\": 100", "\"pixels\": -1", "at \"/comparisons/0/pixels\"");
+  refused("\"of\": 1", "\"of\": 0", "at \"/shard/of\"");
+  refused("\"place\": \"pixel 3,4", "\"place\": \"pixel 3,5", "to begin with the pixel");
+  refused("\"scene\": \"light/a\",\n   \"reference\"", "\"scene\": \"light/c\",\n   \"reference\"",
+          "at \"/comparisons/0/scene\": expected one of \"scenes\"");
+  EXPECT_THROW(read_run(at("none.json")), JsonError);
+}
+
+TEST_F(RunFiles, OfShardsAreOneRun) {
+  const std::vector<SceneVerdict> a = {failing("light/a")},
+                                  b = {scene("light/b", {row("light/b", Stage::clip, Outcome::within, 1)})};
+  std::vector<SceneVerdict> both = a;
+  both.push_back(b[0]);
+  run(both);
+  const std::string whole = read(at("run.json"));
+  const auto merged = [&](std::vector<CheckRun> runs) {
+    const Merged m = merge(std::move(runs));
+    write_json(at("merged.json"), m.run.verdicts, m.run.versions, m.run.shard);
+    return m.missing;
+  };
+  const auto runs = [](auto... each) {
+    std::vector<CheckRun> out;
+    (out.push_back(std::move(each)), ...);
+    return out;
+  };
+  EXPECT_TRUE(merged(runs(run(b, {2, 2, 2}), run(a, {1, 2, 2}), run(a, {1, 2, 2}))).empty());
+  EXPECT_EQ(read(at("merged.json")), whole) << "in the order of the scenes, each once";
+  EXPECT_TRUE(merged(runs(run(a), run(b))).empty()) << "runs that state no share";
+  EXPECT_EQ(merged(runs(run(b, {2, 3, 4}))),
+            (std::vector<std::string>{"missing: shard 1, 3 of 3", "missing: 3 of 4 scenes"}));
+
+  const auto refuses = [&](std::vector<CheckRun> of, const std::string& says) {
+    try {
+      merge(std::move(of));
+      ADD_FAILURE() << "merged: " << says;
+    } catch (const std::runtime_error& e) {
+      EXPECT_NE(std::string(e.what()).find(says), std::string::npos) << e.what();
+    }
+  };
+  refuses(runs(run(a), run(b, {}, "2")), "their versions differ");
+  refuses(runs(run(a, {1, 2, 2}), run(b, {2, 3, 2})), "shards of 2 and of 3");
+  refuses(runs(run(a, {1, 2, 2}), run(b, {2, 2, 3})), "of 2 scenes and of 3");
+  refuses(runs(run(a), run({scene("light/a", {row("light/a", Stage::depth, Outcome::equal)})})),
+          "twice, with results that differ");
+  CheckRun other = run(a);
+  other.tolerances.begin()->second += 1;
+  refuses(runs(other), "are not this program's");
+  refuses(runs(run(b), other), "their tolerances differ");
+}
+
+TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
+  const auto rows = [&](Outcome depth, Outcome clip, double largest = 1) {
+    return run(
+        {scene("light/a", {row("light/a", Stage::clip, clip, 1), row("light/a", Stage::depth, depth, largest)})});
+  };
+  const CheckRun before = rows(Outcome::within, Outcome::equal);
+  EXPECT_EQ(diff_text(diff(before, before)), "nothing has changed\n");
+  EXPECT_TRUE(holds(diff(before, before)));
+
+  const RunDiff broken = diff(before, rows(Outcome::different, Outcome::equal));
+  EXPECT_FALSE(holds(broken));
+  EXPECT_EQ(diff_text(broken),
+            "newly broken: 1\n  light/a, osmesa, depth: within -> different: 7 of 100, largest 1 steps\n");
+  const RunDiff fixed = diff(rows(Outcome::different, Outcome::equal), before);
+  EXPECT_TRUE(holds(fixed));
+  EXPECT_EQ(fixed.fixed.size(), 1u);
+
+  for (const Outcome outcome : {Outcome::unsupported, Outcome::missing}) {
+    EXPECT_FALSE(holds(diff(before, rows(outcome, Outcome::equal)))) << name_of(outcome);
+  }
+  const RunDiff gone = diff(before, run({scene("light/a", {row("light/a", Stage::clip, Outcome::equal, 1)})}));
+  EXPECT_FALSE(holds(gone));
+  EXPECT_EQ(gone.lost.at(0).now, "not there");
+  const RunDiff added = diff(run({}), before);
+  EXPECT_TRUE(holds(added));
+  EXPECT_EQ(added.added.size(), 2u);
+  EXPECT_FALSE(holds(diff(run({}), run({failing("light/a")})))) << "new, and broken";
+  EXPECT_TRUE(holds(diff(before, rows(Outcome::dispute, Outcome::equal)))) << "listed, no failure";
+  EXPECT_EQ(diff(before, rows(Outcome::dispute, Outcome::equal)).moved.size(), 1u);
+
+  SceneVerdict nobody = scene(
+      "light/a", {row("light/a", Stage::clip, Outcome::equal, 1), row("light/a", Stage::depth, Outcome::within, 1)});
+  nobody.failure = "unjudged light/a: no reference judged merge\n";
+  EXPECT_EQ(diff(before, run({nobody})).broken.at(0).now, "unjudged light/a: no reference judged merge");
+}
+
+TEST_F(RunFiles, ADiffNamesWhatMovedBeyondItsLimits) {
+  const auto with = [&](double largest, double seconds) {
+    SceneVerdict v = scene("light/a", {row("light/a", Stage::depth, Outcome::within, largest)});
+    v.seconds = seconds;
+    return run({v});
+  };
+  const CheckRun before = with(4, 1);
+  EXPECT_TRUE(diff(before, with(5, 1)).differences.empty()) << "a quarter more is not told";
+  EXPECT_EQ(diff(before, with(5.1, 1)).differences.at(0).now, "5.1 steps");
+  EXPECT_EQ(diff(before, with(3.1, 1)).differences.size(), 1u);
+  EXPECT_TRUE(diff(before, with(5.1, 1), {2, 1.5, 0.25}).differences.empty());
+  EXPECT_TRUE(diff(before, with(4, 1.5)).times.empty());
+  EXPECT_EQ(diff(before, with(4, 1.6)).times.at(0).now, "1.60 s");
+  EXPECT_EQ(diff(before, with(4, 0.6)).times.size(), 1u);
+  EXPECT_TRUE(diff(with(4, 0.01), with(4, 0.1)).times.empty()) << "less than a quarter of a second";
+  CheckRun moved = with(4, 1);
+  const std::string name = moved.tolerances.begin()->first;
+  moved.tolerances[name] *= 2;
+  moved.versions["osmesa"] = "2";
+  const RunDiff d = diff(before, moved);
+  EXPECT_EQ(d.tolerances.at(0).what, name);
+  EXPECT_EQ(d.versions.at(0).was, "1");
+  EXPECT_TRUE(holds(d));
+  EXPECT_NE(diff_json(d).find("\"tolerances that moved\": [\n  {"), std::string::npos) << diff_json(d);
+  EXPECT_NE(diff_markdown(d).find("### tolerances that moved: 1"), std::string::npos) << diff_markdown(d);
+}
+
+TEST_F(RunFiles, AsJUnit) {
+  const std::string text = junit(std::vector{failing("light/a"), scene("light/b", {})});
+  EXPECT_NE(
+      text.find(
+          "<testsuite name=\"plumb check\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"0\" time=\"1.000\">"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find("<testcase classname=\"light\" name=\"b\" file=\"scenes/light/b.json\" time=\"0.500\"/>"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("<failure message=\"different light/a: first different stage: depth\">"), std::string::npos);
+  EXPECT_NE(text.find("a &quot;note&quot; &amp; &lt;more&gt;"), std::string::npos) << "the rows";
+  SceneVerdict odd = failing("light/a");
+  odd.failure =
+      "a\x01"
+      "b\xff";
+  EXPECT_NE(junit(std::vector{odd}).find("a?b\xef\xbf\xbd"), std::string::npos) << "XML holds neither";
+}
+
+TEST_F(RunFiles, AsMarkdown) {
+  std::vector<SceneVerdict> verdicts = {failing("light/a"),
+                                        scene("light/b", {row("light/b", Stage::depth, Outcome::expected),
+                                                          row("light/b", Stage::clip, Outcome::unsupported)})};
+  const std::string text = markdown(verdicts, "FAILED: 2 scenes");
+  for (const char* part : {"FAILED: 2 scenes", "| different | 1 |", "Not run: 1 unsupported, 0 missing, 0 failed.",
+                           "| light/a | depth | osmesa | 7 of 100 pixel 3,4", "| plumb check x |", "1 expected"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+  }
+  EXPECT_EQ(cell("a|b\n<c> `d`"), "a\\|b &lt;c&gt; \\`d\\`");
+  verdicts.assign(250, failing("light/a"));
+  EXPECT_NE(markdown(verdicts, "").find("and 50 more"), std::string::npos);
+  EXPECT_EQ(markdown(std::vector{scene("light/b", {})}, "").find("### Failures"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumbline::report

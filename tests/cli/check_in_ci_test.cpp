@@ -1,0 +1,116 @@
+// plumb check and plumb report as CI calls them.
+#include "run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+const std::string kFault = " --against exact --fault coverage.inclusive_edges";
+const std::string kScene = kScenes + "coverage/shared_edges.json";
+
+class CheckInCi : public Cli {
+ protected:
+  std::string known(const std::string& scene, const std::string& expires) const {
+    write(folder_ / "known.json",
+          "{\"expectations\": [{\"scene\": \"" + scene +
+              "\", \"reference\": \"exact from its records\", \"stage\": \"coverage\", \"reason\": \"a test\", "
+              "\"issue\": \"none\", \"expires\": \"" +
+              expires + "\"}]}");
+    return " --expect " + at("known.json") + " --today 2026-05-05";
+  }
+};
+
+TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
+  const std::string outputs = " --junit " + at("j.xml") + " --markdown " + at("m.md") + " --rows " + at("rows") +
+                              " --failures " + at("failures") + " --json " + at("c.json");
+  Outcome run = plumb("check " + kScene + kFault + outputs);
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("  report: " + at("failures/coverage/shared_edges/index.html"))) << run.text;
+  EXPECT_FALSE(run.says("CTestMeasurementFile")) << "no ctest";
+  EXPECT_TRUE(run.says("not asked: osmesa, embree"));
+  EXPECT_TRUE(fs::exists(at("failures/coverage/shared_edges/index.html")));
+  EXPECT_NE(read(at("j.xml")).find("failures=\"1\""), std::string::npos);
+  EXPECT_NE(read(at("m.md")).find("| coverage/shared\\_edges | coverage |"), std::string::npos) << read(at("m.md"));
+  EXPECT_TRUE(read(at("rows/coverage/shared_edges.txt")).ends_with("\nFAILED\n"));
+
+  run = shell("DASHBOARD_TEST_FROM_CTEST=1 " PLUMBLINE_PLUMB " check " + kScene + kFault + outputs);
+  const std::size_t tag = run.text.find("<CTestMeasurementFile type=\"image/png\" name=\"");
+  ASSERT_NE(tag, std::string::npos) << run.text;
+  const std::size_t from = run.text.find('>', tag) + 1;
+  EXPECT_TRUE(fs::exists(run.text.substr(from, run.text.find('<', from) - from))) << "the picture is there";
+
+  run = plumb("check " + kScene + " --against exact" + outputs);
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(read(at("rows/coverage/shared_edges.txt")).ends_with("\nholds\n"));
+  EXPECT_NE(read(at("j.xml")).find("failures=\"0\""), std::string::npos);
+}
+
+TEST_F(CheckInCi, shards_come_to_the_whole_run) {
+  const std::string scenes = kScenes + "cull " + kScenes + "merge";  // three scenes
+  std::string shards;
+  for (const char* i : {"1", "2"}) {
+    const std::string json = at(std::string(i) + ".json");
+    EXPECT_EQ(plumb("check " + scenes + " --against exact --shard " + i + "/2 --json " + json).code, 0);
+    shards += " " + json;
+  }
+  EXPECT_EQ(plumb("check " + scenes + " --against exact --json " + at("whole.json")).code, 0);
+  const Outcome merged = plumb("report merge" + shards + " -o " + at("all.json") + " --junit " + at("j.xml") +
+                               " --markdown " + at("m.md"));
+  EXPECT_EQ(merged.code, 0) << merged.text;
+  EXPECT_TRUE(merged.says("3 scenes"));
+  const Outcome diff = plumb("report diff " + at("whole.json") + " " + at("all.json") + " --slower 1000000");
+  EXPECT_EQ(diff.code, 0);
+  EXPECT_EQ(diff.text, "nothing has changed\n");
+  EXPECT_EQ(plumb("report diff " + at("whole.json") + " " + at("1.json")).code, 1) << "a scene is not run any more";
+  const Outcome lacking = plumb("report merge " + at("2.json"));
+  EXPECT_EQ(lacking.code, 1);
+  EXPECT_TRUE(lacking.says("missing: shard 1 of 2")) << lacking.text;
+  for (const char* bad : {"0/2", "3/2", "2", "1/2x", "a/b"}) {
+    EXPECT_EQ(plumb("check " + scenes + " --shard " + bad).code, 2) << bad;
+  }
+  write(at("bad.json"), "{\"versions\": 1}");
+  const Outcome bad = plumb("report diff " + at("whole.json") + " " + at("bad.json"));
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_TRUE(bad.says("bad.json: at \"/")) << bad.text;
+  EXPECT_EQ(plumb("report").code, 2);
+  EXPECT_EQ(plumb("report merge " + at("1.json") + " -o " + at("1.json")).code, 2) << "it is read by this run";
+}
+
+TEST_F(CheckInCi, what_breaks_is_named_by_the_diff) {
+  EXPECT_EQ(plumb("check " + kScene + " --against exact --json " + at("old.json")).code, 0);
+  EXPECT_EQ(plumb("check " + kScene + kFault + " --json " + at("new.json")).code, 1);
+  const Outcome diff = plumb("report diff " + at("old.json") + " " + at("new.json") + " --json " + at("d.json") +
+                             " --markdown " + at("d.md"));
+  EXPECT_EQ(diff.code, 1);
+  EXPECT_TRUE(diff.says("newly broken: ")) << diff.text;
+  EXPECT_TRUE(diff.says("coverage/shared_edges, exact from its records, coverage: equal -> different")) << diff.text;
+  EXPECT_NE(read(at("d.json")).find("\"holds\": false"), std::string::npos);
+  EXPECT_EQ(plumb("report diff " + at("new.json") + " " + at("old.json")).code, 0) << "fixed";
+}
+
+TEST_F(CheckInCi, expectations_excuse_what_is_known_until_it_expires_or_passes) {
+  const std::string expect = known("coverage/shared_edges", "2026-05-05");
+  Outcome run = plumb("check " + kScene + kFault + expect);
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("known to be different until 2026-05-05: a test (none)")) << run.text;
+  EXPECT_TRUE(run.says("expectations: 1 occurred, 0 expired, 0 passed unexpectedly, 0 match nothing, 0 not asked"));
+
+  run = plumb("check " + kScene + kFault + known("coverage/shared_edges", "2026-05-04"));
+  EXPECT_EQ(run.code, 1);
+  EXPECT_TRUE(run.says("expired coverage/shared_edges, exact from its records, coverage")) << run.text;
+  run = plumb("check " + kScene + " --against exact" + expect);
+  EXPECT_EQ(run.code, 1) << "it passes unexpectedly";
+  EXPECT_TRUE(run.says("0 occurred, 0 expired, 1 passed unexpectedly")) << run.text;
+  run = plumb("check " + kScene + " --against embree" + expect);
+  EXPECT_TRUE(run.says("1 not asked")) << run.text;
+
+  const std::string nowhere = known("coverage/no_such_scene", "2026-12-31");
+  run = plumb("check " + kScenes + "cull" + " --against exact" + nowhere);
+  EXPECT_EQ(run.code, 0) << "a part of the suite: not asked";
+  run = plumb("check " + kScenes + "cull " + kScenes + "merge" + " --against exact" + nowhere);
+  EXPECT_EQ(run.code, 1) << "folders of several groups: the suite";
+  EXPECT_TRUE(run.says("expectation of coverage/no_such_scene: there is no such scene")) << run.text;
+  EXPECT_EQ(plumb("check " + kScene + " --today 2026-02-30").code, 2);
+}
+
+}  // namespace
+}  // namespace plumbline
