@@ -47,13 +47,13 @@ Plane<glm::vec4> thumbnail(const Plane<glm::vec4>& plane) {
   return out;
 }
 
-// The worst of its rows; `unjudged` where the run fails for no row.
+// The worst of its rows; `fails` where the run does, and for no row.
 std::string_view outcome_of(const check::SceneVerdict& verdict, bool fails) {
   using check::Outcome;
-  constexpr Outcome kWorstFirst[] = {Outcome::failed,         Outcome::missing, Outcome::different, Outcome::dispute,
-                                     Outcome::ambiguous_only, Outcome::within,  Outcome::equal};
+  constexpr Outcome kWorstFirst[] = {Outcome::failed,  Outcome::missing,        Outcome::different, Outcome::expected,
+                                     Outcome::dispute, Outcome::ambiguous_only, Outcome::within,    Outcome::equal};
   for (const Outcome outcome : kWorstFirst) {
-    if (fails && !is_failure(outcome)) return "unjudged";
+    if (fails && !is_failure(outcome)) return "fails";
     if (std::ranges::count(verdict.comparisons, outcome, &check::Comparison::outcome) > 0) return name_of(outcome);
   }
   return name_of(Outcome::unsupported);

@@ -107,10 +107,11 @@ TEST_F(Pages, AScenesOutcomeIsTheWorstOfItsRows) {
   add({compared(Outcome::different, 1), compared(Outcome::dispute), compared(Outcome::equal)}, "why");
   add({compared(Outcome::within, 1, 2), compared(Outcome::dispute)});
   add({compared(Outcome::equal)}, "no reference judged light");
+  add({compared(Outcome::expected, 1), compared(Outcome::dispute)});
   add({not_compared(Outcome::unsupported, "")});
   page.write("");
   const nlohmann::json scenes = overview(folder)["scenes"];
-  const char* expected[] = {"equal", "different", "dispute", "unjudged", "unsupported"};
+  const char* expected[] = {"equal", "different", "dispute", "fails", "expected", "unsupported"};
   for (std::size_t i = 0; i < std::size(expected); ++i) {
     EXPECT_EQ(scenes[i]["outcome"], expected[i]) << i;
     EXPECT_EQ(scenes[i]["fails"], i == 1 || i == 3) << i;

@@ -2,9 +2,9 @@
 // The table of stages and judges, and one of its rows in full.
 
 /** How bad an outcome is; what is not judged says nothing of the scene. */
-const SEVERITY = ['unsupported', 'equal', 'within', 'ambiguous_only', 'dispute', 'expected', 'unjudged', 'different', 'missing', 'failed'];
+const SEVERITY = ['unsupported', 'equal', 'within', 'ambiguous_only', 'dispute', 'expected', 'fails', 'different', 'missing', 'failed'];
 const outcomeClass = (outcome) =>
-  ['different', 'missing', 'failed', 'unjudged'].includes(outcome) ? 'bad' :
+  ['different', 'missing', 'failed', 'fails'].includes(outcome) ? 'bad' :
   ['dispute', 'expected'].includes(outcome) ? 'odd' : outcome === 'unsupported' ? 'quiet' : 'good';
 const outcomeText = (outcome) => outcome.replace('_', ' ');
 
