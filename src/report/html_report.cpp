@@ -131,10 +131,11 @@ void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::
     put(key + ".png", png);
     budget -= std::min(png.size(), budget);
   }
-  const Json about{{"description", scene.description},
-                   {"failure", failure},
-                   {"repeat", repeat},
-                   {"first", first != nullptr ? Json(first - verdict.comparisons.data()) : Json(nullptr)}};
+  Json about{{"description", scene.description},
+             {"failure", failure},
+             {"repeat", repeat},
+             {"first", first != nullptr ? Json(first - verdict.comparisons.data()) : Json(nullptr)},
+             {"color_alone", false}};
   Viewed viewed = viewed_of(verdict.scene, references, drawn, scene);
   const auto script = [&](std::size_t bytes) {
     return fmt::format("sceneArrived({{...{}, view: {}}});\n", text_of(about),
@@ -144,6 +145,7 @@ void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::
   scenes_ += (scenes_.empty() ? "" : ",\n") + text_of(card);
   if (!failure.empty() || outcome == name_of(check::Outcome::dispute)) return put(key + ".js", all);
   std::erase_if(viewed.layers, [](const Layer& layer) { return layer.name != "colour"; });
+  about["color_alone"] = true;
   holding_.push_back({key + ".js", all, script(kBytesOfColor)});
 }
 

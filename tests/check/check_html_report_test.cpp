@@ -238,6 +238,8 @@ TEST_F(Pages, OfManyScenesThatHoldSomeShowTheirColourAlone) {
   EXPECT_GT(whole, 20u);
   EXPECT_LT(whole, 180u);
   EXPECT_EQ(shown(folder / "group/scene-201.js").view["layers"].size(), 2u) << "the one that fails, and comes last";
+  EXPECT_EQ(shown(folder / "group/scene-2.js").about["color_alone"], false);
+  EXPECT_EQ(shown(folder / "group/scene-200.js").about["color_alone"], true) << "and says so";
 }
 
 TEST_F(Pages, AHundredScenesOfNoiseStayBelowFiveMegabytes) {

@@ -12,8 +12,10 @@ class SceneView {
     this.viewer = new Viewer(view, (viewer) => { this.follow(viewer); changed(viewer); });
     const failure = scene.failure.replace(/^ *repeat: .*\n?/m, '');  // it stands below, to be copied
     const said = failure ? element('pre', {className: 'bad'}, failure) : '';
+    const lacks = !scene.color_alone ? '' : element('p', {className: 'quiet'},
+      'In a page of many scenes, most of those that hold show their colour alone: checked alone, this one shows all.');
     this.host = element('div', {}, scene.description ? element('p', {}, scene.description) : '', said,
-                        scene.repeat ? copied(scene.repeat) : '', this.viewer.host, element('h2', {}, 'stages'),
+                        scene.repeat ? copied(scene.repeat) : '', lacks, this.viewer.host, element('h2', {}, 'stages'),
                         element('div', {className: 'judged'}, this.table.host, this.details));
     const told = this.rows.find((row) => ['failed', 'missing', 'different', 'dispute'].includes(row.outcome));
     const colour = view.layers.find((layer) => layer.name === 'colour');
