@@ -25,7 +25,7 @@ namespace {
 
 void require_extension(EGLDisplay display, std::string_view name) {
   const char* all = eglQueryString(display, EGL_EXTENSIONS);
-  if (all == nullptr || (" " + std::string(all) + " ").find(fmt::format(" {} ", name)) == std::string::npos) {
+  if (all == nullptr || fmt::format(" {} ", all).find(fmt::format(" {} ", name)) == std::string::npos) {
     throw RendererFailed(fmt::format("EGL: this library has no {}", name));
   }
 }

@@ -128,6 +128,39 @@ int golden_check(const GoldenOptions& o) {
   return failures == 0 ? kHolds : kDiffers;
 }
 
+namespace {
+
+// What an update of one scene comes to.
+struct Asked {
+  check::GoldenDifference difference;
+  check::Vouch vouch;
+};
+
+// The references' answer to a picture that is not its golden's.
+Asked ask(const Scene& scene, Renderer& candidate, const References& references, const std::string& fault,
+          check::GoldenDifference difference) {
+  const std::string ours = candidate.info().name;
+  check::Drawn drawn;
+  const check::SceneVerdict verdict = check::judge(scene, candidate, references.list, &drawn);
+  check::Vouch vouch = check::vouch(verdict, ours, reference_names());
+  if (!fault.empty()) vouch.refusals.push_back(fmt::format("drawn with the fault {}: never blessed", fault));
+  const Planes& judged = drawn.candidate.planes;
+  if (!same_bits(judged.color, difference.drawn.color) || !same_bits(judged.depth, difference.drawn.depth)) {
+    vouch.refusals.push_back(fmt::format("{} drew another picture when it was judged", ours));
+  }
+  return {std::move(difference), std::move(vouch)};
+}
+
+void print(const Scene& scene, const std::string& says, const Asked& asked) {
+  fmt::print("{} {}\n{}", says, scene.name, describe(asked.difference));
+  for (const std::string& refusal : asked.vouch.refusals) fmt::print("  because of {}\n", refusal);
+  if (asked.vouch.refusals.empty()) fmt::print("  vouched for by {}\n", fmt::join(asked.vouch.by, ", "));
+  for (const std::string& dispute : asked.vouch.disputed) fmt::print("  disputed: {}\n", dispute);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
 int golden_update(const GoldenOptions& o) {
   const auto start = std::chrono::steady_clock::now();
   const Suite suite = load(o);
@@ -140,45 +173,32 @@ int golden_update(const GoldenOptions& o) {
   std::optional<report::GoldenPage> page;
   if (!o.report.empty()) page.emplace(o.report);
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
-  const RendererInfo ours = candidate->info();
   std::optional<References> references;  // starting them takes longer than a look at all goldens
   check::GoldenManifest next = goldens.manifest();
-  std::map<std::string, std::string> files;
+  std::map<std::string, std::string> files, versions;
   std::size_t written = 0, refused = 0, removed = 0;
   for (const Scene& scene : suite.scenes) {
-    const check::GoldenDifference difference = check::compare_golden(scene, *candidate, goldens);
+    check::GoldenDifference difference = check::compare_golden(scene, *candidate, goldens);
     if (!difference.any()) continue;
-    if (!references) references = make_references(reference_names(), o.scene_arguments.assets);
-    check::Drawn drawn;
-    const check::SceneVerdict verdict = check::judge(scene, *candidate, references->list, &drawn);
-    check::Vouch vouch = check::vouch(verdict, ours.name, reference_names());
-    if (!o.fault.empty()) vouch.refusals.push_back("drawn with the fault " + o.fault + ": never blessed");
-    if (!same_bits(drawn.candidate.planes.color, difference.drawn.color) ||
-        !same_bits(drawn.candidate.planes.depth, difference.drawn.depth)) {
-      vouch.refusals.push_back(fmt::format("{} drew another picture when it was judged", ours.name));
+    if (!references) {
+      references = make_references(reference_names(), o.scene_arguments.assets);
+      versions = versions_of(*candidate, *references);
+      versions["OpenImageIO"] = image_library_version();
+      next.versions[check::key_of(versions)] = versions;
     }
-    const bool granted = vouch.refusals.empty();
-    const std::string says = granted ? o.check ? "would be written" : "written" : "refused";
-    fmt::print("{} {}\n{}", says, scene.name, describe(difference));
-    for (const std::string& refusal : vouch.refusals) fmt::print("  because of {}\n", refusal);
-    if (granted) fmt::print("  vouched for by {}\n", fmt::join(vouch.by, ", "));
-    for (const std::string& dispute : vouch.disputed) fmt::print("  disputed: {}\n", dispute);
-    std::fflush(stdout);
-    if (page) page->add(scene, says, difference, vouch);
-    if (!granted) {
-      ++refused;
-      continue;
-    }
-    ++written;
-    std::map<std::string, std::string> versions = versions_of(*candidate, *references);
-    versions["OpenImageIO"] = image_library_version();
-    check::Golden golden = check::make_golden(scene, difference.drawn, files);
-    golden.producer = ours.name + " " + ours.version;
+    Asked asked = ask(scene, *candidate, *references, o.fault, std::move(difference));
+    const bool granted = asked.vouch.refusals.empty();
+    const std::string says = !granted ? "refused" : o.check ? "would be written" : "written";
+    print(scene, says, asked);
+    if (page) page->add(scene, says, asked.difference, asked.vouch);
+    ++(granted ? written : refused);
+    if (!granted) continue;
+    check::Golden golden = check::make_golden(scene, asked.difference.drawn, files);
+    golden.producer = candidate->info().name + " " + candidate->info().version;
     golden.versions = check::key_of(versions);
-    golden.references = std::move(vouch.references);
-    golden.vouched = std::move(vouch.by);
-    golden.disputed = std::move(vouch.disputed);
-    next.versions[golden.versions] = std::move(versions);
+    golden.references = std::move(asked.vouch.references);
+    golden.vouched = std::move(asked.vouch.by);
+    golden.disputed = std::move(asked.vouch.disputed);
     next.scenes[scene.name] = std::move(golden);
   }
   for (const std::string& name : orphans(suite, goldens.manifest())) {

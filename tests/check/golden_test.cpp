@@ -120,6 +120,22 @@ TEST_F(Goldens, files_hold_every_format_without_loss) {
   EXPECT_EQ(seen, (std::set<std::string>{"rgba8", "rgba12", "rgba16", "rgba32f", "z8", "z16", "z24", "z32f"}));
 }
 
+TEST_F(Goldens, images_of_other_channels_or_numbers_are_refused) {
+  const auto stored = [&](const std::string& name, const std::string& bytes) {
+    write_file(folder_ / name, bytes);
+    return read_stored(folder_ / name);
+  };
+  const Plane<glm::vec4> grey(2, 2, glm::vec4(0.5f));
+  const StoredImage codes = stored("a.png", encode_png("a.png", grey));
+  const StoredImage depth = stored("z.exr", encode_depth_codes("z.exr", Plane<double>(2, 2, 1), DepthFormat::z16));
+  EXPECT_EQ(frame_color("a.png", codes, ColorFormat::rgba8)(0, 0).r, 128.0f / 255.0f);
+  EXPECT_EQ(frame_depth("z.exr", depth, DepthFormat::z16)(0, 0), 1.0);
+  EXPECT_THROW(frame_color("a.png", codes, ColorFormat::rgba16), ImageError);
+  EXPECT_THROW(frame_color("a.png", codes, ColorFormat::rgba32f), ImageError);
+  EXPECT_THROW(frame_color("z.exr", depth, ColorFormat::rgba32f), ImageError);
+  EXPECT_THROW(frame_depth("a.png", codes, DepthFormat::z16), ImageError);
+}
+
 TEST_F(Goldens, a_last_bit_of_colour_of_depth_or_of_a_stage_is_told) {
   for (const char* name : {"cull/both_windings.json", "frame/rgba16.json", "frame/one_pixel_float.json"}) {
     const Scene scene = load_scene(kScenes / name);

@@ -237,6 +237,7 @@ TEST_F(GoldenCommand, bad_input_ends_2) {
   EXPECT_EQ(plumb("golden bless").code, 2);
   EXPECT_EQ(golden("check", at("no_such.json")).code, 2);
   EXPECT_EQ(golden("check", "--fault nonsense").code, 2);
+  EXPECT_TRUE(golden("check", scene().string() + " " + scene().string()).says("found cull/both_windings twice"));
   EXPECT_EQ(plumb("golden check --suite " + at("suite") + " --golden " + at("nowhere")).code, 2);
   EXPECT_EQ(plumb("golden check --suite " + at("nowhere") + " --golden " + at("golden")).code, 2);
   EXPECT_EQ(golden("check", "--against exact").code, 2) << "who is asked is not for the run to choose";
