@@ -90,7 +90,7 @@ int check(const CheckOptions& given) {
   std::optional<check::GoldenSet> goldens;
   if (!o.golden.empty()) goldens.emplace(o.golden, check::GoldenSet::Access::read);
   std::optional<report::HtmlReport> page;
-  if (!o.report.empty()) page.emplace(o.report);
+  if (!o.report.empty()) page.emplace(o.report, scenes.size());
   const bool terminal = isatty(STDERR_FILENO) != 0;
   std::vector<check::SceneVerdict> verdicts;
   std::vector<check::Settled> settled;

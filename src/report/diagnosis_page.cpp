@@ -45,7 +45,7 @@ std::string drawing(const Pictured& p) {
   const std::string svg = positions_drawing(p.scene, p.mine, p.expected);
   if (svg.empty()) return {};
   return fmt::format(
-      "<h2>positions, {}</h2>\n<p>window triangles, expected in green, ours in red where it is elsewhere; of many, "
+      "<h2>positions: {}</h2>\n<p>window triangles, expected in green, ours in red where it is elsewhere; of many, "
       "5000</p>\n{}",
       escaped(p.title), svg);
 }

@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A hundred scenes are below 5 MB, with their share of the overview.
-constexpr std::size_t kBytesOfScene = 46000;
+// 5 MB, but for the style and the list of files.
+constexpr std::size_t kBytesOfPage = 4'930'000, kBytesOfScene = 46'000, kBytesOfColor = 7'000;
 
 std::string text_of(const Json& json) { return in_script(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
@@ -47,13 +47,13 @@ Plane<glm::vec4> thumbnail(const Plane<glm::vec4>& plane) {
   return out;
 }
 
-// The worst of its rows; `unjudged` where the run fails for no row.
+// The worst of its rows; `fails` where the run does, and for no row.
 std::string_view outcome_of(const check::SceneVerdict& verdict, bool fails) {
   using check::Outcome;
-  constexpr Outcome kWorstFirst[] = {Outcome::failed,         Outcome::missing, Outcome::different, Outcome::dispute,
-                                     Outcome::ambiguous_only, Outcome::within,  Outcome::equal};
+  constexpr Outcome kWorstFirst[] = {Outcome::failed,  Outcome::missing,        Outcome::different, Outcome::expected,
+                                     Outcome::dispute, Outcome::ambiguous_only, Outcome::within,    Outcome::equal};
   for (const Outcome outcome : kWorstFirst) {
-    if (fails && !is_failure(outcome)) return "unjudged";
+    if (fails && !is_failure(outcome)) return "fails";
     if (std::ranges::count(verdict.comparisons, outcome, &check::Comparison::outcome) > 0) return name_of(outcome);
   }
   return name_of(Outcome::unsupported);
@@ -92,6 +92,9 @@ Viewed viewed_of(const std::string& name, std::span<const check::Reference> refe
 
 }  // namespace
 
+HtmlReport::HtmlReport(const std::filesystem::path& folder, std::size_t scenes)
+    : page_(folder), share_(std::max(kBytesOfScene, 100 * kBytesOfScene / std::max<std::size_t>(scenes, 1))) {}
+
 // Scenes of two folders may have one name.
 std::string HtmlReport::free_name(const std::string& scene) {
   const std::string name = file_name(scene);
@@ -100,17 +103,23 @@ std::string HtmlReport::free_name(const std::string& scene) {
   return free;
 }
 
+void HtmlReport::put(const std::string& file, std::string_view bytes) {
+  page_.write(file, bytes);
+  written_ += bytes.size();
+}
+
 void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
                      const check::Drawn& drawn, const Scene& scene, const std::string& failure,
                      const std::string& repeat) {
   const std::string key = free_name(verdict.scene);
   const check::Comparison* first = check::first_different(verdict);
-  std::size_t budget = kBytesOfScene;
+  const std::string_view outcome = outcome_of(verdict, !failure.empty());
+  std::size_t budget = share_;
   Json card{{"key", key},
             {"name", verdict.scene},
             {"group", verdict.scene.substr(0, verdict.scene.find('/'))},
             {"description", scene.description},
-            {"outcome", outcome_of(verdict, !failure.empty())},
+            {"outcome", outcome},
             {"fails", !failure.empty()},
             {"first", first != nullptr ? Json(name_of(first->stage)) : Json(nullptr)},
             {"file", key + ".js"},
@@ -119,18 +128,25 @@ void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::
     const Plane<glm::vec4> small = thumbnail(ours);
     card["thumbnail"] = key + ".png";
     const Bytes png = encode_png(key + ".png", rows_from_top(scene.dialect) ? upside_down(small) : small);
-    page_.write(key + ".png", png);
+    put(key + ".png", png);
     budget -= std::min(png.size(), budget);
   }
-  const Json about{{"description", scene.description},
-                   {"failure", failure},
-                   {"repeat", repeat},
-                   {"first", first != nullptr ? Json(first - verdict.comparisons.data()) : Json(nullptr)}};
-  page_.write(key + ".js",
-              fmt::format("sceneArrived({{...{}, view: {}}});\n", text_of(about),
-                          in_script(viewer_json(viewed_of(verdict.scene, references, drawn, scene), verdict.comparisons,
-                                                scene.frame.antialias.factor, budget))));
+  Json about{{"description", scene.description},
+             {"failure", failure},
+             {"repeat", repeat},
+             {"first", first != nullptr ? Json(first - verdict.comparisons.data()) : Json(nullptr)},
+             {"color_alone", false}};
+  Viewed viewed = viewed_of(verdict.scene, references, drawn, scene);
+  const auto script = [&](std::size_t bytes) {
+    return fmt::format("sceneArrived({{...{}, view: {}}});\n", text_of(about),
+                       in_script(viewer_json(viewed, verdict.comparisons, scene.frame.antialias.factor, bytes)));
+  };
+  const std::string all = script(budget);
   scenes_ += (scenes_.empty() ? "" : ",\n") + text_of(card);
+  if (!failure.empty() || outcome == name_of(check::Outcome::dispute)) return put(key + ".js", all);
+  std::erase_if(viewed.layers, [](const Layer& layer) { return layer.name != "colour"; });
+  about["color_alone"] = true;
+  holding_.push_back({key + ".js", all, script(kBytesOfColor)});
 }
 
 void HtmlReport::write(const std::string& summary) {
@@ -139,10 +155,19 @@ void HtmlReport::write(const std::string& summary) {
   html.replace(html.find(here), here.size(), escaped(summary));
   const std::string script =
       web_files({"dom.js", "planes.js", "difference.js", "viewer.js", "rows.js", "scene_view.js", "check_page.js"});
-  page_.commit("plumbline check", web_file("viewer.css"),
-               fmt::format("{}<script type=\"application/json\" id=\"report\">{{\"stages\": {}, \"scenes\": [\n{}]}}"
-                           "</script>\n<script>\n{}</script>\n",
-                           html, Json(kStageNames).dump(), scenes_, script));
+  const std::string body = fmt::format(
+      "{}<script type=\"application/json\" id=\"report\">{{\"stages\": {}, \"scenes\": [\n{}]}}</script>\n"
+      "<script>\n{}</script>\n",
+      html, Json(kStageNames).dump(), scenes_, script);
+  std::size_t least = written_ + body.size();
+  for (const Holding& scene : holding_) least += scene.color_alone.size();
+  for (const Holding& scene : holding_) {
+    const std::size_t more = scene.all.size() - std::min(scene.all.size(), scene.color_alone.size());
+    const bool fits = least + more <= kBytesOfPage;
+    if (fits) least += more;
+    put(scene.file, fits ? scene.all : scene.color_alone);
+  }
+  page_.commit("plumbline check", web_file("viewer.css"), body);
 }
 
 }  // namespace plumbline::report

@@ -6,6 +6,8 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "check/judge.h"
 #include "check/verdict.h"
@@ -14,12 +16,15 @@
 namespace plumbline::report {
 
 /// A folder (page.h) with index.html and, of each scene, a small picture <group>/<scene>.png and what it is shown from,
-/// <group>/<scene>.js (viewer_data.h), a name that is taken getting a number. Below 50 kB a scene. Scenes are
-/// added one by one, so that their captures need not be kept.
+/// <group>/<scene>.js (viewer_data.h), a name that is taken getting a number. 5 MB, where up to a hundred scenes fail
+/// or are disputed: each may take its share, but 46 kB at least; of those that hold, as many as fit have all their
+/// pictures, the others that of the frame's colour. Scenes are added one by one, so that their captures need not be
+/// kept.
 class HtmlReport {
  public:
-  /// Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not ours.
-  explicit HtmlReport(const std::filesystem::path& folder) : page_(folder) {}
+  /// For so many scenes. Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not
+  /// ours.
+  explicit HtmlReport(const std::filesystem::path& folder, std::size_t scenes = 1);
   /// `failure`: why the run fails for this scene (table.h, failure_lines()), or empty; `repeat`: the command.
   void add(const check::SceneVerdict& verdict, std::span<const check::Reference> references, const check::Drawn& drawn,
            const Scene& scene, const std::string& failure = "", const std::string& repeat = "");
@@ -27,10 +32,17 @@ class HtmlReport {
 
  private:
   std::string free_name(const std::string& scene);
+  void put(const std::string& file, std::string_view bytes);
 
   PageFolder page_;
+  std::size_t share_;            // of a scene, in bytes
   std::set<std::string> names_;  // one per scene
   std::string scenes_;           // the overview's, as JSON
+  std::size_t written_ = 0;      // bytes
+  struct Holding {
+    std::string file, all, color_alone;
+  };
+  std::vector<Holding> holding_;  // until it is known what those that fail leave
 };
 
 }  // namespace plumbline::report

@@ -48,7 +48,8 @@ std::string deflated(std::string_view bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string out(size, '\0');
   const auto* in = reinterpret_cast<const Bytef*>(bytes.data());
-  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, in, static_cast<uLong>(bytes.size()), 9) != Z_OK)
+  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, in, static_cast<uLong>(bytes.size()),
+                Z_DEFAULT_COMPRESSION) != Z_OK)
     throw std::runtime_error("zlib does not compress");
   out.resize(size);
   return out;

@@ -1,7 +1,9 @@
 #include "report/viewer_data.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -18,23 +20,34 @@ struct Box {
   int x, y, width, height;
 };
 
+// The one before side i that it has most numbers in common with: references often agree where ours does not.
+const Numbers* base_of(const std::vector<Numbers>& sides, std::size_t i) {
+  const Numbers* base = nullptr;
+  std::ptrdiff_t most = -1;
+  for (std::size_t k = 0; k < i; ++k) {
+    if (sides[k].empty() || !same_shape(sides[k], sides[i])) continue;
+    const std::vector<std::uint32_t>&a = sides[k].values, &b = sides[i].values;
+    const std::ptrdiff_t common = std::inner_product(a.begin(), a.end(), b.begin(), std::ptrdiff_t{0}, std::plus(),
+                                                     [](std::uint32_t v, std::uint32_t w) { return v == w ? 1 : 0; });
+    if (common > most) base = &sides[k], most = common;
+  }
+  return base;
+}
+
 Json packed_layer(const Layer& layer, const Box& box) {
+  std::vector<Numbers> numbers;
+  for (const Numbers& n : layer.sides) numbers.push_back(cropped(n, box.x, box.y, box.width, box.height));
   Json sides = Json::array();
-  const Numbers ours = cropped(layer.sides.at(0), box.x, box.y, box.width, box.height);
-  for (std::size_t i = 0; i < layer.sides.size(); ++i) {
-    const Numbers n = cropped(layer.sides[i], box.x, box.y, box.width, box.height);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const Numbers& n = numbers[i];
     if (n.empty()) {
       sides.push_back(nullptr);
       continue;
     }
-    const bool based = i > 0 && !ours.empty() && same_shape(n, ours);
+    const Numbers* base = base_of(numbers, i);
     Json side{{"scale", n.scale}, {"channels", n.channels}, {"bytes", bytes_of(n)}};
-    if (based && n.values == ours.values) {
-      side["same"] = true;
-    } else {
-      side["based"] = based;
-      side["data"] = packed(n, based ? &ours : nullptr);
-    }
+    side["base"] = base != nullptr ? Json(base - numbers.data()) : Json(nullptr);
+    if (base == nullptr || base->values != n.values) side["data"] = packed(n, base);
     sides.push_back(std::move(side));
   }
   Json judged = Json::array();
@@ -164,7 +177,7 @@ std::string viewer_json(const Viewed& given, std::span<const check::Comparison> 
       const std::string json =
           viewed_json(viewed, comparisons, factor, box).dump(-1, ' ', false, Json::error_handler_t::replace);
       if (json.size() <= budget || box.width <= kFew / box.height) return json;
-      if (json.size() < 2 * budget) percent = 85;
+      percent = std::clamp(static_cast<int>(110 * budget / json.size()), 25, 90);  // rather once more than too small
     }
     box = smaller(box, percent, about, viewed);
   }

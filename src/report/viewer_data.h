@@ -35,10 +35,10 @@ struct Viewed {
 /// frame; but of the first, rounded to the frame's codes.
 std::vector<Layer> frame_layers(const Scene& scene, std::span<const Planes* const> sides);
 
-/// As JSON: the layers packed (numbers.h), of the first side whole and of others what differs from it; the comparisons
-/// (comparison_json.h; packed too), each with the pixels that it is about. Where that is more than `budget` bytes, the
-/// part about the worst pixel alone, ever smaller, of 16 x 16 pixels at least. `factor`: pixels of a pass beside one of
-/// the frame.
+/// As JSON: the layers packed (numbers.h), of a side what differs from the one before that is most like it; the
+/// comparisons (comparison_json.h; packed too), each with the pixels that it is about. Where that is more than `budget`
+/// bytes, the part about the worst pixel alone, ever smaller, of 16 x 16 pixels at least. `factor`: pixels of a pass
+/// beside one of the frame.
 std::string viewer_json(const Viewed& viewed, std::span<const check::Comparison> comparisons, int factor = 1,
                         std::size_t budget = 40000);
 

@@ -204,7 +204,8 @@ test('the numbers under the cursor are those of the pictures', async () => {
     assert.deepEqual(await colorAt(page, 1, left + (x + 0.25) * scale, top + (y + 0.25) * scale), osmesa.at(x, y),
                      'and the picture has them');
   }
-  assert.equal((await hash(page)).pixel, (await numbers(page)).corner.slice('pixel '.length), 'the address keeps the pixel');
+  await page.waitForFunction((pixel) => new URLSearchParams(location.hash.slice(1)).get('pixel') === pixel,
+                             (await numbers(page)).corner.slice('pixel '.length));  // the address keeps it
   await done(page);
 });
 
@@ -231,7 +232,7 @@ test('zoom goes to the pixel, with a grid, and back', async () => {
   await page.getByRole('button', {name: 'zoom in'}).click();
   await page.getByRole('button', {name: 'zoom in'}).click();
   assert.ok(parseFloat(await scaleText.innerText()) > parseFloat(fit));
-  assert.ok(Number((await hash(page)).zoom) > 1);
+  await page.waitForFunction(() => Number(new URLSearchParams(location.hash.slice(1)).get('zoom')) > 1);
   const canvas = page.locator('canvas').first();
   await canvas.focus();
   await page.keyboard.press('ArrowRight');
@@ -267,7 +268,7 @@ test('the slider lays one picture over the other', async () => {
   };
   const [theirs, half, ours] = [await pictureAt(0), await pictureAt(50), await pictureAt(100)];
   assert.ok(theirs !== ours && half !== ours && half !== theirs);
-  assert.equal((await hash(page)).as, 'slider');
+  await page.waitForFunction(() => new URLSearchParams(location.hash.slice(1)).get('as') === 'slider');
   await page.reload();
   await page.waitForSelector('input[type=range]');
   await done(page);

@@ -33,6 +33,7 @@ inline std::string inflated(const std::string& base64) {
   return out;
 }
 
+/// `base`: the values that side["base"] names.
 inline std::vector<std::uint32_t> unpacked(const nlohmann::json& side, const std::vector<std::uint32_t>& base = {}) {
   const std::string bytes = inflated(side["data"].get<std::string>());
   const std::size_t width = side["bytes"].get<std::size_t>(), channels = side["channels"].get<std::size_t>();
@@ -43,7 +44,7 @@ inline std::vector<std::uint32_t> unpacked(const nlohmann::json& side, const std
   }
   const std::uint32_t all = width == 4 ? ~0u : (1u << (8 * width)) - 1;
   for (std::size_t i = channels; i < out.size(); ++i) out[i] += out[i - channels];
-  const bool based = side.contains("based") && side["based"].get<bool>();
+  const bool based = side.contains("base") && !side["base"].is_null();
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = (out[i] + (based ? base.at(i) : 0)) & all;
   return out;
 }

@@ -36,10 +36,16 @@ function go(changes, {anew = false} = {}) {
 }
 const VIEWER_PARTS = {picture: null, against: null, as: null, pixel: null, zoom: null};
 
-function keepViewer({layer, view, against, mode, pixel, scale}) {
-  if (!open) return;
-  go({picture: layer?.name ?? null, against: view.sides[against] ?? null, as: mode === MODES[0] ? null : mode,
-      pixel: pixel ? pixel.join(',') : null, zoom: scale || null});
+let keeping = 0;
+/** A while after the last change: browsers stop pages that change their address with every move of the pointer. */
+function keepViewer(viewer) {
+  clearTimeout(keeping);
+  keeping = setTimeout(() => {
+    if (open?.viewer !== viewer) return;
+    const {layer, view, against, mode, pixel, scale} = viewer;
+    go({picture: layer?.name ?? null, against: view.sides[against] ?? null, as: mode === MODES[0] ? null : mode,
+        pixel: pixel ? pixel.join(',') : null, zoom: scale || null});
+  }, 400);
 }
 
 // ---- overview

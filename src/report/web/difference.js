@@ -69,7 +69,7 @@ function differenceLegend(difference, isJudged) {
     const shown = kind === 0 ? [70, 70, 70] : color;
     if (difference.counts[kind] === 0) return;
     host.append(element('span', {}, element('i', {style: `background: rgb(${shown.join(' ')})`}),
-                        `${kind === 1 && isJudged ? 'apart, within the tolerance' : name}: ${difference.counts[kind]}`));
+                        `${kind === 1 && isJudged ? 'apart, as is allowed' : name}: ${difference.counts[kind]}`));
   });
   return host;
 }

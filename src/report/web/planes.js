@@ -7,7 +7,8 @@ async function inflated(base64) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-async function unpacked({data, bytes, channels, based}, base) {
+/** `base`: the values that these are the differences from, or undefined. */
+async function unpacked({data, bytes, channels}, base) {
   const packed = await inflated(data);
   const count = packed.length / bytes;
   const values = new Uint32Array(count);
@@ -15,7 +16,7 @@ async function unpacked({data, bytes, channels, based}, base) {
     for (let i = 0; i < count; ++i) values[i] |= packed[byte * count + i] << (8 * byte);
   }
   for (let i = channels; i < count; ++i) values[i] += values[i - channels];
-  if (based) for (let i = 0; i < count; ++i) values[i] += base.values[i];
+  if (base) for (let i = 0; i < count; ++i) values[i] += base[i];
   if (bytes < 4) for (let i = 0; i < count; ++i) values[i] &= (1 << (8 * bytes)) - 1;
   return values;
 }
@@ -76,14 +77,15 @@ async function unpackedView(view) {
   for (const layer of view.layers) {
     const planes = [];
     for (const side of layer.sides) {
+      const base = side?.base === null ? undefined : planes[side?.base];
       if (side === null) planes.push(null);
-      else if (side.same) planes.push(planes[0]);
-      else planes.push(new Numbers(await unpacked(side, planes[0]), side.scale, side.channels));
+      else if (side.data === undefined) planes.push(base);  // not a number is different
+      else planes.push(new Numbers(await unpacked(side, base?.values), side.scale, side.channels));
     }
     layers.push({...layer, planes});
   }
   const marks = [];
-  for (const data of view.marks) marks.push(await unpacked({data, bytes: 1, channels: 1, based: false}));
+  for (const data of view.marks) marks.push(await unpacked({data, bytes: 1, channels: 1}));
   const comparisons = JSON.parse(new TextDecoder().decode(await inflated(view.comparisons)));
   return {...view, layers, marks, comparisons};
 }

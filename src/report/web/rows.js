@@ -2,28 +2,31 @@
 // The table of stages and judges, and one of its rows in full.
 
 /** How bad an outcome is; what is not judged says nothing of the scene. */
-const SEVERITY = ['unsupported', 'equal', 'within', 'ambiguous_only', 'dispute', 'unjudged', 'different', 'missing', 'failed'];
+const SEVERITY = ['unsupported', 'equal', 'within', 'ambiguous_only', 'dispute', 'expected', 'fails', 'different', 'missing', 'failed'];
 const outcomeClass = (outcome) =>
-  ['different', 'missing', 'failed', 'unjudged'].includes(outcome) ? 'bad' :
-  outcome === 'dispute' ? 'odd' : outcome === 'unsupported' ? 'quiet' : 'good';
+  ['different', 'missing', 'failed', 'fails'].includes(outcome) ? 'bad' :
+  ['dispute', 'expected'].includes(outcome) ? 'odd' : outcome === 'unsupported' ? 'quiet' : 'good';
 const outcomeText = (outcome) => outcome.replace('_', ' ');
 
-const isJudged = (row) => !['unsupported', 'missing', 'failed'].includes(row.outcome);
+const isJudged = (row) => !['unsupported', 'missing', 'failed'].includes(row.outcome) && row.pixels > 0;
 const sayNumber = (v) => (typeof v === 'number' ? String(Number(v.toPrecision(4))) : v);  // "inf" and "nan" are strings
 
 /** What a row is worst at: of a dispute its own largest difference; null where nothing is apart. */
 const worstOf = (row) => (row.outcome === 'dispute' ? row.dispute ?? row.worst : row.worst);
 
 function shortText(row) {
-  if (row.outcome === 'different') return `${row.differing} of ${row.pixels}`;
+  if (row.outcome === 'different' || row.outcome === 'expected') return `${row.differing} of ${row.pixels}`;
   if (row.outcome === 'dispute') return `${row.disputed} of ${row.pixels}`;
   if (row.outcome === 'ambiguous_only') return `${row.ambiguous} of ${row.pixels}`;
   return '';
 }
 
+/** 3 of unit 1/255 are 3/255. */
+const withUnit = (v, unit) => `${sayNumber(v)}${unit.startsWith('1/') ? unit.slice(1) : ` ${unit}`}`;
+
 function sizeText(row) {
   const worst = worstOf(row);
-  return worst ? `${sayNumber(worst.difference)} ${row.unit}, allowed ${sayNumber(worst.tolerance)}` : '';
+  return worst ? `${withUnit(worst.difference, row.unit)}, allowed ${sayNumber(worst.tolerance)}` : '';
 }
 
 /** Rows are stages, columns who judged them. `chosen(row)` is called for the row of a cell. */
@@ -77,9 +80,9 @@ function rowDetails(row) {
       say('worst at', worst.place);
       say('ours', sayNumberInFull(worst.candidate));
       say('the reference', sayNumberInFull(worst.reference));
-      say('apart', `${sayNumber(worst.difference)} ${row.unit}`);
-      say('tolerance', `${sayNumber(worst.tolerance)} ${row.unit}${row.ledger ? ` (ledger: ${row.ledger})` : ''}`);
-      say('used of it', row.outcome === 'dispute' ? '' : sayNumber(row.max_ratio));
+      say('apart', withUnit(worst.difference, row.unit));
+      say('tolerance', `${withUnit(worst.tolerance, row.unit)}${row.ledger ? ` (ledger: ${row.ledger})` : ''}`);
+      say('times the tolerance', row.outcome === 'dispute' ? '' : sayNumber(row.max_ratio));
     }
     say('disputed, for', row.dispute?.reason);
   }
@@ -94,7 +97,7 @@ const sayNumberInFull = (v) => (typeof v === 'number' ? numberText(v) : v);
 function histogram(row) {
   const total = row.histogram.reduce((sum, n) => sum + n, 0);
   if (total === 0) return '';
-  const name = (i) => (i === 0 ? 'equal' : i === 19 ? 'no no.' : `2^${i - 13}`);
+  const name = (i) => (i === 0 ? 'equal' : i === 19 ? 'no number' : `2^${i - 13}`);
   const svgElement = (tag, attributes, text = '') => {
     const out = document.createElementNS('http://www.w3.org/2000/svg', tag);
     for (const [key, value] of Object.entries(attributes)) out.setAttribute(key, value);
@@ -102,7 +105,7 @@ function histogram(row) {
     return out;
   };
   const said = row.histogram.map((n, i) => (n > 0 ? `${name(i)}: ${n}` : '')).filter(Boolean).join(', ');
-  const svg = svgElement('svg', {viewBox: '-12 0 504 116', class: 'histogram', role: 'img', 'aria-label': `differences: ${said}`});
+  const svg = svgElement('svg', {viewBox: '-12 0 520 116', class: 'histogram', role: 'img', 'aria-label': `differences: ${said}`});
   const most = Math.log1p(Math.max(...row.histogram));
   row.histogram.forEach((n, i) => {
     const height = n === 0 ? 0 : Math.max(2, 80 * Math.log1p(n) / most);

@@ -12,18 +12,22 @@ class SceneView {
     this.viewer = new Viewer(view, (viewer) => { this.follow(viewer); changed(viewer); });
     const failure = scene.failure.replace(/^ *repeat: .*\n?/m, '');  // it stands below, to be copied
     const said = failure ? element('pre', {className: 'bad'}, failure) : '';
+    const lacks = !scene.color_alone ? '' : element('p', {className: 'quiet'},
+      'In a page of many scenes, most of those that hold show their colour alone: checked alone, this one shows all.');
     this.host = element('div', {}, scene.description ? element('p', {}, scene.description) : '', said,
-                        scene.repeat ? copied(scene.repeat) : '', this.viewer.host, element('h2', {}, 'stages'),
+                        scene.repeat ? copied(scene.repeat) : '', lacks, this.viewer.host, element('h2', {}, 'stages'),
                         element('div', {className: 'judged'}, this.table.host, this.details));
-    const worst = [...this.rows].sort((a, b) => SEVERITY.indexOf(b.outcome) - SEVERITY.indexOf(a.outcome))[0];
-    const start = this.first ?? worst;
+    const told = this.rows.find((row) => ['failed', 'missing', 'different', 'dispute'].includes(row.outcome));
+    const colour = view.layers.find((layer) => layer.name === 'colour');
+    const start = this.first ?? told ?? (colour && rowOf(this.rows, colour, view.sides[1])) ?? this.rows[0];
     if (start) this.choose(start);
   }
   /** Shows a row: its numbers, its pixels, what it is about. */
   choose(row) {
     const {view} = this.viewer;
     this.show(row);
-    this.viewer.set({...this.marksOf(row), ...lookAt(view, row), pixel: this.viewer.pixel ?? worstOf(row)?.pixel ?? null});
+    this.viewer.set({...this.marksOf(row), ...lookAt(view, row), centred: this.viewer.pixel === null,
+                     pixel: this.viewer.pixel ?? worstOf(row)?.pixel ?? null});
   }
   show(row) {
     this.row = row;

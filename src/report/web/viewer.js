@@ -4,6 +4,7 @@
 const MODES = ['side by side', 'slider', 'flicker'];
 const GRID_FROM = 8;  // screen pixels a pixel, from which on lines part them
 const MOST = 64;
+const THINNEST = 4;  // screen pixels that a picture is wide or high at least
 
 class Viewer {
   /** `view`: of unpackedView(). `changed(viewer)` is called whenever its state, which an address may keep, changes. */
@@ -177,13 +178,14 @@ class Viewer {
       const both = pictures.length < 2 ? '' : this.mode === 'slider' ? this.slider : this.swap;
       return {pictures, canvas, both, caption: element('figcaption', {}, caption)};
     });
-    this.panes.replaceChildren(...this.shown.map((s) => element('figure', {}, s.canvas, s.both, s.caption)));
+    this.panes.replaceChildren(...this.shown.map((s) => element('figure', {}, s.canvas, s.caption, s.both)));
   }
 
   /** What a canvas shows: screen pixels a pixel, and the picture's place at its upper left. */
   window(width, height) {
     const {view} = this;
-    const fit = Math.min(width / view.columns, height / view.rows);
+    // All of it, but for a frame so long that it would be a hair.
+    const fit = Math.max(Math.min(width / view.columns, height / view.rows), THINNEST / Math.min(view.columns, view.rows));
     const scale = this.scale || (fit >= 1 ? Math.floor(fit) : fit);
     const start = (middle, size, all) =>
       size >= all * scale ? (all - size / scale) / 2
@@ -274,7 +276,8 @@ class Viewer {
   }
 
   grab(event, canvas) {
-    if (this.scale === 0) return;
+    const {scale} = this.window(canvas.clientWidth, canvas.clientHeight);
+    if (this.view.columns * scale <= canvas.clientWidth && this.view.rows * scale <= canvas.clientHeight) return;
     this.grabbed = {x: event.clientX, y: event.clientY, middle: this.middle};
     canvas.setPointerCapture(event.pointerId);
     canvas.onpointerup = () => { this.grabbed = null; };
