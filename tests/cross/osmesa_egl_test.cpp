@@ -76,7 +76,7 @@ TEST(OsmesaEgl, same_bits_on_a_few_scenes) {
 }
 
 // A process for each.
-TEST(OsmesaEgl, same_bits_on_scenes_of_all_kinds) { compare_on({kScenes}, one_of(50)); }
+TEST(OsmesaEgl, same_bits_on_scenes_of_all_kinds) { compare_on({kScenes}, one_of(100)); }
 
 // Beside each other, each would draw into the other's current context without a word.
 TEST(OsmesaEgl, one_library_per_process) {
