@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "../extent.h"
 #include "pipeline/pipeline_renderer.h"
 #include "pipeline/render.h"
 #include "scene/antialias.h"
@@ -22,7 +23,9 @@ TEST(EveryScene, HasTheSamePlanesWatchedOrNot) {
   const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   const auto pipeline = pipeline::make_pipeline();
   int watched = 0, with_stencil = 0, too_large = 0;
-  for (const auto& file : find_scenes(folder)) {
+  const auto files = find_scenes(folder);
+  for (std::size_t i = 0; i < files.size(); i += one_of(4)) {
+    const auto& file = files[i];
     const Scene scene = load_scene(file, {});
     for (const Scene& pass : passes_of(scene)) {
       Request picture, all;
@@ -46,8 +49,8 @@ TEST(EveryScene, HasTheSamePlanesWatchedOrNot) {
       }
     }
   }
-  EXPECT_GT(watched, 380);
-  EXPECT_GT(with_stencil, 8);
+  EXPECT_GT(watched, 380 / static_cast<int>(one_of(4)));
+  EXPECT_GT(with_stencil, 8 / static_cast<int>(one_of(4)));
   EXPECT_LE(too_large, 1) << "the million triangles";
 }
 
