@@ -43,14 +43,11 @@ Hash read_hash(const JsonNode& node) {
   return *hash;
 }
 
-// A name that leads into the folder of goldens, not out of it.
-void require_name(const JsonNode& node, const std::string& name) {
+// It leads into the folder of goldens, not out of it.
+bool may_have_golden(const std::string& name) {
   const fs::path path = name;
-  if (!name.empty() && path.is_relative() && path.lexically_normal() == path && *path.begin() != ".." &&
-      path.has_filename() && path != ".") {
-    return;
-  }
-  node.refuse("a scene's name, group/file");
+  return !name.empty() && path.is_relative() && path.lexically_normal().string() == name && *path.begin() != ".." &&
+         path.has_filename() && path != ".";
 }
 
 std::map<std::string, std::string> read_texts(const JsonNode& node) {
@@ -67,7 +64,7 @@ std::vector<std::string> read_list(const JsonNode& node) {
 }
 
 Golden read_golden(const JsonNode& node, const std::string& name) {
-  require_name(node, name);
+  if (!may_have_golden(name)) node.refuse("a scene's name, group/file");
   node.only({"scene", "producer", "versions", "files", "references", "vouched", "disputed", "seal"});
   Golden out;
   out.scene = read_hash(node["scene"]);
@@ -151,6 +148,7 @@ std::string manifest_text(const GoldenManifest& manifest) {
   };
   for (const std::string& key : named) versions.push_back(line(key, manifest.versions.at(key)));
   for (const auto& [name, golden] : manifest.scenes) {
+    if (!may_have_golden(name)) throw GoldenError(fmt::format("{}: expected a scene's name, group/file", name));
     Json json = json_of(golden);
     dumped(json, name);
     json["seal"] = to_string(seal_of(name, golden));

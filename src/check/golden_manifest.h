@@ -62,7 +62,8 @@ std::string key_of(const std::map<std::string, std::string>& versions);
 /// Throws GoldenError: not there, not of this format, not UTF-8; a seal that is broken, a file that is not named after
 /// its scene and hash.
 GoldenManifest read_golden_manifest(const std::filesystem::path& file);
-/// Versions that no scene names are left out. Throws GoldenError where text is no UTF-8.
+/// Versions that no scene names are left out. Throws GoldenError where text is no UTF-8, or a name leads out of the
+/// goldens' folder.
 std::string manifest_text(const GoldenManifest& manifest);
 
 /// {"matrices": hash, ...}; a stage that hands on nothing is left out.

@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kManifest = "manifest.json";
+constexpr const char* kTolerances = "tolerances.json";  // beside the goldens of the suite
 
 // "color.0123456789abcdef.png", and what AtomicPath writes before it has a name.
 bool is_ours(const fs::path& file) {
@@ -36,11 +37,23 @@ bool is_ours(const fs::path& file) {
 }
 
 std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
+  const bool there = fs::is_regular_file(file);  // before it is opened: a pipe would wait for a writer
+  std::ifstream in;
+  if (there) in.open(file, std::ios::binary);
   std::stringstream bytes;
-  if (!fs::is_regular_file(file) || !in) throw GoldenError(fmt::format("{}: is not there", file.string()));
+  if (!there || !in) throw GoldenError(fmt::format("{}: is not there", file.string()));
   bytes << in.rdbuf();
   return bytes.str();
+}
+
+// A set begins in a folder of nothing: what is there else is somebody's, or a set that has lost its manifest.
+void require_empty(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name == kTolerances || name.starts_with(".plumb-")) continue;
+    throw GoldenError(fmt::format("{}: expected goldens, or an empty folder; there is {}, and no {}", folder.string(),
+                                  name, kManifest));
+  }
 }
 
 }  // namespace
@@ -67,7 +80,11 @@ GoldenSet::GoldenSet(const fs::path& folder, Access access) : folder_(folder) {
                                   update ? "reads or updates" : "updates"));
   }
   try {
-    if (!update || fs::exists(folder / kManifest)) manifest_ = read_golden_manifest(folder / kManifest);
+    if (update && !fs::exists(folder / kManifest)) {
+      require_empty(folder);
+    } else {
+      manifest_ = read_golden_manifest(folder / kManifest);
+    }
   } catch (...) {
     ::close(lock_);
     throw;
@@ -99,13 +116,17 @@ Fingerprint GoldenSet::load(const std::string& scene, const FrameFormat& frame) 
 }
 
 GoldenSet::Strays GoldenSet::strays() const {
-  std::set<std::string> named = {kManifest, "tolerances.json"};
+  std::set<std::string> named = {kManifest, kTolerances};
   for (const auto& [name, golden] : manifest_.scenes) {
     for (const auto& [kind, file] : golden.files) named.insert(file.file);
   }
   Strays out;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_)) {
-    if (fs::is_directory(entry.symlink_status())) continue;
+  for (auto it = fs::recursive_directory_iterator(folder_); it != fs::recursive_directory_iterator(); ++it) {
+    const fs::directory_entry& entry = *it;
+    if (fs::is_directory(entry.symlink_status())) {
+      if (!fs::exists(entry.path() / kManifest)) continue;
+      it.disable_recursion_pending();  // another set's
+    }
     const std::string file = entry.path().lexically_relative(folder_).generic_string();
     if (!named.contains(file)) (is_ours(entry.path()) ? out.leftovers : out.others).push_back(file);
   }
@@ -115,13 +136,16 @@ GoldenSet::Strays GoldenSet::strays() const {
 }
 
 void GoldenSet::write(GoldenManifest next, const std::map<std::string, std::string>& files) {
+  const std::string text = manifest_text(next);
+  // A new set is one of nothing before it is one of files: should this be killed, they are known for its leftovers.
+  if (!fs::exists(folder_ / kManifest)) write_file(folder_ / kManifest, manifest_text({}));
   for (const auto& [name, bytes] : files) {
     std::error_code failed;  // the file's own writing says why
     fs::create_directories((folder_ / name).parent_path(), failed);
     write_file(folder_ / name, bytes);
   }
   AtomicPath manifest(folder_ / kManifest);
-  manifest.write(manifest_text(next));
+  manifest.write(text);
   // Whatever is on the way to the disk is there before the manifest that speaks of it, should the power fail.
   if (::syncfs(lock_) != 0) throw OutputError(folder_, std::strerror(errno));
   manifest.commit();

@@ -27,7 +27,8 @@ std::string depth_format_name(const FrameFormat& frame);
 class GoldenSet {
  public:
   enum class Access { read, update };
-  /// Throws GoldenError: a lock that another holds; a manifest that is not there (`update`: it will be) or not right.
+  /// Throws GoldenError: a lock that another holds; a manifest that is not there (`update`: in an empty folder it will
+  /// be) or not right.
   GoldenSet(const std::filesystem::path& folder, Access access);
   ~GoldenSet();
   GoldenSet(const GoldenSet&) = delete;

@@ -64,6 +64,16 @@ std::string not_asked_line(const CheckOptions& o) {
   return names.empty() ? "" : fmt::format("not asked: {}\n", fmt::join(names, ", "));
 }
 
+// All files that the run reads, but images and meshes.
+std::vector<std::filesystem::path> inputs_of(const CheckOptions& o, std::span<const Scene> scenes) {
+  std::vector<std::filesystem::path> out;
+  for (const Scene& scene : scenes) out.insert(out.end(), scene.files.begin(), scene.files.end());
+  if (!o.expect.empty()) out.emplace_back(o.expect);
+  if (o.golden.empty() || !std::filesystem::is_directory(o.golden)) return out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(o.golden)) out.push_back(entry.path());
+  return out;
+}
+
 }  // namespace
 
 int check(const CheckOptions& given) {
@@ -83,7 +93,7 @@ int check(const CheckOptions& given) {
   }
   const Output outputs[] = {
       {"--json", o.json}, {"--ledger", o.ledger}, {"--junit", o.junit}, {"--markdown", o.markdown}};
-  require_outputs(outputs, {"--report", o.report}, files);
+  require_outputs(outputs, {"--report", o.report}, inputs_of(o, scenes));
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
   const References references = make_references(o.against, o.scene_arguments.assets);
   const std::map<std::string, std::string> versions = versions_of(*candidate, references);

@@ -169,7 +169,6 @@ int golden_update(const GoldenOptions& o) {
     require_writable_file(fs::path(o.golden) / "manifest.json");
   }
   check::GoldenSet goldens(o.golden, check::GoldenSet::Access::update);
-  if (!o.check) goldens.remove_leftovers();
   std::optional<report::GoldenPage> page;
   if (!o.report.empty()) page.emplace(o.report);
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
@@ -188,7 +187,7 @@ int golden_update(const GoldenOptions& o) {
     }
     Asked asked = ask(scene, *candidate, *references, o.fault, std::move(difference));
     const bool granted = asked.vouch.refusals.empty();
-    const std::string says = !granted ? "refused" : o.check ? "would be written" : "written";
+    const std::string says = !granted ? "refused" : o.check ? "would be written" : "accepted";
     print(scene, says, asked);
     if (page) page->add(scene, says, asked.difference, asked.vouch);
     ++(granted ? written : refused);
@@ -207,7 +206,8 @@ int golden_update(const GoldenOptions& o) {
     ++removed;
   }
   const bool change = written + removed > 0;
-  if (change && !o.check) goldens.write(std::move(next), files);
+  if (!o.check && change) goldens.write(std::move(next), files);
+  if (!o.check && !change) goldens.remove_leftovers();
   const std::string summary = fmt::format("{}: {} scenes in {:.1f} s, {} goldens {}, {} refused, {} removed\n",
                                           refused > 0 ? "REFUSED"
                                           : !change   ? "nothing to write"

@@ -223,6 +223,38 @@ SceneVerdict agreeing() {
   return out;
 }
 
+TEST_F(Goldens, a_set_begins_in_an_empty_folder_and_leaves_other_sets_alone) {
+  const Scene scene = load_scene(kScenes / "cull/both_windings.json", {});
+  const Fingerprint drawn = fingerprint(scene, *ours_);
+  bless(scene, drawn);
+  const auto files = [&] {
+    std::set<std::string> out;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) out.insert(entry.path().string());
+    return out;
+  };
+  const std::set<std::string> before = files();
+  EXPECT_THROW(GoldenSet(folder_, GoldenSet::Access::update), GoldenError) << "it holds a folder";
+  fs::rename(folder_ / "golden/manifest.json", folder_ / "kept");
+  EXPECT_THROW(GoldenSet(folder_ / "golden", GoldenSet::Access::update), GoldenError) << "it has lost its manifest";
+  fs::rename(folder_ / "kept", folder_ / "golden/manifest.json");
+  EXPECT_EQ(files(), before);
+  fs::copy(folder_ / "golden", folder_ / "inner", fs::copy_options::recursive);
+  fs::rename(folder_ / "inner", folder_ / "golden/inner");
+  bless(scene, drawn);
+  EXPECT_TRUE(GoldenSet(folder_ / "golden/inner", GoldenSet::Access::read).strays().leftovers.empty());
+  EXPECT_FALSE(compare_golden(scene, *ours_, GoldenSet(folder_ / "golden/inner", GoldenSet::Access::read)).any());
+}
+
+TEST_F(Goldens, a_name_that_could_not_be_read_is_not_written) {
+  Scene scene = load_scene(kScenes / "cull/both_windings.json", {});
+  const Fingerprint drawn = fingerprint(scene, *ours_);
+  for (const char* name : {"group/.", "group/..", "../scene", "/scene", "", "group//scene"}) {
+    scene.name = name;
+    EXPECT_THROW(bless(scene, drawn), GoldenError) << name;
+    EXPECT_TRUE(fs::is_empty(folder_ / "golden")) << name;
+  }
+}
+
 TEST(golden_vouch, three_references_that_agree_vouch_and_nothing_less) {
   const std::vector<std::string> asked = {"osmesa", "embree", "exact"};
   const Vouch all = vouch(agreeing(), "ours", asked);

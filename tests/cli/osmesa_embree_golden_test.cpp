@@ -150,7 +150,7 @@ TEST_F(GoldenCommand, a_scene_that_changed_is_stale_until_the_references_vouch_a
   EXPECT_TRUE(files() == before) << "--check writes nothing";
   const Outcome written = golden("update", "--report " + at("page"));
   EXPECT_EQ(written.code, 1) << "a run that writes does not pass";
-  EXPECT_TRUE(written.says("written cull/both_windings")) << written.text;
+  EXPECT_TRUE(written.says("accepted cull/both_windings")) << written.text;
   EXPECT_TRUE(fs::exists(at("page/index.html")));
   EXPECT_TRUE(fs::exists(at("page/cull/both_windings/new.png")));
   const auto after = files();

@@ -91,6 +91,22 @@ TEST_F(Outputs, never_overwrite_a_scene_that_is_read_by_any_name_of_it) {
   EXPECT_EQ(entries(), before);
 }
 
+TEST_F(Outputs, never_overwrite_what_else_a_run_reads) {
+  fs::copy(PLUMBLINE_SOURCE_DIR "/tests/scenes/blend/factors.json", folder_ / "factors.json");
+  fs::copy(PLUMBLINE_SOURCE_DIR "/tests/scenes/blend/factors.part.json", folder_ / "factors.part.json");
+  std::ofstream(folder_ / "expect.json") << "{\"expectations\": []}";
+  const Names before = entries();
+  const std::string goldens = PLUMBLINE_SOURCE_DIR "/golden";
+  for (const std::string& name : {at("factors.part.json"), at("expect.json"), goldens + "/manifest.json"}) {
+    const std::string expect = name == at("expect.json") ? " --expect " + name : "";
+    const Outcome run =
+        plumb("check " + at("factors.json") + " --against exact --golden " + goldens + expect + " --json " + name);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_TRUE(run.says("is read by this run")) << run.text;
+  }
+  EXPECT_EQ(entries(), before);
+}
+
 TEST_F(Outputs, never_overwrite_each_other) {
   fs::create_symlink("a.json", folder_ / "link.json");
   for (const char* other : {"a.json", "./a.json", "link.json"}) {
