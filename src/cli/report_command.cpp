@@ -40,14 +40,14 @@ int report_merge(const MergeOptions& o) {
   const report::Merged merged = report::merge(std::move(runs));
   const report::CheckRun& run = merged.run;
   const bool holds = report::all_hold(run.verdicts) && merged.missing.empty();
-  std::string lines;
+  std::string lines, lacking;
   for (const check::SceneVerdict& verdict : run.verdicts) lines += verdict.failure;
-  for (const std::string& line : merged.missing) lines += line + "\n";
+  for (const std::string& line : merged.missing) lacking += line + "\n";
   const std::string summary = report::summary(run.verdicts, holds, report::seconds(run.verdicts));
-  fmt::print("{}{}{}", lines, report::group_lines(run.verdicts), summary);
+  fmt::print("{}{}{}{}", lines, lacking, report::group_lines(run.verdicts), summary);
   if (!o.output.empty()) report::write_json(o.output, run.verdicts, run.versions, run.shard);
-  if (!o.junit.empty()) write_file(o.junit, report::junit(run.verdicts));
-  if (!o.markdown.empty()) write_file(o.markdown, report::markdown(run.verdicts, summary));
+  if (!o.junit.empty()) write_file(o.junit, report::junit(run.verdicts, merged.missing));
+  if (!o.markdown.empty()) write_file(o.markdown, report::markdown(run.verdicts, lacking + summary));
   if (!o.ledger.empty()) report::write_ledger(o.ledger, run.verdicts);
   return holds ? kHolds : kDiffers;
 }

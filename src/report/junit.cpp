@@ -21,12 +21,12 @@ std::string xml(std::string text) {
 
 }  // namespace
 
-std::string junit(std::span<const check::SceneVerdict> verdicts) {
+std::string junit(std::span<const check::SceneVerdict> verdicts, std::span<const std::string> missing) {
   const auto failures = std::ranges::count_if(verdicts, [](const auto& v) { return !v.failure.empty(); });
   std::string out = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites><testsuite name=\"plumb check\" tests=\"{}\" "
       "failures=\"{}\" errors=\"0\" skipped=\"0\" time=\"{:.3f}\">\n",
-      verdicts.size(), failures, seconds(verdicts));
+      verdicts.size() + missing.size(), static_cast<std::size_t>(failures) + missing.size(), seconds(verdicts));
   for (const check::SceneVerdict& v : verdicts) {
     const std::size_t slash = v.scene.find('/');
     out +=
@@ -39,6 +39,9 @@ std::string junit(std::span<const check::SceneVerdict> verdicts) {
     out += fmt::format("><failure message=\"{}\">{}\n{}{}</failure></testcase>\n",
                        xml(v.failure.substr(0, v.failure.find('\n'))), xml(v.failure), xml(table_head()),
                        xml(table_rows(v)));
+  }
+  for (const std::string& what : missing) {
+    out += fmt::format("<testcase classname=\"run\" name=\"{0}\"><failure message=\"{0}\"/></testcase>\n", xml(what));
   }
   return out + "</testsuite></testsuites>\n";
 }

@@ -10,6 +10,7 @@ namespace plumbline::report {
 
 /// A test case per scene, of the class of its group, with its time; of one that does not hold what failed, the command
 /// that repeats it, and its rows.
-std::string junit(std::span<const check::SceneVerdict> verdicts);
+/// What is `missing`, in words, is a failure as well.
+std::string junit(std::span<const check::SceneVerdict> verdicts, std::span<const std::string> missing = {});
 
 }  // namespace plumbline::report

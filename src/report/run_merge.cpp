@@ -84,6 +84,10 @@ Merged merge(std::vector<CheckRun> runs) {
   }
   const Shard& of_any = runs.front().shard;
   all.shard.scenes = of_any.of > 1 ? of_any.scenes : all.verdicts.size();
+  for (const CheckRun& run : runs) {  // one that was merged while some were missing still says so
+    if (of_any.of == 1 && run.shard.scenes > run.verdicts.size())
+      all.shard.scenes += run.shard.scenes - run.verdicts.size();
+  }
   std::vector<int> lacking;
   for (int i = 1; i <= of_any.of; ++i) {
     if (!there.contains(i)) lacking.push_back(i);

@@ -118,6 +118,11 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
   EXPECT_TRUE(merged(runs(run(a), run(b))).empty()) << "runs that state no share";
   EXPECT_EQ(merged(runs(run(b, {2, 3, 4}))),
             (std::vector<std::string>{"missing: shard 1, 3 of 3", "missing: 3 of 4 scenes"}));
+  const std::vector<std::string> still = merged(runs(read_run(at("merged.json"))));
+  EXPECT_EQ(still, std::vector<std::string>{"missing: 3 of 4 scenes"}) << "merged once more, it is not whole either";
+  const std::string xml = junit(b, still);
+  EXPECT_NE(xml.find("tests=\"2\" failures=\"1\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("missing: 3 of 4 scenes"), std::string::npos) << xml;
 
   const auto refuses = [&](std::vector<CheckRun> of, const std::string& says) {
     try {
