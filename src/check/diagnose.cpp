@@ -37,7 +37,8 @@ using Explain = void (*)(const Evidence&, Finding&);
 void in_full(const Evidence& evidence, Finding& finding) {
   finding.numbers = worst_record(evidence, finding.measurement);
   for (const Cause& cause : likely_causes(evidence)) finding.causes.push_back(cause.words);
-  if (finding.stage != Stage::coverage || over_budget(evidence.candidate)) return;  // without fragments, all would be missing
+  if (finding.stage != Stage::coverage || over_budget(evidence.candidate))
+    return;  // without fragments, all would be missing
   if (const auto worst = worst_triangle(evidence)) finding.picture = coverage_picture(*worst);
 }
 void in_brief(const Evidence&, Finding&) {}

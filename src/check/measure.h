@@ -43,7 +43,7 @@ struct Measurement {
   std::vector<glm::ivec2> disputed_at;  ///< the pixels, where items are pixels
   /// The pixels of items that differ, where they have one; the first 2^16.
   std::vector<glm::ivec2> differing_at;
-  std::string mismatch;                 ///< why nothing could be compared item by item (sizes differ), or empty
+  std::string mismatch;  ///< why nothing could be compared item by item (sizes differ), or empty
   /// Items by difference: [0] none, [i] in [2^(i-13), 2^(i-12)) units, the ends open; [19]: not finite.
   std::array<std::uint64_t, 20> histogram{};
 };

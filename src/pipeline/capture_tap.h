@@ -74,7 +74,7 @@ class CaptureTap {
   const Scene& scene_;
   const Request& request_;
   std::size_t bytes_;
-  bool keep_;  // fragments, not planes alone
+  bool keep_;                   // fragments, not planes alone
   Plane<std::uint8_t> pixels_;  // whether their fragments are wanted; empty: all
   Planes planes_;
   std::vector<Fragment> fragments_;

@@ -26,8 +26,10 @@ inline std::string mesh(const std::string& mesh) {
 
 /// The keys of a draw's state, as messages list them.
 inline const std::string kStateKeys =
-    "transforms, material, back_material, lit, color_material, normals, shading, cull, front_mode, back_mode, line_width, point_size, "
-    "depth_func, depth_range, polygon_offset, alpha_test, stencil, fog, scissor, depth_mask, blend, logic_op, color_mask, "
+    "transforms, material, back_material, lit, color_material, normals, shading, cull, front_mode, back_mode, "
+    "line_width, point_size, "
+    "depth_func, depth_range, polygon_offset, alpha_test, stencil, fog, scissor, depth_mask, blend, logic_op, "
+    "color_mask, "
     "texture";
 
 inline std::string textures(const std::string& textures) { return top("\"textures\": " + textures); }
