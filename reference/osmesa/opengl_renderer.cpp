@@ -106,8 +106,11 @@ class OpenGlRenderer final : public Renderer {
     target.bind();
     if (request.records.has(Stage::matrices)) records.matrices = read_matrices(gl_, scene);
     if (request.records.has(Stage::vertex)) records.vertices = vertex_program_.run(scene);
-    if (request.records.has(Stage::light)) records.lit = read_lit(gl_, scene);
-    read_polygons(gl_, scene, request, records);
+    const bool polygons = request.records.has(Stage::clip) || request.records.has(Stage::window);
+    std::vector<Lit<double>> lit;
+    if (polygons || request.records.has(Stage::light)) lit = read_lit(gl_, scene);
+    if (polygons) read_polygons(gl_, scene, lit, request, records);
+    if (request.records.has(Stage::light)) records.lit = std::move(lit);
     if (request.records.has(Stage::coverage) && request.records.has(Stage::window)) {
       read_covered_lines(gl_, scene, records);
     }
