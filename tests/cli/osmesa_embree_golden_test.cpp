@@ -105,7 +105,7 @@ TEST_F(GoldenCommand, an_extra_file_is_a_failure_what_a_kill_left_is_not) {
   const Outcome extra = golden("check");
   EXPECT_EQ(extra.code, 1);
   EXPECT_TRUE(extra.says("extra " + at("golden/cull/notes.txt"))) << extra.text;
-  EXPECT_EQ(golden("update").code, 0);
+  EXPECT_EQ(golden("update").code, 1) << "as the check";
   EXPECT_FALSE(fs::exists(at("golden/cull/both_windings/.plumb-1-2")));
   EXPECT_FALSE(fs::exists(at("golden/cull/both_windings/color.0123456789abcdef.png")));
   EXPECT_TRUE(fs::exists(at("golden/cull/notes.txt"))) << "nobody else's file is removed";
@@ -187,6 +187,32 @@ TEST_F(GoldenCommand, a_scene_that_is_gone_takes_its_golden_with_it) {
   EXPECT_FALSE(fs::exists(at("golden/cull/both_windings")));
   EXPECT_TRUE(fs::exists(at("golden/tolerances.json")));
   EXPECT_EQ(golden("update").code, 0);
+}
+
+TEST_F(GoldenCommand, a_group_says_nothing_of_the_others) {
+  const std::map<std::string, std::string> before = files();
+  const std::string group = "golden update --golden " + at("golden") + " --suite " + at("suite/cull");
+  Outcome run = plumb(group);
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_EQ(files(), before);
+  fs::copy(scene(), folder_ / "suite/cull/another.json");
+  fs::remove(scene());
+  run = plumb(group + " --check");
+  EXPECT_TRUE(run.says("would be removed cull/both_windings")) << run.text;
+  EXPECT_TRUE(run.says("1 removed")) << "its own alone" << run.text;
+}
+
+TEST_F(GoldenCommand, an_update_that_writes_nothing_makes_no_folder) {
+  Outcome run =
+      plumb("golden update --suite " + at("suite/cull") + " --golden " + at("nowhere") + " --fault window.y_flipped");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("REFUSED")) << run.text;
+  EXPECT_FALSE(fs::exists(at("nowhere")));
+  write(folder_ / "golden/notes.txt", "mine");
+  run = golden("update");
+  EXPECT_EQ(run.code, 1) << "check fails, too";
+  EXPECT_TRUE(run.says("notes.txt: a file that the manifest does not name")) << run.text;
+  EXPECT_EQ(read(folder_ / "golden/notes.txt"), "mine");
 }
 
 TEST_F(GoldenCommand, one_update_at_a_time) {
