@@ -24,10 +24,11 @@ Infinitesimal inside(glm::i64vec2 p, glm::i64vec2 pixel, int sx, int sy) {
   return {128 - (sx * dx + sy * dy), sx, sy};
 }
 
-constexpr std::array<std::array<int, 2>, 4> kSides = {{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+constexpr std::array<std::array<int, 2>, 4> kDiamondSides = {{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
 bool contains(glm::i64vec2 p, glm::i64vec2 pixel) {
-  return std::all_of(kSides.begin(), kSides.end(), [&](auto s) { return inside(p, pixel, s[0], s[1]) > kZero; });
+  return std::all_of(kDiamondSides.begin(), kDiamondSides.end(),
+                     [&](auto s) { return inside(p, pixel, s[0], s[1]) > kZero; });
 }
 
 // A place on the segment, at / over of the way from a to b.
@@ -44,7 +45,7 @@ bool produces(glm::i64vec2 a, glm::i64vec2 b, glm::i64vec2 pixel) {
   if (contains(a, pixel)) return true;
   // Neither end is inside, so what is inside is open at both ends: it is there if its limits are apart.
   Parameter enter{kZero, 1}, leave{{1, 0, 0}, 1};
-  for (const auto& [sx, sy] : kSides) {
+  for (const auto& [sx, sy] : kDiamondSides) {
     const Infinitesimal at_a = inside(a, pixel, sx, sy);
     const Int128 change = inside(b, pixel, sx, sy).c0 - at_a.c0;  // both ends are moved alike
     if (change == 0 && !(at_a > kZero)) return false;

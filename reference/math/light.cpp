@@ -6,7 +6,7 @@
 namespace plumbline::math {
 namespace {
 
-glm::dvec3 unit(glm::dvec3 v) {
+glm::dvec3 unit_of(glm::dvec3 v) {
   const double length = glm::length(v);
   return length > 0 ? v / length : glm::dvec3(0);
 }
@@ -25,8 +25,8 @@ double share_at(const Light& light, const glm::dmat4& view, glm::dvec3 vp) {
   // A light at the point itself may have nothing to divide by: the specification says nothing, this stays a number.
   const double attenuation = 1 / std::max(k[0] + k[1] * d + k[2] * d * d, 1e-38);
   if (!light.spot) return attenuation;
-  const glm::dvec3 s = unit(glm::dmat3(view) * light.spot->direction);
-  const double cosine = glm::dot(-unit(vp), s);
+  const glm::dvec3 s = unit_of(glm::dmat3(view) * light.spot->direction);
+  const double cosine = glm::dot(-unit_of(vp), s);
   if (cosine < std::cos(glm::radians(light.spot->cutoff_degrees))) return 0;
   return attenuation * std::pow(std::max(0.0, cosine), static_cast<double>(light.spot->exponent));
 }
@@ -34,7 +34,7 @@ double share_at(const Light& light, const glm::dmat4& view, glm::dvec3 vp) {
 /// What the specular term takes to the power of the shininess.
 double highlight(const LightModel& model, glm::dvec3 n, glm::dvec3 l, glm::dvec3 e) {
   switch (model.specular) {
-    case LightModel::Specular::half_vector: return std::max(0.0, glm::dot(n, unit(l + e)));
+    case LightModel::Specular::half_vector: return std::max(0.0, glm::dot(n, unit_of(l + e)));
     case LightModel::Specular::reflection: return std::max(0.0, glm::dot(2 * glm::dot(n, l) * n - l, e));
   }
   return 0;
@@ -46,10 +46,10 @@ glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, const glm::
                  glm::dvec3 n_eye) {
   const LightModel& model = scene.light_model;
   const glm::dvec3 ambient(material.ambient), diffuse(material.diffuse), specular(material.specular);
-  const glm::dvec3 to_eye = model.local_viewer ? unit(-p_eye) : glm::dvec3(0, 0, 1);
+  const glm::dvec3 to_eye = model.local_viewer ? unit_of(-p_eye) : glm::dvec3(0, 0, 1);
   glm::dvec3 rgb = glm::dvec3(material.emission) + ambient * glm::dvec3(model.ambient);
   for (const Light& source : scene.lights) {
-    const glm::dvec3 vp = towards(source, view, p_eye), to_light = unit(vp);
+    const glm::dvec3 vp = towards(source, view, p_eye), to_light = unit_of(vp);
     const double share = share_at(source, view, vp);
     if (!(share > 0)) continue;
     glm::dvec3 n = n_eye;
@@ -92,7 +92,7 @@ DoubleMaterial material_at(const Scene& scene, const Draw& draw, LitPart part, s
 
 glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, const glm::dmat4& view,
                           const glm::dvec4& color, glm::dvec3 n, glm::dvec3 p_eye) {
-  return light(scene, material_of(scene, draw, part, color), view, p_eye, part.back ? -unit(n) : unit(n));
+  return light(scene, material_of(scene, draw, part, color), view, p_eye, part.back ? -unit_of(n) : unit_of(n));
 }
 
 glm::dvec4 color_sum(const glm::dvec4& primary, const glm::dvec4& secondary) {

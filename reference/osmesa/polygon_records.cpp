@@ -17,7 +17,7 @@ namespace {
 // A triangle's corner as it goes in. `tag` is a texture coordinate, which clipping cuts like every other: x and y are
 // the primitive's low and high 16 bits, the same at all corners and so at all cuts; z and w are (1,0), (0,1), (0,0) at
 // the corners, and none of these at a cut.
-struct Corner {
+struct FedCorner {
   glm::vec3 position, normal;
   glm::vec4 color, tag;
 };
@@ -53,10 +53,10 @@ std::vector<std::uint32_t> wanted_primitives(const DrawRange& range, const std::
 
 // Each with the colour that `color` gives of its vertex.
 template <class Color>
-std::vector<Corner> corners_of(const Mesh& mesh, std::uint32_t first_primitive,
+std::vector<FedCorner> fed_corners(const Mesh& mesh, std::uint32_t first_primitive,
                                std::span<const std::uint32_t> primitives, const Color& color) {
   constexpr std::array<glm::vec2, 3> kCornerTags = {glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(0, 0)};
-  std::vector<Corner> corners;
+  std::vector<FedCorner> corners;
   const auto count = static_cast<int>(corner_count(mesh.topology));
   corners.reserve(static_cast<std::size_t>(count) * primitives.size());
   for (const std::uint32_t primitive : primitives) {
@@ -72,12 +72,12 @@ std::vector<Corner> corners_of(const Mesh& mesh, std::uint32_t first_primitive,
 }
 
 // From this process' memory: feedback mode never lets go of a buffer object that it has read (Mesa 22.3).
-void draw_corners(const Gl& gl, const std::vector<Corner>& corners, Topology topology, bool colors) {
+void draw_corners(const Gl& gl, const std::vector<FedCorner>& corners, Topology topology, bool colors) {
   const SavedArrays arrays(gl);
-  gl.VertexPointer(3, GL_FLOAT, sizeof(Corner), &corners[0].position);
-  gl.NormalPointer(GL_FLOAT, sizeof(Corner), &corners[0].normal);
-  gl.ColorPointer(4, GL_FLOAT, sizeof(Corner), &corners[0].color);
-  gl.TexCoordPointer(4, GL_FLOAT, sizeof(Corner), &corners[0].tag);
+  gl.VertexPointer(3, GL_FLOAT, sizeof(FedCorner), &corners[0].position);
+  gl.NormalPointer(GL_FLOAT, sizeof(FedCorner), &corners[0].normal);
+  gl.ColorPointer(4, GL_FLOAT, sizeof(FedCorner), &corners[0].color);
+  gl.TexCoordPointer(4, GL_FLOAT, sizeof(FedCorner), &corners[0].tag);
   gl.EnableClientState(GL_VERTEX_ARRAY);
   gl.EnableClientState(GL_NORMAL_ARRAY);
   if (colors) gl.EnableClientState(GL_COLOR_ARRAY);
@@ -243,7 +243,7 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<dou
     const ToClip to_clip(whole_range);
     for (std::size_t at = 0; at < wanted.size(); at += kBatch) {
       const auto batch = std::span(wanted).subspan(at, std::min(kBatch, wanted.size() - at));
-      const std::vector<Corner> corners = corners_of(mesh, range.first_primitive, batch, color);
+      const std::vector<FedCorner> corners = fed_corners(mesh, range.first_primitive, batch, color);
       const std::size_t expected = values_of(corner_count(mesh.topology)) * (batch.size() * 5 / 4 + 16);
       const auto fed = [&] {
         const auto run = [&] { draw_corners(gl, corners, mesh.topology, !two_sided || !mesh.colors.empty()); };

@@ -7,24 +7,22 @@
 #include <map>
 #include <utility>
 
-#include "check/bounds.h"
+#include "check/compare_words.h"
 #include "check/open_pixels.h"
 
 namespace plumbline::check {
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
 struct Line {
   const WindowTriangle<double>* window = nullptr;
   std::vector<glm::ivec2> pixels;
 };
 // By primitive, and among a primitive's lines (the edges of a triangle that is not filled) by order.
-using Lines = std::map<std::pair<std::uint32_t, std::size_t>, Line>;
+using LinesOfPixels = std::map<std::pair<std::uint32_t, std::size_t>, Line>;
 
-Lines lines_of(const Records<double>& r) {
-  Lines lines;
+LinesOfPixels lines_of(const Records<double>& r) {
+  LinesOfPixels lines;
   std::vector<Line*> line_of(r.triangles.size());
   std::size_t order = 0;
   for (std::size_t i = 0; i < r.triangles.size(); ++i) {
@@ -47,7 +45,7 @@ struct Rest {
   Plane<std::uint32_t> count;
   Plane<std::uint64_t> id_sum;
 };
-Rest without(const Lines& lines, const Planes& planes) {
+Rest without(const LinesOfPixels& lines, const Planes& planes) {
   Rest rest{planes.count, planes.id_sum};
   for (const auto& [key, line] : lines) {
     const std::uint32_t primitive = key.first;
@@ -133,13 +131,13 @@ Measurement compare_covered_lines(const Capture& candidate, const Capture& refer
   if (!same_size(a.count, b.count, why) || !same_size(a.id_sum, b.id_sum, why) || !same_size(a.count, a.id_sum, why)) {
     return mismatch("pixels", why, a.count.size());
   }
-  const Lines mine = lines_of(candidate.records), theirs = lines_of(reference.records);
+  const LinesOfPixels mine = lines_of(candidate.records), theirs = lines_of(reference.records);
   Meter meter("pixels");
-  Lines all = mine;
+  LinesOfPixels all = mine;
   all.insert(theirs.begin(), theirs.end());
   const glm::ivec2 extent(a.count.width(), a.count.height());
   for (const auto& [key, line] : all) {
-    const auto at = [&, wanted = key](const Lines& lines) {
+    const auto at = [&, wanted = key](const LinesOfPixels& lines) {
       const auto found = lines.find(wanted);
       return found == lines.end() ? Line{} : found->second;
     };

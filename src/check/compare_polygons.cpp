@@ -8,15 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "check/bounds.h"
 #include "check/compare_records.h"
+#include "check/compare_words.h"
 
 namespace plumbline::check {
 
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double u = kUnitRoundoff;
 
 using Vec8 = std::array<double, 8>;  // clip position over the scale, and colour
 

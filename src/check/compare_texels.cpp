@@ -7,22 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "check/bounds.h"
+#include "check/compare_words.h"
 #include "check/fragment_bounds.h"
 #include "check/texture_bounds.h"
 
 namespace plumbline::check {
 
-namespace {
-
-constexpr double u = kUnitRoundoff;
-
-double outside(double value, double low, double high) {
-  if (value >= low && value <= high) return 0;
-  return std::isfinite(value) ? std::max(low - value, value - high) : std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor) {

@@ -1,4 +1,4 @@
-// What the comparators share; included by their .cpp files alone.
+// What the comparators and their bounds share; included by their .cpp files alone.
 #pragma once
 
 #include <algorithm>

@@ -94,13 +94,13 @@ std::vector<Settled> settle(std::span<const Expectation> expectations, std::span
     }
     const bool occurs = std::ranges::any_of(rows, [&](const Comparison* c) { return c->outcome == e.outcome; });
     if (rows.empty()) {
-      out.push_back({&e, Fate::unmatched, fmt::format("expectation {}: there is no such row", row_of(e))});
+      out.push_back({&e, Settlement::unmatched, fmt::format("expectation {}: there is no such row", row_of(e))});
     } else if (!occurs) {
-      out.push_back({&e, Fate::passed,
+      out.push_back({&e, Settlement::passed,
                      fmt::format("unexpected {}: {}, expected {} ({}, {}): the expectation can go", row_of(e),
                                  name_of(rows.front()->outcome), name_of(e.outcome), e.reason, e.issue)});
     } else if (today > e.expires) {
-      out.push_back({&e, Fate::expired,
+      out.push_back({&e, Settlement::expired,
                      fmt::format("expired {}: was expected until {} ({}, {})", row_of(e), to_string(e.expires),
                                  e.reason, e.issue)});
     } else {
@@ -110,7 +110,7 @@ std::vector<Settled> settle(std::span<const Expectation> expectations, std::span
                               e.reason, e.issue, c->note.empty() ? "" : "; ", c->note);
         c->outcome = Outcome::expected;
       }
-      out.push_back({&e, Fate::occurred, ""});
+      out.push_back({&e, Settlement::occurred, ""});
     }
   }
   return out;

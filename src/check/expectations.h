@@ -30,7 +30,7 @@ std::chrono::sys_days day_of(const std::string& text);
 std::string to_string(std::chrono::sys_days day);
 
 /// What became of an expectation in a run.
-enum class Fate {
+enum class Settlement {
   not_asked,  ///< its scene or its reference was not
   occurred,   ///< its row is now `expected`, and says why
   expired,    ///< it occurred after its last day: the row stays a failure
@@ -39,7 +39,7 @@ enum class Fate {
 };
 struct Settled {
   const Expectation* expectation;
-  Fate fate;
+  Settlement fate;
   std::string line;  ///< for a failure
 };
 

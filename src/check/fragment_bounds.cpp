@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "check/compare_words.h"
 #include "check/ledger.h"
 #include "scene/draw_of.h"
 
@@ -12,7 +13,6 @@ namespace plumbline::check {
 
 namespace {
 
-constexpr double u = kUnitRoundoff;
 // What Mesa makes otherwise than OpenGL 2.1 (3.10; 3.9, 3.10).
 constexpr std::string_view kBehindEye =
                                "Mesa interpolates |z_eye| of vertices behind the eye, fog is of a fragment's own",

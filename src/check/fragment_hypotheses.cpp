@@ -10,10 +10,6 @@ namespace plumbline::check {
 namespace {
 
 template <class Change>
-void each_draw(Scene& scene, Change change) {
-  for (Draw& draw : scene.draws) change(draw);
-}
-template <class Change>
 void each_sampler(Scene& scene, Change change) {
   for (Texture& texture : scene.textures) change(texture.sampler);
 }
@@ -85,7 +81,7 @@ void half_a_texel_off(Scene& s, Capture& in) {
 
 using S = Stage;
 
-constexpr std::array kHypotheses = {
+constexpr std::array kFragmentHypotheses = {
     given(S::texture, "texture.t_flipped", "textures are upside down: t for 1 - t",
           [](Scene&, Capture& in) {
             for (auto& st : in.records.varyings[Varying::texture].fragments) st.t = 1 - st.t;
@@ -220,6 +216,6 @@ constexpr std::array kHypotheses = {
 
 }  // namespace
 
-std::span<const Hypothesis> fragment_hypotheses() { return kHypotheses; }
+std::span<const Hypothesis> fragment_hypotheses() { return kFragmentHypotheses; }
 
 }  // namespace plumbline::check

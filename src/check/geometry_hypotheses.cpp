@@ -179,7 +179,7 @@ bool lit_without_clamp(const Evidence& e) {
 
 using S = Stage;
 
-constexpr std::array kHypotheses = {
+constexpr std::array kGeometryHypotheses = {
     made(S::matrices, "matrices.fov_horizontal",
          "the vertical field of view is taken for the horizontal one: x and y scaled by the aspect",
          [](const Scene& s, const Capture&, Capture& c) {
@@ -356,6 +356,6 @@ constexpr std::array kHypotheses = {
 
 }  // namespace
 
-std::span<const Hypothesis> geometry_hypotheses() { return kHypotheses; }
+std::span<const Hypothesis> geometry_hypotheses() { return kGeometryHypotheses; }
 
 }  // namespace plumbline::check

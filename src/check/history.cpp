@@ -32,7 +32,7 @@ bool leaves_out(const Scene& scene, std::span<const glm::ivec2> pixels) {
   });
 }
 
-std::size_t draw_of(const std::vector<DrawRange>& ranges, std::uint32_t primitive) {
+std::size_t draw_number(const std::vector<DrawRange>& ranges, std::uint32_t primitive) {
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     if (primitive - ranges[i].first_primitive < ranges[i].primitive_count) return i;
   }
@@ -49,7 +49,7 @@ std::vector<PixelFragment> fragments_at(const Scene& scene, const Records<double
     const WindowTriangle<double>& triangle = r.triangles[r.covered[i].triangle];
     PixelFragment& f = out.emplace_back();
     f.primitive = triangle.primitive;
-    f.draw = draw_of(ranges, f.primitive);
+    f.draw = draw_number(ranges, f.primitive);
     if (triangle.corners > 0) f.triangle = r.covered[i].triangle;
     f.front = triangle.front;
     const Draw& draw = scene.draws[f.draw];

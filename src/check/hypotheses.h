@@ -64,6 +64,11 @@ class Truncation {
   std::size_t all_ = 0, fit_ = 0, lower_ = 0;
 };
 
+template <class Change>
+void each_draw(Scene& scene, Change change) {
+  for (Draw& draw : scene.draws) change(draw);
+}
+
 template <class T>
 void swap_red_and_blue(std::vector<T>& records) {
   for (T& r : records) std::swap(r.color.r, r.color.b);

@@ -7,15 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "check/bounds.h"
+#include "check/compare_words.h"
 #include "check/ledger.h"
 #include "scene/antialias.h"
 
 namespace plumbline::check {
 
 namespace {
-
-constexpr double u = kUnitRoundoff;
 
 // The colours of the samples that a pixel is made of.
 class SamplesAt {

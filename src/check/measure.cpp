@@ -6,12 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "check/compare_words.h"
+
 namespace plumbline::check {
 
 namespace {
 
 constexpr std::size_t kMostPlaces = 1u << 16;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::size_t bucket(double diff) {
   if (diff == 0) return 0;

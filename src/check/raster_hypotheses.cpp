@@ -13,10 +13,6 @@ namespace plumbline::check {
 namespace {
 
 template <class Change>
-void each_draw(Scene& scene, Change change) {
-  for (Draw& draw : scene.draws) change(draw);
-}
-template <class Change>
 void each_corner(Capture& c, Change change) {
   for (WindowTriangle<double>& t : c.records.triangles) {
     for (WindowVertex<double>& v : t.v) change(v);
@@ -115,7 +111,7 @@ bool depths_truncated(const Evidence& e) {
 
 using S = Stage;
 
-constexpr std::array kHypotheses = {
+constexpr std::array kRasterHypotheses = {
     seen(S::coverage, "coverage.inclusive_edges",
          "covered sets differ only on edges, all of them extra: the tie rule is inclusive", all_on_edges<Kind::extra>),
     seen(S::coverage, "coverage.strict_edges",
@@ -209,7 +205,7 @@ constexpr std::array kHypotheses = {
 
 }  // namespace
 
-std::span<const Hypothesis> raster_hypotheses() { return kHypotheses; }
+std::span<const Hypothesis> raster_hypotheses() { return kRasterHypotheses; }
 
 bool on_an_edge(const WindowTriangle<double>& t, glm::ivec2 pixel, glm::ivec2 place) {
   const glm::i64vec2 p = glm::i64vec2(pixel) * std::int64_t{kSubpixel} + glm::i64vec2(place);

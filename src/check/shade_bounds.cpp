@@ -4,14 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "check/bounds.h"
+#include "check/compare_words.h"
 #include "check/texture_bounds.h"
 
 namespace plumbline::check {
 
 namespace {
-
-constexpr double u = kUnitRoundoff;
 
 // f, and how far it may be off where z_eye may be off by `dz`.
 struct Factor {

@@ -4,15 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "check/bounds.h"
+#include "check/compare_words.h"
 
 namespace plumbline::check {
-
-namespace {
-
-constexpr double u = kUnitRoundoff;
-
-}  // namespace
 
 double largest_texel(const Texture& texture) {
   float out = 1;

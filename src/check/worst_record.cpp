@@ -13,7 +13,7 @@ namespace plumbline::check {
 
 namespace {
 
-using Lines = std::vector<std::string>;
+using TextLines = std::vector<std::string>;
 
 template <class V>
 std::string text(const V& v) {
@@ -64,7 +64,7 @@ class Worded {
   explicit Worded(const Evidence& e)
       : scene_(e.scene), mine_(e.candidate), theirs_(e.expected), ranges_(draw_ranges(e.scene)) {}
 
-  void matrices(std::size_t d, Lines& out) const {
+  void matrices(std::size_t d, TextLines& out) const {
     const auto *a = at(mine_.records.matrices, d), *b = at(theirs_.records.matrices, d);
     if (a == nullptr || b == nullptr) return;
     out.push_back(fmt::format("draw {}", d));
@@ -84,7 +84,7 @@ class Worded {
     out.push_back(in_ulp("window translation", a->win_translate, b->win_translate));
   }
 
-  void vertex(std::size_t i, Lines& out) const {
+  void vertex(std::size_t i, TextLines& out) const {
     const auto *a = at(mine_.records.vertices, i), *b = at(theirs_.records.vertices, i);
     if (a == nullptr || b == nullptr) return;
     const std::size_t d = draw_of_vertex(i);
@@ -100,7 +100,7 @@ class Worded {
     out.push_back(in_ulp("n_eye", a->n_eye, b->n_eye));
   }
 
-  void light(std::size_t i, Lines& out) const {
+  void light(std::size_t i, TextLines& out) const {
     const auto *a = at(mine_.records.lit, i), *b = at(theirs_.records.lit, i);
     if (a == nullptr || b == nullptr) return;
     came_in(i, out);
@@ -113,7 +113,7 @@ class Worded {
     }
   }
 
-  void polygon(std::uint32_t primitive, Lines& out) const {
+  void polygon(std::uint32_t primitive, TextLines& out) const {
     out.push_back(primitive_text(primitive));
     corners(primitive, out);
     for (const auto& [who, side] : {std::pair("got", &mine_), std::pair("expected", &theirs_)}) {
@@ -131,7 +131,7 @@ class Worded {
   }
 
   // Of the window stage: the two sides' triangles, and what p_clip they came from.
-  void window(std::uint32_t primitive, Lines& out) const {
+  void window(std::uint32_t primitive, TextLines& out) const {
     polygon_in(primitive, out);
     const auto a = triangles_of(mine_, primitive), b = triangles_of(theirs_, primitive);
     if (a.size() != b.size()) out.push_back(fmt::format("{} window triangles, expected {}", a.size(), b.size()));
@@ -144,7 +144,7 @@ class Worded {
     }
   }
 
-  void fragment(std::uint32_t triangle, int x, int y, Stage stage, Lines& out) const {
+  void fragment(std::uint32_t triangle, int x, int y, Stage stage, TextLines& out) const {
     const Records<double>&a = mine_.records, &b = theirs_.records;
     const auto* t = at(a.triangles, triangle);
     if (t == nullptr) return;
@@ -169,7 +169,7 @@ class Worded {
   }
 
   // Planes of the last stages, at a pixel.
-  void pixel(int x, int y, Stage stage, Lines& out) const {
+  void pixel(int x, int y, Stage stage, TextLines& out) const {
     const Planes &a = mine_.planes, &b = theirs_.planes;
     const auto inside = [&](const auto& plane) { return x < plane.width() && y < plane.height(); };
     out.push_back(fmt::format("pixel {},{}", x, y));
@@ -217,14 +217,14 @@ class Worded {
     return scale == 0 ? text(z) : fmt::format("{:.9g} (code {:.9g})", z, z * scale);
   }
 
-  void came_in(std::size_t i, Lines& out) const {
+  void came_in(std::size_t i, TextLines& out) const {
     const std::size_t d = draw_of_vertex(i), k = i - ranges_[d].first_vertex;
     const Mesh& mesh = scene_.meshes[scene_.draws[d].mesh];
     out.push_back(fmt::format("vertex {} (the {}. of draw {}): p_model {}, normal {}", i, k + 1, d,
                               text(mesh.positions.at(k)), text(mesh.normals.at(k))));
   }
   // The primitive's vertices, as they came into the clipper.
-  void corners(std::uint32_t primitive, Lines& out) const {
+  void corners(std::uint32_t primitive, TextLines& out) const {
     const std::size_t d = draw_of(primitive);
     const glm::uvec3 of = scene_.meshes[scene_.draws[d].mesh].triangles.at(primitive - ranges_[d].first_primitive);
     for (int c = 0; c < 3; ++c) {
@@ -235,7 +235,7 @@ class Worded {
         out.push_back(fmt::format("its vertex {}: p_clip {}, color {}", i, text(v->p_clip), text(l->color)));
     }
   }
-  void polygon_in(std::uint32_t primitive, Lines& out) const {
+  void polygon_in(std::uint32_t primitive, TextLines& out) const {
     out.push_back(primitive_text(primitive));
     const ClipPolygons<double>& all = mine_.records.polygons;
     const auto p = std::ranges::find(all.polygons, primitive, &ClipPolygon::primitive);
@@ -251,7 +251,7 @@ class Worded {
     }
     return out;
   }
-  static void pair_of(const WindowTriangle<double>& a, const WindowTriangle<double>& b, Lines& out) {
+  static void pair_of(const WindowTriangle<double>& a, const WindowTriangle<double>& b, TextLines& out) {
     for (std::size_t k = 0; k < 3; ++k) {
       const WindowVertex<double>&v = a.v[k], &w = b.v[k];
       out.push_back(fmt::format("corner {}:", k));
@@ -265,7 +265,7 @@ class Worded {
       out.push_back(
           fmt::format("faces the {}, expected the {}", a.front ? "front" : "back", b.front ? "front" : "back"));
   }
-  void triangle_in(std::uint32_t number, const WindowTriangle<double>& t, Lines& out) const {
+  void triangle_in(std::uint32_t number, const WindowTriangle<double>& t, TextLines& out) const {
     out.push_back(
         fmt::format("triangle {} of {}, {}", number, primitive_text(t.primitive), t.front ? "front" : "back"));
     for (std::size_t k = 0; k < t.corners && k < 3; ++k) {
@@ -273,7 +273,7 @@ class Worded {
                                 text(t.v[k].p_win), text(t.v[k].inv_w), text(t.v[k].snapped), text(t.v[k].color)));
     }
   }
-  void fragment_out(std::size_t i, Stage stage, Lines& out) const {
+  void fragment_out(std::size_t i, Stage stage, TextLines& out) const {
     const Records<double>&a = mine_.records, &b = theirs_.records;
     const auto both = [&](const auto& mine, const auto& theirs, auto line) {
       if (i < mine.size() && i < theirs.size()) out.push_back(line(mine[i], theirs[i]));
@@ -300,15 +300,15 @@ class Worded {
         return both(a.shaded, b.shaded,
                     [](const auto& p, const auto& q) { return in_codes("shaded", p.color, q.color); });
       case Stage::visibility:
-        return both(a.drawn, b.drawn, [](const Drawn& p, const Drawn& q) {
-          const auto word = [](const Drawn& d) { return d.drawn ? "drawn" : "rejected"; };
+        return both(a.drawn, b.drawn, [](const plumbline::Drawn& p, const plumbline::Drawn& q) {
+          const auto word = [](const plumbline::Drawn& d) { return d.drawn ? "drawn" : "rejected"; };
           return fmt::format("{}, expected {}", word(p), word(q));
         });
       default: return;
     }
   }
   // Every fragment that reached the pixel, in draw order.
-  void arrivals(int x, int y, Lines& out) const {
+  void arrivals(int x, int y, TextLines& out) const {
     const Records<double>& r = mine_.records;
     for (std::size_t i = 0; i < r.covered.size(); ++i) {
       const Covered& c = r.covered[i];
@@ -330,7 +330,7 @@ class Worded {
 }  // namespace
 
 std::vector<std::string> worst_record(const Evidence& e, const Measurement& m) {
-  Lines out;
+  TextLines out;
   if (!m.mismatch.empty()) return {m.mismatch};
   const Place& place = m.worst.place;
   if (m.max_difference > 0)

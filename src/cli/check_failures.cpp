@@ -56,7 +56,7 @@ std::vector<check::Settled> settle(check::SceneVerdict& verdict, const CheckOpti
   std::vector<check::Settled> out = check::settle(expectations, asked, today, verdict);
   std::string lines;
   for (const check::Settled& settled : out) {
-    if (settled.fate != check::Fate::occurred) lines += settled.line + "\n";
+    if (settled.fate != check::Settlement::occurred) lines += settled.line + "\n";
   }
   const std::vector<Stage> nobody = unjudged(verdict, o);
   const bool fails = std::ranges::any_of(verdict.comparisons, [&](const check::Comparison& c) {
@@ -70,10 +70,11 @@ std::vector<check::Settled> settle(check::SceneVerdict& verdict, const CheckOpti
 }
 
 std::string settled_line(const std::vector<check::Settled>& settled, std::size_t expectations) {
-  const auto count = [&](check::Fate fate) { return std::ranges::count(settled, fate, &check::Settled::fate); };
+  const auto count = [&](check::Settlement fate) { return std::ranges::count(settled, fate, &check::Settled::fate); };
   return fmt::format("expectations: {} occurred, {} expired, {} passed unexpectedly, {} match nothing, {} not asked\n",
-                     count(check::Fate::occurred), count(check::Fate::expired), count(check::Fate::passed),
-                     count(check::Fate::unmatched), expectations - settled.size());
+                     count(check::Settlement::occurred), count(check::Settlement::expired),
+                     count(check::Settlement::passed), count(check::Settlement::unmatched),
+                     expectations - settled.size());
 }
 
 std::string leave_report(const std::string& folder, const Scene& scene, const check::SceneVerdict& verdict,

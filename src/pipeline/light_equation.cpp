@@ -11,8 +11,6 @@ namespace plumbline::pipeline {
 
 namespace {
 
-constexpr double kRadians = 3.14159265358979323846 / 180.0;
-
 float dot(const Vec3<float>& a, const Vec3<float>& b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 float positive_dot(const Vec3<float>& a, const Vec3<float>& b) { return std::max(dot(a, b), 0.0f); }
 Vec3<float> unit(const Vec3<float>& v) { return v / std::sqrt(dot(v, v)); }

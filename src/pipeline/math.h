@@ -1,10 +1,12 @@
-// Our own transcendental functions: the same bits on every machine, which a C library does not promise.
+// Our own transcendental functions: the same bits on every machine, which a C library does not promise. And degrees.
 #pragma once
 
 #include <bit>
 #include <cstdint>
 
 namespace plumbline::pipeline {
+
+inline constexpr double kRadians = 3.14159265358979323846 / 180.0;  ///< a degree
 
 /// log2(x) for normal x > 0. Relative error of the result below 1e-12 (atanh series up to t^15, |t| <= 0.1716).
 inline double log2_of(double x) {

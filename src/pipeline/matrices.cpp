@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "dialect/dialect.h"
+#include "pipeline/math.h"
 #include "transforms/normal.h"
 #include "transforms/transform.h"
 
 namespace plumbline::pipeline {
 
 namespace {
-
-constexpr double kRadians = 3.14159265358979323846 / 180.0;
 
 glm::dmat4 matrix_of(const Translate& t) { return transforms::translation(t.by); }
 glm::dmat4 matrix_of(const Scale& s) { return transforms::scaling(s.by); }

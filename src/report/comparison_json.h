@@ -1,4 +1,4 @@
-// A comparison as JSON, as files and pages have it.
+// A number and a comparison as JSON, as files and pages have it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,6 +6,9 @@
 #include "check/verdict.h"
 
 namespace plumbline::report {
+
+/// What JSON has no number for is text: "nan", "inf", "-inf".
+nlohmann::ordered_json json_number(double value);
 
 /// As write_json() (json_report.h) says of each of "comparisons".
 nlohmann::ordered_json comparison_json(const check::Comparison& comparison);

@@ -15,7 +15,7 @@ using check::Outcome;
 
 namespace {
 
-std::string cell(const Comparison& c) {
+std::string cell_of(const Comparison& c) {
   switch (c.outcome) {
     case Outcome::different: return fmt::format("DIFFERENT {}", c.measurement.differing);
     case Outcome::dispute: return fmt::format("dispute {}", c.measurement.disputed);
@@ -57,7 +57,7 @@ std::string stage_table(const check::SceneVerdict& verdict) {
   std::map<std::pair<std::size_t, std::string>, std::string> cells;
   for (const Comparison& c : verdict.comparisons) {
     if (std::ranges::count(columns, c.reference) == 0) columns.push_back(c.reference);
-    cells[{static_cast<std::size_t>(c.stage), c.reference}] = cell(c);
+    cells[{static_cast<std::size_t>(c.stage), c.reference}] = cell_of(c);
   }
   const auto of = [&](std::size_t stage, const std::string& column) {
     const auto found = cells.find({stage, column});

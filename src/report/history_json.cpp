@@ -1,8 +1,7 @@
-#include <cmath>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "report/comparison_json.h"
 #include "report/history_text.h"
 
 namespace plumbline::report {
@@ -11,11 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-  if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  return value;
-}
+Json number(double value) { return json_number(value); }
 Json number(const glm::dvec4& v) { return {number(v.x), number(v.y), number(v.z), number(v.w)}; }
 Json number(const glm::vec4& v) { return number(glm::dvec4(v)); }
 Json number(std::uint8_t v) { return static_cast<int>(v); }

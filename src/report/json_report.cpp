@@ -17,23 +17,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-  if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  return value;
-}
-
 Json worst_of(const check::Worst& worst) {
   Json out{{"place", check::to_string(worst.place)},
-           {"candidate", number(worst.candidate)},
-           {"reference", number(worst.reference)},
-           {"difference", number(worst.difference)},
-           {"tolerance", number(worst.tolerance)}};
+           {"candidate", json_number(worst.candidate)},
+           {"reference", json_number(worst.reference)},
+           {"difference", json_number(worst.difference)},
+           {"tolerance", json_number(worst.tolerance)}};
   if (worst.place.x >= 0) out["pixel"] = {worst.place.x, worst.place.y};
   return out;
 }
 
 }  // namespace
+
+Json json_number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return value;
+}
 
 Json comparison_json(const check::Comparison& c) {
   const check::Measurement& m = c.measurement;
@@ -44,11 +44,11 @@ Json comparison_json(const check::Comparison& c) {
            {"pixels", m.items},
            {"differing", m.differing},
            {"ambiguous", m.ambiguous},
-           {"max_difference", number(m.max_difference)},
+           {"max_difference", json_number(m.max_difference)},
            {"unit", m.unit},
            {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
            {"disputed", m.disputed},
-           {"max_ratio", number(m.max_ratio)},
+           {"max_ratio", json_number(m.max_ratio)},
            {"histogram", m.histogram}};
   if (m.disputed > 0) {
     out["dispute"] = worst_of(m.dispute);
@@ -113,7 +113,7 @@ void write_json(const std::filesystem::path& file, const std::string& a, const s
              {"outcome", name_of(c.outcome)},
              {"items", m.items},
              {"differing", m.differing},
-             {"max_difference", number(m.max_difference)},
+             {"max_difference", json_number(m.max_difference)},
              {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
              {"histogram", m.histogram}};
     if (c.codes > 0) row["codes"] = c.codes;
@@ -126,7 +126,7 @@ void write_json(const std::filesystem::path& file, const std::string& a, const s
 namespace {
 
 // Two digits: enough to judge a tolerance by, and the same from one run to the next.
-Json share(double ratio) { return number(std::round(ratio * 100) / 100); }
+Json share(double ratio) { return json_number(std::round(ratio * 100) / 100); }
 
 // Of each group of scenes, how many there are, and the largest differences of each reference, stage and unit; what is
 // not there is equal, or not compared.

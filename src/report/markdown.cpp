@@ -15,13 +15,13 @@ using check::SceneVerdict;
 
 namespace {
 
-constexpr std::size_t kMost = 200;  // a CI page takes 1 MiB
+constexpr std::size_t kMostListed = 200;  // a CI page takes 1 MiB
 
 std::string failures(std::span<const SceneVerdict> verdicts) {
   std::string out;
   std::size_t count = 0;
   for (const SceneVerdict& verdict : verdicts) {
-    if (verdict.failure.empty() || ++count > kMost) continue;
+    if (verdict.failure.empty() || ++count > kMostListed) continue;
     const Comparison* first = check::first_different(verdict);
     const std::string why = first != nullptr ? fmt::format("{} of {} {}", first->measurement.differing,
                                                            first->measurement.items, check::remark(*first))
@@ -32,7 +32,7 @@ std::string failures(std::span<const SceneVerdict> verdicts) {
   }
   if (count == 0) return "";
   out = "\n### Failures\n\n| scene | first different stage | against | what | repeat |\n|---|---|---|---|---|\n" + out;
-  if (count > kMost) out += fmt::format("\nand {} more\n", count - kMost);
+  if (count > kMostListed) out += fmt::format("\nand {} more\n", count - kMostListed);
   return out;
 }
 
@@ -42,7 +42,7 @@ std::string listed(std::span<const SceneVerdict> verdicts, Outcome outcome) {
   std::size_t count = 0;
   for (const SceneVerdict& verdict : verdicts) {
     for (const Comparison& c : verdict.comparisons) {
-      if (c.outcome != outcome || ++count > kMost) continue;
+      if (c.outcome != outcome || ++count > kMostListed) continue;
       out += fmt::format("| {} | {} | {} | {} |\n", cell(c.scene), cell(c.reference), name_of(c.stage),
                          cell(check::remark(c)));
     }

@@ -16,7 +16,7 @@ using check::Comparison;
 using check::Outcome;
 using check::SceneVerdict;
 
-constexpr std::size_t kMost = 1'000'000;
+constexpr std::size_t kMostRows = 1'000'000;
 constexpr double kLargest = std::numeric_limits<double>::max();
 
 // Numbers that JSON cannot hold are words.
@@ -133,10 +133,10 @@ CheckRun read_run(const std::filesystem::path& path) {
   for (const auto& [name, factor] : tolerances.value().members) run.tolerances[name] = number(tolerances[name]);
   run.head.fault = text(root["fault"]);
   run.head.golden = root["golden"].boolean();
-  for (const JsonNode& node : root["against"].elements(0, kMost)) run.head.against.push_back(node.text());
-  for (const JsonNode& node : root["failures"].elements(0, kMost)) run.head.failures.push_back(node.text());
+  for (const JsonNode& node : root["against"].elements(0, kMostRows)) run.head.against.push_back(node.text());
+  for (const JsonNode& node : root["failures"].elements(0, kMostRows)) run.head.failures.push_back(node.text());
   run.head.shard = shard_at(root["shard"]);
-  for (const JsonNode& node : root["scenes"].elements(0, kMost)) {
+  for (const JsonNode& node : root["scenes"].elements(0, kMostRows)) {
     node.only({"scene", "file", "seconds", "failure", "repeat"});
     SceneVerdict& verdict = run.verdicts.emplace_back();
     verdict.scene = node["scene"].text();
@@ -147,7 +147,7 @@ CheckRun read_run(const std::filesystem::path& path) {
   }
   // Comparisons follow their scenes' order; two scenes of one name are told apart by it.
   std::size_t at = 0;
-  for (const JsonNode& node : root["comparisons"].elements(0, kMost)) {
+  for (const JsonNode& node : root["comparisons"].elements(0, kMostRows)) {
     Comparison c = comparison_at(node, run.words);
     while (at < run.verdicts.size() && run.verdicts[at].scene != c.scene) ++at;
     if (at == run.verdicts.size()) node["scene"].refuse("one of \"scenes\", in their order");

@@ -11,14 +11,14 @@
 namespace plumbline {
 namespace {
 
-std::uint32_t index(std::size_t i) { return static_cast<std::uint32_t>(i); }
+std::uint32_t index_of(std::size_t i) { return static_cast<std::uint32_t>(i); }
 
 /// The middle of an edge on the unit sphere: one vertex for both triangles at the edge.
 class Middles {
  public:
   explicit Middles(std::vector<glm::dvec3>& positions) : positions_(positions) {}
   std::uint32_t operator()(std::uint32_t a, std::uint32_t b) {
-    const auto [at, made] = made_.try_emplace(std::minmax(a, b), index(positions_.size()));
+    const auto [at, made] = made_.try_emplace(std::minmax(a, b), index_of(positions_.size()));
     if (made) positions_.push_back(glm::normalize(positions_[a] + positions_[b]));
     return at->second;
   }
@@ -44,7 +44,7 @@ Mesh make_cube() {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
     for (const float side : {-1.0f, 1.0f}) {
-      const std::uint32_t first = index(mesh.positions.size());
+      const std::uint32_t first = index_of(mesh.positions.size());
       glm::vec3 normal(0), u(0), v(0);
       normal[axis] = side;
       u[(axis + 1) % 3] = 1;
@@ -109,8 +109,8 @@ Mesh make_torus_knot(const TorusKnot& knot) {
     }
   }
   for (int s = 0; s < knot.segments; ++s) {
-    add_band(mesh.triangles, index(static_cast<std::size_t>(s * knot.sides)),
-             index(static_cast<std::size_t>((s + 1) % knot.segments * knot.sides)), knot.sides);
+    add_band(mesh.triangles, index_of(static_cast<std::size_t>(s * knot.sides)),
+             index_of(static_cast<std::size_t>((s + 1) % knot.segments * knot.sides)), knot.sides);
   }
   return mesh;
 }
@@ -131,7 +131,7 @@ Mesh make_revolution(std::span<const glm::dvec2> profile, int slices) {
   std::vector<glm::vec3> positions;
   std::vector<std::uint32_t> rings;  // where each ring begins; a tip is a ring of one
   for (const glm::dvec2& point : profile) {
-    rings.push_back(index(positions.size()));
+    rings.push_back(index_of(positions.size()));
     for (int i = 0; i < (point.x > 0 ? slices : 1); ++i) {
       const double angle = 2 * std::numbers::pi * i / slices;
       positions.emplace_back(point.x * std::sin(angle), point.y, point.x * std::cos(angle));

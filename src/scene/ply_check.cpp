@@ -29,7 +29,7 @@ struct Header {
   std::vector<Element> elements;
 };
 
-[[noreturn]] void fail(std::string_view expected, std::string_view found) {
+[[noreturn]] void bad_ply(std::string_view expected, std::string_view found) {
   throw std::runtime_error(fmt::format("expected {}, found {}", expected, found));
 }
 
@@ -41,14 +41,14 @@ std::size_t size_of(std::string_view type, bool integer) {
   for (const auto& [name, size] : kSizes) {
     if (name == type && !(integer && (type.starts_with("float") || type == "double"))) return size;
   }
-  fail(integer ? "an integer type of PLY" : "a type of PLY", fmt::format("\"{}\" in the header", type));
+  bad_ply(integer ? "an integer type of PLY" : "a type of PLY", fmt::format("\"{}\" in the header", type));
 }
 
 Format format_of(std::string_view word) {
   if (word == "ascii") return Format::ascii;
   if (word == "binary_little_endian") return Format::little;
   if (word == "binary_big_endian") return Format::big;
-  fail("a PLY format, ascii, binary_little_endian or binary_big_endian", fmt::format("\"{}\"", word));
+  bad_ply("a PLY format, ascii, binary_little_endian or binary_big_endian", fmt::format("\"{}\"", word));
 }
 
 Property read_property(std::string_view line) {
@@ -65,14 +65,14 @@ Property read_property(std::string_view line) {
 
 /// Takes the header off the bytes.
 Header read_header(std::string_view& bytes) {
-  if (take_line(bytes) != "ply") fail("a PLY file that begins with the line \"ply\"", "another");
+  if (take_line(bytes) != "ply") bad_ply("a PLY file that begins with the line \"ply\"", "another");
   Header header;
   bool format_told = false;
   while (!bytes.empty()) {
     std::string_view line = take_line(bytes);
     const std::string_view word = take_word(line);
     if (word == "end_header") {
-      if (!format_told) fail("a PLY header that tells the format", "none");
+      if (!format_told) bad_ply("a PLY header that tells the format", "none");
       return header;
     }
     if (word == "comment" || word == "obj_info") continue;
@@ -82,16 +82,16 @@ Header read_header(std::string_view& bytes) {
     } else if (word == "element") {
       const std::string_view name = take_word(line), count = take_word(line);
       const auto number = number_in<std::uint32_t>(count);
-      if (!number) fail("an element's count in the PLY header", fmt::format("\"{}\"", count));
+      if (!number) bad_ply("an element's count in the PLY header", fmt::format("\"{}\"", count));
       header.elements.push_back({std::string(name), *number, {}});
     } else if (word == "property" && !header.elements.empty()) {
       header.elements.back().properties.push_back(read_property(line));
     } else {
-      fail("format, element, property, comment or end_header in the PLY header",
-           fmt::format("\"{}\"", word.substr(0, 40)));
+      bad_ply("format, element, property, comment or end_header in the PLY header",
+              fmt::format("\"{}\"", word.substr(0, 40)));
     }
   }
-  fail("end_header", "the file's end in its header");
+  bad_ply("end_header", "the file's end in its header");
 }
 
 void require_positions(const Header& header) {
@@ -101,7 +101,7 @@ void require_positions(const Header& header) {
                                                      [&](const Property& p) { return p.name == axis; });
     };
     if (std::none_of(header.elements.begin(), header.elements.end(), has_axis)) {
-      fail("vertices with x, y and z in the PLY header", fmt::format("no {}", axis));
+      bad_ply("vertices with x, y and z in the PLY header", fmt::format("no {}", axis));
     }
   }
 }
@@ -109,32 +109,32 @@ void require_positions(const Header& header) {
 void check_corners(const Element& element, const Property& property, std::uint64_t row, std::uint64_t corners) {
   const bool face = property.name == "vertex_indices" || property.name == "vertex_index";
   if (face && corners < 3) {
-    fail("faces of three corners or more", fmt::format("{} in {} {}", corners, element.name, row));
+    bad_ply("faces of three corners or more", fmt::format("{} in {} {}", corners, element.name, row));
   }
 }
 
 void check_row_of_text(std::string_view& text, const Element& element, std::uint64_t row) {
   const auto where = [&] { return fmt::format("{} {} of {}", element.name, row, element.count); };
   if (text.empty())
-    fail(fmt::format("{} of {}", element.count, element.name), fmt::format("{}: a truncated file", row));
+    bad_ply(fmt::format("{} of {}", element.count, element.name), fmt::format("{}: a truncated file", row));
   std::string_view line = take_line(text);
   for (const Property& property : element.properties) {
     std::uint64_t values = 1;
     if (property.count_size > 0) {
       const std::string_view word = take_word(line);
       const auto count = number_in<std::uint32_t>(word);
-      if (!count) fail("a list's count", fmt::format("\"{}\" in {}", word, where()));
+      if (!count) bad_ply("a list's count", fmt::format("\"{}\" in {}", word, where()));
       check_corners(element, property, row, values = *count);
     }
     for (; values > 0; --values) {
       const std::string_view word = take_word(line);
       if (!number_in<double>(word)) {
-        fail(fmt::format("a number for {}", property.name), fmt::format("\"{}\" in {}", word, where()));
+        bad_ply(fmt::format("a number for {}", property.name), fmt::format("\"{}\" in {}", word, where()));
       }
     }
   }
   if (const std::string_view word = take_word(line); !word.empty()) {
-    fail("the line's end", fmt::format("\"{}\" in {}", word, where()));
+    bad_ply("the line's end", fmt::format("\"{}\" in {}", word, where()));
   }
 }
 
@@ -150,7 +150,7 @@ std::uint64_t read_count(std::string_view bytes, std::size_t size, Format format
 void check_row_of_bytes(std::string_view& bytes, const Element& element, std::uint64_t row, Format format) {
   const auto take = [&](std::uint64_t size) {
     if (size > bytes.size()) {
-      fail(fmt::format("{} of {}", element.count, element.name), fmt::format("{}: a truncated file", row));
+      bad_ply(fmt::format("{} of {}", element.count, element.name), fmt::format("{}: a truncated file", row));
     }
     bytes.remove_prefix(size);
   };
@@ -171,7 +171,7 @@ void check_ply(std::string_view bytes) {
   const Header header = read_header(bytes);
   require_positions(header);
   for (const Element& element : header.elements) {
-    if (element.properties.empty() && element.count > 0) fail("properties", fmt::format("none of {}", element.name));
+    if (element.properties.empty() && element.count > 0) bad_ply("properties", fmt::format("none of {}", element.name));
     for (std::uint64_t row = 0; row < element.count; ++row) {
       if (header.format == Format::ascii)
         check_row_of_text(bytes, element, row);
@@ -180,7 +180,7 @@ void check_ply(std::string_view bytes) {
     }
   }
   if (bytes.find_first_not_of(" \t\r\n") != bytes.npos) {
-    fail("the file's end after its last element", fmt::format("{} bytes more", bytes.size()));
+    bad_ply("the file's end after its last element", fmt::format("{} bytes more", bytes.size()));
   }
 }
 

@@ -104,7 +104,7 @@ TextureLevel read_texels(const JsonNode& node) {
   return out;
 }
 
-TextureImage read_file(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
+TextureImage read_image_file(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
   const std::filesystem::path file = folders.find(node, "an image file");
   try {
     return load_texture_image(file, most_texels);
@@ -116,7 +116,7 @@ TextureImage read_file(const JsonNode& node, const AssetFolders& folders, std::s
 TextureImage read_image(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
   const std::string_view kind = node.one_of({"file", "texels", "checker", "gradient", "bricks", "uv_grid", "noise"});
   const JsonNode n = node[kind];
-  if (kind == "file") return read_file(n, folders, most_texels);
+  if (kind == "file") return read_image_file(n, folders, most_texels);
   if (kind == "texels") return {read_texels(n)};
   if (kind == "checker") return {read_checker(n, most_texels)};
   if (kind == "gradient") return {read_gradient(n, most_texels)};

@@ -13,13 +13,10 @@
 #include "pipeline/pipeline_renderer.h"
 #include "scene/antialias.h"
 #include "scene/scene_file.h"
+#include "suite_scenes.h"
 
 namespace plumbline::check {
 namespace {
-
-Scene suite_scene(const std::string& name) {
-  return load_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR "/tests/scenes") / (name + ".json"), {});
-}
 
 std::string_view name_by_words(const std::string& words) {
   for (const Hypothesis& h : all_hypotheses()) {

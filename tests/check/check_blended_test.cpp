@@ -23,7 +23,7 @@ struct BlendedPairs : PlanePairs {
 };
 
 TEST_F(BlendedPairs, EachFragmentDrawnMayDifferByTwoCodesAndAHalf) {
-  EXPECT_TRUE(passes(run(blended(), kUnchanged)));
+  EXPECT_TRUE(passes(run(blended(), kUnchangedPlanes)));
   EXPECT_EQ(most(3, 1), 5);
   EXPECT_EQ(most(2, 2), 2);
   EXPECT_EQ(most(0, 0), 0) << "the clear colour";
@@ -34,7 +34,7 @@ TEST_F(BlendedPairs, EachFragmentDrawnMayDifferByTwoCodesAndAHalf) {
 
 TEST_F(BlendedPairs, InFloatByTheirColoursBoundsAlone) {
   scene.frame.color = ColorFormat::rgba32f;
-  EXPECT_TRUE(passes(run(blended(), kUnchanged)));
+  EXPECT_TRUE(passes(run(blended(), kUnchangedPlanes)));
   EXPECT_TRUE(passes(run(blended(), [](Planes& p) { p.color(3, 1).r += static_cast<float>(20 * kU); })));
   EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r += 1e-3f; })));
   EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(0, 0).r += 1e-6f; })));
@@ -44,7 +44,7 @@ TEST_F(BlendedPairs, WhereItIsOpenWhichFragmentsMadeItAnyNumberIsLegal) {
   legal.color_lo = legal.color_hi = Plane<glm::vec4>(kWidth, kHeight);
   legal.color_lo(3, 1) = glm::vec4(-static_cast<float>(kInf));
   EXPECT_EQ(most(3, 1), 99);
-  EXPECT_EQ(run(blended(), kUnchanged).ambiguous, 1u);
+  EXPECT_EQ(run(blended(), kUnchangedPlanes).ambiguous, 1u);
   EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r = static_cast<float>(kNaN); })));
   EXPECT_EQ(most(2, 2), 2);
 }
@@ -56,7 +56,7 @@ TEST_F(BlendedPairs, AHiddenFragmentWhoseDepthTestIsOpenMayHaveBeenDrawn) {
   const auto at = [&](double apart) { capture.records.depth = {0.5, 0.5, 0.5 + apart, 0.25}; };
   at(step);
   EXPECT_EQ(most(3, 1), 99);
-  EXPECT_EQ(run(blended(), kUnchanged).ambiguous, 1u);
+  EXPECT_EQ(run(blended(), kUnchangedPlanes).ambiguous, 1u);
   EXPECT_EQ(most(2, 2), 2);
   at(0.125);
   EXPECT_EQ(most(3, 1), 5);
@@ -78,7 +78,7 @@ TEST_F(BlendedPairs, AHiddenFragmentWhoseDepthTestIsOpenMayHaveBeenDrawn) {
 }
 
 TEST_F(BlendedPairs, OtherFragmentsAreCoveragesMatterAndALinesColourGoesAlongItsMajorAxis) {
-  const Change beside = [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r += code(40); };
+  const PlaneChange beside = [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r += code(40); };
   scene.meshes[0].topology = Topology::lines;
   EXPECT_TRUE(passes(run(blended(), beside)));
   EXPECT_EQ(run(blended(), beside).ambiguous, 1u);
@@ -127,7 +127,7 @@ TEST_F(BlendedPairs, CodesOfALogicOpAreEqualWhereTheFragmentsCodesAreCertainAndO
   EXPECT_EQ(most(3, 1), 0);
   sources(100.5);
   EXPECT_EQ(most(3, 1), 99) << "either code may be";
-  EXPECT_GT(run(blended(), kUnchanged).ambiguous, 0u);
+  EXPECT_GT(run(blended(), kUnchangedPlanes).ambiguous, 0u);
   EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r = static_cast<float>(kNaN); })));
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -90,6 +91,10 @@ inline Scene two_draws(int width = 24, int height = 16) {
   scene.draws.push_back(flat);
   return scene;
 }
+
+// What a test does to records before they are compared.
+using Change = std::function<void(Records<double>&)>;
+inline constexpr auto kUnchanged = [](Records<double>&) {};
 
 /// All that exact makes of a scene: records that fit each other.
 inline Capture exact_capture(const Scene& scene) {

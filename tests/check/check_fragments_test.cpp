@@ -7,9 +7,6 @@
 namespace plumbline::check {
 namespace {
 
-using Change = std::function<void(Records<double>&)>;
-constexpr auto kUnchanged = [](Records<double>&) {};
-
 // Six fragments of two triangles.
 struct Fragments : testing::Test {
   Fragments() {

@@ -61,7 +61,7 @@ Shown shown(const fs::path& file) {
   return {nlohmann::json::parse(text.substr(head.size(), view - head.size())),
           nlohmann::json::parse(text.substr(view + middle.size(), text.size() - view - middle.size() - tail.size()))};
 }
-nlohmann::json rows(const nlohmann::json& view) {
+nlohmann::json rows_of(const nlohmann::json& view) {
   return nlohmann::json::parse(inflated(view["comparisons"].get<std::string>()));
 }
 
@@ -93,9 +93,9 @@ TEST_F(Pages, PagesAreNoScriptOfAHostileText) {
   EXPECT_FALSE(contains(script, "<")) << "though no page holds it";
   const Shown scene = shown(folder / "page/group/~3ca~20~26~20~22b~22~3e.js");
   for (const char* key : {"description", "failure", "repeat"}) EXPECT_EQ(scene.about[key], odd) << key;
-  EXPECT_EQ(rows(scene.view)[0]["reference"], odd);
-  EXPECT_EQ(rows(scene.view)[0]["note"], odd);
-  EXPECT_EQ(rows(scene.view)[1]["worst"]["place"], "pixel 12,34 record 56 p_clip");
+  EXPECT_EQ(rows_of(scene.view)[0]["reference"], odd);
+  EXPECT_EQ(rows_of(scene.view)[0]["note"], odd);
+  EXPECT_EQ(rows_of(scene.view)[1]["worst"]["place"], "pixel 12,34 record 56 p_clip");
 }
 
 TEST_F(Pages, AScenesOutcomeIsTheWorstOfItsRows) {
@@ -186,7 +186,7 @@ TEST_F(Pages, ARowMarksItsPixels) {
   HtmlReport page(folder, 100);
   page.add(verdict_of({differs, compared(Outcome::equal), outvoted, differs}), two.references, two.drawn, {});
   const nlohmann::json view = scene_of(page, folder).view;
-  const nlohmann::json all = rows(view);
+  const nlohmann::json all = rows_of(view);
   ASSERT_EQ(view["marks"].size(), 2u) << "one for two rows";
   EXPECT_EQ(all[0]["mark"], all[3]["mark"]);
   EXPECT_FALSE(all[1].contains("mark"));

@@ -8,8 +8,8 @@
 
 namespace plumbline::check {
 
-using Change = std::function<void(Planes&)>;
-inline constexpr auto kUnchanged = [](Planes&) {};
+using PlaneChange = std::function<void(Planes&)>;
+inline constexpr auto kUnchangedPlanes = [](Planes&) {};
 
 // A frame of 7 x 4 pixels, two of them drawn, each pixel with one answer but where a test opens it.
 struct PlanePairs : testing::Test {
@@ -41,7 +41,8 @@ struct PlanePairs : testing::Test {
     return p;
   }
   using Compare = std::function<Measurement(const Capture&, const Capture&)>;
-  Measurement run(const Compare& compare, const Change& candidate, const Change& reference = kUnchanged) const {
+  Measurement run(const Compare& compare, const PlaneChange& candidate,
+                  const PlaneChange& reference = kUnchangedPlanes) const {
     Capture a = capture, b = capture;
     candidate(a.planes);
     reference(b.planes);

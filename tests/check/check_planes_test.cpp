@@ -8,7 +8,7 @@ namespace {
 
 TEST_F(PlanePairs, EqualOnesPass) {
   for (const Compare& compare : all()) {
-    const Measurement m = run(compare, kUnchanged);
+    const Measurement m = run(compare, kUnchangedPlanes);
     EXPECT_TRUE(passes(m)) << m.unit;
     EXPECT_EQ(m.max_difference, 0) << m.unit;
     EXPECT_EQ(m.items, 28u) << m.unit;
@@ -17,41 +17,41 @@ TEST_F(PlanePairs, EqualOnesPass) {
 }
 
 TEST_F(PlanePairs, OtherSizesFail) {
-  const Change turned = [](Planes& p) { p = planes_of(kHeight, kWidth); };
-  const Change higher = [](Planes& p) { p = planes_of(kWidth, kHeight + 1); };
-  const Change empty = [](Planes& p) { p = {}; };
+  const PlaneChange turned = [](Planes& p) { p = planes_of(kHeight, kWidth); };
+  const PlaneChange higher = [](Planes& p) { p = planes_of(kWidth, kHeight + 1); };
+  const PlaneChange empty = [](Planes& p) { p = {}; };
   for (const Compare& compare : all()) {
-    for (const Change& change : {turned, higher, empty}) {
+    for (const PlaneChange& change : {turned, higher, empty}) {
       EXPECT_FALSE(passes(run(compare, change)));
-      EXPECT_FALSE(passes(run(compare, kUnchanged, change)));
-      EXPECT_NE(run(compare, kUnchanged, change).mismatch, "");
+      EXPECT_FALSE(passes(run(compare, kUnchangedPlanes, change)));
+      EXPECT_NE(run(compare, kUnchangedPlanes, change).mismatch, "");
     }
   }
 }
 
 TEST_F(PlanePairs, OnePlaneOfAnotherSizeFails) {
   for (const auto& compare : {coverage(), merge()}) {
-    const Change sum_and_depth = [](Planes& p) {
+    const PlaneChange sum_and_depth = [](Planes& p) {
       p.id_sum = Plane<std::uint64_t>(kHeight, kWidth, 7);
       p.depth = Plane<double>(kHeight, kWidth, 1);
     };
     EXPECT_FALSE(passes(run(compare, sum_and_depth)));
-    EXPECT_FALSE(passes(run(compare, kUnchanged, sum_and_depth)));
+    EXPECT_FALSE(passes(run(compare, kUnchangedPlanes, sum_and_depth)));
   }
   for (const auto& compare : {depth(), shaded(), codes()}) {
-    const Change id = [](Planes& p) { p.id = Plane<std::int32_t>(kHeight, kWidth, kBackground); };
+    const PlaneChange id = [](Planes& p) { p.id = Plane<std::int32_t>(kHeight, kWidth, kBackground); };
     EXPECT_FALSE(passes(run(compare, id)));
-    EXPECT_FALSE(passes(run(compare, kUnchanged, id)));
+    EXPECT_FALSE(passes(run(compare, kUnchangedPlanes, id)));
   }
 }
 
 TEST_F(PlanePairs, WithoutThePlaneThatDecidesFailsAndDoesNotCrash) {
-  const Change no_id = [](Planes& p) { p.id = {}; };
+  const PlaneChange no_id = [](Planes& p) { p.id = {}; };
   for (const auto& compare : {winners(), depth(), shaded(), codes()}) {
     EXPECT_FALSE(passes(run(compare, no_id, no_id))) << "nothing was compared";
   }
   EXPECT_TRUE(passes(run(merge(), no_id, no_id))) << "merge needs no winners";
-  const Change no_sum = [](Planes& p) { p.id_sum = {}; };
+  const PlaneChange no_sum = [](Planes& p) { p.id_sum = {}; };
   EXPECT_FALSE(passes(run(coverage(), no_sum, no_sum)));
 }
 
@@ -61,7 +61,7 @@ TEST_F(PlanePairs, CoverageOneFragmentMoreFails) {
   EXPECT_EQ(m.worst.place.x, 4);
   EXPECT_EQ(m.worst.place.y, 3);
   EXPECT_STREQ(m.worst.place.field, "count");
-  EXPECT_TRUE(fails(run(coverage(), kUnchanged, [](Planes& p) { p.count(4, 3) += 1; })));
+  EXPECT_TRUE(fails(run(coverage(), kUnchangedPlanes, [](Planes& p) { p.count(4, 3) += 1; })));
   EXPECT_EQ(run(
                 coverage(), [](Planes& p) { p.count(0, 0) = UINT32_MAX; }, [](Planes& p) { p.count(0, 0) = 0; })
                 .max_difference,
@@ -96,7 +96,7 @@ TEST_F(PlanePairs, WinnersDifferWithoutLegalAnswers) {
 }
 
 TEST_F(PlanePairs, LegalAnswersDecideBetweenWinners) {
-  const Change ours = [](Planes& p) { p.id(3, 1) = 5; };  // the reference has 3
+  const PlaneChange ours = [](Planes& p) { p.id(3, 1) = 5; };  // the reference has 3
   const auto counts = [&](const std::vector<std::int32_t>& answers) {
     legal = {};
     allow(3, 1, answers);
@@ -130,16 +130,16 @@ TEST_F(PlanePairs, LegalAnswersOfAnotherPixelDecideNothing) {
 
 TEST_F(PlanePairs, StencilValuesAreHeldLikeWinners) {
   capture.planes.stencil = Plane<std::uint8_t>(kWidth, kHeight, 5);
-  EXPECT_TRUE(passes(run(winners(), kUnchanged)));
+  EXPECT_TRUE(passes(run(winners(), kUnchangedPlanes)));
   for (const auto& [x, y] : {std::pair(3, 1), std::pair(0, 0)}) {  // a primitive's, and the background's
-    const Change other = [x = x, y = y](Planes& p) { p.stencil(x, y) = 4; };
+    const PlaneChange other = [x = x, y = y](Planes& p) { p.stencil(x, y) = 4; };
     const Measurement m = run(winners(), other);
     EXPECT_TRUE(fails(m));
-    EXPECT_TRUE(fails(run(winners(), kUnchanged, other)));
+    EXPECT_TRUE(fails(run(winners(), kUnchangedPlanes, other)));
     EXPECT_EQ(to_string(m.worst.place), fmt::format("pixel {},{} stencil", x, y));
   }
   EXPECT_FALSE(passes(run(winners(), [](Planes& p) { p.stencil = {}; })));
-  EXPECT_FALSE(passes(run(winners(), kUnchanged, [](Planes& p) { p.stencil = {}; })));
+  EXPECT_FALSE(passes(run(winners(), kUnchangedPlanes, [](Planes& p) { p.stencil = {}; })));
   const auto counts = [&](std::uint8_t one, std::uint8_t another) {
     legal = {};
     allow(3, 1, {3, 3});
@@ -162,9 +162,9 @@ TEST_F(PlanePairs, DepthIsHeldToTheBoundAndOneStep) {
       ASSERT_GE(bound, 1);
       const double step = depth_step(format, 0.5);
       for (double by : {0.999, -0.999, 1.001, -1.001}) {
-        const Change moved = [&](Planes& p) { p.depth(x, y) += by * 64 * kU * bound + std::copysign(step, by); };
+        const PlaneChange moved = [&](Planes& p) { p.depth(x, y) += by * 64 * kU * bound + std::copysign(step, by); };
         EXPECT_EQ(passes(run(depth(), moved)), std::abs(by) < 1) << by;
-        EXPECT_EQ(passes(run(depth(), kUnchanged, moved)), std::abs(by) < 1) << by;
+        EXPECT_EQ(passes(run(depth(), kUnchangedPlanes, moved)), std::abs(by) < 1) << by;
         if (by > 1) {
           EXPECT_EQ(run(depth(), moved).worst.place.x, x);
           EXPECT_EQ(run(depth(), moved).worst.place.y, y);
@@ -186,7 +186,7 @@ TEST_F(PlanePairs, ShadedIsHeldToTheBound) {
   for (int c = 0; c < 4; ++c) {
     const double limit = 64 * bound[c] * kU;
     for (double by : {0.99, 1.01}) {
-      const Change moved = [&](Planes& p) { p.shaded(3, 1)[c] += static_cast<float>(by * limit); };
+      const PlaneChange moved = [&](Planes& p) { p.shaded(3, 1)[c] += static_cast<float>(by * limit); };
       EXPECT_EQ(passes(run(shaded(), moved)), by < 1) << c;
       if (by > 1) {
         EXPECT_EQ(run(shaded(), moved).worst.place.y, 1);
@@ -234,7 +234,7 @@ TEST_F(PlanePairs, AReferenceWithoutColoursOfVerticesIsGrantedLightsTolerance) {
 }
 
 TEST_F(PlanePairs, AWinnerThatTheSceneDoesNotHaveDoesNotCrash) {
-  const Change far_off = [](Planes& p) { p.id(3, 1) = 1 << 30; };
+  const PlaneChange far_off = [](Planes& p) { p.id(3, 1) = 1 << 30; };
   EXPECT_TRUE(passes(run(shaded(), far_off, far_off)));
 }
 
@@ -295,7 +295,7 @@ TEST_F(PlanePairs, ATriangleOfNoAreaIsNoExcuseToCallAnythingEqual) {
 }
 
 TEST_F(PlanePairs, WhereTheWinnersDifferValuesAreVisibilitysMatter) {
-  const Change other = [](Planes& p) {
+  const PlaneChange other = [](Planes& p) {
     p.id(3, 1) = 5;
     p.depth(3, 1) = 0;
     p.shaded(3, 1) = p.color(3, 1) = glm::vec4(1);
@@ -311,14 +311,14 @@ TEST_F(PlanePairs, MergedCodesAreRoundingsOfTheExactColour) {
   const auto exactly = [&](double value) {
     return [=](Planes& p) { p.color(3, 1).r = static_cast<float>(value / 255); };
   };
-  EXPECT_TRUE(passes(run(merge(), kUnchanged, exactly(100.3))));
-  EXPECT_TRUE(passes(run(merge(), kUnchanged, exactly(100.5))));
-  EXPECT_TRUE(passes(run(merge(), kUnchanged, exactly(99.5))));
-  EXPECT_TRUE(fails(run(merge(), kUnchanged, exactly(100.501)))) << "truncated";
-  EXPECT_TRUE(fails(run(merge(), kUnchanged, exactly(99.499))));
-  EXPECT_TRUE(fails(run(merge(), kUnchanged, exactly(101)))) << "1/255";
-  EXPECT_EQ(run(merge(), kUnchanged, exactly(99)).worst.place.x, 3);
-  EXPECT_NEAR(run(merge(), kUnchanged, exactly(99)).max_difference, 2, 1e-3) << "in halves of 1/255";
+  EXPECT_TRUE(passes(run(merge(), kUnchangedPlanes, exactly(100.3))));
+  EXPECT_TRUE(passes(run(merge(), kUnchangedPlanes, exactly(100.5))));
+  EXPECT_TRUE(passes(run(merge(), kUnchangedPlanes, exactly(99.5))));
+  EXPECT_TRUE(fails(run(merge(), kUnchangedPlanes, exactly(100.501)))) << "truncated";
+  EXPECT_TRUE(fails(run(merge(), kUnchangedPlanes, exactly(99.499))));
+  EXPECT_TRUE(fails(run(merge(), kUnchangedPlanes, exactly(101)))) << "1/255";
+  EXPECT_EQ(run(merge(), kUnchangedPlanes, exactly(99)).worst.place.x, 3);
+  EXPECT_NEAR(run(merge(), kUnchangedPlanes, exactly(99)).max_difference, 2, 1e-3) << "in halves of 1/255";
 }
 
 TEST_F(PlanePairs, MergedTwelveBitCodesToo) {
@@ -327,7 +327,7 @@ TEST_F(PlanePairs, MergedTwelveBitCodesToo) {
   const auto exactly = [&](double value) {
     return [=](Planes& p) { p.color(3, 1).r = static_cast<float>(value / 4095); };
   };
-  const Change is = exactly(1000);
+  const PlaneChange is = exactly(1000);
   EXPECT_TRUE(passes(run(merge(), is, exactly(1000.3))));
   EXPECT_TRUE(passes(run(merge(), is, exactly(1000.5))));
   EXPECT_TRUE(passes(run(merge(), is, exactly(999.5))));
@@ -335,27 +335,27 @@ TEST_F(PlanePairs, MergedTwelveBitCodesToo) {
   EXPECT_TRUE(fails(run(merge(), is, exactly(999.498))));
   EXPECT_NEAR(run(merge(), is, exactly(999)).max_difference, 2, 5e-3) << "in half codes";
   EXPECT_FALSE(passes(run(merge(), exactly(1000.4), exactly(1000.4)))) << "never rounded to the format";
-  const Change of_8_bits = [](Planes& p) { p.color(3, 1).r = 100 / 255.0f; };
+  const PlaneChange of_8_bits = [](Planes& p) { p.color(3, 1).r = 100 / 255.0f; };
   EXPECT_FALSE(passes(run(merge(), of_8_bits, of_8_bits))) << "rounded to 8 bits: 1605.9 of 4095";
   EXPECT_FALSE(passes(run(merge(), exactly(4096), exactly(4096)))) << "never clamped";
 }
 
 TEST_F(PlanePairs, WhatIsNoCodeFailsInA8BitFrame) {
-  const Change between = [](Planes& p) { p.color(3, 1).r = 100.4f / 255; };
+  const PlaneChange between = [](Planes& p) { p.color(3, 1).r = 100.4f / 255; };
   EXPECT_FALSE(passes(run(merge(), between, between))) << "never rounded to the format";
-  const Change beyond = [](Planes& p) { p.color(3, 1).r = 256 / 255.0f; };
+  const PlaneChange beyond = [](Planes& p) { p.color(3, 1).r = 256 / 255.0f; };
   EXPECT_FALSE(passes(run(merge(), beyond, beyond))) << "never clamped";
 }
 
 TEST_F(PlanePairs, MergedFloatsAndDepthsAreEqual) {
-  const Change depth_ulp = [](Planes& p) { p.depth(3, 1) = above(p.depth(3, 1)); };
+  const PlaneChange depth_ulp = [](Planes& p) { p.depth(3, 1) = above(p.depth(3, 1)); };
   EXPECT_TRUE(fails(run(merge(), depth_ulp)));
   EXPECT_EQ(run(merge(), depth_ulp).worst.place.field[0], 'z');
   scene.frame.color = ColorFormat::rgba32f;
   for (int c = 0; c < 4; ++c) {
-    const Change ulp = [&](Planes& p) { p.color(0, 2)[c] = static_cast<float>(float_above(p.color(0, 2)[c])); };
+    const PlaneChange ulp = [&](Planes& p) { p.color(0, 2)[c] = static_cast<float>(float_above(p.color(0, 2)[c])); };
     EXPECT_TRUE(fails(run(merge(), ulp)));
-    EXPECT_TRUE(fails(run(merge(), kUnchanged, ulp)));
+    EXPECT_TRUE(fails(run(merge(), kUnchangedPlanes, ulp)));
   }
   EXPECT_TRUE(fails(run(merge(), depth_ulp)));
 }
@@ -364,16 +364,16 @@ TEST_F(PlanePairs, WhatIsNoNumberFails) {
   for (double bad : not_numbers()) {
     const auto number = static_cast<float>(bad);
     for (const auto& [x, y] : {std::pair(3, 1), std::pair(0, 0)}) {  // drawn, and the background
-      const Change z = [&](Planes& p) { p.depth(x, y) = bad; };
+      const PlaneChange z = [&](Planes& p) { p.depth(x, y) = bad; };
       for (const auto& compare : {depth(), merge()}) {
         EXPECT_TRUE(fails(run(compare, z)));
-        EXPECT_TRUE(fails(run(compare, kUnchanged, z)));
+        EXPECT_TRUE(fails(run(compare, kUnchangedPlanes, z)));
       }
       for (int c = 0; c < 4; ++c) {
-        const Change color = [&](Planes& p) { p.shaded(x, y)[c] = p.color(x, y)[c] = number; };
+        const PlaneChange color = [&](Planes& p) { p.shaded(x, y)[c] = p.color(x, y)[c] = number; };
         for (const auto& compare : {shaded(), codes(), merge()}) {
           EXPECT_TRUE(fails(run(compare, color)));
-          EXPECT_TRUE(fails(run(compare, kUnchanged, color)));
+          EXPECT_TRUE(fails(run(compare, kUnchangedPlanes, color)));
           if (std::isnan(bad)) {
             EXPECT_TRUE(fails(run(compare, color, color))) << "NaN on both sides";
           }

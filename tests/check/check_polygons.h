@@ -8,9 +8,6 @@
 
 namespace plumbline::check {
 
-using Change = std::function<void(Records<double>&)>;
-inline constexpr auto kUnchanged = [](Records<double>&) {};
-
 struct ClipTriangle {
   glm::dvec4 a, b, c;
 };

@@ -8,7 +8,6 @@ namespace plumbline::check {
 namespace {
 
 // What a comparison comes to when the candidate's records alone, and when the reference's alone, are changed.
-using Change = std::function<void(Records<double>&)>;
 
 struct MatrixRecords : testing::Test {
   MatrixRecords() {
@@ -165,8 +164,6 @@ struct VertexRecords : testing::Test {
   Scene scene = two_draws();
   Records<double> records = exact_capture(scene).records;
 };
-
-constexpr auto kUnchanged = [](Records<double>&) {};
 
 TEST_F(VertexRecords, EqualOnesPass) {
   EXPECT_TRUE(passes(vertices(kUnchanged)));

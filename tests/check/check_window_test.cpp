@@ -7,9 +7,6 @@
 namespace plumbline::check {
 namespace {
 
-using Change = std::function<void(Records<double>&)>;
-constexpr auto kUnchanged = [](Records<double>&) {};
-
 // Snapped again from its own position, as stage 4 does.
 void snap(WindowVertex<double>& v) {
   for (int c = 0; c < 2; ++c) v.snapped[c] = static_cast<int>(std::nearbyint((v.p_win[c] - 0.5) * kSubpixel));

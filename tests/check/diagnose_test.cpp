@@ -9,6 +9,7 @@
 #include "scene/antialias.h"
 #include "scene/scene_file.h"
 #include "spoiled_renderer.h"
+#include "suite_scenes.h"
 
 namespace plumbline::check {
 namespace {
@@ -27,10 +28,6 @@ std::unique_ptr<Renderer> with(std::initializer_list<std::string_view> names) {
   faults::Table table = faults::production();
   for (const std::string_view name : names) fault(name).apply(table);
   return pipeline::make_pipeline(faults::stages_of(table));
-}
-
-Scene suite_scene(const std::string& name) {
-  return load_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR "/tests/scenes") / (name + ".json"), {});
 }
 
 struct Diagnose : testing::Test {

@@ -49,7 +49,7 @@ Settled settled_one(const std::vector<Expectation>& known, const std::string& da
 TEST_F(Expectations, WhatOccursIsExpectedUntilItsLastDay) {
   const auto known = this->known();
   SceneVerdict v = verdict(Outcome::different);
-  EXPECT_EQ(settled_one(known, "2030-06-30", v).fate, Fate::occurred);
+  EXPECT_EQ(settled_one(known, "2030-06-30", v).fate, Settlement::occurred);
   EXPECT_EQ(v.comparisons[0].outcome, Outcome::expected);
   EXPECT_EQ(v.comparisons[0].note, "known to be different until 2030-06-30: a driver's bug (mesa 123); so");
   EXPECT_EQ(v.comparisons[1].outcome, Outcome::equal);
@@ -58,7 +58,7 @@ TEST_F(Expectations, WhatOccursIsExpectedUntilItsLastDay) {
 
   v = verdict(Outcome::different);
   const Settled late = settled_one(known, "2030-07-01", v);
-  EXPECT_EQ(late.fate, Fate::expired);
+  EXPECT_EQ(late.fate, Settlement::expired);
   EXPECT_EQ(late.line, "expired light/a, osmesa, depth: was expected until 2030-06-30 (a driver's bug, mesa 123)");
   EXPECT_EQ(v.comparisons[0].outcome, Outcome::different) << "still a failure";
 }
@@ -68,13 +68,13 @@ TEST_F(Expectations, WhatPassesUnexpectedlyOrIsNowhereFails) {
   for (const Outcome outcome : {Outcome::equal, Outcome::failed, Outcome::unsupported}) {
     SceneVerdict v = verdict(outcome);
     const Settled settled = settled_one(known, "2026-01-01", v);
-    EXPECT_EQ(settled.fate, Fate::passed) << name_of(outcome);
+    EXPECT_EQ(settled.fate, Settlement::passed) << name_of(outcome);
     EXPECT_EQ(settled.line, "unexpected light/a, osmesa, depth: " + std::string(name_of(outcome)) +
                                 ", expected different (a driver's bug, mesa 123): the expectation can go");
     EXPECT_EQ(v.comparisons[0].outcome, outcome);
   }
   SceneVerdict v = verdict(Outcome::different, Stage::merge);
-  EXPECT_EQ(settled_one(known, "2026-01-01", v).fate, Fate::unmatched);
+  EXPECT_EQ(settled_one(known, "2026-01-01", v).fate, Settlement::unmatched);
   EXPECT_EQ(v.comparisons[0].outcome, Outcome::different);
 }
 
@@ -92,9 +92,10 @@ TEST_F(Expectations, OfOtherFailures) {
       R"({"expectations": [{"scene": "light/a", "reference": "osmesa", "stage": "depth", "outcome": "failed",
                             "reason": "r", "issue": "i", "expires": "2030-06-30"}]})");
   SceneVerdict v = verdict(Outcome::failed);
-  EXPECT_EQ(settled_one(known, "2026-01-01", v).fate, Fate::occurred);
+  EXPECT_EQ(settled_one(known, "2026-01-01", v).fate, Settlement::occurred);
   v = verdict(Outcome::different);
-  EXPECT_EQ(settled_one(known, "2026-01-01", v).fate, Fate::passed) << "another failure than the one that is known";
+  EXPECT_EQ(settled_one(known, "2026-01-01", v).fate, Settlement::passed)
+      << "another failure than the one that is known";
 }
 
 TEST_F(Expectations, FilesAreRefusedWithTheirPlace) {

@@ -45,7 +45,7 @@ Update update_of(float shade) {
   return out;
 }
 
-std::string text_of(const fs::path& file) {
+std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::stringstream text;
   text << in.rdbuf();
@@ -90,7 +90,7 @@ TEST(golden_kill, leaves_the_old_set_or_the_new_one) {
     int status = 0;
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(WIFSIGNALED(status) || WEXITSTATUS(status) == 0);
-    const std::string text = text_of(folder / "manifest.json");
+    const std::string text = bytes_of(folder / "manifest.json");
     ASSERT_TRUE(text == texts[0] || text == texts[1]) << "kill " << i;
     if (text == texts[next]) now = next;
     ++(now == next ? news : olds);
@@ -108,7 +108,7 @@ TEST(golden_kill, leaves_the_old_set_or_the_new_one) {
   write(1 - now);  // one that is left alone tidies up
   const GoldenSet set(folder, GoldenSet::Access::read);
   EXPECT_EQ(set.strays().leftovers, std::vector<std::string>{});
-  EXPECT_EQ(text_of(folder / "manifest.json"), texts[1 - now]);
+  EXPECT_EQ(bytes_of(folder / "manifest.json"), texts[1 - now]);
   fs::remove_all(folder);
 }
 

@@ -17,7 +17,7 @@ using check::Comparison;
 using check::Outcome;
 using check::SceneVerdict;
 
-Comparison row(const std::string& scene, Stage stage, Outcome outcome, double largest = 0) {
+Comparison scene_row(const std::string& scene, Stage stage, Outcome outcome, double largest = 0) {
   Comparison c;
   c.scene = scene, c.reference = "osmesa", c.stage = stage, c.outcome = outcome;
   check::Measurement& m = c.measurement;
@@ -35,8 +35,8 @@ SceneVerdict scene(const std::string& name, std::vector<Comparison> rows) {
 }
 
 SceneVerdict failing(const std::string& name) {
-  SceneVerdict v =
-      scene(name, {row(name, Stage::depth, Outcome::different, 9), row(name, Stage::merge, Outcome::equal)});
+  SceneVerdict v = scene(
+      name, {scene_row(name, Stage::depth, Outcome::different, 9), scene_row(name, Stage::merge, Outcome::equal)});
   v.failure = "different " + name + ": first different stage: depth\n  repeat: plumb check x\n";
   v.repeat = "plumb check x";
   return v;
@@ -65,8 +65,8 @@ struct RunFiles : TestFolder {
 };
 
 TEST_F(RunFiles, AreReadBackWhole) {
-  constexpr double kInf = std::numeric_limits<double>::infinity();
-  Comparison disputed = row("light/b", Stage::depth, Outcome::dispute, kInf);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Comparison disputed = scene_row("light/b", Stage::depth, Outcome::dispute, kInfinity);
   disputed.measurement.disputed = 3;
   disputed.measurement.dispute = disputed.measurement.worst;
   disputed.measurement.dispute.place = {-1, -1, 12, "p_clip.x"};
@@ -98,7 +98,7 @@ TEST_F(RunFiles, OfOthersAreRefusedWithTheirPlace) {
 
 TEST_F(RunFiles, OfShardsAreOneRun) {
   const std::vector<SceneVerdict> a = {failing("light/a")},
-                                  b = {scene("light/b", {row("light/b", Stage::clip, Outcome::within, 1)})};
+                                  b = {scene("light/b", {scene_row("light/b", Stage::clip, Outcome::within, 1)})};
   std::vector<SceneVerdict> both = a;
   both.push_back(b[0]);
   run(both);
@@ -135,7 +135,7 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
   refuses(runs(run(a), run(b, {}, "2")), "their versions differ");
   refuses(runs(run(a, {1, 2, 2}), run(b, {2, 3, 2})), "shards of 2 and of 3");
   refuses(runs(run(a, {1, 2, 2}), run(b, {2, 2, 3})), "of 2 scenes and of 3");
-  refuses(runs(run(a), run({scene("light/a", {row("light/a", Stage::depth, Outcome::equal)})})),
+  refuses(runs(run(a), run({scene("light/a", {scene_row("light/a", Stage::depth, Outcome::equal)})})),
           "twice, with results that differ");
   CheckRun spoiled = run(b);
   spoiled.head.fault = "light.no_clamp";
@@ -154,8 +154,8 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
 
 TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
   const auto rows = [&](Outcome depth, Outcome clip, double largest = 1) {
-    return run(
-        {scene("light/a", {row("light/a", Stage::clip, clip, 1), row("light/a", Stage::depth, depth, largest)})});
+    return run({scene(
+        "light/a", {scene_row("light/a", Stage::clip, clip, 1), scene_row("light/a", Stage::depth, depth, largest)})});
   };
   const CheckRun before = rows(Outcome::within, Outcome::equal);
   EXPECT_EQ(diff_text(diff(before, before)), "nothing has changed\n");
@@ -172,7 +172,7 @@ TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
   for (const Outcome outcome : {Outcome::unsupported, Outcome::missing}) {
     EXPECT_FALSE(holds(diff(before, rows(outcome, Outcome::equal)))) << name_of(outcome);
   }
-  const RunDiff gone = diff(before, run({scene("light/a", {row("light/a", Stage::clip, Outcome::equal, 1)})}));
+  const RunDiff gone = diff(before, run({scene("light/a", {scene_row("light/a", Stage::clip, Outcome::equal, 1)})}));
   EXPECT_FALSE(holds(gone));
   EXPECT_EQ(gone.lost.at(0).now, "not there");
   const RunDiff added = diff(run({}), before);
@@ -182,8 +182,8 @@ TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
   EXPECT_TRUE(holds(diff(before, rows(Outcome::dispute, Outcome::equal)))) << "listed, no failure";
   EXPECT_EQ(diff(before, rows(Outcome::dispute, Outcome::equal)).moved.size(), 1u);
 
-  SceneVerdict nobody = scene(
-      "light/a", {row("light/a", Stage::clip, Outcome::equal, 1), row("light/a", Stage::depth, Outcome::within, 1)});
+  SceneVerdict nobody = scene("light/a", {scene_row("light/a", Stage::clip, Outcome::equal, 1),
+                                          scene_row("light/a", Stage::depth, Outcome::within, 1)});
   nobody.failure = "unjudged light/a: no reference judged merge\n";
   EXPECT_EQ(diff(before, run({nobody})).broken.at(0).now, "unjudged light/a: no reference judged merge");
 }
@@ -205,7 +205,7 @@ TEST_F(RunFiles, WhatIsWrongWithTheRunItselfIsKept) {
 
 TEST_F(RunFiles, ADiffNamesWhatMovedBeyondItsLimits) {
   const auto with = [&](double largest, double seconds) {
-    SceneVerdict v = scene("light/a", {row("light/a", Stage::depth, Outcome::within, largest)});
+    SceneVerdict v = scene("light/a", {scene_row("light/a", Stage::depth, Outcome::within, largest)});
     v.seconds = seconds;
     return run({v});
   };
@@ -259,8 +259,8 @@ TEST_F(RunFiles, AsJUnit) {
 
 TEST_F(RunFiles, AsMarkdown) {
   std::vector<SceneVerdict> verdicts = {failing("light/a"),
-                                        scene("light/b", {row("light/b", Stage::depth, Outcome::expected),
-                                                          row("light/b", Stage::clip, Outcome::unsupported)})};
+                                        scene("light/b", {scene_row("light/b", Stage::depth, Outcome::expected),
+                                                          scene_row("light/b", Stage::clip, Outcome::unsupported)})};
   const std::string text = markdown(verdicts, "FAILED: 2 scenes");
   for (const char* part : {"FAILED: 2 scenes", "| different | 1 |", "Not run: 1 unsupported, 0 missing, 0 failed.",
                            "| light/a | depth | osmesa | 7 of 100 pixel 3,4", "| plumb check x |", "1 expected"}) {

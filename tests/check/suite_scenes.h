@@ -1,11 +1,18 @@
-// The suite's scenes, for tests that go through them all.
+// The suite's scenes: one by its name, and all.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "scene/scene_file.h"
 
 namespace plumbline {
+
+/// GROUP/NAME.
+inline Scene suite_scene(const std::string& name) {
+  return load_scene(std::filesystem::path(PLUMBLINE_SOURCE_DIR "/tests/scenes") / (name + ".json"), {});
+}
 
 /// All but the big models, read once.
 inline const std::vector<Scene>& suite_scenes() {

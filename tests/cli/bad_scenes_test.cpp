@@ -176,7 +176,7 @@ TEST_F(BadScenes, IncludesOfTooManyFilesAreRefused) {
 }
 
 /// Runs the program; what it prints.
-std::string plumb(const std::string& arguments, int& code) {
+std::string plumb_ending(const std::string& arguments, int& code) {
   FILE* pipe = popen((std::string(PLUMBLINE_PLUMB) + " " + arguments + " 2>&1").c_str(), "r");
   std::string text;
   char buffer[4096];
@@ -198,7 +198,7 @@ TEST_F(BadScenes, EndTheProgramWith2AndNothingWritten) {
     write("group/scene.json", kBadScenes[i].text);
     const std::string command = commands[i / every % commands.size()];
     int code = 0;
-    const std::string said = plumb(command + " --assets " + (root_ / "assets").string(), code);
+    const std::string said = plumb_ending(command + " --assets " + (root_ / "assets").string(), code);
     EXPECT_EQ(code, 2) << command << "\n" << kBadScenes[i].text;
     EXPECT_NE(said.find(": at \""), said.npos) << said;
     EXPECT_TRUE(fs::is_empty(out)) << command << "\n" << kBadScenes[i].text;

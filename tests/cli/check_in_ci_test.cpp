@@ -5,8 +5,6 @@ namespace plumbline {
 namespace {
 
 const std::string kFault = " --against exact --fault coverage.inclusive_edges";
-const std::string kScene = kScenes + "coverage/shared_edges.json";
-
 class CheckInCi : public Cli {
  protected:
   std::string known(const std::string& scene, const std::string& expires) const {
@@ -22,7 +20,7 @@ class CheckInCi : public Cli {
 TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
   const std::string outputs = " --junit " + at("j.xml") + " --markdown " + at("m.md") + " --rows " + at("rows") +
                               " --failures " + at("failures") + " --json " + at("c.json");
-  Outcome run = plumb("check " + kScene + kFault + outputs);
+  Outcome run = plumb("check " + kSharedEdges + kFault + outputs);
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("  report: " + at("failures/coverage/shared_edges/index.html"))) << run.text;
   EXPECT_FALSE(run.says("CTestMeasurementFile")) << "no ctest";
@@ -32,13 +30,13 @@ TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
   EXPECT_NE(read(at("m.md")).find("| coverage/shared\\_edges | coverage |"), std::string::npos) << read(at("m.md"));
   EXPECT_TRUE(read(at("rows/coverage/shared_edges.txt")).ends_with("\nFAILED\n"));
 
-  run = shell("DASHBOARD_TEST_FROM_CTEST=1 " PLUMBLINE_PLUMB " check " + kScene + kFault + outputs);
+  run = shell("DASHBOARD_TEST_FROM_CTEST=1 " PLUMBLINE_PLUMB " check " + kSharedEdges + kFault + outputs);
   const std::size_t tag = run.text.find("<CTestMeasurementFile type=\"image/png\" name=\"");
   ASSERT_NE(tag, std::string::npos) << run.text;
   const std::size_t from = run.text.find('>', tag) + 1;
   EXPECT_TRUE(fs::exists(run.text.substr(from, run.text.find('<', from) - from))) << "the picture is there";
 
-  run = plumb("check " + kScene + " --against exact" + outputs);
+  run = plumb("check " + kSharedEdges + " --against exact" + outputs);
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_TRUE(read(at("rows/coverage/shared_edges.txt")).ends_with("\nholds\n"));
   EXPECT_NE(read(at("j.xml")).find("failures=\"0\""), std::string::npos);
@@ -47,7 +45,7 @@ TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
 TEST_F(CheckInCi, folders_that_cannot_be_written_end_the_run_before_it_begins) {
   write(at("file"), "");
   for (const char* option : {" --rows ", " --failures "}) {
-    const Outcome run = plumb("check " + kScene + " --against exact" + option + at("file/rows"));
+    const Outcome run = plumb("check " + kSharedEdges + " --against exact" + option + at("file/rows"));
     EXPECT_EQ(run.code, 2);
     EXPECT_TRUE(run.says(at("file") + " is not a folder")) << run.text;
     EXPECT_FALSE(run.says("shared_edges ")) << run.text;
@@ -86,8 +84,8 @@ TEST_F(CheckInCi, shards_come_to_the_whole_run) {
 }
 
 TEST_F(CheckInCi, what_breaks_is_named_by_the_diff) {
-  EXPECT_EQ(plumb("check " + kScene + " --against exact --json " + at("old.json")).code, 0);
-  EXPECT_EQ(plumb("check " + kScene + kFault + " --json " + at("new.json")).code, 1);
+  EXPECT_EQ(plumb("check " + kSharedEdges + " --against exact --json " + at("old.json")).code, 0);
+  EXPECT_EQ(plumb("check " + kSharedEdges + kFault + " --json " + at("new.json")).code, 1);
   const Outcome diff = plumb("report diff " + at("old.json") + " " + at("new.json") + " --json " + at("d.json") +
                              " --markdown " + at("d.md"));
   EXPECT_EQ(diff.code, 1);
@@ -99,18 +97,18 @@ TEST_F(CheckInCi, what_breaks_is_named_by_the_diff) {
 
 TEST_F(CheckInCi, expectations_excuse_what_is_known_until_it_expires_or_passes) {
   const std::string expect = known("coverage/shared_edges", "2026-05-05");
-  Outcome run = plumb("check " + kScene + kFault + expect);
+  Outcome run = plumb("check " + kSharedEdges + kFault + expect);
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_TRUE(run.says("known to be different until 2026-05-05: a test (none)")) << run.text;
   EXPECT_TRUE(run.says("expectations: 1 occurred, 0 expired, 0 passed unexpectedly, 0 match nothing, 0 not asked"));
 
-  run = plumb("check " + kScene + kFault + known("coverage/shared_edges", "2026-05-04"));
+  run = plumb("check " + kSharedEdges + kFault + known("coverage/shared_edges", "2026-05-04"));
   EXPECT_EQ(run.code, 1);
   EXPECT_TRUE(run.says("expired coverage/shared_edges, exact from its records, coverage")) << run.text;
-  run = plumb("check " + kScene + " --against exact" + expect);
+  run = plumb("check " + kSharedEdges + " --against exact" + expect);
   EXPECT_EQ(run.code, 1) << "it passes unexpectedly";
   EXPECT_TRUE(run.says("0 occurred, 0 expired, 1 passed unexpectedly")) << run.text;
-  run = plumb("check " + kScene + " --against embree" + expect);
+  run = plumb("check " + kSharedEdges + " --against embree" + expect);
   EXPECT_TRUE(run.says("1 not asked")) << run.text;
 
   const std::string nowhere = known("coverage/no_such_scene", "2026-12-31");
@@ -130,7 +128,7 @@ TEST_F(CheckInCi, expectations_excuse_what_is_known_until_it_expires_or_passes) 
   EXPECT_TRUE(run.says("expectation coverage/no_such_scene, exact from its records, coverage: there is no such scene"))
       << run.text;
   for (const char* bad : {"2026-02-30", "+026-02-20", "2026-2-201"}) {
-    EXPECT_EQ(plumb("check " + kScene + " --today " + bad).code, 2) << bad;
+    EXPECT_EQ(plumb("check " + kSharedEdges + " --today " + bad).code, 2) << bad;
   }
 }
 

@@ -4,10 +4,8 @@
 namespace plumbline {
 namespace {
 
-const std::string kScene = kScenes + "coverage/shared_edges.json";
-
 TEST_F(Cli, diagnose_of_ours_ends_0_and_names_nothing) {
-  const Outcome run = plumb("diagnose " + kScene + " --against exact");
+  const Outcome run = plumb("diagnose " + kSharedEdges + " --against exact");
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_TRUE(run.says("first different stage: none\nwrong by itself: none\n")) << run.text;
   EXPECT_TRUE(run.says("   coverage    ambiguous 14      equal\n")) << run.text;
@@ -16,7 +14,7 @@ TEST_F(Cli, diagnose_of_ours_ends_0_and_names_nothing) {
 
 TEST_F(Cli, diagnose_of_a_fault_ends_1_and_says_stage_numbers_cause_and_picture) {
   const Outcome run =
-      plumb("diagnose " + kScene + " --against exact --fault coverage.inclusive_edges --json " + at("d.json"));
+      plumb("diagnose " + kSharedEdges + " --against exact --fault coverage.inclusive_edges --json " + at("d.json"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("-> coverage ")) << run.text;
   EXPECT_TRUE(run.says("first different stage: coverage (against exact from its records)"));
@@ -33,18 +31,18 @@ TEST_F(Cli, diagnose_of_a_fault_ends_1_and_says_stage_numbers_cause_and_picture)
 }
 
 TEST_F(Cli, diagnose_of_a_folder_judges_what_is_in_it) {
-  ASSERT_EQ(plumb("capture " + kScene + " " + at("good")).code, 0);
-  const Outcome good = plumb("diagnose " + kScene + " --against exact --capture " + at("good"));
+  ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("good")).code, 0);
+  const Outcome good = plumb("diagnose " + kSharedEdges + " --against exact --capture " + at("good"));
   EXPECT_EQ(good.code, 0) << good.text;
-  ASSERT_EQ(plumb("capture " + kScene + " " + at("bad") + " --fault coverage.inclusive_edges").code, 0);
-  const Outcome bad = plumb("diagnose " + kScene + " --against exact --capture " + at("bad"));
+  ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("bad") + " --fault coverage.inclusive_edges").code, 0);
+  const Outcome bad = plumb("diagnose " + kSharedEdges + " --against exact --capture " + at("bad"));
   EXPECT_EQ(bad.code, 1) << bad.text;
   EXPECT_TRUE(bad.says("wrong by itself: coverage\n"));
   EXPECT_FALSE(bad.says("from repaired records")) << "its stages cannot be called";
 }
 
 TEST_F(Cli, diagnose_refuses_a_folder_that_is_not_of_the_scene) {
-  ASSERT_EQ(plumb("capture " + kScene + " " + at("capture")).code, 0);
+  ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("capture")).code, 0);
   const std::string folder = " --against exact --capture " + at("capture");
   const Outcome size = plumb("diagnose " + kScenes + "frame/odd_129x17.json" + folder);
   EXPECT_EQ(size.code, 2);
@@ -56,50 +54,51 @@ TEST_F(Cli, diagnose_refuses_a_folder_that_is_not_of_the_scene) {
   const Outcome samples = plumb("diagnose " + kScenes + "antialias/samples_wedges.json" + folder);
   EXPECT_EQ(samples.code, 2);
   EXPECT_TRUE(samples.says("expected a scene of one sample a pixel")) << samples.text;
-  EXPECT_EQ(plumb("diagnose " + kScene + " --against exact --capture " + at("nothing")).code, 2);
-  EXPECT_EQ(plumb("diagnose " + kScene + folder + " --fault coverage.inclusive_edges").code, 2);
+  EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --against exact --capture " + at("nothing")).code, 2);
+  EXPECT_EQ(plumb("diagnose " + kSharedEdges + folder + " --fault coverage.inclusive_edges").code, 2);
 }
 
 TEST_F(Cli, diagnose_runs_a_program) {
   const std::string program = "'" PLUMBLINE_PLUMB " capture {scene} {folder}";
-  EXPECT_EQ(plumb("diagnose " + kScene + " --against exact --program " + program + "'").code, 0);
+  EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --against exact --program " + program + "'").code, 0);
   const Outcome bad =
-      plumb("diagnose " + kScene + " --against exact --program " + program + " --fault depth.truncated'");
+      plumb("diagnose " + kSharedEdges + " --against exact --program " + program + " --fault depth.truncated'");
   EXPECT_EQ(bad.code, 1) << bad.text;
   EXPECT_TRUE(bad.says("wrong by itself: depth\n")) << bad.text;
-  const Outcome failed = plumb("diagnose " + kScene + " --against exact --program 'sh -c \"echo no use >&2; exit 3\"'");
+  const Outcome failed =
+      plumb("diagnose " + kSharedEdges + " --against exact --program 'sh -c \"echo no use >&2; exit 3\"'");
   EXPECT_EQ(failed.code, 1);
   EXPECT_TRUE(failed.says("exited with status 3") && failed.says("no use")) << failed.text;
 }
 
 TEST_F(Cli, diagnose_of_a_picture_names_the_bugs_that_draw_it) {
-  ASSERT_EQ(plumb("render " + kScene + " -o " + at("right.png")).code, 0);
-  const Outcome right = plumb("diagnose " + kScene + " --picture " + at("right.png"));
+  ASSERT_EQ(plumb("render " + kSharedEdges + " -o " + at("right.png")).code, 0);
+  const Outcome right = plumb("diagnose " + kSharedEdges + " --picture " + at("right.png"));
   EXPECT_EQ(right.code, 0) << right.text;
   EXPECT_TRUE(right.says(": 0 of ")) << right.text;
-  ASSERT_EQ(plumb("render " + kScene + " -o " + at("wrong.png") + " --fault window.half_pixel_off").code, 0);
-  const Outcome wrong = plumb("diagnose " + kScene + " --picture " + at("wrong.png"));
+  ASSERT_EQ(plumb("render " + kSharedEdges + " -o " + at("wrong.png") + " --fault window.half_pixel_off").code, 0);
+  const Outcome wrong = plumb("diagnose " + kSharedEdges + " --picture " + at("wrong.png"));
   EXPECT_EQ(wrong.code, 1) << wrong.text;
   EXPECT_TRUE(wrong.says("       0 window.half_pixel_off ")) << wrong.text;
 }
 
 TEST_F(Cli, diagnose_of_a_picture_refuses_what_is_no_picture_of_the_scene) {
   ASSERT_EQ(plumb("render " + kScenes + "texture/globe.json -o " + at("other.png")).code, 0);
-  const Outcome other = plumb("diagnose " + kScene + " --picture " + at("other.png"));
+  const Outcome other = plumb("diagnose " + kSharedEdges + " --picture " + at("other.png"));
   EXPECT_EQ(other.code, 2) << other.text;
   EXPECT_TRUE(other.says("expected a picture of the scene's 128 x 128 pixels, found one of 112 x 96")) << other.text;
   write(at("no.png"), "no picture");
-  EXPECT_EQ(plumb("diagnose " + kScene + " --picture " + at("no.png")).code, 2);
-  EXPECT_EQ(plumb("diagnose " + kScene + " --picture " + at("other.png") + " --fault depth.truncated").code, 2);
+  EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --picture " + at("no.png")).code, 2);
+  EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --picture " + at("other.png") + " --fault depth.truncated").code, 2);
 }
 
 TEST_F(Cli, diagnose_writes_a_page_with_the_pixels_history_or_nothing) {
-  const Outcome run = plumb("diagnose " + kScene + " --against exact --pixel 32,32 --report " + at("page"));
+  const Outcome run = plumb("diagnose " + kSharedEdges + " --against exact --pixel 32,32 --report " + at("page"));
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_NE(read(at("page/index.html")).find("pixel 32,32 of"), std::string::npos);
   fs::create_directories(at("full"));
   write(at("full/other"), "");
-  const Outcome full = plumb("diagnose " + kScene + " --against exact --report " + at("full"));
+  const Outcome full = plumb("diagnose " + kSharedEdges + " --against exact --report " + at("full"));
   EXPECT_EQ(full.code, 2);
   EXPECT_FALSE(full.says("wrong by itself")) << "before the work";
 }

@@ -4,10 +4,10 @@
 namespace plumbline {
 namespace {
 
-const std::string kScene = kScenes + "scissor/windows.json";
+const std::string kWindows = kScenes + "scissor/windows.json";
 
 TEST_F(Cli, a_pixels_history_follows_the_diagnosis) {
-  const Outcome run = plumb("diagnose " + kScene + " --against exact --pixel 70,60 --json " + at("out.json"));
+  const Outcome run = plumb("diagnose " + kWindows + " --against exact --pixel 70,60 --json " + at("out.json"));
   EXPECT_EQ(run.code, 0) << run.text;
   const std::size_t history = run.text.find("\npixel 70,60 of ");
   ASSERT_NE(history, std::string::npos) << run.text;
@@ -19,16 +19,16 @@ TEST_F(Cli, a_pixels_history_follows_the_diagnosis) {
 }
 
 TEST_F(Cli, without_it_there_is_none) {
-  const Outcome run = plumb("diagnose " + kScene + " --against exact --json " + at("out.json"));
+  const Outcome run = plumb("diagnose " + kWindows + " --against exact --json " + at("out.json"));
   EXPECT_FALSE(run.says("\npixel ")) << run.text;
   EXPECT_EQ(read(at("out.json")).find("pixel_history"), std::string::npos);
 }
 
 TEST_F(Cli, a_bad_pixel_ends_the_run_with_the_frames_size) {
-  const Outcome fits = plumb("diagnose " + kScene + " --against exact --pixel 0,0");
+  const Outcome fits = plumb("diagnose " + kWindows + " --against exact --pixel 0,0");
   EXPECT_EQ(fits.code, 0) << fits.text;
   for (const char* bad : {"5", "5,x", "5,5,5", "' 5,5'", "-1,0", "97,0", "0,83", "99999999999,1"}) {
-    const Outcome run = plumb("diagnose " + kScene + " --against exact --json " + at("out.json") + " --pixel=" + bad);
+    const Outcome run = plumb("diagnose " + kWindows + " --against exact --json " + at("out.json") + " --pixel=" + bad);
     EXPECT_EQ(run.code, 2) << bad;
     EXPECT_TRUE(run.says("expected X,Y, a pixel of the frame's ")) << bad << ": " << run.text;
     EXPECT_TRUE(entries().empty()) << bad;

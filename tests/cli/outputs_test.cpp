@@ -12,8 +12,8 @@ namespace {
 using Outputs = Cli;
 using Names = std::set<std::string>;
 
-const std::string kScene = kScenes + "cull/both_windings.json";
-const std::string kCheck = "check " + kScene + " --against exact";
+const std::string kBothWindings = kScenes + "cull/both_windings.json";
+const std::string kCheck = "check " + kBothWindings + " --against exact";
 
 // An output that cannot be: its option and path, and the reason that must be told.
 struct Bad {
@@ -43,17 +43,17 @@ TEST_F(Outputs, that_cannot_be_written_end_the_run_before_the_work) {
         Bad{"/proc/out.exr", "cannot be written"}, Bad{at("a.exr"), "Too many levels of symbolic links"},
         Bad{at(long_name + ".exr"), "File name too long"}}) {
     refused(kCheck + " --json " + bad.path, bad);
-    if (bad.path.back() != '/') refused("render " + kScene + " -o " + bad.path, bad);
+    if (bad.path.back() != '/') refused("render " + kBothWindings + " -o " + bad.path, bad);
   }
   const Bad bad{at("no/such/out.exr"), "No such file or directory"};
   refused(kCheck + " --ledger " + bad.path, bad);
-  refused("render " + kScene + " -o " + at("c.png") + " --depth " + bad.path, bad);
+  refused("render " + kBothWindings + " -o " + at("c.png") + " --depth " + bad.path, bad);
   refused(kCheck + " --json /dev/full", {"/dev/full", "no regular file"});
   refused(kCheck + " --report " + at("file"), {at("file"), "Not a directory"});
   refused(kCheck + " --report " + at("file/page"), {at("file/page"), "Not a directory"});
   refused(kCheck + " --report /proc/page", {"/proc/page", "cannot be written"});
-  refused("capture " + kScene + " " + at("file"), {at("file"), "Not a directory"});
-  refused("capture " + kScene + " /proc/capture", {"/proc/capture", "cannot be written"});
+  refused("capture " + kBothWindings + " " + at("file"), {at("file"), "Not a directory"});
+  refused("capture " + kBothWindings + " /proc/capture", {"/proc/capture", "cannot be written"});
   EXPECT_EQ(read(at("file")), "kept");
 }
 
@@ -64,19 +64,19 @@ TEST_F(Outputs, are_not_empty_names) {
     EXPECT_TRUE(run.says(option)) << run.text;
   }
   EXPECT_EQ(plumb(kCheck + " --json=''").code, 2);
-  EXPECT_EQ(plumb("render " + kScene + " -o ''").code, 2);
-  EXPECT_EQ(plumb("render " + kScene + " -o " + at("c.png") + " --depth ''").code, 2);
+  EXPECT_EQ(plumb("render " + kBothWindings + " -o ''").code, 2);
+  EXPECT_EQ(plumb("render " + kBothWindings + " -o " + at("c.png") + " --depth ''").code, 2);
   EXPECT_EQ(plumb("render '' -o " + at("c.png")).code, 2);
-  EXPECT_EQ(plumb("capture " + kScene + " ''").code, 2);
+  EXPECT_EQ(plumb("capture " + kBothWindings + " ''").code, 2);
   EXPECT_EQ(plumb("check ''").code, 2);
   EXPECT_TRUE(entries().empty());
 }
 
 TEST_F(Outputs, never_overwrite_a_scene_that_is_read_by_any_name_of_it) {
-  fs::copy(kScene, folder_ / "scene.json");
+  fs::copy(kBothWindings, folder_ / "scene.json");
   fs::create_symlink("scene.json", folder_ / "link.json");
   fs::create_hard_link(folder_ / "scene.json", folder_ / "hard.txt");
-  fs::copy(kScene, folder_ / "scene.png");
+  fs::copy(kBothWindings, folder_ / "scene.png");
   const std::string text = read(folder_ / "scene.json");
   const Names before = entries();
   for (const char* name : {"scene.json", "link.json", "hard.txt", "no/../scene.json"}) {
@@ -117,7 +117,7 @@ TEST_F(Outputs, never_overwrite_each_other) {
   EXPECT_EQ(plumb(kCheck + " --report " + at("page") + " --json " + at("page")).code, 2);
   fs::create_directories(folder_ / "page");
   EXPECT_EQ(plumb(kCheck + " --report " + at("page") + " --json " + at("page/out.json")).code, 2);
-  EXPECT_EQ(plumb("render " + kScene + " -o " + at("c.exr") + " --depth " + at("c.exr")).code, 2);
+  EXPECT_EQ(plumb("render " + kBothWindings + " -o " + at("c.exr") + " --depth " + at("c.exr")).code, 2);
   EXPECT_EQ(entries(), (Names{"link.json", "page"}));
 }
 
@@ -129,8 +129,8 @@ TEST_F(Outputs, through_a_link_replace_what_it_points_to) {
   fs::create_directories(folder_ / "far/captures");
   fs::create_symlink("far/captures", folder_ / "captures");
   EXPECT_EQ(plumb(kCheck + " --json " + at("old.json")).code, 0);
-  EXPECT_EQ(plumb("render " + kScene + " -o " + at("new.png")).code, 0);
-  EXPECT_EQ(plumb("capture " + kScene + " " + at("captures")).code, 0);
+  EXPECT_EQ(plumb("render " + kBothWindings + " -o " + at("new.png")).code, 0);
+  EXPECT_EQ(plumb("capture " + kBothWindings + " " + at("captures")).code, 0);
   for (const char* link : {"old.json", "new.png", "captures"}) EXPECT_TRUE(fs::is_symlink(folder_ / link)) << link;
   EXPECT_TRUE(nlohmann::json::accept(read(folder_ / "far/old.json")));
   EXPECT_GT(read_image(folder_ / "far/new.png").size(), 0u);
@@ -159,8 +159,8 @@ TEST_F(Outputs, of_render_appear_both_or_not_at_all) {
 TEST_F(Outputs, that_fill_the_disk_leave_nothing_behind) {
   const std::string limited = "trap '' XFSZ; ulimit -f 1; " PLUMBLINE_PLUMB " ";
   for (const std::string& arguments : {kCheck + " --json " + at("o.json"), kCheck + " --report " + at("deep/page"),
-                                       "capture " + kScene + " " + at("capture"),
-                                       "render " + kScene + " --depth " + at("d.exr") + " -o " + at("c.exr")}) {
+                                       "capture " + kBothWindings + " " + at("capture"),
+                                       "render " + kBothWindings + " --depth " + at("d.exr") + " -o " + at("c.exr")}) {
     const Outcome run = shell(limited + arguments);
     EXPECT_EQ(run.code, 2) << run.text;
     EXPECT_TRUE(run.says("File too large") && run.says(folder_.string())) << run.text;
@@ -170,7 +170,7 @@ TEST_F(Outputs, that_fill_the_disk_leave_nothing_behind) {
 }
 
 TEST_F(Outputs, capture_and_report_replace_an_empty_folder_and_their_own) {
-  for (const std::string& command : {"capture " + kScene + " " + at("it"), kCheck + " --report " + at("it")}) {
+  for (const std::string& command : {"capture " + kBothWindings + " " + at("it"), kCheck + " --report " + at("it")}) {
     fs::create_directories(folder_ / "it");
     EXPECT_EQ(plumb(command).code, 0);
     const Names made = entries();
@@ -188,7 +188,7 @@ TEST_F(Outputs, capture_and_report_replace_an_empty_folder_and_their_own) {
 }
 
 TEST_F(Outputs, capture_and_report_leave_other_folders_alone) {
-  const std::string capture = "capture " + kScene + " " + at("it"), report = kCheck + " --report " + at("it");
+  const std::string capture = "capture " + kBothWindings + " " + at("it"), report = kCheck + " --report " + at("it");
   const auto refused = [&](const std::string& command, const std::string& why) {
     const Names before = entries();
     const Outcome run = plumb(command);
@@ -222,10 +222,10 @@ TEST_F(Outputs, keep_scenes_of_one_name_apart_and_take_any_name) {
   const std::string odd = "a b#c?d%&\"<>'\xff\xfe\xc3\xa4";
   for (const char* top : {"x", "y"}) {
     fs::create_directories(folder_ / top / "cull");
-    fs::copy(kScene, folder_ / top / "cull/both_windings.json");
+    fs::copy(kBothWindings, folder_ / top / "cull/both_windings.json");
   }
   fs::create_directories(folder_ / "x" / odd);
-  fs::copy(kScene, folder_ / "x" / odd / (odd + ".json"));
+  fs::copy(kBothWindings, folder_ / "x" / odd / (odd + ".json"));
   // A scene named "../scene", which must not leave the page's folder.
   const Outcome run =
       shell("cd '" + at("x/cull") + "' && cp both_windings.json ../z.json && " PLUMBLINE_PLUMB " check '" +

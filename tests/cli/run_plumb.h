@@ -46,6 +46,7 @@ inline std::string read(const fs::path& file) {
 inline void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
 inline const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
+inline const std::string kSharedEdges = kScenes + "coverage/shared_edges.json";
 
 // A folder of its own for each test, gone afterwards.
 class Cli : public testing::Test {

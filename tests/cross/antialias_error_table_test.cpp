@@ -19,7 +19,7 @@
 namespace plumbline {
 namespace {
 
-constexpr int kSize = 24, kTriangles = 250;
+constexpr int kFrameSize = 24, kTriangles = 250;
 using Kind = Antialias::Kind;
 
 struct Row {
@@ -33,12 +33,12 @@ struct Row {
 // Of the pixels that a triangle covers in part.
 void measure(const raster::Corners& corners, const Antialias& antialias, Row& row) {
   const auto p_win = [&](std::size_t i) { return glm::vec3(glm::vec2(corners[i]) / 256.0f + 0.5f, 0.5f); };
-  Scene scene = test::window_scene(kSize, kSize, {{p_win(0), p_win(1), p_win(2)}});
+  Scene scene = test::window_scene(kFrameSize, kFrameSize, {{p_win(0), p_win(1), p_win(2)}});
   scene.frame.color = ColorFormat::rgba32f;
   scene.frame.antialias = antialias;
   const pipeline::Frame frame = pipeline::render(scene);
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kFrameSize; ++y) {
+    for (int x = 0; x < kFrameSize; ++x) {
       const double area = raster::area_in_pixel(corners, x, y);
       if (area < 1e-9 || area > 1 - 1e-9) continue;
       const double error = std::abs(static_cast<double>(frame.color_rgba32f(x, y).r) - area);
@@ -94,8 +94,8 @@ TEST(AntialiasError, FallsWithTheNumberOfSamples) {
   for (int t = 0; t < kTriangles; ++t) {
     raster::Corners corners;
     for (glm::ivec2& c : corners) {
-      c.x = static_cast<int>(random() % (256 * (kSize - 1)));
-      c.y = static_cast<int>(random() % (256 * (kSize - 1)));
+      c.x = static_cast<int>(random() % (256 * (kFrameSize - 1)));
+      c.y = static_cast<int>(random() % (256 * (kFrameSize - 1)));
     }
     for (std::size_t k = 0; k < kinds.size(); ++k) measure(corners, kinds[k], rows[k]);
   }

@@ -58,10 +58,10 @@ TEST(EmbreeRenderer, RefusesVerticesThatEmbreeWouldDrop) {
   }
 }
 
-class Planes : public ::testing::TestWithParam<int> {};
+class EmbreePlanes : public ::testing::TestWithParam<int> {};
 
 // Exact snaps and covers in integers, embree asks double: away from edges and depth ties both know the winner.
-TEST_P(Planes, EqualExactsWhereNothingIsAmbiguous) {
+TEST_P(EmbreePlanes, EqualExactsWhereNothingIsAmbiguous) {
   long judged = 0, wrong_winner = 0, wrong_count = 0, wrong_depth = 0, wrong_color = 0, illegal = 0;
   for (unsigned seed = 1; seed <= 25; ++seed) {
     const Scene scene = test::random_scene(GetParam(), seed);
@@ -100,7 +100,7 @@ TEST_P(Planes, EqualExactsWhereNothingIsAmbiguous) {
   EXPECT_EQ(wrong_depth, 0);
   EXPECT_EQ(wrong_color, 0);
 }
-INSTANTIATE_TEST_SUITE_P(Kinds, Planes, ::testing::Range(0, test::kSceneKinds));
+INSTANTIATE_TEST_SUITE_P(Kinds, EmbreePlanes, ::testing::Range(0, test::kSceneKinds));
 
 }  // namespace
 }  // namespace plumbline

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pixels_by_rows.h"
 #include "raster/line_diamond.h"
 #include "reference/exact/line_coverage.h"
 
@@ -13,14 +14,8 @@ namespace {
 using plumbline::exact::line_pixels;
 using plumbline::exact::produces;
 using plumbline::raster::diamond_exit_line;
-
-using Pixels = std::vector<glm::ivec2>;
-
-Pixels by_rows(Pixels pixels) {
-  std::sort(pixels.begin(), pixels.end(),
-            [](glm::ivec2 a, glm::ivec2 b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
-  return pixels;
-}
+using plumbline::test::by_rows;
+using plumbline::test::Pixels;
 
 ::testing::AssertionResult agree(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame) {
   const Pixels ours = by_rows(diamond_exit_line(a, b, frame)), exact = line_pixels(a, b, frame.x, frame.y);

@@ -30,12 +30,12 @@ Scene phong() {
   return scene;
 }
 
-void expect_near(glm::dvec4 is, glm::dvec4 expected) {
+void expect_color(glm::dvec4 is, glm::dvec4 expected) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(is[i], expected[i], 1e-12) << "channel " << i;
 }
 
 TEST(ExactPhong, TheNormalIsBroughtToUnitLength) {
-  expect_near(shaded(phong(), {9, 9, 9, 9}, {0.3, 0, 0.4}, {0, 0, -1}), {0.4, 0.2, 0, 0.75});
+  expect_color(shaded(phong(), {9, 9, 9, 9}, {0.3, 0, 0.4}, {0, 0, -1}), {0.4, 0.2, 0, 0.75});
 }
 
 TEST(ExactPhong, LocalViewerAndDistanceGoByTheFragmentsPosition) {
@@ -45,15 +45,15 @@ TEST(ExactPhong, LocalViewerAndDistanceGoByTheFragmentsPosition) {
   scene.draws[0].material.specular = {0.5f, 0, 0, 1};
   scene.draws[0].material.shininess = 2;
   // E is (-.6, 0, .8), H (-1, 0, 3) / sqrt 10.
-  expect_near(shaded(scene, {}, {0, 0, 7}, {3, 0, -4}), {0.45, 0, 0, 1});
+  expect_color(shaded(scene, {}, {0, 0, 7}, {3, 0, -4}), {0.45, 0, 0, 1});
 }
 
 TEST(ExactPhong, ColoursStandForTheMaterialWhereTheMeshHasSome) {
   Scene scene = phong();
   scene.draws[0].color_material = ColorMaterial::diffuse;
-  expect_near(shaded(scene, {1, 0.5, 0, 0.25}, {0, 0, 1}, {0, 0, -1}), {0.5, 0.25, 0, 0.75});
+  expect_color(shaded(scene, {1, 0.5, 0, 0.25}, {0, 0, 1}, {0, 0, -1}), {0.5, 0.25, 0, 0.75});
   scene.meshes[0].colors = {{0, 0, 0, 0}};
-  expect_near(shaded(scene, {1, 0.5, 0, 0.25}, {0, 0, 1}, {0, 0, -1}), {1, 0.5, 0, 0.25});
+  expect_color(shaded(scene, {1, 0.5, 0, 0.25}, {0, 0, 1}, {0, 0, -1}), {1, 0.5, 0, 0.25});
 }
 
 }  // namespace

@@ -36,14 +36,14 @@ Int128 cross_product(Point p, Point q, Point at) {
 Int128 lee(Point p, Point q, Point at) { return (q.y - p.y) * (at.x - p.x) - (q.x - p.x) * (at.y - p.y); }
 using Expression = Int128 (*)(Point, Point, Point);
 
-int whole(Random& r, int least, int most) { return static_cast<int>(std::floor(r.between(least, most + 1.0))); }
-glm::ivec2 corner(Random& r, int reach) {
+int whole(Inputs& r, int least, int most) { return static_cast<int>(std::floor(r.between(least, most + 1.0))); }
+glm::ivec2 corner(Inputs& r, int reach) {
   const int x = whole(r, -reach, reach);
   return {x, whole(r, -reach, reach)};
 }
 
 /// Counter-clockwise in the window, of an area; corners at multiples of 1/256 pixel, which floats hold.
-WindowTriangle<float> triangle_within(Random& r, int reach) {
+WindowTriangle<float> triangle_within(Inputs& r, int reach) {
   for (;;) {
     WindowTriangle<float> out{};
     for (WindowVertex<float>& v : out.v) {
@@ -74,7 +74,7 @@ Entry integer(std::int64_t ours, Int128 theirs) {
 
 /// One edge of the triangle that ships, at any pixel.
 Row edge_row(const char* formula, const char* reference, int edge, int sign, Expression theirs) {
-  return row(formula, "edges_of", reference, 0, [=](Random& r) {
+  return row(formula, "edges_of", reference, 0, [=](Inputs& r) {
     const WindowTriangle<float> t = triangle_within(r, kFarthest);
     const int x = whole(r, 0, 16383), y = whole(r, 0, 16383);
     const Point p = point(t.v[static_cast<std::size_t>(edge)].snapped);
@@ -85,7 +85,7 @@ Row edge_row(const char* formula, const char* reference, int edge, int sign, Exp
 
 /// The step to the next pixel, or row.
 Row step_row(const char* formula, const char* ours, bool along_x) {
-  return row(formula, ours, "E there - E here", 0, [=](Random& r) {
+  return row(formula, ours, "E there - E here", 0, [=](Inputs& r) {
     const WindowTriangle<float> t = triangle_within(r, kFarthest);
     const pipeline::Edges e = pipeline::edges_of(t);
     const Int128 x = whole(r, 0, 16383), y = whole(r, 0, 16383);
@@ -113,7 +113,7 @@ using Cover = raster::Spans (*)(const Corners&, int, int);
 
 /// Every pixel of a small frame, in or out.
 Row inside_row(const char* formula, const char* ours, Cover cover, const char* reference, Expression e) {
-  return row(formula, ours, reference, 0, [=](Random& r) {
+  return row(formula, ours, reference, 0, [=](Inputs& r) {
     constexpr int kSide = 8;
     Corners c;
     const bool on_centres = r.between(0, 1) < 0.25;  // where ties are
@@ -153,13 +153,13 @@ std::vector<Row> integer_rows() {
                  "cross products, 128 bits", cross_product),
       inside_row("LEE, consistent sign (004)", "cover_by_lee", raster::cover_by_lee, "E, 128 bits", lee),
       row("buffer size (004 1)", "buffer_bytes", "width x height x depth, 128 bits", 0,
-          [](Random& r) {
+          [](Inputs& r) {
             const int w = whole(r, 1, 16384), h = whole(r, 1, 16384), bytes = whole(r, 1, 20);
             const std::size_t ours = buffer_bytes(w, h, static_cast<std::size_t>(bytes));
             return Entries{integer(static_cast<std::int64_t>(ours), Int128(w) * h * bytes)};
           }),
       row("int(z/w + .5) (002)", "depth_code", "floor(255 z + 1/2)", 0,
-          [](Random& r) {
+          [](Inputs& r) {
             const auto z = static_cast<float>(r.between(0, 1));
             return number(pipeline::depth_code(double{z}, 255.0), std::floor(Wide(z) * 255 + 0.5L));
           }),
@@ -172,7 +172,7 @@ struct Weighed {
   WideVec3 at[3];  ///< the corners, less the pixel's centre: exact, and so are products of two
   WideVec3 terms;
 };
-Weighed weighed(Random& r) {
+Weighed weighed(Inputs& r) {
   Weighed out;
   const WindowTriangle<float> t = triangle_within(r, 64 * 256);
   const int x = whole(r, -64, 64), y = whole(r, -64, 64), dx = whole(r, 0, 63), dy = whole(r, 0, 63);
@@ -195,7 +195,7 @@ WideVec3 by_one_cross_product(const WideVec3 (&at)[3]) {
 /// Our weights beside others.
 template <class Theirs>
 Row weights_row(const char* formula, const char* reference, Theirs theirs) {
-  return row(formula, "planes_of, barycentric", reference, 4, [=](Random& r) {
+  return row(formula, "planes_of, barycentric", reference, 4, [=](Inputs& r) {
     const Weighed w = weighed(r);
     const WideVec3 t = theirs(w.at);
     const WideVec3 magnitude = glm::max(w.terms, glm::abs(t));
@@ -211,7 +211,7 @@ WideVec3 alpha_beta_gamma(const WideVec3 (&at)[3]) {
 
 /// Weights inside of a triangle, and w of its corners: colours by 000's sum, or that over w.
 Row color_row(const char* formula, const char* ours, const char* reference, double largest_w) {
-  return {formula, ours, reference, 24, 4, [=](Random& r) {
+  return {formula, ours, reference, 24, 4, [=](Inputs& r) {
             WindowTriangle<float> t = triangle_within(r, 256);
             const double a = r.between(0, 1), b = r.between(0, 1 - a);
             const double l[3] = {1 - a - b, a, b};
@@ -234,7 +234,7 @@ Row color_row(const char* formula, const char* ours, const char* reference, doub
 }
 
 std::vector<Row> interpolation_rows() {
-  const auto segment = [](Random& r) {
+  const auto segment = [](Inputs& r) {
     const float z0 = static_cast<float>(r.between(0, 1)), z1 = static_cast<float>(r.between(0, 1));
     WindowTriangle<float> t{};
     t.v[0].p_win.z = z0, t.v[1].p_win.z = z1;
@@ -252,7 +252,7 @@ std::vector<Row> interpolation_rows() {
 }
 
 /// A point of the view volume through stage 4, in a window of w x h pixels.
-Entries divided(Random& r) {
+Entries divided(Inputs& r) {
   Matrices<float> m{};
   m.win_scale = {static_cast<float>(whole(r, 1, 16384)) / 2, static_cast<float>(whole(r, 1, 16384)) / 2, 0.5f};
   m.win_translate = m.win_scale;
@@ -279,7 +279,7 @@ Entries divided(Random& r) {
 }
 
 /// A point through two matrices, by stage 1. The unit: all terms' magnitudes, added up.
-Entries transformed(Random& r) {
+Entries transformed(Inputs& r) {
   Matrices<float> m{};
   m.normal = Mat3<float>(1);
   for (Mat4<float>* matrix : {&m.model_view, &m.projection}) {
@@ -303,9 +303,9 @@ Entries transformed(Random& r) {
   return entries;
 }
 
-std::vector<Row> projection_rows() {
+std::vector<Row> note_projection_rows() {
   const auto plane = [](const char* formula, const char* ours, const char* reference, bool right) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const transforms::FieldOfView view{r.between(0.01, 0.49) * kTurn, std::exp2(r.between(-2, 2))};
       const double n = -std::exp2(r.between(-7, 3));
       const auto p = transforms::near_plane(view, n);
@@ -349,7 +349,7 @@ TEST(FormulasTable, NamesASlip) {
 
 TEST(FormulasTable, Integers) { expect_table(integer_rows()); }
 TEST(FormulasTable, Interpolation) { expect_table(interpolation_rows()); }
-TEST(FormulasTable, Projection) { expect_table(projection_rows()); }
+TEST(FormulasTable, Projection) { expect_table(note_projection_rows()); }
 
 }  // namespace
 }  // namespace plumbline::test

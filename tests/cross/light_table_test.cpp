@@ -19,8 +19,8 @@ struct Lamps {
     return lit[0].color.r;
   }
 };
-float share(Random& r) { return static_cast<float>(r.between(0.01, 0.4)); }
-Lamps lamps(Random& r) {
+float share(Inputs& r) { return static_cast<float>(r.between(0.01, 0.4)); }
+Lamps lamps(Inputs& r) {
   Lamps out;
   out.scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};  // directions are the same in world and eye space
   out.scene.light_model.ambient = glm::vec3(0);
@@ -44,7 +44,7 @@ std::vector<Row> light_rows() {
   const char* const wide_sum = "as printed, 64 bits, N.L >= 0";
   return {
       {"K_d sum l_e (N.L) (000)", "light", wide_sum, 24, 4,
-       [](Random& r) {
+       [](Inputs& r) {
          Lamps l = lamps(r);
          const float kd = share(r);
          l.draw.material.diffuse = glm::vec4(kd);
@@ -58,7 +58,7 @@ std::vector<Row> light_rows() {
          return Entries{e};
        }},
       {"K_s sum l_e (N.H)^s (000, GL's H)", "light", wide_sum, 24, 4,
-       [](Random& r) {
+       [](Inputs& r) {
          Lamps l = lamps(r);
          const float ks = share(r), s = static_cast<float>(std::floor(r.between(1, 129)));
          l.draw.material.specular = glm::vec4(ks);
@@ -81,7 +81,7 @@ std::vector<Row> light_rows() {
          return Entries{e};
        }},
       {"K_s sum l_e (R.E)^s (000)", "light", wide_sum, 24, 4,
-       [](Random& r) {
+       [](Inputs& r) {
          Lamps l = lamps(r);
          l.scene.light_model.specular = LightModel::Specular::reflection;
          const float ks = share(r), s = static_cast<float>(std::floor(r.between(1, 129)));
@@ -102,7 +102,7 @@ std::vector<Row> light_rows() {
          return Entries{e};
        }},
       {"K_a l_a (000)", "light", "as printed, 64 bits", 24, 1,
-       [](Random& r) {
+       [](Inputs& r) {
          Lamps l = lamps(r);
          const float ka = share(r), la = share(r);
          l.draw.material.ambient = glm::vec4(ka);
@@ -115,7 +115,7 @@ std::vector<Row> light_rows() {
 // The other way: without the clamp of N.L, with R in the place of H, and with a term twice.
 TEST(LightTable, NamesASlip) {
   const auto slipped = [](Wide (*term)(Wide n_l, Wide r_e, Wide n_h)) {
-    return Row{"", "", "", 24, 4, [=](Random& r) {
+    return Row{"", "", "", 24, 4, [=](Inputs& r) {
                  Lamps l = lamps(r);
                  l.scene.lights.resize(1);
                  l.draw.material.diffuse = l.draw.material.specular = glm::vec4(1);

@@ -18,19 +18,19 @@ struct Line {
   Int128 c() const { return Int128(r.x) * p.y - Int128(p.x) * r.y; }
 };
 
-Line line(Random& r) {
+Line line(Inputs& r) {
   const double reach = r.between(0, 1) < 0.002 ? 32767 : 63;  // few are long
   const auto whole = [&](double most) { return static_cast<int>(std::floor(r.between(0, most + 1))); };
   const int x0 = whole(reach), n = 1 + whole(reach - 1), y0 = whole(reach);
   return {{x0, y0}, {x0 + n, y0 + whole(n)}};
 }
 
-using Draw = std::vector<raster::LinePixel> (*)(const raster::LinePixel&, const raster::LinePixel&, glm::ivec2);
+using DrawLine = std::vector<raster::LinePixel> (*)(const raster::LinePixel&, const raster::LinePixel&, glm::ivec2);
 
 /// The y of each x, where `is_ne` says whether the next pixel is NE, or else E.
-Row line_row(const char* formula, const char* ours, Draw draw, const char* reference,
+Row line_row(const char* formula, const char* ours, DrawLine draw, const char* reference,
              bool (*is_ne)(const Line&, Int128 x, Int128 y)) {
-  return row(formula, ours, reference, 0, [=](Random& r) {
+  return row(formula, ours, reference, 0, [=](Inputs& r) {
     const Line l = line(r);
     const auto pixels = draw({l.p, 0, glm::vec4(0)}, {l.r, 0, glm::vec4(0)}, {1 << 17, 1 << 17});
     Entries out = number(static_cast<double>(pixels.size()), l.r.x - l.p.x + 1);

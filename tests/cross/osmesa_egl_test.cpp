@@ -29,7 +29,7 @@ void expect_same_bits(const Plane<T>& a, const Plane<T>& b, const char* what) {
 }
 
 // Planes as bytes; all records, windows among them, as numbers.
-void expect_same(const Capture& a, const Capture& b) {
+void expect_same_captures(const Capture& a, const Capture& b) {
   expect_same_bits(a.planes.count, b.planes.count, "count");
   expect_same_bits(a.planes.id_sum, b.planes.id_sum, "id_sum");
   expect_same_bits(a.planes.id, b.planes.id, "id");
@@ -65,7 +65,7 @@ void compare_on(const std::vector<std::filesystem::path>& folders, std::size_t e
       EXPECT_ANY_THROW(other->capture(scene, all));
       continue;
     }
-    expect_same(mine, other->capture(scene, all));
+    expect_same_captures(mine, other->capture(scene, all));
   }
 }
 

@@ -16,7 +16,7 @@ TEST(OsmesaRandom, coverage_is_the_same_and_values_within_their_bounds) {
   const auto osmesa = make_osmesa();
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"osmesa", osmesa.get()}, {"exact", exact.get()}};
-  for (const Kind& kind : kinds()) {
+  for (const SceneKind& kind : kinds()) {
     for (std::uint64_t seed = 0; seed < 14 / one_of(4); ++seed) {
       const Scene scene = random_scene(kind, 200, seed);
       for (const check::Comparison& c : check::judge(scene, *ours, references).comparisons) {

@@ -12,18 +12,18 @@
 namespace plumbline::test {
 namespace {
 
-constexpr int kWidth = 256;
+constexpr int kCodes = 256;
 
 /// A point in each pixel, flat, four values of `values` each its colour; as many rows as that takes.
 Scene scene_of(std::vector<float> values, ColorFormat format) {
-  while (values.size() % (4 * kWidth) != 0) values.push_back(0);
+  while (values.size() % (4 * kCodes) != 0) values.push_back(0);
   const auto pixels = static_cast<int>(values.size() / 4);
-  Scene scene = pixel_scene(kWidth, pixels / kWidth);
+  Scene scene = pixel_scene(kCodes, pixels / kCodes);
   scene.frame.color = format;
   std::vector<glm::vec3> positions;
   std::vector<glm::vec4> colors;
   for (int i = 0; i < pixels; ++i) {
-    positions.emplace_back(static_cast<float>(i % kWidth) + 0.5f, static_cast<float>(i / kWidth) + 0.5f, 0);
+    positions.emplace_back(static_cast<float>(i % kCodes) + 0.5f, static_cast<float>(i / kCodes) + 0.5f, 0);
     const auto at = 4 * static_cast<std::size_t>(i);
     colors.emplace_back(values[at], values[at + 1], values[at + 2], values[at + 3]);
   }

@@ -4,13 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "pixels_by_rows.h"
 #include "reference/osmesa/osmesa.h"
 #include "thin_scenes.h"
 
 namespace plumbline::test {
 namespace {
-
-using Pixels = std::vector<glm::ivec2>;
 
 // In integers. An exact tie goes E, the pixel nearer to the start.
 Pixels bresenham(glm::ivec2 a, glm::ivec2 b) {
@@ -28,12 +27,6 @@ Pixels bresenham(glm::ivec2 a, glm::ivec2 b) {
     }
     error += 2 * d[minor];
   }
-  return pixels;
-}
-
-Pixels by_rows(Pixels pixels) {
-  std::sort(pixels.begin(), pixels.end(),
-            [](glm::ivec2 a, glm::ivec2 b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
   return pixels;
 }
 

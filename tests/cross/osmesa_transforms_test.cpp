@@ -29,17 +29,17 @@ glm::dmat4 gl(const std::vector<osmesa::MatrixCall>& calls) {
 }
 
 Row float_row(const char* formula, const char* ours, const char* reference, double bound,
-              std::function<Entries(Random&)> input) {
+              std::function<Entries(Inputs&)> input) {
   return {formula, ours, reference, 24, bound, std::move(input)};
 }
 
-double degrees(Random& r) { return as_float(r.between(-180, 180)); }
-glm::dvec3 size(Random& r) {
+double degrees(Inputs& r) { return as_float(r.between(-180, 180)); }
+glm::dvec3 size(Inputs& r) {
   const double x = r.of_any_size(1e-3, 1e3), y = r.of_any_size(1e-3, 1e3);
   return as_float(glm::dvec3(x, y, r.of_any_size(1e-3, 1e3)));
 }
-double distance(Random& r) { return as_float(std::exp2(r.between(-4, 6))); }
-double pixels(Random& r) { return std::floor(r.between(1, 16385)); }
+double distance(Inputs& r) { return as_float(std::exp2(r.between(-4, 6))); }
+double pixels(Inputs& r) { return std::floor(r.between(1, 16385)); }
 
 std::vector<Row> model_rows() {
   // The largest entry is 1. The angle in radians is rounded, pi u at the most, and its sine and cosine, u each.
@@ -54,14 +54,14 @@ std::vector<Row> model_rows() {
   using Turn = glm::dmat4 (*)(double);
   const auto about = [=](const char* formula, const char* ours, Turn turn, const char* reference, double sign,
                          glm::dvec3 axis) {
-    return float_row(formula, ours, reference, kSine, [=](Random& r) {
+    return float_row(formula, ours, reference, kSine, [=](Inputs& r) {
       const double a = degrees(r);
       return by_largest(turn(a * kDegree), gl({Rotate{sign * a, axis}}));
     });
   };
   using About = glm::dmat4 (*)(double, const glm::dvec3&);
   const auto about_axis = [=](const char* formula, const char* ours, About turn, double sign) {
-    return float_row(formula, ours, "glRotate", kAxis, [=](Random& r) {
+    return float_row(formula, ours, "glRotate", kAxis, [=](Inputs& r) {
       const double a = degrees(r);
       const auto axis = as_float(r.direction(10));
       return by_largest(turn(a * kDegree, axis), gl({Rotate{sign * a, axis}}));
@@ -69,22 +69,22 @@ std::vector<Row> model_rows() {
   };
   return {
       float_row("T (004 3.1)", "translation", "glTranslate", 0,
-                [](Random& r) {
+                [](Inputs& r) {
                   const auto t = size(r);
                   return by_entry(tf::translation(t), gl({Translate{t}}));
                 }),
       float_row("T^-1", "inverse_translation", "glTranslate(-t)", 0,
-                [](Random& r) {
+                [](Inputs& r) {
                   const auto t = size(r);
                   return by_entry(tf::inverse_translation(t), gl({Translate{-t}}));
                 }),
       float_row("S (004 3.1)", "scaling", "glScale", 0,
-                [](Random& r) {
+                [](Inputs& r) {
                   const auto s = size(r);
                   return by_entry(tf::scaling(s), gl({Scale{s}}));
                 }),
       float_row("S^-1", "inverse_scaling", "glScale(1/s)", 1,  // 1/s is no float: one rounding
-                [](Random& r) {
+                [](Inputs& r) {
                   const auto s = size(r);
                   return by_entry(tf::inverse_scaling(s), gl({Scale{1.0 / s}}));
                 }),
@@ -98,7 +98,7 @@ std::vector<Row> model_rows() {
       about_axis("R^-1 = R^T", "inverse_rotation", tf::inverse_rotation, -1),
       about_axis("R by a basis (004 3.3.8)", "rotation_by_basis", tf::rotation_by_basis, 1),
       float_row("orbit of a model (004 3.3.9)", "orbit_model", "glTranslate glRotate glTranslate", kOrbit,
-                [](Random& r) {
+                [](Inputs& r) {
                   const double a = degrees(r);
                   const auto p = as_float(r.point(10)), axis = as_float(r.direction(10));
                   const auto read = gl({Translate{p}, Rotate{a, axis}, Translate{-p}});
@@ -125,12 +125,12 @@ struct Pose {
   }
 };
 
-Pose pose(Random& r) {
+Pose pose(Inputs& r) {
   const double yaw = degrees(r), pitch = degrees(r) / 2, roll = degrees(r);
   return {as_float(r.point(10)), yaw, pitch, roll};
 }
 
-std::vector<Row> look_at_rows() {
+std::vector<Row> gl_look_at_rows() {
   // Three angles: pi u for the argument of each (half of it for the pitch) and, in the norm of a rotation, 1.5 u for
   // sine and cosine; two products of orthonormal matrices, 3 u each; the product with the eye 4 u more.
   constexpr double kCamera = 2.5 * 3.15 + 3 * 1.5 + 2 * 3 + 4;
@@ -138,7 +138,7 @@ std::vector<Row> look_at_rows() {
   // `ahead`: where the camera's own space has what it looks at; given as a point, or, to M_cam, as a direction.
   const auto camera = [=](const char* formula, const char* ours, LookAt look_at, const char* reference,
                           glm::dvec3 ahead, bool gaze, bool inverse) {
-    return float_row(formula, ours, reference, kCamera, [=](Random& r) {
+    return float_row(formula, ours, reference, kCamera, [=](Inputs& r) {
       const Pose p = pose(r);
       const glm::dvec3 view = p.turned(ahead);
       const auto m = look_at(p.eye, gaze ? view : p.eye + view, p.turned({0, 1, 0}));
@@ -159,7 +159,7 @@ std::vector<Row> look_at_rows() {
       camera("its inverse", "gl::inverse_look_at", tf::gl::inverse_look_at, "glTranslate(eye), glRotate x 3", backward,
              false, true),
       float_row("lookat (002)", "tinyrenderer::lookat", "glTranslate(0, 0, c) and gluLookAt's", kCamera,
-                [](Random& r) {
+                [](Inputs& r) {
                   const Pose p = pose(r);
                   const double c = distance(r);
                   const auto center = p.eye + c * p.turned({0, 0, -1});
@@ -171,11 +171,11 @@ std::vector<Row> look_at_rows() {
   };
 }
 
-struct Volume {
+struct FrustumSides {
   double l, r, b, t, n, f;
 };
 
-Volume volume(Random& random) {
+FrustumSides frustum_sides(Inputs& random) {
   const double n = as_float(std::exp2(random.between(-7, 3)));
   const double l = as_float(n * random.between(-4, 4)), b = as_float(n * random.between(-4, 4));
   const double w = n * std::exp2(random.between(-3, 3)), h = n * std::exp2(random.between(-3, 3));
@@ -184,14 +184,14 @@ Volume volume(Random& random) {
 
 Scale upside_down() { return {{1, 1, -1}}; }
 
-std::vector<Row> projection_rows() {
+std::vector<Row> gl_projection_rows() {
   // A sum, a difference or a product, and their quotient.
   constexpr double kQuotient = 3;
   // z' = (z_ndc + 1)/4 of glFrustum's with far = 2 near: 2 roundings in an entry, 1 in the sum of two; then the product
   // with d and the sum that leaves 0, against terms as large as d.
   constexpr double kViewPlane = 7;
-  const auto lens = [](Random& r) {
-    return std::pair(tf::FieldOfView{r.between(10, 170) * kDegree, std::exp2(r.between(-2, 2))}, volume(r));
+  const auto lens = [](Inputs& r) {
+    return std::pair(tf::FieldOfView{r.between(10, 170) * kDegree, std::exp2(r.between(-2, 2))}, frustum_sides(r));
   };
   // All of X_pi but its scale: its w times d is the distance from the eye.
   const auto from_minus_d = [](double d) {
@@ -201,44 +201,44 @@ std::vector<Row> projection_rows() {
   return {
       float_row(
           "glFrustum", "gl::frustum", "glFrustum", kQuotient,
-          [](Random& r) {
-            const Volume v = volume(r);
+          [](Inputs& r) {
+            const FrustumSides v = frustum_sides(r);
             return by_entry(tf::gl::frustum(v.l, v.r, v.b, v.t, v.n, v.f), gl({Frustum{v.l, v.r, v.b, v.t, v.n, v.f}}));
           }),
       float_row("glOrtho", "gl::orthographic", "glOrtho", kQuotient,
-                [](Random& r) {
-                  const Volume v = volume(r);
+                [](Inputs& r) {
+                  const FrustumSides v = frustum_sides(r);
                   return by_entry(tf::gl::orthographic(v.l, v.r, v.b, v.t, v.n, v.f),
                                   gl({Orthographic{v.l, v.r, v.b, v.t, v.n, v.f}}));
                 }),
       // The plane is rounded when it is handed over.
       float_row("gluPerspective, l r b t (001)", "gl::perspective, near_plane", "glFrustum", kQuotient + 1,
-                [=](Random& r) {
+                [=](Inputs& r) {
                   const auto [view, v] = lens(r);
                   const auto p = tf::near_plane(view, v.n);
                   return by_entry(tf::gl::perspective(view, v.n, v.f),
                                   gl({Frustum{p.left, p.right, p.bottom, p.top, v.n, v.f}}));
                 }),
       float_row("M_ortho (001)", "games101::orthographic", "glScale(1, 1, -1) glOrtho", kQuotient,
-                [](Random& r) {
-                  const Volume v = volume(r);
+                [](Inputs& r) {
+                  const FrustumSides v = frustum_sides(r);
                   return by_entry(tf::games101::orthographic(v.l, v.r, v.b, v.t, -v.n, -v.f),
                                   gl({upside_down(), Orthographic{v.l, v.r, v.b, v.t, v.n, v.f}}));
                 }),
       float_row("M_persp (001)", "-games101::perspective", "glScale(1, 1, -1) glFrustum", kQuotient + 1,
-                [=](Random& r) {
+                [=](Inputs& r) {
                   const auto [view, v] = lens(r);
                   const auto p = tf::near_plane(view, -v.n);
                   return by_entry(-tf::games101::perspective(view, -v.n, -v.f),
                                   gl({upside_down(), Frustum{p.left, p.right, p.bottom, p.top, v.n, v.f}}));
                 }),
       float_row("X_pi (000, 004 3.2)", "d gzrender::x_pi", "glFrustum from -d, z by glScale", kViewPlane,
-                [=](Random& r) {
+                [=](Inputs& r) {
                   const double d = distance(r);
                   return by_largest(d * tf::gzrender::x_pi(d), gl(from_minus_d(d)));
                 }),
       float_row("w = 1 - z/c (002)", "c tinyrenderer::projection", "the same, z turned and times c", kViewPlane,
-                [=](Random& r) {
+                [=](Inputs& r) {
                   const double c = distance(r);
                   auto calls = from_minus_d(c);
                   calls.insert(calls.begin(), Scale{{1, 1, -c}});
@@ -248,29 +248,29 @@ std::vector<Row> projection_rows() {
   };
 }
 
-std::vector<Row> window_rows() {
+std::vector<Row> gl_window_rows() {
   constexpr double kMaxInt = 16777215;  // a float has no more digits
   return {
       float_row("X_sp (000, 004 3.2)", "gzrender::x_sp", "glTranslate glScale", 0,
-                [](Random& r) {
+                [](Inputs& r) {
                   const double xs = pixels(r), ys = pixels(r);
                   return by_entry(tf::gzrender::x_sp(xs, ys, kMaxInt),
                                   gl({Translate{{xs / 2, ys / 2, 0}}, Scale{{xs / 2, -ys / 2, kMaxInt}}}));
                 }),
       float_row("X_sp^-1", "gzrender::inverse_x_sp", "glScale glTranslate", 2,  // 1/s is rounded, and its product
-                [](Random& r) {
+                [](Inputs& r) {
                   const double xs = pixels(r), ys = pixels(r);
                   return by_entry(tf::gzrender::inverse_x_sp(xs, ys, kMaxInt),
                                   gl({Scale{{2 / xs, -2 / ys, 1 / kMaxInt}}, Translate{{-xs / 2, -ys / 2, 0}}}));
                 }),
       float_row(
           "M_viewport (001)", "games101::viewport", "glTranslate glScale", 0,
-          [](Random& r) {
+          [](Inputs& r) {
             const double w = pixels(r), h = pixels(r);
             return by_entry(tf::games101::viewport(w, h), gl({Translate{{w / 2, h / 2, 0}}, Scale{{w / 2, h / 2, 1}}}));
           }),
       float_row("viewport (002)", "tinyrenderer::viewport", "glTranslate glScale glTranslate", 0,
-                [](Random& r) {
+                [](Inputs& r) {
                   const double x = pixels(r), y = pixels(r), w = pixels(r), h = pixels(r);
                   return by_entry(tf::tinyrenderer::viewport(x, y, w, h, 255),
                                   gl({Translate{{x, y, 0}}, Scale{{w / 2, h / 2, 127.5}}, Translate{{1, 1, 1}}}));
@@ -279,14 +279,14 @@ std::vector<Row> window_rows() {
 }
 
 TEST(OsmesaTransforms, Models) { expect_table(model_rows()); }
-TEST(OsmesaTransforms, LookAt) { expect_table(look_at_rows()); }
-TEST(OsmesaTransforms, Projections) { expect_table(projection_rows()); }
-TEST(OsmesaTransforms, Windows) { expect_table(window_rows()); }
+TEST(OsmesaTransforms, LookAt) { expect_table(gl_look_at_rows()); }
+TEST(OsmesaTransforms, Projections) { expect_table(gl_projection_rows()); }
+TEST(OsmesaTransforms, Windows) { expect_table(gl_window_rows()); }
 
 // The other way: a bound is a float's few ULP, not a blanket.
 TEST(OsmesaTransforms, SeesOneMatrixTakenForAnother) {
   const auto holds_for = [](auto ours) {
-    return holds(float_row("", "", "", 30, [=](Random& r) {
+    return holds(float_row("", "", "", 30, [=](Inputs& r) {
       const double a = degrees(r);
       const auto axis = as_float(r.direction(10));
       return by_largest(ours(a, axis), gl({Rotate{a, axis}}));

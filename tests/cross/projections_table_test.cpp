@@ -13,7 +13,7 @@ struct Volume {
   double near, far;
 };
 
-Volume volume(Random& r) {
+Volume volume(Inputs& r) {
   Volume v;
   v.near = std::exp2(r.between(-7, 3));
   v.far = v.near * (1 + std::exp2(r.between(-3, 14)));
@@ -24,7 +24,7 @@ Volume volume(Random& r) {
   return v;
 }
 
-tf::FieldOfView field_of_view(Random& r) { return {r.between(0.01, 0.49) * kTurn, std::exp2(r.between(-2, 2))}; }
+tf::FieldOfView field_of_view(Inputs& r) { return {r.between(0.01, 0.49) * kTurn, std::exp2(r.between(-2, 2))}; }
 
 using Box = glm::dmat4 (*)(double, double, double, double, double, double);
 using WideBox = WideMat4 (*)(Wide, Wide, Wide, Wide, Wide, Wide);
@@ -37,7 +37,7 @@ WideMat4 wide_perspective(const tf::FieldOfView& v, Wide n, Wide f) {
 std::vector<Row> gl_rows() {
   const auto box = [](const char* formula, const char* ours, Box matrix, const char* reference, WideBox theirs,
                       bool inverse) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const Volume v = volume(r);
       const auto& p = v.plane;
       const WideMat4 wide_matrix = theirs(p.left, p.right, p.bottom, p.top, v.near, v.far);
@@ -46,7 +46,7 @@ std::vector<Row> gl_rows() {
     });
   };
   const auto lens = [](const char* formula, const char* ours, Lens matrix, const char* reference, bool inverse) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const auto v = field_of_view(r);
       const Volume d = volume(r);
       const WideMat4 wide_matrix = wide_perspective(v, d.near, d.far);
@@ -80,7 +80,7 @@ WideMat4 games101_frustum_to_box(const Volume& v) {
 
 std::vector<Row> games101_rows() {
   const auto ortho = [](const char* formula, const char* ours, Box matrix, const char* reference, bool inverse) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const Volume v = volume(r);
       const auto& p = v.plane;
       const WideMat4 wide_matrix = games101_ortho(v);
@@ -90,14 +90,14 @@ std::vector<Row> games101_rows() {
   };
   const auto squeeze = [](const char* formula, const char* ours, glm::dmat4 (*matrix)(double, double),
                           const char* reference, bool inverse) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const Volume v = volume(r);
       const WideMat4 wide_matrix = games101_frustum_to_box(v);
       return by_largest(matrix(-v.near, -v.far), inverse ? glm::inverse(wide_matrix) : wide_matrix);
     });
   };
   const auto lens = [](const char* formula, const char* ours, Lens matrix, const char* reference, bool inverse) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const auto f = field_of_view(r);
       const Volume v = volume(r);
       const WideMat4 wide_matrix = -near_is_plus_one(wide_perspective(f, v.near, v.far));
@@ -116,7 +116,7 @@ std::vector<Row> games101_rows() {
       lens("its inverse", "games101::inverse_perspective", tf::games101::inverse_perspective,
            "inverse(-perspectiveRH_NO, z turned)", true),
       row("l r b t of fovY, aspect (001)", "near_plane", "inverse(perspectiveRH_NO) of corners", 4,
-          [](Random& r) {
+          [](Inputs& r) {
             const auto f = field_of_view(r);
             const double n = volume(r).near;
             const WideMat4 back = glm::inverse(wide_perspective(f, n, Wide(2) * Wide(n)));
@@ -129,14 +129,14 @@ std::vector<Row> games101_rows() {
                             glm::mat<2, 2, Wide>(glm::vec<2, Wide>(corner(-1)), glm::vec<2, Wide>(corner(1))));
           }),
       row("fovY of l r b t (001)", "field_of_view", "angle between the rays", 4,
-          [](Random& r) {
+          [](Inputs& r) {
             const auto p = tf::near_plane(field_of_view(r), 1);
             const double n = volume(r).near;
             const Wide top = p.top;
             return number(tf::field_of_view(p, -n).fov_y, std::atan2(2 * top * n, Wide(n) * n - top * top));
           }),
       row("aspect of l r b t (001)", "field_of_view", "width / height", 0.5,
-          [](Random& r) {
+          [](Inputs& r) {
             const auto p = tf::near_plane(field_of_view(r), 1);
             return number(tf::field_of_view(p, -1).aspect, (Wide(p.right) - p.left) / (Wide(p.top) - p.bottom));
           }),
@@ -157,7 +157,7 @@ std::vector<Row> view_plane_rows() {
   using Plane = glm::dmat4 (*)(double);
   const auto plane = [](const char* formula, const char* ours, Plane matrix, const char* reference,
                         WideMat4 (*theirs)(Wide), bool inverse) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const double d = std::exp2(r.between(-4, 6));
       const WideMat4 wide_matrix = theirs(d);
       return by_largest(matrix(d), inverse ? glm::inverse(wide_matrix) : wide_matrix);
@@ -165,13 +165,13 @@ std::vector<Row> view_plane_rows() {
   };
   return {
       row("1/d = tan(FOV/2) (004 3.2)", "gzrender::d_of_fov", "perspectiveRH_NO", 4,
-          [](Random& r) {
+          [](Inputs& r) {
             const double fov = field_of_view(r).fov_y;
             return number(tf::gzrender::d_of_fov(fov),
                           glm::perspectiveRH_NO(Wide(fov), Wide(1), Wide(1), Wide(2))[1][1]);
           }),
       row("FOV of d", "gzrender::fov_of_d", "angle between the rays", 4,
-          [](Random& r) {
+          [](Inputs& r) {
             const double d = std::exp2(r.between(-4, 6));
             const glm::vec<2, Wide> up(1, d), down(-1, d);
             return number(tf::gzrender::fov_of_d(d), std::acos(glm::dot(glm::normalize(up), glm::normalize(down))));
@@ -180,7 +180,7 @@ std::vector<Row> view_plane_rows() {
       plane("X_pi^-1", "gzrender::inverse_x_pi", tf::gzrender::inverse_x_pi, "inverse(infinitePerspectiveLH)", x_pi,
             true),
       row("x = X/(Z/d+1), z' = Z/(Z+d)", "gzrender::x_pi, over w", "similar triangles", 4,
-          [](Random& r) {
+          [](Inputs& r) {
             const double d = std::exp2(r.between(-4, 6));
             const auto p = r.point(10) + glm::dvec3(0, 0, 10);  // in front of the view plane
             const auto q = tf::gzrender::x_pi(d) * glm::dvec4(p, 1);

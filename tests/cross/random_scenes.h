@@ -32,7 +32,7 @@ class Random {
 };
 
 /// A kind of triangle: three corners in the eye space of its projection.
-struct Kind {
+struct SceneKind {
   std::string name;
   bool perspective;
   std::function<std::array<glm::vec3, 3>(Random&)> corners;
@@ -40,7 +40,7 @@ struct Kind {
 
 inline constexpr int kRandomSize = 48;  ///< the orthographic frame's sides: one unit is a pixel
 
-inline std::vector<Kind> kinds() {
+inline std::vector<SceneKind> kinds() {
   using Corners = std::array<glm::vec3, 3>;
   const auto around = [](Random& r, double x, double y, double size) {
     return glm::vec3(x + r.in(-size, size), y + r.in(-size, size), r.in(-9, -1));
@@ -100,7 +100,7 @@ inline std::vector<Kind> kinds() {
 }
 
 /// A scene of `count` triangles of a kind; formats and state vary with the seed.
-inline Scene random_scene(const Kind& kind, int count, std::uint64_t seed) {
+inline Scene random_scene(const SceneKind& kind, int count, std::uint64_t seed) {
   Random r(seed * 1000003 + 17);
   Scene scene;
   scene.name = "random/" + kind.name + " " + std::to_string(seed);

@@ -17,7 +17,7 @@ constexpr int kTrianglesPerScene = 500;
 class RandomTriangles : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(RandomTriangles, every_stage_equals_exact_from_our_records) {
-  const Kind kind = kinds()[GetParam()];
+  const SceneKind kind = kinds()[GetParam()];
   const auto ours = pipeline::make_pipeline();
   const auto exact = exact::make_exact();
   std::uint64_t fragments = 0;

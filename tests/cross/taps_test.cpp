@@ -11,8 +11,8 @@ namespace {
 
 void expect_equal_planes(const Scene& scene) {
   const pipeline::Frame frame = pipeline::render(scene);
-  constexpr std::size_t kBudget = std::size_t{2} << 30;  // all records of a million triangles
-  const Capture capture = pipeline::make_pipeline()->capture(scene, {StageSet::all(), false, {}, {}, kBudget});
+  constexpr std::size_t kMost = std::size_t{2} << 30;  // all records of a million triangles
+  const Capture capture = pipeline::make_pipeline()->capture(scene, {StageSet::all(), false, {}, {}, kMost});
   const double scale = depth_scale(scene.frame.depth);
   std::size_t differing = 0;
   for (int y = 0; y < scene.frame.height; ++y) {
@@ -38,7 +38,7 @@ TEST(Taps, planes_are_equal_on_every_scene) {
 }
 
 TEST(Taps, planes_are_equal_on_random_triangles) {
-  for (const Kind& kind : kinds()) {
+  for (const SceneKind& kind : kinds()) {
     for (std::uint64_t seed = 0; seed < 12; ++seed) expect_equal_planes(random_scene(kind, 100, seed));
   }
 }

@@ -31,7 +31,7 @@ inline WideMat4 moved(const glm::dvec3& by) { return glm::translate(kOne, wide(b
 inline WideMat4 scaled(const glm::dvec3& by) { return glm::scale(kOne, wide(by)); }
 inline WideMat4 turned(double angle, const glm::dvec3& axis) { return glm::rotate(kOne, Wide(angle), wide(axis)); }
 
-class Random {
+class Inputs {
  public:
   double between(double least, double most) {
     return least + (most - least) * std::ldexp(static_cast<double>(bits_() >> 11), -53);
@@ -71,12 +71,12 @@ struct Row {
   const char* reference;
   int digits;
   double bound;
-  std::function<Entries(Random&)> input;
+  std::function<Entries(Inputs&)> input;
 };
 
 /// Ours in double.
 inline Row row(const char* formula, const char* ours, const char* reference, double bound,
-               std::function<Entries(Random&)> input) {
+               std::function<Entries(Inputs&)> input) {
   return {formula, ours, reference, 53, bound, std::move(input)};
 }
 
@@ -106,7 +106,7 @@ inline Entries number(double ours, Wide theirs) { return {{ours, theirs, std::ab
 
 /// The largest difference over 10,000 random inputs, in ULP; infinite where something is not a number.
 inline double largest_difference(const Row& row) {
-  Random random;
+  Inputs random;
   double largest = 0;
   for (int i = 0; i < 10000; ++i) {
     for (const Entry& e : row.input(random)) {

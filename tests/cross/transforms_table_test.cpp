@@ -19,38 +19,38 @@ namespace {
 namespace tf = transforms;
 
 std::vector<Row> transform_rows() {
-  const auto size = [](Random& r) {
+  const auto size = [](Inputs& r) {
     const double x = r.of_any_size(1e-6, 1e6), y = r.of_any_size(1e-6, 1e6);
     return glm::dvec3(x, y, r.of_any_size(1e-6, 1e6));
   };
-  const auto angle = [](Random& r) { return r.between(-2 * kTurn, 2 * kTurn); };
+  const auto angle = [](Inputs& r) { return r.between(-2 * kTurn, 2 * kTurn); };
   const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   using Turn = glm::dmat4 (*)(double);
   const auto about = [=](const char* formula, const char* ours, Turn turn, const char* reference, double sign,
                          glm::dvec3 axis) {
-    return row(formula, ours, reference, 1, [=](Random& r) {  // the sine's error, under an ULP
+    return row(formula, ours, reference, 1, [=](Inputs& r) {  // the sine's error, under an ULP
       const double a = angle(r);
       return by_largest(turn(a), turned(sign * a, axis));
     });
   };
   return {
       row("T (004 3.1)", "translation", "translate", 0,
-          [=](Random& r) {
+          [=](Inputs& r) {
             const auto t = size(r);
             return by_entry(tf::translation(t), moved(t));
           }),
       row("T^-1", "inverse_translation", "inverse(translate)", 0,
-          [=](Random& r) {
+          [=](Inputs& r) {
             const auto t = size(r);
             return by_entry(tf::inverse_translation(t), glm::inverse(moved(t)));
           }),
       row("S (004 3.1)", "scaling", "scale", 0,
-          [=](Random& r) {
+          [=](Inputs& r) {
             const auto s = size(r);
             return by_entry(tf::scaling(s), scaled(s));
           }),
       row("S^-1", "inverse_scaling", "inverse(scale)", 0.51,  // the reference's own rounding on top
-          [=](Random& r) {
+          [=](Inputs& r) {
             const auto s = size(r);
             return by_entry(tf::inverse_scaling(s), glm::inverse(scaled(s)));
           }),
@@ -66,16 +66,16 @@ std::vector<Row> transform_rows() {
 std::vector<Row> axis_rows() {
   using Turn = glm::dmat4 (*)(double, const glm::dvec3&);
   using Orbit = glm::dmat4 (*)(const glm::dvec3&, double, const glm::dvec3&);
-  const auto angle = [](Random& r) { return r.between(-kTurn, kTurn); };
+  const auto angle = [](Inputs& r) { return r.between(-kTurn, kTurn); };
   const auto about = [=](const char* formula, const char* ours, Turn turn, const char* reference, double sign) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const double a = angle(r);
       const auto axis = r.direction(10);
       return by_largest(turn(a, axis), turned(sign * a, axis));
     });
   };
   const auto orbit = [=](const char* formula, const char* ours, Orbit around, const char* reference, double sign) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const double a = angle(r);
       const auto p = r.point(10), axis = r.direction(10);
       // In p - R p both may cancel.
@@ -84,7 +84,7 @@ std::vector<Row> axis_rows() {
   };
   // The camera at e looks along g; it is turned, and looks again from where it then is.
   const auto camera = [=](const char* formula, const char* ours, const char* reference, bool inverse) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       const double a = angle(r);
       const auto e = r.point(10), p = r.point(10), axis = r.direction(10);
       const glm::dvec3 l = e + glm::dvec3(1, 0, 0), up(0, 1, 0);
@@ -114,7 +114,7 @@ struct View {
   double sine;  ///< of the angle between the view and up
 };
 
-View view(Random& r) {
+View view(Inputs& r) {
   for (;;) {
     const auto eye = r.point(10), direction = r.direction(10), up = r.direction(10);
     const double sine = glm::length(glm::cross(glm::normalize(direction), glm::normalize(up)));
@@ -131,7 +131,7 @@ using WideLookAt = WideMat4 (*)(const View&);
 
 Row look_at_row(const char* formula, const char* ours, LookAt look_at, const char* reference, WideLookAt theirs,
                 double terms = 1) {
-  return row(formula, ours, reference, 4, [=](Random& r) {
+  return row(formula, ours, reference, 4, [=](Inputs& r) {
     const View v = view(r);
     return by_largest(look_at(v.eye, v.center, v.up), theirs(v), terms * magnitude(v));
   });
@@ -150,7 +150,7 @@ std::vector<Row> look_at_rows() {
   // A gaze of its own, as far from up as the view is.
   const auto gaze = [](const char* formula, const char* ours, LookAt look_at, const char* reference,
                        WideLookAt theirs) {
-    return row(formula, ours, reference, 4, [=](Random& r) {
+    return row(formula, ours, reference, 4, [=](Inputs& r) {
       View v = view(r);
       v.center -= v.eye;
       return by_largest(look_at(v.eye, v.center, v.up), theirs(v), magnitude(v));
@@ -176,45 +176,45 @@ std::vector<Row> look_at_rows() {
 }
 
 std::vector<Row> window_rows() {
-  const auto pixels = [](Random& r) { return std::floor(r.between(1, 16385)); };
+  const auto pixels = [](Inputs& r) { return std::floor(r.between(1, 16385)); };
   constexpr double kMaxInt = 2147483647.0;
   const auto centered = [](double w, double h, const glm::dvec3& by) { return moved({w / 2, h / 2, 0}) * scaled(by); };
   return {
       row("X_sp (000, 004 3.2)", "gzrender::x_sp", "translate scale", 0,
-          [=](Random& r) {
+          [=](Inputs& r) {
             const double xs = pixels(r), ys = pixels(r);
             return by_entry(tf::gzrender::x_sp(xs, ys, kMaxInt), centered(xs, ys, {xs / 2, -ys / 2, kMaxInt}));
           }),
       row("X_sp^-1", "gzrender::inverse_x_sp", "inverse(translate scale)", 0.51,
-          [=](Random& r) {
+          [=](Inputs& r) {
             const double xs = pixels(r), ys = pixels(r);
             return by_entry(tf::gzrender::inverse_x_sp(xs, ys, kMaxInt),
                             glm::inverse(centered(xs, ys, {xs / 2, -ys / 2, kMaxInt})));
           }),
       row("M_viewport (001)", "games101::viewport", "translate scale", 0,
-          [=](Random& r) {
+          [=](Inputs& r) {
             const double w = pixels(r), h = pixels(r);
             return by_entry(tf::games101::viewport(w, h), centered(w, h, {w / 2, h / 2, 1}));
           }),
       row("its inverse", "games101::inverse_viewport", "inverse(translate scale)", 0.51,
-          [=](Random& r) {
+          [=](Inputs& r) {
             const double w = pixels(r), h = pixels(r);
             return by_entry(tf::games101::inverse_viewport(w, h), glm::inverse(centered(w, h, {w / 2, h / 2, 1})));
           }),
       row("viewport (002)", "tinyrenderer::viewport", "translate scale translate", 0,
-          [=](Random& r) {
+          [=](Inputs& r) {
             const double x = pixels(r), y = pixels(r), w = pixels(r), h = pixels(r);
             return by_entry(tf::tinyrenderer::viewport(x, y, w, h, 255),
                             moved({x, y, 0}) * scaled({w / 2, h / 2, 127.5}) * moved({1, 1, 1}));
           }),
       row("its inverse", "tinyrenderer::inverse_viewport", "inverse(translate scale translate)", 0.51,
-          [=](Random& r) {
+          [=](Inputs& r) {
             const double x = pixels(r), y = pixels(r), w = pixels(r), h = pixels(r);
             return by_entry(tf::tinyrenderer::inverse_viewport(x, y, w, h, 255),
                             glm::inverse(moved({x, y, 0}) * scaled({w / 2, h / 2, 127.5}) * moved({1, 1, 1})));
           }),
       row("normals (002)", "normal_matrix", "inverseTranspose", 4,
-          [](Random& r) {
+          [](Inputs& r) {
             const glm::dvec3 before = r.direction(1), after = r.direction(1);
             const double x = r.of_any_size(0.5, 2), y = r.of_any_size(0.5, 2);
             const glm::dmat3 m(tf::rotation(1, after) * tf::scaling({x, y, 1}) * tf::rotation(2, before));
@@ -224,7 +224,7 @@ std::vector<Row> window_rows() {
             return by_largest(tf::normal_matrix(glm::dmat4(m)), glm::inverseTranspose(glm::mat<3, 3, Wide>(m)), terms);
           }),
       row("their inverse", "inverse_normal_matrix", "transpose", 0,
-          [](Random& r) {
+          [](Inputs& r) {
             glm::dmat4 m(1);
             for (int i = 0; i < 3; ++i) m[i] = glm::dvec4(r.point(10), 0);
             return by_entry(tf::inverse_normal_matrix(m), glm::transpose(glm::mat<3, 3, Wide>(m)));
@@ -249,7 +249,7 @@ TEST(TransformsTable, NamesASlipOfTheNotes) {
 
 TEST(TransformsTable, NamesAnErrorOfAFewUlp) {
   const auto off_by = [](double ulp) {
-    return row("", "", "", 4, [=](Random& r) {
+    return row("", "", "", 4, [=](Inputs& r) {
       const double x = r.of_any_size(1e-3, 1e3);
       const double unit = std::ldexp(1.0, std::ilogb(x) - 52);
       return number(x + ulp * unit, x);
@@ -264,7 +264,7 @@ TEST(TransformsTable, NamesAnErrorOfAFewUlp) {
 TEST(TransformsTable, NamesWhatIsNoNumber) {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   const auto of = [](double ours, double theirs) {
-    return row("", "", "", 4, [=](Random&) { return Entries{{ours, theirs, 1}}; });
+    return row("", "", "", 4, [=](Inputs&) { return Entries{{ours, theirs, 1}}; });
   };
   EXPECT_TRUE(holds(of(1, 1)));
   EXPECT_FALSE(holds(of(nan, 1)));
@@ -272,7 +272,7 @@ TEST(TransformsTable, NamesWhatIsNoNumber) {
   EXPECT_FALSE(holds(of(nan, nan)));
   EXPECT_FALSE(holds(of(infinity, infinity)));
   EXPECT_FALSE(holds(of(infinity, 1)));
-  const Row zero = row("", "", "", 4, [](Random&) { return number(1e-300, 0); });
+  const Row zero = row("", "", "", 4, [](Inputs&) { return number(1e-300, 0); });
   EXPECT_FALSE(holds(zero)) << "where the reference is 0, so must ours be";
 }
 

@@ -21,11 +21,11 @@ namespace {
 using raster::Corners;
 using raster::Span;
 using raster::Spans;
-using Cover = std::function<Spans(const Corners&, int, int)>;
+using CoverFunction = std::function<Spans(const Corners&, int, int)>;
 
 struct Algorithm {
   const char* name;
-  Cover cover;
+  CoverFunction cover;
 };
 const std::vector<Algorithm>& algorithms() {
   static const std::vector<Algorithm> kAll = {{"barycentric", raster::cover_by_barycentric},
@@ -125,7 +125,7 @@ struct Apart {
   long covered = 0;
   std::string first;
 };
-Apart apart(const Cover& cover, const TriangleKind& kind, int count) {
+Apart apart(const CoverFunction& cover, const TriangleKind& kind, int count) {
   Apart out;
   Random random(7);
   for (int i = 0; i < count; ++i) {
@@ -161,7 +161,7 @@ Spans mirrored(Spans spans, bool in_x) {
   if (!in_x) std::reverse(spans.begin(), spans.end());
   return spans;
 }
-Cover mirrored(const Cover& cover, bool in_x) {
+CoverFunction mirrored(const CoverFunction& cover, bool in_x) {
   return [=](const Corners& c, int w, int h) { return mirrored(cover(mirrored(c, in_x), w, h), in_x); };
 }
 bool counter_clockwise(const Corners& c) {
@@ -172,8 +172,8 @@ bool counter_clockwise(const Corners& c) {
 TEST(TriangleAlgorithms, AMistakeInTiesOrSignsIsSeen) {
   const TriangleKind& on_centres = triangle_kinds()[1];
   for (const Algorithm& algorithm : algorithms()) {
-    const Cover& cover = algorithm.cover;
-    const Cover opposite = mirrored(mirrored(cover, true), false);
+    const CoverFunction& cover = algorithm.cover;
+    const CoverFunction opposite = mirrored(mirrored(cover, true), false);
     const std::vector<Algorithm> mistakes = {
         {"large x sides in", mirrored(cover, true)},
         {"large y sides in", mirrored(cover, false)},
@@ -248,13 +248,12 @@ TEST(TriangleAlgorithms, RefuseWhatCouldOverflow) {
 
 TEST(TriangleAlgorithms, EqualExactOnEveryScenesTriangles) {
   const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-  constexpr std::size_t kBudget = std::size_t{2} << 30;  // a million triangles' records
+  constexpr std::size_t kMost = std::size_t{2} << 30;  // a million triangles' records
   long scenes = 0, triangles = 0, covered = 0;
   for (const auto& file : find_scenes(folder)) {
     if (++scenes % static_cast<long>(one_of(6)) != 0) continue;
     const Scene scene = load_scene(file, {});
-    const Capture capture =
-        pipeline::make_pipeline()->capture(scene, {StageSet{Stage::window}, false, {}, {}, kBudget});
+    const Capture capture = pipeline::make_pipeline()->capture(scene, {StageSet{Stage::window}, false, {}, {}, kMost});
     std::array<int, 4> apart{};
     for (const WindowTriangle<double>& t : capture.records.triangles) {
       const Corners corners{t.v[0].snapped, t.v[1].snapped, t.v[2].snapped};

@@ -31,7 +31,7 @@ constexpr auto kNoAttenuation = [](Scene& scene, Draw&) {
 };
 
 // cos(x) of the number of degrees itself. Where it is negative, the cone is more than a half space.
-constexpr auto kDegreesForRadians = [](Scene& scene, Draw&) {
+constexpr auto kSpotDegreesForRadians = [](Scene& scene, Draw&) {
   for (Light& light : scene.lights) {
     if (light.spot) light.spot->cutoff_degrees = glm::degrees(std::acos(std::cos(light.spot->cutoff_degrees)));
   }
@@ -138,7 +138,7 @@ constexpr Fault of(std::string_view name, std::string_view what, std::string_vie
 constexpr std::array kFaults = {
     of<kWorldSpace>("light.world_space", "lights are not brought to eye space"),
     of<kNoAttenuation>("light.no_attenuation", "lights do not fade with their distance"),
-    of<kDegreesForRadians>("light.cutoff_in_degrees", "a cone's angle in degrees is taken for radians"),
+    of<kSpotDegreesForRadians>("light.cutoff_in_degrees", "a cone's angle in degrees is taken for radians"),
     of<kConesIgnored>("light.cones_ignored", "spot lights shine to all sides"),
     of<kHalfTheCone>("light.half_the_cone", "a cone's angle from its axis is taken for that from side to side",
                      "KhronosGroup/glTF#824"),

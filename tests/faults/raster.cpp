@@ -139,24 +139,24 @@ float depth_at_corner(const Setup& s, const Barycentric<float>& b) {
 
 // 7. Attributes.
 
-using Attributes = pipeline::AttributeSetup;
+using TriangleAttributes = pipeline::AttributeSetup;
 
 pipeline::Places color_of_sample(glm::ivec2 sample) { return {sample, sample, sample}; }
 
-Color<float> of_wrong_corners(const Attributes& s, const Barycentric<float>& b) {
+Color<float> of_wrong_corners(const TriangleAttributes& s, const Barycentric<float>& b) {
   return pipeline::attributes<float>(s, {b.l0, b.l2, b.l1});
 }
 
 // By w for 1/w.
-Color<float> nearness_reversed(const Attributes& s, const Barycentric<float>& b) {
-  Attributes wrong = s;
+Color<float> nearness_reversed(const TriangleAttributes& s, const Barycentric<float>& b) {
+  TriangleAttributes wrong = s;
   for (float& inv_w : wrong.inv_w) inv_w = 1 / inv_w;
   return pipeline::attributes<float>(wrong, b);
 }
 
 // Each channel of the stage's changed.
 template <auto change>
-Color<float> each_channel(const Attributes& s, const Barycentric<float>& b) {
+Color<float> each_channel(const TriangleAttributes& s, const Barycentric<float>& b) {
   const Color<float> c = pipeline::attributes<float>(s, b);
   return {change(c.r), change(c.g), change(c.b), change(c.a)};
 }
@@ -165,7 +165,7 @@ constexpr auto kClamped = [](float v) { return pipeline::clamp01(v); };
 constexpr auto kOf8Bits = [](float v) { return pipeline::round_even(v * 255) / 255; };
 
 // The sum of a / w is left at that.
-Color<float> not_divided(const Attributes& s, const Barycentric<float>& b) {
+Color<float> not_divided(const TriangleAttributes& s, const Barycentric<float>& b) {
   const double l[3] = {b.l0, b.l1, b.l2};
   double inv_w = 0;
   for (int i = 0; i < 3; ++i) inv_w += l[i] * static_cast<double>(s.inv_w[i]);

@@ -79,11 +79,11 @@ FilteredTexel<float> levels_swapped(const TextureSetup& t, const TexCoords<float
 
 // 9. Shade.
 
-using Attributes = pipeline::SurfaceAttributes<float>;
+using TexturedAttributes = pipeline::SurfaceAttributes<float>;
 
 // The stage under a draw that says something else.
 template <auto change>
-Color<float> shaded_under(const pipeline::Surface& surface, bool front, const Attributes& attributes) {
+Color<float> shaded_under(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
   Draw wrong = *surface.draw;
   change(wrong);
   pipeline::Surface with_it = surface;
@@ -106,7 +106,7 @@ constexpr auto kNoEnvironmentColor = [](Draw& draw) {
 };
 constexpr auto kNoFog = [](Draw& draw) { draw.fog.reset(); };
 
-Color<float> fogged_alpha(const pipeline::Surface& surface, bool front, const Attributes& attributes) {
+Color<float> fogged_alpha(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
   Color<float> color = pipeline::shade_surface<float>(surface, front, attributes);
   if (surface.draw->fog) color.a *= pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
   return color;
@@ -119,13 +119,13 @@ Color<float> with_fog(const pipeline::Surface& surface, const Color<float>& colo
           of_fragment * color.b + of_fog * fog.b, color.a};
 }
 
-Color<float> fog_added(const pipeline::Surface& surface, bool front, const Attributes& attributes) {
+Color<float> fog_added(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
   if (!surface.draw->fog) return pipeline::shade_surface<float>(surface, front, attributes);
   const float f = pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
   return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes), 1, 1 - f);
 }
 
-Color<float> fog_near(const pipeline::Surface& surface, bool front, const Attributes& attributes) {
+Color<float> fog_near(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
   if (!surface.draw->fog) return pipeline::shade_surface<float>(surface, front, attributes);
   const float f = pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
   return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes), 1 - f, f);

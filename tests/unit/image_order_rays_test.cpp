@@ -16,7 +16,7 @@
 namespace plumbline::image_order {
 namespace {
 
-using Triangle = std::array<glm::dvec3, 3>;
+using SpaceTriangle = std::array<glm::dvec3, 3>;
 
 Scene scene_of(const Projection& projection) {
   Scene scene;
@@ -80,13 +80,13 @@ TEST(Rays, GoThroughPixelCentresAndKnowTheirDepths) {
   }
 }
 
-constexpr int kWidth = 24, kHeight = 19;
+constexpr int kRaysAcross = 24, kHeight = 19;
 Scene pixels() {
   Scene scene;
-  scene.frame.width = kWidth;
+  scene.frame.width = kRaysAcross;
   scene.frame.height = kHeight;
   scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
-  scene.projection = Orthographic{0, kWidth, 0, kHeight, 1, 100};
+  scene.projection = Orthographic{0, kRaysAcross, 0, kHeight, 1, 100};
   return scene;
 }
 
@@ -103,18 +103,18 @@ TEST(Crossing, CoversWhatAnAlgorithmOfIntegersCovers) {
   for (int i = 0; i < 2000; ++i) {
     const int grid = i % 2 == 0 ? 0 : 85;
     raster::Corners corners;
-    for (glm::ivec2& c : corners) c = {coordinate(kWidth, grid), coordinate(kHeight, grid)};
-    Triangle triangle;
+    for (glm::ivec2& c : corners) c = {coordinate(kRaysAcross, grid), coordinate(kHeight, grid)};
+    SpaceTriangle triangle;
     for (std::size_t k = 0; k < 3; ++k)
       triangle[k] = {glm::dvec2(corners[k]) / 256.0 + 0.5, -2.0 - static_cast<double>(k)};
     std::set<std::pair<int, int>> expected, found;
-    for (const raster::Span& s : raster::cover_by_lee(corners, kWidth, kHeight)) {
+    for (const raster::Span& s : raster::cover_by_lee(corners, kRaysAcross, kHeight)) {
       for (int x = s.begin; x < s.end; ++x) expected.emplace(x, s.y);
     }
     const glm::ivec2 a = corners[1] - corners[0], b = corners[2] - corners[0];
     const bool front = std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x > 0;
     for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+      for (int x = 0; x < kRaysAcross; ++x) {
         const auto at = crossing(view.ray(x, y), triangle);
         if (!at) continue;
         found.emplace(x, y);
@@ -167,7 +167,7 @@ TEST(Crossing, IsNeverNearerOrFartherThanAllCorners) {
   int crossings = 0;
   for (int i = 0; i < 3000; ++i) {
     const double z = in(1, 90);
-    Triangle t;
+    SpaceTriangle t;
     for (glm::dvec3& p : t) p = {in(-1, 1), in(-1, 1), -z};
     const auto at = crossing(ray, t);
     if (!at) continue;
@@ -190,7 +190,7 @@ Ray ray_to(glm::dvec3 eye, glm::dvec3 p) {
 // side.
 TEST(Crossing, NoRaySlipsThroughAClosedMesh) {
   const Mesh mesh = make_icosphere(4);
-  std::vector<Triangle> triangles;
+  std::vector<SpaceTriangle> triangles;
   for (const glm::uvec3& t : mesh.triangles) {
     triangles.push_back(
         {glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]), glm::dvec3(mesh.positions[t.z])});
@@ -214,7 +214,7 @@ TEST(Crossing, NoRaySlipsThroughAClosedMesh) {
       wrong += front == 1 && back == 1 ? 0 : 1;
     };
     for (const glm::vec3& p : mesh.positions) aim(p);
-    for (const Triangle& t : triangles) {
+    for (const SpaceTriangle& t : triangles) {
       aim((t[0] + t[1]) / 2.0);
       aim(t[1] + (t[2] - t[1]) / 3.0);
     }
@@ -228,9 +228,9 @@ TEST(Hierarchy, LeavesOutNothingThatARayCrosses) {
   const auto in = [&](double low, double high) {
     return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
   };
-  std::vector<Triangle> triangles(300);
-  for (Triangle& t : triangles) {
-    const glm::dvec3 at(in(0, kWidth), in(0, kHeight), in(-90, -5));
+  std::vector<SpaceTriangle> triangles(300);
+  for (SpaceTriangle& t : triangles) {
+    const glm::dvec3 at(in(0, kRaysAcross), in(0, kHeight), in(-90, -5));
     const double size = in(0.1, 12);
     for (glm::dvec3& p : t) p = at + size * glm::dvec3(in(-1, 1), in(-1, 1), in(-1, 1));
   }
@@ -241,7 +241,7 @@ TEST(Hierarchy, LeavesOutNothingThatARayCrosses) {
     scene.projection = projection;
     const View view(scene);
     for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+      for (int x = 0; x < kRaysAcross; ++x) {
         const Ray ray = view.ray(x, y);
         std::set<std::uint32_t> all, found, near_all, near_found;
         for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -271,7 +271,7 @@ TEST(Hierarchy, LeavesOutNothingThatARayCrosses) {
     }
   }
   EXPECT_GT(crossings, 1000);
-  EXPECT_LT(visits, 2L * kWidth * kHeight * 300 / 3);  // else it is no help
+  EXPECT_LT(visits, 2L * kRaysAcross * kHeight * 300 / 3);  // else it is no help
   Hierarchy({}).walk(
       View(scene).ray(0, 0), 1, [](double) { return false; }, [](std::uint32_t) { FAIL(); });
 }

@@ -11,7 +11,7 @@
 namespace plumbline::transforms {
 namespace {
 
-constexpr double kRightAngle = 1.5707963267948966;
+constexpr double kQuarterTurn = 1.5707963267948966;
 
 glm::dvec3 seen(const glm::dmat4& m, const glm::dvec3& p) {
   const glm::dvec4 q = m * glm::dvec4(p, 1);
@@ -35,7 +35,7 @@ TEST(NotesCamera, VIsWCrossU) {
   // As printed y is -x: 3 away.
   EXPECT_EQ(seen(m_cam_as_printed(e, g, t, t), p), glm::dvec3(1, -1, 10));
   // At 640 x 480 and 90 degrees: from pixel (349.1, 196.4) to (349.1, 261.8).
-  const glm::dmat4 window = gzrender::x_sp(640, 480, 1) * gzrender::x_pi(gzrender::d_of_fov(kRightAngle));
+  const glm::dmat4 window = gzrender::x_sp(640, 480, 1) * gzrender::x_pi(gzrender::d_of_fov(kQuarterTurn));
   expect_near(seen(window * gzrender::m_cam(e, g, t), p), {320 + 320.0 / 11, 240 - 480.0 / 11, 10.0 / 11}, 1e-12);
   expect_near(seen(window * m_cam_as_printed(e, g, t, t), p), {320 + 320.0 / 11, 240 + 240.0 / 11, 10.0 / 11}, 1e-12);
 }
@@ -102,7 +102,7 @@ TEST(NotesCamera, AndNotWhereCIsAnotherNumber) {
 // Class notes (004): X_iw puts c at the origin, X_pi's eye is at (0, 0, -d): the eye is d behind "camera position c".
 TEST(NotesCamera, TheEyeIsDBehindC) {
   const glm::dvec3 c(0, 0, -5), l(0, 0, 0), up(0, 1, 0), p(0, 1, 0);
-  for (const double fov : {kRightAngle, 35 * kRightAngle / 90}) {
+  for (const double fov : {kQuarterTurn, 35 * kQuarterTurn / 90}) {
     const double d = gzrender::d_of_fov(fov);
     const glm::dmat4 view = gzrender::x_pi(d) * gzrender::x_iw(c, l, up);
     // What goes to w = 0 and x = y = 0 is the eye.
@@ -121,7 +121,7 @@ TEST(NotesCamera, TheEyeIsDBehindC) {
   // 90 degrees, 256 pixels high: row 106.67 by the notes, 102.4 from c. At GzRender's 35 degrees 78.32 and 46.81: d
   // is 3.17.
   const auto row = [&](double y) { return 128 - 128 * y; };
-  const double d = gzrender::d_of_fov(35 * kRightAngle / 90);
+  const double d = gzrender::d_of_fov(35 * kQuarterTurn / 90);
   EXPECT_NEAR(row(1.0 / 6) - row(1.0 / 5), 4.27, 5e-3);
   EXPECT_NEAR(row(d / (5 + d)) - row(d / 5), 31.51, 5e-3);
 }

@@ -18,7 +18,7 @@ int side(glm::ivec2 p, glm::ivec2 r, glm::ivec2 at) {
   return above == 0 ? 0 : (above > 0) == (dx > 0) ? 1 : -1;
 }
 
-struct Count {
+struct WrongSides {
   int points = 0, wrong = 0;  // of points beside the line; of them, those where f < 0 is not above, or f > 0 not below
 };
 
@@ -31,12 +31,12 @@ TEST(NotesLines, Note004SidesOfFNeedARunToTheRightNotAPositiveA) {
   const auto each = [](auto visit) {
     for (int i = 0; i < kSize * kSize; ++i) visit(glm::ivec2(i % kSize, i / kSize));
   };
-  Count rising_right, rising_left, falling_right;
+  WrongSides rising_right, rising_left, falling_right;
   each([&](glm::ivec2 p) {
     each([&](glm::ivec2 r) {
       const glm::ivec2 d = r - p;
       if (d.x == 0 || (d.x < 0 && d.y <= 0)) return;
-      Count& count = d.x < 0 ? rising_left : d.y > 0 ? rising_right : falling_right;
+      WrongSides& count = d.x < 0 ? rising_left : d.y > 0 ? rising_right : falling_right;
       each([&](glm::ivec2 at) {
         const int s = side(p, r, at);
         if (s == 0) return;

@@ -15,14 +15,14 @@ namespace plumbline {
 namespace {
 
 using Point = glm::dvec2;  // in pixels, centres at integers (note 004, section 2.1)
-using Triangle = std::array<Point, 3>;
-using Draw = std::function<void(int x, int y)>;
+using PlaneTriangle = std::array<Point, 3>;
+using DrawPixel = std::function<void(int x, int y)>;
 
 /// Note 000: f_ij, and alpha, beta, gamma > 0.
 double f(const Point& i, const Point& j, double x, double y) {
   return (i.y - j.y) * x + (j.x - i.x) * y + i.x * j.y - j.x * i.y;
 }
-bool inside_000(const Triangle& t, double x, double y) {
+bool inside_000(const PlaneTriangle& t, double x, double y) {
   const double alpha = f(t[1], t[2], x, y) / f(t[1], t[2], t[0].x, t[0].y);
   const double beta = f(t[2], t[0], x, y) / f(t[2], t[0], t[1].x, t[1].y);
   const double gamma = f(t[0], t[1], x, y) / f(t[0], t[1], t[2].x, t[2].y);
@@ -35,7 +35,7 @@ double e(const Point& tail, const Point& head, double x, double y) {
 }
 /// "Pixels with consistent sign for all three edges are inside. Include edge pixels on left or right edges": both kinds
 /// are in, horizontal edges are neither.
-bool inside_004(const Triangle& t, double x, double y) {
+bool inside_004(const PlaneTriangle& t, double x, double y) {
   int positive = 0, negative = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Point &tail = t[i], &head = t[(i + 1) % 3];
@@ -47,7 +47,7 @@ bool inside_004(const Triangle& t, double x, double y) {
   return positive == 3 || negative == 3;
 }
 /// The same with horizontal edges' pixels in too: all that is not outside.
-bool inside_all_edges(const Triangle& t, double x, double y) {
+bool inside_all_edges(const PlaneTriangle& t, double x, double y) {
   int positive = 0, negative = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double value = e(t[i], t[(i + 1) % 3], x, y);
@@ -59,7 +59,7 @@ bool inside_all_edges(const Triangle& t, double x, double y) {
 
 /// The bounding box as it was meant: over the three vertices.
 template <class Inside>
-void draw(const Triangle& t, Inside inside, const Draw& pixel) {
+void draw(const PlaneTriangle& t, Inside inside, const DrawPixel& pixel) {
   const auto [x_min, x_max] = std::minmax({t[0].x, t[1].x, t[2].x});
   const auto [y_min, y_max] = std::minmax({t[0].y, t[1].y, t[2].y});
   for (int y = static_cast<int>(std::floor(y_min)); y <= std::ceil(y_max); ++y) {
@@ -73,7 +73,7 @@ constexpr int kHub = 40, kHalf = 32, kFrame = 80;
 
 /// A square of side 64 around the hub (40, 40) as a fan of 16 triangles. All corners are on centres, and so are many
 /// pixels of the spokes: 8 spokes (the axes and diagonals) have 31 inside, 8 (to half of a side) have 15: 368.
-std::vector<Triangle> fan() {
+std::vector<PlaneTriangle> fan() {
   std::vector<Point> rim;
   const Point corner[] = {{1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
   for (int side = 0; side < 4; ++side) {
@@ -82,7 +82,7 @@ std::vector<Triangle> fan() {
       rim.push_back(Point(kHub) + static_cast<double>(kHalf) * (a + (b - a) * (quarter / 4.0)));
     }
   }
-  std::vector<Triangle> out;
+  std::vector<PlaneTriangle> out;
   for (std::size_t i = 0; i < rim.size(); ++i) out.push_back({Point(kHub), rim[i], rim[(i + 1) % rim.size()]});
   return out;
 }
@@ -90,11 +90,11 @@ constexpr int kOnSpokes = 8 * 31 + 8 * 15;
 constexpr int kWithin = 63 * 63;  ///< pixels inside the square, its border excluded
 
 /// How often each pixel within the square, its border excluded, is drawn.
-struct Count {
+struct TimesDrawn {
   int never = 0, once = 0, more = 0, most = 0;
 };
-Count count_of(const std::map<std::pair<int, int>, int>& drawn) {
-  Count out;
+TimesDrawn count_of(const std::map<std::pair<int, int>, int>& drawn) {
+  TimesDrawn out;
   for (int y = kHub - kHalf + 1; y < kHub + kHalf; ++y) {
     for (int x = kHub - kHalf + 1; x < kHub + kHalf; ++x) {
       const auto at = drawn.find({x, y});
@@ -106,9 +106,9 @@ Count count_of(const std::map<std::pair<int, int>, int>& drawn) {
   return out;
 }
 template <class Inside>
-Count drawn_by(Inside inside) {
+TimesDrawn drawn_by(Inside inside) {
   std::map<std::pair<int, int>, int> drawn;
-  for (const Triangle& t : fan()) draw(t, inside, [&](int x, int y) { ++drawn[{x, y}]; });
+  for (const PlaneTriangle& t : fan()) draw(t, inside, [&](int x, int y) { ++drawn[{x, y}]; });
   return count_of(drawn);
 }
 
@@ -117,14 +117,14 @@ TEST(NotesTriangles, OneTieRuleDrawsEachPixelOfAFanOnce) {
                            raster::cover_by_scan_line}) {
     std::map<std::pair<int, int>, int> drawn;
     int all = 0;
-    for (const Triangle& t : fan()) {
+    for (const PlaneTriangle& t : fan()) {
       const raster::Corners corners{glm::ivec2(t[0] * 256.0), glm::ivec2(t[1] * 256.0), glm::ivec2(t[2] * 256.0)};
       for (const raster::Span& s : cover(corners, kFrame, kFrame)) {
         for (int x = s.begin; x < s.end; ++x) ++drawn[{x, s.y}];
         all += s.end - s.begin;
       }
     }
-    const Count count = count_of(drawn);
+    const TimesDrawn count = count_of(drawn);
     EXPECT_EQ(count.never, 0);
     EXPECT_EQ(count.once, kWithin);
     EXPECT_EQ(count.more, 0);
@@ -134,7 +134,7 @@ TEST(NotesTriangles, OneTieRuleDrawsEachPixelOfAFanOnce) {
 
 // 000: where alpha, beta or gamma is 0 neither of two neighbours draws.
 TEST(NotesTriangles, Note000StrictSignsLeaveGapsOnSharedEdges) {
-  const Count count = drawn_by(inside_000);
+  const TimesDrawn count = drawn_by(inside_000);
   EXPECT_EQ(count.never, kOnSpokes + 1);  // and the hub
   EXPECT_EQ(count.once, kWithin - kOnSpokes - 1);
   EXPECT_EQ(count.more, 0);
@@ -143,7 +143,7 @@ TEST(NotesTriangles, Note000StrictSignsLeaveGapsOnSharedEdges) {
 // 004: on a left or right edge both neighbours draw; on a horizontal one, which the sentence leaves open, neither. The
 // hub is on a horizontal edge of 4 of the 16.
 TEST(NotesTriangles, Note004LeftAndRightEdgesAreDrawnTwiceAndHorizontalOnesNever) {
-  const Count count = drawn_by(inside_004);
+  const TimesDrawn count = drawn_by(inside_004);
   EXPECT_EQ(count.never, 2 * 31);
   EXPECT_EQ(count.more, kOnSpokes - 2 * 31 + 1);
   EXPECT_EQ(count.once, kWithin - kOnSpokes - 1);
@@ -151,7 +151,7 @@ TEST(NotesTriangles, Note004LeftAndRightEdgesAreDrawnTwiceAndHorizontalOnesNever
 }
 
 TEST(NotesTriangles, WithHorizontalEdgesInAllSharedOnesAreDrawnTwice) {
-  const Count count = drawn_by(inside_all_edges);
+  const TimesDrawn count = drawn_by(inside_all_edges);
   EXPECT_EQ(count.never, 0);
   EXPECT_EQ(count.more, kOnSpokes + 1);
   EXPECT_EQ(count.once, kWithin - kOnSpokes - 1);
@@ -180,7 +180,7 @@ TEST(NotesTriangles, Note004SignsOfEAreReversed) {
 }
 
 /// 000 as it stands: x_min = floor(x_i), x_max = ceiling(x_i), of one vertex i.
-void draw_000_as_it_stands(const Triangle& t, std::size_t i, const Draw& pixel) {
+void draw_000_as_it_stands(const PlaneTriangle& t, std::size_t i, const DrawPixel& pixel) {
   for (int y = static_cast<int>(std::floor(t[i].y)); y <= std::ceil(t[i].y); ++y) {
     for (int x = static_cast<int>(std::floor(t[i].x)); x <= std::ceil(t[i].x); ++x) {
       if (inside_000(t, x, y)) pixel(x, y);
@@ -189,7 +189,7 @@ void draw_000_as_it_stands(const Triangle& t, std::size_t i, const Draw& pixel) 
 }
 
 TEST(NotesTriangles, Note000BoxOfOneVertexHoldsAtMostFourPixels) {
-  const Triangle t{Point(2.25, 3.25), Point(30.5, 6.75), Point(9.5, 28.25)};
+  const PlaneTriangle t{Point(2.25, 3.25), Point(30.5, 6.75), Point(9.5, 28.25)};
   int right = 0;
   draw(t, inside_000, [&](int, int) { ++right; });
   const raster::Corners corners{glm::ivec2(t[0] * 256.0), glm::ivec2(t[1] * 256.0), glm::ivec2(t[2] * 256.0)};
@@ -208,21 +208,21 @@ TEST(NotesTriangles, Note000BoxOfOneVertexHoldsAtMostFourPixels) {
 // where a triangle does. With edges in, or a corner beyond, a pixel is drawn outside the frame.
 TEST(NotesTriangles, Note000LoopsLeaveTheFrame) {
   constexpr int kXs = 16;
-  const auto beyond = [](const Triangle& t, auto inside) {
+  const auto beyond = [](const PlaneTriangle& t, auto inside) {
     int n = 0;
     draw(t, inside, [&](int x, int y) { n += x >= kXs || y >= kXs || x < 0 || y < 0 ? 1 : 0; });
     return n;
   };
   const auto xs_of = [](double x_ndc) { return kXs / 2.0 * x_ndc + kXs / 2.0; };  // M_screen
-  const Triangle at_the_border{Point(0, 0), Point(xs_of(1), 0), Point(xs_of(1), kXs - 1)};
+  const PlaneTriangle at_the_border{Point(0, 0), Point(xs_of(1), 0), Point(xs_of(1), kXs - 1)};
   EXPECT_EQ(at_the_border[1].x, kXs);
   int visited = 0;
   draw(
-      at_the_border, [](const Triangle&, double x, double) { return x == kXs; }, [&](int, int) { ++visited; });
+      at_the_border, [](const PlaneTriangle&, double x, double) { return x == kXs; }, [&](int, int) { ++visited; });
   EXPECT_EQ(visited, kXs);
   EXPECT_EQ(beyond(at_the_border, inside_000), 0) << "saved by what leaves the gaps";
   EXPECT_EQ(beyond(at_the_border, inside_004), kXs - 1);
-  const Triangle across{Point(8, 2), Point(24, 2), Point(8, 18)};
+  const PlaneTriangle across{Point(8, 2), Point(24, 2), Point(8, 18)};
   EXPECT_GT(beyond(across, inside_000), 0);
   for (const raster::Span& s : raster::cover_by_barycentric({{{2048, 512}, {6144, 512}, {2048, 4608}}}, kXs, kXs)) {
     EXPECT_TRUE(s.begin >= 0 && s.end <= kXs && s.y >= 0 && s.y < kXs);

@@ -10,31 +10,31 @@
 namespace plumbline::transforms {
 namespace {
 
-constexpr int kWidth = 8, kHeight = 4;
+constexpr int kColumns = 8, kRows = 4;
 
 glm::dvec2 ndc_of(const glm::dmat4& inverse, double x, double y) {
   return glm::dvec2(inverse * glm::dvec4(x, y, 0, 1));
 }
 
 // Row j is counted from above in both.
-glm::dvec2 sample_by_004(int i, int j) { return ndc_of(gzrender::inverse_x_sp(kWidth, kHeight, 1), i, j); }
+glm::dvec2 sample_by_004(int i, int j) { return ndc_of(gzrender::inverse_x_sp(kColumns, kRows, 1), i, j); }
 glm::dvec2 sample_by_gl(int i, int j) {
-  return ndc_of(games101::inverse_viewport(kWidth, kHeight), i + 0.5, kHeight - (j + 0.5));
+  return ndc_of(games101::inverse_viewport(kColumns, kRows), i + 0.5, kRows - (j + 0.5));
 }
 
 TEST(NotesViewport, APixelOfTheNotesLooksHalfAPixelUpAndLeftOfGls) {
   EXPECT_EQ(sample_by_004(0, 0), glm::dvec2(-1, 1)) << "the frame's very corner";
   EXPECT_EQ(sample_by_gl(0, 0), glm::dvec2(-0.875, 0.75)) << "the middle of the corner's pixel";
-  const glm::dvec2 half_a_pixel(1.0 / kWidth, -1.0 / kHeight);
-  for (int j = 0; j < kHeight; ++j) {
-    for (int i = 0; i < kWidth; ++i) EXPECT_EQ(sample_by_gl(i, j) - sample_by_004(i, j), half_a_pixel);
+  const glm::dvec2 half_a_pixel(1.0 / kColumns, -1.0 / kRows);
+  for (int j = 0; j < kRows; ++j) {
+    for (int i = 0; i < kColumns; ++i) EXPECT_EQ(sample_by_gl(i, j) - sample_by_004(i, j), half_a_pixel);
   }
 }
 
 // How many of the frame's columns have their sample within [from, to) of NDC x.
 int columns(glm::dvec2 (*sample)(int, int), double from, double to) {
   int count = 0;
-  for (int i = 0; i < kWidth; ++i) {
+  for (int i = 0; i < kColumns; ++i) {
     const double x = sample(i, 0).x;
     count += x >= from && x < to ? 1 : 0;
   }
@@ -51,13 +51,13 @@ TEST(NotesViewport, WhatIsEvenAboutTheMiddleIsDrawnUneven) {
   EXPECT_EQ(columns(sample_by_gl, -0.55, 0), 2);
   EXPECT_EQ(columns(sample_by_gl, 0, 0.55), 2);
   // "X in [0, xs)", but NDC x = 1 is xs: a sample that no pixel has.
-  EXPECT_EQ((gzrender::x_sp(kWidth, kHeight, 1) * glm::dvec4(1, 0, 0, 1)).x, kWidth);
+  EXPECT_EQ((gzrender::x_sp(kColumns, kRows, 1) * glm::dvec4(1, 0, 0, 1)).x, kColumns);
 }
 
 TEST(NotesViewport, HalfAPixelPutsItRight) {
-  const glm::dmat4 moved = translation({-0.5, -0.5, 0}) * gzrender::x_sp(kWidth, kHeight, 1);
-  for (int j = 0; j < kHeight; ++j) {
-    for (int i = 0; i < kWidth; ++i) {
+  const glm::dmat4 moved = translation({-0.5, -0.5, 0}) * gzrender::x_sp(kColumns, kRows, 1);
+  for (int j = 0; j < kRows; ++j) {
+    for (int i = 0; i < kColumns; ++i) {
       EXPECT_EQ(moved * glm::dvec4(sample_by_gl(i, j), 0, 1), glm::dvec4(i, j, 0, 1));
     }
   }

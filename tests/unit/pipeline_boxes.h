@@ -2,12 +2,19 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "stages/renderer.h"
 
 namespace plumbline::testing_words {
+
+inline constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {{ColorFormat::rgba8, DepthFormat::z24},
+                                                                   {ColorFormat::rgba8, DepthFormat::z16},
+                                                                   {ColorFormat::rgba12, DepthFormat::z8},
+                                                                   {ColorFormat::rgba32f, DepthFormat::z32f},
+                                                                   {ColorFormat::rgba32f, DepthFormat::z24}};
 
 inline StageSet stages_with_records() {
   return {Stage::matrices, Stage::vertex, Stage::light,      Stage::clip,  Stage::window,

@@ -15,18 +15,18 @@ namespace {
 
 using testing_words::window_triangle;
 using testing_words::window_vertex;
-using F = CompareFunc;
+using Func = CompareFunc;
 using O = StencilOp;
 
 TEST(AlphaTest, ComparesWithTheReferenceByEachFunction) {
   struct Row {
-    F func;
+    Func func;
     bool below, at, above;
   };
-  for (const Row& row : {Row{F::never, false, false, false}, Row{F::less, true, false, false},
-                         Row{F::equal, false, true, false}, Row{F::less_equal, true, true, false},
-                         Row{F::greater, false, false, true}, Row{F::not_equal, true, false, true},
-                         Row{F::greater_equal, false, true, true}, Row{F::always, true, true, true}}) {
+  for (const Row& row : {Row{Func::never, false, false, false}, Row{Func::less, true, false, false},
+                         Row{Func::equal, false, true, false}, Row{Func::less_equal, true, true, false},
+                         Row{Func::greater, false, false, true}, Row{Func::not_equal, true, false, true},
+                         Row{Func::greater_equal, false, true, true}, Row{Func::always, true, true, true}}) {
     for (float scale : {0.0f, 255.0f, 4095.0f}) {
       const AlphaTest test{row.func, 0.5f};
       EXPECT_EQ(alpha_passes<float>(test, 0.25f, scale), row.below);
@@ -38,14 +38,14 @@ TEST(AlphaTest, ComparesWithTheReferenceByEachFunction) {
 
 // 2.1 spec 4.1.4: both are rounded to the frame's codes; a float frame compares what comes, clamped by nothing.
 TEST(AlphaTest, ComparesCodesWhereTheFrameHasThem) {
-  const AlphaTest equal{F::equal, 100.0f / 255};
+  const AlphaTest equal{Func::equal, 100.0f / 255};
   EXPECT_TRUE(alpha_passes<float>(equal, 100.49f / 255, 255));
   EXPECT_FALSE(alpha_passes<float>(equal, 100.51f / 255, 255));
   EXPECT_TRUE(alpha_passes<float>(equal, 99.51f / 255, 255));
   EXPECT_FALSE(alpha_passes<float>(equal, 100.49f / 255, 4095));
   EXPECT_FALSE(alpha_passes<float>(equal, 100.49f / 255, 0));
-  EXPECT_FALSE(alpha_passes<float>({F::greater, 1}, 1.5f, 255));
-  EXPECT_TRUE(alpha_passes<float>({F::greater, 1}, 1.5f, 0));
+  EXPECT_FALSE(alpha_passes<float>({Func::greater, 1}, 1.5f, 255));
+  EXPECT_TRUE(alpha_passes<float>({Func::greater, 1}, 1.5f, 0));
 }
 
 std::uint8_t after(const StencilFace& face, bool nearer, std::uint8_t held) {
@@ -76,7 +76,7 @@ TEST(StencilTest, OpsChangeWhatIsHeld) {
 }
 
 TEST(StencilTest, EachOutcomeHasItsOp) {
-  StencilFace face{F::equal, 5, 0x0f, O::zero, O::increment, O::invert, 0xff};
+  StencilFace face{Func::equal, 5, 0x0f, O::zero, O::increment, O::invert, 0xff};
   EXPECT_EQ(after(face, true, 0x75), 0x8a);
   EXPECT_EQ(after(face, false, 0x75), 0x76);
   EXPECT_EQ(after(face, true, 0x76), 0);
@@ -92,18 +92,18 @@ TEST(StencilTest, ComparesTheReferenceWithWhatIsHeldUnderTheMask) {
   for (int held = 0; held < 256; ++held) {
     for (int mask : {0xff, 0x0f, 0x80, 0}) {
       const int r = 0x47 & mask, s = held & mask;
-      const auto passes = [&](F func) {
+      const auto passes = [&](Func func) {
         StencilFace face{func, 0x47, static_cast<std::uint8_t>(mask), O::keep, O::keep, O::keep, 0xff};
         return stencil_passes<float>(face, held);
       };
-      ASSERT_EQ(passes(F::less), r < s);
-      ASSERT_EQ(passes(F::less_equal), r <= s);
-      ASSERT_EQ(passes(F::greater), r > s);
-      ASSERT_EQ(passes(F::greater_equal), r >= s);
-      ASSERT_EQ(passes(F::equal), r == s);
-      ASSERT_EQ(passes(F::not_equal), r != s);
-      ASSERT_TRUE(passes(F::always));
-      ASSERT_FALSE(passes(F::never));
+      ASSERT_EQ(passes(Func::less), r < s);
+      ASSERT_EQ(passes(Func::less_equal), r <= s);
+      ASSERT_EQ(passes(Func::greater), r > s);
+      ASSERT_EQ(passes(Func::greater_equal), r >= s);
+      ASSERT_EQ(passes(Func::equal), r == s);
+      ASSERT_EQ(passes(Func::not_equal), r != s);
+      ASSERT_TRUE(passes(Func::always));
+      ASSERT_FALSE(passes(Func::never));
     }
   }
 }
@@ -129,25 +129,25 @@ Scene quads(std::initializer_list<float> depths) {
 TEST(FragmentTests, GoInOpenGLsOrder) {
   Scene scene = quads({0.5f, 0.25f, 0.75f});
   Stencil& stencil = scene.draws[1].stencil.emplace();
-  stencil.front = {F::equal, 9, 0xff, O::zero, O::invert, O::increment, 0xff};
-  stencil.back = {F::always, 0, 0xff, O::zero, O::zero, O::zero, 0xff};
+  stencil.front = {Func::equal, 9, 0xff, O::zero, O::invert, O::increment, 0xff};
+  stencil.back = {Func::always, 0, 0xff, O::zero, O::zero, O::zero, 0xff};
   scene.draws[2].stencil = stencil;
   scene.draws[2].stencil->front.reference = 10;
   const Frame both = render(scene);
   EXPECT_EQ(both.stencil(1, 1), 255 - 10) << "9, one more by the second, turned over by the third, which is hidden";
   EXPECT_EQ(both.depth_code(1, 1), 4194304u);
 
-  scene.draws[1].alpha_test = AlphaTest{F::less, 0.5f};
+  scene.draws[1].alpha_test = AlphaTest{Func::less, 0.5f};
   EXPECT_EQ(render(scene).stencil(1, 1), 0) << "dropped by its alpha it adds nothing, and the third finds 9 for 10";
   EXPECT_EQ(render(scene).depth_code(1, 1), 8388608u);
 
   scene.draws[1].alpha_test.reset();
-  scene.draws[1].stencil->front.func = F::never;
+  scene.draws[1].stencil->front.func = Func::never;
   EXPECT_EQ(render(scene).stencil(1, 1), 0) << "0 by the second, and by the third, whose 10 is not 0";
   EXPECT_EQ(render(scene).depth_code(1, 1), 8388608u);
 
   std::swap(scene.meshes[1].triangles[0].y, scene.meshes[1].triangles[0].z);
-  scene.draws[2].stencil->front = {F::equal, 0, 0xff, O::keep, O::increment, O::keep, 0xff};
+  scene.draws[2].stencil->front = {Func::equal, 0, 0xff, O::keep, O::increment, O::keep, 0xff};
   EXPECT_EQ(render(scene).stencil(1, 1), 1) << "by its back the second passes and zeroes";
   EXPECT_EQ(render(scene).depth_code(1, 1), 4194304u);
 }

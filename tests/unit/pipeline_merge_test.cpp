@@ -83,13 +83,13 @@ TEST(PipelineMerge, FloatPassesThrough) {
 }
 
 // OpenGL 2.1 spec, tables 4.1 and 4.2, for one source and one destination.
-struct Case {
+struct ColorCase {
   BlendFactor factor;
   glm::dvec4 expected;  // the factor
 };
 const glm::dvec4 kSource(0.25, 0.5, 0.75, 0.375), kStored(51, 102, 204, 153), kConstant(0.125, 0.625, 0.0625, 0.875);
 const glm::dvec4 kIn01 = kStored / 255.0;
-const Case kFactors[] = {
+const ColorCase kFactors[] = {
     {BlendFactor::zero, glm::dvec4(0)},
     {BlendFactor::one, glm::dvec4(1)},
     {BlendFactor::source_color, kSource},
@@ -117,8 +117,8 @@ glm::dvec4 blended(const BlendTerm& term, float scale, const glm::dvec4& source 
 }
 
 TEST(PipelineBlend, EachFactorOnEitherSide) {
-  for (const Case& c : kFactors) {
-    for (const Case& d : kFactors) {
+  for (const ColorCase& c : kFactors) {
+    for (const ColorCase& d : kFactors) {
       if (d.factor == BlendFactor::source_alpha_saturate) continue;
       const glm::dvec4 expected = kSource * c.expected + kIn01 * d.expected;
       const glm::dvec4 is = blended({c.factor, d.factor, BlendEquation::add}, 255);

@@ -13,13 +13,8 @@ namespace {
 using testing_words::boxes;
 using testing_words::everything;
 using testing_words::expect_same;
+using testing_words::kFormats;
 using testing_words::same_values;
-
-constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {{ColorFormat::rgba8, DepthFormat::z24},
-                                                            {ColorFormat::rgba8, DepthFormat::z16},
-                                                            {ColorFormat::rgba12, DepthFormat::z8},
-                                                            {ColorFormat::rgba32f, DepthFormat::z32f},
-                                                            {ColorFormat::rgba32f, DepthFormat::z24}};
 
 TEST(PipelineRenderer, TheTestSceneHasWhatItIsFor) {
   const Scene scene = boxes();

@@ -12,6 +12,7 @@ namespace {
 using testing_words::boxes;
 using testing_words::everything;
 using testing_words::expect_same;
+using testing_words::kFormats;
 
 /// What a capture of everything holds of one stage.
 Capture of_stage(const Capture& whole, Stage stage) {
@@ -44,12 +45,6 @@ Capture of_stage(const Capture& whole, Stage stage) {
   }
   return c;
 }
-
-constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {{ColorFormat::rgba8, DepthFormat::z24},
-                                                            {ColorFormat::rgba8, DepthFormat::z16},
-                                                            {ColorFormat::rgba12, DepthFormat::z8},
-                                                            {ColorFormat::rgba32f, DepthFormat::z32f},
-                                                            {ColorFormat::rgba32f, DepthFormat::z24}};
 
 TEST(PipelineRenderer, EachStageAloneOnTheRecordsBeforeItIsTheWhole) {
   for (const auto& [color, depth] : kFormats) {

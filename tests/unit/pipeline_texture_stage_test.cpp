@@ -13,7 +13,7 @@ namespace {
 
 Scene scene_of(const std::string& name) { return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/texture/" + name, {}); }
 
-Request everything() {
+Request all_stages() {
   Request request;
   request.records = StageSet::all();
   return request;
@@ -27,7 +27,7 @@ bool same(const std::vector<Texel<double>>& a, const std::vector<Texel<double>>&
 TEST(PipelineTextureStage, AloneOnItsRecordsIsTheWhole) {
   const Scene scene = scene_of("two_textures.json");
   const auto pipeline = make_pipeline();
-  const Capture whole = pipeline->capture(scene, everything());
+  const Capture whole = pipeline->capture(scene, all_stages());
   ASSERT_EQ(whole.records.texels.size(), whole.records.covered.size());
   EXPECT_TRUE(same(pipeline->run_stage(scene, Stage::texture, whole).records.texels, whole.records.texels));
   const Capture shaded = pipeline->run_stage(scene, Stage::shade, whole);
@@ -38,7 +38,7 @@ TEST(PipelineTextureStage, AloneOnItsRecordsIsTheWhole) {
 TEST(PipelineTextureStage, RecordsThatDoNotFitAreRefused) {
   const Scene scene = scene_of("cube.json");
   const auto pipeline = make_pipeline();
-  Capture in = pipeline->capture(scene, everything());
+  Capture in = pipeline->capture(scene, all_stages());
   Capture lacking = in;
   lacking.records.texels.pop_back();
   EXPECT_THROW(pipeline->run_stage(scene, Stage::shade, lacking), std::invalid_argument);
@@ -49,7 +49,7 @@ TEST(PipelineTextureStage, RecordsThatDoNotFitAreRefused) {
 TEST(PipelineTextureStage, AnUntexturedDrawsTexelIsBlackAndOpaque) {
   Scene scene = scene_of("two_textures.json");
   for (std::size_t d = 1; d < scene.draws.size(); ++d) scene.draws[d].texture.reset();
-  const Capture capture = make_pipeline()->capture(scene, everything());
+  const Capture capture = make_pipeline()->capture(scene, all_stages());
   int plain = 0;
   for (std::size_t i = 0; i < capture.records.covered.size(); ++i) {
     const std::uint32_t primitive = capture.records.triangles[capture.records.covered[i].triangle].primitive;
@@ -59,13 +59,13 @@ TEST(PipelineTextureStage, AnUntexturedDrawsTexelIsBlackAndOpaque) {
   }
   EXPECT_GT(plain, 0);
   scene.draws[0].texture.reset();
-  EXPECT_TRUE(make_pipeline()->capture(scene, everything()).records.texels.empty());
+  EXPECT_TRUE(make_pipeline()->capture(scene, all_stages()).records.texels.empty());
 }
 
 class TexelFolder : public TestFolder {};
 
 TEST_F(TexelFolder, KeepsThem) {
-  const Capture capture = make_pipeline()->capture(scene_of("cube.json"), everything());
+  const Capture capture = make_pipeline()->capture(scene_of("cube.json"), all_stages());
   write_capture(capture, root_ / "capture");
   const Capture back = read_capture(root_ / "capture");
   EXPECT_TRUE(same(back.records.texels, capture.records.texels));

@@ -15,7 +15,7 @@ namespace plumbline::pipeline {
 namespace {
 
 using Pixel = std::pair<int, int>;
-using Pixels = std::set<Pixel>;
+using PixelSet = std::set<Pixel>;
 
 WindowTriangle<float> thin(glm::ivec2 a, glm::ivec2 b, std::uint32_t corners, std::uint32_t width) {
   WindowTriangle<float> t{};
@@ -27,8 +27,8 @@ WindowTriangle<float> thin(glm::ivec2 a, glm::ivec2 b, std::uint32_t corners, st
 }
 
 /// Those in [0, 128) x [0, 128), tile by tile; none twice.
-Pixels covered(const WindowTriangle<float>& t) {
-  Pixels out;
+PixelSet covered(const WindowTriangle<float>& t) {
+  PixelSet out;
   for (const glm::ivec2 origin : {glm::ivec2(0, 0), glm::ivec2(64, 0), glm::ivec2(0, 64), glm::ivec2(64, 64)}) {
     for (const glm::ivec2 p : thin_pixels(t, origin, 64))
       EXPECT_TRUE(out.emplace(p.x, p.y).second) << p.x << " " << p.y;
@@ -39,10 +39,10 @@ Pixels covered(const WindowTriangle<float>& t) {
 }
 
 /// OpenGL 2.1, section 3.3: centres in a square about the nearest centre (odd) or corner (even) of pixels.
-Pixels square(glm::ivec2 snapped, int size) {
+PixelSet square(glm::ivec2 snapped, int size) {
   const glm::dvec2 p_win = glm::dvec2(snapped) / 256.0 + 0.5;
   const glm::dvec2 middle = size % 2 == 1 ? glm::floor(p_win) + 0.5 : glm::floor(p_win + 0.5);
-  Pixels out;
+  PixelSet out;
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x)
       if (std::abs(x + 0.5 - middle.x) < size / 2.0 && std::abs(y + 0.5 - middle.y) < size / 2.0) out.emplace(x, y);
@@ -71,13 +71,13 @@ TEST(PipelineWide, PointsOfBothParitiesByHand) {
 }
 
 TEST(PipelineWide, ALevelLineOfThreeIsThreeLines) {
-  const Pixels is = covered(thin({10 * 256, 20 * 256}, {15 * 256, 20 * 256}, 2, 3));
-  Pixels expected;
+  const PixelSet is = covered(thin({10 * 256, 20 * 256}, {15 * 256, 20 * 256}, 2, 3));
+  PixelSet expected;
   for (int x = 10; x < 15; ++x)
     for (const int y : {19, 20, 21}) expected.emplace(x, y);
   EXPECT_EQ(is, expected);
   // Two wide, half a pixel down: ends on the border of rows 19 and 20 count for the lower, and of columns for the left.
-  const Pixels two = covered(thin({10 * 256, 20 * 256}, {15 * 256, 20 * 256}, 2, 2));
+  const PixelSet two = covered(thin({10 * 256, 20 * 256}, {15 * 256, 20 * 256}, 2, 2));
   EXPECT_EQ(two.size(), 10u);
   for (const auto& [x, y] : two) EXPECT_TRUE(y == 19 || y == 20) << y;
 }
@@ -92,7 +92,7 @@ TEST(PipelineWide, LinesAreTheMovedLineReplicated) {
     const glm::ivec2 a(at(), at()), b(at(), at());
     const bool x_major = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
     const glm::i64vec2 minor = x_major ? glm::i64vec2(0, 1) : glm::i64vec2(1, 0);
-    Pixels expected;
+    PixelSet expected;
     const glm::i64vec2 aside(200 * 256);  // the library's frame begins at 0
     const glm::i64vec2 moved = aside - minor * std::int64_t{128 * (width - 1)};
     for (const glm::ivec2 p : raster::diamond_exit_line(glm::i64vec2(a) + moved, glm::i64vec2(b) + moved, far)) {

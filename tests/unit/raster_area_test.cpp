@@ -13,12 +13,12 @@
 namespace plumbline::raster {
 namespace {
 
-constexpr int kSize = 48;
+constexpr int kSide = 48;
 constexpr double kTiny = 1e-9;  ///< above all rounding here: at most 64 * 2^-53 * 2000
 
 std::set<std::pair<int, int>> sampled(const Corners& corners) {
   std::set<std::pair<int, int>> out;
-  for (const Span& s : cover_by_scan_line(corners, kSize, kSize)) {
+  for (const Span& s : cover_by_scan_line(corners, kSide, kSide)) {
     for (int x = s.begin; x < s.end; ++x) out.emplace(x, s.y);
   }
   return out;
@@ -32,8 +32,8 @@ struct Error {
 Error error_of(const Corners& corners) {
   const auto pixels = sampled(corners);
   Error out;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
       const double a = area_in_pixel(corners, x, y);
       out.sum_of_areas += a;
       const bool in = pixels.contains({x, y});
@@ -70,15 +70,15 @@ TEST(AreaInPixel, OfHandKnownTriangles) {
 TEST(Sampling, IsOffByLessThanAPixelAndByHalfOfOneOutside) {
   std::mt19937 random(3);
   const auto point = [&] {
-    const int x = static_cast<int>(random() % (256 * (kSize - 1)));
-    return glm::ivec2(x, static_cast<int>(random() % (256 * (kSize - 1))));
+    const int x = static_cast<int>(random() % (256 * (kSide - 1)));
+    return glm::ivec2(x, static_cast<int>(random() % (256 * (kSide - 1))));
   };
   double in = 0, out = 0, total = 0, touched = 0;
   for (int i = 0; i < 200; ++i) {
     const Corners corners{point(), point(), point()};
     const Error e = error_of(corners);
-    constexpr double kRounding = 64 * 0x1p-53 * kSize * 1.5;  // of one pixel: the header's, the diagonal the farthest
-    EXPECT_NEAR(e.sum_of_areas, area(corners), kSize * kSize * kRounding) << i;
+    constexpr double kRounding = 64 * 0x1p-53 * kSide * 1.5;  // of one pixel: the header's, the diagonal the farthest
+    EXPECT_NEAR(e.sum_of_areas, area(corners), kSide * kSide * kRounding) << i;
     EXPECT_LT(e.largest_in, 1.0) << i;
     EXPECT_LE(e.largest_out, 0.5 + kRounding) << i;
     in = std::max(in, e.largest_in);

@@ -14,35 +14,35 @@
 namespace plumbline::raster {
 namespace {
 
-using Polygon = std::vector<glm::ivec2>;
+using PointPolygon = std::vector<glm::ivec2>;
 
 std::int64_t twice_area(glm::i64vec2 a, glm::i64vec2 b, glm::i64vec2 c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
-std::int64_t twice_area(const Polygon& p) {
+std::int64_t twice_area(const PointPolygon& p) {
   std::int64_t sum = 0;
   for (std::size_t i = 2; i < p.size(); ++i) sum += twice_area(p[0], p[i - 1], p[i]);
   return sum;
 }
 
-Polygon reversed(Polygon p) {
+PointPolygon reversed(PointPolygon p) {
   std::reverse(p.begin(), p.end());
   return p;
 }
-Polygon turned(Polygon p) {
+PointPolygon turned(PointPolygon p) {
   std::rotate(p.begin(), p.begin() + 1, p.end());
   return p;
 }
-Polygon on_centres(Polygon p) {
+PointPolygon on_centres(PointPolygon p) {
   for (glm::ivec2& corner : p) corner *= 256;
   return p;
 }
 
-constexpr int kSize = 40;
+constexpr int kGrid = 40;
 
 /// By counting crossings of each row's line, moved a hair up, to the left of each centre, moved a hair to the right:
 /// knows nothing of triangles. A crossing at or left of the centre counts.
-bool inside(const Polygon& p, int x, int y) {
+bool inside(const PointPolygon& p, int x, int y) {
   bool in = false;
   for (std::size_t i = 0; i < p.size(); ++i) {
     glm::i64vec2 a = p[i], b = p[(i + 1) % p.size()];
@@ -56,7 +56,7 @@ bool inside(const Polygon& p, int x, int y) {
 
 /// Pieces: as many as there must be, wound as the whole, of its area together, none without; and each pixel of the
 /// polygon painted once, no other.
-void expect_decomposed(const Polygon& p, const std::string& what) {
+void expect_decomposed(const PointPolygon& p, const std::string& what) {
   const std::vector<glm::uvec3> pieces = decompose(p);
   ASSERT_EQ(pieces.size(), p.size() - 2) << what;
   const std::int64_t whole = twice_area(p);
@@ -69,21 +69,21 @@ void expect_decomposed(const Polygon& p, const std::string& what) {
     EXPECT_EQ(piece > 0, whole > 0) << what;
     sum += piece;
     for (int i = 0; i < 3; ++i) used.insert(t[i]);
-    for (const Span& s : cover_by_scan_line({p[t.x], p[t.y], p[t.z]}, kSize, kSize)) {
+    for (const Span& s : cover_by_scan_line({p[t.x], p[t.y], p[t.z]}, kGrid, kGrid)) {
       for (int x = s.begin; x < s.end; ++x) ++painted[{x, s.y}];
     }
   }
   EXPECT_EQ(sum, whole) << what;
   EXPECT_EQ(used.size(), p.size()) << what;
   int wrong = 0;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) wrong += painted[{x, y}] == (inside(p, x, y) ? 1 : 0) ? 0 : 1;
+  for (int y = 0; y < kGrid; ++y) {
+    for (int x = 0; x < kGrid; ++x) wrong += painted[{x, y}] == (inside(p, x, y) ? 1 : 0) ? 0 : 1;
   }
   EXPECT_EQ(wrong, 0) << what;
 }
 
-const std::map<std::string, Polygon>& polygons() {
-  static const std::map<std::string, Polygon> kAll = {
+const std::map<std::string, PointPolygon>& polygons() {
+  static const std::map<std::string, PointPolygon> kAll = {
       {"triangle", {{1, 1}, {9, 2}, {4, 8}}},
       {"square", {{1, 1}, {9, 1}, {9, 9}, {1, 9}}},
       {"convex", {{4, 1}, {9, 3}, {10, 8}, {6, 11}, {2, 9}, {1, 4}}},
@@ -119,7 +119,7 @@ const std::map<std::string, Polygon>& polygons() {
 
 TEST(Decompose, LosesNoAreaAndPaintsEachPixelOnce) {
   for (const auto& [name, pixels] : polygons()) {
-    Polygon p = on_centres(pixels);
+    PointPolygon p = on_centres(pixels);
     for (std::size_t i = 0; i < p.size(); ++i, p = turned(p)) {
       expect_decomposed(p, name + ", from corner " + std::to_string(i));
       expect_decomposed(reversed(p), name + ", clockwise, from corner " + std::to_string(i));
@@ -131,7 +131,7 @@ TEST(Decompose, RandomStarsOffTheCentres) {
   std::mt19937 random(5);
   for (int i = 0; i < 300; ++i) {
     const std::size_t n = 4 + random() % 40;
-    Polygon p;
+    PointPolygon p;
     for (std::size_t k = 0; k < n; ++k) {
       const double around = 6.283185307179586 * static_cast<double>(k) / static_cast<double>(n);
       const double radius = 256 * (2 + 17 * (static_cast<double>(random()) / 4294967296.0));
@@ -144,15 +144,15 @@ TEST(Decompose, RandomStarsOffTheCentres) {
 
 TEST(Decompose, TheLargestCornersDoNotOverflow) {
   constexpr int kFar = 1 << 29;
-  const Polygon p{{-kFar, -kFar}, {kFar, -kFar}, {kFar, kFar}, {0, 0}, {-kFar, kFar}};
+  const PointPolygon p{{-kFar, -kFar}, {kFar, -kFar}, {kFar, kFar}, {0, 0}, {-kFar, kFar}};
   std::int64_t sum = 0;
   for (const glm::uvec3& t : decompose(p)) sum += twice_area(p[t.x], p[t.y], p[t.z]);
   EXPECT_EQ(sum, std::int64_t{6} << 58);  // a square of side 2^30 without a quarter, twice
-  EXPECT_THROW(decompose(Polygon{{-kFar - 1, 0}, {1, 0}, {0, 1}}), std::invalid_argument);
+  EXPECT_THROW(decompose(PointPolygon{{-kFar - 1, 0}, {1, 0}, {0, 1}}), std::invalid_argument);
 }
 
 TEST(Decompose, RefusesWhatCrossesOrTouchesItselfOrHasNoArea) {
-  const std::map<std::string, Polygon> bad = {
+  const std::map<std::string, PointPolygon> bad = {
       {"nothing", {}},
       {"two corners", {{0, 0}, {5, 0}}},
       {"a line", {{0, 0}, {5, 0}, {9, 0}}},

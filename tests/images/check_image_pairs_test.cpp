@@ -15,9 +15,9 @@
 // After fmt: it would include it as headers only (image_file.cpp).
 #include <OpenImageIO/imageio.h>
 
+#include "../check/check_fixtures.h"
 #include "../unit/test_folder.h"
 #include "check/compare_stored.h"
-#include "check_fixtures.h"
 
 namespace plumbline::check {
 namespace {
