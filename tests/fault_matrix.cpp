@@ -13,6 +13,7 @@
 #include "faults/faults.h"
 #include "faults/legal.h"
 #include "matrix/report.h"
+#include "scene/antialias.h"
 #include "scene/scene_file.h"
 
 namespace plumbline::matrix {
@@ -26,11 +27,11 @@ struct Extent {
   std::size_t scenes = 36;                 // at most, of each fault; spread over those that it affects
   std::size_t pairs = 120, of_pair = 3;    // of the scenes that both affect
   std::size_t of_legal = 30;               // scenes of each variant
-  bool until_seen = false;                 // of a fault's scenes one after the other, until it is seen
+  bool until_seen = false;                 // of a fault's scenes one after the other, cheapest first, until it is seen
 };
 constexpr Extent kUsual{};
 constexpr Extent kAll{.models = true, .scenes = ~std::size_t{0}, .pairs = 400, .of_pair = 10, .of_legal = 100};
-constexpr Extent kQuick{.affected = 2, .pairs = 0, .of_legal = 0, .until_seen = true};
+constexpr Extent kQuick{.affected = 1, .pairs = 0, .of_legal = 0, .until_seen = true};
 
 bool is_model(const Scene& scene) { return scene.name.starts_with("models/"); }
 
@@ -38,6 +39,16 @@ std::vector<Scene> load(const std::filesystem::path& folder, bool models) {
   std::vector<Scene> out;
   for (const auto& file : find_scenes({&folder, 1})) {
     if (models || file.parent_path().stem() != "models") out.push_back(load_scene(file));
+  }
+  return out;
+}
+
+// About what it takes to draw it and to judge it.
+std::size_t work_of(const Scene& scene) {
+  std::size_t out = 0;
+  for (const Scene& pass : passes_of(scene)) {
+    const std::size_t pixels = static_cast<std::size_t>(pass.frame.width) * static_cast<std::size_t>(pass.frame.height);
+    for (const Draw& draw : pass.draws) out += pixels + 50 * pass.meshes[draw.mesh].triangles.size();
   }
   return out;
 }
@@ -122,9 +133,11 @@ std::vector<Row> of_faults_and_pairs(std::span<const Scene> scenes, const Extent
   if (!extent.until_seen) return rows_of(scenes, std::move(subjects), on, extent.scenes, workers);
   std::vector<Row> rows = until_seen(scenes, std::move(subjects), on, workers);
   for (Row& row : rows) {  // looking for more scenes takes long, and few faults need them
-    if (row.seen() > 0) continue;
-    const std::vector<SceneList> more = affected(scenes, {&row.subject, 1}, 24, workers);
-    row = std::move(until_seen(scenes, {row.subject}, more, workers)[0]);
+    for (std::size_t most = 4; row.seen() == 0; most *= 4) {
+      const std::vector<SceneList> more = affected(scenes, {&row.subject, 1}, most, workers);
+      row = std::move(until_seen(scenes, {row.subject}, more, workers)[0]);
+      if (more[0].size() < most) break;
+    }
   }
   return rows;
 }
@@ -157,7 +170,8 @@ std::vector<Row> of_legal(const std::vector<Scene>& scenes, const Extent& extent
 
 Matrix matrix_of(const std::filesystem::path& folder, const Extent& extent, unsigned workers) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<Scene> scenes = load(folder, extent.models);
+  std::vector<Scene> scenes = load(folder, extent.models);
+  if (extent.until_seen) std::ranges::stable_sort(scenes, {}, work_of);
   Matrix out;
   for (const Scene& scene : scenes) out.scenes.push_back(scene.name);
   out.faults = of_faults_and_pairs(scenes, extent, workers, out.pairs);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -172,8 +173,13 @@ void add_slopes(const Texture& texture, int number, bool linear, glm::dvec2 st, 
 
 }  // namespace
 
+bool depends_on_lambda(const Sampler& s) {
+  return mipmaps(s.min) || (s.min == MinFilter::linear) != (s.mag == MagFilter::linear);
+}
+
 TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi) {
   TexelRange out;
+  std::uint64_t sloped = 0;  // a bit for each level and filter whose slopes are in
   out.lo = glm::dvec4(std::numeric_limits<double>::infinity());
   out.hi = -out.lo;
   const auto add = [&](double lambda) {
@@ -181,11 +187,16 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
     out.lo = glm::min(out.lo, texel);
     out.hi = glm::max(out.hi, texel);
     const auto [first, last] = levels_at(texture, lambda);
+    const bool linear = filters_linearly(texture.sampler, lambda);
     for (int level = first; level <= last; ++level) {
-      add_slopes(texture, level, filters_linearly(texture.sampler, lambda), st, out);
+      const std::uint64_t bit = std::uint64_t{1} << (2 * level + (linear ? 1 : 0));
+      if ((sloped & bit) == 0) add_slopes(texture, level, linear, st, out);
+      sloped |= bit;
     }
   };
   add(lambda_lo);
+  if (!depends_on_lambda(texture.sampler) || (lambda_lo <= lambda_hi && lambda_hi <= magnified_up_to(texture.sampler)))
+    return out;
   add(lambda_hi);
   // What is chosen by lambda changes at multiples of a half alone, and between them linearly; a little beyond each the
   // other choice is made.

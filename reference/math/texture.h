@@ -19,6 +19,9 @@ double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dv
 /// The texture source components at (s, t), filtered at lambda.
 glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda);
 
+/// Whether lambda makes a difference to it.
+bool depends_on_lambda(const Sampler& sampler);
+
 /// What filtered_texel() comes to where lambda is in an interval, and (s, t) not quite known.
 TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi);
 

@@ -30,7 +30,11 @@ Gl current_gl(Context& context) {
 class OpenGlRenderer final : public Renderer {
  public:
   OpenGlRenderer(std::string name, MesaDriver driver, std::unique_ptr<Context> context)
-      : name_(std::move(name)), context_(std::move(context)), gl_(current_gl(*context_)), vertex_program_(gl_) {
+      : name_(std::move(name)),
+        context_(std::move(context)),
+        gl_(current_gl(*context_)),
+        vertex_program_(gl_),
+        vertex_colors_(gl_) {
     const std::string renderer = text(gl_, GL_RENDERER);
     if (!renderer.starts_with(name_of(driver))) {
       throw RendererFailed(fmt::format("OpenGL: asked for {}, got the driver \"{}\"", name_of(driver), renderer));
@@ -106,8 +110,12 @@ class OpenGlRenderer final : public Renderer {
     target.bind();
     if (request.records.has(Stage::matrices)) records.matrices = read_matrices(gl_, scene);
     if (request.records.has(Stage::vertex)) records.vertices = vertex_program_.run(scene);
-    if (request.records.has(Stage::light)) records.lit = read_lit(gl_, scene);
-    read_polygons(gl_, scene, request, records);
+    const bool polygons = request.records.has(Stage::clip) || request.records.has(Stage::window);
+    std::vector<Lit<double>> lit;
+    if (polygons || request.records.has(Stage::light)) lit = vertex_colors_.read(scene);
+    target.bind();
+    if (polygons) read_polygons(gl_, scene, lit, request, records);
+    if (request.records.has(Stage::light)) records.lit = std::move(lit);
     if (request.records.has(Stage::coverage) && request.records.has(Stage::window)) {
       read_covered_lines(gl_, scene, records);
     }
@@ -117,6 +125,7 @@ class OpenGlRenderer final : public Renderer {
   std::unique_ptr<Context> context_;
   Gl gl_;
   VertexProgram vertex_program_;
+  VertexColors vertex_colors_;
 };
 
 }  // namespace

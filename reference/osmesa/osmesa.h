@@ -14,10 +14,11 @@ enum class MesaDriver { llvmpipe, softpipe };
 /// Make the context. The renderer, named after the library or, with it, `softpipe`, shows
 ///   matrices   as GL's matrix stacks and viewport hold them, the normal matrix as the inverse transpose of that
 ///   vertex     by transform feedback of a GLSL 1.20 program
-///   light      by feedback mode, each vertex as a point
+///   light      each vertex drawn as a point, into RGBA32F
 ///   clip       by feedback mode without culling. p_clip comes from the window position, in double: a float's relative
 ///              error in p_win, times w. Polygons begin at any of their vertices. `cut` says that the position is not
-///              that of one of the mesh triangle's vertices
+///              that of one of the mesh triangle's vertices. Where back faces have no colours of their own, the
+///              vertices go in with those of light
 ///   window     by the same feedback; facing and culling by stages.h's rule, the sign of the snapped area, because
 ///              feedback mode culls by the unsnapped one. GL's own culling shows in the planes. inv_w is 1 / (1 / (1 /
 ///              w)): the feedback hands out w. Feedback mode applies no flat shading: the colours of flat draws are

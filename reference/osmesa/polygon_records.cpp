@@ -51,8 +51,10 @@ std::vector<std::uint32_t> wanted_primitives(const DrawRange& range, const std::
   return primitives;
 }
 
+// Each with the colour that `color` gives of its vertex.
+template <class Color>
 std::vector<FedCorner> fed_corners(const Mesh& mesh, std::uint32_t first_primitive,
-                                   std::span<const std::uint32_t> primitives) {
+                               std::span<const std::uint32_t> primitives, const Color& color) {
   constexpr std::array<glm::vec2, 3> kCornerTags = {glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(0, 0)};
   std::vector<FedCorner> corners;
   const auto count = static_cast<int>(corner_count(mesh.topology));
@@ -62,8 +64,8 @@ std::vector<FedCorner> fed_corners(const Mesh& mesh, std::uint32_t first_primiti
     const glm::vec2 number(static_cast<float>(primitive & 0xffffu), static_cast<float>(primitive >> 16));
     for (int i = 0; i < count; ++i) {
       const std::uint32_t v = triangle[i];
-      corners.push_back({mesh.positions[v], mesh.normals[v], color_at(mesh, v),
-                         glm::vec4(number, kCornerTags[static_cast<std::size_t>(i)])});
+      corners.push_back(
+          {mesh.positions[v], mesh.normals[v], color(v), glm::vec4(number, kCornerTags[static_cast<std::size_t>(i)])});
     }
   }
   return corners;
@@ -212,9 +214,9 @@ void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std
 
 }  // namespace
 
-void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request, Records<double>& records) {
+void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<double>> lit, const Request& request,
+                   Records<double>& records) {
   const bool clip = request.records.has(Stage::clip), window = request.records.has(Stage::window);
-  if (!clip && !window) return;
   const SavedState before(gl);
   Feedback feedback(gl, GL_4D_COLOR_TEXTURE);
   set_lights(gl, scene.scene());
@@ -224,17 +226,27 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, const Request& request,
     const Mesh& mesh = scene.scene().meshes[draw.mesh];
     const std::vector<std::uint32_t> wanted = wanted_primitives(range, request.primitives);
     scene.set_matrices(i);
-    scene.set_vertex_light(i);
+    // Lit again, the vertices would cost a shader of their own. But that has the back faces' colours, too.
+    const bool two_sided = is_lit_per_vertex(draw) && scene.scene().light_model.sides == LightModel::Sides::two;
+    if (two_sided) {
+      scene.set_vertex_light(i);
+    } else {
+      gl.Disable(GL_LIGHTING);
+      gl.UseProgram(0);
+    }
+    const auto color = [&](std::uint32_t vertex) {
+      return two_sided ? color_at(mesh, vertex) : glm::vec4(lit[range.first_vertex + vertex].color);
+    };
     gl.ShadeModel(GL_SMOOTH);  // flat, feedback leaves the colours of cut triangles undefined (measured)
     Matrices<double> whole_range = scene.matrices(i);
     whole_range.win_scale.z = whole_range.win_translate.z = 0.5;
     const ToClip to_clip(whole_range);
     for (std::size_t at = 0; at < wanted.size(); at += kBatch) {
       const auto batch = std::span(wanted).subspan(at, std::min(kBatch, wanted.size() - at));
-      const std::vector<FedCorner> corners = fed_corners(mesh, range.first_primitive, batch);
+      const std::vector<FedCorner> corners = fed_corners(mesh, range.first_primitive, batch, color);
       const std::size_t expected = values_of(corner_count(mesh.topology)) * (batch.size() * 5 / 4 + 16);
       const auto fed = [&] {
-        const auto run = [&] { draw_corners(gl, corners, mesh.topology, !mesh.colors.empty()); };
+        const auto run = [&] { draw_corners(gl, corners, mesh.topology, !two_sided || !mesh.colors.empty()); };
         return triangles_of(feedback.run(expected, run));
       };
       std::vector<FedTriangle> triangles = fed();

@@ -22,7 +22,7 @@ struct Corner {
   glm::vec4 weight;
 };
 
-// What GL takes for a pointer: bytes from the bound buffer's start, or an address where none is bound.
+// What GL takes for a pointer: bytes from the bound buffer's start.
 const void* offset(std::uintptr_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 // OpenGL would read past the end of the arrays.
@@ -139,9 +139,7 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene),
     if (needs_light_program(scene, scene.draws[i])) {
       program.emplace(gl, light_vertex_shader(scene, scene.draws[i]), light_fragment_shader(scene, scene.draws[i]));
     }
-    std::vector<MeshVertex> vertices = vertices_of(mesh);
-    Buffer vertex_buffer(gl, std::span<const MeshVertex>(vertices));
-    arrays_.push_back({std::move(vertices), std::move(vertex_buffer),
+    arrays_.push_back({Buffer(gl, std::span<const MeshVertex>(vertices_of(mesh))),
                        Buffer(gl, std::span<const std::uint32_t>(indices_of(mesh))),
                        Buffer(gl, std::span<const Corner>(corners_of(mesh, ranges_[i].first_primitive)))});
   }
@@ -191,11 +189,15 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
   }
   gl_.Enable(GL_LIGHTING);
   set_material(gl_, scene_, d);
-  if (!light_programs_[draw]) return;
+  if (!has_vertex_program(draw)) return;
   gl_.UseProgram(light_programs_[draw]->name());
   // With a vertex shader, these are not the light model's matter.
   if (scene_.light_model.sides == LightModel::Sides::two) gl_.Enable(GL_VERTEX_PROGRAM_TWO_SIDE);
   if (scene_.light_model.separate_specular) gl_.Enable(GL_COLOR_SUM);
+}
+
+bool SceneInGl::has_vertex_program(std::size_t draw) const {
+  return is_lit_per_vertex(scene_.draws[draw]) && light_programs_[draw];
 }
 
 void SceneInGl::set_texture_source(std::size_t draw) const {
@@ -256,17 +258,16 @@ void SceneInGl::set_merge(std::size_t draw) const {
   gl_.BlendColor(blend.color.r, blend.color.g, blend.color.b, blend.color.a);
 }
 
-// `first` is null where a buffer is bound.
-void SceneInGl::point_to_vertices(std::size_t draw, const MeshVertex* first) const {
-  const auto base = reinterpret_cast<std::uintptr_t>(first);
-  gl_.VertexPointer(3, GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, position)));
-  gl_.NormalPointer(GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, normal)));
-  gl_.ColorPointer(4, GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, color)));
+void SceneInGl::bind_vertices(std::size_t draw) const {
+  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertices.name());
+  gl_.VertexPointer(3, GL_FLOAT, sizeof(MeshVertex), offset(offsetof(MeshVertex, position)));
+  gl_.NormalPointer(GL_FLOAT, sizeof(MeshVertex), offset(offsetof(MeshVertex, normal)));
+  gl_.ColorPointer(4, GL_FLOAT, sizeof(MeshVertex), offset(offsetof(MeshVertex, color)));
   gl_.EnableClientState(GL_VERTEX_ARRAY);
   gl_.EnableClientState(GL_NORMAL_ARRAY);
   if (!mesh(draw).colors.empty()) gl_.EnableClientState(GL_COLOR_ARRAY);
   if (mesh(draw).texcoords.empty()) return;
-  gl_.TexCoordPointer(2, GL_FLOAT, sizeof(MeshVertex), offset(base + offsetof(MeshVertex, texcoord)));
+  gl_.TexCoordPointer(2, GL_FLOAT, sizeof(MeshVertex), offset(offsetof(MeshVertex, texcoord)));
   gl_.EnableClientState(GL_TEXTURE_COORD_ARRAY);
 }
 
@@ -283,15 +284,13 @@ void SceneInGl::draw_weights(std::size_t draw) const { draw_weights(draw, all(dr
 
 void SceneInGl::draw_primitives(std::size_t draw, Primitives these) const {
   const SavedArrays arrays(gl_);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
-  point_to_vertices(draw, nullptr);
+  bind_vertices(draw);
   draw_elements(draw, these);
 }
 
 void SceneInGl::draw_without_colors(std::size_t draw, Primitives these) const {
   const SavedArrays arrays(gl_);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
-  point_to_vertices(draw, nullptr);
+  bind_vertices(draw);
   gl_.DisableClientState(GL_COLOR_ARRAY);
   draw_elements(draw, these);
 }
@@ -306,8 +305,7 @@ void SceneInGl::draw_elements(std::size_t draw, Primitives these) const {
 
 void SceneInGl::draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const {
   const SavedArrays arrays(gl_);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, arrays_[draw].vertex_buffer.name());
-  point_to_vertices(draw, nullptr);
+  bind_vertices(draw);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, arrays_[draw].indices.name());
   const Topology topology = mesh(draw).topology;
   const std::uint32_t corners = corner_count(topology);
@@ -318,11 +316,20 @@ void SceneInGl::draw_one_by_one(std::size_t draw, const std::function<void(std::
   }
 }
 
-// From this process' memory: feedback mode never lets go of a buffer object that it has read (Mesa 22.3).
 void SceneInGl::draw_points(std::size_t draw) const {
   const SavedArrays arrays(gl_);
-  point_to_vertices(draw, arrays_[draw].vertices.data());
+  bind_vertices(draw);
   gl_.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(ranges_[draw].vertex_count));
+}
+
+void SceneInGl::draw_points(std::size_t draw, Primitives these,
+                            const std::function<void(std::uint32_t)>& before) const {
+  const SavedArrays arrays(gl_);
+  bind_vertices(draw);
+  for (std::uint32_t k = 0; k < these.count; ++k) {
+    before(k);
+    gl_.DrawArrays(GL_POINTS, static_cast<GLint>(these.first + k), 1);
+  }
 }
 
 void SceneInGl::draw_ids(std::size_t draw) const {

@@ -35,6 +35,7 @@ class SceneInGl {
   /// Of that, what colours the vertices: feedback mode runs no fragments, and what they do not read would be lost in
   /// it.
   void set_vertex_light(std::size_t draw) const;
+  bool has_vertex_program(std::size_t draw) const;  ///< whether that is a program, not the fixed function
   void set_fragments(std::size_t draw) const;       ///< culling, polygon modes and offset, widths, tests, depth mask
   void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels
   void set_merge(std::size_t draw) const;           ///< blending, logic op and colour mask
@@ -45,7 +46,9 @@ class SceneInGl {
   /// As draw_primitives, calling before(its number) before each.
   void draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const;
   void draw_points(std::size_t draw) const;  ///< each vertex, with normals and colours
-  void draw_ids(std::size_t draw) const;     ///< each primitive in the colour whose four bytes are its number + 1
+  /// Vertices of a draw, each as a point of its own, calling before(its number after the first) before each.
+  void draw_points(std::size_t draw, Primitives these, const std::function<void(std::uint32_t)>& before) const;
+  void draw_ids(std::size_t draw) const;  ///< each primitive in the colour whose four bytes are its number + 1
   void draw_id(std::size_t draw, std::uint32_t primitive) const;  ///< this one alone
   void draw_weights(std::size_t draw) const;  ///< each primitive in the colour (1, id_weight_part 0, 1, 2)
   // The same of `these` alone.
@@ -62,15 +65,14 @@ class SceneInGl {
     glm::vec2 texcoord;
   };
   struct Arrays {
-    std::vector<MeshVertex> vertices;
-    Buffer vertex_buffer;  ///< the same
-    Buffer indices;        ///< the mesh's primitives
-    Buffer corners;        ///< every primitive's corners alone, so that it can have a colour of its own
+    Buffer vertices;  ///< MeshVertex
+    Buffer indices;   ///< the mesh's primitives
+    Buffer corners;   ///< every primitive's corners alone, so that it can have a colour of its own
   };
   static std::vector<MeshVertex> vertices_of(const Mesh& mesh);
   Primitives all(std::size_t draw) const { return {ranges_[draw].first_primitive, ranges_[draw].primitive_count}; }
   void draw_elements(std::size_t draw, Primitives these) const;
-  void point_to_vertices(std::size_t draw, const MeshVertex* first) const;
+  void bind_vertices(std::size_t draw) const;
   void bind_corners(std::size_t draw) const;
   const Mesh& mesh(std::size_t draw) const { return scene_.meshes[scene_.draws[draw].mesh]; }
 

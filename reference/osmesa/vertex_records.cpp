@@ -1,12 +1,14 @@
 #include "reference/osmesa/vertex_records.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "reference/osmesa/feedback.h"
 #include "reference/osmesa/light_state.h"
+#include "reference/osmesa/target.h"
 #include "stages/renderer.h"
 
 namespace plumbline::osmesa {
@@ -59,10 +61,8 @@ class Captured {
   GLuint query_ = 0;
 };
 
-// Feedback mode hands out one GL_3D_COLOR point as: token, x, y, z, r, g, b, a.
-constexpr std::size_t kPoint = 8;
-
-// Every vertex, its eye-space w being 1, goes to the middle of the view volume: none is clipped.
+// Every vertex, its eye-space w being 1, goes to the middle of the view volume: none is clipped, and of a viewport of
+// one pixel each is drawn at its centre.
 void gather_vertices(const Gl& gl) {
   glm::mat4 middle(0);
   middle[3][3] = 1;
@@ -128,27 +128,46 @@ std::vector<Vertex<double>> VertexProgram::run(const SceneInGl& scene) const {
   return records;
 }
 
-std::vector<Lit<double>> read_lit(const Gl& gl, const SceneInGl& scene) {
+VertexColors::VertexColors(const Gl& gl) : gl_(gl), primary_(gl, "", "void main() { gl_FragColor = gl_Color; }") {}
+
+std::vector<Lit<double>> VertexColors::read(const SceneInGl& scene) const {
+  constexpr std::uint32_t kWidth = 256, kHeight = 64;
+  constexpr float kUndrawn = -1;  // that no vertex is: GL clamps them
+  FrameFormat frame;
+  frame.width = kWidth;
+  frame.height = kHeight;
+  const Target target(gl_, frame, ColorFormat::rgba32f);
   std::vector<Lit<double>> records;
-  const SavedState state(gl);
-  Feedback feedback(gl, GL_3D_COLOR);
-  set_lights(gl, scene.scene());
+  const SavedState state(gl_);
+  target.bind();
+  set_lights(gl_, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
-    gather_vertices(gl);
+    gather_vertices(gl_);
     scene.set_vertex_light(i);
-    const std::size_t expected = kPoint * scene.ranges()[i].vertex_count;
-    const std::span<const float> values = feedback.run(expected, [&] { scene.draw_points(i); });
-    if (values.size() != expected) {
-      throw RendererFailed(fmt::format("OpenGL: feedback mode gave {} of {} vertices", values.size() / kPoint,
-                                       scene.ranges()[i].vertex_count));
+    // Their fragments are to have the primary colour alone, and no texture.
+    if (scene.has_vertex_program(i)) {
+      gl_.Disable(GL_LIGHTING);  // with it, GL would add the secondary colour; the program lights either way
+      gl_.Disable(GL_COLOR_SUM);
+    } else {
+      gl_.UseProgram(primary_.name());
     }
-    for (std::size_t at = 0; at < values.size(); at += kPoint) {
-      if (values[at] != static_cast<float>(GL_POINT_TOKEN))
-        throw RendererFailed("OpenGL: feedback of what is no point");
-      records.push_back({glm::dvec4(values[at + 4], values[at + 5], values[at + 6], values[at + 7])});
+    const std::uint32_t vertices = scene.ranges()[i].vertex_count;
+    for (std::uint32_t first = 0; first < vertices; first += kWidth * kHeight) {
+      const std::uint32_t count = std::min(vertices - first, kWidth * kHeight);
+      gl_.ClearColor(kUndrawn, kUndrawn, kUndrawn, kUndrawn);
+      gl_.Clear(GL_COLOR_BUFFER_BIT);
+      scene.draw_points(i, {first, count}, [&](std::uint32_t k) {
+        gl_.Viewport(static_cast<GLint>(k % kWidth), static_cast<GLint>(k / kWidth), 1, 1);
+      });
+      const Plane<glm::vec4> colors = target.read_color({0, 0}, {kWidth, (count + kWidth - 1) / kWidth});
+      for (const glm::vec4& color : std::span(colors.values()).first(count)) {
+        if (color.r == kUndrawn) throw RendererFailed("OpenGL: a vertex is not drawn as a point");
+        records.push_back({color});
+      }
     }
   }
+  check(gl_, "drawing the vertices as points");
   return records;
 }
 

@@ -24,7 +24,19 @@ class VertexProgram {
   GLint normals_;  ///< where it is told what becomes of normals (scene.h, Normals)
 };
 
-/// All draws' vertices, lit, by feedback mode. Call as read_matrices.
-std::vector<Lit<double>> read_lit(const Gl& gl, const SceneInGl& scene);
+/// The vertices' colours; made once per context.
+class VertexColors {
+ public:
+  explicit VertexColors(const Gl& gl);
+
+  /// All draws' vertices, lit: each drawn as a point that is a pixel. (Feedback mode would hand them out, too, but
+  /// Mesa compiles each vertex shader once more for it, and keeps none of these.) Call as read_matrices; leaves another
+  /// target bound.
+  std::vector<Lit<double>> read(const SceneInGl& scene) const;
+
+ private:
+  const Gl& gl_;
+  Program primary_;  ///< its fragments have the primary colour
+};
 
 }  // namespace plumbline::osmesa

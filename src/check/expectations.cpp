@@ -1,12 +1,12 @@
 #include "check/expectations.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scene/json_file.h"
 
@@ -15,6 +15,8 @@ namespace plumbline::check {
 namespace {
 
 std::string row_of(const Expectation& e) { return fmt::format("{}, {}, {}", e.scene, e.reference, name_of(e.stage)); }
+
+std::string renderer_of(const Expectation& e) { return e.reference.substr(0, e.reference.find(' ')); }
 
 Stage stage_at(const JsonNode& node) {
   const auto found = std::ranges::find(kStageNames, std::string_view(node.text()));
@@ -34,10 +36,14 @@ std::chrono::sys_days day_at(const JsonNode& node) {
 }  // namespace
 
 std::chrono::sys_days day_of(const std::string& text) {
-  int year = 0, end = 0;
-  unsigned month = 0, day = 0;
-  if (text.size() == 10 && std::sscanf(text.c_str(), "%4d-%2u-%2u%n", &year, &month, &day, &end) == 3 && end == 10) {
-    const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)};
+  const auto is_digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
+  bool in_form = text.size() == 10;
+  for (std::size_t i = 0; in_form && i < text.size(); ++i) in_form = i == 4 || i == 7 ? text[i] == '-' : is_digit(i);
+  if (in_form) {
+    const auto part = [&](std::size_t first, std::size_t count) { return std::stoi(text.substr(first, count)); };
+    const std::chrono::year_month_day date{std::chrono::year(part(0, 4)),
+                                           std::chrono::month(static_cast<unsigned>(part(5, 2))),
+                                           std::chrono::day(static_cast<unsigned>(part(8, 2)))};
     if (date.ok()) return date;
   }
   throw std::invalid_argument(fmt::format("expected a day as YYYY-MM-DD, found \"{}\"", text));
@@ -49,7 +55,7 @@ std::string to_string(std::chrono::sys_days day) {
                      static_cast<unsigned>(date.day()));
 }
 
-std::vector<Expectation> read_expectations(const std::filesystem::path& path) {
+std::vector<Expectation> read_expectations(const std::filesystem::path& path, std::span<const std::string> renderers) {
   const JsonFile file(path);
   file.root().only({"expectations"});
   std::vector<Expectation> out;
@@ -59,6 +65,9 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& path) {
     Expectation e;
     e.scene = node["scene"].text();
     e.reference = node["reference"].text();
+    if (std::ranges::count(renderers, renderer_of(e)) == 0) {
+      node["reference"].refuse(fmt::format("a row's reference, which begins with {}", fmt::join(renderers, ", ")));
+    }
     e.stage = stage_at(node["stage"]);
     if (const auto outcome = node.find("outcome")) {
       e.outcome = outcome->choice<Outcome>(
@@ -77,8 +86,7 @@ std::vector<Settled> settle(std::span<const Expectation> expectations, std::span
                             std::chrono::sys_days today, SceneVerdict& verdict) {
   std::vector<Settled> out;
   for (const Expectation& e : expectations) {
-    const std::string renderer = e.reference.substr(0, e.reference.find(' '));
-    if (e.scene != verdict.scene || std::ranges::count(asked, renderer) == 0) continue;
+    if (e.scene != verdict.scene || std::ranges::count(asked, renderer_of(e)) == 0) continue;
     const auto is_it = [&](const Comparison& c) { return c.reference == e.reference && c.stage == e.stage; };
     std::vector<Comparison*> rows;
     for (Comparison& c : verdict.comparisons) {
@@ -103,6 +111,17 @@ std::vector<Settled> settle(std::span<const Expectation> expectations, std::span
         c->outcome = Outcome::expected;
       }
       out.push_back({&e, Settlement::occurred, ""});
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> of_no_scene(std::span<const Expectation> expectations,
+                                     std::span<const SceneVerdict> verdicts) {
+  std::vector<std::string> out;
+  for (const Expectation& e : expectations) {
+    if (std::ranges::find(verdicts, e.scene, &SceneVerdict::scene) == verdicts.end()) {
+      out.push_back(fmt::format("expectation {}: there is no such scene", row_of(e)));
     }
   }
   return out;

@@ -21,8 +21,9 @@ struct Expectation {
 };
 
 /// {"expectations": [{"scene", "reference", "stage", "outcome" ("different" where left out), "reason", "issue",
-/// "expires": "YYYY-MM-DD"}]}. Throws JsonError (json_tree.h), also where two rows are of one comparison.
-std::vector<Expectation> read_expectations(const std::filesystem::path& file);
+/// "expires": "YYYY-MM-DD"}]}. Throws JsonError (json_tree.h), also where two rows are of one comparison, or a
+/// reference is none of `renderers`.
+std::vector<Expectation> read_expectations(const std::filesystem::path& file, std::span<const std::string> renderers);
 
 /// YYYY-MM-DD. Throws std::invalid_argument: no such day.
 std::chrono::sys_days day_of(const std::string& text);
@@ -45,5 +46,8 @@ struct Settled {
 /// Settles the expectations of the verdict's scene whose reference was asked; `asked`: names of renderers.
 std::vector<Settled> settle(std::span<const Expectation> expectations, std::span<const std::string> asked,
                             std::chrono::sys_days today, SceneVerdict& verdict);
+
+/// Of a whole suite: a line for each expectation whose scene is none of it.
+std::vector<std::string> of_no_scene(std::span<const Expectation> expectations, std::span<const SceneVerdict> verdicts);
 
 }  // namespace plumbline::check

@@ -121,7 +121,7 @@ std::vector<Comparison> golden_rows(const Scene& scene, Renderer& candidate, con
       m = d.color.differing > 0 || d.depth.differing == 0 ? d.color : d.depth;
     } else {
       m.items = 1;
-      m.unit = "hash";
+      m.unit = "bits";
     }
     if (differs && m.differing == 0) {
       m.differing = 1;

@@ -180,7 +180,7 @@ Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const
 }  // namespace
 
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
-                                      const RendererInfo* shown) {
+                                      const RendererInfo* shown, const Capture* filtered) {
   std::vector<Comparison> out;
   const Legal none;
   Case c{scene, candidate, none, &referee, out};
@@ -195,7 +195,11 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
       continue;
     }
     try {
-      graft(c, referee, stage, name);
+      if (stage == Stage::texture && filtered != nullptr && !over_budget(candidate)) {
+        judge_made(c, *filtered, stage, name);
+      } else {
+        graft(c, referee, stage, name);
+      }
     } catch (const OverBudget& e) {
       c.skip(name, stage, Outcome::unsupported, e.what());
     } catch (const std::exception& e) {
@@ -251,9 +255,11 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
     somewhere = legal_where_apart(scene, *mine, theirs, *referee);
     legal = &somewhere;
   }
+  std::optional<Capture> filtered;
   if (mine && referee != nullptr && textured(scene)) {
     try {
-      mine->legal.texels = referee->run_stage(scene, Stage::texture, *mine).legal.texels;
+      filtered = referee->run_stage(scene, Stage::texture, *mine);
+      mine->legal.texels = std::move(filtered->legal.texels);
     } catch (const std::exception&) {  // the referee's failure shows under its own name
     }
   }
@@ -266,8 +272,10 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
         const RendererInfo info = references[i].renderer->info(), mine_info = candidate.info();
         judge_from_scene(c, theirs[i], info, mine_info);
         if (runs_stages(info)) {
-          std::ranges::move(judge_records(scene, *mine, *references[i].renderer, &mine_info),
-                            std::back_inserter(verdict.comparisons));
+          const bool same = filtered && references[i].renderer == referee;
+          std::ranges::move(
+              judge_records(scene, *mine, *references[i].renderer, &mine_info, same ? &*filtered : nullptr),
+              std::back_inserter(verdict.comparisons));
         }
       } catch (const std::exception& e) {
         nothing(references[i].name, Outcome::failed, e.what());

@@ -33,8 +33,8 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
                    Drawn* drawn = nullptr, std::uint64_t most_fragments = ~std::uint64_t{0});
 
 /// The part of it that needs no scene but for what is drawn: each stage but the first as `referee` makes it of the
-/// candidate's own records, against the candidate's.
+/// candidate's own records, against the candidate's. `filtered`: what it made of the texture stage, if it did already.
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
-                                      const RendererInfo* shown = nullptr);
+                                      const RendererInfo* shown = nullptr, const Capture* filtered = nullptr);
 
 }  // namespace plumbline::check

@@ -171,6 +171,8 @@ void add(CLI::App& command, MergeOptions& o) {
   text(command, "--junit", o.junit, "Write a test case per scene as JUnit's XML");
   text(command, "--markdown", o.markdown, "Write a summary for a CI page");
   text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
+  text(command, "--suite", o.suite, "A folder of which every scene is to be in the runs");
+  text(command, "--expect", o.expect, "The runs' known differences: each is to be of a scene that is there");
 }
 
 // A subcommand whose options, once parsed, `run` is called with.

@@ -46,15 +46,22 @@ bool is_whole(const CheckOptions& o, std::span<const check::SceneVerdict> verdic
          std::ranges::any_of(o.scenes, [](const std::string& path) { return std::filesystem::is_directory(path); });
 }
 
-std::string lines_of_nowhere(const std::vector<check::Expectation>& expectations,
-                             std::span<const check::SceneVerdict> verdicts) {
-  std::string out;
-  for (const check::Expectation& e : expectations) {
-    if (std::ranges::find(verdicts, e.scene, &check::SceneVerdict::scene) == verdicts.end()) {
-      out += fmt::format("expectation of {}: there is no such scene\n", e.scene);
-    }
+// Each scene leaves files of its name there.
+void require_folders(const CheckOptions& o, std::span<const Scene> scenes) {
+  require_folder({"--rows", o.rows});
+  require_folder({"--failures", o.failures});
+  if (o.rows.empty() && o.failures.empty()) return;
+  std::map<std::string, const Scene*> by_name;
+  for (const Scene& scene : scenes) {
+    const auto [at, is_new] = by_name.try_emplace(scene.name, &scene);
+    if (is_new) continue;
+    throw SceneError(fmt::format("{}: expected scenes of different names (--rows, --failures), found {} in {} as well",
+                                 scene.path, scene.name, at->second->path));
   }
-  return out;
+}
+
+std::string lines_of(std::span<const std::string> lines) {
+  return lines.empty() ? "" : fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
 // What the table does not hold because nobody asked, if any.
@@ -85,7 +92,7 @@ int check(const CheckOptions& given) {
   const report::Shard shard = take_shard(files, o.shard);
   const std::chrono::sys_days day = today(o);
   std::vector<check::Expectation> expectations;
-  if (!o.expect.empty()) expectations = check::read_expectations(o.expect);
+  if (!o.expect.empty()) expectations = check::read_expectations(o.expect, names_of_rows());
   std::vector<Scene> scenes;  // all of them first: a bad one ends the run before anything is written
   for (const auto& file : files) {
     scenes.push_back(o.scene_arguments.load(file));
@@ -94,9 +101,10 @@ int check(const CheckOptions& given) {
   const Output outputs[] = {
       {"--json", o.json}, {"--ledger", o.ledger}, {"--junit", o.junit}, {"--markdown", o.markdown}};
   require_outputs(outputs, {"--report", o.report}, inputs_of(o, scenes));
+  require_folders(o, scenes);
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
   const References references = make_references(o.against, o.scene_arguments.assets);
-  const std::map<std::string, std::string> versions = versions_of(*candidate, references);
+  report::RunHead head{versions_of(*candidate, references), o.fault, o.against, !o.golden.empty(), shard, {}};
   std::optional<check::GoldenSet> goldens;
   if (!o.golden.empty()) goldens.emplace(o.golden, check::GoldenSet::Access::read);
   std::optional<report::HtmlReport> page;
@@ -126,16 +134,17 @@ int check(const CheckOptions& given) {
     if (page) page->add(verdict, references.list, drawn, scene, verdict.failure, verdict.repeat);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string nowhere = is_whole(o, verdicts) ? lines_of_nowhere(expectations, verdicts) : "";
-  const bool holds = report::all_hold(verdicts) && nowhere.empty();
+  if (is_whole(o, verdicts)) head.failures = check::of_no_scene(expectations, verdicts);
+  const bool holds = report::all_hold(verdicts) && head.failures.empty();
   std::string summary = not_asked_line(o);
   if (!o.expect.empty()) summary += settled_line(settled, expectations.size());
   summary += report::summary(verdicts, holds, seconds);
-  fmt::print("\n{}{}{}{}", failures, nowhere, report::group_lines(verdicts), summary);
-  if (!o.json.empty()) report::write_json(o.json, verdicts, versions, shard);
+  const std::string of_run = lines_of(head.failures);
+  fmt::print("\n{}{}{}{}", failures, of_run, report::group_lines(verdicts), summary);
+  if (!o.json.empty()) report::write_json(o.json, verdicts, head);
   if (!o.ledger.empty()) report::write_ledger(o.ledger, verdicts);
-  if (!o.junit.empty()) write_file(o.junit, report::junit(verdicts));
-  if (!o.markdown.empty()) write_file(o.markdown, report::markdown(verdicts, nowhere + summary));
+  if (!o.junit.empty()) write_file(o.junit, report::junit(verdicts, head.failures));
+  if (!o.markdown.empty()) write_file(o.markdown, report::markdown(verdicts, of_run + summary));
   if (page) page->write(summary);
   return holds ? kHolds : kDiffers;
 }

@@ -32,6 +32,7 @@ struct Suite {
   std::vector<Scene> scenes;
   std::vector<fs::path> files;
   bool whole = false;  // only then a golden without a scene is known
+  std::string group;   // of which all are, where the suite is one group; empty: of all
 };
 
 Suite load(const GoldenOptions& o) {
@@ -40,6 +41,9 @@ Suite load(const GoldenOptions& o) {
   const std::vector<fs::path> paths =
       out.whole ? std::vector<fs::path>{o.suite} : std::vector<fs::path>(o.scenes.begin(), o.scenes.end());
   out.files = find_scenes(paths);
+  const auto lies_in_suite = [&](const fs::path& file) { return fs::equivalent(file.parent_path(), o.suite); };
+  if (out.whole && std::ranges::all_of(out.files, lies_in_suite))
+    out.group = fs::canonical(o.suite).filename().string() + "/";
   std::set<std::string> names;
   for (const fs::path& file : out.files) {
     out.scenes.push_back(o.scene_arguments.load(file));
@@ -56,7 +60,8 @@ std::vector<std::string> orphans(const Suite& suite, const check::GoldenManifest
   std::vector<std::string> out;
   for (const auto& [name, golden] : manifest.scenes) {
     const auto has_name = [&](const Scene& scene) { return scene.name == name; };
-    if (suite.whole && std::ranges::none_of(suite.scenes, has_name)) out.push_back(name);
+    if (suite.whole && name.starts_with(suite.group) && std::ranges::none_of(suite.scenes, has_name))
+      out.push_back(name);
   }
   return out;
 }
@@ -102,7 +107,7 @@ int golden_check(const GoldenOptions& o) {
   const check::GoldenSet::Strays strays = goldens.strays();
   for (const std::string& file : strays.others) {
     ++failures;
-    fmt::print("extra {}: a file that the manifest does not name\n", (fs::path(o.golden) / file).string());
+    fmt::print("extra {}: a file that the manifest does not name: remove it\n", (fs::path(o.golden) / file).string());
   }
   if (!strays.leftovers.empty()) {
     fmt::print("{} files are left of an update that was killed, such as {}: the next one removes them\n",
@@ -161,11 +166,31 @@ void print(const Scene& scene, const std::string& says, const Asked& asked) {
 
 }  // namespace
 
+namespace {
+
+// A folder that is there while this lives, and stays if anything comes into it.
+class UsedFolder {
+ public:
+  explicit UsedFolder(fs::path folder) : folder_(std::move(folder)) { fs::create_directories(folder_); }
+  ~UsedFolder() {
+    std::error_code not_empty;
+    fs::remove(folder_, not_empty);
+  }
+  UsedFolder(const UsedFolder&) = delete;
+  UsedFolder& operator=(const UsedFolder&) = delete;
+
+ private:
+  fs::path folder_;
+};
+
+}  // namespace
+
 int golden_update(const GoldenOptions& o) {
   const auto start = std::chrono::steady_clock::now();
   const Suite suite = load(o);
+  std::optional<UsedFolder> folder;
   if (!o.check) {
-    fs::create_directories(o.golden);
+    folder.emplace(o.golden);
     require_writable_file(fs::path(o.golden) / "manifest.json");
   }
   check::GoldenSet goldens(o.golden, check::GoldenSet::Access::update);
@@ -208,6 +233,11 @@ int golden_update(const GoldenOptions& o) {
   const bool change = written + removed > 0;
   if (!o.check && change) goldens.write(std::move(next), files);
   if (!o.check && !change) goldens.remove_leftovers();
+  const std::vector<std::string> extra = goldens.strays().others;
+  for (const std::string& file : extra) {
+    fmt::print("extra {}: a file that the manifest does not name, and that is not ours to remove: remove it\n",
+               (fs::path(o.golden) / file).string());
+  }
   const std::string summary = fmt::format("{}: {} scenes in {:.1f} s, {} goldens {}, {} refused, {} removed\n",
                                           refused > 0 ? "REFUSED"
                                           : !change   ? "nothing to write"
@@ -217,7 +247,7 @@ int golden_update(const GoldenOptions& o) {
                                           o.check ? "to write" : "written", refused, removed);
   if (page) page->write(summary);
   fmt::print("{}", summary);
-  return change || refused > 0 ? kDiffers : kHolds;
+  return change || refused > 0 || !extra.empty() ? kDiffers : kHolds;
 }
 
 }  // namespace plumbline::cli

@@ -1,6 +1,10 @@
 #include "cli/outputs.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -45,6 +49,15 @@ void require_outputs(std::span<const Output> files, const Output& folder, std::s
     }
     require_writable_file(file.path);
   }
+}
+
+void require_folder(const Output& folder) {
+  if (folder.path.empty()) return;
+  fs::path there = resolved(folder.path);
+  while (!fs::exists(there)) there = there.parent_path();
+  if (!fs::is_directory(there)) refuse(folder, fmt::format("{} is not a folder", there.string()));
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    refuse(folder, fmt::format("cannot be written: {}", std::strerror(errno)));
 }
 
 }  // namespace plumbline::cli

@@ -18,4 +18,7 @@ struct Output {
 void require_outputs(std::span<const Output> files, const Output& folder,
                      std::span<const std::filesystem::path> inputs);
 
+/// Refuses a folder in which nothing can be made. Throws std::runtime_error as above.
+void require_folder(const Output& folder);
+
 }  // namespace plumbline::cli

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "check/golden.h"
 #include "cli/renderers.h"
 
 namespace plumbline::cli {
@@ -18,6 +19,12 @@ References make_references(const std::vector<std::string>& names, const std::vec
 std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
   std::vector<std::string> out = known_reference_names();
   std::erase_if(out, [&](const std::string& name) { return std::ranges::count(names, name) == 0; });
+  return out;
+}
+
+std::vector<std::string> names_of_rows() {
+  std::vector<std::string> out = known_reference_names();
+  out.emplace_back(check::kGolden);
   return out;
 }
 

@@ -21,6 +21,9 @@ References make_references(const std::vector<std::string>& names, const std::vec
 /// Each once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
 std::vector<std::string> without_repeats(const std::vector<std::string>& names);
 
+/// What a row may be against: every reference there is, and goldens.
+std::vector<std::string> names_of_rows();
+
 /// By name, the candidate's among them.
 std::map<std::string, std::string> versions_of(const Renderer& candidate, const References& references);
 

@@ -59,9 +59,13 @@ Json comparison_json(const check::Comparison& c) {
   return out;
 }
 
-void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
-                const std::map<std::string, std::string>& versions, const Shard& shard) {
-  Json out{{"versions", versions},
+void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts, const RunHead& head) {
+  const Shard& shard = head.shard;
+  Json out{{"versions", head.versions},
+           {"fault", head.fault},
+           {"against", head.against},
+           {"golden", head.golden},
+           {"failures", head.failures},
            {"tolerances", Json::object()},
            {"shard", {{"index", shard.index}, {"of", shard.of}, {"scenes", std::max(shard.scenes, verdicts.size())}}},
            {"scenes", Json::array()},

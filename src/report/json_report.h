@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "check/compare_stored.h"
 #include "check/diagnose.h"
@@ -19,13 +20,22 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-/// {"versions": {renderer: version}, "tolerances": {the ledger's row: factor}, "shard": {index, of, scenes}, "scenes":
-/// [{scene, file, seconds, failure, repeat}] (the last two where it does not hold), "comparisons": [{scene, reference,
-/// stage, outcome, pixels, differing, ambiguous, max_difference, unit, tolerance, worst, ...}]}. Numbers that JSON
-/// cannot hold are the strings "inf" and "nan". Text that is no UTF-8 has U+FFFD for each byte. Written whole or not at
-/// all. Throws OutputError (atomic_path.h).
-void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts,
-                const std::map<std::string, std::string>& versions, const Shard& shard = {});
+/// What a run of plumb check was asked, and what was wrong with it but for its scenes.
+struct RunHead {
+  std::map<std::string, std::string> versions;  ///< by renderer
+  std::string fault;                            ///< of the candidate; empty: none
+  std::vector<std::string> against;             ///< the references asked
+  bool golden = false;                          ///< whether goldens were
+  Shard shard;
+  std::vector<std::string> failures;  ///< a line each, such as an expectation of a scene that is not there
+};
+
+/// {"versions": {renderer: version}, "fault", "against", "golden", "failures", "tolerances": {the ledger's row:
+/// factor}, "shard": {index, of, scenes}, "scenes": [{scene, file, seconds, failure, repeat}] (the last two where it
+/// does not hold), "comparisons": [{scene, reference, stage, outcome, pixels, differing, ambiguous, max_difference,
+/// unit, tolerance, worst, ...}]}. Numbers that JSON cannot hold are the strings "inf" and "nan". Text that is no UTF-8
+/// has U+FFFD for each byte. Written whole or not at all. Throws OutputError (atomic_path.h).
+void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts, const RunHead& head);
 
 /// {"scene", "file", "versions", "first" (a stage or null), "wrong": [stages], "findings": [{stage, reference,
 /// differing, pixels, numbers, causes, picture}], "comparisons": as above}; "pixel_history", where there is one

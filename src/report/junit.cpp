@@ -12,21 +12,25 @@ namespace plumbline::report {
 
 namespace {
 
-// XML holds no control characters, escaped neither.
+// XML holds no control characters, escaped neither, and not U+FFFE and U+FFFF.
 std::string xml(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'; }, '?');
-  return escaped(text);
+  std::string out = escaped(text);
+  for (const char* none : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
+    for (std::size_t at = out.find(none); at != std::string::npos; at = out.find(none, at)) out.replace(at, 3, 1, '?');
+  }
+  return out;
 }
 
 }  // namespace
 
-std::string junit(std::span<const check::SceneVerdict> verdicts, std::span<const std::string> missing) {
+std::string junit(std::span<const check::SceneVerdict> verdicts, std::span<const std::string> of_run) {
   const auto failures = std::ranges::count_if(verdicts, [](const auto& v) { return !v.failure.empty(); });
   std::string out = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites><testsuite name=\"plumb check\" tests=\"{}\" "
       "failures=\"{}\" errors=\"0\" skipped=\"0\" time=\"{:.3f}\">\n",
-      verdicts.size() + missing.size(), static_cast<std::size_t>(failures) + missing.size(), seconds(verdicts));
+      verdicts.size() + of_run.size(), static_cast<std::size_t>(failures) + of_run.size(), seconds(verdicts));
   for (const check::SceneVerdict& v : verdicts) {
     const std::size_t slash = v.scene.find('/');
     out +=
@@ -40,7 +44,7 @@ std::string junit(std::span<const check::SceneVerdict> verdicts, std::span<const
                        xml(v.failure.substr(0, v.failure.find('\n'))), xml(v.failure), xml(table_head()),
                        xml(table_rows(v)));
   }
-  for (const std::string& what : missing) {
+  for (const std::string& what : of_run) {
     out += fmt::format("<testcase classname=\"run\" name=\"{0}\"><failure message=\"{0}\"/></testcase>\n", xml(what));
   }
   return out + "</testsuite></testsuites>\n";

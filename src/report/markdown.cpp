@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "report/page.h"
+
 namespace plumbline::report {
 
 using check::Comparison;
@@ -55,7 +57,7 @@ std::string listed(std::span<const SceneVerdict> verdicts, Outcome outcome) {
 
 std::string cell(std::string_view text) {
   std::string out;
-  for (char c : text) {
+  for (const char c : as_utf8(text)) {
     if (c == '\n' || c == '\r') {
       out += ' ';
     } else if (c == '&' || c == '<' || c == '>') {

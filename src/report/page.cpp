@@ -41,19 +41,26 @@ std::size_t utf8_length(std::string_view text) {
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
+std::string as_utf8(std::string_view text) {
   std::string out;
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
-    const std::string_view one = text.substr(0, std::max<std::size_t>(length, 1));
-    switch (one[0]) {
+    out += length == 0 ? "\xef\xbf\xbd" : text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : as_utf8(text)) {
+    switch (c) {
       case '&': out += "&amp;"; break;
       case '<': out += "&lt;"; break;
       case '>': out += "&gt;"; break;
       case '"': out += "&quot;"; break;
-      default: out += length == 0 ? "\xef\xbf\xbd" : one;  // U+FFFD: what was no character
+      default: out += c;
     }
-    text.remove_prefix(one.size());
   }
   return out;
 }
@@ -62,9 +69,12 @@ std::string file_name(std::string_view text) {
   std::string out;
   for (char c : text) {
     const bool hidden = c == '.' && (out.empty() || out.back() == '/');  // ".." as well
-    const bool plain =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '/';
-    out += plain && !hidden ? c : '_';
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("-_./").find(c) != std::string_view::npos;
+    if (plain && !hidden)
+      out += c;
+    else
+      out += fmt::format("~{:02x}", static_cast<unsigned char>(c));
   }
   return out;
 }

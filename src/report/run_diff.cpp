@@ -56,6 +56,18 @@ bool beyond(double was, double now, double factor) {
   return !(was <= now * factor && now <= was * factor) && !(std::isnan(was) && std::isnan(now)) && was != now;
 }
 
+bool moved(const check::Measurement& was, const check::Measurement& now, double factor) {
+  const auto counts = [&](std::uint64_t a, std::uint64_t b) {
+    return beyond(static_cast<double>(a), static_cast<double>(b), factor);
+  };
+  return beyond(was.max_difference, now.max_difference, factor) || counts(was.differing, now.differing) ||
+         counts(was.ambiguous, now.ambiguous);
+}
+
+std::string size(const check::Measurement& m) {
+  return fmt::format("{} differ, {} ambiguous, largest {:.4g} {}", m.differing, m.ambiguous, m.max_difference, m.unit);
+}
+
 void add_row(RunDiff& out, const std::string& what, const Comparison& was, const Comparison& now,
              const DiffLimits& limits) {
   const Change change{what, text(was), text(now)};
@@ -68,11 +80,8 @@ void add_row(RunDiff& out, const std::string& what, const Comparison& was, const
     out.fixed.push_back(change);
   } else if (was.outcome != now.outcome) {
     out.moved.push_back(change);
-  } else if (beyond(was.measurement.max_difference, now.measurement.max_difference, limits.factor)) {
-    const auto size = [](const Comparison& c) {
-      return fmt::format("{:.4g} {}", c.measurement.max_difference, c.measurement.unit);
-    };
-    out.differences.push_back({what, size(was), size(now)});
+  } else if (moved(was.measurement, now.measurement, limits.factor)) {
+    out.differences.push_back({what, size(was.measurement), size(now.measurement)});
   }
 }
 
@@ -99,7 +108,7 @@ std::vector<Kind> kinds(const RunDiff& d) {
           {"added", &d.added},
           {"gone", &d.gone},
           {"tolerances that moved", &d.tolerances},
-          {"largest differences that moved", &d.differences},
+          {"differences that moved", &d.differences},
           {"times that moved", &d.times},
           {"versions", &d.versions}};
 }
@@ -134,6 +143,9 @@ RunDiff diff(const CheckRun& before, const CheckRun& now, const DiffLimits& limi
       out.times.push_back({what, fmt::format("{:.2f} s", was.seconds), fmt::format("{:.2f} s", verdict->seconds)});
     }
   }
+  for (const std::string& line : now.head.failures) {
+    if (std::ranges::count(before.head.failures, line) == 0) out.broken.push_back({"the run", "holds", line});
+  }
   const auto of = [](const auto& map, const std::string& key) {
     const auto found = map.find(key);
     return found == map.end() ? std::string("not there") : fmt::format("{}", found->second);
@@ -147,7 +159,7 @@ RunDiff diff(const CheckRun& before, const CheckRun& now, const DiffLimits& limi
     }
   };
   compare(before.tolerances, now.tolerances, out.tolerances);
-  compare(before.versions, now.versions, out.versions);
+  compare(before.head.versions, now.head.versions, out.versions);
   return out;
 }
 

@@ -10,7 +10,7 @@ namespace plumbline::report {
 
 /// What is too small to be told.
 struct DiffLimits {
-  double factor = 1.25;      ///< a largest difference has moved if it is that much larger or smaller
+  double factor = 1.25;      ///< a largest difference, or a count, has moved if it is that much larger or smaller
   double slower = 1.5;       ///< a scene's time likewise,
   double at_least_s = 0.25;  ///< and by so many seconds
 };
@@ -29,7 +29,7 @@ struct RunDiff {
   std::vector<Change> added, gone;  ///< rows that were not there, and those that nobody had judged and are gone
   std::vector<Change> moved;        ///< other outcomes, of which none fails
   std::vector<Change> tolerances;   ///< the ledger's factors
-  std::vector<Change> differences;  ///< the largest, of rows with one outcome
+  std::vector<Change> differences;  ///< the largest, and how many, of rows with one outcome
   std::vector<Change> times;        ///< of scenes
 };
 

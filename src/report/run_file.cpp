@@ -124,14 +124,18 @@ CheckRun read_run(const std::filesystem::path& path) {
   run.file = path.string();
   const JsonValue value = read_json_file(path, run.file, kMostBytes);
   const JsonNode root(value, "");
-  root.only({"versions", "tolerances", "shard", "scenes", "comparisons"});
+  root.only({"versions", "fault", "against", "golden", "failures", "tolerances", "shard", "scenes", "comparisons"});
   const JsonNode versions = root["versions"], tolerances = root["tolerances"];
   for (const JsonNode& node : {versions, tolerances}) {
     if (node.value().kind != JsonValue::Kind::object) node.refuse("an object");
   }
-  for (const auto& [name, version] : versions.value().members) run.versions[name] = text(versions[name]);
+  for (const auto& [name, version] : versions.value().members) run.head.versions[name] = text(versions[name]);
   for (const auto& [name, factor] : tolerances.value().members) run.tolerances[name] = number(tolerances[name]);
-  run.shard = shard_at(root["shard"]);
+  run.head.fault = text(root["fault"]);
+  run.head.golden = root["golden"].boolean();
+  for (const JsonNode& node : root["against"].elements(0, kMostRows)) run.head.against.push_back(node.text());
+  for (const JsonNode& node : root["failures"].elements(0, kMostRows)) run.head.failures.push_back(node.text());
+  run.head.shard = shard_at(root["shard"]);
   for (const JsonNode& node : root["scenes"].elements(0, kMostRows)) {
     node.only({"scene", "file", "seconds", "failure", "repeat"});
     SceneVerdict& verdict = run.verdicts.emplace_back();

@@ -15,9 +15,8 @@ namespace plumbline::report {
 
 struct CheckRun {
   std::string file;
-  std::map<std::string, std::string> versions;  ///< by renderer
-  std::map<std::string, double> tolerances;     ///< the ledger's factors, by row
-  Shard shard;
+  RunHead head;
+  std::map<std::string, double> tolerances;   ///< the ledger's factors, by row
   std::vector<check::SceneVerdict> verdicts;  ///< all that the file holds; the places of what is worst refer to `words`
   std::set<std::string> words;
 };

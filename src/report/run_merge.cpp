@@ -36,11 +36,14 @@ void require_one_run(const CheckRun& first, const CheckRun& other) {
   const auto refuse = [&](std::string_view what) {
     throw std::runtime_error(fmt::format("{} and {} are not of one run: {}", first.file, other.file, what));
   };
-  if (first.versions != other.versions) refuse("their versions differ");
+  const RunHead &a = first.head, &b = other.head;
+  if (a.versions != b.versions) refuse("their versions differ");
+  if (a.fault != b.fault) refuse(fmt::format("of a renderer with the fault '{}' and '{}'", a.fault, b.fault));
+  if (a.against != b.against || a.golden != b.golden) refuse("other references were asked");
   if (first.tolerances != other.tolerances) refuse("their tolerances differ");
-  if (first.shard.of != other.shard.of) refuse(fmt::format("shards of {} and of {}", first.shard.of, other.shard.of));
-  if (first.shard.of > 1 && first.shard.scenes != other.shard.scenes) {
-    refuse(fmt::format("of {} scenes and of {}", first.shard.scenes, other.shard.scenes));
+  if (a.shard.of != b.shard.of) refuse(fmt::format("shards of {} and of {}", a.shard.of, b.shard.of));
+  if (a.shard.of > 1 && a.shard.scenes != b.shard.scenes) {
+    refuse(fmt::format("of {} scenes and of {}", a.shard.scenes, b.shard.scenes));
   }
 }
 
@@ -58,14 +61,18 @@ void require_these_tolerances(const CheckRun& run) {
 Merged merge(std::vector<CheckRun> runs) {
   Merged out;
   CheckRun& all = out.run;
-  all.versions = runs.front().versions;
+  all.head = runs.front().head;
+  all.head.shard = {};
   all.tolerances = runs.front().tolerances;
   require_these_tolerances(runs.front());
   std::map<std::string, std::pair<const SceneVerdict*, const CheckRun*>> by_file;
   std::set<int> there;
   for (const CheckRun& run : runs) {
     require_one_run(runs.front(), run);
-    there.insert(run.shard.index);
+    there.insert(run.head.shard.index);
+    for (const std::string& line : run.head.failures) {
+      if (std::ranges::count(all.head.failures, line) == 0) all.head.failures.push_back(line);
+    }
     for (const SceneVerdict& verdict : run.verdicts) {
       const auto [at, is_new] = by_file.try_emplace(verdict.path, &verdict, &run);
       if (!is_new && !same(*at->second.first, verdict)) {
@@ -82,11 +89,11 @@ Merged merge(std::vector<CheckRun> runs) {
       }
     }
   }
-  const Shard& of_any = runs.front().shard;
-  all.shard.scenes = of_any.of > 1 ? of_any.scenes : all.verdicts.size();
+  const Shard& of_any = runs.front().head.shard;
+  all.head.shard.scenes = of_any.of > 1 ? of_any.scenes : all.verdicts.size();
   for (const CheckRun& run : runs) {  // one that was merged while some were missing still says so
-    if (of_any.of == 1 && run.shard.scenes > run.verdicts.size())
-      all.shard.scenes += run.shard.scenes - run.verdicts.size();
+    if (of_any.of == 1 && run.head.shard.scenes > run.verdicts.size())
+      all.head.shard.scenes += run.head.shard.scenes - run.verdicts.size();
   }
   std::vector<int> lacking;
   for (int i = 1; i <= of_any.of; ++i) {
@@ -95,9 +102,9 @@ Merged merge(std::vector<CheckRun> runs) {
   if (!lacking.empty()) {
     out.missing.push_back(fmt::format("missing: shard {} of {}", fmt::join(lacking, ", "), of_any.of));
   }
-  if (all.verdicts.size() < all.shard.scenes) {
+  if (all.verdicts.size() < all.head.shard.scenes) {
     out.missing.push_back(
-        fmt::format("missing: {} of {} scenes", all.shard.scenes - all.verdicts.size(), all.shard.scenes));
+        fmt::format("missing: {} of {} scenes", all.head.shard.scenes - all.verdicts.size(), all.head.shard.scenes));
   }
   return out;
 }

@@ -87,11 +87,11 @@ TEST_F(Pages, PagesAreNoScriptOfAHostileText) {
   const nlohmann::json card = overview(folder / "page")["scenes"][0];
   EXPECT_EQ(card["name"], verdict.scene);
   EXPECT_EQ(card["description"], odd);
-  EXPECT_EQ(card["file"], "group/_a____b__.js");
+  EXPECT_EQ(card["file"], "group/~3ca~20~26~20~22b~22~3e.js");
   EXPECT_EQ(card["outcome"], "failed");
-  const std::string script = read(folder / "page/group/_a____b__.js");
+  const std::string script = read(folder / "page/group/~3ca~20~26~20~22b~22~3e.js");
   EXPECT_FALSE(contains(script, "<")) << "though no page holds it";
-  const Shown scene = shown(folder / "page/group/_a____b__.js");
+  const Shown scene = shown(folder / "page/group/~3ca~20~26~20~22b~22~3e.js");
   for (const char* key : {"description", "failure", "repeat"}) EXPECT_EQ(scene.about[key], odd) << key;
   EXPECT_EQ(rows_of(scene.view)[0]["reference"], odd);
   EXPECT_EQ(rows_of(scene.view)[0]["note"], odd);
@@ -298,7 +298,7 @@ TEST_F(Pages, ScenesOfOneNameHaveFilesOfTheirOwn) {
   page.write("");
   const nlohmann::json scenes = overview(folder)["scenes"];
   i = 0;
-  for (const std::string name : {"g/s", "g/s-2", "g/s-2-2", "_./_./s", "g/_s", "g/s-3"}) {
+  for (const std::string name : {"g/s", "g/s-2", "g/s-2-2", "~2e./~2e./s", "g/~2es", "g/s-3"}) {
     EXPECT_EQ(scenes[i]["thumbnail"], name + ".png");
     EXPECT_EQ(scenes[i]["file"], name + ".js");
     EXPECT_EQ(read_image(folder / (name + ".png")).width(), static_cast<int>(++i)) << name;

@@ -28,7 +28,7 @@ struct Reports : TestFolder {
     return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(of), {}));
   }
   nlohmann::json json(const std::vector<SceneVerdict>& verdicts) const {
-    write_json(folder / "out.json", verdicts, {{"ours", "0.1"}, {"osmesa", "Mesa \"22\""}});
+    write_json(folder / "out.json", verdicts, {{{"ours", "0.1"}, {"osmesa", "Mesa \"22\""}}, "", {}, false, {}, {}});
     return nlohmann::json::parse(read(folder / "out.json"));
   }
   const fs::path& folder = root_;

@@ -12,10 +12,12 @@ namespace {
 const std::string kRow = R"({"scene": "light/a", "reference": "osmesa", "stage": "depth", "reason": "a driver's bug",
                              "issue": "mesa 123", "expires": "2030-06-30"})";
 
+const std::vector<std::string> kRenderers = {"osmesa", "exact"};
+
 struct Expectations : TestFolder {
   std::vector<Expectation> read_text(const std::string& text) const {
     std::ofstream(root_ / "known.json") << text;
-    return read_expectations(root_ / "known.json");
+    return read_expectations(root_ / "known.json", kRenderers);
   }
   std::vector<Expectation> known() const { return read_text("{\"expectations\": [" + kRow + "]}"); }
   void refused(const std::string& text, const std::string& pointer, const std::string& expected) const {
@@ -107,6 +109,7 @@ TEST_F(Expectations, FilesAreRefusedWithTheirPlace) {
   refused(with("2030-06-30", "2030-06-31"), "/expectations/0/expires", "a day as YYYY-MM-DD");
   refused(with("2030-06-30", "2030-6-30"), "/expectations/0/expires", "a day as YYYY-MM-DD");
   refused(with("\"depth\"", "\"dept\""), "/expectations/0/stage", "a stage (matrices to resolve)");
+  refused(with("\"osmesa\"", "\"mesa from scene\""), "/expectations/0/reference", "a row's reference");
   refused(with("a driver's bug", ""), "/expectations/0/reason", "");
   refused(with("\"issue\": \"mesa 123\",", ""), "/expectations/0/issue", "a value");
   refused(with("\"issue\"", "\"isue\""), "/expectations/0/isue", "");

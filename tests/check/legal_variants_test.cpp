@@ -25,7 +25,7 @@ bool same_picture(const pipeline::Frame& a, const pipeline::Frame& b) {
 
 class LegalVariants : public testing::TestWithParam<faults::Variant> {};
 
-// Each on every 40th of the scenes that there is such a way for, not all on the same ones.
+// Each on a few of the scenes that there is such a way for, not all on the same ones. (The fault matrix takes more.)
 TEST_P(LegalVariants, raises_nothing) {
   const faults::Variant& variant = GetParam();
   faults::Table table = faults::production();
@@ -34,11 +34,13 @@ TEST_P(LegalVariants, raises_nothing) {
   const auto candidate = pipeline::make_pipeline(stages);
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"exact", exact.get()}};
+  const std::vector<Scene>& scenes = suite_scenes();
   std::size_t next = 7 * variant.name.size();
   int judged = 0;
-  for (const Scene& scene : suite_scenes()) {
+  for (std::size_t i = 0; i < scenes.size() && judged < 4; ++i) {
+    const Scene& scene = scenes[(next += 1009) % scenes.size()];  // a prime: each comes once
     const std::optional<Scene> said = variant.scene != nullptr ? variant.scene(scene) : scene;
-    if (!said || ++next % 40 != 0) continue;
+    if (!said) continue;
     ++judged;
     if (variant.same_bits) {
       EXPECT_TRUE(same_picture(pipeline::render(*said, stages), pipeline::render(scene))) << scene.name;

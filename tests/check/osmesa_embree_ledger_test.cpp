@@ -36,7 +36,7 @@ TEST_F(Suite, holds_every_scene_and_more_than_a_thousand_comparisons) {
     EXPECT_EQ(verdict.failure, "") << verdict.scene;
   }
   for (const auto& file : find_scenes(folder)) EXPECT_TRUE(judged.contains(file)) << file;
-  for (const char* reference : {"osmesa", "embree", "exact"}) EXPECT_TRUE(run.versions.contains(reference));
+  for (const char* reference : {"osmesa", "embree", "exact"}) EXPECT_TRUE(run.head.versions.contains(reference));
   EXPECT_GE(comparisons, 10'000u);
 }
 

@@ -46,11 +46,11 @@ struct RunFiles : TestFolder {
   std::string at(const std::string& name) const { return (root_ / name).string(); }
   CheckRun run(const std::vector<SceneVerdict>& verdicts, const Shard& shard = {},
                const std::string& version = "1") const {
-    write_json(at("run.json"), verdicts, {{"osmesa", version}}, shard);
+    write_json(at("run.json"), verdicts, {{{"osmesa", version}}, "", {"osmesa"}, false, shard, {}});
     return read_run(at("run.json"));
   }
   void refused(const std::string& from, const std::string& to, const std::string& says) const {
-    write_json(at("run.json"), std::vector{failing("light/a")}, {{"osmesa", "1"}});
+    write_json(at("run.json"), std::vector{failing("light/a")}, {{{"osmesa", "1"}}, "", {"osmesa"}, false, {}, {}});
     std::string text = read(at("run.json"));
     ASSERT_NE(text.find(from), std::string::npos) << from;
     text.replace(text.find(from), from.size(), to);
@@ -75,10 +75,10 @@ TEST_F(RunFiles, AreReadBackWhole) {
       failing("light/a"),
       scene("light/b", {disputed, check::not_judged("light/b", "embree", Stage::light, Outcome::unsupported, "why")})};
   const CheckRun back = run(verdicts, {2, 3, 5});
-  EXPECT_EQ(back.shard, (Shard{2, 3, 5}));
-  EXPECT_EQ(back.versions.at("osmesa"), "1");
+  EXPECT_EQ(back.head.shard, (Shard{2, 3, 5}));
+  EXPECT_EQ(back.head.versions.at("osmesa"), "1");
   EXPECT_EQ(back.tolerances.size(), check::ledger().size());
-  write_json(at("again.json"), back.verdicts, back.versions, back.shard);
+  write_json(at("again.json"), back.verdicts, back.head);
   EXPECT_EQ(read(at("again.json")), read(at("run.json")));
   EXPECT_NE(read(at("again.json")).find("pixel 3,4 record 5 depth"), std::string::npos);
   EXPECT_FALSE(all_hold(back.verdicts));
@@ -105,7 +105,7 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
   const std::string whole = read(at("run.json"));
   const auto merged = [&](std::vector<CheckRun> runs) {
     const Merged m = merge(std::move(runs));
-    write_json(at("merged.json"), m.run.verdicts, m.run.versions, m.run.shard);
+    write_json(at("merged.json"), m.run.verdicts, m.run.head);
     return m.missing;
   };
   const auto runs = [](auto... each) {
@@ -137,6 +137,15 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
   refuses(runs(run(a, {1, 2, 2}), run(b, {2, 2, 3})), "of 2 scenes and of 3");
   refuses(runs(run(a), run({scene("light/a", {scene_row("light/a", Stage::depth, Outcome::equal)})})),
           "twice, with results that differ");
+  CheckRun spoiled = run(b);
+  spoiled.head.fault = "light.no_clamp";
+  refuses(runs(run(a), spoiled), "with the fault '' and 'light.no_clamp'");
+  CheckRun asked = run(b);
+  asked.head.against = {"exact"};
+  refuses(runs(run(a), asked), "other references");
+  CheckRun golden = run(b);
+  golden.head.golden = true;
+  refuses(runs(run(a), golden), "other references");
   CheckRun other = run(a);
   other.tolerances.begin()->second += 1;
   refuses(runs(other), "are not this program's");
@@ -179,6 +188,21 @@ TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
   EXPECT_EQ(diff(before, run({nobody})).broken.at(0).now, "unjudged light/a: no reference judged merge");
 }
 
+TEST_F(RunFiles, WhatIsWrongWithTheRunItselfIsKept) {
+  CheckRun lost = run({scene("light/a", {})});
+  lost.head.failures = {"expectation light/z, osmesa, depth: there is no such scene"};
+  write_json(at("lost.json"), lost.verdicts, lost.head);
+  const CheckRun back = read_run(at("lost.json"));
+  EXPECT_EQ(back.head.failures, lost.head.failures);
+  std::vector<CheckRun> both(2, back);
+  EXPECT_EQ(merge(both).run.head.failures, lost.head.failures) << "once";
+  EXPECT_NE(junit(back.verdicts, back.head.failures).find("failures=\"1\""), std::string::npos);
+  const RunDiff d = diff(run({scene("light/a", {})}), back);
+  EXPECT_FALSE(holds(d));
+  EXPECT_EQ(d.broken.at(0).now, lost.head.failures[0]);
+  EXPECT_TRUE(holds(diff(back, back)));
+}
+
 TEST_F(RunFiles, ADiffNamesWhatMovedBeyondItsLimits) {
   const auto with = [&](double largest, double seconds) {
     SceneVerdict v = scene("light/a", {scene_row("light/a", Stage::depth, Outcome::within, largest)});
@@ -187,7 +211,13 @@ TEST_F(RunFiles, ADiffNamesWhatMovedBeyondItsLimits) {
   };
   const CheckRun before = with(4, 1);
   EXPECT_TRUE(diff(before, with(5, 1)).differences.empty()) << "a quarter more is not told";
-  EXPECT_EQ(diff(before, with(5.1, 1)).differences.at(0).now, "5.1 steps");
+  EXPECT_EQ(diff(before, with(5.1, 1)).differences.at(0).now, "0 differ, 0 ambiguous, largest 5.1 steps");
+  CheckRun more = before;
+  more.verdicts[0].comparisons[0].measurement.differing = 9;
+  EXPECT_EQ(diff(before, more).differences.at(0).now, "9 differ, 0 ambiguous, largest 4 steps");
+  more = before;
+  more.verdicts[0].comparisons[0].measurement.ambiguous = 1;
+  EXPECT_EQ(diff(before, more).differences.size(), 1u);
   EXPECT_EQ(diff(before, with(3.1, 1)).differences.size(), 1u);
   EXPECT_TRUE(diff(before, with(5.1, 1), {2, 1.5, 0.25}).differences.empty());
   EXPECT_TRUE(diff(before, with(4, 1.5)).times.empty());
@@ -197,7 +227,7 @@ TEST_F(RunFiles, ADiffNamesWhatMovedBeyondItsLimits) {
   CheckRun moved = with(4, 1);
   const std::string name = moved.tolerances.begin()->first;
   moved.tolerances[name] *= 2;
-  moved.versions["osmesa"] = "2";
+  moved.head.versions["osmesa"] = "2";
   const RunDiff d = diff(before, moved);
   EXPECT_EQ(d.tolerances.at(0).what, name);
   EXPECT_EQ(d.versions.at(0).was, "1");
@@ -223,6 +253,8 @@ TEST_F(RunFiles, AsJUnit) {
       "a\x01"
       "b\xff";
   EXPECT_NE(junit(std::vector{odd}).find("a?b\xef\xbf\xbd"), std::string::npos) << "XML holds neither";
+  odd.failure = "a\xef\xbf\xbe\xef\xbf\xbf\xef\xbf\xbd";
+  EXPECT_NE(junit(std::vector{odd}).find("a??\xef\xbf\xbd"), std::string::npos) << "nor U+FFFE and U+FFFF";
 }
 
 TEST_F(RunFiles, AsMarkdown) {
@@ -235,6 +267,7 @@ TEST_F(RunFiles, AsMarkdown) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }
   EXPECT_EQ(cell("a|b\n<c> `d`"), "a\\|b &lt;c&gt; \\`d\\`");
+  EXPECT_EQ(cell("a\xff|"), "a\xef\xbf\xbd\\|") << "a page is UTF-8";
   verdicts.assign(250, failing("light/a"));
   EXPECT_NE(markdown(verdicts, "").find("and 50 more"), std::string::npos);
   EXPECT_EQ(markdown(std::vector{scene("light/b", {})}, "").find("### Failures"), std::string::npos);

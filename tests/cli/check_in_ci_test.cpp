@@ -42,6 +42,16 @@ TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
   EXPECT_NE(read(at("j.xml")).find("failures=\"0\""), std::string::npos);
 }
 
+TEST_F(CheckInCi, folders_that_cannot_be_written_end_the_run_before_it_begins) {
+  write(at("file"), "");
+  for (const char* option : {" --rows ", " --failures "}) {
+    const Outcome run = plumb("check " + kSharedEdges + " --against exact" + option + at("file/rows"));
+    EXPECT_EQ(run.code, 2);
+    EXPECT_TRUE(run.says(at("file") + " is not a folder")) << run.text;
+    EXPECT_FALSE(run.says("shared_edges ")) << run.text;
+  }
+}
+
 TEST_F(CheckInCi, shards_come_to_the_whole_run) {
   const std::string scenes = kScenes + "cull " + kScenes + "merge";  // three scenes
   std::string shards;
@@ -62,7 +72,7 @@ TEST_F(CheckInCi, shards_come_to_the_whole_run) {
   const Outcome lacking = plumb("report merge " + at("2.json"));
   EXPECT_EQ(lacking.code, 1);
   EXPECT_TRUE(lacking.says("missing: shard 1 of 2")) << lacking.text;
-  for (const char* bad : {"0/2", "3/2", "2", "1/2x", "a/b"}) {
+  for (const char* bad : {"0/2", "3/2", "2", "1/2x", "a/b", "' 1/2'", "+1/2", "1/"}) {
     EXPECT_EQ(plumb("check " + scenes + " --shard " + bad).code, 2) << bad;
   }
   write(at("bad.json"), "{\"versions\": 1}");
@@ -106,8 +116,20 @@ TEST_F(CheckInCi, expectations_excuse_what_is_known_until_it_expires_or_passes) 
   EXPECT_EQ(run.code, 0) << "a part of the suite: not asked";
   run = plumb("check " + kScenes + "cull " + kScenes + "merge" + " --against exact" + nowhere);
   EXPECT_EQ(run.code, 1) << "folders of several groups: the suite";
-  EXPECT_TRUE(run.says("expectation of coverage/no_such_scene: there is no such scene")) << run.text;
-  EXPECT_EQ(plumb("check " + kSharedEdges + " --today 2026-02-30").code, 2);
+  plumb("check " + kScenes + "cull --against exact --json " + at("cull.json") + nowhere);
+  EXPECT_EQ(plumb("report merge " + at("cull.json") + " --suite " + kScenes + "cull").code, 0);
+  Outcome merged =
+      plumb("report merge " + at("cull.json") + " --suite " + kScenes + "cull --expect " + at("known.json"));
+  EXPECT_EQ(merged.code, 1);
+  EXPECT_TRUE(merged.says("expectation coverage/no_such_scene")) << merged.text;
+  merged = plumb("report merge " + at("cull.json") + " --suite " + kScenes + "merge");
+  EXPECT_EQ(merged.code, 1);
+  EXPECT_TRUE(merged.says("missing: " + kScenes + "merge/")) << merged.text;
+  EXPECT_TRUE(run.says("expectation coverage/no_such_scene, exact from its records, coverage: there is no such scene"))
+      << run.text;
+  for (const char* bad : {"2026-02-30", "+026-02-20", "2026-2-201"}) {
+    EXPECT_EQ(plumb("check " + kSharedEdges + " --today " + bad).code, 2) << bad;
+  }
 }
 
 }  // namespace

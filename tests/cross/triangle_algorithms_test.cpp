@@ -206,21 +206,29 @@ TEST(TriangleAlgorithms, AMistakeInTiesOrSignsIsSeen) {
   }
 }
 
-// From the smallest frame to the largest, whose 2^28 pixels all four visit.
+// From the smallest frame to the largest, whose 2^28 pixels all four visit in the long form; in a run, its last rows
+// and columns alone.
 TEST(TriangleAlgorithms, EqualExactInFramesOfAllSizes) {
-  constexpr int kFarthest = 1 << 29, kLargest = 16384;
+  constexpr int kFarthest = 1 << 29, kLargest = 16384, kLast = 256 * (kLargest - 8);
   const Corners all{{{-kFarthest, -kFarthest}, {kFarthest, -kFarthest}, {-kFarthest, kFarthest}}};
   const Corners diagonal{{{0, 0}, {256 * kLargest, 256 * kLargest}, {256 * kLargest, 0}}};
-  for (const glm::ivec2 size :
-       {glm::ivec2(1, 1), glm::ivec2(1, 16384), glm::ivec2(16384, 1), glm::ivec2(16384, 16384)}) {
-    for (const Corners& corners : {all, diagonal}) {
-      const Spans expected = by_exact(corners, size.x, size.y);
-      for (const Algorithm& algorithm : algorithms()) {
-        EXPECT_TRUE(algorithm.cover(corners, size.x, size.y) == expected)
-            << algorithm.name << " " << size.x << " x " << size.y << " " << text(corners);
-      }
+  const Corners last_rows{{{-kFarthest, kLast}, {kFarthest, kLast}, {0, kFarthest}}};
+  const Corners last_columns{{{kLast, -kFarthest}, {kFarthest, 0}, {kLast, kFarthest}}};
+  const auto expect_equal = [](const Corners& corners, int width, int height) {
+    const Spans expected = by_exact(corners, width, height);
+    for (const Algorithm& algorithm : algorithms()) {
+      EXPECT_TRUE(algorithm.cover(corners, width, height) == expected)
+          << algorithm.name << " " << width << " x " << height << " " << text(corners);
     }
+    return expected.size();
+  };
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(1, kLargest), glm::ivec2(kLargest, 1)}) {
+    for (const Corners& corners : {all, diagonal}) expect_equal(corners, size.x, size.y);
   }
+  EXPECT_EQ(expect_equal(last_rows, kLargest, kLargest), 8u);
+  EXPECT_EQ(expect_equal(last_columns, kLargest, kLargest), static_cast<std::size_t>(kLargest));
+  if (one_of(2) != 1) return;
+  for (const Corners& corners : {all, diagonal}) expect_equal(corners, kLargest, kLargest);
 }
 
 TEST(TriangleAlgorithms, RefuseWhatCouldOverflow) {

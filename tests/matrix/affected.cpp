@@ -178,6 +178,30 @@ class Unfaulted {
  public:
   explicit Unfaulted(const Scene& scene) : format_(scene.frame) {
     for (Scene& pass : passes_of(scene)) passes_.emplace_back(std::move(pass));
+  }
+
+  bool changed_by(const Table& given) {
+    const auto any_pass = [&](auto changes) {
+      for (std::size_t i = 0; i < passes_.size(); ++i) {
+        if (changes(i)) return true;
+      }
+      return false;
+    };
+    if (given.geometry != production().geometry &&
+        any_pass([&](std::size_t i) { return passes_[i].changed_by(given.geometry); }))
+      return true;
+    if (given.fragment == production().fragment && given.resolve == production().resolve) return false;
+    std::call_once(is_drawn_, [&] { draw(); });  // what is wrong before needs no pixel
+    const Table table = Rare::of_called(given, called_);
+    if (table.resolve != production().resolve && resolved(table.resolve) != resolved_bits_) return true;
+    if (table.fragment == production().fragment) return false;
+    const pipeline::FragmentFunctions fragment = faults::stages_of(table).fragment;
+    return any_pass([&](std::size_t i) { return bits_of(passes_[i].picture(fragment)) != picture_bits_[i]; }) ||
+           any_pass([&](std::size_t i) { return passes_[i].fragments(fragment) != fragment_bits_[i]; });
+  }
+
+ private:
+  void draw() {
     const pipeline::Stages watched = faults::stages_of(Rare::watched());
     for (const Pass& pass : passes_) {
       pictures_.push_back(pass.picture(watched.fragment));
@@ -187,32 +211,13 @@ class Unfaulted {
     resolved_bits_ = resolved(watched.resolve);
     called_ = Rare::called();
   }
-
-  bool changed_by(const Table& given) const {
-    const Table table = Rare::of_called(given, called_);
-    const auto any_pass = [&](auto changes) {
-      for (std::size_t i = 0; i < passes_.size(); ++i) {
-        if (changes(i)) return true;
-      }
-      return false;
-    };
-    if (table.resolve != production().resolve && resolved(table.resolve) != resolved_bits_) return true;
-    if (table.geometry != production().geometry &&
-        any_pass([&](std::size_t i) { return passes_[i].changed_by(table.geometry); }))
-      return true;
-    if (table.fragment == production().fragment) return false;
-    const pipeline::FragmentFunctions fragment = faults::stages_of(table).fragment;
-    return any_pass([&](std::size_t i) { return bits_of(passes_[i].picture(fragment)) != picture_bits_[i]; }) ||
-           any_pass([&](std::size_t i) { return passes_[i].fragments(fragment) != fragment_bits_[i]; });
-  }
-
- private:
   std::uint64_t resolved(const pipeline::ResolveStage& stage) const {
     return format_.antialias.kind == Antialias::Kind::none ? 0 : bits_of(pipeline::resolve(stage, format_, pictures_));
   }
 
   FrameFormat format_;
   std::vector<Pass> passes_;
+  std::once_flag is_drawn_;
   std::vector<pipeline::Frame> pictures_;
   std::vector<std::uint64_t> picture_bits_, fragment_bits_;
   std::uint64_t resolved_bits_ = 0;
