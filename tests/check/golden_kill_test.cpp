@@ -1,4 +1,5 @@
 // An update of goldens is killed at any moment: the set is the old one or the new one, to the last file.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "pipeline/pipeline_renderer.h"
