@@ -1,4 +1,4 @@
-// Runs the program as a user does.
+// Runs plumb as a user does.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +34,10 @@ inline Outcome shell(const std::string& line) {
   return run;
 }
 
-inline Outcome plumb(const std::string& arguments) { return shell(PLUMBLINE_PLUMB " " + arguments); }
+/// plumb's main() with a shell's words for arguments, in a process of its own that begins as a copy of this one, so
+/// that it need not load its libraries, a quarter of a second of them. What a shell alone can do, and what starts plumb
+/// once more, is done by the program itself.
+Outcome plumb(const std::string& arguments);
 
 inline std::string read(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

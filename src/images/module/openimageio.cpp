@@ -76,6 +76,9 @@ std::unique_ptr<OpenImage> open(const std::string& name, std::string& error) {
   return std::make_unique<File>(std::move(in));
 }
 
+// Pictures are small: threads of the libraries' own cost more than they save, and a process that has them cannot fork.
+[[maybe_unused]] const bool kNoThreads = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
+
 std::string encode(const ImageToEncode& image, std::string& error) {
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), type_of(image.type));
   spec.attribute("oiio:UnassociatedAlpha", 1);

@@ -1,5 +1,4 @@
-// plumb: the command line of plumbline.
-#include <malloc.h>
+#include "cli/plumb_main.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -13,11 +12,9 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 
-int main(int argc, char** argv) {
-  using namespace plumbline::cli;
-  // Memory once had is kept: large records come and go, and clearing their pages anew takes a third of the time.
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, -1);
+namespace plumbline::cli {
+
+int plumb_main(int argc, char** argv) {
   try {
     const Parsed parsed = parse(argc, argv);
     const int code = parsed.command ? parsed.command() : parsed.exit;
@@ -32,3 +29,5 @@ int main(int argc, char** argv) {
   }
   return kBadInput;
 }
+
+}  // namespace plumbline::cli
