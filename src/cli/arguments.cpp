@@ -172,6 +172,7 @@ void add(CLI::App& command, MergeOptions& o) {
   text(command, "--markdown", o.markdown, "Write a summary for a CI page");
   text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
   text(command, "--suite", o.suite, "A folder of which every scene is to be in the runs");
+  text(command, "--without", o.without, "Names of its scenes that are not: told as not run");
   text(command, "--expect", o.expect, "The runs' known differences: each is to be of a scene that is there");
 }
 

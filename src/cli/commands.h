@@ -112,7 +112,8 @@ int report_diff(const DiffOptions& options);
 struct MergeOptions {
   std::vector<std::string> runs;
   std::string output, junit, markdown, ledger;  ///< or empty
-  std::string suite;                            ///< a folder: each of its scenes is to be there; or empty
+  std::string suite;                            ///< a folder: each of its scenes is to be there, or empty;
+  std::vector<std::string> without;             ///< but these, by name
   std::string expect;  ///< the known differences that the runs were told: each of a scene that is there; or empty
 };
 int report_merge(const MergeOptions& options);

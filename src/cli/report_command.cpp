@@ -5,6 +5,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "check/expectations.h"
 #include "cli/commands.h"
@@ -38,14 +39,18 @@ int report_diff(const DiffOptions& o) {
 
 namespace {
 
-// The suite's scenes that are in no run.
-std::vector<std::string> lacking_of(const std::string& suite, const report::CheckRun& run) {
+// The suite's scenes that are in no run, but those that are not meant to.
+std::vector<std::string> lacking_of(const std::string& suite, const std::vector<std::string>& without,
+                                    const report::CheckRun& run) {
   std::set<std::filesystem::path> there;
   for (const check::SceneVerdict& verdict : run.verdicts) there.insert(std::filesystem::weakly_canonical(verdict.path));
   std::vector<std::string> out;
   const std::vector<std::filesystem::path> folder = {suite};
   for (const std::filesystem::path& file : find_scenes(folder)) {
-    if (!there.contains(std::filesystem::weakly_canonical(file))) out.push_back("missing: " + file.string());
+    const std::string name = (file.parent_path().filename() / file.stem()).string();
+    if (std::ranges::count(without, name) == 0 && !there.contains(std::filesystem::weakly_canonical(file))) {
+      out.push_back("missing: " + file.string());
+    }
   }
   return out;
 }
@@ -67,7 +72,7 @@ int report_merge(const MergeOptions& o) {
   report::Merged merged = report::merge(std::move(runs));
   report::CheckRun& run = merged.run;
   std::vector<std::string> missing = std::move(merged.missing);
-  if (!o.suite.empty()) std::ranges::move(lacking_of(o.suite, run), std::back_inserter(missing));
+  if (!o.suite.empty()) std::ranges::move(lacking_of(o.suite, o.without, run), std::back_inserter(missing));
   if (missing.empty()) {
     std::ranges::move(check::of_no_scene(expectations, run.verdicts), std::back_inserter(run.head.failures));
   }
@@ -77,7 +82,9 @@ int report_merge(const MergeOptions& o) {
   std::string lines, of_run;
   for (const check::SceneVerdict& verdict : run.verdicts) lines += verdict.failure;
   for (const std::string& line : failures) of_run += line + "\n";
-  const std::string summary = report::summary(run.verdicts, holds, report::seconds(run.verdicts));
+  std::string summary;
+  if (!o.without.empty()) summary = fmt::format("not run: {}\n", fmt::join(o.without, ", "));
+  summary += report::summary(run.verdicts, holds, report::seconds(run.verdicts));
   fmt::print("{}{}{}{}", lines, of_run, report::group_lines(run.verdicts), summary);
   if (!o.output.empty()) report::write_json(o.output, run.verdicts, run.head);
   if (!o.junit.empty()) write_file(o.junit, report::junit(run.verdicts, failures));

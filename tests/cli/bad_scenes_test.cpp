@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
 
+#include "run_plumb.h"
 #include "scene/scene_file.h"
 
 namespace plumbline {
@@ -175,17 +174,6 @@ TEST_F(BadScenes, IncludesOfTooManyFilesAreRefused) {
             "@group/scene.json: at \"/include/63\": expected at most 64 files in all, found more");
 }
 
-/// Runs the program; what it prints.
-std::string plumb_ending(const std::string& arguments, int& code) {
-  FILE* pipe = popen((std::string(PLUMBLINE_PLUMB) + " " + arguments + " 2>&1").c_str(), "r");
-  std::string text;
-  char buffer[4096];
-  while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, n);
-  const int status = pclose(pipe);
-  code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return text;
-}
-
 TEST_F(BadScenes, EndTheProgramWith2AndNothingWritten) {
   const std::string out = (root_ / "out").string(), scene = (root_ / "group/scene.json").string();
   fs::create_directories(out);
@@ -197,9 +185,9 @@ TEST_F(BadScenes, EndTheProgramWith2AndNothingWritten) {
   for (std::size_t i = 0; i < kBadScenes.size(); i += every) {
     write("group/scene.json", kBadScenes[i].text);
     const std::string command = commands[i / every % commands.size()];
-    int code = 0;
-    const std::string said = plumb_ending(command + " --assets " + (root_ / "assets").string(), code);
-    EXPECT_EQ(code, 2) << command << "\n" << kBadScenes[i].text;
+    const Outcome run = plumb(command + " --assets " + (root_ / "assets").string());
+    const std::string& said = run.text;
+    EXPECT_EQ(run.code, 2) << command << "\n" << kBadScenes[i].text;
     EXPECT_NE(said.find(": at \""), said.npos) << said;
     EXPECT_TRUE(fs::is_empty(out)) << command << "\n" << kBadScenes[i].text;
   }
