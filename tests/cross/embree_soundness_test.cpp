@@ -62,7 +62,7 @@ class Soundness : public ::testing::TestWithParam<int> {};
 
 TEST_P(Soundness, NoFloatRendererIsOutsideTheLegalAnswers) {
   Outside out;
-  for (unsigned seed = 1; seed <= 25 / one_of(4); ++seed) {
+  for (unsigned seed = 1; seed <= 25 / one_of(8); ++seed) {
     const Scene scene = test::random_scene(GetParam(), seed);
     const Legal legal = math::legal_by_boxes(scene, Request{});
     for (const Habits& habits : kHabits) judge(scene, legal, habits, out);
