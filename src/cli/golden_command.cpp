@@ -28,11 +28,13 @@ namespace fs = std::filesystem;
 // A diagnosis takes as long as a hundred goldens: of a change that breaks all of them a few tell the cause.
 constexpr std::size_t kMostDiagnosed = 3;
 
+std::string group_of(const std::string& scene) { return scene.substr(0, scene.find('/')); }
+
 struct Suite {
   std::vector<Scene> scenes;
   std::vector<fs::path> files;
-  bool whole = false;  // only then a golden without a scene is known
-  std::string group;   // of which all are, where the suite is one group; empty: of all
+  bool whole = false;            // only then a golden without a scene is known:
+  std::set<std::string> groups;  // of these, where the suite is a group; empty: of any
 };
 
 Suite load(const GoldenOptions& o) {
@@ -41,9 +43,9 @@ Suite load(const GoldenOptions& o) {
   const std::vector<fs::path> paths =
       out.whole ? std::vector<fs::path>{o.suite} : std::vector<fs::path>(o.scenes.begin(), o.scenes.end());
   out.files = find_scenes(paths);
-  const auto lies_in_suite = [&](const fs::path& file) { return fs::equivalent(file.parent_path(), o.suite); };
-  if (out.whole && std::ranges::all_of(out.files, lies_in_suite))
-    out.group = fs::canonical(o.suite).filename().string() + "/";
+  if (out.whole && !fs::is_directory(o.suite)) {
+    throw SceneError(fmt::format("--suite {}: expected a folder; scenes are named without it", o.suite));
+  }
   std::set<std::string> names;
   for (const fs::path& file : out.files) {
     out.scenes.push_back(o.scene_arguments.load(file));
@@ -53,6 +55,10 @@ Suite load(const GoldenOptions& o) {
           fmt::format("{}: expected scenes of different names, found {} twice", file.string(), out.scenes.back().name));
     }
   }
+  const auto lies_in_suite = [&](const fs::path& file) { return fs::equivalent(file.parent_path(), o.suite); };
+  if (out.whole && std::ranges::any_of(out.files, lies_in_suite)) {
+    for (const Scene& scene : out.scenes) out.groups.insert(group_of(scene.name));
+  }
   return out;
 }
 
@@ -60,8 +66,8 @@ std::vector<std::string> orphans(const Suite& suite, const check::GoldenManifest
   std::vector<std::string> out;
   for (const auto& [name, golden] : manifest.scenes) {
     const auto has_name = [&](const Scene& scene) { return scene.name == name; };
-    if (suite.whole && name.starts_with(suite.group) && std::ranges::none_of(suite.scenes, has_name))
-      out.push_back(name);
+    const bool asked = suite.whole && (suite.groups.empty() || suite.groups.contains(group_of(name)));
+    if (asked && std::ranges::none_of(suite.scenes, has_name)) out.push_back(name);
   }
   return out;
 }
@@ -171,16 +177,17 @@ namespace {
 // A folder that is there while this lives, and stays if anything comes into it.
 class UsedFolder {
  public:
-  explicit UsedFolder(fs::path folder) : folder_(std::move(folder)) { fs::create_directories(folder_); }
+  explicit UsedFolder(fs::path folder) : folder_(std::move(folder)), is_new_(fs::create_directories(folder_)) {}
   ~UsedFolder() {
     std::error_code not_empty;
-    fs::remove(folder_, not_empty);
+    if (is_new_) fs::remove(folder_, not_empty);
   }
   UsedFolder(const UsedFolder&) = delete;
   UsedFolder& operator=(const UsedFolder&) = delete;
 
  private:
   fs::path folder_;
+  bool is_new_;
 };
 
 }  // namespace

@@ -39,20 +39,29 @@ int report_diff(const DiffOptions& o) {
 
 namespace {
 
+std::string name_of_scene(const std::filesystem::path& file) {
+  return (file.parent_path().filename() / file.stem()).generic_string();
+}
+
 // The suite's scenes that are in no run, but those that are not meant to.
-std::vector<std::string> lacking_of(const std::string& suite, const std::vector<std::string>& without,
-                                    const report::CheckRun& run) {
+std::vector<std::string> lacking_of(std::span<const std::filesystem::path> suite,
+                                    const std::vector<std::string>& without, const report::CheckRun& run) {
   std::set<std::filesystem::path> there;
   for (const check::SceneVerdict& verdict : run.verdicts) there.insert(std::filesystem::weakly_canonical(verdict.path));
   std::vector<std::string> out;
-  const std::vector<std::filesystem::path> folder = {suite};
-  for (const std::filesystem::path& file : find_scenes(folder)) {
-    const std::string name = (file.parent_path().filename() / file.stem()).string();
-    if (std::ranges::count(without, name) == 0 && !there.contains(std::filesystem::weakly_canonical(file))) {
-      out.push_back("missing: " + file.string());
-    }
+  for (const std::filesystem::path& file : suite) {
+    if (std::ranges::count(without, name_of_scene(file)) > 0) continue;
+    if (!there.contains(std::filesystem::weakly_canonical(file))) out.push_back("missing: " + file.string());
   }
   return out;
+}
+
+void require_scenes_of(std::span<const std::filesystem::path> suite, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (std::ranges::none_of(suite, [&](const auto& file) { return name_of_scene(file) == name; })) {
+      throw std::runtime_error(fmt::format("--without {}: expected the name of a scene of --suite, group/scene", name));
+    }
+  }
 }
 
 }  // namespace
@@ -64,6 +73,13 @@ int report_merge(const MergeOptions& o) {
     expectations = check::read_expectations(o.expect, names_of_rows());
     inputs.emplace_back(o.expect);
   }
+  std::vector<std::filesystem::path> suite;
+  if (!o.suite.empty()) {
+    const std::filesystem::path folder[] = {o.suite};
+    suite = find_scenes(folder);
+    inputs.insert(inputs.end(), suite.begin(), suite.end());
+  }
+  require_scenes_of(suite, o.without);
   const Output outputs[] = {
       {"--output", o.output}, {"--junit", o.junit}, {"--markdown", o.markdown}, {"--ledger", o.ledger}};
   require_outputs(outputs, {}, inputs);
@@ -72,11 +88,17 @@ int report_merge(const MergeOptions& o) {
   report::Merged merged = report::merge(std::move(runs));
   report::CheckRun& run = merged.run;
   std::vector<std::string> missing = std::move(merged.missing);
-  if (!o.suite.empty()) std::ranges::move(lacking_of(o.suite, o.without, run), std::back_inserter(missing));
-  if (missing.empty()) {
-    std::ranges::move(check::of_no_scene(expectations, run.verdicts), std::back_inserter(run.head.failures));
-  }
+  const std::vector<std::string> lacking = lacking_of(suite, o.without, run);
+  run.head.shard.scenes = std::max(run.head.shard.scenes, run.verdicts.size() + lacking.size());
+  missing.insert(missing.end(), lacking.begin(), lacking.end());
+  std::erase_if(expectations, [&](const auto& e) { return std::ranges::count(o.without, e.scene) > 0; });
   std::vector<std::string> failures = run.head.failures;
+  if (missing.empty()) {
+    for (std::string& line : check::of_no_scene(expectations, run.verdicts)) {
+      if (std::ranges::count(failures, line) == 0) failures.push_back(std::move(line));
+    }
+    run.head.failures = failures;
+  }
   failures.insert(failures.end(), missing.begin(), missing.end());
   const bool holds = report::all_hold(run.verdicts) && failures.empty();
   std::string lines, of_run;

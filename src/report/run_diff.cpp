@@ -6,6 +6,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "report/markdown.h"
@@ -61,11 +62,13 @@ bool moved(const check::Measurement& was, const check::Measurement& now, double 
     return beyond(static_cast<double>(a), static_cast<double>(b), factor);
   };
   return beyond(was.max_difference, now.max_difference, factor) || counts(was.differing, now.differing) ||
-         counts(was.ambiguous, now.ambiguous);
+         counts(was.ambiguous, now.ambiguous) || counts(was.disputed, now.disputed);
 }
 
 std::string size(const check::Measurement& m) {
-  return fmt::format("{} differ, {} ambiguous, largest {:.4g} {}", m.differing, m.ambiguous, m.max_difference, m.unit);
+  const std::string disputed = m.disputed > 0 ? fmt::format("{} disputed, ", m.disputed) : "";
+  return fmt::format("{} differ, {} ambiguous, {}largest {:.4g} {}", m.differing, m.ambiguous, disputed,
+                     m.max_difference, m.unit);
 }
 
 void add_row(RunDiff& out, const std::string& what, const Comparison& was, const Comparison& now,
@@ -158,6 +161,11 @@ RunDiff diff(const CheckRun& before, const CheckRun& now, const DiffLimits& limi
       if (of(a, key) != of(b, key)) changes.push_back({key, of(a, key), of(b, key)});
     }
   };
+  const std::map<std::string, std::string> was_asked = {
+      {"fault", before.head.fault}, {"references", fmt::format("{}", fmt::join(before.head.against, ","))}};
+  const std::map<std::string, std::string> is_asked = {
+      {"fault", now.head.fault}, {"references", fmt::format("{}", fmt::join(now.head.against, ","))}};
+  compare(was_asked, is_asked, out.versions);
   compare(before.tolerances, now.tolerances, out.tolerances);
   compare(before.head.versions, now.head.versions, out.versions);
   return out;

@@ -22,7 +22,7 @@ struct Change {
 };
 
 struct RunDiff {
-  std::vector<Change> versions;     ///< of renderers
+  std::vector<Change> versions;     ///< of renderers; what was asked
   std::vector<Change> broken;       ///< fails, and did not
   std::vector<Change> lost;         ///< was judged and is not run, or not judged, any more
   std::vector<Change> fixed;        ///< failed, and does not

@@ -125,6 +125,13 @@ TEST_F(CheckInCi, expectations_excuse_what_is_known_until_it_expires_or_passes) 
   merged = plumb("report merge " + at("cull.json") + " --suite " + kScenes + "merge");
   EXPECT_EQ(merged.code, 1);
   EXPECT_TRUE(merged.says("missing: " + kScenes + "merge/")) << merged.text;
+  plumb("report merge " + at("cull.json") + " --suite " + kScenes + "merge -o " + at("part.json"));
+  EXPECT_EQ(plumb("report merge " + at("part.json")).code, 1) << "merged once more, it is not whole either";
+  const std::string without = "report merge " + at("cull.json") + " --suite " + kScenes + "cull --without ";
+  merged = plumb(without + "cull/both_windings");
+  EXPECT_EQ(merged.code, 0) << merged.text;
+  EXPECT_TRUE(merged.says("not run: cull/both_windings")) << merged.text;
+  EXPECT_EQ(plumb(without + "cull/nothing").code, 2) << "no such scene";
   EXPECT_TRUE(run.says("expectation coverage/no_such_scene, exact from its records, coverage: there is no such scene"))
       << run.text;
   for (const char* bad : {"2026-02-30", "+026-02-20", "2026-2-201"}) {

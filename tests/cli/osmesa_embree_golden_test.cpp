@@ -200,6 +200,13 @@ TEST_F(GoldenCommand, a_group_says_nothing_of_the_others) {
   run = plumb(group + " --check");
   EXPECT_TRUE(run.says("would be removed cull/both_windings")) << run.text;
   EXPECT_TRUE(run.says("1 removed")) << "its own alone" << run.text;
+  run = plumb("golden update --golden " + at("golden") + " --suite " + at("suite/cull/another.json"));
+  EXPECT_EQ(run.code, 2) << "no folder" << run.text;
+  fs::create_directories(folder_ / "suite/cull/below");
+  fs::copy(folder_ / "suite/cull/another.json", folder_ / "suite/cull/below/one.json");
+  run = plumb(group + " --check");
+  EXPECT_TRUE(run.says("1 removed")) << "a folder in a group" << run.text;
+  EXPECT_TRUE(fs::exists(folder_ / "golden/coverage"));
 }
 
 TEST_F(GoldenCommand, an_update_that_writes_nothing_makes_no_folder) {
