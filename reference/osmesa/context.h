@@ -21,8 +21,11 @@ class Context {
   virtual Function function(const char* name) const = 0;
 };
 
+/// What Mesa compiles shaders to: both draw the same bits.
+enum class ShaderCode { quick_to_make, quick_to_run };
+
 /// OSMesa's, if it is built in. Throws RendererFailed.
-std::unique_ptr<Context> make_osmesa_context(MesaDriver driver);
+std::unique_ptr<Context> make_osmesa_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
 
 /// All of OpenGL's entry points that are used here. Throws RendererFailed, naming the one that lacks.
 Gl load(const Context& context);
@@ -32,6 +35,6 @@ const char* name_of(MesaDriver driver);
 /// To be called before the first context is made: Mesa reads its environment once per process, and two of Mesa's
 /// libraries in one share the current context without knowing of each other. Throws RendererFailed if the process has
 /// another library or driver already.
-void claim_process(std::string_view library, MesaDriver driver);
+void claim_process(std::string_view library, MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
 
 }  // namespace plumbline::osmesa

@@ -18,8 +18,8 @@ namespace {
 
 class OsmesaContext final : public Context {
  public:
-  explicit OsmesaContext(MesaDriver driver) {
-    claim_process("OSMesa", driver);
+  explicit OsmesaContext(MesaDriver driver, ShaderCode code) {
+    claim_process("OSMesa", driver, code);
     context_.reset(OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr));
     if (!context_) throw RendererFailed(fmt::format("OSMesa: no context from {}", name_of(driver)));
   }
@@ -43,7 +43,9 @@ class OsmesaContext final : public Context {
 
 }  // namespace
 
-std::unique_ptr<Context> make_osmesa_context(MesaDriver driver) { return std::make_unique<OsmesaContext>(driver); }
+std::unique_ptr<Context> make_osmesa_context(MesaDriver driver, ShaderCode code) {
+  return std::make_unique<OsmesaContext>(driver, code);
+}
 
 }  // namespace osmesa
 

@@ -54,7 +54,7 @@ std::vector<std::uint32_t> wanted_primitives(const DrawRange& range, const std::
 // Each with the colour that `color` gives of its vertex.
 template <class Color>
 std::vector<FedCorner> fed_corners(const Mesh& mesh, std::uint32_t first_primitive,
-                               std::span<const std::uint32_t> primitives, const Color& color) {
+                                   std::span<const std::uint32_t> primitives, const Color& color) {
   constexpr std::array<glm::vec2, 3> kCornerTags = {glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(0, 0)};
   std::vector<FedCorner> corners;
   const auto count = static_cast<int>(corner_count(mesh.topology));

@@ -64,7 +64,7 @@ Note tinyrenderer() {
                              "ProgramScenes.TheNotesGouraudShaderIsTheFixedFunctionsDiffuseLight")}},
           {.section = "Rasterizer",
            .teaches = "calls fragment() for each pixel of each triangle",
-           .where = {function("pipeline/tiles.h", "draw_tiles"), function("pipeline/fragment.h", "fragment_block")},
+           .where = {function("pipeline/tiles.h", "draw_tiles"), function("pipeline/fragment.h", "covered_pixels")},
            .shown_by = {test("unit/program", "Program.FragmentsSeeValuesWithinTheCornersRange"),
                         test("unit/program", "Program.HiddenFragmentsAreNotRun")}},
           {.section = "Z-Buffer",

@@ -74,16 +74,4 @@ R depth(const DepthSetup& s, const Barycentric<R>& b) {
   return to_float(s.scale == 0.0 ? z : depth_code(z, s.scale));
 }
 
-template <DepthFunc func, class R>
-Mask<R> depth_passes(R incoming, R stored) {
-  if constexpr (func == DepthFunc::less) return incoming < stored;
-  if constexpr (func == DepthFunc::less_equal) return incoming <= stored;
-  if constexpr (func == DepthFunc::greater) return incoming > stored;
-  if constexpr (func == DepthFunc::greater_equal) return incoming >= stored;
-  if constexpr (func == DepthFunc::equal) return incoming == stored;
-  if constexpr (func == DepthFunc::not_equal) return incoming != stored;
-  if constexpr (func == DepthFunc::never) return incoming != incoming;
-  if constexpr (func == DepthFunc::always) return incoming == incoming;
-}
-
 }  // namespace plumbline::pipeline

@@ -1,9 +1,9 @@
-// Stages 5 to 11 for one triangle in one block of 4 x 4 pixels, and for one pixel of a line or point.
+// Stages 5 to 11 for as many pixels at a time as the number type R holds (lanes.h).
 //
-// Everything that does not change within a draw is a template parameter: the number type R (lanes.h), the depth
-// function, the stage functions (so that a test can put another in the place of one, and a program its fragment(),
-// program.h) and the Tap. NoTap ships: hidden fragments are left as soon as that is known. A tap that wants every
-// fragment sees them all, and the planes come out the same, bit for bit.
+// Template parameters are R, the stage functions (so that a test can put another in the place of one, and a program its
+// fragment(), program.h) and the Tap; a draw's state is asked once for all of R's pixels. NoTap ships: hidden fragments
+// are left as soon as that is known. A tap that wants every fragment sees them all, and the planes come out the same,
+// bit for bit.
 #pragma once
 
 #include <optional>
@@ -54,9 +54,9 @@ struct FragmentStages {
   static R depth(const auto& s, const Barycentric<R>& b) {
     return pipeline::depth<R>(s.depth, b);
   }
-  template <DepthFunc func, class R>
-  static Mask<R> depth_passes(R incoming, R stored) {
-    return pipeline::depth_passes<func, R>(incoming, stored);
+  template <class R>
+  static Mask<R> depth_passes(DepthFunc func, R incoming, R stored) {
+    return compares<R>(func, incoming, stored);
   }
   template <class R>
   static Color<R> attributes(const AttributeSetup& s, const Barycentric<R>& b) {
@@ -108,6 +108,7 @@ struct FragmentStages {
 /// What of a draw's state is looked at per block.
 struct BlockState {
   DepthState depth;
+  DepthFunc depth_func;
   std::optional<Scissor> scissor;
   std::optional<AlphaTest> alpha_test;
   std::optional<Stencil> stencil;
@@ -128,7 +129,7 @@ void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Co
            const Stored& to) {
   const auto merged = [&]() -> Color<R> {
     if (!state.blend && !state.logic_op) return stages.template merge<R>(shaded, color_scale);
-    const Color<R> stored{load(to.color[0]), load(to.color[1]), load(to.color[2]), load(to.color[3])};
+    const Color<R> stored{load<R>(to.color[0]), load<R>(to.color[1]), load<R>(to.color[2]), load<R>(to.color[3])};
     if (state.logic_op) return stages.template logic<R>(*state.logic_op, shaded, stored, color_scale);
     return stages.template blend<R>(*state.blend, shaded, stored, color_scale);
   }();
@@ -238,7 +239,7 @@ struct NoTap {
 };
 
 // The scissor box, and stages 6 to 11, for the pixels `p`, which are stored from `place` on.
-template <class R, DepthFunc func, class Stages, class Tap>
+template <class R, class Stages, class Tap>
 void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, const Pixels<R>& p,
                     Mask<R> covered, int place, float color_scale, Tile& tile, Tap& tap) {
   if (state.scissor) {
@@ -250,7 +251,7 @@ void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf
   const Stored stored{tile.depth + place,
                       {tile.color[0] + place, tile.color[1] + place, tile.color[2] + place, tile.color[3] + place},
                       tile.stencil + place};
-  const Mask<R> nearer = covered & stages.template depth_passes<func, R>(z, load(stored.depth));
+  const Mask<R> nearer = covered & stages.template depth_passes<R>(state.depth_func, z, load<R>(stored.depth));
   if constexpr (!Tap::every_fragment) {
     if (!any(nearer) && !state.stencil) return;
   }
@@ -277,26 +278,15 @@ void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf
   finish(attributes, stages.template shade<R>(attributes));
 }
 
-template <class R, DepthFunc func, class Stages, class Tap>
-void fragment_block(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, int block_x, int block_y,
-                    float color_scale, Tile& tile, Tap& tap) {
-  const int offset = tile.offset(block_x, block_y);
-  for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
-    const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
-    const Mask<R> covered = stages.template coverage<R>(s, p);
-    if (any(covered)) covered_pixels<R, func>(stages, state, s, p, covered, offset + i, color_scale, tile, tap);
-  }
-}
-
 /// One pixel, alone in its lanes.
-template <class R, DepthFunc func, class Stages, class Tap>
+template <class R, class Stages, class Tap>
 void fragment_pixel(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, glm::ivec2 pixel,
                     float color_scale, Tile& tile, Tap& tap) {
   const int block_x = pixel.x & ~(kBlock - 1), block_y = pixel.y & ~(kBlock - 1);
   const int in_block = (pixel.y - block_y) * kBlock + (pixel.x - block_x), i = in_block & ~(Lanes<R>::width - 1);
   const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
   const Mask<R> covered = (p.x == Int<R>(pixel.x)) & (p.y == Int<R>(pixel.y));
-  covered_pixels<R, func>(stages, state, s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
+  covered_pixels<R>(stages, state, s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
 }
 
 }  // namespace plumbline::pipeline

@@ -2,25 +2,11 @@
 // stencil, depth (depth.h). Scissor is coverage's (coverage.h).
 #pragma once
 
+#include "pipeline/compare.h"
 #include "pipeline/lanes.h"
 #include "scene/scene.h"
 
 namespace plumbline::pipeline {
-
-template <class R, class T>
-Mask<R> compares(CompareFunc func, T a, T b) {
-  switch (func) {
-    case CompareFunc::never: return a != a;
-    case CompareFunc::less: return a < b;
-    case CompareFunc::equal: return a == b;
-    case CompareFunc::less_equal: return a <= b;
-    case CompareFunc::greater: return a > b;
-    case CompareFunc::not_equal: return a != b;
-    case CompareFunc::greater_equal: return a >= b;
-    case CompareFunc::always: return a == a;
-  }
-  return a == a;
-}
 
 /// `scale`: the frame's largest code; 0: float, compared as it is. In double, where the product of a float and a scale
 /// is exact and so is its rounding.
@@ -59,7 +45,7 @@ Int<R> stencil_value(StencilOp op, std::uint8_t reference, Int<R> held) {
 /// whether they pass the depth test.
 template <class R>
 Mask<R> stencil_test(const StencilFace& face, Mask<R> alive, Mask<R> nearer, std::uint8_t* at) {
-  const Int<R> held = load(at), write(face.write_mask), kept(255 & ~face.write_mask);
+  const Int<R> held = load_codes<R>(at), write(face.write_mask), kept(255 & ~face.write_mask);
   const Mask<R> passes = stencil_passes<R>(face, held);
   const auto value = [&](StencilOp op) { return stencil_value<R>(op, face.reference, held); };
   const Int<R> made = select(passes, select(nearer, value(face.pass), value(face.depth_fail)), value(face.fail));

@@ -52,11 +52,20 @@ inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }
 
+/// The larger, and the smaller; the second where either is NaN.
+template <class T>
+T greater_of(T a, T b) {
+  return a > b ? a : b;
+}
+template <class T>
+T lesser_of(T a, T b) {
+  return a < b ? a : b;
+}
+
 /// To [low, high]; NaN to low.
 template <class T>
 T clamped(T value, T low, T high) {
-  const T raised = select(value > low, value, low);
-  return select(raised < high, raised, high);
+  return lesser_of(greater_of(value, low), high);
 }
 /// To [0,1]; NaN to 0.
 template <class T>
@@ -75,12 +84,23 @@ inline std::int64_t floor_int(double value) {
 }
 inline double to_wide(std::int64_t value) { return static_cast<double>(value); }
 
-inline float load(const float* from) { return *from; }
+/// The next Lanes<R>::width values.
+template <class R>
+R load(const float* from);
+template <>
+inline float load<float>(const float* from) {
+  return *from;
+}
 inline void store(bool mask, float value, float* to) {
   if (mask) *to = value;
 }
 /// Whole numbers from 0 to 255.
-inline std::int64_t load(const std::uint8_t* from) { return *from; }
+template <class R>
+Int<R> load_codes(const std::uint8_t* from);
+template <>
+inline std::int64_t load_codes<float>(const std::uint8_t* from) {
+  return *from;
+}
 inline void store(bool mask, std::int64_t value, std::uint8_t* to) {
   if (mask) *to = static_cast<std::uint8_t>(value);
 }

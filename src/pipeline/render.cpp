@@ -1,8 +1,17 @@
 #include "pipeline/render.h"
 
+#include "pipeline/draw_simd.h"
+
 namespace plumbline::pipeline {
 
-Stages production_stages() { return {geometry_stages(), fragment_functions<FragmentStages>()}; }
+Stages production_stages() {
+  Stages out{geometry_stages(), fragment_functions<FragmentStages>()};
+  out.fragment.draw = [draw_tile = simd_targets().back().draw_tile](const DrawList& list, const FrameFormat& format,
+                                                                    Frame& frame, NoTap&) {
+    draw_frame(draw_tile, list, format, frame);
+  };
+  return out;
+}
 
 Frame render(const Scene& scene) { return render(scene, production_stages()); }
 

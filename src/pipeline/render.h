@@ -30,25 +30,9 @@ struct FragmentFunctions {
 };
 
 template <class S>
-bool depth_passes_for(const S& stages, DepthFunc func, float incoming, float stored) {
-  switch (func) {
-    case DepthFunc::never: return stages.template depth_passes<DepthFunc::never, float>(incoming, stored);
-    case DepthFunc::less: return stages.template depth_passes<DepthFunc::less, float>(incoming, stored);
-    case DepthFunc::equal: return stages.template depth_passes<DepthFunc::equal, float>(incoming, stored);
-    case DepthFunc::less_equal: return stages.template depth_passes<DepthFunc::less_equal, float>(incoming, stored);
-    case DepthFunc::greater: return stages.template depth_passes<DepthFunc::greater, float>(incoming, stored);
-    case DepthFunc::not_equal: return stages.template depth_passes<DepthFunc::not_equal, float>(incoming, stored);
-    case DepthFunc::greater_equal:
-      return stages.template depth_passes<DepthFunc::greater_equal, float>(incoming, stored);
-    case DepthFunc::always: return stages.template depth_passes<DepthFunc::always, float>(incoming, stored);
-  }
-  return false;
-}
-
-template <class S>
 bool passes(const S& stages, const Draw& draw, bool front, float z, const Color<float>& shaded, float color_scale,
             const Stored& at) {
-  const bool nearer = depth_passes_for(stages, draw.depth_func, z, *at.depth);
+  const bool nearer = stages.template depth_passes<float>(draw.depth_func, z, *at.depth);
   if (draw.alpha_test && !stages.template alpha_passes<float>(*draw.alpha_test, shaded.a, color_scale)) return false;
   if (!draw.stencil) return nearer;
   const StencilFace& face = front ? draw.stencil->front : draw.stencil->back;

@@ -43,7 +43,7 @@ Gradients<R> gradients(const GradientSetup& g, const Pixels<R>& p) {
   const Wide<R> dx = p.x_win - g.x0, dy = p.y_win - g.y0;
   const Wide<R> q = g.q_0 + (dx * g.q_x + dy * g.q_y);
   // Extrapolated out of a sliver, 1/w may reach 0: no division there.
-  const Mask<R> divides = q * q > 1e-300;
+  const auto divides = q * q > 1e-300;
   const Wide<R> w = select(divides, Wide<R>(1) / select(divides, q, Wide<R>(1)), Wide<R>(0));
   const Wide<R> s = (g.s_0 + (dx * g.s_x + dy * g.s_y)) * w, t = (g.t_0 + (dx * g.t_x + dy * g.t_y)) * w;
   return {(g.s_x - s * g.q_x) * w, (g.t_x - t * g.q_x) * w, (g.s_y - s * g.q_y) * w, (g.t_y - t * g.q_y) * w};
@@ -68,7 +68,7 @@ R level_of_detail(const TextureSetup& t, const Gradients<R>& g) {
     return du * du + dv * dv;
   };
   const Wide<R> x = squared(g.ds_dx, g.dt_dx), y = squared(g.ds_dy, g.dt_dy), rho2 = select(x > y, x, y);
-  const Mask<R> has_length = rho2 > 1e-300;
+  const auto has_length = rho2 > 1e-300;
   const Wide<R> log2_rho = select(has_length, 0.5 * log2_of(select(has_length, rho2, Wide<R>(1))), Wide<R>(-1e6));
   const Wide<R> lambda = log2_rho + to_wide(t.sampler.lod_bias);
   const Wide<R> least = to_wide(t.sampler.min_lod), most = to_wide(t.sampler.max_lod);

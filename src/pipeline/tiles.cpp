@@ -92,4 +92,27 @@ void write_out(const Tile& tile, Frame& frame) {
   copy_out(tile, frame.depth_z32f, [&](int i) { return tile.depth[i]; });
 }
 
+TileList tile_list(const DrawList& list, const FrameFormat& format) {
+  TileList out{list, format, formats_of(format), bin(list.triangles, format), {}};
+  for (std::size_t d = 0; d < list.draws.size(); ++d) {
+    const Draw& draw = list.draws[d];
+    const bool plain = list.surfaces.empty() || list.surfaces[d].plain();
+    out.state_of.push_back({depth_state(draw, format.depth, list.depth_clamp), draw.depth_func, draw.scissor,
+                            draw.alpha_test, draw.stencil, draw.merge, plain ? nullptr : &list.surfaces[d]});
+  }
+  return out;
+}
+
+void each_tile(const TileList& work, Frame& frame, const std::function<void(std::size_t, Tile&)>& draw) {
+  Tile tile{};
+  const int tiles = work.bins.columns * work.bins.rows;
+  for (int t = 0; t < tiles; ++t) {
+    tile.x0 = t % work.bins.columns * kTile;
+    tile.y0 = t / work.bins.columns * kTile;
+    clear(tile, work.format, work.formats);
+    draw(static_cast<std::size_t>(t), tile);
+    write_out(tile, frame);
+  }
+}
+
 }  // namespace plumbline::pipeline

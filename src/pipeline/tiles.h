@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,7 +35,27 @@ void clear(Tile& tile, const FrameFormat& frame, const Formats& formats);
 /// Copies the tile's part of the frame out of its blocks.
 void write_out(const Tile& tile, Frame& frame);
 
-template <class R, DepthFunc func, class Stages, class Tap>
+/// Which pixels of the tile a triangle covers, Lanes<R>::width at a time: visit(pixels, which of them, their place in
+/// the tile).
+template <class R>
+struct CoveredPixels {
+  template <class Stages>
+  static void visit(const Stages& stages, const SetupOf<Stages>& s, const Tile& tile, auto visit) {
+    const int x0 = std::max(s.bounds.x0, tile.x0) & ~(kBlock - 1), x1 = std::min(s.bounds.x1, tile.x0 + kTile);
+    const int y0 = std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1), y1 = std::min(s.bounds.y1, tile.y0 + kTile);
+    for (int y = y0; y < y1; y += kBlock) {
+      for (int x = x0; x < x1; x += kBlock) {
+        for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
+          const Pixels<R> p = block_pixels<R>(x, y, i);
+          const Mask<R> covered = stages.template coverage<R>(s, p);
+          if (any(covered)) visit(p, covered, tile.offset(x, y) + i);
+        }
+      }
+    }
+  }
+};
+
+template <class R, class Stages, class Tap>
 void draw_triangle(const Stages& stages, const BlockState& state, const WindowTriangle<float>& triangle,
                    std::uint32_t number, const Formats& formats, Tile& tile, Tap& tap) {
   SetupOf<Stages> s = set_up(stages, triangle, number, state.depth, formats.sample, tile.x0, tile.y0);
@@ -47,66 +68,45 @@ void draw_triangle(const Stages& stages, const BlockState& state, const WindowTr
   }
   if (triangle.corners < 3) {
     for (const glm::ivec2 pixel : stages.thin_pixels(triangle, {tile.x0, tile.y0}, kTile)) {
-      fragment_pixel<R, func>(stages, state, s, pixel, formats.color_scale, tile, tap);
+      fragment_pixel<R>(stages, state, s, pixel, formats.color_scale, tile, tap);
     }
     return;
   }
-  const int x0 = std::max(s.bounds.x0, tile.x0) & ~(kBlock - 1), x1 = std::min(s.bounds.x1, tile.x0 + kTile);
-  const int y0 = std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1), y1 = std::min(s.bounds.y1, tile.y0 + kTile);
-  for (int y = y0; y < y1; y += kBlock) {
-    for (int x = x0; x < x1; x += kBlock) {
-      fragment_block<R, func>(stages, state, s, x, y, formats.color_scale, tile, tap);
-    }
+  CoveredPixels<R>::visit(stages, s, tile, [&](const Pixels<R>& p, Mask<R> covered, int place) {
+    covered_pixels<R>(stages, state, s, p, covered, place, formats.color_scale, tile, tap);
+  });
+}
+
+/// All that the tiles of a frame are drawn from.
+struct TileList {
+  const DrawList& list;
+  const FrameFormat& format;
+  Formats formats;
+  Bins bins;
+  std::vector<BlockState> state_of;  ///< per draw
+};
+TileList tile_list(const DrawList& list, const FrameFormat& format);
+
+/// What lies in the tile, over what it holds.
+template <class R, class Stages, class Tap>
+void draw_tile(const Stages& stages, const TileList& work, std::size_t number_of_tile, Tile& tile, Tap& tap) {
+  const DrawList& list = work.list;
+  std::size_t draw = 0;
+  for (std::size_t i = work.bins.first[number_of_tile]; i < work.bins.first[number_of_tile + 1]; ++i) {
+    const std::uint32_t number = work.bins.numbers[i];
+    while (number >= list.first_triangle[draw + 1]) ++draw;
+    draw_triangle<R>(stages, work.state_of[draw], list.triangles[number], number, work.formats, tile, tap);
   }
 }
 
-template <class R, class Stages, class Tap>
-using DrawTriangle = void (*)(const Stages&, const BlockState&, const WindowTriangle<float>&, std::uint32_t,
-                              const Formats&, Tile&, Tap&);
-
-/// The instantiation for a depth function, chosen once per draw.
-template <class R, class Stages, class Tap>
-DrawTriangle<R, Stages, Tap> draw_triangle_for(DepthFunc func) {
-  switch (func) {
-    case DepthFunc::never: return draw_triangle<R, DepthFunc::never, Stages, Tap>;
-    case DepthFunc::less: return draw_triangle<R, DepthFunc::less, Stages, Tap>;
-    case DepthFunc::equal: return draw_triangle<R, DepthFunc::equal, Stages, Tap>;
-    case DepthFunc::less_equal: return draw_triangle<R, DepthFunc::less_equal, Stages, Tap>;
-    case DepthFunc::greater: return draw_triangle<R, DepthFunc::greater, Stages, Tap>;
-    case DepthFunc::not_equal: return draw_triangle<R, DepthFunc::not_equal, Stages, Tap>;
-    case DepthFunc::greater_equal: return draw_triangle<R, DepthFunc::greater_equal, Stages, Tap>;
-    case DepthFunc::always: return draw_triangle<R, DepthFunc::always, Stages, Tap>;
-  }
-  return nullptr;
-}
+/// The frame, tile by tile: `draw(number of the tile, tile)` draws into one that is clear.
+void each_tile(const TileList& work, Frame& frame, const std::function<void(std::size_t, Tile&)>& draw);
 
 template <class R, class Stages, class Tap>
 void draw_tiles(const Stages& stages, const DrawList& list, const FrameFormat& format, Frame& frame, Tap& tap) {
-  const Bins bins = bin(list.triangles, format);
-  const Formats formats = formats_of(format);
-  std::vector<DrawTriangle<R, Stages, Tap>> draw_of;
-  std::vector<BlockState> state_of;
-  for (std::size_t d = 0; d < list.draws.size(); ++d) {
-    const Draw& draw = list.draws[d];
-    const bool plain = list.surfaces.empty() || list.surfaces[d].plain();
-    draw_of.push_back(draw_triangle_for<R, Stages, Tap>(draw.depth_func));
-    state_of.push_back({depth_state(draw, format.depth, list.depth_clamp), draw.scissor, draw.alpha_test, draw.stencil,
-                        stages.merge_state(draw.merge), plain ? nullptr : &list.surfaces[d]});
-  }
-  Tile tile{};
-  for (int t = 0; t < bins.columns * bins.rows; ++t) {
-    tile.x0 = t % bins.columns * kTile;
-    tile.y0 = t / bins.columns * kTile;
-    clear(tile, format, formats);
-    std::size_t draw = 0;
-    for (std::size_t i = bins.first[static_cast<std::size_t>(t)]; i < bins.first[static_cast<std::size_t>(t) + 1];
-         ++i) {
-      const std::uint32_t number = bins.numbers[i];
-      while (number >= list.first_triangle[draw + 1]) ++draw;
-      draw_of[draw](stages, state_of[draw], list.triangles[number], number, formats, tile, tap);
-    }
-    write_out(tile, frame);
-  }
+  TileList work = tile_list(list, format);
+  for (BlockState& state : work.state_of) state.merge = stages.merge_state(state.merge);
+  each_tile(work, frame, [&](std::size_t number, Tile& tile) { draw_tile<R>(stages, work, number, tile, tap); });
 }
 
 }  // namespace plumbline::pipeline

@@ -16,7 +16,7 @@ namespace {
 // The depth test by another function for some.
 template <auto other>
 bool depth_passes_by(DepthFunc func, float incoming, float stored) {
-  return pipeline::depth_passes_for(pipeline::FragmentStages(), other(func), incoming, stored);
+  return pipeline::compares<float>(other(func), incoming, stored);
 }
 
 constexpr auto kLessEqualForLess = [](DepthFunc func) {

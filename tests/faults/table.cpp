@@ -33,8 +33,8 @@ struct Tabled : pipeline::FragmentStages {
   R depth(const pipeline::TriangleSetup<>& s, const pipeline::Barycentric<R>& b) const {
     return f.depth(s, b);
   }
-  template <DepthFunc func, class R>
-  bool depth_passes(R incoming, R stored) const {
+  template <class R>
+  bool depth_passes(DepthFunc func, R incoming, R stored) const {
     return f.depth_passes(func, incoming, stored);
   }
   template <class R>
@@ -98,9 +98,7 @@ Table production() {
   f.depth = [](const pipeline::TriangleSetup<>& s, const pipeline::Barycentric<float>& b) {
     return FragmentStages::depth<float>(s, b);
   };
-  f.depth_passes = [](DepthFunc func, float incoming, float stored) {
-    return pipeline::depth_passes_for(FragmentStages(), func, incoming, stored);
-  };
+  f.depth_passes = FragmentStages::depth_passes<float>;
   f.attributes = FragmentStages::attributes<float>;
   f.texture = FragmentStages::texture<float>;
   f.shade = FragmentStages::shade<float>;

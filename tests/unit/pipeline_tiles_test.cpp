@@ -72,7 +72,7 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
           if (!coverage<float>(setups[n].edges, p)) continue;
           const Barycentric<float> b = barycentric<float>(setups[n].planes, p);
           const float incoming = depth<float>(setups[n].depth, b);
-          if (!depth_passes_for(FragmentStages(), draws[d].depth_func, incoming, z)) continue;
+          if (!compares<float>(draws[d].depth_func, incoming, z)) continue;
           z = incoming;
           color = merge<float>(attributes<float>(setups[n].attributes, b), formats.color_scale);
         }

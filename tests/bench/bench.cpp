@@ -1,0 +1,119 @@
+// Ours against OSMesa's llvmpipe, in one process, frame by frame in turns: scripts/bench.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "bench/scenes/bench_scenes.h"
+#include "pipeline/pipeline_renderer.h"
+#include "reference/osmesa/frame_loop.h"
+
+namespace plumbline::bench {
+namespace {
+
+// Pixels whose colours differ by more than a code, or depths by more than two steps.
+std::size_t differing(const Planes& ours, const Planes& theirs) {
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < ours.color.size(); ++i) {
+    const glm::vec4 d = glm::abs(ours.color.values()[i] - theirs.color.values()[i]);
+    const double z = std::abs(ours.depth.values()[i] - theirs.depth.values()[i]);
+    out += std::max({d.r, d.g, d.b, d.a}) > 1.5f / 255 || z > 2.0 / 16777215 ? 1 : 0;
+  }
+  return out;
+}
+
+// Of each benchmark the shortest and the middle of its repetitions, in milliseconds.
+class Times : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type == Run::RT_Iteration && !run.error_occurred)
+        of_[run.run_name.function_name].push_back(run.GetAdjustedRealTime());
+    }
+  }
+  double median(const std::string& name) {
+    std::vector<double>& times = of_.at(name);
+    std::ranges::sort(times);
+    return times[times.size() / 2];
+  }
+
+ private:
+  std::map<std::string, std::vector<double>> of_;
+};
+
+int run(int argc, char** argv) {
+  CLI::App app("Times our renderer against OSMesa's llvmpipe");
+  int threads = 1, size = 1024;
+  double seconds = 0.3;
+  std::string json, only;
+  app.add_option("--threads", threads, "Of both")->check(CLI::Range(1, 64));
+  app.add_option("--size", size, "Pixels a side")->check(CLI::Range(16, 4096));
+  app.add_option("--seconds", seconds, "Per repetition; there are five");
+  app.add_option("--only", only, "Scenes whose names hold this");
+  app.add_option("--json", json, "Write the table there as well");
+  CLI11_PARSE(app, argc, argv);
+  ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+
+  std::vector<std::string> names;
+  std::vector<std::unique_ptr<Scene>> scenes;
+  std::vector<std::unique_ptr<OsmesaFrames>> osmesa;
+  for (const BenchScene& b : bench_scenes()) {
+    if (b.name.find(only) == std::string::npos) continue;
+    Scene& scene = *scenes.emplace_back(std::make_unique<Scene>(b.make(size)));
+    OsmesaFrames& theirs = *osmesa.emplace_back(std::make_unique<OsmesaFrames>(scene));
+    names.push_back(b.name);
+    theirs.draw();
+    Request picture;
+    picture.planes = WantedPlanes::picture;
+    const Capture ours = pipeline::make_pipeline()->capture(scene, picture);
+    fmt::print("{:22} {} of {} pixels differ\n", b.name, differing(ours.planes, theirs.read()),
+               ours.planes.color.size());
+    const auto add = [&](const std::string& who, auto frame) {
+      benchmark::RegisterBenchmark((b.name + "/" + who).c_str(),
+                                   [frame](benchmark::State& state) {
+                                     for (auto _ : state) frame();
+                                   })
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime()
+          ->MinTime(seconds)
+          ->Repetitions(5);
+    };
+    add("ours", [&scene] { benchmark::DoNotOptimize(pipeline::render(scene)); });
+    add("llvmpipe", [&theirs] { theirs.draw(); });
+  }
+  std::string program = argv[0], interleaved = "--benchmark_enable_random_interleaving=true";
+  char* arguments[] = {program.data(), interleaved.data(), nullptr};
+  int count = 2;
+  benchmark::Initialize(&count, arguments);
+  Times times;
+  benchmark::RunSpecifiedBenchmarks(&times);
+
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  double sum = 0;
+  fmt::print("\n{:22} {:>9} {:>9} {:>6}   ({} threads, {} x {}, ms)\n", "", "ours", "llvmpipe", "ratio", threads, size,
+             size);
+  for (const std::string& name : names) {
+    const double ours = times.median(name + "/ours"), theirs = times.median(name + "/llvmpipe");
+    sum += std::log(ours / theirs);
+    fmt::print("{:22} {:9.3f} {:9.3f} {:6.2f}\n", name, ours, theirs, ours / theirs);
+    out.push_back({{"scene", name}, {"ours_ms", ours}, {"llvmpipe_ms", theirs}, {"ratio", ours / theirs}});
+  }
+  fmt::print("{:22} {:9} {:9} {:6.2f}\n", "geometric mean", "", "", std::exp(sum / static_cast<double>(names.size())));
+  if (!json.empty())
+    std::ofstream(json) << nlohmann::ordered_json{{"threads", threads}, {"size", size}, {"scenes", out}}.dump(1)
+                        << "\n";
+  return 0;
+}
+
+}  // namespace
+}  // namespace plumbline::bench
+
+int main(int argc, char** argv) { return plumbline::bench::run(argc, argv); }

@@ -1,0 +1,85 @@
+// Every SIMD target draws what float draws, bit for bit; and none leaves code behind that others would run.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "../extent.h"
+#include "pipeline/draw_simd.h"
+#include "pipeline/render.h"
+#include "scene/antialias.h"
+#include "scene/scene_file.h"
+
+namespace plumbline::pipeline {
+namespace {
+
+template <class T>
+bool same_bits(const Plane<T>& a, const Plane<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
+}
+
+bool same_bits(const Frame& a, const Frame& b) {
+  return same_bits(a.color_rgba8, b.color_rgba8) && same_bits(a.color_rgba12, b.color_rgba12) &&
+         same_bits(a.color_rgba16, b.color_rgba16) && same_bits(a.color_rgba32f, b.color_rgba32f) &&
+         same_bits(a.depth_code, b.depth_code) && same_bits(a.depth_z32f, b.depth_z32f) &&
+         same_bits(a.stencil, b.stencil);
+}
+
+Frame drawn(const Scene& scene, const SimdTarget& target) {
+  const Geometry geometry = run_geometry(scene, geometry_stages());
+  const std::vector<Surface> surfaces = surfaces_of(scene, geometry.records);
+  Frame frame(scene.frame);
+  draw_frame(target.draw_tile,
+             {geometry.records.triangles, geometry.first_triangle, scene.draws, surfaces, scene.depth_clamp},
+             scene.frame, frame);
+  return frame;
+}
+
+TEST(SimdTargets, DrawEverySceneAsFloatDoes) {
+  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
+  const std::vector<std::filesystem::path> files = find_scenes(folder);
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < files.size(); i += one_of(3)) {
+    for (const Scene& pass : passes_of(load_scene(files[i], {}))) {
+      const Frame definition = drawn(pass, simd_targets()[0]);
+      for (const SimdTarget& target : simd_targets().subspan(1)) {
+        EXPECT_TRUE(same_bits(drawn(pass, target), definition)) << target.name << ", " << files[i];
+        ++compared;
+      }
+    }
+  }
+  std::printf("%zu frames compared, by %zu targets\n", compared, simd_targets().size() - 1);
+}
+
+TEST(SimdTargets, TheWidestIsWhatDraws) {
+  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/coverage/shared_edges.json", {});
+  EXPECT_EQ(simd_targets()[0].name, "float");
+  Frame other = drawn(scene, simd_targets()[0]);
+  EXPECT_TRUE(same_bits(render(scene), other));
+  other.depth_code(3, 3) ^= 1;
+  EXPECT_FALSE(same_bits(render(scene), other)) << "one step";
+}
+
+// Functions that the linker may put in the place of others of their name are this target's own.
+TEST(SimdTargets, NoneOfTheirFunctionsAreSharedWithOtherCode) {
+  for (const std::string name : {"sse4", "avx2"}) {
+    const std::string object = name == "sse4" ? PLUMBLINE_SSE4_OBJECT : PLUMBLINE_AVX2_OBJECT;
+    FILE* nm = popen(("nm -C --defined-only '" + object + "'").c_str(), "r");
+    ASSERT_NE(nm, nullptr);
+    std::array<char, 65536> line;
+    int functions = 0;
+    while (std::fgets(line.data(), line.size(), nm) != nullptr) {
+      const std::string text = line.data();
+      const bool weak = text.find(" W ") != std::string::npos, own = text.find(name) != std::string::npos;
+      functions += own ? 1 : 0;
+      EXPECT_TRUE(!weak || own) << text;
+    }
+    EXPECT_EQ(pclose(nm), 0) << object;
+    EXPECT_GT(functions, 0);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::pipeline
