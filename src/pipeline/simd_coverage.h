@@ -24,6 +24,25 @@ inline TileEdge tile_edge(const Edges& e, int i, const Tile& tile) {
           static_cast<std::int32_t>(e.step_x[i] >> 8), static_cast<std::int32_t>(e.step_y[i] >> 8)};
 }
 
+// Corners cut where w is tiny may be rounded to far outside of the frame: such edges' steps do not fit.
+inline bool fits(const Edges& e) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 30;  // 2^22 pixels' 256ths, times 256
+  bool out = true;
+  for (int k = 0; k < 3; ++k) {
+    out &= e.step_x[k] >= -kMost && e.step_x[k] <= kMost && e.step_y[k] >= -kMost && e.step_y[k] <= kMost;
+  }
+  return out;
+}
+
+// Of such, pixel by pixel in 64 bits.
+inline SimdMask far_coverage(const Edges& e, int block_x, int block_y, int i) {
+  HWY_ALIGN std::int32_t lanes[kWidth];
+  for (int k = 0; k < kWidth; ++k) {
+    lanes[k] = pipeline::coverage<float>(e, block_pixels<float>(block_x, block_y, i + k)) ? 1 : 0;
+  }
+  return SimdInt(hn::Load(kInts, lanes)) > SimdInt(0);
+}
+
 }  // namespace PLUMBLINE_TARGET
 
 template <>
@@ -37,6 +56,17 @@ struct CoveredPixels<PLUMBLINE_TARGET::Simd> {
     const int y0 = (std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1)) - tile.y0,
               y1 = std::min(s.bounds.y1 - tile.y0, kTile);
     if (x0 >= x1 || y0 >= y1) return;
+    if (!fits(s.edges)) {
+      for (int y = tile.y0 + y0; y < tile.y0 + y1; y += kBlock) {
+        for (int x = tile.x0 + x0; x < tile.x0 + x1; x += kBlock) {
+          for (int i = 0; i < kBlockPixels; i += kWidth) {
+            const SimdMask covered = far_coverage(s.edges, x, y, i);
+            if (any(covered)) visit(block_pixels<Simd>(x, y, i), covered, tile.offset(x, y) + i);
+          }
+        }
+      }
+      return;
+    }
     TileEdge edge[3];
     SimdInt in_block[3][kParts];  // what E adds to that of the block's first pixel
     std::int32_t least[3], most[3];

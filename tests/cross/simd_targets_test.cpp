@@ -9,6 +9,7 @@
 #include "../extent.h"
 #include "pipeline/draw_simd.h"
 #include "pipeline/render.h"
+#include "pipeline/window.h"
 #include "scene/antialias.h"
 #include "scene/scene_file.h"
 
@@ -51,6 +52,41 @@ TEST(SimdTargets, DrawEverySceneAsFloatDoes) {
     }
   }
   std::printf("%zu frames compared, by %zu targets\n", compared, simd_targets().size() - 1);
+}
+
+// Corners as far away as stage 4 lets them be (window.h), where an edge's steps do not fit 32 bits.
+TEST(SimdTargets, DrawTrianglesOfFarCornersAsFloatDoes) {
+  FrameFormat format;
+  format.width = format.height = 130;
+  const std::vector<Draw> draws(1);
+  const float far = 1 << 20;
+  const glm::vec2 corners[][3] = {{{-far, 3}, {far, 70}, {60, far}},
+                                  {{far, -far}, {far, far}, {64.5f, 64.25f}},
+                                  {{-far, -far}, {far, 128}, {-far, far}},
+                                  {{0.5f, -far}, {130, far}, {-20, far}}};
+  for (const auto& c : corners) {
+    WindowTriangle<float> t{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      t.v[k].p_win = {c[k].x, c[k].y, 0.25f * static_cast<float>(k)};
+      t.v[k].inv_w = 1;
+      t.v[k].color = {0.5f * static_cast<float>(k), 1, 0.25f, 1};
+      t.v[k].snapped = {snap(c[k].x), snap(c[k].y)};
+    }
+    t.front = snapped_area(t) > 0;
+    const std::vector<WindowTriangle<float>> triangles = {t};
+    const std::vector<std::uint32_t> first = {0, 1};
+    const DrawList list{triangles, first, draws};
+    Frame definition(format), clear(format);
+    draw_frame(simd_targets()[0].draw_tile, list, format, definition);
+    const std::vector<std::uint32_t> none = {0, 0};
+    draw_frame(simd_targets()[0].draw_tile, {{}, none, draws}, format, clear);
+    EXPECT_FALSE(same_bits(definition, clear)) << "it covers pixels";
+    for (const SimdTarget& target : simd_targets().subspan(1)) {
+      Frame frame(format);
+      draw_frame(target.draw_tile, list, format, frame);
+      EXPECT_TRUE(same_bits(frame, definition)) << target.name << ", corner " << c[0].x;
+    }
+  }
 }
 
 TEST(SimdTargets, TheWidestIsWhatDraws) {
