@@ -79,11 +79,10 @@ T clamp01(T value) {
 inline float round_even(float value) { return (value + 12582912.0f) - 12582912.0f; }
 inline double round_even(double value) { return (value + 6755399441055744.0) - 6755399441055744.0; }
 
-/// The integer below, for |value| below 2^62.
-inline std::int64_t floor_int(double value) {
-  const auto whole = static_cast<std::int64_t>(value);
-  return static_cast<double>(whole) > value ? whole - 1 : whole;
-}
+/// The whole number below.
+inline double floor_of(double value) { return std::floor(value); }
+/// Of whole numbers below 2^51; of a SIMD type their lowest 32 bits.
+inline std::int64_t to_int(double value) { return static_cast<std::int64_t>(value); }
 inline double to_wide(std::int64_t value) { return static_cast<double>(value); }
 
 inline float square_root(float value) { return std::sqrt(value); }

@@ -142,6 +142,12 @@ inline void store(SimdMask mask, SimdInt value, std::uint8_t* to) {
   hn::StoreU(hn::DemoteTo(kBytes, select(mask, value, held).v), kBytes, to);
 }
 
+inline SimdWide floor_of(SimdWide w) { return {hn::Floor(w.low), hn::Floor(w.high)}; }
+inline SimdInt to_int(SimdWide w) {
+  const SimdWide counted = w + 6755399441055744.0;  // 1.5 * 2^52: they stand in the lowest bits
+  return hn::ConcatEven(kInts, hn::BitCast(kInts, counted.high), hn::BitCast(kInts, counted.low));
+}
+
 inline Simd square_root(Simd f) { return hn::Sqrt(f.v); }
 inline SimdWide mantissa_of(SimdWide w) {
   const auto of = [](DoubleVector v) {

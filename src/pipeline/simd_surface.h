@@ -1,38 +1,36 @@
-// What of stages 8 and 9 is done lane by lane, by the definition itself.
+// Where a kernel reads memory each lane at its own place.
 #pragma once
 
-#include "pipeline/fragment_light.h"
 #include "pipeline/simd.h"
 #include "pipeline/texture.h"
 
 namespace plumbline::pipeline {
 namespace PLUMBLINE_TARGET {
 
-struct Colors {
-  HWY_ALIGN float r[kWidth], g[kWidth], b[kWidth], a[kWidth];
-  Colors() = default;
-  explicit Colors(const Color<Simd>& c) {
-    hn::Store(c.r.v, kFloats, r);
-    hn::Store(c.g.v, kFloats, g);
-    hn::Store(c.b.v, kFloats, b);
-    hn::Store(c.a.v, kFloats, a);
-  }
-  Color<float> operator[](int i) const { return {r[i], g[i], b[i], a[i]}; }
-  void set(int i, const Color<float>& c) { r[i] = c.r, g[i] = c.g, b[i] = c.b, a[i] = c.a; }
-  Color<Simd> all() const {
-    return {Simd(hn::Load(kFloats, r)), Simd(hn::Load(kFloats, g)), Simd(hn::Load(kFloats, b)),
-            Simd(hn::Load(kFloats, a))};
-  }
-};
-
-inline Color<Simd> sample(const TextureSetup& t, const TexCoords<Simd>& at, Simd lod) {
-  HWY_ALIGN float s[kWidth], u[kWidth], l[kWidth];
-  hn::Store(at.s.v, kFloats, s);
-  hn::Store(at.t.v, kFloats, u);
-  hn::Store(lod.v, kFloats, l);
-  Colors out;
-  for (int i = 0; i < kWidth; ++i) out.set(i, pipeline::sample(t, TexCoords<float>{s[i], u[i]}, l[i]));
-  return out.all();
+/// Of each four lanes, a texel of each; then transposed.
+inline Color<Simd> texels(const glm::vec4* from, SimdInt number) {
+  HWY_ALIGN std::int32_t numbers[kWidth];
+  hn::Store(number.v, kInts, numbers);
+  const auto four = [&](int lane) { return hn::LoadU(hn::FixedTag<float, 4>(), &from[numbers[lane]].x); };
+  const auto row = [&](auto i) {
+    if constexpr (kWidth == 4)
+      return four(i);
+    else
+      return hn::Combine(kFloats, four(i + 4), four(i));
+  };
+  static_assert(kWidth <= 8);
+  const FloatVector a = row(0), b = row(1), c = row(2), d = row(3);
+  const auto pair = [](FloatVector v) { return hn::BitCast(kDoubles, v); };
+  const auto rg = [&](FloatVector x, FloatVector y) { return pair(hn::InterleaveLower(kFloats, x, y)); };
+  const auto ba = [&](FloatVector x, FloatVector y) { return pair(hn::InterleaveUpper(kFloats, x, y)); };
+  const auto first = [](DoubleVector x, DoubleVector y) {
+    return Simd(hn::BitCast(kFloats, hn::InterleaveLower(kDoubles, x, y)));
+  };
+  const auto second = [](DoubleVector x, DoubleVector y) {
+    return Simd(hn::BitCast(kFloats, hn::InterleaveUpper(kDoubles, x, y)));
+  };
+  const DoubleVector rg_ab = rg(a, b), rg_cd = rg(c, d), ba_ab = ba(a, b), ba_cd = ba(c, d);
+  return {first(rg_ab, rg_cd), second(rg_ab, rg_cd), first(ba_ab, ba_cd), second(ba_ab, ba_cd)};
 }
 
 }  // namespace PLUMBLINE_TARGET

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 
 #include "pipeline/attributes.h"
 #include "pipeline/lanes.h"
@@ -79,36 +80,50 @@ R level_of_detail(const TextureSetup& t, const Gradients<R>& g) {
 /// A texel coordinate, every other image of a repeated row of `size` turned round. The coordinate is, not the texel's
 /// number (3.8.7): between two texels it is the one that then lies to its right.
 template <class W>
-W mirrored(W u, std::int64_t size) {
-  const auto whole = floor_int(u), image = (whole - (whole % size + size) % size) / size;
-  const W within = u - to_wide(image * size);
-  return select(image % 2 != 0, to_wide(size) - within, within);
+W mirrored(W u, double size) {
+  const W image = floor_of(floor_of(u) / size), within = u - image * size;
+  return select(image - 2.0 * floor_of(image * 0.5) != 0.0, size - within, within);
 }
 
-/// Where texel `i` of a row of `size` is found; -1: the border.
-template <class I>
-I wrapped(Wrap wrap, I i, I size) {
-  const auto mod = [](I value, I by) { return (value % by + by) % by; };
-  const auto clamped = [&](I lo, I hi) { return select(i < lo, lo, select(i > hi, hi, i)); };
+/// Where texel `i` of a row of `size` is found; -1: the border. Whole numbers, `i` up to 2^40: what is below a whole
+/// number by 1 / size is not rounded to it.
+template <class W>
+W wrapped(Wrap wrap, W i, double size) {
   switch (wrap) {
-    case Wrap::repeat: return mod(i, size);
+    case Wrap::repeat: return i - floor_of(i / size) * size;
     case Wrap::mirrored_repeat:  // of a mirrored coordinate
-    case Wrap::clamp_to_edge: return clamped(I(0), size - 1);
-    case Wrap::clamp_to_border: return select((i < 0) | (i >= size), I(-1), i);
+    case Wrap::clamp_to_edge: return clamped(i, W(0), W(size - 1.0));
+    case Wrap::clamp_to_border: return select((i < 0.0) | (i >= size), W(-1), i);
   }
   return i;
 }
+template <class R>
+Int<R> texel_number(Wrap wrap, const Wide<R>& i, int size) {
+  if (wrap == Wrap::repeat && std::has_single_bit(static_cast<unsigned>(size))) return to_int(i) & Int<R>(size - 1);
+  return to_int(wrapped(wrap, i, size));
+}
 
+template <class R>
+Color<R> select(Mask<R> mask, const Color<R>& yes, const Color<R>& no) {
+  return {select(mask, yes.r, no.r), select(mask, yes.g, no.g), select(mask, yes.b, no.b), select(mask, yes.a, no.a)};
+}
+
+/// Of texels side by side, each lane's own.
+inline Color<float> texels(const glm::vec4* from, std::int64_t number) {
+  const glm::vec4& texel = from[number];
+  return {texel.r, texel.g, texel.b, texel.a};
+}
 /// A texel of a level, the border's colour outside.
 template <class R>
-Color<R> fetch(const TextureSetup& t, const TextureLevel& level, Int<R> i, Int<R> j);
-template <>
-inline Color<float> fetch<float>(const TextureSetup& t, const TextureLevel& level, std::int64_t i, std::int64_t j) {
-  const std::int64_t x = wrapped<std::int64_t>(t.sampler.wrap_s, i, level.width);
-  const std::int64_t y = wrapped<std::int64_t>(t.sampler.wrap_t, j, level.height);
-  const glm::vec4 texel = x < 0 || y < 0 ? source_components(t.texture->format, t.sampler.border)
-                                         : level.at(static_cast<int>(x), static_cast<int>(y));
-  return {texel.r, texel.g, texel.b, texel.a};
+Color<R> fetch(const TextureSetup& t, const TextureLevel& level, Int<R> x, Int<R> y) {
+  const Int<R> number = y * Int<R>(level.width) + x, none(0);
+  if (t.sampler.wrap_s != Wrap::clamp_to_border && t.sampler.wrap_t != Wrap::clamp_to_border) {
+    return texels(level.texels.data(), number);
+  }
+  const Mask<R> outside = (x < none) | (y < none);
+  const Color<R> inside = texels(level.texels.data(), select(outside, none, number));
+  const glm::vec4 border = source_components(t.texture->format, t.sampler.border);
+  return select<R>(outside, {R(border.r), R(border.g), R(border.b), R(border.a)}, inside);
 }
 
 /// A mean of two colours, in double: 1 - k of `a`, k of `b`.
@@ -118,55 +133,88 @@ Color<R> mix(const Color<R>& a, const Color<R>& b, Wide<R> k) {
   return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b), channel(a.a, b.a)};
 }
 
-/// Coordinates of texels, for those that a plane extrapolated out of a sliver makes: within what an integer holds.
+/// Coordinates of texels, for those that a plane extrapolated out of a sliver makes: within what a double counts.
 template <class W>
 W bounded(const W& u) {
-  const W most(0x1p40), low = select(u > -most, u, -most);
-  return select(low < most, low, most);
+  return clamped(u, W(-0x1p40), W(0x1p40));
 }
 
 /// One level, linear or nearest.
 template <class R>
 Color<R> sample_level(const TextureSetup& t, int number, bool linear, const TexCoords<R>& at) {
+  using W = Wide<R>;
   const TextureLevel& level = t.texture->levels[static_cast<std::size_t>(number)];
+  const Wrap wrap_s = t.sampler.wrap_s, wrap_t = t.sampler.wrap_t;
   const double shift = linear ? 0.5 : 0.0;
-  const auto place = [&](Wrap wrap, R coordinate, int size) {
-    const Wide<R> u = bounded(to_wide(coordinate) * size);
-    return (wrap == Wrap::mirrored_repeat ? mirrored(u, size) : u) - shift;
+  const auto place = [&](Wrap wrap, R coordinate, double size) {
+    const W u = bounded<W>(to_wide(coordinate) * size);
+    return (wrap == Wrap::mirrored_repeat ? mirrored<W>(u, size) : u) - shift;
   };
-  const Wide<R> u = place(t.sampler.wrap_s, at.s, level.width), v = place(t.sampler.wrap_t, at.t, level.height);
-  const Int<R> i = floor_int(u), j = floor_int(v);
-  if (!linear) return fetch<R>(t, level, i, j);
-  const Wide<R> a = u - to_wide(i), b = v - to_wide(j);
-  return mix<R>(mix<R>(fetch<R>(t, level, i, j), fetch<R>(t, level, i + 1, j), a),
-                mix<R>(fetch<R>(t, level, i, j + 1), fetch<R>(t, level, i + 1, j + 1), a), b);
+  const W u = place(wrap_s, at.s, level.width), v = place(wrap_t, at.t, level.height);
+  const W i = floor_of(u), j = floor_of(v);
+  const Int<R> x = texel_number<R>(wrap_s, i, level.width), y = texel_number<R>(wrap_t, j, level.height);
+  if (!linear) return fetch<R>(t, level, x, y);
+  const Int<R> right = texel_number<R>(wrap_s, i + 1.0, level.width);
+  const Int<R> above = texel_number<R>(wrap_t, j + 1.0, level.height);
+  const W a = u - i, b = v - j;
+  return mix<R>(mix<R>(fetch<R>(t, level, x, y), fetch<R>(t, level, right, y), a),
+                mix<R>(fetch<R>(t, level, x, above), fetch<R>(t, level, right, above), a), b);
 }
 
-/// At a level of detail. What is asked of it is the same for all lanes of a SIMD type only by chance: one at a time.
-inline Color<float> sample(const TextureSetup& t, const TexCoords<float>& at, float lod) {
+/// The level below lambda; whether it is mixed with the next, and how much of that.
+template <class R>
+struct Levels {
+  R first;
+  Mask<R> two;
+  Wide<R> k;
+};
+template <class R>
+Levels<R> levels(const TextureSetup& t, R lod) {
+  using W = Wide<R>;
+  const W lambda = to_wide(lod), base(t.sampler.base_level), last(t.last);
+  const MinFilter min = t.sampler.min;
+  const R none(0);
+  if (!mipmaps(min)) return {to_float(base), none != none, W(0)};
+  if (min == MinFilter::nearest_mipmap_nearest || min == MinFilter::linear_mipmap_nearest) {
+    // ceil(lambda + 1/2) - 1: a half is rounded down
+    return {to_float(lesser_of(base - floor_of(-(lambda + 0.5)) - 1.0, last)), none != none, W(0)};
+  }
+  const W whole = floor_of(lambda), first = base + whole;
+  return {to_float(lesser_of(first, last)), first < last, lambda - whole};
+}
+
+/// At a level of detail.
+template <class R>
+Color<R> sample(const TextureSetup& t, const TexCoords<R>& at, R lod) {
   const Sampler& s = t.sampler;
-  const double lambda = to_wide(lod);
-  if (lambda <= t.c) return sample_level<float>(t, s.base_level, s.mag == MagFilter::linear, at);
+  const Mask<R> larger = lod <= R(static_cast<float>(t.c)), smaller = lod > R(static_cast<float>(t.c));
+  const auto magnified = [&] { return sample_level<R>(t, s.base_level, s.mag == MagFilter::linear, at); };
+  if (!any(smaller)) return magnified();
   const bool linear = s.min == MinFilter::linear || s.min == MinFilter::linear_mipmap_nearest ||
                       s.min == MinFilter::linear_mipmap_linear;
-  if (!mipmaps(s.min)) return sample_level<float>(t, s.base_level, linear, at);
-  if (s.min == MinFilter::nearest_mipmap_nearest || s.min == MinFilter::linear_mipmap_nearest) {
-    // ceil(lambda + 1/2) - 1: a half is rounded down
-    const int nearest = s.base_level - static_cast<int>(floor_int(-(lambda + 0.5))) - 1;
-    return sample_level<float>(t, nearest > t.last ? t.last : nearest, linear, at);
+  const Levels<R> of = levels<R>(t, lod);
+  const R first = select(larger, R(static_cast<float>(s.base_level)), of.first);
+  const Mask<R> two = of.two & smaller;
+  // Each level that any lane wants, for all lanes.
+  Color<R> low{R(0), R(0), R(0), R(0)}, high = low;
+  for (int number = s.base_level; number <= t.last; ++number) {
+    const R level(static_cast<float>(number));
+    const Mask<R> is_first = first == level, is_second = (first == level - R(1)) & two;
+    if (!any(is_first | is_second)) continue;
+    const Color<R> texel = sample_level<R>(t, number, linear, at);
+    low = select<R>(is_first, texel, low);
+    high = select<R>(is_second, texel, high);
   }
-  const std::int64_t whole = floor_int(lambda);
-  const int first = s.base_level + static_cast<int>(whole);
-  if (first >= t.last) return sample_level<float>(t, t.last, linear, at);
-  return mix<float>(sample_level<float>(t, first, linear, at), sample_level<float>(t, first + 1, linear, at),
-                    lambda - to_wide(whole));
+  if (any(two)) low = select<R>(two, mix<R>(low, high, of.k), low);
+  const bool alike = linear == (s.mag == MagFilter::linear);
+  return alike || !any(larger) ? low : select<R>(larger, magnified(), low);
 }
 
 /// Stage 8.
 template <class R>
 FilteredTexel<R> texture(const TextureSetup& t, const TexCoords<R>& at, const Gradients<R>& gradients) {
   const R lod = level_of_detail<R>(t, gradients);
-  return {sample(t, at, lod), lod};
+  return {sample<R>(t, at, lod), lod};
 }
 
 }  // namespace plumbline::pipeline

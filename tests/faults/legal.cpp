@@ -247,7 +247,7 @@ Color<float> halves_up(const Color<float>& color, float scale) {
   if (scale == 0.0f) return color;
   const auto code = [&](float v) {
     return static_cast<float>(
-        pipeline::floor_int(static_cast<double>(pipeline::clamp01(v)) * static_cast<double>(scale) + 0.5));
+        pipeline::floor_of(static_cast<double>(pipeline::clamp01(v)) * static_cast<double>(scale) + 0.5));
   };
   return {code(color.r), code(color.g), code(color.b), code(color.a)};
 }

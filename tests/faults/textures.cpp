@@ -66,14 +66,14 @@ FilteredTexel<float> levels_doubled(const TextureSetup& t, const TexCoords<float
   unlimited.sampler.max_lod = 1000;
   const float lambda = 2 * pipeline::level_of_detail<float>(unlimited, g) + t.sampler.lod_bias;
   const float lod = pipeline::clamped(lambda, t.sampler.min_lod, t.sampler.max_lod);
-  return {pipeline::sample(t, at, lod), lod};
+  return {pipeline::sample<float>(t, at, lod), lod};
 }
 
 // Two levels mixed with each other's shares.
 FilteredTexel<float> levels_swapped(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
   FilteredTexel<float> out = pipeline::texture<float>(t, at, g);
   const auto whole = static_cast<float>(static_cast<int>(out.lod));
-  if (out.lod > t.c && out.lod != whole) out.color = pipeline::sample(t, at, whole + (1 - (out.lod - whole)));
+  if (out.lod > t.c && out.lod != whole) out.color = pipeline::sample<float>(t, at, whole + (1 - (out.lod - whole)));
   return out;
 }
 

@@ -38,7 +38,7 @@ Texture numbered(int size, const Sampler& sampler) {
 }
 
 float red(const Texture& t, float s, float tt, float lod) {
-  return sample(texture_setup(t, t.sampler), {s, tt}, lod).r;
+  return sample<float>(texture_setup(t, t.sampler), {s, tt}, lod).r;
 }
 
 Sampler filters(MinFilter min, MagFilter mag, Wrap wrap = Wrap::repeat) {
@@ -71,7 +71,8 @@ TEST(PipelineTexture, LinearIsExactAtCentresAndHalfwayBetween) {
 TEST(PipelineTexture, LinearMixesFourTexels) {
   const Texture t = texture_of({2, 2, {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
                                filters(MinFilter::linear, MagFilter::linear, Wrap::clamp_to_edge));
-  const Color<float> c = sample(texture_setup(t, t.sampler), {0.375f, 0.625f}, 0);  // a quarter right, 3 quarters up
+  const Color<float> c =
+      sample<float>(texture_setup(t, t.sampler), {0.375f, 0.625f}, 0);  // a quarter right, 3 quarters up
   EXPECT_EQ(c.r, 0.75f * 0.25f);
   EXPECT_EQ(c.g, 0.25f * 0.25f);
   EXPECT_EQ(c.b, 0.75f * 0.75f);
@@ -80,11 +81,11 @@ TEST(PipelineTexture, LinearMixesFourTexels) {
 
 TEST(PipelineTexture, WrapsAreThoseOfTheSpecification) {
   const auto row = [](Wrap wrap) {
-    std::vector<std::int64_t> out;
-    for (std::int64_t i = -5; i < 8; ++i) out.push_back(wrapped<std::int64_t>(wrap, i, 3));
+    std::vector<double> out;
+    for (double i = -5; i < 8; ++i) out.push_back(wrapped(wrap, i, 3));
     return out;
   };
-  using Row = std::vector<std::int64_t>;
+  using Row = std::vector<double>;
   EXPECT_EQ(row(Wrap::repeat), (Row{1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1}));
   EXPECT_EQ(row(Wrap::clamp_to_edge), (Row{0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2}));
   EXPECT_EQ(row(Wrap::clamp_to_border), (Row{-1, -1, -1, -1, -1, 0, 1, 2, -1, -1, -1, -1, -1}));
@@ -107,7 +108,7 @@ TEST(PipelineTexture, TheBorderIsMixedInByItsComponents) {
   EXPECT_EQ(red(t, 1, 0.5f, 0), 1.75f);  // half 3, half the border
   EXPECT_EQ(red(t, 2, 0.5f, 0), 0.5f);
   t.format = TextureFormat::luminance;  // the border's red is its luminance, alpha 1
-  const Color<float> c = sample(texture_setup(t, t.sampler), {5, 5}, 0);
+  const Color<float> c = sample<float>(texture_setup(t, t.sampler), {5, 5}, 0);
   EXPECT_EQ(c.b, 0.5f);
   EXPECT_EQ(c.a, 1);
 }
