@@ -1,6 +1,8 @@
 // Stage 11: the fragment's colour, blended or combined with the frame's, in the frame's format.
 #pragma once
 
+#include <array>
+
 #include "pipeline/attributes.h"
 #include "scene/scene.h"
 
@@ -20,32 +22,39 @@ Color<R> merge(const Color<R>& color, float scale) {
   return {code(color.r), code(color.g), code(color.b), code(color.a)};
 }
 
-/// A blend factor for a channel, times `unit`, so that those of the frame's colour are its codes and rounded nowhere.
+template <class W>
+using Channels = std::array<W, 4>;
+
+/// A blend factor's channels, times `unit`, so that those of the frame's colour are its codes and rounded nowhere.
 /// `source` in [0,1] and `stored` in codes, or both as they are, and unit 1.
 template <class W>
-W blend_factor(BlendFactor factor, int channel, const W (&source)[4], const W (&stored)[4], const glm::vec4& constant,
-               double unit) {
+Channels<W> blend_factor(BlendFactor factor, const Channels<W>& source, const Channels<W>& stored,
+                         const glm::vec4& constant, double unit) {
+  const auto each = [](auto of) { return Channels<W>{of(0u), of(1u), of(2u), of(3u)}; };
+  const auto all = [](const W& value) { return Channels<W>{value, value, value, value}; };
+  const auto given = [&](int i) { return static_cast<double>(constant[i]) * unit; };
   switch (factor) {
-    case BlendFactor::zero: return W(0);
-    case BlendFactor::one: return W(unit);
-    case BlendFactor::source_color: return source[channel] * unit;
-    case BlendFactor::one_minus_source_color: return unit - source[channel] * unit;
-    case BlendFactor::destination_color: return stored[channel];
-    case BlendFactor::one_minus_destination_color: return unit - stored[channel];
-    case BlendFactor::source_alpha: return source[3] * unit;
-    case BlendFactor::one_minus_source_alpha: return unit - source[3] * unit;
-    case BlendFactor::destination_alpha: return stored[3];
-    case BlendFactor::one_minus_destination_alpha: return unit - stored[3];
-    case BlendFactor::constant_color: return W(constant[channel] * unit);
-    case BlendFactor::one_minus_constant_color: return W(unit - constant[channel] * unit);
-    case BlendFactor::constant_alpha: return W(constant[3] * unit);
-    case BlendFactor::one_minus_constant_alpha: return W(unit - constant[3] * unit);
+    case BlendFactor::zero: return all(W(0));
+    case BlendFactor::one: return all(W(unit));
+    case BlendFactor::source_color: return each([&](unsigned i) { return source[i] * unit; });
+    case BlendFactor::one_minus_source_color: return each([&](unsigned i) { return unit - source[i] * unit; });
+    case BlendFactor::destination_color: return stored;
+    case BlendFactor::one_minus_destination_color: return each([&](unsigned i) { return unit - stored[i]; });
+    case BlendFactor::source_alpha: return all(source[3] * unit);
+    case BlendFactor::one_minus_source_alpha: return all(unit - source[3] * unit);
+    case BlendFactor::destination_alpha: return all(stored[3]);
+    case BlendFactor::one_minus_destination_alpha: return all(unit - stored[3]);
+    case BlendFactor::constant_color: return {W(given(0)), W(given(1)), W(given(2)), W(given(3))};
+    case BlendFactor::one_minus_constant_color:
+      return {W(unit - given(0)), W(unit - given(1)), W(unit - given(2)), W(unit - given(3))};
+    case BlendFactor::constant_alpha: return all(W(given(3)));
+    case BlendFactor::one_minus_constant_alpha: return all(W(unit - given(3)));
     case BlendFactor::source_alpha_saturate: {
-      const W free = unit - stored[3], alpha = source[3] * unit;
-      return channel == 3 ? W(unit) : select(alpha < free, alpha, free);
+      const W least = lesser_of(source[3] * unit, unit - stored[3]);
+      return {least, least, least, W(unit)};
     }
   }
-  return W(0);
+  return all(W(0));
 }
 
 /// `source` blended with what is `stored`, in the frame's format, as merge() makes it (OpenGL 2.1 spec 4.1.8). In
@@ -57,25 +66,28 @@ Color<R> blend(const Blend& state, const Color<R>& source, const Color<R>& store
   const bool codes = scale != 0.0f;
   const double unit = codes ? scale : 1.0;
   const auto wide = [&](R value) { return to_wide(codes ? clamp01(value) : value); };
-  const W s[4] = {wide(source.r), wide(source.g), wide(source.b), wide(source.a)};
-  const W d[4] = {to_wide(stored.r), to_wide(stored.g), to_wide(stored.b), to_wide(stored.a)};
-  const auto channel = [&](int c) {
-    const BlendTerm& term = c < 3 ? state.rgb : state.alpha;
-    const auto of_source = [&] { return s[c] * blend_factor(term.source, c, s, d, state.color, unit); };
-    const auto of_stored = [&] { return d[c] * blend_factor(term.destination, c, s, d, state.color, unit) / unit; };
-    W sum(0);
-    switch (term.equation) {
-      case BlendEquation::add: sum = of_source() + of_stored(); break;
-      case BlendEquation::subtract: sum = of_source() - of_stored(); break;
-      case BlendEquation::reverse_subtract: sum = of_stored() - of_source(); break;
-      case BlendEquation::min: sum = select(s[c] * unit < d[c], s[c] * unit, d[c]); break;
-      case BlendEquation::max: sum = select(s[c] * unit > d[c], s[c] * unit, d[c]); break;
-    }
-    if (!codes) return to_float(sum);
-    const W low = select(sum > 0.0, sum, W(0));
-    return to_float(round_even(select(low < unit, low, W(unit))));
+  const Channels<W> s = {wide(source.r), wide(source.g), wide(source.b), wide(source.a)};
+  const Channels<W> d = {to_wide(stored.r), to_wide(stored.g), to_wide(stored.b), to_wide(stored.a)};
+  const auto blended = [&](const BlendTerm& term) -> Color<R> {
+    const auto each = [&](auto of) -> Color<R> {
+      const auto stored_as = [&](const W& sum) {
+        return to_float(codes ? round_even(clamped<W>(sum, W(0), W(unit))) : sum);
+      };
+      return {stored_as(of(0u)), stored_as(of(1u)), stored_as(of(2u)), stored_as(of(3u))};
+    };
+    if (term.equation == BlendEquation::min) return each([&](unsigned i) { return lesser_of(s[i] * unit, d[i]); });
+    if (term.equation == BlendEquation::max) return each([&](unsigned i) { return greater_of(s[i] * unit, d[i]); });
+    const Channels<W> k = blend_factor<W>(term.source, s, d, state.color, unit);
+    const Channels<W> m = blend_factor<W>(term.destination, s, d, state.color, unit);
+    if (term.equation == BlendEquation::subtract)
+      return each([&](unsigned i) { return s[i] * k[i] - d[i] * m[i] / unit; });
+    if (term.equation == BlendEquation::reverse_subtract)
+      return each([&](unsigned i) { return d[i] * m[i] / unit - s[i] * k[i]; });
+    return each([&](unsigned i) { return s[i] * k[i] + d[i] * m[i] / unit; });
   };
-  return {channel(0), channel(1), channel(2), channel(3)};
+  Color<R> out = blended(state.rgb);
+  if (state.alpha != state.rgb) out.a = blended(state.alpha).a;
+  return out;
 }
 
 /// `source`, in codes as merge() makes it, and what is `stored`, bit by bit (OpenGL 2.1 spec 4.1.10); a float colour

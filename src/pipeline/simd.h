@@ -193,7 +193,7 @@ inline PLUMBLINE_TARGET::SimdInt load_codes<PLUMBLINE_TARGET::Simd>(const std::u
 template <>
 inline Pixels<PLUMBLINE_TARGET::Simd> block_pixels<PLUMBLINE_TARGET::Simd>(int block_x, int block_y, int i) {
   using namespace PLUMBLINE_TARGET;
-  const SimdInt number(hn::Iota(kInts, i));
+  const SimdInt number = SimdInt(hn::Iota(kInts, 0)) + SimdInt(i);
   const SimdInt x = SimdInt(block_x) + (number & SimdInt(kBlock - 1));
   const SimdInt y = SimdInt(block_y) + SimdInt(hn::ShiftRight<2>(number.v));
   return {x, y, to_wide(x) + 0.5, to_wide(y) + 0.5};

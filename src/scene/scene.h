@@ -170,6 +170,7 @@ struct BlendTerm {
   BlendFactor source = BlendFactor::one;
   BlendFactor destination = BlendFactor::zero;
   BlendEquation equation = BlendEquation::add;
+  bool operator==(const BlendTerm&) const = default;
 };
 /// glBlendFuncSeparate, glBlendEquationSeparate, glBlendColor (OpenGL 2.1 spec 4.1.8).
 struct Blend {
