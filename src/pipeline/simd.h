@@ -12,6 +12,7 @@ namespace PLUMBLINE_TARGET {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+static_assert(HWY_TARGET <= HWY_SSE4, "what narrower ones emulate is not the same to the last bit");
 inline constexpr int kWidth = HWY_MAX_BYTES / 4;  // 4, 8 or 16: a part of a block, or all of it
 inline constexpr int kHalf = kWidth / 2;
 inline constexpr hn::FixedTag<float, kWidth> kFloats{};

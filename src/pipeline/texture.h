@@ -183,7 +183,7 @@ Levels<R> levels(const TextureSetup& t, R lod) {
   return {to_float(lesser_of(first, last)), first < last, lambda - whole};
 }
 
-/// At a level of detail.
+/// At a level of detail, no NaN.
 template <class R>
 Color<R> sample(const TextureSetup& t, const TexCoords<R>& at, R lod) {
   const Sampler& s = t.sampler;
