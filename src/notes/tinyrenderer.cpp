@@ -59,7 +59,7 @@ Note tinyrenderer() {
                         test("unit/program", "Program.NeedsNoVaryings")}},
           {.section = "Gouraud Shader As Example (vertex)",
            .teaches = "an intensity max(0, n.l) per corner; Viewport Projection ModelView times the corner",
-           .where = {function("pipeline/program.h", "draw_program"), function("pipeline/light_equation.cpp", "lit")},
+           .where = {function("pipeline/program.h", "draw_program"), function("pipeline/light_equation.h", "lit")},
            .shown_by = {test("unit/program_scenes",
                              "ProgramScenes.TheNotesGouraudShaderIsTheFixedFunctionsDiffuseLight")}},
           {.section = "Rasterizer",

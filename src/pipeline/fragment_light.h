@@ -9,23 +9,24 @@ namespace plumbline::pipeline {
 /// What a draw's fragments are lit by.
 struct FragmentLight {
   const Scene* scene;
-  const Draw* draw;
   bool by_color;  ///< its colours stand for some of its material
   Illumination illumination;
-  Reflectance reflectance[2][2];  ///< of its own material: front or back, without and of the specular part
+  // Front or back, without and of the specular part:
+  ColoredMaterial material[2][2];
+  Reflectance<float> reflectance[2][2];  ///< of its own material
 };
 FragmentLight fragment_light(const Scene& scene, const Draw& draw);
 
 /// The light equation at a point of a face, the normal brought to unit length. `color`: the interpolated vertex colour.
-Vec4<float> lit_fragment(const FragmentLight& light, LitPart part, const Vec4<float>& color, const Vec3<float>& n_eye,
-                         const Vec3<float>& p_eye);
-
-/// The same of a fragment's attributes.
-inline Color<float> lit_fragment(const FragmentLight& light, LitPart part, const Color<float>& color,
-                                 const Color<float>& n, const Color<float>& p) {
-  const Vec4<float> out = lit_fragment(light, part, Vec4<float>(color.r, color.g, color.b, color.a),
-                                       Vec3<float>(n.r, n.g, n.b), Vec3<float>(p.r, p.g, p.b));
-  return {out.r, out.g, out.b, out.a};
+template <class R>
+Color<R> lit_fragment(const FragmentLight& light, LitPart part, const Color<R>& color, const Color<R>& n,
+                      const Color<R>& p) {
+  const Vector<R> p_eye{p.r, p.g, p.b}, normal{n.r, n.g, n.b};
+  const R length = square_root(dot(normal, normal));
+  const Vector<R> n_eye = normal / (part.back ? -length : length);
+  if (!light.by_color) return lit(light.illumination, light.reflectance[part.back][part.secondary], p_eye, n_eye);
+  const ColoredMaterial& material = light.material[part.back][part.secondary];
+  return lit(light.illumination, reflectance(*light.scene, material, color), p_eye, n_eye);
 }
 
 }  // namespace plumbline::pipeline

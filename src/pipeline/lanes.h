@@ -4,6 +4,8 @@
 // this is the definition. A SIMD type needs its own Lanes and the same words, each lane doing the same operation.
 #pragma once
 
+#include <bit>
+#include <cmath>
 #include <cstdint>
 
 namespace plumbline::pipeline {
@@ -83,6 +85,18 @@ inline std::int64_t floor_int(double value) {
   return static_cast<double>(whole) > value ? whole - 1 : whole;
 }
 inline double to_wide(std::int64_t value) { return static_cast<double>(value); }
+
+inline float square_root(float value) { return std::sqrt(value); }
+/// Of a positive normal number, mantissa in [1, 2) and exponent; and 2^n for a whole n from -1022 to 1023.
+inline double mantissa_of(double value) {
+  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(value) & 0xfffffffffffff) | 0x3ff0000000000000);
+}
+inline double exponent_of(double value) {
+  return static_cast<double>(std::bit_cast<std::uint64_t>(value) >> 52) - 1023.0;
+}
+inline double power_of_two(double n) {  // 1.5 * 2^52: leaves the biased exponent in the lowest bits
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(n + (6755399441055744.0 + 1023.0)) << 52);
+}
 
 /// The next Lanes<R>::width values.
 template <class R>

@@ -23,12 +23,16 @@ void light_part(const Scene& scene, const Draw& draw, LitPart part, std::span<co
   const std::vector<glm::vec4>& colors = scene.meshes[draw.mesh].colors;
   const bool by_color = draw.color_material != ColorMaterial::none && !colors.empty();
   const Illumination lights = illumination(scene);
-  Reflectance of_vertex = reflectance(scene, lit_material(scene, draw, part, nullptr));
+  const ColoredMaterial material = colored_material(scene, draw, part);
+  Reflectance<float> of_vertex = reflectance(scene, material.own);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (by_color) of_vertex = reflectance(scene, lit_material(scene, draw, part, &colors[i]));
-    const Vec3<float> n = part.back ? -vertices[i].n_eye : vertices[i].n_eye;
-    out.push_back(lit(lights, of_vertex, Vec3<float>(vertices[i].p_eye), n));
-    if (part.secondary) out.back().a = 0;
+    if (by_color) {
+      const glm::vec4& c = colors[i];
+      of_vertex = reflectance<float>(scene, material, {c.r, c.g, c.b, c.a});
+    }
+    const Vector<float> p = spread<float>(vertices[i].p_eye), n = spread<float>(vertices[i].n_eye);
+    const Color<float> color = lit(lights, of_vertex, p, part.back ? -n : n);
+    out.push_back({color.r, color.g, color.b, part.secondary ? 0 : color.a});
   }
 }
 

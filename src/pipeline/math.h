@@ -1,47 +1,47 @@
 // Our own transcendental functions: the same bits on every machine, which a C library does not promise. And degrees.
 #pragma once
 
-#include <bit>
-#include <cstdint>
+#include "pipeline/lanes.h"
 
 namespace plumbline::pipeline {
 
 inline constexpr double kRadians = 3.14159265358979323846 / 180.0;  ///< a degree
 
 /// log2(x) for normal x > 0. Relative error of the result below 1e-12 (atanh series up to t^15, |t| <= 0.1716).
-inline double log2_of(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  std::int64_t exponent = static_cast<std::int64_t>(bits >> 52) - 1023;
-  double m = std::bit_cast<double>((bits & 0xfffffffffffffull) | 0x3ff0000000000000ull);  // [1, 2)
-  if (m > 1.4142135623730951) {
-    m *= 0.5;
-    ++exponent;
-  }
-  const double t = (m - 1.0) / (m + 1.0), t2 = t * t;
-  double series = 1.0 / 15;
-  for (int k = 13; k >= 1; k -= 2) series = series * t2 + 1.0 / k;
-  return static_cast<double>(exponent) + series * t * 2.8853900817779268;  // 2 / ln 2
+template <class W>
+W log2_of(W x) {
+  constexpr double kTerms[] = {1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3, 1.0};
+  const W mantissa = mantissa_of(x), exponent = exponent_of(x);
+  const auto upper = mantissa > 1.4142135623730951;
+  const W m = select(upper, mantissa * 0.5, mantissa);
+  const W t = (m - 1.0) / (m + 1.0), t2 = t * t;
+  W series(1.0 / 15);
+  for (const double term : kTerms) series = series * t2 + term;
+  return select(upper, exponent + 1.0, exponent) + series * t * 2.8853900817779268;  // 2 / ln 2
 }
 
 /// 2^x for x in [-1022, 1023]; below, 0. Relative error below 1e-13 (Taylor to the 12th power, |x - n| <= 1/2).
-inline double exp2_of(double x) {
-  if (x < -1022.0) return 0.0;
-  const double shifted = x + 6755399441055744.0;  // 1.5 * 2^52: rounds to an integer
-  const double n = shifted - 6755399441055744.0;
-  const double f = (x - n) * 0.69314718055994531;
-  double series = 1.0;
-  for (int k = 12; k >= 1; --k) series = series * (f / k) + 1.0;
-  const auto exponent = static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023);
-  return series * std::bit_cast<double>(exponent << 52);
+template <class W>
+W exp2_of(W x) {
+  // 1 / k!, exactly rounded
+  constexpr double kTerms[] = {1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720,
+                               1.0 / 120,      1.0 / 24,      1.0 / 6,      1.0 / 2,     1.0,        1.0};
+  const W n = round_even(x), f = (x - n) * 0.69314718055994531;
+  W series(1.0 / 479001600);
+  for (const double term : kTerms) series = series * f + term;
+  return select(x < -1022.0, W(0), series * power_of_two(n));
 }
 
 /// x^y for x >= 0 and y in [0, 128], at most 2^127; 0^0 = 1. Relative error below 1e-9 where the result is above
 /// 1e-300.
-inline float power(float x, float y) {
-  if (y == 0.0f) return 1.0f;
-  if (!(x > 0.0f)) return 0.0f;
-  const double exponent = static_cast<double>(y) * log2_of(static_cast<double>(x));
-  return exponent < 127.0 ? static_cast<float>(exp2_of(exponent)) : 0x1p127f;
+template <class R>
+R power(R x, float y) {
+  using W = Wide<R>;
+  if (y == 0.0f) return R(1);
+  const Mask<R> positive = x > R(0);
+  if (!any(positive)) return R(0);
+  const W exponent = static_cast<double>(y) * log2_of(to_wide(select(positive, x, R(1))));
+  return select(positive, to_float(exp2_of(lesser_of(exponent, W(127)))), R(0));
 }
 
 }  // namespace plumbline::pipeline

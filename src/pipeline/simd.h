@@ -6,7 +6,6 @@
 #include <hwy/highway.h>
 
 #include "pipeline/lanes.h"
-#include "pipeline/math.h"
 
 namespace plumbline::pipeline {
 namespace PLUMBLINE_TARGET {
@@ -21,6 +20,7 @@ inline constexpr hn::FixedTag<std::int32_t, kWidth> kInts{};
 inline constexpr hn::FixedTag<std::int32_t, kHalf> kHalfInts{};
 inline constexpr hn::FixedTag<std::uint8_t, kWidth> kBytes{};
 inline constexpr hn::FixedTag<double, kHalf> kDoubles{};
+inline constexpr hn::FixedTag<std::uint64_t, kHalf> kLongs{};
 
 using FloatVector = hn::Vec<decltype(kFloats)>;
 using IntVector = hn::Vec<decltype(kInts)>;
@@ -142,20 +142,26 @@ inline void store(SimdMask mask, SimdInt value, std::uint8_t* to) {
   hn::StoreU(hn::DemoteTo(kBytes, select(mask, value, held).v), kBytes, to);
 }
 
-// Transcendental functions, lane by lane.
-template <class Function>
-SimdWide each_lane(SimdWide w, Function function) {
-  HWY_ALIGN double lanes[kWidth];
-  hn::Store(w.low, kDoubles, lanes);
-  hn::Store(w.high, kDoubles, lanes + kHalf);
-  for (double& x : lanes) x = function(x);
-  return {hn::Load(kDoubles, lanes), hn::Load(kDoubles, lanes + kHalf)};
+inline Simd square_root(Simd f) { return hn::Sqrt(f.v); }
+inline SimdWide mantissa_of(SimdWide w) {
+  const auto of = [](DoubleVector v) {
+    const auto fraction = hn::And(hn::BitCast(kLongs, v), hn::Set(kLongs, 0xfffffffffffff));
+    return hn::BitCast(kDoubles, hn::Or(fraction, hn::Set(kLongs, 0x3ff0000000000000)));
+  };
+  return {of(w.low), of(w.high)};
 }
-inline SimdWide log2_of(SimdWide w) {
-  return each_lane(w, [](double x) { return pipeline::log2_of(x); });
+inline SimdWide exponent_of(SimdWide w) {
+  // Below 2^52's leading bit: 2^52 + the biased exponent.
+  const auto of = [](DoubleVector v) {
+    const auto biased = hn::ShiftRight<52>(hn::BitCast(kLongs, v));
+    return hn::BitCast(kDoubles, hn::Or(biased, hn::Set(kLongs, 0x4330000000000000)));
+  };
+  return SimdWide(of(w.low), of(w.high)) - (4503599627370496.0 + 1023.0);
 }
-inline SimdWide exp2_of(SimdWide w) {
-  return each_lane(w, [](double x) { return pipeline::exp2_of(x); });
+inline SimdWide power_of_two(SimdWide n) {
+  const auto of = [](DoubleVector v) { return hn::BitCast(kDoubles, hn::ShiftLeft<52>(hn::BitCast(kLongs, v))); };
+  const SimdWide biased = n + (6755399441055744.0 + 1023.0);
+  return {of(biased.low), of(biased.high)};
 }
 
 }  // namespace PLUMBLINE_TARGET

@@ -35,13 +35,5 @@ inline Color<Simd> sample(const TextureSetup& t, const TexCoords<Simd>& at, Simd
   return out.all();
 }
 
-inline Color<Simd> lit_fragment(const FragmentLight& light, LitPart part, const Color<Simd>& color,
-                                const Color<Simd>& n, const Color<Simd>& p) {
-  const Colors colors(color), normals(n), places(p);
-  Colors out;
-  for (int i = 0; i < kWidth; ++i) out.set(i, pipeline::lit_fragment(light, part, colors[i], normals[i], places[i]));
-  return out.all();
-}
-
 }  // namespace PLUMBLINE_TARGET
 }  // namespace plumbline::pipeline

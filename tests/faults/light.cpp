@@ -125,9 +125,8 @@ Color<float> short_normals(const pipeline::Surface& surface, bool front, const p
     return pipeline::shade_surface<float>(surface, front, a);
   }
   const Color<float>&n = a[Varying::normal], &p = a[Varying::position];
-  const Vec4<float> c =
-      pipeline::lit(surface.light->illumination, surface.light->reflectance[0][0], {p.r, p.g, p.b}, {n.r, n.g, n.b});
-  return {c.r, c.g, c.b, c.a};
+  return pipeline::lit<float>(surface.light->illumination, surface.light->reflectance[0][0], {p.r, p.g, p.b},
+                              {n.r, n.g, n.b});
 }
 
 template <auto change>

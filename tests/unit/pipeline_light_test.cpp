@@ -45,12 +45,12 @@ TEST(PipelineMath, Exp2OverItsWholeRange) {
     for (double x :
          {whole(random), small(random), std::floor(whole(random)) + 0.5, std::ldexp(small(random), -i % 60)}) {
       if (x < -1022 || x > 1023) continue;
-      ASSERT_LT(relative_error(exp2_of(x), std::exp2(static_cast<long double>(x))), 1e-13L) << x;
+      ASSERT_LT(relative_error(exp2_of<double>(x), std::exp2(static_cast<long double>(x))), 1e-13L) << x;
     }
   }
-  for (int e = -1022; e <= 1023; ++e) EXPECT_EQ(exp2_of(e), std::ldexp(1.0, e));
-  EXPECT_EQ(exp2_of(std::nextafter(-1022.0, -2000.0)), 0);
-  EXPECT_EQ(exp2_of(-1e300), 0);
+  for (int e = -1022; e <= 1023; ++e) EXPECT_EQ(exp2_of<double>(e), std::ldexp(1.0, e));
+  EXPECT_EQ(exp2_of<double>(std::nextafter(-1022.0, -2000.0)), 0);
+  EXPECT_EQ(exp2_of<double>(-1e300), 0);
 }
 
 TEST(PipelineMath, PowerIsRightToTheLastPlaceOfAFloat) {
@@ -63,32 +63,32 @@ TEST(PipelineMath, PowerIsRightToTheLastPlaceOfAFloat) {
     const float y = i % 2 == 0 ? exponent(random) : exponent(random) * 1e-3f;
     const long double expected = std::pow(static_cast<long double>(x), static_cast<long double>(y));
     const long double bound = std::max(expected * (rounding + 1e-9L), step * 0.5000001L);
-    ASSERT_LE(std::abs(power(x, y) - expected), bound) << x << " ^ " << y;
+    ASSERT_LE(std::abs(power<float>(x, y) - expected), bound) << x << " ^ " << y;
   }
 }
 
 TEST(PipelineMath, PowerAtTheCorners) {
-  EXPECT_EQ(power(0, 0), 1);
-  EXPECT_EQ(power(0.5f, 0), 1);
-  EXPECT_EQ(power(1, 0), 1);
+  EXPECT_EQ(power<float>(0, 0), 1);
+  EXPECT_EQ(power<float>(0.5f, 0), 1);
+  EXPECT_EQ(power<float>(1, 0), 1);
   for (float y : {1e-45f, 1e-3f, 1.0f, 7.5f, 128.0f}) {
-    EXPECT_EQ(power(0, y), 0) << y;
-    EXPECT_EQ(power(1, y), 1) << y;
+    EXPECT_EQ(power<float>(0, y), 0) << y;
+    EXPECT_EQ(power<float>(1, y), 1) << y;
   }
-  EXPECT_EQ(power(0.5f, 1), 0.5f);
-  EXPECT_EQ(power(0.5f, 128), std::ldexp(1.0f, -128));
-  EXPECT_EQ(power(0.25f, 128), 0) << "2^-256 is below every float";
-  EXPECT_EQ(power(std::numeric_limits<float>::min(), 128), 0);
-  EXPECT_EQ(power(std::numeric_limits<float>::min(), 0.5f), std::ldexp(1.0f, -63));
-  EXPECT_EQ(power(3, 4), 81);
-  EXPECT_EQ(power(2, 128), std::ldexp(1.0f, 127)) << "no infinity";
-  EXPECT_EQ(power(1e30f, 128), std::ldexp(1.0f, 127));
+  EXPECT_EQ(power<float>(0.5f, 1), 0.5f);
+  EXPECT_EQ(power<float>(0.5f, 128), std::ldexp(1.0f, -128));
+  EXPECT_EQ(power<float>(0.25f, 128), 0) << "2^-256 is below every float";
+  EXPECT_EQ(power<float>(std::numeric_limits<float>::min(), 128), 0);
+  EXPECT_EQ(power<float>(std::numeric_limits<float>::min(), 0.5f), std::ldexp(1.0f, -63));
+  EXPECT_EQ(power<float>(3, 4), 81);
+  EXPECT_EQ(power<float>(2, 128), std::ldexp(1.0f, 127)) << "no infinity";
+  EXPECT_EQ(power<float>(1e30f, 128), std::ldexp(1.0f, 127));
 }
 
 TEST(PipelineMath, PowerOfSubnormals) {
-  EXPECT_EQ(power(1e-40f, 1), 1e-40f);
-  EXPECT_NEAR(power(1e-40f, 0.01f), std::pow(1e-40, 0.01), 1e-6);
-  EXPECT_NEAR(power(std::numeric_limits<float>::denorm_min(), 1e-3f), std::exp2(-0.149), 1e-6);
+  EXPECT_EQ(power<float>(1e-40f, 1), 1e-40f);
+  EXPECT_NEAR(power<float>(1e-40f, 0.01f), std::pow(1e-40, 0.01), 1e-6);
+  EXPECT_NEAR(power<float>(std::numeric_limits<float>::denorm_min(), 1e-3f), std::exp2(-0.149), 1e-6);
 }
 
 /// One vertex at the origin of eye space's z = -2, its normal towards the eye, one white light behind the eye.
