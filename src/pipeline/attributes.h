@@ -29,7 +29,7 @@ struct Weights {
   R k1, k2;
 };
 template <class R>
-Weights<R> weights(const float (&inv_w)[3], const Barycentric<R>& b) {
+[[gnu::always_inline]] inline Weights<R> weights(const float (&inv_w)[3], const Barycentric<R>& b) {
   const R q0 = to_float(b.l0) * inv_w[0], q1 = to_float(b.l1) * inv_w[1], q2 = to_float(b.l2) * inv_w[2];
   const R sum = q0 + q1 + q2;
   // A plane extrapolated out of a sliver may reach the horizon: no division by (nearly) 0 there.
@@ -40,13 +40,13 @@ Weights<R> weights(const float (&inv_w)[3], const Barycentric<R>& b) {
 }
 
 template <class R>
-Color<R> mean(const AttributeSetup& s, const Weights<R>& k) {
+[[gnu::always_inline]] inline Color<R> mean(const AttributeSetup& s, const Weights<R>& k) {
   const auto channel = [&](int i) { return s.color0[i] + k.k1 * s.d_color1[i] + k.k2 * s.d_color2[i]; };
   return {channel(0), channel(1), channel(2), channel(3)};
 }
 
 template <class R>
-Color<R> attributes(const AttributeSetup& s, const Barycentric<R>& b) {
+[[gnu::always_inline]] inline Color<R> attributes(const AttributeSetup& s, const Barycentric<R>& b) {
   return mean<R>(s, weights<R>(s.inv_w, b));
 }
 

@@ -9,15 +9,6 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// a b - c d to within two roundings of the result, however close the products are (Kahan).
-double difference_of_products(double a, double b, double c, double d) {
-  const double cd = c * d;
-  const double error = std::fma(-c, d, cd);
-  return std::fma(a, b, -cd) + error;
-}
-
-double cross(glm::dvec2 a, glm::dvec2 b) { return difference_of_products(a.x, b.y, a.y, b.x); }
-
 BarycentricPlanes along_line(const WindowTriangle<float>& line, glm::dvec2 anchor) {
   const glm::dvec2 p0(line.v[0].p_win), d = glm::dvec2(line.v[1].p_win) - p0;
   const double square = glm::dot(d, d);
@@ -25,29 +16,20 @@ BarycentricPlanes along_line(const WindowTriangle<float>& line, glm::dvec2 ancho
   return {anchor.x, anchor.y, glm::dot(anchor - p0, d) / square, d.x / square, d.y / square, 0, 0, 0};
 }
 
-// The corners that planes go through.
-struct PlaneCorners {
-  glm::dvec2 p0, d1, d2;  // d1, d2: the others' places from it
-  double twice_area;
-};
-PlaneCorners corners_of(const WindowTriangle<float>& triangle) {
-  glm::dvec2 p[3];
-  for (int i = 0; i < 3; ++i) p[i] = glm::dvec2(triangle.v[static_cast<std::size_t>(i)].p_win);
-  double twice_area = cross(p[1] - p[0], p[2] - p[0]);
-  if (!(triangle.front ? twice_area > 0 : twice_area < 0)) {
-    for (int i = 0; i < 3; ++i) p[i] = glm::dvec2(triangle.v[static_cast<std::size_t>(i)].snapped) / 256.0 + 0.5;
-    twice_area = cross(p[1] - p[0], p[2] - p[0]);
-  }
-  return {p[0], p[1] - p[0], p[2] - p[0], twice_area};
+PlaneCorners<double> corners_of(const WindowTriangle<float>& t) {
+  const auto& v = t.v;
+  return plane_corners<float>({v[0].p_win.x, v[1].p_win.x, v[2].p_win.x}, {v[0].p_win.y, v[1].p_win.y, v[2].p_win.y},
+                              {v[0].snapped.x, v[1].snapped.x, v[2].snapped.x},
+                              {v[0].snapped.y, v[1].snapped.y, v[2].snapped.y}, t.front ? 1.0 : -1.0);
 }
 
 // In window z.
 double offset_of(const WindowTriangle<float>& triangle, const DepthState& state) {
   if (triangle.corners < 3 || state.offset == PolygonOffset{}) return 0;
   const double z0 = triangle.v[0].p_win.z, z1 = triangle.v[1].p_win.z, z2 = triangle.v[2].p_win.z;
-  const auto [p0, d1, d2, twice_area] = corners_of(triangle);
-  const double slope_x = difference_of_products(z1 - z0, d2.y, z2 - z0, d1.y) / twice_area;
-  const double slope_y = difference_of_products(z2 - z0, d1.x, z1 - z0, d2.x) / twice_area;
+  const PlaneCorners<double> c = corners_of(triangle);
+  const double slope_x = difference_of_products(z1 - z0, c.d2_y, z2 - z0, c.d1_y) / c.twice_area;
+  const double slope_y = difference_of_products(z2 - z0, c.d1_x, z1 - z0, c.d2_x) / c.twice_area;
   const double m = std::max(std::abs(slope_x), std::abs(slope_y));
   return state.offset.factor * m + state.offset.units * polygon_offset_unit(state.format, std::max({z0, z1, z2}));
 }
@@ -56,11 +38,9 @@ double offset_of(const WindowTriangle<float>& triangle, const DepthState& state)
 
 BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y0) {
   if (triangle.corners < 3) return along_line(triangle, {x0 + 0.5, y0 + 0.5});
-  const auto [p0, d1, d2, twice_area] = corners_of(triangle);
-  const glm::dvec2 anchor(x0 + 0.5, y0 + 0.5), d = anchor - p0;
-  return {anchor.x,           anchor.y,           cross(d, d2) / twice_area,
-          d2.y / twice_area,  -d2.x / twice_area, cross(d1, d) / twice_area,
-          -d1.y / twice_area, d1.x / twice_area};
+  const glm::dvec2 anchor(x0 + 0.5, y0 + 0.5);
+  const AffinePlanes<double> p = planes_through(corners_of(triangle), anchor.x, anchor.y);
+  return {anchor.x, anchor.y, p.l1_0, p.l1_x, p.l1_y, p.l2_0, p.l2_x, p.l2_y};
 }
 
 BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place) {

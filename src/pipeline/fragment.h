@@ -116,28 +116,84 @@ struct BlockState {
   const Surface* surface;  ///< null: plain
 };
 
+/// That of a draw whose nearer fragments replace what is there, in a frame of z24: known when it is compiled.
+struct ReplacingState {
+  static bool describes(const BlockState& s) {
+    return s.depth_func == depth_func && !s.scissor && !s.alpha_test && !s.stencil && !s.merge.blend &&
+           !s.merge.logic_op && glm::all(s.merge.color_mask) && s.merge.depth_mask && s.surface == nullptr &&
+           s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 && s.depth.high == 1.0 &&
+           s.depth.offset == PolygonOffset{};
+  }
+  static constexpr std::optional<Scissor> scissor = std::nullopt;
+  static constexpr std::optional<AlphaTest> alpha_test = std::nullopt;
+  static constexpr std::optional<Stencil> stencil = std::nullopt;
+  struct Merge {
+    static constexpr std::optional<Blend> blend = std::nullopt;
+    static constexpr std::optional<LogicOp> logic_op = std::nullopt;
+    struct ColorMask {
+      static constexpr bool r = true, g = true, b = true, a = true;
+    };
+    static constexpr ColorMask color_mask{};
+    static constexpr bool depth_mask = true;
+  };
+  static constexpr Merge merge{};
+  static constexpr DepthFunc depth_func = DepthFunc::less;
+};
+
 /// Where the next pixels' values are: depth and colour in the frame's formats, as floats.
 struct Stored {
   float* depth;
   float* color[4];
   std::uint8_t* stencil;
+
+  template <class R>
+  Color<R> load_color() const {
+    return {load<R>(color[0]), load<R>(color[1]), load<R>(color[2]), load<R>(color[3])};
+  }
+  template <class R>
+  void store_color(Mask<R> kept, const Color<R>& merged, const auto& channels) const {
+    if (channels.r) store(kept, merged.r, color[0]);
+    if (channels.g) store(kept, merged.g, color[1]);
+    if (channels.b) store(kept, merged.b, color[2]);
+    if (channels.a) store(kept, merged.a, color[3]);
+  }
+};
+/// The same of rgba8, red in the lowest byte.
+struct StoredCodes {
+  float* depth;
+  std::uint32_t* color;
+  std::uint8_t* stencil;
+
+  template <class R>
+  Color<R> load_color() const {
+    const Int<R> held = load_packed<R>(color), most(255);
+    return {to_float(held & most), to_float(shifted_right<8>(held) & most), to_float(shifted_right<16>(held) & most),
+            to_float(shifted_right<24>(held) & most)};
+  }
+  template <class R>
+  void store_color(Mask<R> kept, const Color<R>& merged, const auto& channels) const {
+    if (!channels.r && !channels.g && !channels.b && !channels.a) return;
+    const Int<R> codes = packed_codes(merged.r, merged.g, merged.b, merged.a);
+    if (channels.r && channels.g && channels.b && channels.a) return store_packed(kept, codes, color);
+    const std::uint32_t written = (channels.r ? 0xffu : 0u) | (channels.g ? 0xff00u : 0u) |
+                                  (channels.b ? 0xff0000u : 0u) | (channels.a ? 0xff000000u : 0u);
+    const Int<R> to(static_cast<std::int32_t>(written)), other(static_cast<std::int32_t>(~written));
+    store_packed(kept, (codes & to) | (load_packed<R>(color) & other), color);
+  }
 };
 
 /// Of the fragments `kept`, depth and colour into the frame.
 template <class R, class Stages>
-void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
-           const Stored& to) {
-  const auto merged = [&]() -> Color<R> {
+void write(const Stages& stages, const auto& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
+           const auto& to) {
+  if (state.depth_mask) store(kept, z, to.depth);
+  const Color<R> merged = [&]() -> Color<R> {
     if (!state.blend && !state.logic_op) return stages.template merge<R>(shaded, color_scale);
-    const Color<R> stored{load<R>(to.color[0]), load<R>(to.color[1]), load<R>(to.color[2]), load<R>(to.color[3])};
+    const Color<R> stored = to.template load_color<R>();
     if (state.logic_op) return stages.template logic<R>(*state.logic_op, shaded, stored, color_scale);
     return stages.template blend<R>(*state.blend, shaded, stored, color_scale);
   }();
-  if (state.depth_mask) store(kept, z, to.depth);
-  if (state.color_mask.r) store(kept, merged.r, to.color[0]);
-  if (state.color_mask.g) store(kept, merged.g, to.color[1]);
-  if (state.color_mask.b) store(kept, merged.b, to.color[2]);
-  if (state.color_mask.a) store(kept, merged.a, to.color[3]);
+  to.template store_color<R>(kept, merged, state.color_mask);
 }
 
 /// What a frame's formats come to.
@@ -186,21 +242,17 @@ SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std
           nullptr};
 }
 
-/// What a surface's fragments want of the triangle besides.
+/// What a surface's fragments want of the triangle besides. `varying`: each of the varyings at its corners.
 template <class Stages>
 SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const WindowTriangle<float>& t,
-                            std::uint32_t triangle, const BarycentricPlanes& planes) {
+                            std::uint32_t triangle, const auto& varying, const BarycentricPlanes& planes) {
   SurfaceSetup out;
   out.surface = &surface;
   out.front = t.front;
   for (const Varying v : surface.carried) {
-    const auto i = static_cast<std::size_t>(v);
-    out.varyings[i] = stages.attribute_setup(with_varying(t, surface.columns[i][triangle]), triangle);
+    out.varyings[static_cast<std::size_t>(v)] = stages.attribute_setup(with_varying(t, varying(v)), triangle);
   }
-  if (surface.texture) {
-    const auto& texcoords = surface.columns[static_cast<std::size_t>(Varying::texture)][triangle];
-    out.gradients = gradient_setup(t, texcoords, planes);
-  }
+  if (surface.texture) out.gradients = gradient_setup(t, varying(Varying::texture), planes);
   return out;
 }
 
@@ -221,14 +273,32 @@ SurfaceAttributes<R> surface_attributes(const Stages& stages, const AttributeSet
 
 /// 64 x 64 pixels of the frame, stored block by block; colour and depth in the frame's formats, as floats.
 inline constexpr int kTile = 64;
+/// Of the block whose lower left pixel is (x, y) in the tile, its first pixel's place.
+inline int block_offset(int x, int y) {
+  static_assert(kBlock == 4 && kTile == 64);
+  return (y >> 2 << 8) + (x >> 2 << 4);
+}
+
 struct Tile {
   int x0, y0;  ///< its lower left pixel
-  float depth[kTile * kTile];
-  float color[4][kTile * kTile];
-  std::uint8_t stencil[kTile * kTile];  ///< left alone where the frame has none
+  alignas(64) float depth[kTile * kTile];
+  alignas(64) float color[4][kTile * kTile];
+  alignas(64) std::uint8_t stencil[kTile * kTile];  ///< left alone where the frame has none
 
-  /// Of the block whose lower left pixel is (x, y), its first pixel's place.
-  int offset(int x, int y) const { return ((y - y0) / kBlock * (kTile / kBlock) + (x - x0) / kBlock) * kBlockPixels; }
+  int offset(int x, int y) const { return block_offset(x - x0, y - y0); }
+  Stored at(int place) {
+    return {depth + place, {color[0] + place, color[1] + place, color[2] + place, color[3] + place}, stencil + place};
+  }
+};
+/// Of rgba8 frames: half the memory, written out as it is.
+struct PackedTile {
+  int x0, y0;
+  alignas(64) float depth[kTile * kTile];
+  alignas(64) std::uint32_t color[kTile * kTile];
+  alignas(64) std::uint8_t stencil[kTile * kTile];
+
+  int offset(int x, int y) const { return block_offset(x - x0, y - y0); }
+  StoredCodes at(int place) { return {depth + place, color + place, stencil + place}; }
 };
 
 /// The tap that ships.
@@ -240,17 +310,15 @@ struct NoTap {
 
 // The scissor box, and stages 6 to 11, for the pixels `p`, which are stored from `place` on.
 template <class R, class Stages, class Tap>
-void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, const Pixels<R>& p,
-                    Mask<R> covered, int place, float color_scale, Tile& tile, Tap& tap) {
+void covered_pixels(const Stages& stages, const auto& state, const auto& s, const Pixels<R>& p, Mask<R> covered,
+                    int place, float color_scale, auto& tile, Tap& tap) {
   if (state.scissor) {
     covered = covered & stages.template scissor<R>(*state.scissor, p);
     if (!any(covered)) return;
   }
   const Barycentric<R> b = barycentric<R>(s.planes, p);
   const R z = stages.template depth<R>(s, b);
-  const Stored stored{tile.depth + place,
-                      {tile.color[0] + place, tile.color[1] + place, tile.color[2] + place, tile.color[3] + place},
-                      tile.stencil + place};
+  const auto stored = tile.at(place);
   const Mask<R> nearer = covered & stages.template depth_passes<R>(state.depth_func, z, load<R>(stored.depth));
   if constexpr (!Tap::every_fragment) {
     if (!any(nearer) && !state.stencil) return;
@@ -267,7 +335,14 @@ void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf
     tap.template fragments<R>(s, p, covered, kept, z, attributes, shaded);
     write<R>(stages, state.merge, kept, z, Color<R>(shaded), color_scale, stored);
   };
-  if constexpr (Stages::has_surfaces) {
+  if constexpr (!Tap::every_fragment && Stages::has_surfaces) {
+    // Depth alone: nothing asks what colour it would be.
+    const auto& channels = state.merge.color_mask;
+    if (!state.alpha_test && !channels.r && !channels.g && !channels.b && !channels.a) {
+      return finish(Color<R>{}, Color<R>{});
+    }
+  }
+  if constexpr (Stages::has_surfaces && requires { s.surface; }) {
     if (s.surface != nullptr) {
       const SurfaceAttributes<R> attributes = surface_attributes<R>(stages, s.attributes, *s.surface, p, b);
       const SurfaceSetup& setup = *s.surface;
@@ -281,7 +356,7 @@ void covered_pixels(const Stages& stages, const BlockState& state, const SetupOf
 /// One pixel, alone in its lanes.
 template <class R, class Stages, class Tap>
 void fragment_pixel(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, glm::ivec2 pixel,
-                    float color_scale, Tile& tile, Tap& tap) {
+                    float color_scale, auto& tile, Tap& tap) {
   const int block_x = pixel.x & ~(kBlock - 1), block_y = pixel.y & ~(kBlock - 1);
   const int in_block = (pixel.y - block_y) * kBlock + (pixel.x - block_x), i = in_block & ~(Lanes<R>::width - 1);
   const Pixels<R> p = block_pixels<R>(block_x, block_y, i);

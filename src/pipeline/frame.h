@@ -13,6 +13,7 @@ namespace plumbline::pipeline {
 /// Row 0 at the bottom. Of the colour planes, and of the depth planes, that of the format is filled.
 struct Frame {
   explicit Frame(const FrameFormat& format);
+  bool empty() const { return depth_code.empty() && depth_z32f.empty(); }
 
   Plane<glm::u8vec4> color_rgba8;
   Plane<glm::u16vec4> color_rgba12;  ///< 0 to 4095

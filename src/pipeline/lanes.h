@@ -50,6 +50,9 @@ inline double to_wide(float value) { return static_cast<double>(value); }
 inline std::int64_t to_int(float value) { return static_cast<std::int64_t>(value); }
 inline float to_float(std::int64_t value) { return static_cast<float>(value); }
 inline bool any(bool mask) { return mask; }
+inline bool all(bool mask) { return mask; }
+/// One bit a lane, the first lowest.
+inline unsigned bits_of(bool mask) { return mask ? 1 : 0; }
 inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }
@@ -84,6 +87,24 @@ inline double floor_of(double value) { return std::floor(value); }
 /// Of whole numbers below 2^51; of a SIMD type their lowest 32 bits.
 inline std::int64_t to_int(double value) { return static_cast<std::int64_t>(value); }
 inline double to_wide(std::int64_t value) { return static_cast<double>(value); }
+/// The nearest, half to even, of |value| below 2^31.
+inline std::int64_t nearest_int(float value) { return static_cast<std::int64_t>(std::nearbyint(value)); }
+/// a b + c, rounded once.
+inline float fused(float a, float b, float c) { return std::fma(a, b, c); }
+inline double fused(double a, double b, double c) { return std::fma(a, b, c); }
+
+template <int n>
+std::int64_t shifted_left(std::int64_t value) {
+  return value << n;
+}
+/// Rounded down.
+template <int n>
+std::int64_t shifted_right(std::int64_t value) {
+  return value >> n;
+}
+/// A float's bits as a number, and back.
+inline std::int64_t as_int(float value) { return std::bit_cast<std::int32_t>(value); }
+inline float as_float(std::int64_t bits) { return std::bit_cast<float>(static_cast<std::int32_t>(bits)); }
 
 inline float square_root(float value) { return std::sqrt(value); }
 /// Of a positive normal number, mantissa in [1, 2) and exponent; and 2^n for a whole n from -1022 to 1023.
@@ -116,6 +137,59 @@ inline std::int64_t load_codes<float>(const std::uint8_t* from) {
 }
 inline void store(bool mask, std::int64_t value, std::uint8_t* to) {
   if (mask) *to = static_cast<std::uint8_t>(value);
+}
+
+/// 32 bits each.
+template <class R>
+Int<R> load_packed(const std::uint32_t* from);
+template <>
+inline std::int64_t load_packed<float>(const std::uint32_t* from) {
+  return *from;
+}
+/// Of whole numbers from 0 to 255, the first in the lowest byte.
+inline std::int64_t packed_codes(float r, float g, float b, float a) {
+  return to_int(r) | to_int(g) << 8 | to_int(b) << 16 | to_int(a) << 24;
+}
+inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {
+  if (mask) *to = static_cast<std::uint32_t>(value);
+}
+/// Small numbers.
+template <class R>
+Int<R> load_ints(const std::int32_t* from);
+template <>
+inline std::int64_t load_ints<float>(const std::int32_t* from) {
+  return *from;
+}
+/// Four pixels of a row, past the caches: their codes, and whole numbers as such. `to` lies at a multiple of 16.
+template <class R>
+void stream_codes(const std::uint32_t* from, std::uint32_t* to);
+template <class R>
+void stream_whole(const float* from, std::uint32_t* to);
+template <>
+inline void stream_codes<float>(const std::uint32_t* from, std::uint32_t* to) {
+  for (int i = 0; i < 4; ++i) to[i] = from[i];
+}
+template <>
+inline void stream_whole<float>(const float* from, std::uint32_t* to) {
+  for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint32_t>(from[i]);
+}
+/// All lanes, side by side.
+inline void store(float value, float* to) { *to = value; }
+inline void store(double value, double* to) { *to = value; }
+inline void store(std::int64_t value, std::int32_t* to) { *to = static_cast<std::int32_t>(value); }
+/// Of numbers from 0 to 255.
+inline void store_codes(std::int64_t value, std::uint8_t* to) { *to = static_cast<std::uint8_t>(value); }
+
+/// Three floats of each lane's, which lie side by side in memory lane after lane.
+inline void load_threes(const float* from, float (&out)[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = from[i];
+}
+/// Each lane's four floats, from where its pointer says; and back.
+inline void load_fours(const float* const (&from)[1], float (&out)[4]) {
+  for (int i = 0; i < 4; ++i) out[i] = from[0][i];
+}
+inline void store_fours(const float (&values)[4], float* const (&to)[1]) {
+  for (int i = 0; i < 4; ++i) to[0][i] = values[i];
 }
 
 /// The value of one lane, for taps.

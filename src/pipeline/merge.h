@@ -12,7 +12,7 @@ namespace plumbline::pipeline {
 /// half to even (GL 2.1 spec 2.14.9), which a float holds exactly. The product is a float's of up to 12 bits: a colour
 /// within 2^-25 of half way between two codes may go to either. Of 16 bits it is exact. `scale` 0: float, as it is.
 template <class R>
-Color<R> merge(const Color<R>& color, float scale) {
+[[gnu::always_inline]] inline Color<R> merge(const Color<R>& color, float scale) {
   if (scale == 0.0f) return color;
   if (scale > 4095.0f) {
     const auto wide_code = [&](R value) { return to_float(round_even(to_wide(clamp01(value)) * Wide<R>(scale))); };

@@ -72,7 +72,7 @@ class DrawOfTriangle {
 
 class PipelineRenderer : public Renderer {
  public:
-  explicit PipelineRenderer(const Stages& stages) : stages_(stages) {}
+  PipelineRenderer(const Stages& stages, bool paints) : stages_(stages), paints_(paints) {}
 
   RendererInfo info() const override {
     RendererInfo info{"ours", PLUMBLINE_VERSION, {}, false};
@@ -84,13 +84,14 @@ class PipelineRenderer : public Renderer {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     Capture out = empty_capture(scene);
     if (scene.frame.antialias.kind != Antialias::Kind::none) {
-      const std::vector<Frame> passes = render_passes(scene, stages_);
+      std::vector<Frame> passes;
+      for (const Scene& pass : passes_of(scene)) passes.push_back(picture(pass));
       out.planes = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame));
       for (const Frame& pass : passes) out.samples.push_back(planes_of_frame(pass, formats_of(scene.frame)).color);
       return out;
     }
     if (request.planes == WantedPlanes::picture && !request.records.any()) {
-      out.planes = planes_of_frame(render(scene, stages_), formats_of(scene.frame));
+      out.planes = planes_of_frame(picture(scene), formats_of(scene.frame));
       return out;
     }
     const Geometry geometry = run_geometry(scene, stages_.geometry);
@@ -321,11 +322,18 @@ class PipelineRenderer : public Renderer {
     out.planes.color = std::move(color);
   }
 
+  Frame picture(const Scene& scene) const { return paints_ ? render(scene) : render(scene, stages_); }
+
   Stages stages_;
+  bool paints_;
 };
 
 }  // namespace
 
-std::unique_ptr<Renderer> make_pipeline(const Stages& stages) { return std::make_unique<PipelineRenderer>(stages); }
+std::unique_ptr<Renderer> make_pipeline() { return std::make_unique<PipelineRenderer>(production_stages(), true); }
+
+std::unique_ptr<Renderer> make_pipeline(const Stages& stages) {
+  return std::make_unique<PipelineRenderer>(stages, false);
+}
 
 }  // namespace plumbline::pipeline

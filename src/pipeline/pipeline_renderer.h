@@ -9,6 +9,9 @@
 namespace plumbline::pipeline {
 
 /// Name "ours". Shows and runs every stage; resolve shows in antialiased scenes alone.
-std::unique_ptr<Renderer> make_pipeline(const Stages& stages = production_stages());
+/// Pictures are the painter's (painter.h), what is watched its definition's: the same bits.
+std::unique_ptr<Renderer> make_pipeline();
+/// Of other stage functions.
+std::unique_ptr<Renderer> make_pipeline(const Stages& stages);
 
 }  // namespace plumbline::pipeline

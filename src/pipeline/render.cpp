@@ -1,19 +1,12 @@
 #include "pipeline/render.h"
 
-#include "pipeline/draw_simd.h"
+#include "pipeline/painter.h"
 
 namespace plumbline::pipeline {
 
-Stages production_stages() {
-  Stages out{geometry_stages(), fragment_functions<FragmentStages>()};
-  out.fragment.draw = [draw_tile = simd_targets().back().draw_tile](const DrawList& list, const FrameFormat& format,
-                                                                    Frame& frame, NoTap&) {
-    draw_frame(draw_tile, list, format, frame);
-  };
-  return out;
-}
+Stages production_stages() { return {geometry_stages(), fragment_functions<FragmentStages>()}; }
 
-Frame render(const Scene& scene) { return render(scene, production_stages()); }
+Frame render(const Scene& scene) { return std::move(Painter().draw(scene)); }
 
 std::vector<Frame> render_passes(const Scene& scene, const Stages& stages) {
   std::vector<Frame> frames;

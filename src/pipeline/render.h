@@ -82,9 +82,9 @@ Stages production_stages();
 
 /// The frames of an antialiased scene's passes.
 std::vector<Frame> render_passes(const Scene& scene, const Stages& stages);
-/// Draws the scene.
-Frame render(const Scene& scene);
-/// Draws it with other stage functions.
+/// Draws the scene, stage by stage as these functions do.
 Frame render(const Scene& scene, const Stages& stages);
+/// Draws it as fast as this machine can (painter.h): the same bits.
+Frame render(const Scene& scene);
 
 }  // namespace plumbline::pipeline

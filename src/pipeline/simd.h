@@ -9,6 +9,7 @@
 
 namespace plumbline::pipeline {
 namespace PLUMBLINE_TARGET {
+namespace {  // so that what is made of these types is the object file's own
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -35,6 +36,12 @@ struct SimdMask {
   friend SimdMask operator|(SimdMask a, SimdMask b) { return {hn::Or(a.m, b.m)}; }
 };
 inline bool any(SimdMask mask) { return !hn::AllFalse(kFloats, mask.m); }
+inline bool all(SimdMask mask) { return hn::AllTrue(kFloats, mask.m); }
+inline unsigned bits_of(SimdMask mask) {
+  std::uint8_t bytes[8] = {};  // Highway writes whole bytes, as many as the lanes need
+  hn::StoreMaskBits(kFloats, mask.m, bytes);
+  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
+}
 
 /// One float a lane.
 struct Simd {
@@ -137,7 +144,10 @@ inline Simd to_float(SimdInt i) { return hn::ConvertTo(kFloats, i.v); }
 inline Simd round_even(Simd f) { return (f + 12582912.0f) - 12582912.0f; }
 inline SimdWide round_even(SimdWide w) { return (w + 6755399441055744.0) - 6755399441055744.0; }
 
-inline void store(SimdMask mask, Simd value, float* to) { hn::BlendedStore(value.v, mask.m, kFloats, to); }
+// Not by masked stores, which are slow on some machines: the tile is one thread's own.
+inline void store(SimdMask mask, Simd value, float* to) {
+  hn::StoreU(hn::IfThenElse(mask.m, value.v, hn::LoadU(kFloats, to)), kFloats, to);
+}
 inline void store(SimdMask mask, SimdInt value, std::uint8_t* to) {
   const SimdInt held = hn::PromoteTo(kInts, hn::LoadU(kBytes, to));
   hn::StoreU(hn::DemoteTo(kBytes, select(mask, value, held).v), kBytes, to);
@@ -150,6 +160,108 @@ inline SimdInt to_int(SimdWide w) {
 }
 
 inline Simd square_root(Simd f) { return hn::Sqrt(f.v); }
+inline void store(Simd value, float* to) { hn::StoreU(value.v, kFloats, to); }
+inline void store(SimdInt value, std::int32_t* to) { hn::StoreU(value.v, kInts, to); }
+inline void store(SimdWide value, double* to) {
+  hn::StoreU(value.low, kDoubles, to);
+  hn::StoreU(value.high, kDoubles, to + kHalf);
+}
+inline void store_codes(SimdInt value, std::uint8_t* to) { hn::StoreU(hn::DemoteTo(kBytes, value.v), kBytes, to); }
+inline void store_packed(SimdMask mask, SimdInt value, std::uint32_t* to) {
+  auto* ints = reinterpret_cast<std::int32_t*>(to);
+  hn::StoreU(select(mask, value, SimdInt(hn::LoadU(kInts, ints))).v, kInts, ints);
+}
+
+inline bool any(WideMask mask) { return !hn::AllFalse(kDoubles, mask.low) || !hn::AllFalse(kDoubles, mask.high); }
+inline bool all(WideMask mask) { return hn::AllTrue(kDoubles, mask.low) && hn::AllTrue(kDoubles, mask.high); }
+inline SimdInt greater_of(SimdInt a, SimdInt b) { return hn::Max(a.v, b.v); }
+inline SimdInt lesser_of(SimdInt a, SimdInt b) { return hn::Min(a.v, b.v); }
+template <int n>
+SimdInt shifted_left(SimdInt value) {
+  return hn::ShiftLeft<n>(value.v);
+}
+template <int n>
+SimdInt shifted_right(SimdInt value) {
+  return hn::ShiftRight<n>(value.v);
+}
+inline SimdInt as_int(Simd value) { return hn::BitCast(kInts, value.v); }
+inline Simd as_float(SimdInt bits) { return hn::BitCast(kFloats, bits.v); }
+/// Four whole numbers from 0 to 255: 1.5 * 2^23 more, and the bits of the sum are the number's, and a constant.
+inline SimdInt packed_codes(Simd r, Simd g, Simd b, Simd a) {
+  constexpr std::uint32_t kBits = 0x4b400000, kAll = kBits + (kBits << 8) + (kBits << 16) + (kBits << 24);
+  const auto bits = [](Simd code) { return as_int(code + 12582912.0f); };
+  const SimdInt sum = bits(r) + shifted_left<8>(bits(g) + shifted_left<8>(bits(b) + shifted_left<8>(bits(a))));
+  return sum - SimdInt(static_cast<std::int32_t>(kAll));
+}
+inline SimdInt nearest_int(Simd value) { return hn::NearestInt(value.v); }
+
+#if HWY_NATIVE_FMA
+inline Simd fused(Simd a, Simd b, Simd c) { return hn::MulAdd(a.v, b.v, c.v); }
+inline SimdWide fused(SimdWide a, SimdWide b, SimdWide c) {
+  return {hn::MulAdd(a.low, b.low, c.low), hn::MulAdd(a.high, b.high, c.high)};
+}
+#else
+inline Simd fused(Simd a, Simd b, Simd c) {
+  HWY_ALIGN float of[3][kWidth];
+  store(a, of[0]), store(b, of[1]), store(c, of[2]);
+  for (int i = 0; i < kWidth; ++i) of[0][i] = std::fma(of[0][i], of[1][i], of[2][i]);
+  return hn::Load(kFloats, of[0]);
+}
+inline SimdWide fused(SimdWide a, SimdWide b, SimdWide c) {
+  HWY_ALIGN double of[3][kWidth];
+  store(a, of[0]), store(b, of[1]), store(c, of[2]);
+  for (int i = 0; i < kWidth; ++i) of[0][i] = std::fma(of[0][i], of[1][i], of[2][i]);
+  return {hn::Load(kDoubles, of[0]), hn::Load(kDoubles, of[0] + kHalf)};
+}
+#endif
+
+// Fours go by blocks of 128 bits: four lanes a block, transposed in place.
+inline constexpr hn::FixedTag<float, 4> kBlockFloats{};
+inline constexpr hn::FixedTag<std::uint32_t, 4> kBlockCodes{};
+template <class Block>
+FloatVector of_blocks(Block block) {
+  if constexpr (kWidth == 4) {
+    return block(0);
+  } else if constexpr (kWidth == 8) {
+    return hn::Combine(kFloats, block(4), block(0));
+  } else {
+    return hn::Combine(kFloats, hn::Combine(kHalfFloats, block(12), block(8)),
+                       hn::Combine(kHalfFloats, block(4), block(0)));
+  }
+}
+inline void transpose_fours(const Simd (&in)[4], Simd (&out)[4]) {
+  const auto wide = [](FloatVector v) { return hn::BitCast(kDoubles, v); };
+  const auto low = hn::InterleaveLower(kFloats, in[0].v, in[1].v),
+             high = hn::InterleaveUpper(kFloats, in[0].v, in[1].v);
+  const auto low2 = hn::InterleaveLower(kFloats, in[2].v, in[3].v),
+             high2 = hn::InterleaveUpper(kFloats, in[2].v, in[3].v);
+  out[0] = hn::BitCast(kFloats, hn::InterleaveLower(kDoubles, wide(low), wide(low2)));
+  out[1] = hn::BitCast(kFloats, hn::InterleaveUpper(kDoubles, wide(low), wide(low2)));
+  out[2] = hn::BitCast(kFloats, hn::InterleaveLower(kDoubles, wide(high), wide(high2)));
+  out[3] = hn::BitCast(kFloats, hn::InterleaveUpper(kDoubles, wide(high), wide(high2)));
+}
+[[gnu::always_inline]] inline void load_fours(const float* const (&from)[kWidth], Simd (&out)[4]) {
+  Simd rows[4];
+  for (int i = 0; i < 4; ++i) {
+    rows[i] = of_blocks([&](int lane) { return hn::LoadU(kBlockFloats, from[lane + i]); });
+  }
+  transpose_fours(rows, out);
+}
+[[gnu::always_inline]] inline void store_fours(const Simd (&values)[4], float* const (&to)[kWidth]) {
+  Simd rows[4];
+  transpose_fours(values, rows);
+  for (int i = 0; i < 4; ++i) {
+    HWY_ALIGN float lanes[kWidth];
+    hn::Store(rows[i].v, kFloats, lanes);
+    for (int block = 0; block < kWidth; block += 4) {
+      hn::StoreU(hn::Load(kBlockFloats, lanes + block), kBlockFloats, to[block + i]);
+    }
+  }
+}
+inline void load_threes(const float* from, Simd (&out)[3]) {
+  hn::LoadInterleaved3(kFloats, from, out[0].v, out[1].v, out[2].v);
+}
+
 inline SimdWide mantissa_of(SimdWide w) {
   const auto of = [](DoubleVector v) {
     const auto fraction = hn::And(hn::BitCast(kLongs, v), hn::Set(kLongs, 0xfffffffffffff));
@@ -171,6 +283,7 @@ inline SimdWide power_of_two(SimdWide n) {
   return {of(biased.low), of(biased.high)};
 }
 
+}  // namespace
 }  // namespace PLUMBLINE_TARGET
 
 template <>
@@ -192,12 +305,43 @@ inline PLUMBLINE_TARGET::SimdInt load_codes<PLUMBLINE_TARGET::Simd>(const std::u
 }
 
 template <>
-inline Pixels<PLUMBLINE_TARGET::Simd> block_pixels<PLUMBLINE_TARGET::Simd>(int block_x, int block_y, int i) {
+inline PLUMBLINE_TARGET::SimdInt load_ints<PLUMBLINE_TARGET::Simd>(const std::int32_t* from) {
+  return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kInts, from);
+}
+template <>
+inline void stream_codes<PLUMBLINE_TARGET::Simd>(const std::uint32_t* from, std::uint32_t* to) {
+  using namespace PLUMBLINE_TARGET;
+  hn::Stream(hn::Load(kBlockCodes, from), kBlockCodes, to);
+}
+template <>
+inline void stream_whole<PLUMBLINE_TARGET::Simd>(const float* from, std::uint32_t* to) {
+  using namespace PLUMBLINE_TARGET;
+  const hn::FixedTag<std::int32_t, 4> ints;
+  hn::Stream(hn::BitCast(kBlockCodes, hn::ConvertTo(ints, hn::Load(kBlockFloats, from))), kBlockCodes, to);
+}
+template <>
+inline PLUMBLINE_TARGET::SimdInt load_packed<PLUMBLINE_TARGET::Simd>(const std::uint32_t* from) {
+  return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kInts, reinterpret_cast<const std::int32_t*>(from));
+}
+
+template <>
+[[gnu::always_inline]] inline Pixels<PLUMBLINE_TARGET::Simd> block_pixels<PLUMBLINE_TARGET::Simd>(int block_x,
+                                                                                                  int block_y, int i) {
   using namespace PLUMBLINE_TARGET;
   const SimdInt number = SimdInt(hn::Iota(kInts, 0)) + SimdInt(i);
   const SimdInt x = SimdInt(block_x) + (number & SimdInt(kBlock - 1));
   const SimdInt y = SimdInt(block_y) + SimdInt(hn::ShiftRight<2>(number.v));
-  return {x, y, to_wide(x) + 0.5, to_wide(y) + 0.5};
+  // Halves that are equal are one value, so that what is made of them is made once.
+  HWY_ALIGN static constexpr double kX[2 * kBlock] = {.5, 1.5, 2.5, 3.5, .5, 1.5, 2.5, 3.5};
+  HWY_ALIGN static constexpr double kY[kBlockPixels] = {.5,  .5,  .5,  .5,  1.5, 1.5, 1.5, 1.5,
+                                                        2.5, 2.5, 2.5, 2.5, 3.5, 3.5, 3.5, 3.5};
+  const auto x0 = hn::Set(kDoubles, block_x), y0 = hn::Set(kDoubles, block_y);
+  SimdWide x_win, y_win;
+  x_win.low = hn::Add(x0, hn::LoadU(kDoubles, kX));
+  x_win.high = kHalf < kBlock ? hn::Add(x0, hn::LoadU(kDoubles, kX + kHalf)) : x_win.low;
+  y_win.low = hn::Add(y0, hn::LoadU(kDoubles, kY + i));
+  y_win.high = kHalf < kBlock ? y_win.low : hn::Add(y0, hn::LoadU(kDoubles, kY + i + kHalf));
+  return {x, y, x_win, y_win};
 }
 
 }  // namespace plumbline::pipeline

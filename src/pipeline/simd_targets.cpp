@@ -1,34 +1,25 @@
 #include <array>
 
 #include "pipeline/draw_simd.h"
+#include "pipeline/paint_tile.h"
+#include "pipeline/paint_vertices.h"
 
 namespace plumbline::pipeline {
 
-namespace {
-
-void draw_tile_float(const TileList& work, std::size_t number_of_tile, Tile& tile) {
-  NoTap tap;
-  draw_tile<float>(FragmentStages(), work, number_of_tile, tile, tap);
-}
-
-}  // namespace
-
-void draw_tile_sse4(const TileList& work, std::size_t number_of_tile, Tile& tile);
-void draw_tile_avx2(const TileList& work, std::size_t number_of_tile, Tile& tile);
+void paint_vertices_sse4(const VertexWork& work, std::size_t from, std::size_t to);
+void paint_vertices_avx2(const VertexWork& work, std::size_t from, std::size_t to);
+void paint_tile_sse4(const Painting& painting, int number, TileMemory& memory, Frame& frame);
+void paint_tile_avx2(const Painting& painting, int number, TileMemory& memory, Frame& frame);
 
 std::span<const SimdTarget> simd_targets() {
-  static constexpr std::array<SimdTarget, 3> kTargets = {
-      {{"float", draw_tile_float}, {"sse4", draw_tile_sse4}, {"avx2", draw_tile_avx2}}};
+  static constexpr std::array<SimdTarget, 3> kTargets = {{{"float", paint_vertices<float>, paint_tile<float>},
+                                                          {"sse4", paint_vertices_sse4, paint_tile_sse4},
+                                                          {"avx2", paint_vertices_avx2, paint_tile_avx2}}};
   __builtin_cpu_init();
   const bool has_sse4 = __builtin_cpu_supports("sse4.2") != 0;
   const bool has_avx2 = has_sse4 && __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
                         __builtin_cpu_supports("bmi2") != 0;
   return std::span(kTargets).first(has_avx2 ? 3 : has_sse4 ? 2 : 1);
-}
-
-void draw_frame(DrawTile draw_tile, const DrawList& list, const FrameFormat& format, Frame& frame) {
-  const TileList work = tile_list(list, format);
-  each_tile(work, frame, [&](std::size_t number, Tile& tile) { draw_tile(work, number, tile); });
 }
 
 }  // namespace plumbline::pipeline

@@ -32,37 +32,20 @@ Bins bin(std::span<const WindowTriangle<float>> triangles, const FrameFormat& fr
 
 Formats formats_of(const FrameFormat& frame);
 void clear(Tile& tile, const FrameFormat& frame, const Formats& formats);
+void clear(PackedTile& tile, const FrameFormat& frame, const Formats& formats);
 /// Copies the tile's part of the frame out of its blocks.
 void write_out(const Tile& tile, Frame& frame);
+void write_out(const PackedTile& tile, Frame& frame);
 
-/// Which pixels of the tile a triangle covers, Lanes<R>::width at a time: visit(pixels, which of them, their place in
-/// the tile).
-template <class R>
-struct CoveredPixels {
-  template <class Stages>
-  static void visit(const Stages& stages, const SetupOf<Stages>& s, const Tile& tile, auto visit) {
-    const int x0 = std::max(s.bounds.x0, tile.x0) & ~(kBlock - 1), x1 = std::min(s.bounds.x1, tile.x0 + kTile);
-    const int y0 = std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1), y1 = std::min(s.bounds.y1, tile.y0 + kTile);
-    for (int y = y0; y < y1; y += kBlock) {
-      for (int x = x0; x < x1; x += kBlock) {
-        for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
-          const Pixels<R> p = block_pixels<R>(x, y, i);
-          const Mask<R> covered = stages.template coverage<R>(s, p);
-          if (any(covered)) visit(p, covered, tile.offset(x, y) + i);
-        }
-      }
-    }
-  }
-};
-
+/// `varying`: each of a surface's varyings at the triangle's corners.
 template <class R, class Stages, class Tap>
 void draw_triangle(const Stages& stages, const BlockState& state, const WindowTriangle<float>& triangle,
-                   std::uint32_t number, const Formats& formats, Tile& tile, Tap& tap) {
+                   std::uint32_t number, const auto& varying, const Formats& formats, auto& tile, Tap& tap) {
   SetupOf<Stages> s = set_up(stages, triangle, number, state.depth, formats.sample, tile.x0, tile.y0);
   SurfaceSetup surface;
   if constexpr (Stages::has_surfaces) {
     if (state.surface != nullptr) {
-      surface = set_up_surface(stages, *state.surface, triangle, number, s.planes);
+      surface = set_up_surface(stages, *state.surface, triangle, number, varying, s.planes);
       s.surface = &surface;
     }
   }
@@ -72,9 +55,18 @@ void draw_triangle(const Stages& stages, const BlockState& state, const WindowTr
     }
     return;
   }
-  CoveredPixels<R>::visit(stages, s, tile, [&](const Pixels<R>& p, Mask<R> covered, int place) {
-    covered_pixels<R>(stages, state, s, p, covered, place, formats.color_scale, tile, tap);
-  });
+  const int x0 = std::max(s.bounds.x0, tile.x0) & ~(kBlock - 1), x1 = std::min(s.bounds.x1, tile.x0 + kTile);
+  const int y0 = std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1), y1 = std::min(s.bounds.y1, tile.y0 + kTile);
+  for (int y = y0; y < y1; y += kBlock) {
+    for (int x = x0; x < x1; x += kBlock) {
+      for (int i = 0; i < kBlockPixels; i += Lanes<R>::width) {
+        const Pixels<R> p = block_pixels<R>(x, y, i);
+        const Mask<R> covered = stages.template coverage<R>(s, p);
+        const int place = tile.offset(x, y) + i;
+        if (any(covered)) covered_pixels<R>(stages, state, s, p, covered, place, formats.color_scale, tile, tap);
+      }
+    }
+  }
 }
 
 /// All that the tiles of a frame are drawn from.
@@ -95,7 +87,10 @@ void draw_tile(const Stages& stages, const TileList& work, std::size_t number_of
   for (std::size_t i = work.bins.first[number_of_tile]; i < work.bins.first[number_of_tile + 1]; ++i) {
     const std::uint32_t number = work.bins.numbers[i];
     while (number >= list.first_triangle[draw + 1]) ++draw;
-    draw_triangle<R>(stages, work.state_of[draw], list.triangles[number], number, work.formats, tile, tap);
+    const auto varying = [&](Varying v) -> const std::array<Vec4<float>, 3>& {
+      return work.state_of[draw].surface->columns[static_cast<std::size_t>(v)][number];
+    };
+    draw_triangle<R>(stages, work.state_of[draw], list.triangles[number], number, varying, work.formats, tile, tap);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "../extent.h"
-#include "pipeline/draw_simd.h"
+#include "pipeline/painter.h"
 #include "pipeline/render.h"
 #include "pipeline/window.h"
 #include "scene/antialias.h"
@@ -29,74 +29,21 @@ bool same_bits(const Frame& a, const Frame& b) {
          same_bits(a.stencil, b.stencil);
 }
 
-Frame drawn(const Scene& scene, const SimdTarget& target) {
-  const Geometry geometry = run_geometry(scene, geometry_stages());
-  const std::vector<Surface> surfaces = surfaces_of(scene, geometry.records);
-  Frame frame(scene.frame);
-  draw_frame(target.draw_tile,
-             {geometry.records.triangles, geometry.first_triangle, scene.draws, surfaces, scene.depth_clamp},
-             scene.frame, frame);
-  return frame;
-}
-
-TEST(SimdTargets, DrawEverySceneAsFloatDoes) {
+TEST(SimdTargets, DrawEverySceneAsItsDefinitionDoes) {
   const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   const std::vector<std::filesystem::path> files = find_scenes(folder);
+  const Stages stages = production_stages();
   std::size_t compared = 0;
   for (std::size_t i = 0; i < files.size(); i += one_of(3)) {
     for (const Scene& pass : passes_of(load_scene(files[i], {}))) {
-      const Frame definition = drawn(pass, simd_targets()[0]);
-      for (const SimdTarget& target : simd_targets().subspan(1)) {
-        EXPECT_TRUE(same_bits(drawn(pass, target), definition)) << target.name << ", " << files[i];
+      const Frame definition = render(pass, stages);
+      for (const SimdTarget& target : simd_targets()) {
+        EXPECT_TRUE(same_bits(Painter(1, target).draw(pass), definition)) << target.name << ", " << files[i];
         ++compared;
       }
     }
   }
-  std::printf("%zu frames compared, by %zu targets\n", compared, simd_targets().size() - 1);
-}
-
-// Corners as far away as stage 4 lets them be (window.h), where an edge's steps do not fit 32 bits.
-TEST(SimdTargets, DrawTrianglesOfFarCornersAsFloatDoes) {
-  FrameFormat format;
-  format.width = format.height = 130;
-  const std::vector<Draw> draws(1);
-  const float far = 1 << 20;
-  const glm::vec2 corners[][3] = {{{-far, 3}, {far, 70}, {60, far}},
-                                  {{far, -far}, {far, far}, {64.5f, 64.25f}},
-                                  {{-far, -far}, {far, 128}, {-far, far}},
-                                  {{0.5f, -far}, {130, far}, {-20, far}}};
-  for (const auto& c : corners) {
-    WindowTriangle<float> t{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      t.v[k].p_win = {c[k].x, c[k].y, 0.25f * static_cast<float>(k)};
-      t.v[k].inv_w = 1;
-      t.v[k].color = {0.5f * static_cast<float>(k), 1, 0.25f, 1};
-      t.v[k].snapped = {snap(c[k].x), snap(c[k].y)};
-    }
-    t.front = snapped_area(t) > 0;
-    const std::vector<WindowTriangle<float>> triangles = {t};
-    const std::vector<std::uint32_t> first = {0, 1};
-    const DrawList list{triangles, first, draws};
-    Frame definition(format), clear(format);
-    draw_frame(simd_targets()[0].draw_tile, list, format, definition);
-    const std::vector<std::uint32_t> none = {0, 0};
-    draw_frame(simd_targets()[0].draw_tile, {{}, none, draws}, format, clear);
-    EXPECT_FALSE(same_bits(definition, clear)) << "it covers pixels";
-    for (const SimdTarget& target : simd_targets().subspan(1)) {
-      Frame frame(format);
-      draw_frame(target.draw_tile, list, format, frame);
-      EXPECT_TRUE(same_bits(frame, definition)) << target.name << ", corner " << c[0].x;
-    }
-  }
-}
-
-TEST(SimdTargets, TheWidestIsWhatDraws) {
-  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/coverage/shared_edges.json", {});
-  EXPECT_EQ(simd_targets()[0].name, "float");
-  Frame other = drawn(scene, simd_targets()[0]);
-  EXPECT_TRUE(same_bits(render(scene), other));
-  other.depth_code(3, 3) ^= 1;
-  EXPECT_FALSE(same_bits(render(scene), other)) << "one step";
+  std::printf("%zu frames compared, by %zu targets\n", compared, simd_targets().size());
 }
 
 // What the linker may put in the place of others of its name is this target's own.

@@ -1,0 +1,306 @@
+#include "pipeline/painter.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "pipeline/assemble.h"
+#include "pipeline/draw.h"
+#include "pipeline/fragment_light.h"
+#include "pipeline/matrices.h"
+#include "pipeline/resolve.h"
+#include "pipeline/surface.h"
+#include "scene/antialias.h"
+
+namespace plumbline::pipeline {
+
+namespace {
+
+// Whether a draw's vertices go through stages 1, 2 and 4 in lanes; the others' through their definition.
+bool goes_in_lanes(const Scene& scene, const Draw& draw) {
+  const Mesh& mesh = scene.meshes[draw.mesh];
+  const bool by_color = draw.color_material != ColorMaterial::none && !mesh.colors.empty();
+  return mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
+         draw.back_mode == PolygonMode::fill && !(is_lit_per_vertex(draw) && by_color) &&
+         !carries(scene, draw, Varying::back_color) && !carries(scene, draw, Varying::back_secondary);
+}
+
+// ((a x + b y) + c z) + d w: as vertex.cpp's.
+Mat4<float> product(const Mat4<float>& p, const Mat4<float>& m) {
+  Mat4<float> out;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      out[column][row] =
+          ((p[0][row] * m[column][0] + p[1][row] * m[column][1]) + p[2][row] * m[column][2]) + p[3][row] * m[column][3];
+    }
+  }
+  return out;
+}
+
+bool same_planes(const FrameFormat& a, const FrameFormat& b) {
+  return a.width == b.width && a.height == b.height && a.color == b.color && a.depth == b.depth &&
+         (a.stencil == StencilFormat::none) == (b.stencil == StencilFormat::none);
+}
+
+}  // namespace
+
+struct Painter::Memory {
+  Memory(int thread_count, const SimdTarget& of) : threads(thread_count), target(of), arena(thread_count) {
+    for (int i = 0; i < threads; ++i) tiles.push_back(std::make_unique<TileMemory>());
+  }
+
+  void draw_pass(const Scene& scene, Frame& to);
+
+  // f(0) to f(count - 1), on the threads.
+  template <class F>
+  void each(std::size_t count, F f) {
+    if (threads == 1) {
+      for (std::size_t i = 0; i < count; ++i) f(i);
+      return;
+    }
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, f, tbb::simple_partitioner()); });
+  }
+
+  void prepare(const Scene& scene);
+  void run_vertices(const Scene& scene);
+  void run_others(const Scene& scene);
+  void run_triangles(const Scene& scene);
+  void run_tiles(Frame& to);
+
+  const int threads;
+  const SimdTarget& target;
+  tbb::task_arena arena;
+  std::vector<std::unique_ptr<TileMemory>> tiles;
+
+  Painting painting{};
+  std::vector<DrawRange> ranges;
+  std::vector<Surface> surfaces;
+  std::vector<PaintDraw> draws;
+  std::vector<Illumination> illumination;  // one, where any vertex is lit
+  std::vector<VertexWork> vertex_work;
+  struct Share {
+    std::size_t draw, from, to;
+  };
+  std::vector<Share> shares;
+  std::vector<AssemblyWork> assembly;
+  std::vector<OtherTriangles> others;
+  Geometry other_geometry;
+  std::vector<Chunk> chunks;
+  Scratch<WindowVertex<float>> vertices;
+  Scratch<std::uint8_t> outside;
+  std::array<Scratch<Vec4<float>>, kVaryings> varyings;
+  std::size_t vertex_count = 0;
+
+  std::optional<FrameFormat> format;
+  std::unique_ptr<Frame> frame;
+};
+
+void Painter::Memory::prepare(const Scene& scene) {
+  painting.format = scene.frame;
+  painting.formats = formats_of(scene.frame);
+  painting.columns = (scene.frame.width + kTile - 1) / kTile;
+  painting.rows = (scene.frame.height + kTile - 1) / kTile;
+  ranges = draw_ranges(scene);
+  surfaces = surfaces_of(scene, {});
+  draws.clear();
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const Draw& draw = scene.draws[d];
+    const BlockState state{depth_state(draw, scene.frame.depth, scene.depth_clamp),
+                           draw.depth_func,
+                           draw.scissor,
+                           draw.alpha_test,
+                           draw.stencil,
+                           draw.merge,
+                           surfaces[d].plain() ? nullptr : &surfaces[d]};
+    draws.push_back({state, ReplacingState::describes(state), draw.shading == Shading::flat});
+  }
+  painting.draws = draws;
+}
+
+// Stages 0, 1, 2 and 4.
+void Painter::Memory::run_vertices(const Scene& scene) {
+  illumination.clear();
+  illumination.push_back(pipeline::illumination(scene));
+  vertex_work.clear();
+  shares.clear();
+  assembly.clear();
+  vertex_count = ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count;
+  WindowVertex<float>* to = vertices.of(vertex_count);
+  std::uint8_t* outside_of = outside.of(vertex_count);
+  for (const Varying v : kAllVaryings) {
+    const auto i = static_cast<std::size_t>(v);
+    const bool wanted = !is_back(v) && std::any_of(scene.draws.begin(), scene.draws.end(),
+                                                   [&](const Draw& d) { return carries(scene, d, v); });
+    if (wanted) varyings[i].of(vertex_count);
+  }
+  constexpr std::size_t kShare = 2048;
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const Draw& draw = scene.draws[d];
+    const Mesh& mesh = scene.meshes[draw.mesh];
+    const DrawRange& range = ranges[d];
+    const unsigned planes = scene.depth_clamp ? 0xfu : 0x3fu;
+    const bool in_lanes = goes_in_lanes(scene, draw);
+    assembly.push_back({&draw, &mesh, range, static_cast<std::uint8_t>(planes), range.first_vertex,
+                        in_lanes ? outside_of + range.first_vertex : nullptr});
+    VertexWork work{};
+    work.mesh = &mesh;
+    work.matrices = matrices(scene, draw);
+    work.to_clip = product(work.matrices.projection, work.matrices.model_view);
+    const Vec3<float>& third = work.matrices.normal[2];
+    work.normal_divisor = draw.normals == Normals::normalize ? 0.0f
+                          : draw.normals == Normals::rescale
+                              ? std::sqrt((third.x * third.x + third.y * third.y) + third.z * third.z)
+                              : 1.0f;
+    if (is_lit_per_vertex(draw)) {
+      work.illumination = &illumination[0];
+      work.reflectance = reflectance(scene, lit_material(scene, draw, {}, nullptr));
+      work.secondary = reflectance(scene, lit_material(scene, draw, {false, true}, nullptr));
+    }
+    work.color = glm::clamp(draw.material.diffuse, 0.0f, 1.0f);
+    work.wants_normals = is_lit_per_vertex(draw) || carries(scene, draw, Varying::normal);
+    work.out = to + range.first_vertex;
+    work.outside = outside_of + range.first_vertex;
+    for (const Varying v : kAllVaryings) {
+      const auto i = static_cast<std::size_t>(v);
+      if (!is_back(v) && carries(scene, draw, v)) work.varyings[i] = varyings[i].data() + range.first_vertex;
+    }
+    vertex_work.push_back(work);
+    for (std::size_t from = 0; in_lanes && from < range.vertex_count; from += kShare) {
+      shares.push_back({d, from, std::min<std::size_t>(from + kShare, range.vertex_count)});
+    }
+  }
+  each(shares.size(),
+       [&](std::size_t i) { target.vertices(vertex_work[shares[i].draw], shares[i].from, shares[i].to); });
+}
+
+// What does not go in lanes, as a scene of its own through the definition's stages 0 to 4.
+void Painter::Memory::run_others(const Scene& scene) {
+  Scene rest;
+  std::vector<std::uint32_t> primitives;  // of the rest, in the scene
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const AssemblyWork& work = assembly[d];
+    std::vector<std::uint32_t> of_draw;
+    for (std::uint32_t i = 0; i < work.range.primitive_count; ++i) {
+      const glm::uvec3& c = work.mesh->triangles[i];
+      const auto clipped = [&] {
+        const std::uint8_t a = work.outside[c[0]], b = work.outside[c[1]], e = work.outside[c[2]];
+        return ((a | b | e) & work.planes) != 0 && (a & b & e & work.planes) == 0 && ((a | b | e) & kNotFinite) == 0;
+      };
+      if (work.outside == nullptr || clipped()) of_draw.push_back(i);
+    }
+    if (of_draw.empty()) continue;
+    Mesh mesh;
+    mesh.topology = work.mesh->topology;
+    for (const std::uint32_t i : of_draw) {
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      const std::uint32_t corners = corner_count(mesh.topology);
+      for (std::uint32_t k = 0; k < corners; ++k) {
+        const std::uint32_t v = work.mesh->triangles[i][static_cast<int>(k)];
+        mesh.positions.push_back(work.mesh->positions[v]);
+        mesh.normals.push_back(work.mesh->normals[v]);
+        if (!work.mesh->colors.empty()) mesh.colors.push_back(work.mesh->colors[v]);
+        if (!work.mesh->texcoords.empty()) mesh.texcoords.push_back(work.mesh->texcoords[v]);
+      }
+      mesh.triangles.push_back({first, first + std::min(1u, corners - 1), first + corners - 1});
+      primitives.push_back(work.range.first_primitive + i);
+    }
+    rest.draws.push_back(*work.draw);
+    rest.draws.back().mesh = static_cast<std::uint32_t>(rest.meshes.size());
+    rest.meshes.push_back(std::move(mesh));
+  }
+  others.assign(scene.draws.size(), {});
+  if (primitives.empty()) return;
+  rest.dialect = scene.dialect;
+  rest.frame = scene.frame;
+  rest.camera = scene.camera;
+  rest.projection = scene.projection;
+  rest.depth_clamp = scene.depth_clamp;
+  rest.light_model = scene.light_model;
+  rest.lights = scene.lights;
+  other_geometry = run_geometry(rest, geometry_stages());
+  Records<float>& records = other_geometry.records;
+  const std::size_t corners = 3 * records.triangles.size();
+  WindowVertex<float>* to = vertices.of(vertex_count + corners, vertex_count);
+  for (std::size_t i = 0; i < records.triangles.size(); ++i) {
+    records.triangles[i].primitive = primitives[records.triangles[i].primitive];
+    std::copy(records.triangles[i].v.begin(), records.triangles[i].v.end(), to + vertex_count + 3 * i);
+  }
+  for (const Varying v : kAllVaryings) {
+    const auto& columns = records.varyings[v].triangles;
+    if (columns.empty() || is_back(v)) continue;
+    Vec4<float>* fours = varyings[static_cast<std::size_t>(v)].of(vertex_count + corners, vertex_count);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      std::copy(columns[i].begin(), columns[i].end(), fours + vertex_count + 3 * i);
+    }
+  }
+  const std::span<const WindowTriangle<float>> triangles(records.triangles);
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const auto from = [&](std::uint32_t primitive) {
+      return std::partition_point(triangles.begin(), triangles.end(),
+                                  [&](const WindowTriangle<float>& t) { return t.primitive < primitive; });
+    };
+    const auto begin = from(ranges[d].first_primitive);
+    const auto end = from(ranges[d].first_primitive + ranges[d].primitive_count);
+    others[d] = {{begin, end},
+                 static_cast<std::uint32_t>(vertex_count + 3 * static_cast<std::size_t>(begin - triangles.begin()))};
+  }
+}
+
+// Stages 3 and 4, in shares.
+void Painter::Memory::run_triangles(const Scene&) {
+  painting.vertices = vertices.data();
+  for (std::size_t i = 0; i < kVaryings; ++i) painting.varyings[i] = varyings[i].data();
+  const std::uint32_t primitives = ranges.empty() ? 0 : ranges.back().first_primitive + ranges.back().primitive_count;
+  constexpr std::uint32_t kFewest = 4096;
+  const std::uint32_t most = threads == 1 ? 1 : 4 * static_cast<std::uint32_t>(threads);
+  const std::uint32_t count = std::clamp(primitives / kFewest, 1u, most);
+  chunks.resize(std::max<std::size_t>(chunks.size(), count));
+  each(count, [&](std::size_t i) {
+    chunks[i].first_primitive = static_cast<std::uint32_t>(std::uint64_t{primitives} * i / count);
+    chunks[i].end_primitive = static_cast<std::uint32_t>(std::uint64_t{primitives} * (i + 1) / count);
+    assemble(chunks[i], assembly, others, painting);
+  });
+  painting.chunks = std::span(chunks).first(count);
+}
+
+void Painter::Memory::run_tiles(Frame& to) {
+  const int count = painting.columns * painting.rows;
+  std::atomic<int> next{0};
+  each(static_cast<std::size_t>(threads), [&](std::size_t worker) {
+    for (int tile = next++; tile < count; tile = next++) target.tile(painting, tile, *tiles[worker], to);
+  });
+}
+
+void Painter::Memory::draw_pass(const Scene& scene, Frame& to) {
+  prepare(scene);
+  run_vertices(scene);
+  run_others(scene);
+  run_triangles(scene);
+  run_tiles(to);
+}
+
+Painter::Painter(int threads, const SimdTarget& target) : memory_(std::make_unique<Memory>(threads, target)) {}
+Painter::~Painter() = default;
+
+Frame& Painter::draw(const Scene& scene) {
+  if (!memory_->frame || !memory_->format || !same_planes(*memory_->format, scene.frame) || memory_->frame->empty()) {
+    memory_->frame = std::make_unique<Frame>(scene.frame);
+    memory_->format = scene.frame;
+  }
+  if (scene.frame.antialias.kind == Antialias::Kind::none) {
+    memory_->draw_pass(scene, *memory_->frame);
+    return *memory_->frame;
+  }
+  std::vector<Frame> passes;
+  for (const Scene& pass : passes_of(scene)) {
+    Frame& frame = passes.emplace_back(pass.frame);
+    memory_->draw_pass(pass, frame);
+  }
+  *memory_->frame = resolve({}, scene.frame, passes);
+  return *memory_->frame;
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,109 @@
+// What the painter's steps hand on (painter.h): vertices in one array, triangles as three of its numbers, bins of
+// triangles' numbers. Its memory is kept from frame to frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "pipeline/light_equation.h"
+#include "pipeline/tiles.h"
+
+namespace plumbline::pipeline {
+
+/// Memory that only grows, and is not cleared.
+template <class T>
+class Scratch {
+ public:
+  /// At least `count` of them; what was there is lost where it had to grow, but for the first `kept`.
+  T* of(std::size_t count, std::size_t kept = 0) {
+    if (count > count_) {
+      auto grown = std::make_unique_for_overwrite<T[]>(count + count / 2);
+      std::copy(values_.get(), values_.get() + kept, grown.get());
+      values_ = std::move(grown);
+      count_ = count + count / 2;
+    }
+    return values_.get();
+  }
+  T* data() { return values_.get(); }
+  const T* data() const { return values_.get(); }
+  std::size_t bytes() const { return count_ * sizeof(T); }
+
+ private:
+  std::unique_ptr<T[]> values_;
+  std::size_t count_ = 0;
+};
+
+/// What of a mesh's vertex lies outside: a bit for each plane of the view volume (clip.h, in its order), and
+inline constexpr std::uint8_t kNotFinite = 1 << 6;    ///< a coordinate
+inline constexpr std::uint8_t kNotDrawable = 1 << 7;  ///< its place in the window (window.h)
+
+/// A draw whose vertices go through stages 1, 2 and 4 at once, as many as there are lanes.
+struct VertexWork {
+  const Mesh* mesh;
+  Matrices<float> matrices;
+  Mat4<float> to_clip;
+  float normal_divisor;  ///< 0: each normal's own length
+  bool wants_normals;
+  const Illumination* illumination;           ///< null: vertices have the mesh's colours, or `color`
+  Reflectance<float> reflectance, secondary;  ///< as LitPart
+  glm::vec4 color;
+  WindowVertex<float>* out;
+  std::uint8_t* outside;
+  std::array<Vec4<float>*, kVaryings> varyings;  ///< null: not carried
+};
+
+/// A window triangle (stages.h), its corners by number.
+struct PaintTriangle {
+  std::uint32_t corner[3];
+  bool front;
+  std::uint8_t corners;
+  std::uint16_t width;
+};
+/// The tiles that it touches, last ones included.
+struct TileBox {
+  std::uint8_t x0, y0, x1, y1;
+};
+
+/// A share of the scene's primitives, in draw order, and its own bins.
+struct Chunk {
+  std::uint32_t first_primitive, end_primitive;
+  Scratch<PaintTriangle> triangles;
+  Scratch<TileBox> boxes;
+  std::uint32_t count = 0;
+  struct OfDraw {
+    std::uint32_t draw, end;  ///< its triangles end there
+  };
+  std::vector<OfDraw> draws;
+  std::vector<std::uint32_t> first;  ///< tile t has [first[t], first[t + 1]) of numbers
+  Scratch<std::uint32_t> numbers;
+};
+
+/// A draw, as tiles want it.
+struct PaintDraw {
+  BlockState state;
+  bool replaces;  ///< ReplacingState describes it
+  bool flat;      ///< every corner has the provoking one's colour
+};
+
+/// All that the tiles of a frame are painted from.
+struct Painting {
+  FrameFormat format;
+  Formats formats;
+  int columns, rows;  ///< of tiles
+  const WindowVertex<float>* vertices;
+  std::array<const Vec4<float>*, kVaryings> varyings;  ///< beside vertices
+  std::span<const Chunk> chunks;
+  std::span<const PaintDraw> draws;
+};
+
+/// A thread's own.
+struct TileMemory {
+  alignas(64) Tile tile;
+  alignas(64) PackedTile packed;
+};
+
+}  // namespace plumbline::pipeline
