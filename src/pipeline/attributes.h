@@ -14,6 +14,7 @@ namespace plumbline::pipeline {
 struct AttributeSetup {
   float inv_w[3];
   Vec4<float> color0, d_color1, d_color2;  ///< corner 0's, and the others' differences from it
+  bool constant = false;                   ///< no differences
 };
 AttributeSetup attribute_setup(const WindowTriangle<float>& triangle);
 
@@ -41,6 +42,8 @@ template <class R>
 
 template <class R>
 [[gnu::always_inline]] inline Color<R> mean(const AttributeSetup& s, const Weights<R>& k) {
+  // + 0: -0 is 0, as it is where there are differences.
+  if (s.constant) return {s.color0[0] + 0.0f, s.color0[1] + 0.0f, s.color0[2] + 0.0f, s.color0[3] + 0.0f};
   const auto channel = [&](int i) { return s.color0[i] + k.k1 * s.d_color1[i] + k.k2 * s.d_color2[i]; };
   return {channel(0), channel(1), channel(2), channel(3)};
 }

@@ -116,30 +116,6 @@ struct BlockState {
   const Surface* surface;  ///< null: plain
 };
 
-/// That of a draw whose nearer fragments replace what is there, in a frame of z24: known when it is compiled.
-struct ReplacingState {
-  static bool describes(const BlockState& s) {
-    return s.depth_func == depth_func && !s.scissor && !s.alpha_test && !s.stencil && !s.merge.blend &&
-           !s.merge.logic_op && glm::all(s.merge.color_mask) && s.merge.depth_mask && s.surface == nullptr &&
-           s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 && s.depth.high == 1.0 &&
-           s.depth.offset == PolygonOffset{};
-  }
-  static constexpr std::optional<Scissor> scissor = std::nullopt;
-  static constexpr std::optional<AlphaTest> alpha_test = std::nullopt;
-  static constexpr std::optional<Stencil> stencil = std::nullopt;
-  struct Merge {
-    static constexpr std::optional<Blend> blend = std::nullopt;
-    static constexpr std::optional<LogicOp> logic_op = std::nullopt;
-    struct ColorMask {
-      static constexpr bool r = true, g = true, b = true, a = true;
-    };
-    static constexpr ColorMask color_mask{};
-    static constexpr bool depth_mask = true;
-  };
-  static constexpr Merge merge{};
-  static constexpr DepthFunc depth_func = DepthFunc::less;
-};
-
 /// Where the next pixels' values are: depth and colour in the frame's formats, as floats.
 struct Stored {
   float* depth;
@@ -151,7 +127,7 @@ struct Stored {
     return {load<R>(color[0]), load<R>(color[1]), load<R>(color[2]), load<R>(color[3])};
   }
   template <class R>
-  void store_color(Mask<R> kept, const Color<R>& merged, const auto& channels) const {
+  void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
     if (channels.r) store(kept, merged.r, color[0]);
     if (channels.g) store(kept, merged.g, color[1]);
     if (channels.b) store(kept, merged.b, color[2]);
@@ -171,7 +147,7 @@ struct StoredCodes {
             to_float(shifted_right<24>(held) & most)};
   }
   template <class R>
-  void store_color(Mask<R> kept, const Color<R>& merged, const auto& channels) const {
+  void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
     if (!channels.r && !channels.g && !channels.b && !channels.a) return;
     const Int<R> codes = packed_codes(merged.r, merged.g, merged.b, merged.a);
     if (channels.r && channels.g && channels.b && channels.a) return store_packed(kept, codes, color);
@@ -184,7 +160,7 @@ struct StoredCodes {
 
 /// Of the fragments `kept`, depth and colour into the frame.
 template <class R, class Stages>
-void write(const Stages& stages, const auto& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
+void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
            const auto& to) {
   if (state.depth_mask) store(kept, z, to.depth);
   const Color<R> merged = [&]() -> Color<R> {
@@ -296,6 +272,7 @@ struct PackedTile {
   alignas(64) float depth[kTile * kTile];
   alignas(64) std::uint32_t color[kTile * kTile];
   alignas(64) std::uint8_t stencil[kTile * kTile];
+  alignas(64) float farthest[kTile * kTile / kBlockPixels];  ///< of each block: none of its depths is greater
 
   int offset(int x, int y) const { return block_offset(x - x0, y - y0); }
   StoredCodes at(int place) { return {depth + place, color + place, stencil + place}; }
@@ -310,7 +287,7 @@ struct NoTap {
 
 // The scissor box, and stages 6 to 11, for the pixels `p`, which are stored from `place` on.
 template <class R, class Stages, class Tap>
-void covered_pixels(const Stages& stages, const auto& state, const auto& s, const Pixels<R>& p, Mask<R> covered,
+void covered_pixels(const Stages& stages, const BlockState& state, const auto& s, const Pixels<R>& p, Mask<R> covered,
                     int place, float color_scale, auto& tile, Tap& tap) {
   if (state.scissor) {
     covered = covered & stages.template scissor<R>(*state.scissor, p);

@@ -146,9 +146,10 @@ template <>
 inline std::int64_t load_packed<float>(const std::uint32_t* from) {
   return *from;
 }
-/// Of whole numbers from 0 to 255, the first in the lowest byte.
+/// Of numbers from 0 to 255, rounded half to even; the first in the lowest byte.
 inline std::int64_t packed_codes(float r, float g, float b, float a) {
-  return to_int(r) | to_int(g) << 8 | to_int(b) << 16 | to_int(a) << 24;
+  const auto code = [](float value) { return to_int(round_even(value)); };
+  return code(r) | code(g) << 8 | code(b) << 16 | code(a) << 24;
 }
 inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {
   if (mask) *to = static_cast<std::uint32_t>(value);
@@ -159,19 +160,6 @@ Int<R> load_ints(const std::int32_t* from);
 template <>
 inline std::int64_t load_ints<float>(const std::int32_t* from) {
   return *from;
-}
-/// Four pixels of a row, past the caches: their codes, and whole numbers as such. `to` lies at a multiple of 16.
-template <class R>
-void stream_codes(const std::uint32_t* from, std::uint32_t* to);
-template <class R>
-void stream_whole(const float* from, std::uint32_t* to);
-template <>
-inline void stream_codes<float>(const std::uint32_t* from, std::uint32_t* to) {
-  for (int i = 0; i < 4; ++i) to[i] = from[i];
-}
-template <>
-inline void stream_whole<float>(const float* from, std::uint32_t* to) {
-  for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint32_t>(from[i]);
 }
 /// All lanes, side by side.
 inline void store(float value, float* to) { *to = value; }
@@ -190,6 +178,22 @@ inline void load_fours(const float* const (&from)[1], float (&out)[4]) {
 }
 inline void store_fours(const float (&values)[4], float* const (&to)[1]) {
   for (int i = 0; i < 4; ++i) to[0][i] = values[i];
+}
+
+inline float greatest_lane(float value) { return value; }
+
+/// Columns and rows alone of block_pixels().
+template <class R>
+Wide<R> columns_of_block(int block_x, int i);
+template <class R>
+Wide<R> rows_of_block(int block_y, int i);
+template <>
+inline double columns_of_block<float>(int block_x, int i) {
+  return block_x + i % kBlock;
+}
+template <>
+inline double rows_of_block<float>(int block_y, int i) {
+  return block_y + i / kBlock;
 }
 
 /// The value of one lane, for taps.

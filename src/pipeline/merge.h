@@ -25,6 +25,13 @@ template <class R>
 template <class W>
 using Channels = std::array<W, 4>;
 
+/// The same of rgba8, packed.
+template <class R>
+[[gnu::always_inline]] inline Int<R> packed_merge(const Color<R>& color) {
+  const auto code = [](R value) { return clamp01(value) * R(255.0f); };
+  return packed_codes(code(color.r), code(color.g), code(color.b), code(color.a));
+}
+
 /// A blend factor's channels, times `unit`, so that those of the frame's colour are its codes and rounded nowhere.
 /// `source` in [0,1] and `stored` in codes, or both as they are, and unit 1.
 template <class W>

@@ -40,6 +40,15 @@ Mat4<float> product(const Mat4<float>& p, const Mat4<float>& m) {
   return out;
 }
 
+// Whether paint_opaque.h's kernel is for it.
+bool is_opaque(const Mesh& mesh, const Draw& draw, const BlockState& s) {
+  return mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
+         draw.back_mode == PolygonMode::fill && s.surface == nullptr && s.depth.format == DepthFormat::z24 &&
+         s.depth.low == 0.0 && s.depth.high == 1.0 && s.depth.offset == PolygonOffset{} &&
+         s.depth_func == DepthFunc::less && !s.scissor && !s.alpha_test && !s.stencil && !s.merge.blend &&
+         !s.merge.logic_op && glm::all(s.merge.color_mask) && s.merge.depth_mask;
+}
+
 bool same_planes(const FrameFormat& a, const FrameFormat& b) {
   return a.width == b.width && a.height == b.height && a.color == b.color && a.depth == b.depth &&
          (a.stencil == StencilFormat::none) == (b.stencil == StencilFormat::none);
@@ -115,7 +124,7 @@ void Painter::Memory::prepare(const Scene& scene) {
                            draw.stencil,
                            draw.merge,
                            surfaces[d].plain() ? nullptr : &surfaces[d]};
-    draws.push_back({state, ReplacingState::describes(state), draw.shading == Shading::flat});
+    draws.push_back({state, is_opaque(scene.meshes[draw.mesh], draw, state), draw.shading == Shading::flat});
   }
   painting.draws = draws;
 }
@@ -264,6 +273,8 @@ void Painter::Memory::run_triangles(const Scene&) {
     assemble(chunks[i], assembly, others, painting);
   });
   painting.chunks = std::span(chunks).first(count);
+  painting.any_far =
+      std::any_of(painting.chunks.begin(), painting.chunks.end(), [](const Chunk& c) { return c.any_far; });
 }
 
 void Painter::Memory::run_tiles(Frame& to) {

@@ -74,6 +74,7 @@ struct Chunk {
   Scratch<PaintTriangle> triangles;
   Scratch<TileBox> boxes;
   std::uint32_t count = 0;
+  bool any_far = false;  ///< whether any may be too large for lanes (set_up_lanes.h)
   struct OfDraw {
     std::uint32_t draw, end;  ///< its triangles end there
   };
@@ -85,8 +86,15 @@ struct Chunk {
 /// A draw, as tiles want it.
 struct PaintDraw {
   BlockState state;
-  bool replaces;  ///< ReplacingState describes it
-  bool flat;      ///< every corner has the provoking one's colour
+  bool opaque;  ///< filled triangles whose nearer fragments replace what is there (paint_opaque.h)
+  bool flat;    ///< every corner has the provoking one's colour
+};
+
+/// A draw's triangles in a tile, of one chunk.
+struct PaintRun {
+  std::uint32_t draw;
+  const PaintTriangle* triangles;
+  std::span<const std::uint32_t> numbers;
 };
 
 /// All that the tiles of a frame are painted from.
@@ -98,12 +106,14 @@ struct Painting {
   std::array<const Vec4<float>*, kVaryings> varyings;  ///< beside vertices
   std::span<const Chunk> chunks;
   std::span<const PaintDraw> draws;
+  bool any_far;  ///< Chunk's
 };
 
 /// A thread's own.
 struct TileMemory {
   alignas(64) Tile tile;
   alignas(64) PackedTile packed;
+  std::vector<PaintRun> runs;
 };
 
 }  // namespace plumbline::pipeline

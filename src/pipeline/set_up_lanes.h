@@ -22,6 +22,7 @@ struct LaneSetup {
   TileEdge edge[3];
   BarycentricPlanes planes;
   Depth depth;
+  float nearest;  ///< a depth code: none of its fragments in the tile is nearer
   AttributeSetup attributes;
 };
 /// Of a draw that has a surface.
@@ -39,7 +40,8 @@ struct SetupLanes {
   double depth[3][kLanes];
   alignas(64) float inv_w[3][kLanes];
   float color[3][4][kLanes];
-  unsigned fitting;  ///< a bit a lane
+  float nearest[kLanes];
+  unsigned fitting, constant;  ///< a bit a lane
 
   template <class Depth>
   [[gnu::always_inline]] LaneSetup<Depth> of(int lane) const {
@@ -55,6 +57,8 @@ struct SetupLanes {
       s.attributes.d_color1[c] = color[1][c][lane];
       s.attributes.d_color2[c] = color[2][c][lane];
     }
+    s.attributes.constant = (constant >> lane & 1u) != 0;
+    s.nearest = nearest[lane];
     return s;
   }
 };
@@ -63,6 +67,7 @@ struct SetupLanes {
 struct SetupSite {
   int tile_x, tile_y;  ///< the tile's lower left pixel
   glm::ivec2 sample;   ///< Formats::sample
+  double depth_scale;  ///< Formats::depth_scale
   bool flat;
 };
 
@@ -91,11 +96,15 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
   for (int k = 0; k < 3; ++k)
     fours(
         site.flat ? 1 : k, [](const WindowVertex<float>* v) { return &v->color.r; }, color[k]);
+  Mask<R> constant = p_win[0][0] == p_win[0][0];
   for (int c = 0; c < 4; ++c) {
+    const R d1 = color[1][c] - color[0][c], d2 = color[2][c] - color[0][c];
+    constant = constant & (d1 == R(0)) & (d2 == R(0));
     store(color[0][c], out.color[0][c]);
-    store(color[1][c] - color[0][c], out.color[1][c]);
-    store(color[2][c] - color[0][c], out.color[2][c]);
+    store(d1, out.color[1][c]);
+    store(d2, out.color[2][c]);
   }
+  out.constant = bits_of(constant);
 
   const R face = load<R>(facing);
   const PlaneCorners<W> through =
@@ -122,8 +131,23 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
     return greater_of(shifted_right<8>(low + I(kSubpixel - 1)), I(0)) & I(~(kBlock - 1));
   };
   const auto end = [](I high) { return lesser_of(shifted_right<8>(high) + I(1), I(kTile)); };
-  store(first(least(x)), out.bounds[0]), store(first(least(y)), out.bounds[1]);
-  store(end(most(x)), out.bounds[2]), store(end(most(y)), out.bounds[3]);
+  const I x_first = first(least(x)), y_first = first(least(y)), x_end = end(most(x)), y_end = end(most(y));
+  store(x_first, out.bounds[0]), store(y_first, out.bounds[1]);
+  store(x_end, out.bounds[2]), store(y_end, out.bounds[3]);
+
+  // The plane of depth at the box's nearest corner. What rounding does to it and to the fragments' depths is far below
+  // 2^-48 of the terms' sum; a code's rounding, and all that is left, is below one code.
+  const auto size = [](const W& value) { return greater_of(value, -value); };
+  const W z_x = planes.l1_x * dz1 + planes.l2_x * dz2, z_y = planes.l1_y * dz1 + planes.l2_y * dz2;
+  const W at_x = lesser_of(z_x * to_wide(x_first), z_x * to_wide(x_end));
+  const W at_y = lesser_of(z_y * to_wide(y_first), z_y * to_wide(y_end));
+  const W z1 = planes.l1_0 * dz1, z2 = planes.l2_0 * dz2;
+  const W terms =
+      size(z0) + size(z1) + size(z2) +
+      (size(planes.l1_x * dz1) + size(planes.l2_x * dz2) + size(planes.l1_y * dz1) + size(planes.l2_y * dz2)) *
+          W(kTile);
+  const W least_z = (z0 + z1 + z2 + at_x + at_y) - terms * W(0x1p-48);
+  store(to_float(floor_of(clamped(least_z, W(0), W(1)) * site.depth_scale) - W(1)), out.nearest);
 
   // Counter-clockwise.
   const Mask<R> front = face > R(0);
