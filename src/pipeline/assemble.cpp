@@ -16,7 +16,11 @@ class Assembler {
     chunk.draws.clear();
     chunk.count = 0;
     chunk.any_far = false;
-    sample_ = painting.formats.sample;
+    least_ = most_ = painting.samples[0];
+    for (const glm::ivec2& sample : painting.samples) {
+      least_ = glm::min(least_, sample);
+      most_ = glm::max(most_, sample);
+    }
   }
 
   // Three more corners make a triangle.
@@ -75,9 +79,9 @@ class Assembler {
     // The pixels whose centres the box holds (coverage.h, pixel_bounds).
     const auto up = [](int snapped) { return (snapped + kSubpixel - 1) >> 8; };
     const auto down = [](int snapped) { return snapped >> 8; };
-    const int x0 = std::max(up(x_min - sample_.x) - reach, 0), y0 = std::max(up(y_min - sample_.y) - reach, 0);
-    const int x1 = std::min(down(x_max - sample_.x) + reach, painting_.format.width - 1),
-              y1 = std::min(down(y_max - sample_.y) + reach, painting_.format.height - 1);
+    const int x0 = std::max(up(x_min - most_.x) - reach, 0), y0 = std::max(up(y_min - most_.y) - reach, 0);
+    const int x1 = std::min(down(x_max - least_.x) + reach, painting_.format.width - 1),
+              y1 = std::min(down(y_max - least_.y) + reach, painting_.format.height - 1);
     if (x0 > x1 || y0 > y1) return;
     constexpr std::int64_t kLongestEdge = 1 << 22;  // set_up_lanes.h
     chunk_.any_far |= std::int64_t{x_max} - x_min > kLongestEdge || std::int64_t{y_max} - y_min > kLongestEdge;
@@ -95,7 +99,7 @@ class Assembler {
   const WindowVertex<float>* vertices_;
   PaintTriangle* triangles_ = nullptr;
   TileBox* boxes_ = nullptr;
-  glm::ivec2 sample_;
+  glm::ivec2 least_, most_;  // of the samples
 };
 
 }  // namespace

@@ -118,6 +118,12 @@ inline double power_of_two(double n) {  // 1.5 * 2^52: leaves the biased exponen
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(n + (6755399441055744.0 + 1023.0)) << 52);
 }
 
+template <class R>
+Wide<R> load_wide(const double* from);
+template <>
+inline double load_wide<float>(const double* from) {
+  return *from;
+}
 /// The next Lanes<R>::width values.
 template <class R>
 R load(const float* from);
@@ -181,6 +187,7 @@ inline void store_fours(const float (&values)[4], float* const (&to)[1]) {
 }
 
 inline float greatest_lane(float value) { return value; }
+inline int greatest_lane(std::int64_t value) { return static_cast<int>(value); }
 
 /// Columns and rows alone of block_pixels().
 template <class R>

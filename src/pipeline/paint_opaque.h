@@ -59,20 +59,109 @@ template <class R, bool kOneColor, bool kFromLast>
   });
 }
 
+/// Of lanes' triangles, what attributes() asks of one.
+template <class R>
+struct AttributeLanes {
+  R inv_w[3];
+  R color0[4], d_color1[4], d_color2[4];
+};
+template <class R>
+struct Z24Lanes {
+  Wide<R> z0, dz1, dz2;
+  static constexpr double scale = Z24Setup::scale, low = Z24Setup::low, high = Z24Setup::high;
+};
+
+inline constexpr int kSmall = 24;  ///< pixels of a box
+
+/// Triangles in boxes of `lanes.width` x `lanes.height` pixels, all at once: pixel by pixel of their boxes; then, one
+/// after the other, what they cover into the tile.
+template <class R, bool kFromLast>
+void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared, PackedTile& tile) {
+  using I = Int<R>;
+  using W = Wide<R>;
+  constexpr int kLanes = Lanes<R>::width;
+  alignas(64) float z_of[kSmall][kLanes];
+  alignas(64) std::int32_t code_of[kSmall][kLanes], place_of[kSmall][kLanes];
+
+  const W l1_0 = load_wide<R>(lanes.planes[0]), l1_x = load_wide<R>(lanes.planes[1]);
+  const W l1_y = load_wide<R>(lanes.planes[2]), l2_0 = load_wide<R>(lanes.planes[3]);
+  const W l2_x = load_wide<R>(lanes.planes[4]), l2_y = load_wide<R>(lanes.planes[5]);
+  const Z24Lanes<R> depths{load_wide<R>(lanes.depth[0]), load_wide<R>(lanes.depth[1]), load_wide<R>(lanes.depth[2])};
+  AttributeLanes<R> of;
+  for (int k = 0; k < 3; ++k) of.inv_w[k] = load<R>(lanes.inv_w[k]);
+  for (int c = 0; c < 4; ++c) {
+    of.color0[c] = load<R>(lanes.color[0][c]);
+    of.d_color1[c] = load<R>(lanes.color[1][c]);
+    of.d_color2[c] = load<R>(lanes.color[2][c]);
+  }
+  const Mask<R> constant = load_ints<R>(lanes.constant_colors) != I(0);
+
+  const I x0 = load_ints<R>(lanes.bounds[0]), y0 = load_ints<R>(lanes.bounds[1]);
+  const I x1 = load_ints<R>(lanes.bounds[2]), y1 = load_ints<R>(lanes.bounds[3]);
+  const Mask<R> wanted = load_ints<R>(kBlockNumbers) < I(count);
+  I of_row[3], step_x[3], step_y[3];
+  for (int k = 0; k < 3; ++k) {
+    step_x[k] = load_ints<R>(lanes.step_x[k]), step_y[k] = load_ints<R>(lanes.step_y[k]);
+    of_row[k] = load_ints<R>(lanes.at_tile[k]) + step_x[k] * x0 + step_y[k] * y0;
+  }
+  I seen(0);  // a bit for each of the pixels that any triangle covers
+  int pixels = 0;
+  for (int row = 0; row < lanes.height; ++row) {
+    const I y = y0 + I(row), place_y = shifted_left<8>(shifted_right<2>(y)) + shifted_left<2>(y & I(kBlock - 1));
+    const Mask<R> in_row = wanted & (y < y1);
+    const W dy = to_wide(y), l1_of_row = dy * l1_y, l2_of_row = dy * l2_y;
+    I e[3] = {of_row[0], of_row[1], of_row[2]};
+    for (int column = 0; column < lanes.width; ++column) {
+      const I x = x0 + I(column);
+      const Mask<R> covered = in_row & (x < x1) & ((e[0] | e[1] | e[2]) >= I(0));
+      for (int k = 0; k < 3; ++k) e[k] = e[k] + step_x[k];
+      if (!any(covered)) continue;
+      const W dx = to_wide(x);
+      const W l1 = l1_0 + (dx * l1_x + l1_of_row), l2 = l2_0 + (dx * l2_x + l2_of_row);
+      const Barycentric<R> b{1.0 - l1 - l2, l1, l2};
+      const Weights<R> k = weights<R>(of.inv_w, b);
+      const Color<R> color = mean<R>(of, Weights<R>{select(constant, R(0), k.k1), select(constant, R(0), k.k2)});
+      store(depth<R>(depths, b), z_of[pixels]);
+      store(packed_merge(color), code_of[pixels]);
+      store(place_y + shifted_left<4>(shifted_right<2>(x)) + (x & I(kBlock - 1)), place_of[pixels]);
+      seen = seen | select(covered, I(1 << pixels), I(0));
+      ++pixels;
+    }
+    for (int k = 0; k < 3; ++k) of_row[k] = of_row[k] + step_y[k];
+  }
+  alignas(64) std::int32_t seen_of[kLanes];
+  store(seen, seen_of);
+  for (int lane = 0; lane < count; ++lane) {
+    for (auto bits = static_cast<unsigned>(seen_of[lane]); bits != 0; bits &= bits - 1) {
+      const int i = std::countr_zero(bits), place = place_of[i][lane];
+      const float z = z_of[i][lane], held = tile.depth[place];
+      if (kFromLast ? z <= held && z < cleared : z < held) {
+        tile.depth[place] = z;
+        tile.color[place] = static_cast<std::uint32_t>(code_of[i][lane]);
+      }
+    }
+  }
+}
+
 template <class R, bool kFromLast>
 void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& tile, auto alone) {
   const auto cleared = static_cast<float>(depth_code(painting.format.clear_depth, painting.formats.depth_scale));
-  each_lane<R>(painting, run, kFromLast, tile.x0, tile.y0, alone,
-               [&](const PaintTriangle&, const auto& lanes, int lane) {
-                 const auto s = lanes.template of<Z24Setup>(lane);
-                 if (s.attributes.constant) {
-                   const Vec4<float>& c = s.attributes.color0;
-                   const Int<R> code = packed_merge(Color<R>{R(c.r), R(c.g), R(c.b), R(c.a)});
-                   paint_opaque_triangle<R, true, kFromLast>(s, code, cleared, tile);
-                 } else {
-                   paint_opaque_triangle<R, false, kFromLast>(s, Int<R>(0), cleared, tile);
-                 }
-               });
+  const auto together = [&](const auto& lanes, int count) {
+    if (Lanes<R>::width == 1 || std::max(lanes.width, 0) * std::max(lanes.height, 0) > kSmall) return false;
+    paint_small_triangles<R, kFromLast>(lanes, count, cleared, tile);
+    return true;
+  };
+  const auto paint = [&](const PaintTriangle&, const auto& lanes, int lane) {
+    const auto s = lanes.template of<Z24Setup>(lane);
+    if (s.attributes.constant) {
+      const Vec4<float>& c = s.attributes.color0;
+      const Int<R> code = packed_merge(Color<R>{R(c.r), R(c.g), R(c.b), R(c.a)});
+      paint_opaque_triangle<R, true, kFromLast>(s, code, cleared, tile);
+    } else {
+      paint_opaque_triangle<R, false, kFromLast>(s, Int<R>(0), cleared, tile);
+    }
+  };
+  each_lane<R>(painting, run, kFromLast, tile.x0, tile.y0, together, alone, paint);
 }
 
 }  // namespace plumbline::pipeline

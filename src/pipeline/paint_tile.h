@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipeline/merge.h"
 #include "pipeline/paint_opaque.h"
 
 namespace plumbline::pipeline {
@@ -51,30 +52,33 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   const PaintDraw& draw = painting.draws[run.draw];
   NoTap tap;
   const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
-  each_lane<R>(painting, run, false, tile.x0, tile.y0, alone, [&](const PaintTriangle& t, const auto& lanes, int lane) {
-    auto s = lanes.template of<DepthSetup>(lane);
-    s.front = t.front;
-    s.planes.x0 = tile.x0 + 0.5;
-    s.planes.y0 = tile.y0 + 0.5;
-    s.depth = depth_of_lane(painting, draw, t, s.planes, s.depth);
-    const auto paint = [&](const auto& setup) {
-      visit_covered<R>(
-          setup, [](int) { return ~0u; },
-          [&](int x, int y, const auto& covered) {
-            for (int part = 0; part < kParts<R>; ++part) {
-              if (!any(covered[part])) continue;
-              const int i = part * Lanes<R>::width;
-              covered_pixels<R>(FragmentStages(), draw.state, setup, block_pixels<R>(tile.x0 + x, tile.y0 + y, i),
-                                covered[part], block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
-            }
-          });
-    };
-    if (draw.state.surface == nullptr) return paint(s);
-    const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
-    const SurfaceSetup surface =
-        set_up_surface(FragmentStages(), *draw.state.surface, record_of(painting, draw, t), 0, varying, s.planes);
-    paint(LaneSurfaceSetup{s, &surface});
-  });
+  const auto together = [](const auto&, int) { return false; };
+  each_lane<R>(
+      painting, run, false, tile.x0, tile.y0, together, alone,
+      [&](const PaintTriangle& t, const auto& lanes, int lane) {
+        auto s = lanes.template of<DepthSetup>(lane);
+        s.front = t.front;
+        s.planes.x0 = tile.x0 + 0.5;
+        s.planes.y0 = tile.y0 + 0.5;
+        s.depth = depth_of_lane(painting, draw, t, s.planes, s.depth);
+        const auto paint = [&](const auto& setup) {
+          visit_covered<R>(
+              setup, [](int) { return ~0u; },
+              [&](int x, int y, const auto& covered) {
+                for (int part = 0; part < kParts<R>; ++part) {
+                  if (!any(covered[part])) continue;
+                  const int i = part * Lanes<R>::width;
+                  covered_pixels<R>(FragmentStages(), draw.state, setup, block_pixels<R>(tile.x0 + x, tile.y0 + y, i),
+                                    covered[part], block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
+                }
+              });
+        };
+        if (draw.state.surface == nullptr) return paint(s);
+        const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
+        const SurfaceSetup surface =
+            set_up_surface(FragmentStages(), *draw.state.surface, record_of(painting, draw, t), 0, varying, s.planes);
+        paint(LaneSurfaceSetup{s, &surface});
+      });
 }
 
 /// The tile's triangles, chunk by chunk and draw by draw.
@@ -161,24 +165,50 @@ void copy_out(const PackedTile& tile, Frame& frame) {
   }
 }
 
-/// The tile, from clear to the frame.
+/// What lies in the tile, over clear ground.
 template <class R>
-void paint_tile_in(const Painting& painting, int number, std::vector<PaintRun>& runs, auto& tile, Frame& frame) {
-  tile.x0 = number % painting.columns * kTile;
-  tile.y0 = number / painting.columns * kTile;
+void paint_runs(const Painting& painting, std::span<const PaintRun> runs, auto& tile) {
   clear(tile, painting.format, painting.formats);
-  find_runs(painting, static_cast<std::size_t>(number), runs);
   for (std::size_t i = paint_first_runs<R>(painting, runs, tile); i < runs.size(); ++i) {
     paint_next_run<R>(painting, runs[i], tile);
   }
-  copy_out<R>(tile, frame);
 }
+
+/// mean_of_four() (resolve.h) of the samples' codes, into the first's.
+template <class R>
+void resolve_samples(PackedTile (&samples)[4]) {
+  const auto mean = [](R a, R b, R c, R d) {
+    const R code(1.0f / 255.0f), sum = ((a * code + b * code) + c * code) + d * code;
+    return (sum * R(0.25f)) * R(255.0f);  // packing rounds it half to even
+  };
+  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) {
+    Color<R> of[4];
+    for (int k = 0; k < 4; ++k) of[k] = samples[k].at(i).load_color<R>();
+    store(packed_codes(mean(of[0].r, of[1].r, of[2].r, of[3].r), mean(of[0].g, of[1].g, of[2].g, of[3].g),
+                       mean(of[0].b, of[1].b, of[2].b, of[3].b), mean(of[0].a, of[1].a, of[2].a, of[3].a)),
+          reinterpret_cast<std::int32_t*>(samples[0].color + i));
+  }
+}
+
+/// The tile, from clear to the frame.
 template <class R>
 void paint_tile(const Painting& painting, int number, TileMemory& memory, Frame& frame) {
-  if (painting.format.color == ColorFormat::rgba8) {
-    return paint_tile_in<R>(painting, number, memory.runs, memory.packed, frame);
+  const int x0 = number % painting.columns * kTile, y0 = number / painting.columns * kTile;
+  find_runs(painting, static_cast<std::size_t>(number), memory.runs);
+  if (painting.format.color != ColorFormat::rgba8) {
+    memory.tile.x0 = x0, memory.tile.y0 = y0;
+    paint_runs<R>(painting, memory.runs, memory.tile);
+    return copy_out<R>(memory.tile, frame);
   }
-  paint_tile_in<R>(painting, number, memory.runs, memory.tile, frame);
+  for (std::size_t i = 0; i < painting.samples.size(); ++i) {
+    PackedTile& tile = memory.packed[i];
+    tile.x0 = x0, tile.y0 = y0;
+    Painting of_sample = painting;
+    of_sample.formats.sample = painting.samples[i];
+    paint_runs<R>(of_sample, memory.runs, tile);
+  }
+  if (painting.samples.size() > 1) resolve_samples<R>(memory.packed);
+  copy_out<R>(memory.packed[0], frame);
 }
 
 }  // namespace plumbline::pipeline

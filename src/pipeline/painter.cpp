@@ -49,6 +49,12 @@ bool is_opaque(const Mesh& mesh, const Draw& draw, const BlockState& s) {
          !s.merge.logic_op && glm::all(s.merge.color_mask) && s.merge.depth_mask;
 }
 
+// Whether tiles take a pixel's samples at once. Other antialiased frames are resolved from whole passes.
+bool takes_samples(const FrameFormat& frame) {
+  return frame.antialias.kind == Antialias::Kind::multisample && frame.color == ColorFormat::rgba8 &&
+         frame.stencil == StencilFormat::none;
+}
+
 bool same_planes(const FrameFormat& a, const FrameFormat& b) {
   return a.width == b.width && a.height == b.height && a.color == b.color && a.depth == b.depth &&
          (a.stencil == StencilFormat::none) == (b.stencil == StencilFormat::none);
@@ -110,6 +116,8 @@ struct Painter::Memory {
 void Painter::Memory::prepare(const Scene& scene) {
   painting.format = scene.frame;
   painting.formats = formats_of(scene.frame);
+  painting.samples = takes_samples(scene.frame) ? std::span<const glm::ivec2>(kSamples)
+                                                : std::span<const glm::ivec2>(&painting.formats.sample, 1);
   painting.columns = (scene.frame.width + kTile - 1) / kTile;
   painting.rows = (scene.frame.height + kTile - 1) / kTile;
   ranges = draw_ranges(scene);
@@ -191,6 +199,11 @@ void Painter::Memory::run_others(const Scene& scene) {
   std::vector<std::uint32_t> primitives;  // of the rest, in the scene
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const AssemblyWork& work = assembly[d];
+    if (work.outside != nullptr) {
+      const std::span<const std::uint8_t> of_vertices(work.outside, work.range.vertex_count);
+      const auto violates = [&](std::uint8_t bits) { return (bits & work.planes) != 0; };
+      if (std::none_of(of_vertices.begin(), of_vertices.end(), violates)) continue;
+    }
     std::vector<std::uint32_t> of_draw;
     for (std::uint32_t i = 0; i < work.range.primitive_count; ++i) {
       const glm::uvec3& c = work.mesh->triangles[i];
@@ -301,7 +314,7 @@ Frame& Painter::draw(const Scene& scene) {
     memory_->frame = std::make_unique<Frame>(scene.frame);
     memory_->format = scene.frame;
   }
-  if (scene.frame.antialias.kind == Antialias::Kind::none) {
+  if (scene.frame.antialias.kind == Antialias::Kind::none || takes_samples(scene.frame)) {
     memory_->draw_pass(scene, *memory_->frame);
     return *memory_->frame;
   }

@@ -101,6 +101,8 @@ struct PaintRun {
 struct Painting {
   FrameFormat format;
   Formats formats;
+  std::span<const glm::ivec2>
+      samples;        ///< Formats::sample, one of them, or of all that a pixel's colour is the mean of
   int columns, rows;  ///< of tiles
   const WindowVertex<float>* vertices;
   std::array<const Vec4<float>*, kVaryings> varyings;  ///< beside vertices
@@ -112,7 +114,7 @@ struct Painting {
 /// A thread's own.
 struct TileMemory {
   alignas(64) Tile tile;
-  alignas(64) PackedTile packed;
+  alignas(64) PackedTile packed[4];  ///< one, or one for each sample
   std::vector<PaintRun> runs;
 };
 

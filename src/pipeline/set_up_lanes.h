@@ -33,7 +33,8 @@ struct LaneSurfaceSetup : LaneSetup<DepthSetup> {
 template <class R>
 struct SetupLanes {
   static constexpr int kLanes = Lanes<R>::width;
-  alignas(64) std::int32_t bounds[4][kLanes];
+  alignas(64) std::int32_t bounds[4][kLanes];  ///< as LaneSetup, x0 and y0 not rounded
+
   alignas(64) std::int32_t at_tile[3][kLanes];
   std::int32_t step_x[3][kLanes], step_y[3][kLanes];
   alignas(64) double planes[6][kLanes];
@@ -41,12 +42,15 @@ struct SetupLanes {
   alignas(64) float inv_w[3][kLanes];
   float color[3][4][kLanes];
   float nearest[kLanes];
-  unsigned fitting, constant;  ///< a bit a lane
+  alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
+  unsigned fitting;                                  ///< a bit a lane
+  int width, height;                                 ///< the largest box
 
   template <class Depth>
   [[gnu::always_inline]] LaneSetup<Depth> of(int lane) const {
     LaneSetup<Depth> s;
-    s.x0 = bounds[0][lane], s.y0 = bounds[1][lane], s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
+    s.x0 = bounds[0][lane] & ~(kBlock - 1), s.y0 = bounds[1][lane] & ~(kBlock - 1);
+    s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
     for (int k = 0; k < 3; ++k) s.edge[k] = {at_tile[k][lane], step_x[k][lane], step_y[k][lane]};
     s.planes.l1_0 = planes[0][lane], s.planes.l1_x = planes[1][lane], s.planes.l1_y = planes[2][lane];
     s.planes.l2_0 = planes[3][lane], s.planes.l2_x = planes[4][lane], s.planes.l2_y = planes[5][lane];
@@ -57,7 +61,7 @@ struct SetupLanes {
       s.attributes.d_color1[c] = color[1][c][lane];
       s.attributes.d_color2[c] = color[2][c][lane];
     }
-    s.attributes.constant = (constant >> lane & 1u) != 0;
+    s.attributes.constant = constant_colors[lane] != 0;
     s.nearest = nearest[lane];
     return s;
   }
@@ -104,7 +108,7 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
     store(d1, out.color[1][c]);
     store(d2, out.color[2][c]);
   }
-  out.constant = bits_of(constant);
+  store(select(constant, I(1), I(0)), out.constant_colors);
 
   const R face = load<R>(facing);
   const PlaneCorners<W> through =
@@ -127,11 +131,11 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
   for (int k = 0; k < 3; ++k) x[k] = snapped_x[k] - origin_x, y[k] = snapped_y[k] - origin_y;
   const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
   const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
-  const auto first = [](I low) {
-    return greater_of(shifted_right<8>(low + I(kSubpixel - 1)), I(0)) & I(~(kBlock - 1));
-  };
+  const auto first = [](I low) { return greater_of(shifted_right<8>(low + I(kSubpixel - 1)), I(0)); };
   const auto end = [](I high) { return lesser_of(shifted_right<8>(high) + I(1), I(kTile)); };
   const I x_first = first(least(x)), y_first = first(least(y)), x_end = end(most(x)), y_end = end(most(y));
+  out.width = greatest_lane(x_end - x_first);
+  out.height = greatest_lane(y_end - y_first);
   store(x_first, out.bounds[0]), store(y_first, out.bounds[1]);
   store(x_end, out.bounds[2]), store(y_end, out.bounds[3]);
 

@@ -258,6 +258,7 @@ inline void transpose_fours(const Simd (&in)[4], Simd (&out)[4]) {
   }
 }
 inline float greatest_lane(Simd value) { return hn::GetLane(hn::MaxOfLanes(kFloats, value.v)); }
+inline int greatest_lane(SimdInt value) { return hn::GetLane(hn::MaxOfLanes(kInts, value.v)); }
 inline void load_threes(const float* from, Simd (&out)[3]) {
   hn::LoadInterleaved3(kFloats, from, out[0].v, out[1].v, out[2].v);
 }
@@ -304,6 +305,11 @@ inline PLUMBLINE_TARGET::SimdInt load_codes<PLUMBLINE_TARGET::Simd>(const std::u
                                          PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kBytes, from));
 }
 
+template <>
+inline PLUMBLINE_TARGET::SimdWide load_wide<PLUMBLINE_TARGET::Simd>(const double* from) {
+  using namespace PLUMBLINE_TARGET;
+  return {hn::LoadU(kDoubles, from), hn::LoadU(kDoubles, from + kHalf)};
+}
 template <>
 inline PLUMBLINE_TARGET::SimdInt load_ints<PLUMBLINE_TARGET::Simd>(const std::int32_t* from) {
   return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kInts, from);

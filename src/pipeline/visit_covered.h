@@ -58,10 +58,11 @@ template <class R>
 }
 
 /// Sets the run's triangles up, as many at a time as there are lanes; then, in their order (or the other way round),
-/// calls paint(triangle, lanes, lane), or alone(triangle) for those that do not fit lanes.
+/// calls together(lanes, how many) where all fit lanes, and if that does not paint them, paint(triangle, lanes, lane)
+/// for each, or alone(triangle) for those that do not fit.
 template <class R>
 [[gnu::always_inline]] inline void each_lane(const Painting& painting, const PaintRun& run, bool from_last, int tile_x,
-                                             int tile_y, auto alone, auto paint) {
+                                             int tile_y, auto together, auto alone, auto paint) {
   constexpr std::size_t kLanes = Lanes<R>::width;
   const SetupSite site{tile_x, tile_y, painting.formats.sample, painting.formats.depth_scale,
                        painting.draws[run.draw].flat};
@@ -84,6 +85,7 @@ template <class R>
     }
     lanes.fitting = 0;
     if (!thin) set_up_lanes<R>(corner, facing, site, lanes);
+    if (lanes.fitting == ~0u >> (32 - kLanes) && together(lanes, static_cast<int>(count))) continue;
     for (std::size_t lane = 0; lane < count; ++lane) {
       if ((lanes.fitting >> lane & 1u) != 0) {
         paint(triangle(lane), lanes, static_cast<int>(lane));
