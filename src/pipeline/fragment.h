@@ -236,9 +236,16 @@ SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const 
 template <class R, class Stages>
 SurfaceAttributes<R> surface_attributes(const Stages& stages, const AttributeSetup& color, const SurfaceSetup& s,
                                         const Pixels<R>& p, const Barycentric<R>& b) {
-  SurfaceAttributes<R> out{stages.template attributes<R>(color, b), {}, {}};
-  for (const Varying v : s.surface->carried) {
-    out[v] = stages.template attributes<R>(s.varyings[static_cast<std::size_t>(v)], b);
+  SurfaceAttributes<R> out;
+  if constexpr (std::is_same_v<Stages, FragmentStages>) {  // all have the same weights
+    const Weights<R> k = weights<R>(color.inv_w, b);
+    out.color = mean<R>(color, k);
+    for (const Varying v : s.surface->carried) out[v] = mean<R>(s.varyings[static_cast<std::size_t>(v)], k);
+  } else {
+    out.color = stages.template attributes<R>(color, b);
+    for (const Varying v : s.surface->carried) {
+      out[v] = stages.template attributes<R>(s.varyings[static_cast<std::size_t>(v)], b);
+    }
   }
   if (s.surface->texture) {
     const Color<R>& st = out[Varying::texture];
@@ -330,15 +337,27 @@ void covered_pixels(const Stages& stages, const BlockState& state, const auto& s
   finish(attributes, stages.template shade<R>(attributes));
 }
 
-/// One pixel, alone in its lanes.
+/// Pixels one by one, in their order; those that follow each other and lie in the same lanes, together.
 template <class R, class Stages, class Tap>
-void fragment_pixel(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, glm::ivec2 pixel,
-                    float color_scale, auto& tile, Tap& tap) {
-  const int block_x = pixel.x & ~(kBlock - 1), block_y = pixel.y & ~(kBlock - 1);
-  const int in_block = (pixel.y - block_y) * kBlock + (pixel.x - block_x), i = in_block & ~(Lanes<R>::width - 1);
-  const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
-  const Mask<R> covered = (p.x == Int<R>(pixel.x)) & (p.y == Int<R>(pixel.y));
-  covered_pixels<R>(stages, state, s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
+void thin_fragments(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s,
+                    std::span<const glm::ivec2> pixels, float color_scale, auto& tile, Tap& tap) {
+  constexpr int kLanes = Lanes<R>::width;
+  for (std::size_t next = 0; next < pixels.size();) {
+    const int block_x = pixels[next].x & ~(kBlock - 1), block_y = pixels[next].y & ~(kBlock - 1);
+    const auto in_block = [&](glm::ivec2 pixel) { return (pixel.y - block_y) * kBlock + (pixel.x - block_x); };
+    const int first = in_block(pixels[next]) & ~(kLanes - 1);
+    unsigned lanes = 0;
+    for (; next < pixels.size(); ++next) {
+      const glm::ivec2 pixel = pixels[next];
+      const bool here = (pixel.x & ~(kBlock - 1)) == block_x && (pixel.y & ~(kBlock - 1)) == block_y;
+      const int lane = in_block(pixel) - first;
+      if (!here || lane < 0 || lane >= kLanes || (lanes >> lane & 1u) != 0) break;
+      lanes |= 1u << lane;
+    }
+    const Pixels<R> p = block_pixels<R>(block_x, block_y, first);
+    covered_pixels<R>(stages, state, s, p, mask_of<R>(lanes), tile.offset(block_x, block_y) + first, color_scale, tile,
+                      tap);
+  }
 }
 
 }  // namespace plumbline::pipeline

@@ -53,6 +53,13 @@ inline bool any(bool mask) { return mask; }
 inline bool all(bool mask) { return mask; }
 /// One bit a lane, the first lowest.
 inline unsigned bits_of(bool mask) { return mask ? 1 : 0; }
+/// The lanes of those bits.
+template <class R>
+Mask<R> mask_of(unsigned bits);
+template <>
+inline bool mask_of<float>(unsigned bits) {
+  return bits != 0;
+}
 inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }

@@ -1,17 +1,22 @@
-// Stages 5 to 11 of triangles whose nearer fragments replace what is there, without further tests, in frames of rgba8
-// and z24: what covered_pixels() does (fragment.h), its terms taken out of the loops that they do not change in.
+// Stages 5 to 11 of triangles whose nearer fragments replace what is there, or are blended over it, without further
+// tests, in frames of rgba8 and z24: what covered_pixels() does (fragment.h), its terms taken out of the loops that
+// they do not change in.
 #pragma once
 
 #include "pipeline/visit_covered.h"
 
 namespace plumbline::pipeline {
 
-/// A lane's triangle. `code`: the colour of one that is of one colour.
-template <class R, bool kOneColor, bool kFromLast>
-[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup<Z24Setup>& s, const Int<R>& code,
+enum class Order { first_to_last, last_to_first };
+
+/// A lane's triangle. `one_color`: that of a triangle that has but one.
+template <class R, PaintKernel kKernel, Order kOrder, bool kOneColor>
+[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup<Z24Setup>& s, const Color<R>& one_color,
                                                          float cleared, PackedTile& tile) {
   using W = Wide<R>;
   constexpr int kLanes = Lanes<R>::width;
+  constexpr bool kFromLast = kOrder == Order::last_to_first;
+  const Int<R> one_code = packed_merge(one_color);
   const BarycentricPlanes& planes = s.planes;
   // From last to first, a fragment as near as one that was painted before it comes before it; one as near as the clear
   // depth is none.
@@ -49,10 +54,15 @@ template <class R, bool kOneColor, bool kFromLast>
       if (!any(kept)) continue;
       farthest = greater_of(farthest, z);
       store(kept, z, to.depth);
-      if constexpr (kOneColor) {
-        store_packed(kept, code, to.color);
+      const auto color = [&]() -> Color<R> {
+        if constexpr (kOneColor) return one_color;
+        return attributes<R>(s.attributes, b);
+      };
+      if constexpr (kKernel == PaintKernel::blends_over) {
+        const Color<R> blended = blend<R>(kOver, color(), to.template load_color<R>(), 255.0f);
+        store_packed(kept, packed_codes(blended.r, blended.g, blended.b, blended.a), to.color);
       } else {
-        store_packed(kept, packed_merge(attributes<R>(s.attributes, b)), to.color);
+        store_packed(kept, kOneColor ? one_code : packed_merge(color()), to.color);
       }
     }
     if (full) tile.farthest[y / kBlock * (kTile / kBlock) + x / kBlock] = greatest_lane(farthest);
@@ -75,7 +85,7 @@ inline constexpr int kSmall = 24;  ///< pixels of a box
 
 /// Triangles in boxes of `lanes.width` x `lanes.height` pixels, all at once: pixel by pixel of their boxes; then, one
 /// after the other, what they cover into the tile.
-template <class R, bool kFromLast>
+template <class R, Order kOrder>
 void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared, PackedTile& tile) {
   using I = Int<R>;
   using W = Wide<R>;
@@ -135,7 +145,7 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
     for (auto bits = static_cast<unsigned>(seen_of[lane]); bits != 0; bits &= bits - 1) {
       const int i = std::countr_zero(bits), place = place_of[i][lane];
       const float z = z_of[i][lane], held = tile.depth[place];
-      if (kFromLast ? z <= held && z < cleared : z < held) {
+      if (kOrder == Order::last_to_first ? z <= held && z < cleared : z < held) {
         tile.depth[place] = z;
         tile.color[place] = static_cast<std::uint32_t>(code_of[i][lane]);
       }
@@ -143,25 +153,26 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
   }
 }
 
-template <class R, bool kFromLast>
+template <class R, PaintKernel kKernel, Order kOrder>
 void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& tile, auto alone) {
   const auto cleared = static_cast<float>(depth_code(painting.format.clear_depth, painting.formats.depth_scale));
   const auto together = [&](const auto& lanes, int count) {
-    if (Lanes<R>::width == 1 || std::max(lanes.width, 0) * std::max(lanes.height, 0) > kSmall) return false;
-    paint_small_triangles<R, kFromLast>(lanes, count, cleared, tile);
+    const int box = std::max(lanes.width, 0) * std::max(lanes.height, 0);
+    if (kKernel != PaintKernel::replaces || Lanes<R>::width == 1 || box > kSmall) return false;
+    paint_small_triangles<R, kOrder>(lanes, count, cleared, tile);
     return true;
   };
   const auto paint = [&](const PaintTriangle&, const auto& lanes, int lane) {
     const auto s = lanes.template of<Z24Setup>(lane);
+    const Vec4<float>& c = s.attributes.color0;
+    const Color<R> color{R(c.r), R(c.g), R(c.b), R(c.a)};
     if (s.attributes.constant) {
-      const Vec4<float>& c = s.attributes.color0;
-      const Int<R> code = packed_merge(Color<R>{R(c.r), R(c.g), R(c.b), R(c.a)});
-      paint_opaque_triangle<R, true, kFromLast>(s, code, cleared, tile);
+      paint_opaque_triangle<R, kKernel, kOrder, true>(s, color, cleared, tile);
     } else {
-      paint_opaque_triangle<R, false, kFromLast>(s, Int<R>(0), cleared, tile);
+      paint_opaque_triangle<R, kKernel, kOrder, false>(s, color, cleared, tile);
     }
   };
-  each_lane<R>(painting, run, kFromLast, tile.x0, tile.y0, together, alone, paint);
+  each_lane<R>(painting, run, kOrder == Order::last_to_first, tile.x0, tile.y0, together, alone, paint);
 }
 
 }  // namespace plumbline::pipeline

@@ -103,7 +103,7 @@ inline void find_runs(const Painting& painting, std::size_t tile, std::vector<Pa
 /// that is from near to far.
 template <class R>
 std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun> runs, PackedTile& tile) {
-  const auto opaque = [&](const PaintRun& run) { return painting.draws[run.draw].opaque; };
+  const auto opaque = [&](const PaintRun& run) { return painting.draws[run.draw].kernel == PaintKernel::replaces; };
   const auto count = static_cast<std::size_t>(std::find_if_not(runs.begin(), runs.end(), opaque) - runs.begin());
   if (count == 0) return 0;
   const auto depth = [&](const PaintRun& run, std::uint32_t number) {
@@ -111,7 +111,8 @@ std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun>
   };
   const PaintRun &first = runs[0], &last = runs[count - 1];
   if (painting.any_far || !(depth(last, last.numbers.back()) < depth(first, first.numbers.front()))) return 0;
-  for (std::size_t i = count; i-- > 0;) paint_opaque<R, true>(painting, runs[i], tile, [](const PaintTriangle&) {});
+  for (std::size_t i = count; i-- > 0;)
+    paint_opaque<R, PaintKernel::replaces, Order::last_to_first>(painting, runs[i], tile, [](const PaintTriangle&) {});
   return count;
 }
 template <class R>
@@ -122,9 +123,12 @@ std::size_t paint_first_runs(const Painting&, std::span<const PaintRun>, Tile&) 
 template <class R>
 void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile& tile) {
   const PaintDraw& draw = painting.draws[run.draw];
-  if (draw.opaque) {
-    return paint_opaque<R, false>(painting, run, tile,
-                                  [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); });
+  const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
+  if (draw.kernel == PaintKernel::replaces) {
+    return paint_opaque<R, PaintKernel::replaces, Order::first_to_last>(painting, run, tile, alone);
+  }
+  if (draw.kernel == PaintKernel::blends_over) {
+    return paint_opaque<R, PaintKernel::blends_over, Order::first_to_last>(painting, run, tile, alone);
   }
   const DepthFunc func = draw.state.depth_func;
   const bool farther =

@@ -40,13 +40,17 @@ Mat4<float> product(const Mat4<float>& p, const Mat4<float>& m) {
   return out;
 }
 
-// Whether paint_opaque.h's kernel is for it.
-bool is_opaque(const Mesh& mesh, const Draw& draw, const BlockState& s) {
-  return mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
-         draw.back_mode == PolygonMode::fill && s.surface == nullptr && s.depth.format == DepthFormat::z24 &&
-         s.depth.low == 0.0 && s.depth.high == 1.0 && s.depth.offset == PolygonOffset{} &&
-         s.depth_func == DepthFunc::less && !s.scissor && !s.alpha_test && !s.stencil && !s.merge.blend &&
-         !s.merge.logic_op && glm::all(s.merge.color_mask) && s.merge.depth_mask;
+PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const BlockState& s) {
+  const bool plain = mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
+                     draw.back_mode == PolygonMode::fill && s.surface == nullptr &&
+                     s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 && s.depth.high == 1.0 &&
+                     s.depth.offset == PolygonOffset{} && s.depth_func == DepthFunc::less && !s.scissor &&
+                     !s.alpha_test && !s.stencil && !s.merge.logic_op && glm::all(s.merge.color_mask) &&
+                     s.merge.depth_mask;
+  if (!plain) return PaintKernel::any;
+  if (!s.merge.blend) return PaintKernel::replaces;
+  const bool over = s.merge.blend->rgb == kOverTerm && s.merge.blend->alpha == kOverTerm;
+  return over ? PaintKernel::blends_over : PaintKernel::any;
 }
 
 // Whether tiles take a pixel's samples at once. Other antialiased frames are resolved from whole passes.
@@ -132,7 +136,7 @@ void Painter::Memory::prepare(const Scene& scene) {
                            draw.stencil,
                            draw.merge,
                            surfaces[d].plain() ? nullptr : &surfaces[d]};
-    draws.push_back({state, is_opaque(scene.meshes[draw.mesh], draw, state), draw.shading == Shading::flat});
+    draws.push_back({state, kernel_of(scene.meshes[draw.mesh], draw, state), draw.shading == Shading::flat});
   }
   painting.draws = draws;
 }

@@ -83,11 +83,14 @@ struct Chunk {
   Scratch<std::uint32_t> numbers;
 };
 
+/// How a draw's filled triangles are painted: paint_opaque.h has the two that are commonest.
+enum class PaintKernel { any, replaces, blends_over };
+
 /// A draw, as tiles want it.
 struct PaintDraw {
   BlockState state;
-  bool opaque;  ///< filled triangles whose nearer fragments replace what is there (paint_opaque.h)
-  bool flat;    ///< every corner has the provoking one's colour
+  PaintKernel kernel;
+  bool flat;  ///< every corner has the provoking one's colour
 };
 
 /// A draw's triangles in a tile, of one chunk.

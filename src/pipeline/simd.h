@@ -306,6 +306,13 @@ inline PLUMBLINE_TARGET::SimdInt load_codes<PLUMBLINE_TARGET::Simd>(const std::u
 }
 
 template <>
+inline PLUMBLINE_TARGET::SimdMask mask_of<PLUMBLINE_TARGET::Simd>(unsigned bits) {
+  using namespace PLUMBLINE_TARGET;
+  HWY_ALIGN static constexpr std::int32_t kBits[] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                                     256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+  return (SimdInt(static_cast<std::int32_t>(bits)) & SimdInt(hn::LoadU(kInts, kBits))) != SimdInt(0);
+}
+template <>
 inline PLUMBLINE_TARGET::SimdWide load_wide<PLUMBLINE_TARGET::Simd>(const double* from) {
   using namespace PLUMBLINE_TARGET;
   return {hn::LoadU(kDoubles, from), hn::LoadU(kDoubles, from + kHalf)};

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/scenes/bench_scenes.h"
+#include "pipeline/painter.h"
 #include "pipeline/pipeline_renderer.h"
 #include "reference/osmesa/frame_loop.h"
 
@@ -86,7 +87,8 @@ int run(int argc, char** argv) {
           ->MinTime(seconds)
           ->Repetitions(5);
     };
-    add("ours", [&scene] { benchmark::DoNotOptimize(pipeline::render(scene)); });
+    const auto painter = std::make_shared<pipeline::Painter>(threads);
+    add("ours", [&scene, painter] { benchmark::DoNotOptimize(painter->draw(scene)); });
     add("llvmpipe", [&theirs] { theirs.draw(); });
   }
   std::string program = argv[0], interleaved = "--benchmark_enable_random_interleaving=true";
