@@ -23,8 +23,9 @@ namespace {
 bool goes_in_lanes(const Scene& scene, const Draw& draw) {
   const Mesh& mesh = scene.meshes[draw.mesh];
   const bool by_color = draw.color_material != ColorMaterial::none && !mesh.colors.empty();
-  return mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
-         draw.back_mode == PolygonMode::fill && !(is_lit_per_vertex(draw) && by_color) &&
+  const bool filled = mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
+                      draw.back_mode == PolygonMode::fill;
+  return (filled || draw.shading != Shading::flat) && !(is_lit_per_vertex(draw) && by_color) &&
          !carries(scene, draw, Varying::back_color) && !carries(scene, draw, Varying::back_secondary);
 }
 
