@@ -51,7 +51,9 @@ class Assembler {
   }
 
   void add_other(const WindowTriangle<float>& t, std::uint32_t first_corner) {
-    add({{first_corner, first_corner + 1, first_corner + 2}, t.front, static_cast<std::uint8_t>(t.corners),
+    add({{first_corner, first_corner + 1, first_corner + 2},
+         t.front,
+         static_cast<std::uint8_t>(t.corners),
          static_cast<std::uint16_t>(t.width)},
         t.corners < 3 ? static_cast<int>(t.width) : 0);
   }
