@@ -1,8 +1,11 @@
 #include "scene/texture_json.h"
 
 #include <algorithm>
+#include <bit>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +17,13 @@ namespace {
 
 struct Size {
   int width, height;
+};
+
+/// An image whose size is known, made when the scene's other textures are known to fit beside it.
+struct Image {
+  Size size;
+  std::function<TextureLevel()> make;
+  int channels = 4;
 };
 
 /// "width" and "height", 64 where they are left out.
@@ -55,42 +65,49 @@ std::array<glm::vec4, n> read_colors(const JsonNode& node, std::array<glm::vec4,
 
 constexpr glm::vec4 kBlack(0, 0, 0, 1), kWhite(1);
 
-TextureLevel read_checker(const JsonNode& node, std::size_t most_texels) {
+Image read_checker(const JsonNode& node, std::size_t most_texels) {
   node.only({"width", "height", "columns", "rows", "colors"});
   const Size size = read_size(node, most_texels), cells = read_cells(node, size);
-  return make_checker(size.width, size.height, cells.width, cells.height, read_colors<2>(node, {kBlack, kWhite}));
+  const auto colors = read_colors<2>(node, {kBlack, kWhite});
+  return {size, [=] { return make_checker(size.width, size.height, cells.width, cells.height, colors); }};
 }
 
-TextureLevel read_gradient(const JsonNode& node, std::size_t most_texels) {
+Image read_gradient(const JsonNode& node, std::size_t most_texels) {
   node.only({"width", "height", "colors"});
   const Size size = read_size(node, most_texels);
-  return make_gradient(
-      size.width, size.height,
-      read_colors<4>(node, {kBlack, glm::vec4(1, 0, 0, 1), glm::vec4(1, 1, 0, 1), glm::vec4(0, 1, 0, 1)}));
+  const auto colors =
+      read_colors<4>(node, {kBlack, glm::vec4(1, 0, 0, 1), glm::vec4(1, 1, 0, 1), glm::vec4(0, 1, 0, 1)});
+  return {size, [=] { return make_gradient(size.width, size.height, colors); }};
 }
 
-TextureLevel read_bricks(const JsonNode& node, std::size_t most_texels) {
+Image read_bricks(const JsonNode& node, std::size_t most_texels) {
   node.only({"width", "height", "columns", "rows", "colors"});
   const Size size = read_size(node, most_texels), cells = read_cells(node, size);
   const auto colors = read_colors<2>(node, {glm::vec4(0.6f, 0.2f, 0.1f, 1), glm::vec4(0.8f, 0.8f, 0.7f, 1)});
-  return make_bricks(size.width, size.height, cells.width, cells.height, colors[0], colors[1]);
+  return {size, [=] { return make_bricks(size.width, size.height, cells.width, cells.height, colors[0], colors[1]); }};
 }
 
-TextureLevel read_uv_grid(const JsonNode& node, std::size_t most_texels) {
+Image read_uv_grid(const JsonNode& node, std::size_t most_texels) {
   node.only({"width", "height", "columns", "rows"});
   const Size size = read_size(node, most_texels), cells = read_cells(node, size);
-  return make_uv_grid(size.width, size.height, cells.width, cells.height);
+  return {size, [=] { return make_uv_grid(size.width, size.height, cells.width, cells.height); }};
 }
 
-TextureLevel read_noise(const JsonNode& node, std::size_t most_texels) {
+Image read_noise(const JsonNode& node, std::size_t most_texels) {
   node.only({"width", "height", "seed"});
   const Size size = read_size(node, most_texels);
-  const auto seed = node.find("seed");
-  return make_noise(size.width, size.height, seed ? static_cast<std::uint32_t>(seed->integer(0, UINT32_MAX)) : 1);
+  const auto given = node.find("seed");
+  const std::uint32_t seed = given ? static_cast<std::uint32_t>(given->integer(0, UINT32_MAX)) : 1;
+  return {size, [=] { return make_noise(size.width, size.height, seed); }};
+}
+
+Image made(TextureLevel level, int channels) {
+  const Size size{level.width, level.height};
+  return {size, [level = std::move(level)]() mutable { return std::move(level); }, channels};
 }
 
 /// Rows of texels, the first at t = 0.
-TextureLevel read_texels(const JsonNode& node) {
+Image read_texels(const JsonNode& node) {
   constexpr std::size_t kMostGiven = 64;
   TextureLevel out;
   for (const JsonNode& row : node.elements(1, kMostGiven)) {
@@ -101,28 +118,29 @@ TextureLevel read_texels(const JsonNode& node) {
     ++out.height;
     for (const JsonNode& texel : texels) out.texels.emplace_back(texel.vector<4>(0, 1));
   }
-  return out;
+  return made(std::move(out), 4);
 }
 
-TextureImage read_image_file(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
+Image read_image_file(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
   const std::filesystem::path file = folders.find(node, "an image file");
   try {
-    return load_texture_image(file, most_texels);
+    TextureImage image = load_texture_image(file, most_texels);
+    return made(std::move(image.rgba), image.channels);
   } catch (const TextureError& error) {
     node.refuse("an image file that can be used", error.what());
   }
 }
 
-TextureImage read_image(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
+Image read_image(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
   const std::string_view kind = node.one_of({"file", "texels", "checker", "gradient", "bricks", "uv_grid", "noise"});
   const JsonNode n = node[kind];
   if (kind == "file") return read_image_file(n, folders, most_texels);
-  if (kind == "texels") return {read_texels(n)};
-  if (kind == "checker") return {read_checker(n, most_texels)};
-  if (kind == "gradient") return {read_gradient(n, most_texels)};
-  if (kind == "bricks") return {read_bricks(n, most_texels)};
-  if (kind == "uv_grid") return {read_uv_grid(n, most_texels)};
-  return {read_noise(n, most_texels)};
+  if (kind == "texels") return read_texels(n);
+  if (kind == "checker") return read_checker(n, most_texels);
+  if (kind == "gradient") return read_gradient(n, most_texels);
+  if (kind == "bricks") return read_bricks(n, most_texels);
+  if (kind == "uv_grid") return read_uv_grid(n, most_texels);
+  return read_noise(n, most_texels);
 }
 
 TextureFormat format_of_file(int channels) {
@@ -169,12 +187,13 @@ Sampler read_sampler(const JsonNode& node) {
   return sampler;
 }
 
-Texture read_texture(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
+/// A texture that lacks its levels, and their image.
+std::pair<Texture, Image> read_texture(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
   node.only({"image", "format", "texels", "min", "mag", "wrap_s", "wrap_t", "border", "lod_bias", "min_lod", "max_lod",
              "base_level", "max_level"});
   Texture texture;
   texture.sampler = read_sampler(node);
-  TextureImage image = read_image(node["image"], folders, most_texels);
+  Image image = read_image(node["image"], folders, most_texels);
   texture.format = format_of_file(image.channels);
   if (const auto n = node.find("format")) {
     texture.format = n->choice<TextureFormat>({{"alpha", TextureFormat::alpha},
@@ -184,18 +203,14 @@ Texture read_texture(const JsonNode& node, const AssetFolders& folders, std::siz
                                                {"rgb", TextureFormat::rgb},
                                                {"rgba", TextureFormat::rgba}});
   }
-  if (texture.format == TextureFormat::alpha && image.channels == 1) {  // what is grey in the file is the alpha
-    for (glm::vec4& texel : image.rgba.texels) texel.a = texel.r;
-  }
   if (const auto n = node.find("texels")) {
     texture.type = n->choice<TexelType>({{"unorm8", TexelType::unorm8}, {"float32", TexelType::float32}});
   }
-  set_levels(texture, std::move(image.rgba));
-  const int levels = static_cast<int>(texture.levels.size());
+  const int levels = std::bit_width(static_cast<unsigned>(std::max(image.size.width, image.size.height)));
   if (texture.sampler.base_level >= levels) {
     node["base_level"].refuse(fmt::format("one of the {} levels that the image has", levels));
   }
-  return texture;
+  return {std::move(texture), std::move(image)};
 }
 
 }  // namespace
@@ -205,11 +220,20 @@ std::vector<Texture> read_textures(const JsonNode& node, const AssetFolders& fol
   if (node.value().kind != JsonValue::Kind::object) node.refuse("an object");
   if (node.value().members.size() > kMostTextures) node.refuse(fmt::format("at most {} textures", kMostTextures));
   std::vector<Texture> textures;
+  std::vector<Image> images;
   std::size_t left = kMostTexels;
   for (const auto& [name, value] : node.value().members) {
-    textures.push_back(read_texture(node[name], folders, left));
-    textures.back().name = name;
-    left -= textures.back().levels[0].texels.size();
+    auto [texture, image] = read_texture(node[name], folders, left);
+    texture.name = name;
+    left -= static_cast<std::size_t>(image.size.width) * static_cast<std::size_t>(image.size.height);
+    textures.push_back(std::move(texture));
+    images.push_back(std::move(image));
+  }
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    TextureLevel image = images[i].make();
+    const bool grey_is_alpha = textures[i].format == TextureFormat::alpha && images[i].channels == 1;
+    for (glm::vec4& texel : image.texels) texel.a = grey_is_alpha ? texel.r : texel.a;
+    set_levels(textures[i], std::move(image));
   }
   return textures;
 }
