@@ -15,35 +15,47 @@ class Assembler {
     chunk.first.assign(tiles + 1, 0);
     chunk.draws.clear();
     chunk.count = 0;
-    sample_ = painting.formats.sample;
+    chunk.any_far = false;
+    least_ = most_ = painting.samples[0];
+    for (const glm::ivec2& sample : painting.samples) {
+      least_ = glm::min(least_, sample);
+      most_ = glm::max(most_, sample);
+    }
   }
 
-  // Three more corners make a triangle.
   void reserve(std::size_t more) {
     triangles_ = chunk_.triangles.of(chunk_.count + more, chunk_.count);
     boxes_ = chunk_.boxes.of(chunk_.count + more, chunk_.count);
   }
 
-  void add_filled(Cull cull, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const glm::ivec2 p = vertices_[a].snapped, q = vertices_[b].snapped, r = vertices_[c].snapped;
+  // As add_polygon() (window.cpp) has it, of a polygon of three corners, a line or a point.
+  void add_primitive(const Draw& draw, Topology topology, const std::uint32_t (&v)[3]) {
+    if (topology == Topology::points) return add_point(draw, v[0], true);
+    if (topology == Topology::lines) return add_line(draw, v[0], v[1], true);
+    const glm::ivec2 p = vertices_[v[0]].snapped, q = vertices_[v[1]].snapped, r = vertices_[v[2]].snapped;
     const std::int64_t area =
         static_cast<std::int64_t>(q.x - p.x) * (r.y - p.y) - static_cast<std::int64_t>(q.y - p.y) * (r.x - p.x);
     const bool front = area > 0;
-    if (area == 0 || (cull != Cull::none && front == (cull == Cull::front))) return;
-    const int reach = 0;
-    add({{a, b, c}, front, 3, 1}, std::min({p.x, q.x, r.x}), std::min({p.y, q.y, r.y}), std::max({p.x, q.x, r.x}),
-        std::max({p.y, q.y, r.y}), reach);
+    if (draw.cull != Cull::none && front == (draw.cull == Cull::front)) return;
+    switch (front ? draw.front_mode : draw.back_mode) {
+      case PolygonMode::fill:
+        if (area != 0) add({{v[1], v[2], v[0]}, front, 3, 1}, 0);
+        return;
+      case PolygonMode::line:
+        for (int i = 0; i < 3; ++i) add_line(draw, v[i == 0 ? 2 : i - 1], v[i], front);
+        return;
+      case PolygonMode::point:
+        for (const std::uint32_t corner : v) add_point(draw, corner, front);
+        return;
+    }
   }
 
   void add_other(const WindowTriangle<float>& t, std::uint32_t first_corner) {
-    const auto& v = t.v;
-    const auto [x0, x1] = std::minmax({v[0].snapped.x, v[1].snapped.x, v[2].snapped.x});
-    const auto [y0, y1] = std::minmax({v[0].snapped.y, v[1].snapped.y, v[2].snapped.y});
     add({{first_corner, first_corner + 1, first_corner + 2},
          t.front,
          static_cast<std::uint8_t>(t.corners),
          static_cast<std::uint16_t>(t.width)},
-        x0, y0, x1, y1, t.corners < 3 ? static_cast<int>(t.width) : 0);
+        t.corners < 3 ? static_cast<int>(t.width) : 0);
   }
 
   void end_draw(std::uint32_t draw) {
@@ -70,14 +82,27 @@ class Assembler {
   }
 
  private:
-  void add(const PaintTriangle& triangle, int x_min, int y_min, int x_max, int y_max, int reach) {
+  void add_line(const Draw& draw, std::uint32_t a, std::uint32_t b, bool front) {
+    add({{a, b, b}, front, 2, static_cast<std::uint16_t>(draw.line_width)}, draw.line_width);
+  }
+  void add_point(const Draw& draw, std::uint32_t p, bool front) {
+    add({{p, p, p}, front, 1, static_cast<std::uint16_t>(draw.point_size)}, draw.point_size);
+  }
+
+  void add(const PaintTriangle& triangle, int reach) {
+    const glm::ivec2 p = vertices_[triangle.corner[0]].snapped, q = vertices_[triangle.corner[1]].snapped,
+                     r = vertices_[triangle.corner[2]].snapped;
+    const auto [x_min, x_max] = std::minmax({p.x, q.x, r.x});
+    const auto [y_min, y_max] = std::minmax({p.y, q.y, r.y});
     // The pixels whose centres the box holds (coverage.h, pixel_bounds).
     const auto up = [](int snapped) { return (snapped + kSubpixel - 1) >> 8; };
     const auto down = [](int snapped) { return snapped >> 8; };
-    const int x0 = std::max(up(x_min - sample_.x) - reach, 0), y0 = std::max(up(y_min - sample_.y) - reach, 0);
-    const int x1 = std::min(down(x_max - sample_.x) + reach, painting_.format.width - 1),
-              y1 = std::min(down(y_max - sample_.y) + reach, painting_.format.height - 1);
+    const int x0 = std::max(up(x_min - most_.x) - reach, 0), y0 = std::max(up(y_min - most_.y) - reach, 0);
+    const int x1 = std::min(down(x_max - least_.x) + reach, painting_.format.width - 1),
+              y1 = std::min(down(y_max - least_.y) + reach, painting_.format.height - 1);
     if (x0 > x1 || y0 > y1) return;
+    constexpr std::int64_t kLongestEdge = 1 << 22;  // set_up_lanes.h
+    chunk_.any_far |= std::int64_t{x_max} - x_min > kLongestEdge || std::int64_t{y_max} - y_min > kLongestEdge;
     const TileBox box{static_cast<std::uint8_t>(x0 / kTile), static_cast<std::uint8_t>(y0 / kTile),
                       static_cast<std::uint8_t>(x1 / kTile), static_cast<std::uint8_t>(y1 / kTile)};
     triangles_[chunk_.count] = triangle;
@@ -92,7 +117,7 @@ class Assembler {
   const WindowVertex<float>* vertices_;
   PaintTriangle* triangles_ = nullptr;
   TileBox* boxes_ = nullptr;
-  glm::ivec2 sample_;
+  glm::ivec2 least_, most_;  // of the samples
 };
 
 }  // namespace
@@ -111,7 +136,8 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const
     };
     auto other = of_primitive(begin);
     const auto others_end = of_primitive(end);
-    to.reserve(end - begin + static_cast<std::size_t>(others_end - other));
+    const bool filled = work.draw->front_mode == PolygonMode::fill && work.draw->back_mode == PolygonMode::fill;
+    to.reserve((filled ? 1 : 3) * std::size_t{end - begin} + static_cast<std::size_t>(others_end - other));
     const auto add_others = [&](std::uint32_t up_to) {
       for (; other != others_end && other->primitive <= up_to; ++other) {
         const auto number = static_cast<std::uint32_t>(other - others[d].triangles.begin());
@@ -122,17 +148,12 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const
       const glm::uvec3& corner = work.mesh->triangles[primitive - work.range.first_primitive];
       const std::uint8_t a = work.outside[corner[0]], b = work.outside[corner[1]], c = work.outside[corner[2]];
       const unsigned any = a | b | c;
-      if (any == 0) {
-        to.add_filled(work.draw->cull, work.first_vertex + corner[1], work.first_vertex + corner[2],
-                      work.first_vertex + corner[0]);
-        continue;
-      }
       if ((any & kNotFinite) != 0 || (a & b & c & work.planes) != 0) continue;
       if ((any & work.planes) != 0) {
         add_others(primitive);
-      } else if ((any & kNotDrawable) == 0) {  // violates planes only that do not cut
-        to.add_filled(work.draw->cull, work.first_vertex + corner[1], work.first_vertex + corner[2],
-                      work.first_vertex + corner[0]);
+      } else if ((any & kNotDrawable) == 0) {
+        const std::uint32_t first = work.first_vertex;
+        to.add_primitive(*work.draw, work.mesh->topology, {first + corner[0], first + corner[1], first + corner[2]});
       }
     }
     add_others(end);

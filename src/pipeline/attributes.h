@@ -5,6 +5,8 @@
 // a0) with k_i = (l_i / w_i) / sum, it is exact for equal corners, and its rounding is bounded by the corners' values.
 #pragma once
 
+#include <type_traits>
+
 #include "pipeline/depth.h"
 #include "pipeline/lanes.h"
 #include "stages/stages.h"
@@ -14,6 +16,7 @@ namespace plumbline::pipeline {
 struct AttributeSetup {
   float inv_w[3];
   Vec4<float> color0, d_color1, d_color2;  ///< corner 0's, and the others' differences from it
+  bool constant = false;                   ///< no differences
 };
 AttributeSetup attribute_setup(const WindowTriangle<float>& triangle);
 
@@ -28,8 +31,9 @@ template <class R>
 struct Weights {
   R k1, k2;
 };
-template <class R>
-[[gnu::always_inline]] inline Weights<R> weights(const float (&inv_w)[3], const Barycentric<R>& b) {
+/// `S`: float, or R where each lane is another triangle's.
+template <class R, class S = float>
+[[gnu::always_inline]] inline Weights<R> weights(const S (&inv_w)[3], const Barycentric<R>& b) {
   const R q0 = to_float(b.l0) * inv_w[0], q1 = to_float(b.l1) * inv_w[1], q2 = to_float(b.l2) * inv_w[2];
   const R sum = q0 + q1 + q2;
   // A plane extrapolated out of a sliver may reach the horizon: no division by (nearly) 0 there.
@@ -39,8 +43,12 @@ template <class R>
   return {q1 * reciprocal, q2 * reciprocal};
 }
 
-template <class R>
-[[gnu::always_inline]] inline Color<R> mean(const AttributeSetup& s, const Weights<R>& k) {
+template <class R, class Setup = AttributeSetup>
+[[gnu::always_inline]] inline Color<R> mean(const Setup& s, const Weights<R>& k) {
+  if constexpr (std::is_same_v<Setup, AttributeSetup>) {
+    // + 0: -0 is 0, as it is where there are differences.
+    if (s.constant) return {s.color0[0] + 0.0f, s.color0[1] + 0.0f, s.color0[2] + 0.0f, s.color0[3] + 0.0f};
+  }
   const auto channel = [&](int i) { return s.color0[i] + k.k1 * s.d_color1[i] + k.k2 * s.d_color2[i]; };
   return {channel(0), channel(1), channel(2), channel(3)};
 }

@@ -116,30 +116,6 @@ struct BlockState {
   const Surface* surface;  ///< null: plain
 };
 
-/// That of a draw whose nearer fragments replace what is there, in a frame of z24: known when it is compiled.
-struct ReplacingState {
-  static bool describes(const BlockState& s) {
-    return s.depth_func == depth_func && !s.scissor && !s.alpha_test && !s.stencil && !s.merge.blend &&
-           !s.merge.logic_op && glm::all(s.merge.color_mask) && s.merge.depth_mask && s.surface == nullptr &&
-           s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 && s.depth.high == 1.0 &&
-           s.depth.offset == PolygonOffset{};
-  }
-  static constexpr std::optional<Scissor> scissor = std::nullopt;
-  static constexpr std::optional<AlphaTest> alpha_test = std::nullopt;
-  static constexpr std::optional<Stencil> stencil = std::nullopt;
-  struct Merge {
-    static constexpr std::optional<Blend> blend = std::nullopt;
-    static constexpr std::optional<LogicOp> logic_op = std::nullopt;
-    struct ColorMask {
-      static constexpr bool r = true, g = true, b = true, a = true;
-    };
-    static constexpr ColorMask color_mask{};
-    static constexpr bool depth_mask = true;
-  };
-  static constexpr Merge merge{};
-  static constexpr DepthFunc depth_func = DepthFunc::less;
-};
-
 /// Where the next pixels' values are: depth and colour in the frame's formats, as floats.
 struct Stored {
   float* depth;
@@ -151,7 +127,7 @@ struct Stored {
     return {load<R>(color[0]), load<R>(color[1]), load<R>(color[2]), load<R>(color[3])};
   }
   template <class R>
-  void store_color(Mask<R> kept, const Color<R>& merged, const auto& channels) const {
+  void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
     if (channels.r) store(kept, merged.r, color[0]);
     if (channels.g) store(kept, merged.g, color[1]);
     if (channels.b) store(kept, merged.b, color[2]);
@@ -171,7 +147,7 @@ struct StoredCodes {
             to_float(shifted_right<24>(held) & most)};
   }
   template <class R>
-  void store_color(Mask<R> kept, const Color<R>& merged, const auto& channels) const {
+  void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
     if (!channels.r && !channels.g && !channels.b && !channels.a) return;
     const Int<R> codes = packed_codes(merged.r, merged.g, merged.b, merged.a);
     if (channels.r && channels.g && channels.b && channels.a) return store_packed(kept, codes, color);
@@ -184,7 +160,7 @@ struct StoredCodes {
 
 /// Of the fragments `kept`, depth and colour into the frame.
 template <class R, class Stages>
-void write(const Stages& stages, const auto& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
+void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
            const auto& to) {
   if (state.depth_mask) store(kept, z, to.depth);
   const Color<R> merged = [&]() -> Color<R> {
@@ -260,9 +236,16 @@ SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const 
 template <class R, class Stages>
 SurfaceAttributes<R> surface_attributes(const Stages& stages, const AttributeSetup& color, const SurfaceSetup& s,
                                         const Pixels<R>& p, const Barycentric<R>& b) {
-  SurfaceAttributes<R> out{stages.template attributes<R>(color, b), {}, {}};
-  for (const Varying v : s.surface->carried) {
-    out[v] = stages.template attributes<R>(s.varyings[static_cast<std::size_t>(v)], b);
+  SurfaceAttributes<R> out;
+  if constexpr (std::is_same_v<Stages, FragmentStages>) {  // all have the same weights
+    const Weights<R> k = weights<R>(color.inv_w, b);
+    out.color = mean<R>(color, k);
+    for (const Varying v : s.surface->carried) out[v] = mean<R>(s.varyings[static_cast<std::size_t>(v)], k);
+  } else {
+    out.color = stages.template attributes<R>(color, b);
+    for (const Varying v : s.surface->carried) {
+      out[v] = stages.template attributes<R>(s.varyings[static_cast<std::size_t>(v)], b);
+    }
   }
   if (s.surface->texture) {
     const Color<R>& st = out[Varying::texture];
@@ -296,6 +279,7 @@ struct PackedTile {
   alignas(64) float depth[kTile * kTile];
   alignas(64) std::uint32_t color[kTile * kTile];
   alignas(64) std::uint8_t stencil[kTile * kTile];
+  alignas(64) float farthest[kTile * kTile / kBlockPixels];  ///< of each block: none of its depths is greater
 
   int offset(int x, int y) const { return block_offset(x - x0, y - y0); }
   StoredCodes at(int place) { return {depth + place, color + place, stencil + place}; }
@@ -310,7 +294,7 @@ struct NoTap {
 
 // The scissor box, and stages 6 to 11, for the pixels `p`, which are stored from `place` on.
 template <class R, class Stages, class Tap>
-void covered_pixels(const Stages& stages, const auto& state, const auto& s, const Pixels<R>& p, Mask<R> covered,
+void covered_pixels(const Stages& stages, const BlockState& state, const auto& s, const Pixels<R>& p, Mask<R> covered,
                     int place, float color_scale, auto& tile, Tap& tap) {
   if (state.scissor) {
     covered = covered & stages.template scissor<R>(*state.scissor, p);
@@ -353,15 +337,27 @@ void covered_pixels(const Stages& stages, const auto& state, const auto& s, cons
   finish(attributes, stages.template shade<R>(attributes));
 }
 
-/// One pixel, alone in its lanes.
+/// Pixels one by one, in their order; those that follow each other and lie in the same lanes, together.
 template <class R, class Stages, class Tap>
-void fragment_pixel(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s, glm::ivec2 pixel,
-                    float color_scale, auto& tile, Tap& tap) {
-  const int block_x = pixel.x & ~(kBlock - 1), block_y = pixel.y & ~(kBlock - 1);
-  const int in_block = (pixel.y - block_y) * kBlock + (pixel.x - block_x), i = in_block & ~(Lanes<R>::width - 1);
-  const Pixels<R> p = block_pixels<R>(block_x, block_y, i);
-  const Mask<R> covered = (p.x == Int<R>(pixel.x)) & (p.y == Int<R>(pixel.y));
-  covered_pixels<R>(stages, state, s, p, covered, tile.offset(block_x, block_y) + i, color_scale, tile, tap);
+void thin_fragments(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s,
+                    std::span<const glm::ivec2> pixels, float color_scale, auto& tile, Tap& tap) {
+  constexpr int kLanes = Lanes<R>::width;
+  for (std::size_t next = 0; next < pixels.size();) {
+    const int block_x = pixels[next].x & ~(kBlock - 1), block_y = pixels[next].y & ~(kBlock - 1);
+    const auto in_block = [&](glm::ivec2 pixel) { return (pixel.y - block_y) * kBlock + (pixel.x - block_x); };
+    const int first = in_block(pixels[next]) & ~(kLanes - 1);
+    unsigned lanes = 0;
+    for (; next < pixels.size(); ++next) {
+      const glm::ivec2 pixel = pixels[next];
+      const bool here = (pixel.x & ~(kBlock - 1)) == block_x && (pixel.y & ~(kBlock - 1)) == block_y;
+      const int lane = in_block(pixel) - first;
+      if (!here || lane < 0 || lane >= kLanes || (lanes >> lane & 1u) != 0) break;
+      lanes |= 1u << lane;
+    }
+    const Pixels<R> p = block_pixels<R>(block_x, block_y, first);
+    covered_pixels<R>(stages, state, s, p, mask_of<R>(lanes), tile.offset(block_x, block_y) + first, color_scale, tile,
+                      tap);
+  }
 }
 
 }  // namespace plumbline::pipeline

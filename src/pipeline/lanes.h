@@ -53,6 +53,13 @@ inline bool any(bool mask) { return mask; }
 inline bool all(bool mask) { return mask; }
 /// One bit a lane, the first lowest.
 inline unsigned bits_of(bool mask) { return mask ? 1 : 0; }
+/// The lanes of those bits.
+template <class R>
+Mask<R> mask_of(unsigned bits);
+template <>
+inline bool mask_of<float>(unsigned bits) {
+  return bits != 0;
+}
 inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }
@@ -118,6 +125,12 @@ inline double power_of_two(double n) {  // 1.5 * 2^52: leaves the biased exponen
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(n + (6755399441055744.0 + 1023.0)) << 52);
 }
 
+template <class R>
+Wide<R> load_wide(const double* from);
+template <>
+inline double load_wide<float>(const double* from) {
+  return *from;
+}
 /// The next Lanes<R>::width values.
 template <class R>
 R load(const float* from);
@@ -146,9 +159,10 @@ template <>
 inline std::int64_t load_packed<float>(const std::uint32_t* from) {
   return *from;
 }
-/// Of whole numbers from 0 to 255, the first in the lowest byte.
+/// Of numbers from 0 to 255, rounded half to even; the first in the lowest byte.
 inline std::int64_t packed_codes(float r, float g, float b, float a) {
-  return to_int(r) | to_int(g) << 8 | to_int(b) << 16 | to_int(a) << 24;
+  const auto code = [](float value) { return to_int(round_even(value)); };
+  return code(r) | code(g) << 8 | code(b) << 16 | code(a) << 24;
 }
 inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {
   if (mask) *to = static_cast<std::uint32_t>(value);
@@ -159,19 +173,6 @@ Int<R> load_ints(const std::int32_t* from);
 template <>
 inline std::int64_t load_ints<float>(const std::int32_t* from) {
   return *from;
-}
-/// Four pixels of a row, past the caches: their codes, and whole numbers as such. `to` lies at a multiple of 16.
-template <class R>
-void stream_codes(const std::uint32_t* from, std::uint32_t* to);
-template <class R>
-void stream_whole(const float* from, std::uint32_t* to);
-template <>
-inline void stream_codes<float>(const std::uint32_t* from, std::uint32_t* to) {
-  for (int i = 0; i < 4; ++i) to[i] = from[i];
-}
-template <>
-inline void stream_whole<float>(const float* from, std::uint32_t* to) {
-  for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint32_t>(from[i]);
 }
 /// All lanes, side by side.
 inline void store(float value, float* to) { *to = value; }
@@ -190,6 +191,23 @@ inline void load_fours(const float* const (&from)[1], float (&out)[4]) {
 }
 inline void store_fours(const float (&values)[4], float* const (&to)[1]) {
   for (int i = 0; i < 4; ++i) to[0][i] = values[i];
+}
+
+inline float greatest_lane(float value) { return value; }
+inline int greatest_lane(std::int64_t value) { return static_cast<int>(value); }
+
+/// Columns and rows alone of block_pixels().
+template <class R>
+Wide<R> columns_of_block(int block_x, int i);
+template <class R>
+Wide<R> rows_of_block(int block_y, int i);
+template <>
+inline double columns_of_block<float>(int block_x, int i) {
+  return block_x + i % kBlock;
+}
+template <>
+inline double rows_of_block<float>(int block_y, int i) {
+  return block_y + i / kBlock;
 }
 
 /// The value of one lane, for taps.

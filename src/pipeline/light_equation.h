@@ -3,9 +3,9 @@
 
 #include <array>
 #include <limits>
-#include <vector>
 
 #include "pipeline/attributes.h"
+#include "pipeline/few.h"
 #include "pipeline/math.h"
 #include "pipeline/vector.h"
 #include "scene/scene.h"
@@ -27,7 +27,7 @@ struct EyeLight {
 /// What does not change within a draw.
 struct Illumination {
   LightModel model;
-  std::vector<EyeLight> lights;
+  Few<EyeLight, 8> lights;
 };
 Illumination illumination(const Scene& scene);
 

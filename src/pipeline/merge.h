@@ -25,11 +25,19 @@ template <class R>
 template <class W>
 using Channels = std::array<W, 4>;
 
+/// The same of rgba8, packed.
+template <class R>
+[[gnu::always_inline]] inline Int<R> packed_merge(const Color<R>& color) {
+  const auto code = [](R value) { return clamp01(value) * R(255.0f); };
+  return packed_codes(code(color.r), code(color.g), code(color.b), code(color.a));
+}
+
 /// A blend factor's channels, times `unit`, so that those of the frame's colour are its codes and rounded nowhere.
 /// `source` in [0,1] and `stored` in codes, or both as they are, and unit 1.
 template <class W>
-Channels<W> blend_factor(BlendFactor factor, const Channels<W>& source, const Channels<W>& stored,
-                         const glm::vec4& constant, double unit) {
+[[gnu::always_inline]] inline Channels<W> blend_factor(BlendFactor factor, const Channels<W>& source,
+                                                       const Channels<W>& stored, const glm::vec4& constant,
+                                                       double unit) {
   const auto each = [](auto of) { return Channels<W>{of(0u), of(1u), of(2u), of(3u)}; };
   const auto all = [](const W& value) { return Channels<W>{value, value, value, value}; };
   const auto given = [&](int i) { return static_cast<double>(constant[i]) * unit; };
@@ -57,11 +65,16 @@ Channels<W> blend_factor(BlendFactor factor, const Channels<W>& source, const Ch
   return all(W(0));
 }
 
+/// The commonest: source alpha, and one minus it.
+constexpr BlendTerm kOverTerm{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
+constexpr Blend kOver{kOverTerm, kOverTerm, glm::vec4(0)};
+
 /// `source` blended with what is `stored`, in the frame's format, as merge() makes it (OpenGL 2.1 spec 4.1.8). In
 /// double, for the layers' errors add up: a product of a colour and a code is exact there, and the sum is rounded to
 /// codes as the real number would be, but for sums within some 2^-45 codes of a half.
 template <class R>
-Color<R> blend(const Blend& state, const Color<R>& source, const Color<R>& stored, float scale) {
+[[gnu::always_inline]] inline Color<R> blend(const Blend& state, const Color<R>& source, const Color<R>& stored,
+                                             float scale) {
   using W = Wide<R>;
   const bool codes = scale != 0.0f;
   const double unit = codes ? scale : 1.0;

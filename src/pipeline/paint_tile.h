@@ -1,61 +1,13 @@
-// Stages 5 to 11 of a tile, as the painter does them: triangles set up in lanes, blocks in rows.
+// Stages 5 to 11 of a tile, as the painter does them: triangles set up in lanes, blocks in rows. Draws whose nearer
+// fragments replace what is there, which most are, have a kernel of their own (paint_opaque.h).
 #pragma once
 
 #include <algorithm>
-#include <bit>
 
-#include "pipeline/set_up_lanes.h"
+#include "pipeline/merge.h"
+#include "pipeline/paint_opaque.h"
 
 namespace plumbline::pipeline {
-
-alignas(64) inline constexpr std::int32_t kBlockNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-
-/// The pixels that three edges cover: visit(x, y and number of the block's first of them, which of them), block by
-/// block. x, y: of the tile.
-template <class R>
-void visit_covered(const auto& s, auto visit) {
-  using I = Int<R>;
-  constexpr int kLanes = Lanes<R>::width, kParts = kBlockPixels / kLanes;
-  I in_block[3][kParts];  // what E adds to that of the block's first pixel
-  alignas(64) static constexpr std::int32_t kX[] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-  alignas(64) static constexpr std::int32_t kY[] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-  for (int k = 0; k < 3; ++k) {
-    for (int part = 0; part < kParts; ++part) {
-      in_block[k][part] = load_ints<R>(kX + part * kLanes) * I(s.edge[k].step_x) +
-                          load_ints<R>(kY + part * kLanes) * I(s.edge[k].step_y);
-    }
-  }
-  const auto block = [&](int x, int y) {
-    const std::int32_t at[3] = {s.edge[0].at_tile + s.edge[0].step_x * x + s.edge[0].step_y * y,
-                                s.edge[1].at_tile + s.edge[1].step_x * x + s.edge[1].step_y * y,
-                                s.edge[2].at_tile + s.edge[2].step_x * x + s.edge[2].step_y * y};
-#pragma GCC unroll 1
-    for (int part = 0; part < kParts; ++part) {
-      const Mask<R> covered =
-          ((I(at[0]) + in_block[0][part]) | (I(at[1]) + in_block[1][part]) | (I(at[2]) + in_block[2][part])) >= I(0);
-      if (any(covered)) visit(x, y, part * kLanes, covered);
-    }
-  };
-  // A row of blocks at once: those where an edge is negative even at its most are empty. Few are looked at one by one.
-  const bool few = s.x1 - s.x0 <= 3 * kBlock;
-  I most[3];
-  for (int k = 0; k < 3; ++k) {
-    const TileEdge& e = s.edge[k];
-    most[k] = load_ints<R>(kBlockNumbers) * I(kBlock * e.step_x) +
-              I(e.at_tile + (kBlock - 1) * ((e.step_x > 0 ? e.step_x : 0) + (e.step_y > 0 ? e.step_y : 0)));
-  }
-  for (int y = s.y0; y < s.y1; y += kBlock) {
-    for (int x = s.x0; x < s.x1; x += kBlock * kLanes) {
-      const int left = (s.x1 - x + kBlock - 1) / kBlock;
-      unsigned blocks = left < kLanes ? (1u << left) - 1 : ~0u >> (32 - kLanes);
-      if (!few) {
-        const auto at = [&](int k) { return most[k] + I(s.edge[k].step_x * x + s.edge[k].step_y * y); };
-        blocks &= bits_of((at(0) | at(1) | at(2)) >= I(0));
-      }
-      for (; blocks != 0; blocks &= blocks - 1) block(x + kBlock * std::countr_zero(blocks), y);
-    }
-  }
-}
 
 /// A triangle's varyings at its corners; of those that light made, flat shading takes the provoking one's.
 inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
@@ -82,136 +34,185 @@ void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTri
                    tile, tap);
 }
 
-/// What is left to do for a lane.
-inline void finish_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
-                        LaneSetup<DepthSetup>& s) {
-  s.depth.scale = painting.formats.depth_scale;
-  s.depth.low = draw.state.depth.low;
-  s.depth.high = draw.state.depth.high;
-  if (draw.state.depth.offset == PolygonOffset{}) return;
-  s.depth = depth_setup(record_of(painting, draw, t), draw.state.depth);
-  if (painting.formats.sample != glm::ivec2(0)) s.depth = moved(s.depth, s.planes, painting.formats.sample);
+/// A lane's depth, with what of the draw's state changes it.
+inline DepthSetup depth_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
+                                const BarycentricPlanes& planes, const DepthSetup& as_it_is) {
+  DepthSetup out = as_it_is;
+  out.scale = painting.formats.depth_scale;
+  out.low = draw.state.depth.low;
+  out.high = draw.state.depth.high;
+  if (draw.state.depth.offset == PolygonOffset{}) return out;
+  out = depth_setup(record_of(painting, draw, t), draw.state.depth);
+  return painting.formats.sample == glm::ivec2(0) ? out : moved(out, planes, painting.formats.sample);
 }
 
-/// A draw's triangles in the tile.
+/// Those of the run, by the draw's state.
 template <class R>
-void paint_in_lanes(const Painting& painting, const PaintDraw& draw, const Chunk& chunk,
-                    std::span<const std::uint32_t> numbers, const auto& state, auto& tile) {
-  constexpr std::size_t kLanes = Lanes<R>::width;
-  const PaintTriangle* triangles = chunk.triangles.data();
-  const SetupSite site{tile.x0, tile.y0, painting.formats.sample, draw.flat};
-  constexpr bool packed = std::is_same_v<std::decay_t<decltype(tile)>, PackedTile>;
-  const float color_scale = packed ? 255.0f : painting.formats.color_scale;
+void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
+  const PaintDraw& draw = painting.draws[run.draw];
   NoTap tap;
-  SetupLanes<R> lanes;
-  for (std::size_t i = 0; i < numbers.size(); i += kLanes) {
-    const std::size_t count = std::min(kLanes, numbers.size() - i);
-    const WindowVertex<float>* corner[3][kLanes];
-    alignas(64) float facing[kLanes];
-    unsigned thin = 0;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {  // lanes that are too many do as the last
-      const PaintTriangle& t = triangles[numbers[i + std::min(lane, count - 1)]];
-      for (std::size_t k = 0; k < 3; ++k) corner[k][lane] = painting.vertices + t.corner[k];
-      facing[lane] = t.front ? 1.0f : -1.0f;
-      thin |= t.corners < 3 ? 1u << lane : 0u;
-    }
-    lanes.fitting = 0;
-    if (thin == 0) set_up_lanes<R>(corner, facing, site, lanes);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const PaintTriangle& t = triangles[numbers[i + lane]];
-      if ((lanes.fitting >> lane & 1u) == 0) {
-        paint_alone<R>(painting, draw, t, tile);
-        continue;
-      }
-      constexpr bool replaces = std::is_same_v<std::decay_t<decltype(state)>, ReplacingState>;
-      auto s = lanes.template of<std::conditional_t<replaces, Z24Setup, DepthSetup>>(static_cast<int>(lane));
-      s.front = t.front;
-      s.planes.x0 = tile.x0 + 0.5;
-      s.planes.y0 = tile.y0 + 0.5;
-      if constexpr (!replaces) finish_lane(painting, draw, t, s);
-      const auto visit = [&](const auto& setup) {
-        visit_covered<R>(setup, [&](int x, int y, int part, Mask<R> covered) {
-          covered_pixels<R>(FragmentStages(), state, setup, block_pixels<R>(tile.x0 + x, tile.y0 + y, part), covered,
-                            block_offset(x, y) + part, color_scale, tile, tap);
-        });
-      };
-      if constexpr (replaces) {
-        visit(s);
-      } else if (draw.state.surface == nullptr) {
-        visit(s);
-      } else {
+  const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
+  const auto together = [](const auto&, int) { return false; };
+  each_lane<R>(
+      painting, run, false, tile.x0, tile.y0, together, alone,
+      [&](const PaintTriangle& t, const auto& lanes, int lane) {
+        auto s = lanes.template of<DepthSetup>(lane);
+        s.front = t.front;
+        s.planes.x0 = tile.x0 + 0.5;
+        s.planes.y0 = tile.y0 + 0.5;
+        s.depth = depth_of_lane(painting, draw, t, s.planes, s.depth);
+        const auto paint = [&](const auto& setup) {
+          visit_covered<R>(
+              setup, [](int) { return ~0u; },
+              [&](int x, int y, const auto& covered) {
+                for (int part = 0; part < kParts<R>; ++part) {
+                  if (!any(covered[part])) continue;
+                  const int i = part * Lanes<R>::width;
+                  covered_pixels<R>(FragmentStages(), draw.state, setup, block_pixels<R>(tile.x0 + x, tile.y0 + y, i),
+                                    covered[part], block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
+                }
+              });
+        };
+        if (draw.state.surface == nullptr) return paint(s);
         const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
         const SurfaceSetup surface =
             set_up_surface(FragmentStages(), *draw.state.surface, record_of(painting, draw, t), 0, varying, s.planes);
-        visit(LaneSurfaceSetup{s, &surface});
+        paint(LaneSurfaceSetup{s, &surface});
+      });
+}
+
+/// The tile's triangles, chunk by chunk and draw by draw.
+inline void find_runs(const Painting& painting, std::size_t tile, std::vector<PaintRun>& runs) {
+  runs.clear();
+  for (const Chunk& chunk : painting.chunks) {
+    std::span<const std::uint32_t> numbers(chunk.numbers.data() + chunk.first[tile],
+                                           chunk.first[tile + 1] - chunk.first[tile]);
+    auto of_draw = chunk.draws.begin();
+    while (!numbers.empty()) {
+      while (numbers.front() >= of_draw->end) ++of_draw;
+      const auto end =
+          std::partition_point(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return n < of_draw->end; });
+      const auto count = static_cast<std::size_t>(end - numbers.begin());
+      runs.push_back({of_draw->draw, chunk.triangles.data(), numbers.first(count)});
+      numbers = numbers.subspan(count);
+    }
+  }
+}
+
+/// Of the runs that may be painted by paint_opaque(), those first in the tile; painted from the last to the first where
+/// that is from near to far.
+template <class R>
+std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun> runs, PackedTile& tile) {
+  const auto opaque = [&](const PaintRun& run) { return painting.draws[run.draw].kernel == PaintKernel::replaces; };
+  const auto count = static_cast<std::size_t>(std::find_if_not(runs.begin(), runs.end(), opaque) - runs.begin());
+  if (count == 0) return 0;
+  const auto depth = [&](const PaintRun& run, std::uint32_t number) {
+    return painting.vertices[run.triangles[number].corner[0]].p_win.z;
+  };
+  const PaintRun &first = runs[0], &last = runs[count - 1];
+  if (painting.any_far || !(depth(last, last.numbers.back()) < depth(first, first.numbers.front()))) return 0;
+  for (std::size_t i = count; i-- > 0;)
+    paint_opaque<R, PaintKernel::replaces, Order::last_to_first>(painting, runs[i], tile, [](const PaintTriangle&) {});
+  return count;
+}
+template <class R>
+std::size_t paint_first_runs(const Painting&, std::span<const PaintRun>, Tile&) {
+  return 0;
+}
+
+template <class R>
+void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile& tile) {
+  const PaintDraw& draw = painting.draws[run.draw];
+  const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
+  if (draw.kernel == PaintKernel::replaces) {
+    return paint_opaque<R, PaintKernel::replaces, Order::first_to_last>(painting, run, tile, alone);
+  }
+  if (draw.kernel == PaintKernel::blends_over) {
+    return paint_opaque<R, PaintKernel::blends_over, Order::first_to_last>(painting, run, tile, alone);
+  }
+  const DepthFunc func = draw.state.depth_func;
+  const bool farther =
+      func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;
+  if (farther) {
+    std::fill(std::begin(tile.farthest), std::end(tile.farthest), std::numeric_limits<float>::infinity());
+  }
+  paint_run<R>(painting, run, tile);
+}
+template <class R>
+void paint_next_run(const Painting& painting, const PaintRun& run, Tile& tile) {
+  paint_run<R>(painting, run, tile);
+}
+
+/// Copies the tile's part of the frame out of its blocks.
+template <class R>
+void copy_out(const Tile& tile, Frame& frame) {
+  write_out(tile, frame);
+}
+/// Four pixels of a row at once.
+template <class R>
+void copy_out(const PackedTile& tile, Frame& frame) {
+  const int width = frame.color_rgba8.width(), height = frame.color_rgba8.height();
+  if (width % kBlock != 0 || frame.depth_code.empty() || !frame.stencil.empty()) return write_out(tile, frame);
+  const int blocks = std::min(kTile, width - tile.x0) / kBlock;
+  for (int y = 0; y < std::min(kTile, height - tile.y0); ++y) {
+    const int from = block_offset(0, y) + y % kBlock * kBlock;
+    auto* colors = reinterpret_cast<std::uint32_t*>(frame.color_rgba8.row(tile.y0 + y) + tile.x0);
+    std::uint32_t* depths = frame.depth_code.row(tile.y0 + y) + tile.x0;
+    for (int b = 0; b < blocks; ++b) {
+      const std::uint32_t* color = tile.color + from + b * kBlockPixels;
+      const float* depth = tile.depth + from + b * kBlockPixels;
+      for (int i = 0; i < kBlock; ++i) colors[b * kBlock + i] = color[i];
+      for (int i = 0; i < kBlock; ++i) {
+        depths[b * kBlock + i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(depth[i]));
       }
     }
   }
 }
 
+/// What lies in the tile, over clear ground.
 template <class R>
-void paint_replacing(const Painting& painting, const PaintDraw& draw, const Chunk& chunk,
-                     std::span<const std::uint32_t> numbers, PackedTile& tile) {
-  paint_in_lanes<R>(painting, draw, chunk, numbers, ReplacingState(), tile);
-}
-
-/// All of a chunk's triangles in the tile, draw by draw.
-template <class R>
-void paint_chunk(const Painting& painting, const Chunk& chunk, std::span<const std::uint32_t> numbers, auto& tile) {
-  auto of_draw = chunk.draws.begin();
-  while (!numbers.empty()) {
-    while (numbers.front() >= of_draw->end) ++of_draw;
-    const auto end =
-        std::partition_point(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return n < of_draw->end; });
-    const std::span<const std::uint32_t> run(numbers.begin(), end);
-    const PaintDraw& draw = painting.draws[of_draw->draw];
-    bool painted = false;
-    if constexpr (std::is_same_v<std::decay_t<decltype(tile)>, PackedTile>) {
-      if (draw.replaces) paint_replacing<R>(painting, draw, chunk, run, tile), painted = true;
-    }
-    if (!painted) paint_in_lanes<R>(painting, draw, chunk, run, draw.state, tile);
-    numbers = numbers.subspan(run.size());
+void paint_runs(const Painting& painting, std::span<const PaintRun> runs, auto& tile) {
+  clear(tile, painting.format, painting.formats);
+  for (std::size_t i = paint_first_runs<R>(painting, runs, tile); i < runs.size(); ++i) {
+    paint_next_run<R>(painting, runs[i], tile);
   }
 }
 
-/// Copies the tile's part of the frame out of its blocks, four pixels of a row at once.
+/// mean_of_four() (resolve.h) of the samples' codes, into the first's.
 template <class R>
-void stream_out(const PackedTile& tile, Frame& frame) {
-  const int width = frame.color_rgba8.width(), height = frame.color_rgba8.height();
-  if (width % kBlock != 0 || frame.depth_code.empty() || !frame.stencil.empty()) return write_out(tile, frame);
-  auto* colors = reinterpret_cast<std::uint32_t*>(frame.color_rgba8.values().data());
-  std::uint32_t* depths = frame.depth_code.values().data();
-  const int blocks = std::min(kTile, width - tile.x0) / kBlock;
-  for (int y = 0; y < std::min(kTile, height - tile.y0); ++y) {
-    const std::size_t to =
-        static_cast<std::size_t>(tile.y0 + y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(tile.x0);
-    const int from = block_offset(0, y) + y % kBlock * kBlock;
-    for (int b = 0; b < blocks; ++b) stream_codes<R>(tile.color + from + b * kBlockPixels, colors + to + b * kBlock);
-    for (int b = 0; b < blocks; ++b) stream_whole<R>(tile.depth + from + b * kBlockPixels, depths + to + b * kBlock);
+void resolve_samples(PackedTile (&samples)[4]) {
+  const auto mean = [](R a, R b, R c, R d) {
+    const R code(1.0f / 255.0f), sum = ((a * code + b * code) + c * code) + d * code;
+    return (sum * R(0.25f)) * R(255.0f);  // packing rounds it half to even
+  };
+  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) {
+    Color<R> of[4];
+    for (int k = 0; k < 4; ++k) of[k] = samples[k].at(i).load_color<R>();
+    store(packed_codes(mean(of[0].r, of[1].r, of[2].r, of[3].r), mean(of[0].g, of[1].g, of[2].g, of[3].g),
+                       mean(of[0].b, of[1].b, of[2].b, of[3].b), mean(of[0].a, of[1].a, of[2].a, of[3].a)),
+          reinterpret_cast<std::int32_t*>(samples[0].color + i));
   }
-}
-template <class R>
-void stream_out(const Tile& tile, Frame& frame) {
-  write_out(tile, frame);
 }
 
 /// The tile, from clear to the frame.
 template <class R>
-void paint_tile_in(const Painting& painting, int number, auto& tile, Frame& frame) {
-  tile.x0 = number % painting.columns * kTile;
-  tile.y0 = number / painting.columns * kTile;
-  clear(tile, painting.format, painting.formats);
-  for (const Chunk& chunk : painting.chunks) {
-    const auto t = static_cast<std::size_t>(number);
-    const std::uint32_t begin = chunk.first[t], end = chunk.first[t + 1];
-    paint_chunk<R>(painting, chunk, std::span(chunk.numbers.data() + begin, end - begin), tile);
-  }
-  stream_out<R>(tile, frame);
-}
-template <class R>
 void paint_tile(const Painting& painting, int number, TileMemory& memory, Frame& frame) {
-  if (painting.format.color == ColorFormat::rgba8) return paint_tile_in<R>(painting, number, memory.packed, frame);
-  paint_tile_in<R>(painting, number, memory.tile, frame);
+  const int x0 = number % painting.columns * kTile, y0 = number / painting.columns * kTile;
+  find_runs(painting, static_cast<std::size_t>(number), memory.runs);
+  if (painting.format.color != ColorFormat::rgba8) {
+    memory.tile.x0 = x0, memory.tile.y0 = y0;
+    paint_runs<R>(painting, memory.runs, memory.tile);
+    return copy_out<R>(memory.tile, frame);
+  }
+  for (std::size_t i = 0; i < painting.samples.size(); ++i) {
+    PackedTile& tile = memory.packed[i];
+    tile.x0 = x0, tile.y0 = y0;
+    Painting of_sample = painting;
+    of_sample.formats.sample = painting.samples[i];
+    paint_runs<R>(of_sample, memory.runs, tile);
+  }
+  if (painting.samples.size() > 1) resolve_samples<R>(memory.packed);
+  copy_out<R>(memory.packed[0], frame);
 }
 
 }  // namespace plumbline::pipeline

@@ -60,10 +60,12 @@ void paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   for (int k = 0; k < 3; ++k) {
     p_win[k] = fused(p_clip[k] * inv_w, R(work.matrices.win_scale[k]), R(work.matrices.win_translate[k]));
   }
-  const auto finite = [](R value) { return value - value == R(0); };
   const auto near = [](R value) { return greater_of(value, -value) <= R(1 << 20); };
-  const Mask<R> drawable = near(p_win[0]) & near(p_win[1]) & finite(p_win[2]) & finite(inv_w);
-  const Mask<R> all_finite = finite(p_clip[0]) & finite(p_clip[1]) & finite(p_clip[2]) & finite(p_clip[3]);
+  const auto nothing = [](R value) { return value - value; };  // 0, but for what is not finite
+  const Mask<R> x_near = near(p_win[0]), y_near = near(p_win[1]);
+  const Mask<R> drawable = x_near & y_near & (nothing(p_win[2]) + nothing(inv_w) == R(0));
+  const R of_all = nothing(p_clip[0]) + nothing(p_clip[1]) + nothing(p_clip[2]) + nothing(p_clip[3]);
+  const Mask<R> all_finite = of_all == R(0);
   store_codes(outside_planes(p_clip) | select(all_finite, Int<R>(0), Int<R>(kNotFinite)) |
                   select(drawable, Int<R>(0), Int<R>(kNotDrawable)),
               work.outside + i);

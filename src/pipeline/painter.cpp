@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -13,6 +16,7 @@
 #include "pipeline/matrices.h"
 #include "pipeline/resolve.h"
 #include "pipeline/surface.h"
+#include "pipeline/vertex.h"
 #include "scene/antialias.h"
 
 namespace plumbline::pipeline {
@@ -23,21 +27,29 @@ namespace {
 bool goes_in_lanes(const Scene& scene, const Draw& draw) {
   const Mesh& mesh = scene.meshes[draw.mesh];
   const bool by_color = draw.color_material != ColorMaterial::none && !mesh.colors.empty();
-  return mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
-         draw.back_mode == PolygonMode::fill && !(is_lit_per_vertex(draw) && by_color) &&
+  const bool filled = mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
+                      draw.back_mode == PolygonMode::fill;
+  return (filled || draw.shading != Shading::flat) && !(is_lit_per_vertex(draw) && by_color) &&
          !carries(scene, draw, Varying::back_color) && !carries(scene, draw, Varying::back_secondary);
 }
 
-// ((a x + b y) + c z) + d w: as vertex.cpp's.
-Mat4<float> product(const Mat4<float>& p, const Mat4<float>& m) {
-  Mat4<float> out;
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) {
-      out[column][row] =
-          ((p[0][row] * m[column][0] + p[1][row] * m[column][1]) + p[2][row] * m[column][2]) + p[3][row] * m[column][3];
-    }
-  }
-  return out;
+PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const BlockState& s) {
+  const bool plain = mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
+                     draw.back_mode == PolygonMode::fill && s.surface == nullptr &&
+                     s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 && s.depth.high == 1.0 &&
+                     s.depth.offset == PolygonOffset{} && s.depth_func == DepthFunc::less && !s.scissor &&
+                     !s.alpha_test && !s.stencil && !s.merge.logic_op && glm::all(s.merge.color_mask) &&
+                     s.merge.depth_mask;
+  if (!plain) return PaintKernel::any;
+  if (!s.merge.blend) return PaintKernel::replaces;
+  const bool over = s.merge.blend->rgb == kOverTerm && s.merge.blend->alpha == kOverTerm;
+  return over ? PaintKernel::blends_over : PaintKernel::any;
+}
+
+// Whether tiles take a pixel's samples at once. Other antialiased frames are resolved from whole passes.
+bool takes_samples(const FrameFormat& frame) {
+  return frame.antialias.kind == Antialias::Kind::multisample && frame.color == ColorFormat::rgba8 &&
+         frame.stencil == StencilFormat::none;
 }
 
 bool same_planes(const FrameFormat& a, const FrameFormat& b) {
@@ -48,8 +60,14 @@ bool same_planes(const FrameFormat& a, const FrameFormat& b) {
 }  // namespace
 
 struct Painter::Memory {
-  Memory(int thread_count, const SimdTarget& of) : threads(thread_count), target(of), arena(thread_count) {
-    for (int i = 0; i < threads; ++i) tiles.push_back(std::make_unique<TileMemory>());
+  static constexpr int kMostThreads = 256;
+  Memory(int thread_count, const SimdTarget& of)
+      : threads(std::clamp(thread_count, 1, kMostThreads)), target(of), arena(threads) {
+    if (threads > tbb::info::default_concurrency()) {
+      // Else there are no more workers than processors, for all of the process.
+      static const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, kMostThreads);
+    }
+    for (int i = 0; i < threads; ++i) tiles.push_back(std::make_unique_for_overwrite<TileMemory>());
   }
 
   void draw_pass(const Scene& scene, Frame& to);
@@ -79,7 +97,7 @@ struct Painter::Memory {
   std::vector<DrawRange> ranges;
   std::vector<Surface> surfaces;
   std::vector<PaintDraw> draws;
-  std::vector<Illumination> illumination;  // one, where any vertex is lit
+  Illumination illumination;
   std::vector<VertexWork> vertex_work;
   struct Share {
     std::size_t draw, from, to;
@@ -101,10 +119,23 @@ struct Painter::Memory {
 void Painter::Memory::prepare(const Scene& scene) {
   painting.format = scene.frame;
   painting.formats = formats_of(scene.frame);
+  painting.samples = takes_samples(scene.frame) ? std::span<const glm::ivec2>(kSamples)
+                                                : std::span<const glm::ivec2>(&painting.formats.sample, 1);
   painting.columns = (scene.frame.width + kTile - 1) / kTile;
   painting.rows = (scene.frame.height + kTile - 1) / kTile;
-  ranges = draw_ranges(scene);
-  surfaces = surfaces_of(scene, {});
+  ranges.clear();
+  DrawRange next{};
+  for (const Draw& draw : scene.draws) {  // draw_ranges(), in memory that is kept
+    const Mesh& mesh = scene.meshes[draw.mesh];
+    next.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
+    next.primitive_count = static_cast<std::uint32_t>(mesh.triangles.size());
+    ranges.push_back(next);
+    next.first_vertex += next.vertex_count;
+    next.first_primitive += next.primitive_count;
+  }
+  surfaces.clear();
+  static const Records<float> kNoRecords;
+  for (const Draw& draw : scene.draws) surfaces.push_back(surface_of(scene, draw, kNoRecords));
   draws.clear();
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];
@@ -115,15 +146,14 @@ void Painter::Memory::prepare(const Scene& scene) {
                            draw.stencil,
                            draw.merge,
                            surfaces[d].plain() ? nullptr : &surfaces[d]};
-    draws.push_back({state, ReplacingState::describes(state), draw.shading == Shading::flat});
+    draws.push_back({state, kernel_of(scene.meshes[draw.mesh], draw, state), draw.shading == Shading::flat});
   }
   painting.draws = draws;
 }
 
 // Stages 0, 1, 2 and 4.
 void Painter::Memory::run_vertices(const Scene& scene) {
-  illumination.clear();
-  illumination.push_back(pipeline::illumination(scene));
+  illumination = pipeline::illumination(scene);
   vertex_work.clear();
   shares.clear();
   assembly.clear();
@@ -148,14 +178,14 @@ void Painter::Memory::run_vertices(const Scene& scene) {
     VertexWork work{};
     work.mesh = &mesh;
     work.matrices = matrices(scene, draw);
-    work.to_clip = product(work.matrices.projection, work.matrices.model_view);
+    work.to_clip = clip_matrix(work.matrices);
     const Vec3<float>& third = work.matrices.normal[2];
     work.normal_divisor = draw.normals == Normals::normalize ? 0.0f
                           : draw.normals == Normals::rescale
                               ? std::sqrt((third.x * third.x + third.y * third.y) + third.z * third.z)
                               : 1.0f;
     if (is_lit_per_vertex(draw)) {
-      work.illumination = &illumination[0];
+      work.illumination = &illumination;
       work.reflectance = reflectance(scene, lit_material(scene, draw, {}, nullptr));
       work.secondary = reflectance(scene, lit_material(scene, draw, {false, true}, nullptr));
     }
@@ -182,6 +212,11 @@ void Painter::Memory::run_others(const Scene& scene) {
   std::vector<std::uint32_t> primitives;  // of the rest, in the scene
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const AssemblyWork& work = assembly[d];
+    if (work.outside != nullptr) {
+      const std::span<const std::uint8_t> of_vertices(work.outside, work.range.vertex_count);
+      const auto violates = [&](std::uint8_t bits) { return (bits & work.planes) != 0; };
+      if (std::none_of(of_vertices.begin(), of_vertices.end(), violates)) continue;
+    }
     std::vector<std::uint32_t> of_draw;
     for (std::uint32_t i = 0; i < work.range.primitive_count; ++i) {
       const glm::uvec3& c = work.mesh->triangles[i];
@@ -264,6 +299,8 @@ void Painter::Memory::run_triangles(const Scene&) {
     assemble(chunks[i], assembly, others, painting);
   });
   painting.chunks = std::span(chunks).first(count);
+  painting.any_far =
+      std::any_of(painting.chunks.begin(), painting.chunks.end(), [](const Chunk& c) { return c.any_far; });
 }
 
 void Painter::Memory::run_tiles(Frame& to) {
@@ -285,12 +322,26 @@ void Painter::Memory::draw_pass(const Scene& scene, Frame& to) {
 Painter::Painter(int threads, const SimdTarget& target) : memory_(std::make_unique<Memory>(threads, target)) {}
 Painter::~Painter() = default;
 
+std::size_t Painter::bytes() const {
+  const Memory& m = *memory_;
+  std::size_t sum = m.vertices.bytes() + m.outside.bytes() + m.tiles.size() * sizeof(TileMemory);
+  for (const auto& column : m.varyings) sum += column.bytes();
+  for (const Chunk& chunk : m.chunks) {
+    sum += chunk.triangles.bytes() + chunk.boxes.bytes() + chunk.numbers.bytes() + 4 * chunk.first.capacity();
+  }
+  const auto of = [](const auto& plane) { return plane.size() * sizeof(plane.values()[0]); };
+  if (!m.frame) return sum;
+  const Frame& f = *m.frame;
+  return sum + of(f.color_rgba8) + of(f.color_rgba12) + of(f.color_rgba16) + of(f.color_rgba32f) + of(f.depth_code) +
+         of(f.depth_z32f) + of(f.stencil);
+}
+
 Frame& Painter::draw(const Scene& scene) {
   if (!memory_->frame || !memory_->format || !same_planes(*memory_->format, scene.frame) || memory_->frame->empty()) {
     memory_->frame = std::make_unique<Frame>(scene.frame);
     memory_->format = scene.frame;
   }
-  if (scene.frame.antialias.kind == Antialias::Kind::none) {
+  if (scene.frame.antialias.kind == Antialias::Kind::none || takes_samples(scene.frame)) {
     memory_->draw_pass(scene, *memory_->frame);
     return *memory_->frame;
   }

@@ -17,11 +17,14 @@ namespace plumbline::pipeline {
 
 class Painter {
  public:
+  /// `threads`: from 1 to 256; beyond, the nearer of them.
   explicit Painter(int threads = 1, const SimdTarget& target = simd_targets().back());
   ~Painter();
 
   /// The frame is the painter's, until it draws the next; a caller may move it away. Another scene each time is fine.
   Frame& draw(const Scene& scene);
+  /// What it keeps from frame to frame, the frame's planes among it.
+  std::size_t bytes() const;
 
  private:
   struct Memory;

@@ -74,6 +74,7 @@ struct Chunk {
   Scratch<PaintTriangle> triangles;
   Scratch<TileBox> boxes;
   std::uint32_t count = 0;
+  bool any_far = false;  ///< whether any may be too large for lanes (set_up_lanes.h)
   struct OfDraw {
     std::uint32_t draw, end;  ///< its triangles end there
   };
@@ -82,28 +83,42 @@ struct Chunk {
   Scratch<std::uint32_t> numbers;
 };
 
+/// How a draw's filled triangles are painted: paint_opaque.h has the two that are commonest.
+enum class PaintKernel { any, replaces, blends_over };
+
 /// A draw, as tiles want it.
 struct PaintDraw {
   BlockState state;
-  bool replaces;  ///< ReplacingState describes it
-  bool flat;      ///< every corner has the provoking one's colour
+  PaintKernel kernel;
+  bool flat;  ///< every corner has the provoking one's colour
+};
+
+/// A draw's triangles in a tile, of one chunk.
+struct PaintRun {
+  std::uint32_t draw;
+  const PaintTriangle* triangles;
+  std::span<const std::uint32_t> numbers;
 };
 
 /// All that the tiles of a frame are painted from.
 struct Painting {
   FrameFormat format;
   Formats formats;
+  std::span<const glm::ivec2>
+      samples;        ///< Formats::sample, one of them, or of all that a pixel's colour is the mean of
   int columns, rows;  ///< of tiles
   const WindowVertex<float>* vertices;
   std::array<const Vec4<float>*, kVaryings> varyings;  ///< beside vertices
   std::span<const Chunk> chunks;
   std::span<const PaintDraw> draws;
+  bool any_far;  ///< Chunk's
 };
 
 /// A thread's own.
 struct TileMemory {
   alignas(64) Tile tile;
-  alignas(64) PackedTile packed;
+  alignas(64) PackedTile packed[4];  ///< one, or one for each sample
+  std::vector<PaintRun> runs;
 };
 
 }  // namespace plumbline::pipeline

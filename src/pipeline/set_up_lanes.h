@@ -22,6 +22,7 @@ struct LaneSetup {
   TileEdge edge[3];
   BarycentricPlanes planes;
   Depth depth;
+  float nearest;  ///< a depth code: none of its fragments in the tile is nearer
   AttributeSetup attributes;
 };
 /// Of a draw that has a surface.
@@ -32,19 +33,24 @@ struct LaneSurfaceSetup : LaneSetup<DepthSetup> {
 template <class R>
 struct SetupLanes {
   static constexpr int kLanes = Lanes<R>::width;
-  alignas(64) std::int32_t bounds[4][kLanes];
+  alignas(64) std::int32_t bounds[4][kLanes];  ///< as LaneSetup, x0 and y0 not rounded
+
   alignas(64) std::int32_t at_tile[3][kLanes];
   std::int32_t step_x[3][kLanes], step_y[3][kLanes];
   alignas(64) double planes[6][kLanes];
   double depth[3][kLanes];
   alignas(64) float inv_w[3][kLanes];
   float color[3][4][kLanes];
-  unsigned fitting;  ///< a bit a lane
+  float nearest[kLanes];
+  alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
+  unsigned fitting;                                  ///< a bit a lane
+  int width, height;                                 ///< the largest box
 
   template <class Depth>
   [[gnu::always_inline]] LaneSetup<Depth> of(int lane) const {
     LaneSetup<Depth> s;
-    s.x0 = bounds[0][lane], s.y0 = bounds[1][lane], s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
+    s.x0 = bounds[0][lane] & ~(kBlock - 1), s.y0 = bounds[1][lane] & ~(kBlock - 1);
+    s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
     for (int k = 0; k < 3; ++k) s.edge[k] = {at_tile[k][lane], step_x[k][lane], step_y[k][lane]};
     s.planes.l1_0 = planes[0][lane], s.planes.l1_x = planes[1][lane], s.planes.l1_y = planes[2][lane];
     s.planes.l2_0 = planes[3][lane], s.planes.l2_x = planes[4][lane], s.planes.l2_y = planes[5][lane];
@@ -55,6 +61,8 @@ struct SetupLanes {
       s.attributes.d_color1[c] = color[1][c][lane];
       s.attributes.d_color2[c] = color[2][c][lane];
     }
+    s.attributes.constant = constant_colors[lane] != 0;
+    s.nearest = nearest[lane];
     return s;
   }
 };
@@ -63,6 +71,7 @@ struct SetupLanes {
 struct SetupSite {
   int tile_x, tile_y;  ///< the tile's lower left pixel
   glm::ivec2 sample;   ///< Formats::sample
+  double depth_scale;  ///< Formats::depth_scale
   bool flat;
 };
 
@@ -91,11 +100,15 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
   for (int k = 0; k < 3; ++k)
     fours(
         site.flat ? 1 : k, [](const WindowVertex<float>* v) { return &v->color.r; }, color[k]);
+  Mask<R> constant = p_win[0][0] == p_win[0][0];
   for (int c = 0; c < 4; ++c) {
+    const R d1 = color[1][c] - color[0][c], d2 = color[2][c] - color[0][c];
+    constant = constant & (d1 == R(0)) & (d2 == R(0));
     store(color[0][c], out.color[0][c]);
-    store(color[1][c] - color[0][c], out.color[1][c]);
-    store(color[2][c] - color[0][c], out.color[2][c]);
+    store(d1, out.color[1][c]);
+    store(d2, out.color[2][c]);
   }
+  store(select(constant, I(1), I(0)), out.constant_colors);
 
   const R face = load<R>(facing);
   const PlaneCorners<W> through =
@@ -118,12 +131,27 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
   for (int k = 0; k < 3; ++k) x[k] = snapped_x[k] - origin_x, y[k] = snapped_y[k] - origin_y;
   const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
   const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
-  const auto first = [](I low) {
-    return greater_of(shifted_right<8>(low + I(kSubpixel - 1)), I(0)) & I(~(kBlock - 1));
-  };
+  const auto first = [](I low) { return greater_of(shifted_right<8>(low + I(kSubpixel - 1)), I(0)); };
   const auto end = [](I high) { return lesser_of(shifted_right<8>(high) + I(1), I(kTile)); };
-  store(first(least(x)), out.bounds[0]), store(first(least(y)), out.bounds[1]);
-  store(end(most(x)), out.bounds[2]), store(end(most(y)), out.bounds[3]);
+  const I x_first = first(least(x)), y_first = first(least(y)), x_end = end(most(x)), y_end = end(most(y));
+  out.width = greatest_lane(x_end - x_first);
+  out.height = greatest_lane(y_end - y_first);
+  store(x_first, out.bounds[0]), store(y_first, out.bounds[1]);
+  store(x_end, out.bounds[2]), store(y_end, out.bounds[3]);
+
+  // The plane of depth at the box's nearest corner. What rounding does to it and to the fragments' depths is far below
+  // 2^-48 of the terms' sum; a code's rounding, and all that is left, is below one code.
+  const auto size = [](const W& value) { return greater_of(value, -value); };
+  const W z_x = planes.l1_x * dz1 + planes.l2_x * dz2, z_y = planes.l1_y * dz1 + planes.l2_y * dz2;
+  const W at_x = lesser_of(z_x * to_wide(x_first), z_x * to_wide(x_end));
+  const W at_y = lesser_of(z_y * to_wide(y_first), z_y * to_wide(y_end));
+  const W z1 = planes.l1_0 * dz1, z2 = planes.l2_0 * dz2;
+  const W terms =
+      size(z0) + size(z1) + size(z2) +
+      (size(planes.l1_x * dz1) + size(planes.l2_x * dz2) + size(planes.l1_y * dz1) + size(planes.l2_y * dz2)) *
+          W(kTile);
+  const W least_z = (z0 + z1 + z2 + at_x + at_y) - terms * W(0x1p-48);
+  store(to_float(floor_of(clamped(least_z, W(0), W(1)) * site.depth_scale) - W(1)), out.nearest);
 
   // Counter-clockwise.
   const Mask<R> front = face > R(0);

@@ -24,8 +24,11 @@ Color<R> color_sum(const Color<R>& primary, const Color<R>& secondary) {
 /// `front`: the face, where light has two sides.
 template <class R>
 Color<R> shade_surface(const Surface& surface, bool front, const SurfaceAttributes<R>& attributes) {
-  Color<R> color = attributes.color, secondary = attributes[Varying::secondary];
+  Color<R> color = attributes.color;
   const LightModel& model = surface.scene->light_model;
+  const bool sums = surface.draw->lit && model.separate_specular;
+  Color<R> secondary{R(0), R(0), R(0), R(0)};
+  if (sums && !surface.light) secondary = attributes[Varying::secondary];
   if (surface.light) {
     const bool back = !front && model.sides == LightModel::Sides::two;
     const auto part = [&](bool specular) {
@@ -39,7 +42,7 @@ Color<R> shade_surface(const Surface& surface, bool front, const SurfaceAttribut
     color =
         apply_environment<R>(surface.texture->texture->format, *surface.draw->texture, color, attributes.texel.color);
   }
-  if (surface.draw->lit && model.separate_specular) color = color_sum<R>(color, secondary);
+  if (sums) color = color_sum<R>(color, secondary);
   if (surface.draw->fog) color = fogged<R>(*surface.draw->fog, color, attributes[Varying::position].b);
   return color;
 }

@@ -186,7 +186,7 @@ SimdInt shifted_right(SimdInt value) {
 }
 inline SimdInt as_int(Simd value) { return hn::BitCast(kInts, value.v); }
 inline Simd as_float(SimdInt bits) { return hn::BitCast(kFloats, bits.v); }
-/// Four whole numbers from 0 to 255: 1.5 * 2^23 more, and the bits of the sum are the number's, and a constant.
+/// Four numbers from 0 to 255: 1.5 * 2^23 more, and the bits of the sum are the number's, and a constant.
 inline SimdInt packed_codes(Simd r, Simd g, Simd b, Simd a) {
   constexpr std::uint32_t kBits = 0x4b400000, kAll = kBits + (kBits << 8) + (kBits << 16) + (kBits << 24);
   const auto bits = [](Simd code) { return as_int(code + 12582912.0f); };
@@ -217,7 +217,6 @@ inline SimdWide fused(SimdWide a, SimdWide b, SimdWide c) {
 
 // Fours go by blocks of 128 bits: four lanes a block, transposed in place.
 inline constexpr hn::FixedTag<float, 4> kBlockFloats{};
-inline constexpr hn::FixedTag<std::uint32_t, 4> kBlockCodes{};
 template <class Block>
 FloatVector of_blocks(Block block) {
   if constexpr (kWidth == 4) {
@@ -258,6 +257,8 @@ inline void transpose_fours(const Simd (&in)[4], Simd (&out)[4]) {
     }
   }
 }
+inline float greatest_lane(Simd value) { return hn::GetLane(hn::MaxOfLanes(kFloats, value.v)); }
+inline int greatest_lane(SimdInt value) { return hn::GetLane(hn::MaxOfLanes(kInts, value.v)); }
 inline void load_threes(const float* from, Simd (&out)[3]) {
   hn::LoadInterleaved3(kFloats, from, out[0].v, out[1].v, out[2].v);
 }
@@ -305,43 +306,48 @@ inline PLUMBLINE_TARGET::SimdInt load_codes<PLUMBLINE_TARGET::Simd>(const std::u
 }
 
 template <>
+inline PLUMBLINE_TARGET::SimdMask mask_of<PLUMBLINE_TARGET::Simd>(unsigned bits) {
+  using namespace PLUMBLINE_TARGET;
+  HWY_ALIGN static constexpr std::int32_t kBits[] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                                     256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+  return (SimdInt(static_cast<std::int32_t>(bits)) & SimdInt(hn::LoadU(kInts, kBits))) != SimdInt(0);
+}
+template <>
+inline PLUMBLINE_TARGET::SimdWide load_wide<PLUMBLINE_TARGET::Simd>(const double* from) {
+  using namespace PLUMBLINE_TARGET;
+  return {hn::LoadU(kDoubles, from), hn::LoadU(kDoubles, from + kHalf)};
+}
+template <>
 inline PLUMBLINE_TARGET::SimdInt load_ints<PLUMBLINE_TARGET::Simd>(const std::int32_t* from) {
   return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kInts, from);
-}
-template <>
-inline void stream_codes<PLUMBLINE_TARGET::Simd>(const std::uint32_t* from, std::uint32_t* to) {
-  using namespace PLUMBLINE_TARGET;
-  hn::Stream(hn::Load(kBlockCodes, from), kBlockCodes, to);
-}
-template <>
-inline void stream_whole<PLUMBLINE_TARGET::Simd>(const float* from, std::uint32_t* to) {
-  using namespace PLUMBLINE_TARGET;
-  const hn::FixedTag<std::int32_t, 4> ints;
-  hn::Stream(hn::BitCast(kBlockCodes, hn::ConvertTo(ints, hn::Load(kBlockFloats, from))), kBlockCodes, to);
 }
 template <>
 inline PLUMBLINE_TARGET::SimdInt load_packed<PLUMBLINE_TARGET::Simd>(const std::uint32_t* from) {
   return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kInts, reinterpret_cast<const std::int32_t*>(from));
 }
 
+// Halves that are equal are one value, so that what is made of them is made once.
+template <>
+[[gnu::always_inline]] inline PLUMBLINE_TARGET::SimdWide columns_of_block<PLUMBLINE_TARGET::Simd>(int block_x, int) {
+  using namespace PLUMBLINE_TARGET;
+  HWY_ALIGN static constexpr double kX[2 * kBlock] = {0, 1, 2, 3, 0, 1, 2, 3};
+  const auto x = hn::Set(kDoubles, block_x), low = hn::Add(x, hn::LoadU(kDoubles, kX));
+  return {low, kHalf < kBlock ? hn::Add(x, hn::LoadU(kDoubles, kX + kHalf)) : low};
+}
+template <>
+[[gnu::always_inline]] inline PLUMBLINE_TARGET::SimdWide rows_of_block<PLUMBLINE_TARGET::Simd>(int block_y, int i) {
+  using namespace PLUMBLINE_TARGET;
+  HWY_ALIGN static constexpr double kY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  const auto y = hn::Set(kDoubles, block_y), low = hn::Add(y, hn::LoadU(kDoubles, kY + i));
+  return {low, kHalf < kBlock ? low : hn::Add(y, hn::LoadU(kDoubles, kY + i + kHalf))};
+}
 template <>
 [[gnu::always_inline]] inline Pixels<PLUMBLINE_TARGET::Simd> block_pixels<PLUMBLINE_TARGET::Simd>(int block_x,
                                                                                                   int block_y, int i) {
   using namespace PLUMBLINE_TARGET;
   const SimdInt number = SimdInt(hn::Iota(kInts, 0)) + SimdInt(i);
-  const SimdInt x = SimdInt(block_x) + (number & SimdInt(kBlock - 1));
-  const SimdInt y = SimdInt(block_y) + SimdInt(hn::ShiftRight<2>(number.v));
-  // Halves that are equal are one value, so that what is made of them is made once.
-  HWY_ALIGN static constexpr double kX[2 * kBlock] = {.5, 1.5, 2.5, 3.5, .5, 1.5, 2.5, 3.5};
-  HWY_ALIGN static constexpr double kY[kBlockPixels] = {.5,  .5,  .5,  .5,  1.5, 1.5, 1.5, 1.5,
-                                                        2.5, 2.5, 2.5, 2.5, 3.5, 3.5, 3.5, 3.5};
-  const auto x0 = hn::Set(kDoubles, block_x), y0 = hn::Set(kDoubles, block_y);
-  SimdWide x_win, y_win;
-  x_win.low = hn::Add(x0, hn::LoadU(kDoubles, kX));
-  x_win.high = kHalf < kBlock ? hn::Add(x0, hn::LoadU(kDoubles, kX + kHalf)) : x_win.low;
-  y_win.low = hn::Add(y0, hn::LoadU(kDoubles, kY + i));
-  y_win.high = kHalf < kBlock ? y_win.low : hn::Add(y0, hn::LoadU(kDoubles, kY + i + kHalf));
-  return {x, y, x_win, y_win};
+  return {SimdInt(block_x) + (number & SimdInt(kBlock - 1)), SimdInt(block_y) + SimdInt(hn::ShiftRight<2>(number.v)),
+          columns_of_block<Simd>(block_x, i) + 0.5, rows_of_block<Simd>(block_y, i) + 0.5};
 }
 
 }  // namespace plumbline::pipeline

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/attributes.h"
+#include "pipeline/few.h"
 #include "pipeline/fragment_light.h"
 #include "pipeline/texture.h"
 #include "scene/scene.h"
@@ -19,14 +20,16 @@ struct Surface {
   const Scene* scene = nullptr;
   const Draw* draw = nullptr;          ///< null: plain, nothing of this is asked
   std::optional<FragmentLight> light;  ///< none: lit at the vertices, or not at all
-  std::vector<Varying> carried;
+  Few<Varying, kVaryings> carried;
   std::array<std::span<const std::array<Vec4<float>, 3>>, kVaryings> columns;  ///< of the scene's window triangles
 
   std::optional<TextureSetup> texture;
 
   bool plain() const { return draw == nullptr; }
 };
-/// One per draw. Spans into the records, pointers into the scene.
+/// A draw's. Spans into the records, pointers into the scene.
+Surface surface_of(const Scene& scene, const Draw& draw, const Records<float>& records);
+/// One per draw.
 std::vector<Surface> surfaces_of(const Scene& scene, const Records<float>& records);
 
 /// A triangle's carried varyings.

@@ -83,6 +83,7 @@ void clear(PackedTile& tile, const FrameFormat& frame, const Formats& formats) {
   const glm::bvec4 all(true);
   StoredCodes{nullptr, &codes, nullptr}.store_color<float>(true, color, all);
   std::fill_n(tile.color, kTile * kTile, codes);
+  std::fill(std::begin(tile.farthest), std::end(tile.farthest), depth);
 }
 
 namespace {

@@ -29,8 +29,10 @@ float length(const Vec3<float>& v) { return std::sqrt((v.x * v.x + v.y * v.y) + 
 
 }  // namespace
 
+Mat4<float> clip_matrix(const Matrices<float>& matrices) { return product(matrices.projection, matrices.model_view); }
+
 void transform(const Matrices<float>& matrices, Normals normals, const Mesh& mesh, std::vector<Vertex<float>>& out) {
-  const Mat4<float> to_clip = product(matrices.projection, matrices.model_view);
+  const Mat4<float> to_clip = clip_matrix(matrices);
   const float of_all = normals == Normals::rescale ? length(matrices.normal[2]) : 1.0f;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3<float> p_model = mesh.positions[i];

@@ -8,6 +8,9 @@
 
 namespace plumbline::pipeline {
 
+/// P M, rounded as the recipe below has it.
+Mat4<float> clip_matrix(const Matrices<float>& matrices);
+
 /// Appends one record per vertex of the mesh.
 ///
 /// clip = (P M) p, both products in float, summed left to right without FMA: the recipe of a common OpenGL driver, so

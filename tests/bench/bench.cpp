@@ -2,9 +2,11 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -13,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/scenes/bench_scenes.h"
+#include "pipeline/painter.h"
 #include "pipeline/pipeline_renderer.h"
 #include "reference/osmesa/frame_loop.h"
 
@@ -49,18 +52,59 @@ class Times : public benchmark::ConsoleReporter {
   std::map<std::string, std::vector<double>> of_;
 };
 
+double milliseconds(const std::function<void()>& frame) {
+  const auto begin = std::chrono::steady_clock::now();
+  frame();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// A sphere's frames in turns; the middle of eleven.
+void print_growth(const std::string& what, int triangles, int size, int threads) {
+  const Scene scene = sphere_scene(triangles, size);
+  pipeline::Painter painter(threads);
+  OsmesaFrames theirs(scene);
+  std::vector<double> ours_ms, theirs_ms;
+  for (int i = 0; i < 12; ++i) {
+    const double o = milliseconds([&] { painter.draw(scene); }), t = milliseconds([&] { theirs.draw(); });
+    if (i == 0) continue;  // asks for memory, compiles
+    ours_ms.push_back(o);
+    theirs_ms.push_back(t);
+  }
+  std::ranges::sort(ours_ms);
+  std::ranges::sort(theirs_ms);
+  fmt::print("{:>14} {:9.3f} {:9.3f} {:6.2f} {:9.1f}\n", what, ours_ms[5], theirs_ms[5], ours_ms[5] / theirs_ms[5],
+             static_cast<double>(painter.bytes()) / 1e6);
+}
+
+// How time and memory grow.
+void print_growth(int threads) {
+  fmt::print("\n{:>14} {:>9} {:>9} {:>6} {:>9}   ({} threads, ms; MB that ours keeps)\n", "20k triangles", "ours",
+             "llvmpipe", "ratio", "MB", threads);
+  for (const int size : {256, 512, 1024, 2048, 4096}) {
+    print_growth(fmt::format("{0} x {0}", size), 20'000, size, threads);
+  }
+  fmt::print("{:>14}\n", "1024 x 1024");
+  for (const int triangles : {1'000, 10'000, 100'000, 1'000'000, 3'000'000}) {
+    print_growth(fmt::format("{}k", triangles / 1000), triangles, 1024, threads);
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Times our renderer against OSMesa's llvmpipe");
   int threads = 1, size = 1024;
   double seconds = 0.3;
   std::string json, only;
+  bool growth = false;
   app.add_option("--threads", threads, "Of both")->check(CLI::Range(1, 64));
   app.add_option("--size", size, "Pixels a side")->check(CLI::Range(16, 4096));
   app.add_option("--seconds", seconds, "Per repetition; there are five");
   app.add_option("--only", only, "Scenes whose names hold this");
+  app.add_flag("--growth", growth, "How time and memory grow with pixels and triangles instead");
   app.add_option("--json", json, "Write the table there as well");
   CLI11_PARSE(app, argc, argv);
   ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
+
+  if (growth) return print_growth(threads), 0;
 
   std::vector<std::string> names;
   std::vector<std::unique_ptr<Scene>> scenes;
@@ -86,7 +130,8 @@ int run(int argc, char** argv) {
           ->MinTime(seconds)
           ->Repetitions(5);
     };
-    add("ours", [&scene] { benchmark::DoNotOptimize(pipeline::render(scene)); });
+    const auto painter = std::make_shared<pipeline::Painter>(threads);
+    add("ours", [&scene, painter] { benchmark::DoNotOptimize(painter->draw(scene)); });
     add("llvmpipe", [&theirs] { theirs.draw(); });
   }
   std::string program = argv[0], interleaved = "--benchmark_enable_random_interleaving=true";

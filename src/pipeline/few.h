@@ -1,0 +1,27 @@
+// A list of a few things, in place: what is made for each frame asks for no memory.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+namespace plumbline::pipeline {
+
+template <class T, std::size_t N>
+class Few {
+ public:
+  void push_back(const T& value) {
+    assert(size_ < N);
+    values_[size_++] = value;
+  }
+  std::size_t size() const { return size_; }
+  const T& operator[](std::size_t i) const { return values_[i]; }
+  const T* begin() const { return values_.data(); }
+  const T* end() const { return values_.data() + size_; }
+
+ private:
+  std::array<T, N> values_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,169 @@
+// The painter draws what the stages' functions draw, bit for bit: by every SIMD target, on any number of threads; and
+// in memory that is kept.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <new>
+
+#include "../extent.h"
+#include "pipeline/painter.h"
+#include "pipeline/render.h"
+#include "scene/antialias.h"
+#include "scene/mesh_shapes.h"
+#include "scene/scene_file.h"
+
+namespace {
+std::atomic<std::size_t> asked_for_memory{0};
+}  // namespace
+
+// Counted, for all of this program. (gtest's own calls as well: the tests look at differences.)
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++asked_for_memory;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace plumbline::pipeline {
+namespace {
+
+template <class T>
+bool same_bits(const Plane<T>& a, const Plane<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
+}
+
+bool same_bits(const Frame& a, const Frame& b) {
+  return same_bits(a.color_rgba8, b.color_rgba8) && same_bits(a.color_rgba12, b.color_rgba12) &&
+         same_bits(a.color_rgba16, b.color_rgba16) && same_bits(a.color_rgba32f, b.color_rgba32f) &&
+         same_bits(a.depth_code, b.depth_code) && same_bits(a.depth_z32f, b.depth_z32f) &&
+         same_bits(a.stencil, b.stencil);
+}
+
+// One for each target, and for some numbers of threads of the widest.
+std::map<std::string, std::unique_ptr<Painter>> painters() {
+  std::map<std::string, std::unique_ptr<Painter>> out;
+  for (const SimdTarget& target : simd_targets()) {
+    out[std::string(target.name)] = std::make_unique<Painter>(1, target);
+  }
+  for (const int threads : {2, 3, 5, 8}) {
+    out[std::to_string(threads) + " threads"] = std::make_unique<Painter>(threads);
+  }
+  return out;
+}
+
+// All scenes and all passes of theirs; painters keep their memory from one to the next, whatever its size.
+TEST(Painter, DrawsEverySceneAsItsDefinitionDoes) {
+  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
+  const std::vector<std::filesystem::path> files = find_scenes(folder);
+  const Stages stages = production_stages();
+  const auto all = painters();
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < files.size(); i += one_of(4)) {
+    const Scene scene = load_scene(files[i], {});
+    std::vector<Scene> scenes = passes_of(scene);
+    if (scene.frame.antialias.kind != Antialias::Kind::none) scenes.push_back(scene);
+    for (const Scene& s : scenes) {
+      const Frame definition = render(s, stages);
+      for (const auto& [name, painter] : all) {
+        EXPECT_TRUE(same_bits(painter->draw(s), definition)) << name << ", " << files[i];
+        ++compared;
+      }
+    }
+  }
+  std::printf("%zu frames compared, by %zu painters\n", compared, all.size());
+}
+
+Scene spheres(int slices, Cull cull) {
+  Scene scene;
+  scene.frame.width = 200;
+  scene.frame.height = 136;
+  scene.camera.eye = {0, 0, 3};
+  scene.meshes.push_back(make_uv_sphere(slices, slices / 2));
+  scene.lights.emplace_back();
+  for (int i = 0; i < 4; ++i) {
+    Draw draw;
+    draw.cull = cull;
+    draw.transforms = {Translate{{0.3 * i - 0.4, 0, -0.4 * i}}, Rotate{20.0 * i, {1, 0.3, 0}}};
+    scene.draws.push_back(draw);
+  }
+  return scene;
+}
+
+// From large triangles to those smaller than pixels; nearer ones first and last.
+TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
+  const Stages stages = production_stages();
+  const auto all = painters();
+  for (const int slices : {6, 30, 200}) {
+    for (const bool nearest_first : {false, true}) {
+      for (const Cull cull : {Cull::none, Cull::back}) {
+        Scene scene = spheres(slices, cull);
+        if (nearest_first) std::reverse(scene.draws.begin(), scene.draws.end());
+        for (const double clear : {1.0, 0.97}) {
+          scene.frame.clear_depth = clear;
+          const Frame definition = render(scene, stages);
+          for (const auto& [name, painter] : all) {
+            EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name << ", " << slices << " slices";
+          }
+        }
+      }
+    }
+  }
+}
+
+// The same surface twice: of two fragments as near as each other the first stays, whichever way tiles are painted.
+TEST(Painter, KeepsTheFirstOfEquallyNearFragments) {
+  const Stages stages = production_stages();
+  const auto all = painters();
+  for (const double offset : {0.0, -0.5, 0.5}) {
+    Scene scene = spheres(20, Cull::none);
+    scene.draws = {scene.draws[1], scene.draws[1], scene.draws[1]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      scene.draws[i].lit = false;
+      scene.draws[i].material.diffuse = {i == 0, i == 1, i == 2, 1};
+    }
+    scene.draws[2].transforms.insert(scene.draws[2].transforms.begin(), Translate{{0, 0, offset}});
+    const Frame definition = render(scene, stages);
+    for (const auto& [name, painter] : all) EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name;
+  }
+}
+
+TEST(Painter, TellsOneStepOfDepth) {
+  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/coverage/shared_edges.json", {});
+  Frame other = render(scene, production_stages());
+  EXPECT_TRUE(same_bits(render(scene), other));
+  other.depth_code(3, 3) ^= 1;
+  EXPECT_FALSE(same_bits(render(scene), other));
+}
+
+// But for what is clipped, and for lines, whose pixels are listed.
+TEST(Painter, AsksForNoMemoryAfterTheFirstFrame) {
+  for (const int threads : {1, 2}) {
+    for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
+      for (const Antialias::Kind kind : {Antialias::Kind::none, Antialias::Kind::multisample}) {
+        Scene scene = spheres(60, Cull::back);
+        for (Draw& draw : scene.draws) draw.shading = shading;
+        scene.draws[1].merge.blend = Blend{};
+        scene.frame.antialias.kind = kind;
+        Painter painter(threads);
+        painter.draw(scene);
+        painter.draw(scene);
+        const std::size_t before = asked_for_memory;
+        painter.draw(scene);
+        EXPECT_EQ(asked_for_memory - before, 0u) << threads << " threads";
+        const std::size_t of_another = asked_for_memory;
+        scene.frame.width += 70;
+        painter.draw(scene);
+        EXPECT_GT(asked_for_memory, of_another) << "a larger frame does";
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::pipeline
