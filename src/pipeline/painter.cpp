@@ -304,6 +304,10 @@ void Painter::Memory::run_triangles(const Scene&) {
 }
 
 void Painter::Memory::run_tiles(Frame& to) {
+  // For every thread, whether or not it has had a tile yet.
+  std::size_t runs = 0;
+  for (const Chunk& chunk : painting.chunks) runs += chunk.draws.size();
+  for (const auto& memory : tiles) memory->runs.reserve(runs);
   const int count = painting.columns * painting.rows;
   std::atomic<int> next{0};
   each(static_cast<std::size_t>(threads), [&](std::size_t worker) {
