@@ -89,7 +89,7 @@ void add_polygon(const Draw& draw, Corners v, std::uint32_t primitive, std::vect
 void to_window(const Matrices<float>& matrices, const Draw& draw, const ClipPolygons<float>& polygons,
                std::span<const ClipPolygon> of_draw, std::vector<WindowTriangle<float>>& out) {
   for (const ClipPolygon& polygon : of_draw) {
-    std::array<WindowVertex<float>, 9> v;
+    std::array<WindowVertex<float>, 28> v;  // the most that clipping makes (clip.cpp)
     bool drop = false;
     for (std::uint32_t i = 0; i < polygon.count; ++i) {
       v[i] = window_vertex(matrices, polygons.vertices[polygon.first + i]);

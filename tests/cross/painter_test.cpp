@@ -99,7 +99,7 @@ Scene spheres(int slices, Cull cull) {
 TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
   const Stages stages = production_stages();
   const auto all = painters();
-  for (const int slices : {6, 30, 200}) {
+  for (const int slices : {6, 30, 120}) {
     for (const bool nearest_first : {false, true}) {
       for (const Cull cull : {Cull::none, Cull::back}) {
         Scene scene = spheres(slices, cull);

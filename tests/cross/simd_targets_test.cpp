@@ -125,7 +125,7 @@ TEST(SimdTargets, PaintRandomTriangles) {
   for (const float size : {0.7f, 2.5f, 6.0f, 20.0f, 90.0f, 3000.0f}) {
     for (const bool sliver : {false, true}) {
       Triangles triangles;
-      for (int i = 0; i < 400; ++i) {
+      for (int i = 0; i < 150; ++i) {
         const glm::vec2 at(between(-10, 150), between(-10, 80)), along(between(-size, size), between(-size, size));
         const auto corner = [&](float k) {
           const glm::vec2 p = sliver ? at + k * along + glm::vec2(between(-.01f, .01f), between(-.01f, .01f))
