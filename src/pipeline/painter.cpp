@@ -85,7 +85,7 @@ struct Painter::Memory {
   void prepare(const Scene& scene);
   void run_vertices(const Scene& scene);
   void run_others(const Scene& scene);
-  void run_triangles(const Scene& scene);
+  void run_triangles();
   void run_tiles(Frame& to);
 
   const int threads;
@@ -285,7 +285,7 @@ void Painter::Memory::run_others(const Scene& scene) {
 }
 
 // Stages 3 and 4, in shares.
-void Painter::Memory::run_triangles(const Scene&) {
+void Painter::Memory::run_triangles() {
   painting.vertices = vertices.data();
   for (std::size_t i = 0; i < kVaryings; ++i) painting.varyings[i] = varyings[i].data();
   const std::uint32_t primitives = ranges.empty() ? 0 : ranges.back().first_primitive + ranges.back().primitive_count;
@@ -319,7 +319,7 @@ void Painter::Memory::draw_pass(const Scene& scene, Frame& to) {
   prepare(scene);
   run_vertices(scene);
   run_others(scene);
-  run_triangles(scene);
+  run_triangles();
   run_tiles(to);
 }
 
