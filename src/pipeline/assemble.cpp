@@ -101,7 +101,6 @@ class Assembler {
     const int x1 = std::min(down(x_max - least_.x) + reach, painting_.format.width - 1),
               y1 = std::min(down(y_max - least_.y) + reach, painting_.format.height - 1);
     if (x0 > x1 || y0 > y1) return;
-    constexpr std::int64_t kLongestEdge = 1 << 22;  // set_up_lanes.h
     chunk_.any_far |= std::int64_t{x_max} - x_min > kLongestEdge || std::int64_t{y_max} - y_min > kLongestEdge;
     const TileBox box{static_cast<std::uint8_t>(x0 / kTile), static_cast<std::uint8_t>(y0 / kTile),
                       static_cast<std::uint8_t>(x1 / kTile), static_cast<std::uint8_t>(y1 / kTile)};

@@ -139,13 +139,8 @@ void Painter::Memory::prepare(const Scene& scene) {
   draws.clear();
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];
-    const BlockState state{depth_state(draw, scene.frame.depth, scene.depth_clamp),
-                           draw.depth_func,
-                           draw.scissor,
-                           draw.alpha_test,
-                           draw.stencil,
-                           draw.merge,
-                           surfaces[d].plain() ? nullptr : &surfaces[d]};
+    const BlockState state =
+        block_state(draw, scene.frame.depth, scene.depth_clamp, surfaces[d].plain() ? nullptr : &surfaces[d]);
     draws.push_back({state, kernel_of(scene.meshes[draw.mesh], draw, state), draw.shading == Shading::flat});
   }
   painting.draws = draws;

@@ -68,13 +68,16 @@ struct TileBox {
   std::uint8_t x0, y0, x1, y1;
 };
 
+/// In 1/256 pixel: triangles with longer edges do not fit lanes (set_up_lanes.h).
+inline constexpr std::int32_t kLongestEdge = 1 << 22;
+
 /// A share of the scene's primitives, in draw order, and its own bins.
 struct Chunk {
   std::uint32_t first_primitive, end_primitive;
   Scratch<PaintTriangle> triangles;
   Scratch<TileBox> boxes;
   std::uint32_t count = 0;
-  bool any_far = false;  ///< whether any may be too large for lanes (set_up_lanes.h)
+  bool any_far = false;  ///< whether any may have an edge longer than kLongestEdge
   struct OfDraw {
     std::uint32_t draw, end;  ///< its triangles end there
   };

@@ -12,7 +12,7 @@ struct TileEdge {
 };
 /// |step| <= 2^22 and 64 pixels reach less than 2^29, so that what is beyond 2^30 has a sign that no pixel of the tile
 /// changes. Corners cut where w is tiny may be rounded to far outside of the frame: such edges do not fit.
-inline constexpr std::int32_t kFarEdge = 1 << 30, kLongestEdge = 1 << 22;
+inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
 
 /// A triangle in its lane.
 template <class Depth>
@@ -34,7 +34,6 @@ template <class R>
 struct SetupLanes {
   static constexpr int kLanes = Lanes<R>::width;
   alignas(64) std::int32_t bounds[4][kLanes];  ///< as LaneSetup, x0 and y0 not rounded
-
   alignas(64) std::int32_t at_tile[3][kLanes];
   std::int32_t step_x[3][kLanes], step_y[3][kLanes];
   alignas(64) double planes[6][kLanes];

@@ -130,13 +130,22 @@ void write_out(const PackedTile& tile, Frame& frame) {
   copy_out_rest(tile, frame);
 }
 
+BlockState block_state(const Draw& draw, DepthFormat format, bool depth_clamp, const Surface* surface) {
+  return {depth_state(draw, format, depth_clamp),
+          draw.depth_func,
+          draw.scissor,
+          draw.alpha_test,
+          draw.stencil,
+          draw.merge,
+          surface};
+}
+
 TileList tile_list(const DrawList& list, const FrameFormat& format) {
   TileList out{list, format, formats_of(format), bin(list.triangles, format), {}};
   for (std::size_t d = 0; d < list.draws.size(); ++d) {
-    const Draw& draw = list.draws[d];
     const bool plain = list.surfaces.empty() || list.surfaces[d].plain();
-    out.state_of.push_back({depth_state(draw, format.depth, list.depth_clamp), draw.depth_func, draw.scissor,
-                            draw.alpha_test, draw.stencil, draw.merge, plain ? nullptr : &list.surfaces[d]});
+    out.state_of.push_back(
+        block_state(list.draws[d], format.depth, list.depth_clamp, plain ? nullptr : &list.surfaces[d]));
   }
   return out;
 }

@@ -75,6 +75,8 @@ struct TileList {
   Bins bins;
   std::vector<BlockState> state_of;  ///< per draw
 };
+/// `surface`: null where the draw is plain.
+BlockState block_state(const Draw& draw, DepthFormat format, bool depth_clamp, const Surface* surface);
 TileList tile_list(const DrawList& list, const FrameFormat& format);
 
 /// What lies in the tile, over what it holds.

@@ -66,13 +66,7 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
   }
   for (std::size_t t = 0; t <= tiles; ++t) chunk[0].first.push_back(static_cast<std::uint32_t>(t * count));
   chunk[0].draws = {{0, count}};
-  const BlockState state{depth_state(draw, format.depth, false),
-                         draw.depth_func,
-                         draw.scissor,
-                         draw.alpha_test,
-                         draw.stencil,
-                         draw.merge,
-                         nullptr};
+  const BlockState state = block_state(draw, format.depth, false, nullptr);
   const PaintDraw draws[] = {{state, kernel, false}};
   painting.vertices = vertices.data();
   painting.chunks = chunk;
