@@ -34,7 +34,7 @@ struct Extent {
 };
 constexpr Extent kUsual{};
 constexpr Extent kAll{.models = true, .scenes = ~std::size_t{0}, .pairs = 400, .of_pair = 10, .of_legal = 100};
-constexpr Extent kQuick{.affected = 1, .pairs = 0, .of_legal = 0, .every = 3, .until_seen = true};
+constexpr Extent kQuick{.affected = 1, .pairs = 0, .of_legal = 0, .every = 5, .until_seen = true};
 
 bool is_model(const Scene& scene) { return scene.name.starts_with("models/"); }
 

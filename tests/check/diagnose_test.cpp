@@ -237,7 +237,7 @@ TEST_F(Diagnose, RaisesNothingElseOnAnySceneWhereEveryOtherStageIsRepaired) {
   for (const auto& file : find_scenes(folder)) {
     if (file.parent_path().stem() == "models") continue;
     const bool even = ++scenes % 2 == 0;
-    if (scenes / 2 % one_of(10) != 0) continue;
+    if (scenes / 2 % one_of(16) != 0) continue;
     scene = load_scene(file, {});
     if (scene.frame.antialias.kind != Antialias::Kind::none) scene = passes_of(scene)[0];
     std::set<Stage> wrong;

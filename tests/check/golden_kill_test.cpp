@@ -53,10 +53,10 @@ std::string bytes_of(const fs::path& file) {
   return text.str();
 }
 
-// PLUMBLINE_KILLS: how many, 60 where it is not said.
+// PLUMBLINE_KILLS: how many, 30 where it is not said.
 TEST(golden_kill, leaves_the_old_set_or_the_new_one) {
   const char* said = std::getenv("PLUMBLINE_KILLS");
-  const int kills = said != nullptr ? std::atoi(said) : 60;
+  const int kills = said != nullptr ? std::atoi(said) : 30;
   // In memory where there is such a folder: a disk takes long to sync, and most kills would find it at that.
   const fs::path memory = "/dev/shm", base = fs::is_directory(memory) ? memory : fs::temp_directory_path();
   const fs::path folder = base / fmt::format("plumb-golden-kill-{}", ::getpid());

@@ -40,7 +40,7 @@ double ambiguous(const Legal& legal) {
 class Finders : public ::testing::TestWithParam<int> {};
 
 TEST_P(Finders, RaysAndBoxesComeToTheSameAnswers) {
-  for (unsigned seed = 1; seed <= 25; seed += static_cast<unsigned>(one_of(4))) {
+  for (unsigned seed = 1; seed <= 25; seed += static_cast<unsigned>(one_of(8))) {
     const Scene scene = test::random_scene(GetParam(), seed);
     expect_same(by_rays(scene), math::legal_by_boxes(scene, Request{}), scene.name);
   }

@@ -17,7 +17,7 @@ TEST(OsmesaRandom, coverage_is_the_same_and_values_within_their_bounds) {
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"osmesa", osmesa.get()}, {"exact", exact.get()}};
   for (const SceneKind& kind : kinds()) {
-    for (std::uint64_t seed = 0; seed < 14 / one_of(4); ++seed) {
+    for (std::uint64_t seed = 0; seed < 14 / one_of(7); ++seed) {
       const Scene scene = random_scene(kind, 200, seed);
       for (const check::Comparison& c : check::judge(scene, *ours, references).comparisons) {
         if (c.reference != "osmesa") continue;

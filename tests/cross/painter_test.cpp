@@ -64,7 +64,7 @@ TEST(Painter, DrawsEverySceneAsItsDefinitionDoes) {
   const Stages stages = production_stages();
   const auto all = painters();
   std::size_t compared = 0;
-  for (std::size_t i = 0; i < files.size(); i += one_of(4)) {
+  for (std::size_t i = 0; i < files.size(); i += one_of(6)) {
     const Scene scene = load_scene(files[i], {});
     std::vector<Scene> scenes = passes_of(scene);
     if (scene.frame.antialias.kind != Antialias::Kind::none) scenes.push_back(scene);

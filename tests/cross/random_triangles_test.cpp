@@ -21,7 +21,7 @@ TEST_P(RandomTriangles, every_stage_equals_exact_from_our_records) {
   const auto ours = pipeline::make_pipeline();
   const auto exact = exact::make_exact();
   std::uint64_t fragments = 0;
-  for (int i = 0; i < kScenesPerKind / static_cast<int>(one_of(4)); ++i) {
+  for (int i = 0; i < kScenesPerKind / static_cast<int>(one_of(8)); ++i) {
     const Scene scene = random_scene(kind, kTrianglesPerScene, static_cast<std::uint64_t>(i) * 31 + GetParam());
     const Capture capture = ours->capture(scene, {StageSet::all(), false, {}, {}});
     for (const check::Comparison& c : check::judge_records(scene, capture, *exact)) {
@@ -35,7 +35,7 @@ TEST_P(RandomTriangles, every_stage_equals_exact_from_our_records) {
       if (c.stage == Stage::depth) fragments += c.measurement.items;
     }
   }
-  EXPECT_GT(fragments, 100u) << "the kind draws nothing";
+  EXPECT_GT(fragments, 100u / one_of(8)) << "the kind draws nothing";
 }
 
 INSTANTIATE_TEST_SUITE_P(kinds, RandomTriangles, testing::Range<std::size_t>(0, kinds().size()), [](const auto& kind) {

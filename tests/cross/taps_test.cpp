@@ -34,7 +34,7 @@ void expect_equal_planes(const Scene& scene) {
 TEST(Taps, planes_are_equal_on_every_scene) {
   const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
   const auto files = find_scenes(folder);
-  for (std::size_t i = 0; i < files.size(); i += one_of(8)) expect_equal_planes(load_scene(files[i], {}));
+  for (std::size_t i = 0; i < files.size(); i += one_of(16)) expect_equal_planes(load_scene(files[i], {}));
 }
 
 TEST(Taps, planes_are_equal_on_random_triangles) {

@@ -252,7 +252,7 @@ TEST(TriangleAlgorithms, EqualExactOnEveryScenesTriangles) {
   constexpr std::size_t kMost = std::size_t{2} << 30;  // a million triangles' records
   long scenes = 0, triangles = 0, covered = 0;
   for (const auto& file : find_scenes(folder)) {
-    if (++scenes % static_cast<long>(one_of(12)) != 0) continue;
+    if (++scenes % static_cast<long>(one_of(24)) != 0) continue;
     const Scene scene = load_scene(file, {});
     const Capture capture = pipeline::make_pipeline()->capture(scene, {StageSet{Stage::window}, false, {}, {}, kMost});
     std::array<int, 4> apart{};
@@ -269,7 +269,7 @@ TEST(TriangleAlgorithms, EqualExactOnEveryScenesTriangles) {
   }
   std::printf("%ld scenes, %ld triangles, %ld covered pixels\n", scenes, triangles, covered);
   EXPECT_GT(scenes, 80);
-  EXPECT_GT(covered, 1000000 / static_cast<long>(one_of(12)));
+  EXPECT_GT(covered, 1000000 / static_cast<long>(one_of(24)));
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ glm::ivec2 random_16_bit(std::mt19937& random) {
 
 TEST(RasterLine, midpoint_and_brute_force_are_the_closest_pixels_of_long_lines) {
   std::mt19937 random(1);
-  for (std::size_t i = 0; i < 500; i += plumbline::one_of(5)) {
+  for (std::size_t i = 0; i < 500; i += plumbline::one_of(10)) {
     const glm::ivec2 a = random_16_bit(random), b = random_16_bit(random);
     const std::vector<glm::ivec2> midpoint = whole(midpoint_line, a, b);
     ASSERT_TRUE(is_the_line(midpoint, a, b));
