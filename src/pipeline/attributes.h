@@ -41,13 +41,16 @@ template <class R, class S = float>
   return {q1 * reciprocal, q2 * reciprocal};
 }
 
-template <class R, class Setup = AttributeSetup>
+/// Of the first `kChannels` channels; the others are 0.
+template <class R, int kChannels = 4, class Setup = AttributeSetup>
 [[gnu::always_inline]] inline Color<R> mean(const Setup& s, const Weights<R>& k) {
-  if constexpr (std::is_same_v<Setup, AttributeSetup>) {
-    // + 0: -0 is 0, as it is where there are differences.
-    if (s.constant) return {s.color0[0] + 0.0f, s.color0[1] + 0.0f, s.color0[2] + 0.0f, s.color0[3] + 0.0f};
-  }
-  const auto channel = [&](int i) { return s.color0[i] + k.k1 * s.d_color1[i] + k.k2 * s.d_color2[i]; };
+  const auto channel = [&](int i) -> R {
+    if (i >= kChannels) return R(0);
+    if constexpr (std::is_same_v<Setup, AttributeSetup>) {
+      if (s.constant) return s.color0[i] + 0.0f;  // + 0: -0 is 0, as it is where there are differences
+    }
+    return s.color0[i] + k.k1 * s.d_color1[i] + k.k2 * s.d_color2[i];
+  };
   return {channel(0), channel(1), channel(2), channel(3)};
 }
 

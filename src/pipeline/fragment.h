@@ -232,15 +232,18 @@ SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const 
   return out;
 }
 
-/// Stage 7 of a surface: every varying as the colour; and stage 8.
-template <class R, class Stages>
+/// Stage 7 of a surface: every varying as the colour; and stage 8. `kAll`: or of texture coordinates only s and t.
+template <class R, bool kAll, class Stages>
 SurfaceAttributes<R> surface_attributes(const Stages& stages, const AttributeSetup& color, const SurfaceSetup& s,
                                         const Pixels<R>& p, const Barycentric<R>& b) {
   SurfaceAttributes<R> out;
   if constexpr (std::is_same_v<Stages, FragmentStages>) {  // all have the same weights
     const Weights<R> k = weights<R>(color.inv_w, b);
     out.color = mean<R>(color, k);
-    for (const Varying v : s.surface->carried) out[v] = mean<R>(s.varyings[static_cast<std::size_t>(v)], k);
+    for (const Varying v : s.surface->carried) {
+      const AttributeSetup& setup = s.varyings[static_cast<std::size_t>(v)];
+      out[v] = kAll || v != Varying::texture ? mean<R>(setup, k) : mean<R, 2>(setup, k);
+    }
   } else {
     out.color = stages.template attributes<R>(color, b);
     for (const Varying v : s.surface->carried) {
@@ -328,7 +331,8 @@ void covered_pixels(const Stages& stages, const BlockState& state, const auto& s
   }
   if constexpr (Stages::has_surfaces && requires { s.surface; }) {
     if (s.surface != nullptr) {
-      const SurfaceAttributes<R> attributes = surface_attributes<R>(stages, s.attributes, *s.surface, p, b);
+      const SurfaceAttributes<R> attributes =
+          surface_attributes<R, Tap::every_fragment>(stages, s.attributes, *s.surface, p, b);
       const SurfaceSetup& setup = *s.surface;
       return finish(attributes, stages.template shade_surface<R>(*setup.surface, setup.front, attributes));
     }

@@ -97,10 +97,14 @@ W wrapped(Wrap wrap, W i, double size) {
   }
   return i;
 }
+/// Of texel `i`, and of the next.
 template <class R>
-Int<R> texel_number(Wrap wrap, const Wide<R>& i, int size) {
-  if (wrap == Wrap::repeat && std::has_single_bit(static_cast<unsigned>(size))) return to_int(i) & Int<R>(size - 1);
-  return to_int(wrapped(wrap, i, size));
+std::array<Int<R>, 2> texel_numbers(Wrap wrap, const Wide<R>& i, int size) {
+  if (wrap == Wrap::repeat && std::has_single_bit(static_cast<unsigned>(size))) {
+    const Int<R> number = to_int(i), last(size - 1);
+    return {number & last, (number + Int<R>(1)) & last};
+  }
+  return {to_int(wrapped(wrap, i, size)), to_int(wrapped(wrap, i + 1.0, size))};
 }
 
 template <class R>
@@ -126,10 +130,14 @@ Color<R> fetch(const TextureSetup& t, const TextureLevel& level, Int<R> x, Int<R
   return select<R>(outside, {R(border.r), R(border.g), R(border.b), R(border.a)}, inside);
 }
 
-/// A mean of two colours, in double: 1 - k of `a`, k of `b`.
+/// A mean, 1 - k of `x` and k of `y`; of two colours, in double.
+template <class W>
+W mix(const W& x, const W& y, const W& k) {
+  return x + k * (y - x);
+}
 template <class R>
-Color<R> mix(const Color<R>& a, const Color<R>& b, Wide<R> k) {
-  const auto channel = [&](R x, R y) { return to_float(to_wide(x) + k * (to_wide(y) - to_wide(x))); };
+Color<R> mix(const Color<R>& a, const Color<R>& b, const Wide<R>& k) {
+  const auto channel = [&](R x, R y) { return to_float(mix<Wide<R>>(to_wide(x), to_wide(y), k)); };
   return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b), channel(a.a, b.a)};
 }
 
@@ -152,13 +160,18 @@ Color<R> sample_level(const TextureSetup& t, int number, bool linear, const TexC
   };
   const W u = place(wrap_s, at.s, level.width), v = place(wrap_t, at.t, level.height);
   const W i = floor_of(u), j = floor_of(v);
-  const Int<R> x = texel_number<R>(wrap_s, i, level.width), y = texel_number<R>(wrap_t, j, level.height);
-  if (!linear) return fetch<R>(t, level, x, y);
-  const Int<R> right = texel_number<R>(wrap_s, i + 1.0, level.width);
-  const Int<R> above = texel_number<R>(wrap_t, j + 1.0, level.height);
+  const auto [x, right] = texel_numbers<R>(wrap_s, i, level.width);
+  const auto [y, above] = texel_numbers<R>(wrap_t, j, level.height);
+  const Color<R> texel = fetch<R>(t, level, x, y);
+  if (!linear) return texel;
+  const Color<R> beside = fetch<R>(t, level, right, y);
+  const Color<R> over = fetch<R>(t, level, x, above), diagonal = fetch<R>(t, level, right, above);
   const W a = u - i, b = v - j;
-  return mix<R>(mix<R>(fetch<R>(t, level, x, y), fetch<R>(t, level, right, y), a),
-                mix<R>(fetch<R>(t, level, x, above), fetch<R>(t, level, right, above), a), b);
+  const auto channel = [&](R Color<R>::*c) {  // rounded once
+    const W low = mix<W>(to_wide(texel.*c), to_wide(beside.*c), a);
+    return to_float(mix<W>(low, mix<W>(to_wide(over.*c), to_wide(diagonal.*c), a), b));
+  };
+  return {channel(&Color<R>::r), channel(&Color<R>::g), channel(&Color<R>::b), channel(&Color<R>::a)};
 }
 
 /// The level below lambda; whether it is mixed with the next, and how much of that.
