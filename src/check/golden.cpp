@@ -84,7 +84,10 @@ std::string describe(const GoldenDifference& d) {
   if (!d.why.empty()) return fmt::format("  {}\n", d.why);
   std::string out;
   if (d.stages.empty()) {
-    out += "  every stage's hash is the golden's\n";
+    const bool picture = d.color.differing + d.depth.differing > 0;
+    out +=
+        fmt::format("  every stage's hash is the golden's{}\n",
+                    picture ? ": the picture, drawn with nothing watched, differs from what its stages come to" : "");
   } else {
     std::vector<std::string_view> later;
     for (const Stage stage : std::span(d.stages).subspan(1)) later.push_back(name_of(stage));

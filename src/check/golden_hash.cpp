@@ -159,10 +159,13 @@ Hash scene_hash(const Scene& scene) {
 Fingerprint fingerprint(const Scene& scene, Renderer& renderer) {
   StageHashers hashers;
   if (scene.frame.antialias.kind == Antialias::Kind::none) {
-    Capture all = all_that_fits(scene, renderer);
+    const Capture all = all_that_fits(scene, renderer);
     hashers.next(all);
-    visit_capture(std::as_const(all), hashers);
-    return {hashers.done(), std::move(all.planes.color), std::move(all.planes.depth)};
+    visit_capture(all, hashers);
+    Request request;
+    request.planes = WantedPlanes::picture;
+    Planes picture = renderer.capture(scene, request).planes;
+    return {hashers.done(), std::move(picture.color), std::move(picture.depth)};
   }
   for (const Scene& pass : passes_of(scene)) {
     const Capture all = all_that_fits(pass, renderer);

@@ -192,6 +192,33 @@ TEST_F(Goldens, a_renderer_that_fails_is_a_difference_not_the_end) {
   EXPECT_EQ(rows[0].outcome, Outcome::failed);
 }
 
+// Its stages are right; what it draws when nobody watches them is not.
+class OtherwiseUnwatched : public Renderer {
+ public:
+  RendererInfo info() const override { return ours_->info(); }
+  Capture capture(const Scene& scene, const Request& request) override {
+    Capture out = ours_->capture(scene, request);
+    if (request.planes == WantedPlanes::picture) out.planes.color(1, 0).r += 1.0f / 255.0f;
+    return out;
+  }
+
+ private:
+  std::unique_ptr<Renderer> ours_ = pipeline::make_pipeline();
+};
+
+TEST_F(Goldens, the_picture_is_the_one_that_is_drawn_unwatched) {
+  const Scene scene = load_scene(kScenes / "clip/behind_eye.json", {});
+  bless(scene, fingerprint(scene, *ours_));
+  OtherwiseUnwatched renderer;
+  const GoldenSet set(folder_ / "golden", GoldenSet::Access::read);
+  const GoldenDifference d = compare_golden(scene, renderer, set);
+  EXPECT_TRUE(d.stages.empty());
+  EXPECT_EQ(d.color.differing, 1u);
+  EXPECT_NE(describe(d).find("drawn with nothing watched, differs"), std::string::npos) << describe(d);
+  EXPECT_EQ(golden_rows(scene, renderer, set).back().outcome, Outcome::different);
+  EXPECT_EQ(describe(compare(scene)).find("unwatched"), std::string::npos);
+}
+
 TEST_F(Goldens, the_golden_is_no_judge) {
   SceneVerdict verdict{"group/scene", "", {judged("group/scene", std::string(kGolden), Stage::light, {})}, 0};
   EXPECT_EQ(std::ranges::count(unjudged_stages(verdict), Stage::light), 1);
