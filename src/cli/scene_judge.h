@@ -20,7 +20,7 @@
 
 namespace plumbline::cli {
 
-/// What all scenes of a run are judged by. Read alone, by several threads.
+/// What all scenes of a run are judged by: several threads read it.
 struct CheckRules {
   CheckOptions options;
   std::chrono::sys_days today;
@@ -40,6 +40,7 @@ struct JudgedScene {
 /// A candidate and references of its own, for one thread at a time.
 class SceneJudge {
  public:
+  /// One at a time: Mesa reads its environment, which the first sets (reference/osmesa/context.h).
   explicit SceneJudge(const CheckRules& rules);
   /// Leaves a page of a scene that does not hold, if asked. Throws OutputError.
   JudgedScene judge(const Scene& scene);
