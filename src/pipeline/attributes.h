@@ -37,9 +37,7 @@ template <class R, class S = float>
   const R q0 = to_float(b.l0) * inv_w[0], q1 = to_float(b.l1) * inv_w[1], q2 = to_float(b.l2) * inv_w[2];
   const R sum = q0 + q1 + q2;
   // A plane extrapolated out of a sliver may reach the horizon: no division by (nearly) 0 there.
-  const R tiny(1.17549435e-38f);
-  const Mask<R> divides = (sum > tiny) | (sum < -tiny);
-  const R reciprocal = select(divides, R(1) / select(divides, sum, R(1)), R(0));
+  const R reciprocal = where(magnitude(sum) > R(1.17549435e-38f), R(1) / sum);
   return {q1 * reciprocal, q2 * reciprocal};
 }
 

@@ -9,7 +9,7 @@
 namespace plumbline::pipeline {
 
 struct SimdTarget {
-  std::string_view name;  ///< "float" (one vertex, triangle or pixel at a time), "sse4", "avx2"
+  std::string_view name;  ///< "float" (one vertex, triangle or pixel at a time), "sse4", "avx2", "avx512"
   /// Vertices [from, to) of a draw.
   void (*vertices)(const VertexWork& work, std::size_t from, std::size_t to);
   /// A tile of the frame.

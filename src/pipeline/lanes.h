@@ -64,6 +64,9 @@ inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }
 
+/// `value` or 0.
+inline float where(bool mask, float value) { return mask ? value : 0.0f; }
+
 /// The larger, and the smaller; the second where either is NaN.
 template <class T>
 T greater_of(T a, T b) {
@@ -95,6 +98,7 @@ inline double floor_of(double value) { return std::floor(value); }
 inline std::int64_t to_int(double value) { return static_cast<std::int64_t>(value); }
 inline double to_wide(std::int64_t value) { return static_cast<double>(value); }
 /// The nearest, half to even, of |value| below 2^31.
+inline std::int64_t nearest_int(double value) { return to_int(round_even(value)); }
 inline std::int64_t nearest_int(float value) { return static_cast<std::int64_t>(std::nearbyint(value)); }
 /// a b + c, rounded once.
 inline float fused(float a, float b, float c) { return std::fma(a, b, c); }
@@ -113,6 +117,10 @@ std::int64_t shifted_right(std::int64_t value) {
 inline std::int64_t as_int(float value) { return std::bit_cast<std::int32_t>(value); }
 inline float as_float(std::int64_t bits) { return std::bit_cast<float>(static_cast<std::int32_t>(bits)); }
 
+template <class R>
+R magnitude(R value) {
+  return as_float(as_int(value) & Int<R>(0x7fffffff));
+}
 inline float square_root(float value) { return std::sqrt(value); }
 /// Of a positive normal number, mantissa in [1, 2) and exponent; and 2^n for a whole n from -1022 to 1023.
 inline double mantissa_of(double value) {
@@ -159,9 +167,9 @@ template <>
 inline std::int64_t load_packed<float>(const std::uint32_t* from) {
   return *from;
 }
-/// Of numbers from 0 to 255, rounded half to even; the first in the lowest byte.
+/// To [0, 255], NaN to 0, and rounded half to even; the first in the lowest byte.
 inline std::int64_t packed_codes(float r, float g, float b, float a) {
-  const auto code = [](float value) { return to_int(round_even(value)); };
+  const auto code = [](float value) { return to_int(round_even(clamped(value, 0.0f, 255.0f))); };
   return code(r) | code(g) << 8 | code(b) << 16 | code(a) << 24;
 }
 inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {

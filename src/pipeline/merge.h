@@ -28,8 +28,8 @@ using Channels = std::array<W, 4>;
 /// The same of rgba8, packed.
 template <class R>
 [[gnu::always_inline]] inline Int<R> packed_merge(const Color<R>& color) {
-  const auto code = [](R value) { return clamp01(value) * R(255.0f); };
-  return packed_codes(code(color.r), code(color.g), code(color.b), code(color.a));
+  const R most(255.0f);
+  return packed_codes(color.r * most, color.g * most, color.b * most, color.a * most);
 }
 
 /// A blend factor's channels, times `unit`, so that those of the frame's colour are its codes and rounded nowhere.
@@ -69,6 +69,26 @@ template <class W>
 constexpr BlendTerm kOverTerm{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
 constexpr Blend kOver{kOverTerm, kOverTerm, glm::vec4(0)};
 
+/// One channel of kOver, in codes but not rounded to them: `source` in [0,1], `alpha_codes` its alpha times the largest
+/// code, `rest` 1 - alpha.
+template <class W>
+[[gnu::always_inline]] inline W over(const W& source, const W& alpha_codes, const W& stored, const W& rest) {
+  return source * alpha_codes + stored * rest;
+}
+/// blend() by kOver of rgba8, `held` and the result packed.
+template <class R>
+[[gnu::always_inline]] inline Int<R> packed_over(const Color<R>& source, const Int<R>& held) {
+  using W = Wide<R>;
+  const Int<R> most(255);
+  const W alpha = to_wide(clamp01(source.a)), codes = alpha * 255.0, rest = 1.0 - alpha;
+  const auto code = [&](const R& channel, const Int<R>& stored) {
+    return nearest_int(over<W>(to_wide(clamp01(channel)), codes, to_wide(stored), rest));
+  };
+  return (code(source.r, held & most) | shifted_left<8>(code(source.g, shifted_right<8>(held) & most))) |
+         (shifted_left<16>(code(source.b, shifted_right<16>(held) & most)) |
+          shifted_left<24>(code(source.a, shifted_right<24>(held) & most)));
+}
+
 /// `source` blended with what is `stored`, in the frame's format, as merge() makes it (OpenGL 2.1 spec 4.1.8). In
 /// double, for the layers' errors add up: a product of a colour and a code is exact there, and the sum is rounded to
 /// codes as the real number would be, but for sums within some 2^-45 codes of a half.
@@ -79,6 +99,13 @@ template <class R>
   const bool codes = scale != 0.0f;
   const double unit = codes ? scale : 1.0;
   const auto wide = [&](R value) { return to_wide(codes ? clamp01(value) : value); };
+  if (codes && state.rgb == kOverTerm && state.alpha == kOverTerm) {
+    const W alpha = wide(source.a), alpha_codes = alpha * unit, rest = 1.0 - alpha;
+    const auto code = [&](const R& channel, const R& held) {
+      return to_float(round_even(over<W>(wide(channel), alpha_codes, to_wide(held), rest)));
+    };
+    return {code(source.r, stored.r), code(source.g, stored.g), code(source.b, stored.b), code(source.a, stored.a)};
+  }
   const Channels<W> s = {wide(source.r), wide(source.g), wide(source.b), wide(source.a)};
   const Channels<W> d = {to_wide(stored.r), to_wide(stored.g), to_wide(stored.b), to_wide(stored.a)};
   const auto blended = [&](const BlendTerm& term) -> Color<R> {

@@ -1,6 +1,6 @@
-// Stages 5 to 11 of triangles whose nearer fragments replace what is there, or are blended over it, without further
-// tests, in frames of rgba8 and z24: what covered_pixels() does (fragment.h), its terms taken out of the loops that
-// they do not change in.
+// Stages 5 to 11 of triangles whose nearer fragments replace what is there, or are blended over it, or leave their
+// depth alone, without further tests, in frames of rgba8 and z24: what covered_pixels() does (fragment.h), its terms
+// taken out of the loops that they do not change in.
 #pragma once
 
 #include "pipeline/visit_covered.h"
@@ -20,7 +20,7 @@ template <class R, PaintKernel kKernel, Order kOrder, bool kOneColor>
   const BarycentricPlanes& planes = s.planes;
   // From last to first, a fragment as near as one that was painted before it comes before it; one as near as the clear
   // depth is none.
-  const float tie = kFromLast ? 1.0f : 0.0f;
+  const auto limit = [](R held) { return kFromLast ? held + R(1.0f) : held; };
   W of_row[2][kParts<R>];  // dy l1_y, dy l2_y
   const auto row = [&](int y) {
     for (int part = 0; part < kParts<R>; ++part) {
@@ -30,7 +30,7 @@ template <class R, PaintKernel kKernel, Order kOrder, bool kOneColor>
     }
     unsigned nearer = 0;
     for (int b = 0; b < kTile / kBlock; b += kLanes) {
-      nearer |= bits_of(load<R>(tile.farthest + y / kBlock * (kTile / kBlock) + b) + R(tie) > R(s.nearest)) << b;
+      nearer |= bits_of(limit(load<R>(tile.farthest + y / kBlock * (kTile / kBlock) + b)) > R(s.nearest)) << b;
     }
     return nearer;
   };
@@ -48,19 +48,19 @@ template <class R, PaintKernel kKernel, Order kOrder, bool kOneColor>
               l2 = planes.l2_0 + (dx * planes.l2_x + of_row[1][part]);
       const Barycentric<R> b{1.0 - l1 - l2, l1, l2};
       const R z = depth<R>(s.depth, b), held = load<R>(to.depth);
-      Mask<R> kept = covered[part] & (z < held + R(tie));
+      Mask<R> kept = covered[part] & (z < limit(held));
       if constexpr (kFromLast) kept = kept & (z < R(cleared));
       full = full && all(kept);
       if (!any(kept)) continue;
       farthest = greater_of(farthest, z);
       store(kept, z, to.depth);
+      if constexpr (kKernel == PaintKernel::depth_alone) continue;
       const auto color = [&]() -> Color<R> {
         if constexpr (kOneColor) return one_color;
         return attributes<R>(s.attributes, b);
       };
       if constexpr (kKernel == PaintKernel::blends_over) {
-        const Color<R> blended = blend<R>(kOver, color(), to.template load_color<R>(), 255.0f);
-        store_packed(kept, packed_codes(blended.r, blended.g, blended.b, blended.a), to.color);
+        store_packed(kept, packed_over<R>(color(), load_packed<R>(to.color)), to.color);
       } else {
         store_packed(kept, kOneColor ? one_code : packed_merge(color()), to.color);
       }
@@ -85,7 +85,7 @@ inline constexpr int kSmall = 24;  ///< pixels of a box
 
 /// Triangles in boxes of `lanes.width` x `lanes.height` pixels, all at once: pixel by pixel of their boxes; then, one
 /// after the other, what they cover into the tile.
-template <class R, Order kOrder>
+template <class R, PaintKernel kKernel, Order kOrder>
 void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared, PackedTile& tile) {
   using I = Int<R>;
   using W = Wide<R>;
@@ -129,10 +129,12 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
       const W dx = to_wide(x);
       const W l1 = l1_0 + (dx * l1_x + l1_of_row), l2 = l2_0 + (dx * l2_x + l2_of_row);
       const Barycentric<R> b{1.0 - l1 - l2, l1, l2};
-      const Weights<R> k = weights<R>(of.inv_w, b);
-      const Color<R> color = mean<R>(of, Weights<R>{select(constant, R(0), k.k1), select(constant, R(0), k.k2)});
       store(depth<R>(depths, b), z_of[pixels]);
-      store(packed_merge(color), code_of[pixels]);
+      if constexpr (kKernel == PaintKernel::replaces) {
+        const Weights<R> k = weights<R>(of.inv_w, b);
+        const Color<R> color = mean<R>(of, Weights<R>{select(constant, R(0), k.k1), select(constant, R(0), k.k2)});
+        store(packed_merge(color), code_of[pixels]);
+      }
       store(place_y + shifted_left<4>(shifted_right<2>(x)) + (x & I(kBlock - 1)), place_of[pixels]);
       seen = seen | select(covered, I(1 << pixels), I(0));
       ++pixels;
@@ -147,7 +149,8 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
       const float z = z_of[i][lane], held = tile.depth[place];
       if (kOrder == Order::last_to_first ? z <= held && z < cleared : z < held) {
         tile.depth[place] = z;
-        tile.color[place] = static_cast<std::uint32_t>(code_of[i][lane]);
+        if constexpr (kKernel == PaintKernel::replaces)
+          tile.color[place] = static_cast<std::uint32_t>(code_of[i][lane]);
       }
     }
   }
@@ -158,15 +161,15 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& til
   const auto cleared = static_cast<float>(depth_code(painting.format.clear_depth, painting.formats.depth_scale));
   const auto together = [&](const auto& lanes, int count) {
     const int box = std::max(lanes.width, 0) * std::max(lanes.height, 0);
-    if (kKernel != PaintKernel::replaces || Lanes<R>::width == 1 || box > kSmall) return false;
-    paint_small_triangles<R, kOrder>(lanes, count, cleared, tile);
+    if (kKernel == PaintKernel::blends_over || Lanes<R>::width == 1 || box > kSmall) return false;
+    paint_small_triangles<R, kKernel, kOrder>(lanes, count, cleared, tile);
     return true;
   };
   const auto paint = [&](const PaintTriangle&, const auto& lanes, int lane) {
     const auto s = lanes.template of<Z24Setup>(lane);
     const Vec4<float>& c = s.attributes.color0;
     const Color<R> color{R(c.r), R(c.g), R(c.b), R(c.a)};
-    if (s.attributes.constant) {
+    if (kKernel == PaintKernel::depth_alone || s.attributes.constant) {
       paint_opaque_triangle<R, kKernel, kOrder, true>(s, color, cleared, tile);
     } else {
       paint_opaque_triangle<R, kKernel, kOrder, false>(s, color, cleared, tile);

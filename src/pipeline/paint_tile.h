@@ -130,6 +130,9 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile& t
   if (draw.kernel == PaintKernel::blends_over) {
     return paint_opaque<R, PaintKernel::blends_over, Order::first_to_last>(painting, run, tile, alone);
   }
+  if (draw.kernel == PaintKernel::depth_alone) {
+    return paint_opaque<R, PaintKernel::depth_alone, Order::first_to_last>(painting, run, tile, alone);
+  }
   const DepthFunc func = draw.state.depth_func;
   const bool farther =
       func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;

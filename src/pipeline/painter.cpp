@@ -35,12 +35,11 @@ bool goes_in_lanes(const Scene& scene, const Draw& draw) {
 
 PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const BlockState& s) {
   const bool plain = mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
-                     draw.back_mode == PolygonMode::fill && s.surface == nullptr &&
-                     s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 && s.depth.high == 1.0 &&
-                     s.depth.offset == PolygonOffset{} && s.depth_func == DepthFunc::less && !s.scissor &&
-                     !s.alpha_test && !s.stencil && !s.merge.logic_op && glm::all(s.merge.color_mask) &&
-                     s.merge.depth_mask;
-  if (!plain) return PaintKernel::any;
+                     draw.back_mode == PolygonMode::fill && s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 &&
+                     s.depth.high == 1.0 && s.depth.offset == PolygonOffset{} && s.depth_func == DepthFunc::less &&
+                     !s.scissor && !s.alpha_test && !s.stencil && s.merge.depth_mask;
+  if (plain && !glm::any(s.merge.color_mask)) return PaintKernel::depth_alone;
+  if (!plain || s.surface != nullptr || s.merge.logic_op || !glm::all(s.merge.color_mask)) return PaintKernel::any;
   if (!s.merge.blend) return PaintKernel::replaces;
   const bool over = s.merge.blend->rgb == kOverTerm && s.merge.blend->alpha == kOverTerm;
   return over ? PaintKernel::blends_over : PaintKernel::any;

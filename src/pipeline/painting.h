@@ -86,8 +86,8 @@ struct Chunk {
   Scratch<std::uint32_t> numbers;
 };
 
-/// How a draw's filled triangles are painted: paint_opaque.h has the two that are commonest.
-enum class PaintKernel { any, replaces, blends_over };
+/// How a draw's filled triangles are painted: paint_opaque.h has those that are commonest.
+enum class PaintKernel { any, replaces, blends_over, depth_alone };
 
 /// A draw, as tiles want it.
 struct PaintDraw {

@@ -114,6 +114,7 @@ struct SimdInt {
 };
 
 inline Simd select(SimdMask mask, Simd yes, Simd no) { return hn::IfThenElse(mask.m, yes.v, no.v); }
+inline Simd where(SimdMask mask, Simd value) { return hn::IfThenElseZero(mask.m, value.v); }
 inline SimdInt select(SimdMask mask, SimdInt yes, SimdInt no) {
   return hn::IfThenElse(hn::RebindMask(kInts, mask.m), yes.v, no.v);
 }
@@ -186,13 +187,27 @@ SimdInt shifted_right(SimdInt value) {
 }
 inline SimdInt as_int(Simd value) { return hn::BitCast(kInts, value.v); }
 inline Simd as_float(SimdInt bits) { return hn::BitCast(kFloats, bits.v); }
-/// Four numbers from 0 to 255: 1.5 * 2^23 more, and the bits of the sum are the number's, and a constant.
+// x86's own: the nearest, of what fits no int the most negative; and packs that saturate, by blocks of 128 bits.
+inline __m128i rounded(__m128 v) { return _mm_cvtps_epi32(v); }
+inline __m128i to_shorts(__m128i a, __m128i b) { return _mm_packs_epi32(a, b); }
+inline __m128i to_bytes(__m128i a, __m128i b) { return _mm_packus_epi16(a, b); }
+#if HWY_TARGET <= HWY_AVX2
+inline __m256i rounded(__m256 v) { return _mm256_cvtps_epi32(v); }
+inline __m256i to_shorts(__m256i a, __m256i b) { return _mm256_packs_epi32(a, b); }
+inline __m256i to_bytes(__m256i a, __m256i b) { return _mm256_packus_epi16(a, b); }
+#endif
+#if HWY_TARGET <= HWY_AVX3
+inline __m512i rounded(__m512 v) { return _mm512_cvtps_epi32(v); }
+inline __m512i to_shorts(__m512i a, __m512i b) { return _mm512_packs_epi32(a, b); }
+inline __m512i to_bytes(__m512i a, __m512i b) { return _mm512_packus_epi16(a, b); }
+#endif
 inline SimdInt packed_codes(Simd r, Simd g, Simd b, Simd a) {
-  constexpr std::uint32_t kBits = 0x4b400000, kAll = kBits + (kBits << 8) + (kBits << 16) + (kBits << 24);
-  const auto bits = [](Simd code) { return as_int(code + 12582912.0f); };
-  const SimdInt sum = bits(r) + shifted_left<8>(bits(g) + shifted_left<8>(bits(b) + shifted_left<8>(bits(a))));
-  return sum - SimdInt(static_cast<std::int32_t>(kAll));
+  const auto code = [](Simd value) { return rounded(lesser_of(Simd(255.0f), value).v.raw); };  // NaN stays NaN
+  const IntVector codes{to_bytes(to_shorts(code(r), code(g)), to_shorts(code(b), code(a)))};
+  HWY_ALIGN static constexpr std::int32_t kByPixel[4] = {0x0c080400, 0x0d090501, 0x0e0a0602, 0x0f0b0703};
+  return hn::TableLookupBytes(codes, hn::LoadDup128(kInts, kByPixel));
 }
+inline SimdInt nearest_int(SimdWide value) { return to_int(value); }
 inline SimdInt nearest_int(Simd value) { return hn::NearestInt(value.v); }
 
 #if HWY_NATIVE_FMA

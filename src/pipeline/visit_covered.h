@@ -40,7 +40,7 @@ template <class R>
       unsigned blocks = (left < kLanes ? (1u << left) - 1 : ~0u >> (32 - kLanes)) & wanted >> (x / kBlock);
       if (!few) {
         const auto at = [&](int k) { return most[k] + I(s.edge[k].step_x * x + s.edge[k].step_y * y); };
-        blocks &= bits_of((at(0) | at(1) | at(2)) >= I(0));
+        blocks &= bits_of((at(0) | at(1) | at(2)) > I(-1));
       }
       for (; blocks != 0; blocks &= blocks - 1) {
         const int block_x = x + kBlock * std::countr_zero(blocks);
@@ -49,7 +49,7 @@ template <class R>
         Mask<R> covered[kParts<R>];
         for (int part = 0; part < kParts<R>; ++part) {
           covered[part] = ((at_block[0] + in_block[0][part]) | (at_block[1] + in_block[1][part]) |
-                           (at_block[2] + in_block[2][part])) >= I(0);
+                           (at_block[2] + in_block[2][part])) > I(-1);
         }
         block(block_x, y, covered);
       }

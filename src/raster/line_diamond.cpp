@@ -40,8 +40,10 @@ std::vector<glm::ivec2> diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::i
   // x-major line, by -e for a y-major one. Half way between two pixels that decides: up only if x-major and rising.
   const std::int64_t sign = forward ? 1 : -1, n = d[u] * sign, m = d[v] * sign;
   const std::int64_t tie = u == 0 && m > 0 ? 0 : 1;
+  const std::int64_t divisor = kUnit * n;
+  const auto dividend_at = [&](std::int64_t i) { return (a[v] + kHalf) * n + (kUnit * i - a[u]) * m - tie; };
   const auto pixel_at = [&](std::int64_t i) {
-    const std::int64_t j = floor_div((a[v] + kHalf) * n + (kUnit * i - a[u]) * m - tie, kUnit * n);
+    const std::int64_t j = floor_div(dividend_at(i), divisor);
     return u == 0 ? glm::i64vec2(i, j) : glm::i64vec2(j, i);
   };
 
@@ -55,9 +57,19 @@ std::vector<glm::ivec2> diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::i
   first = std::max<std::int64_t>(first, 0);
   last = std::min<std::int64_t>(last, frame[u] - 1);
   std::vector<glm::ivec2> pixels;
-  for (std::int64_t i = first; i <= last; ++i) {
-    const glm::i64vec2 p = pixel_at(i);
+  if (first > last) return pixels;
+  pixels.reserve(static_cast<std::size_t>(last - first + 1));
+  glm::i64vec2 p = pixel_at(first);
+  std::int64_t rest = dividend_at(first) - p[v] * divisor;  // of the division, which goes on by at most one a column
+  for (;; ++p[u]) {
     if (p[v] >= 0 && p[v] < frame[v]) pixels.emplace_back(p);
+    if (p[u] == last) break;
+    rest += kUnit * m;
+    if (rest >= divisor) {
+      rest -= divisor, ++p[v];
+    } else if (rest < 0) {
+      rest += divisor, --p[v];
+    }
   }
   if (!forward) std::reverse(pixels.begin(), pixels.end());
   return pixels;

@@ -18,7 +18,7 @@ struct Kernels {
   void (*lit)(const FragmentLight& light, LitPart part, std::size_t n, const float* in, float* out);
   void (*blend)(const Blend& state, float scale, std::size_t n, const float* in, float* out);  ///< source, stored
 };
-inline constexpr std::size_t kWords = 33;
+inline constexpr std::size_t kWords = 36;
 inline constexpr std::size_t kItems = 1024;
 
 template <class R>
@@ -61,6 +61,10 @@ void words(std::size_t n, const float* in, float* out) {
     of.put(square_root(a));
     of.put(power(a, 0.3f));
     of.put(power(a, 128.0f));
+    of.put(magnitude(a));
+    const Int<R> packed = packed_codes(a, b, a * R(255.0f), b * R(0.25f));
+    of.put(to_float(packed & Int<R>(0xffff)));
+    of.put(to_float(shifted_right<16>(packed) & Int<R>(0xffff)));
     of.put(to_float(to_int(floor_of(clamped(wide, W(-0x1p40), W(0x1p40)))) & Int<R>(0xffff)));
     of.put_wide(floor_of(product));
     of.put_wide(mantissa_of(product));
@@ -92,5 +96,6 @@ Kernels kernels() {
 
 Kernels kernels_sse4();
 Kernels kernels_avx2();
+Kernels kernels_avx512();
 
 }  // namespace plumbline::pipeline
