@@ -31,7 +31,8 @@ enum class MesaDriver { llvmpipe, softpipe };
 ///   coverage, depth, texture, shade, visibility   of single pixels, where a request names them and does not ask for
 ///   the
 ///              window stage: records of their fragments, one primitive drawn at a time (pixel_fragments.h)
-/// and runs nothing. Throws RendererFailed. Not for use by two threads at once. Each is there if it is built in.
+/// and runs nothing. Throws RendererFailed. Made one at a time; each for use by one thread, several beside each other.
+/// Each is there if it is built in.
 std::unique_ptr<Renderer> make_osmesa(MesaDriver driver = MesaDriver::llvmpipe);
 std::unique_ptr<Renderer> make_egl(MesaDriver driver = MesaDriver::llvmpipe);
 

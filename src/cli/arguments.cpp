@@ -64,6 +64,11 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--shard", o.shard, "I/N: every Nth scene, from number I on");
   text(command, "--golden", o.golden, "Compare with the goldens in this folder as well, stage by stage");
   text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  command
+      .add_option("--jobs", o.jobs,
+                  "Scenes judged at a time (default: the number of processors); one, where a reference runs in a "
+                  "process of its own")
+      ->check(CLI::Range(1, kMostJobs));
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
   add_assets(command, o.scene_arguments);
 }

@@ -7,17 +7,21 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "check/expectations.h"
-#include "check/golden.h"
-#include "check/judge.h"
+#include "check/golden_set.h"
 #include "cli/check_failures.h"
 #include "cli/commands.h"
+#include "cli/in_order.h"
 #include "cli/outputs.h"
 #include "cli/references.h"
+#include "cli/renderers.h"
+#include "cli/scene_judge.h"
 #include "cli/shard_argument.h"
 #include "report/html_report.h"
 #include "report/json_report.h"
@@ -81,6 +85,14 @@ std::vector<std::filesystem::path> inputs_of(const CheckOptions& o, std::span<co
   return out;
 }
 
+// How many scenes are judged at a time. Signals that end us are held by the one thread that waits for another process
+// (process_renderer.cpp): it must be the only one.
+std::size_t jobs(const CheckOptions& o, std::size_t scenes) {
+  if (std::ranges::any_of(o.against, in_own_process)) return 1;
+  const int wanted = o.jobs > 0 ? o.jobs : static_cast<int>(std::thread::hardware_concurrency());
+  return std::min(static_cast<std::size_t>(std::clamp(wanted, 1, kMostJobs)), std::max<std::size_t>(scenes, 1));
+}
+
 }  // namespace
 
 int check(const CheckOptions& given) {
@@ -90,9 +102,8 @@ int check(const CheckOptions& given) {
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
   std::vector<std::filesystem::path> files = find_scenes(paths);
   const report::Shard shard = take_shard(files, o.shard);
-  const std::chrono::sys_days day = today(o);
-  std::vector<check::Expectation> expectations;
-  if (!o.expect.empty()) expectations = check::read_expectations(o.expect, names_of_rows());
+  CheckRules rules{o, today(o), {}, {}, {}};
+  if (!o.expect.empty()) rules.expectations = check::read_expectations(o.expect, names_of_rows());
   std::vector<Scene> scenes;  // all of them first: a bad one ends the run before anything is written
   for (const auto& file : files) {
     scenes.push_back(o.scene_arguments.load(file));
@@ -102,42 +113,35 @@ int check(const CheckOptions& given) {
       {"--json", o.json}, {"--ledger", o.ledger}, {"--junit", o.junit}, {"--markdown", o.markdown}};
   require_outputs(outputs, {"--report", o.report}, inputs_of(o, scenes));
   require_folders(o, scenes);
-  const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);
-  const References references = make_references(o.against, o.scene_arguments.assets);
-  report::RunHead head{versions_of(*candidate, references), o.fault, o.against, !o.golden.empty(), shard, {}};
-  std::optional<check::GoldenSet> goldens;
-  if (!o.golden.empty()) goldens.emplace(o.golden, check::GoldenSet::Access::read);
-  std::optional<report::HtmlReport> page;
-  if (!o.report.empty()) page.emplace(o.report, scenes.size());
+  SceneJudge first(rules);
+  report::RunHead head{first.versions(), o.fault, o.against, !o.golden.empty(), shard, {}};
+  if (!o.golden.empty()) rules.goldens.emplace(o.golden, check::GoldenSet::Access::read);
+  if (!o.report.empty()) rules.page.emplace(o.report, scenes.size());
   const bool terminal = isatty(STDERR_FILENO) != 0;
   std::vector<check::SceneVerdict> verdicts;
   std::vector<check::Settled> settled;
   std::string failures;
   fmt::print("{}", report::table_head());
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const Scene& scene = scenes[i];
-    if (terminal) fmt::print(stderr, "\r\x1b[K[{}/{}] {}\r", i + 1, scenes.size(), scene.path);
-    check::Drawn drawn;
-    check::SceneVerdict& verdict =
-        verdicts.emplace_back(check::judge(scene, *candidate, references.list, page ? &drawn : nullptr));
-    if (goldens)
-      std::ranges::move(check::golden_rows(scene, *candidate, *goldens), std::back_inserter(verdict.comparisons));
-    std::ranges::move(settle(verdict, o, expectations, day), std::back_inserter(settled));
+  const auto judge = [&](SceneJudge& by, std::size_t i) {
+    if (terminal) fmt::print(stderr, "\r\x1b[K[{}/{}] {}\r", i + 1, scenes.size(), scenes[i].path);
+    return by.judge(scenes[i]);
+  };
+  const auto take = [&](JudgedScene judged) {
+    const check::SceneVerdict& verdict = verdicts.emplace_back(std::move(judged.verdict));
+    std::ranges::move(judged.settled, std::back_inserter(settled));
     fmt::print("{}", report::table_rows(verdict));
     std::fflush(stdout);
-    std::string failure = verdict.failure;
-    if (!failure.empty() && !o.failures.empty()) {
-      failure += leave_report(o.failures, scene, verdict, *candidate, references.list);
-    }
-    if (!o.rows.empty()) leave_rows(o.rows, verdict, failure);
-    failures += failure;
-    if (page) page->add(verdict, references.list, drawn, scene, verdict.failure, verdict.repeat);
-  }
+    if (!o.rows.empty()) leave_rows(o.rows, verdict, judged.failure);
+    failures += judged.failure;
+    if (judged.drawing) rules.page->add(std::move(*judged.drawing));
+  };
+  const auto make = [&] { return SceneJudge(rules); };
+  in_order(scenes.size(), first, jobs(o, scenes.size()) - 1, make, judge, take);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (is_whole(o, verdicts)) head.failures = check::of_no_scene(expectations, verdicts);
+  if (is_whole(o, verdicts)) head.failures = check::of_no_scene(rules.expectations, verdicts);
   const bool holds = report::all_hold(verdicts) && head.failures.empty();
   std::string summary = not_asked_line(o);
-  if (!o.expect.empty()) summary += settled_line(settled, expectations.size());
+  if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());
   summary += report::summary(verdicts, holds, seconds);
   const std::string of_run = lines_of(head.failures);
   fmt::print("\n{}{}{}{}", failures, of_run, report::group_lines(verdicts), summary);
@@ -145,7 +149,7 @@ int check(const CheckOptions& given) {
   if (!o.ledger.empty()) report::write_ledger(o.ledger, verdicts);
   if (!o.junit.empty()) write_file(o.junit, report::junit(verdicts, head.failures));
   if (!o.markdown.empty()) write_file(o.markdown, report::markdown(verdicts, of_run + summary));
-  if (page) page->write(summary);
+  if (rules.page) rules.page->write(summary);
   return holds ? kHolds : kDiffers;
 }
 

@@ -14,6 +14,9 @@ namespace plumbline::cli {
 /// known to be writable before any work.
 enum Exit { kHolds = 0, kDiffers = 1, kBadInput = 2 };
 
+/// The most scenes that are judged at a time.
+inline constexpr int kMostJobs = 256;
+
 /// Scenes against references, stage by stage. Paths may be empty: not wanted.
 struct CheckOptions {
   std::vector<std::string> scenes;  ///< files, and folders of them
@@ -26,6 +29,7 @@ struct CheckOptions {
   std::string shard;     ///< I/N: every Nth scene, from number I on
   std::string golden;    ///< the folder of goldens, whose rows stand beside the references'; or empty
   std::string fault;     ///< a bug to put into our renderer, or empty
+  int jobs = 0;          ///< scenes judged at a time; 0: as many as there are processors
   bool allow_missing = false;
   SceneArguments scene_arguments;
   std::string program = "plumb";  ///< as it was called, for the command that repeats a failure

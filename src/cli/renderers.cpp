@@ -116,9 +116,12 @@ std::unique_ptr<Renderer> make_renderer(const std::string& name) {
   throw std::invalid_argument(fmt::format("no renderer '{}': there are {}", name, fmt::join(names, ", ")));
 }
 
+bool in_own_process(const std::string& name) {
+  return name == "softpipe" ? kOsmesa || kEgl : name == "egl" && kEgl && kOsmesa;
+}
+
 std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets) {
-  const bool second_mesa = name == "softpipe" ? kOsmesa || kEgl : name == "egl" && kEgl && kOsmesa;
-  if (second_mesa) return std::make_unique<OwnProcess>(opengl_info(name), assets);
+  if (in_own_process(name)) return std::make_unique<OwnProcess>(opengl_info(name), assets);
   return make_renderer(name);
 }
 

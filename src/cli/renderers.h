@@ -22,8 +22,10 @@ const std::vector<std::string>& renderer_names();
 /// in. Throws std::invalid_argument, naming those there are, if unknown.
 std::unique_ptr<Renderer> make_renderer(const std::string& name);
 
-/// One of several in a run: what would be a second Mesa in this process is this program once more, in a process of its
-/// own, which looks for meshes in `assets` as well. Else as make_renderer().
+/// Whether it would be a second Mesa in this process.
+bool in_own_process(const std::string& name);
+/// One of several in a run: what in_own_process() is this program once more, which looks for meshes in `assets` as
+/// well. Else as make_renderer().
 std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets);
 
 struct FaultInfo {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -108,28 +109,19 @@ void HtmlReport::put(const std::string& file, std::string_view bytes) {
   written_ += bytes.size();
 }
 
-void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
-                     const check::Drawn& drawn, const Scene& scene, const std::string& failure,
-                     const std::string& repeat) {
-  const std::string key = free_name(verdict.scene);
+HtmlReport::Drawing HtmlReport::draw(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
+                                     const check::Drawn& drawn, const Scene& scene, const std::string& failure,
+                                     const std::string& repeat) const {
   const check::Comparison* first = check::first_different(verdict);
-  const std::string_view outcome = outcome_of(verdict, !failure.empty());
-  std::size_t budget = share_;
-  Json card{{"key", key},
-            {"name", verdict.scene},
-            {"group", verdict.scene.substr(0, verdict.scene.find('/'))},
-            {"description", scene.description},
-            {"outcome", outcome},
-            {"fails", !failure.empty()},
-            {"first", first != nullptr ? Json(name_of(first->stage)) : Json(nullptr)},
-            {"file", key + ".js"},
-            {"thumbnail", nullptr}};
+  Drawing out;
+  out.scene = verdict.scene;
+  out.description = scene.description;
+  out.fails = !failure.empty();
+  out.outcome = outcome_of(verdict, out.fails);
+  if (first != nullptr) out.first = name_of(first->stage);
   if (const Plane<glm::vec4>& ours = drawn.candidate.planes.color; !ours.empty()) {
     const Plane<glm::vec4> small = thumbnail(ours);
-    card["thumbnail"] = key + ".png";
-    const Bytes png = encode_png(key + ".png", rows_from_top(scene.dialect) ? upside_down(small) : small);
-    put(key + ".png", png);
-    budget -= std::min(png.size(), budget);
+    out.thumbnail = encode_png("thumbnail.png", rows_from_top(scene.dialect) ? upside_down(small) : small);
   }
   Json about{{"description", scene.description},
              {"failure", failure},
@@ -141,12 +133,32 @@ void HtmlReport::add(const check::SceneVerdict& verdict, std::span<const check::
     return fmt::format("sceneArrived({{...{}, view: {}}});\n", text_of(about),
                        in_script(viewer_json(viewed, verdict.comparisons, scene.frame.antialias.factor, bytes)));
   };
-  const std::string all = script(budget);
-  scenes_ += (scenes_.empty() ? "" : ",\n") + text_of(card);
-  if (!failure.empty() || outcome == name_of(check::Outcome::dispute)) return put(key + ".js", all);
+  out.all = script(share_ - std::min(out.thumbnail.size(), share_));
+  if (out.fails || out.outcome == name_of(check::Outcome::dispute)) return out;
   std::erase_if(viewed.layers, [](const Layer& layer) { return layer.name != "colour"; });
   about["color_alone"] = true;
-  holding_.push_back({key + ".js", all, script(kBytesOfColor)});
+  out.color_alone = script(kBytesOfColor);
+  return out;
+}
+
+void HtmlReport::add(Drawing drawing) {
+  const std::string key = free_name(drawing.scene);
+  Json card{{"key", key},
+            {"name", drawing.scene},
+            {"group", drawing.scene.substr(0, drawing.scene.find('/'))},
+            {"description", drawing.description},
+            {"outcome", drawing.outcome},
+            {"fails", drawing.fails},
+            {"first", drawing.first.empty() ? Json(nullptr) : Json(drawing.first)},
+            {"file", key + ".js"},
+            {"thumbnail", nullptr}};
+  if (!drawing.thumbnail.empty()) {
+    card["thumbnail"] = key + ".png";
+    put(key + ".png", drawing.thumbnail);
+  }
+  scenes_ += (scenes_.empty() ? "" : ",\n") + text_of(card);
+  if (drawing.color_alone.empty()) return put(key + ".js", drawing.all);
+  holding_.push_back({key + ".js", std::move(drawing.all), std::move(drawing.color_alone)});
 }
 
 void HtmlReport::write(const std::string& summary) {

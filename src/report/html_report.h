@@ -25,9 +25,23 @@ class HtmlReport {
   /// For so many scenes. Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not
   /// ours.
   explicit HtmlReport(const std::filesystem::path& folder, std::size_t scenes = 1);
+  /// What the page holds of a scene, but for its name there. Several threads may draw at a time.
+  struct Drawing {
+    std::string scene, description, thumbnail;  ///< the last a PNG, or empty
+    std::string_view outcome, first;            ///< the first different stage, or empty
+    bool fails = false;
+    std::string all, color_alone;  ///< what it is shown from; the latter empty where nothing may be left out
+  };
   /// `failure`: why the run fails for this scene (table.h, failure_lines()), or empty; `repeat`: the command.
+  Drawing draw(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
+               const check::Drawn& drawn, const Scene& scene, const std::string& failure = "",
+               const std::string& repeat = "") const;
+  void add(Drawing drawing);
+  /// Both.
   void add(const check::SceneVerdict& verdict, std::span<const check::Reference> references, const check::Drawn& drawn,
-           const Scene& scene, const std::string& failure = "", const std::string& repeat = "");
+           const Scene& scene, const std::string& failure = "", const std::string& repeat = "") {
+    add(draw(verdict, references, drawn, scene, failure, repeat));
+  }
   void write(const std::string& summary);
 
  private:

@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that no other process or call uses, short whatever the target's.
+/// A name that no other thread or call uses, short whatever the target's.
 fs::path beside(const fs::path& target) {
   const auto ticks = std::chrono::steady_clock::now().time_since_epoch().count();
-  return target.parent_path() / fmt::format(".plumb-{}-{}", ::getpid(), ticks);
+  return target.parent_path() / fmt::format(".plumb-{}-{}", ::gettid(), ticks);
 }
 
 /// Turns the errors of <filesystem>, which name other paths than the user did, into ours.

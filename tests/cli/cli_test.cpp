@@ -16,6 +16,11 @@ TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
   EXPECT_EQ(plumb("check").code, 2);
   EXPECT_EQ(plumb("check " + kScenes + "cull --against mesa").code, 2);
   EXPECT_EQ(plumb("check " + kScenes + "cull --no-such-flag").code, 2);
+  for (const char* jobs : {"0", "257", "-1", "1.5", "2x", "two", "''"}) {
+    const Outcome run = plumb("check " + kScenes + "cull --jobs " + jobs);
+    EXPECT_EQ(run.code, 2) << jobs;
+    EXPECT_TRUE(run.says("--jobs: Value ") && run.says(" not in range 1 to 256")) << run.text;
+  }
 }
 
 TEST_F(Cli, check_holds_and_prints_a_row_for_each_reference_and_stage) {

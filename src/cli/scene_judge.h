@@ -1,0 +1,56 @@
+// One scene of plumb check: judged, settled, and what is left of it.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "check/expectations.h"
+#include "check/golden_set.h"
+#include "check/verdict.h"
+#include "cli/commands.h"
+#include "cli/references.h"
+#include "report/html_report.h"
+#include "scene/scene.h"
+#include "stages/renderer.h"
+
+namespace plumbline::cli {
+
+/// What all scenes of a run are judged by: several threads read it.
+struct CheckRules {
+  CheckOptions options;
+  std::chrono::sys_days today;
+  std::vector<check::Expectation> expectations;
+  std::optional<check::GoldenSet> goldens;
+  std::optional<report::HtmlReport> page;  ///< wanted, or not
+};
+
+/// What comes of a scene. Its planes are gone.
+struct JudgedScene {
+  check::SceneVerdict verdict;
+  std::vector<check::Settled> settled;
+  std::string failure;  ///< lines: why it does not hold, and the page of it that was left
+  std::optional<report::HtmlReport::Drawing> drawing;
+};
+
+/// A candidate and references of its own, for one thread at a time.
+class SceneJudge {
+ public:
+  /// One at a time: Mesa reads its environment, which the first sets (reference/osmesa/context.h).
+  explicit SceneJudge(const CheckRules& rules);
+  /// Leaves a page of a scene that does not hold, if asked. Throws OutputError.
+  JudgedScene judge(const Scene& scene);
+  /// By renderer.
+  std::map<std::string, std::string> versions() const { return versions_of(*candidate_, references_); }
+
+ private:
+  const CheckRules* rules_;
+  std::unique_ptr<Renderer> candidate_;
+  References references_;
+};
+
+}  // namespace plumbline::cli
