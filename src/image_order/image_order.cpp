@@ -167,6 +167,9 @@ class ImageOrderRenderer final : public Renderer {
     out.height = scene.frame.height;
     out.planes.id = Plane<std::int32_t>(out.width, out.height);
     out.planes.depth = Plane<double>(out.width, out.height);
+    if (scene.frame.stencil != StencilFormat::none) {  // no draw asks for it, so it stays as it was cleared
+      out.planes.stencil = Plane<std::uint8_t>(out.width, out.height, scene.frame.clear_stencil);
+    }
     for (int y = 0; y < out.height; ++y) {
       for (int x = 0; x < out.width; ++x) {
         const Answer answer = caster.at(x, y);

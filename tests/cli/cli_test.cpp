@@ -150,6 +150,8 @@ TEST_F(Cli, image_order_judges_visibility_and_draws_primitives) {
   EXPECT_TRUE(fault.says("first different stage: visibility (against image_order)")) << fault.text;
   // Open pixels are settled by legal answers, which exact has.
   EXPECT_EQ(plumb("check " + kScenes + "coverage/fan.json --against exact,image_order").code, 0);
+  // A frame that has stencil values, which no draw asks for.
+  EXPECT_EQ(plumb("check " + kScenes + "phong/separate_on_a_floor.json --against exact,image_order").code, 0);
 
   const Outcome run = plumb("render " + scene + " --with image_order -o " + at("c.png") + " --depth " + at("d.exr"));
   EXPECT_EQ(run.code, 0) << run.text;
