@@ -1,10 +1,13 @@
 // A hash of each scene's planes, and that every SIMD target and 1 to 8 threads draw them: scripts/same_bits compares
-// what builds by different compilers print.
+// what builds by different compilers print. plane_hashes TARGET SCENE...: of what that target draws alone, for machines
+// that are slow (scripts/emulate_avx512).
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -53,7 +56,24 @@ int run() {
   return differing == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
+int run(std::string_view name, std::span<char*> files) {
+  const auto target = std::ranges::find(simd_targets(), name, &SimdTarget::name);
+  if (target == simd_targets().end()) {
+    fmt::print(stderr, "no {} on this machine\n", name);
+    return 2;
+  }
+  Painter painter(1, *target);
+  for (const char* file : files) {
+    const Scene scene = load_scene(file, {});
+    fmt::print("{:016x} {}\n", hash(painter.draw(scene)), scene.name);
+  }
+  return EXIT_SUCCESS;
+}
+
 }  // namespace
 }  // namespace plumbline::pipeline
 
-int main() { return plumbline::pipeline::run(); }
+int main(int argc, char** argv) {
+  if (argc == 1) return plumbline::pipeline::run();
+  return plumbline::pipeline::run(argv[1], std::span(argv, static_cast<std::size_t>(argc)).subspan(2));
+}
