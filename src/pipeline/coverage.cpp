@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "pipeline/window.h"
-#include "raster/line_diamond.h"
 
 namespace plumbline::pipeline {
 
@@ -42,45 +41,9 @@ PixelBounds pixel_bounds(const WindowTriangle<float>& triangle) {
   return {up(x_min) - reach, up(y_min) - reach, down(x_max) + 1 + reach, down(y_max) + 1 + reach};
 }
 
-namespace {
-
-// Ends relative to the box's first pixel.
-std::vector<glm::ivec2> line_pixels(glm::i64vec2 a, glm::i64vec2 b, int width, int size) {
-  if (width == 1) return raster::diamond_exit_line(a, b, glm::ivec2(size));
-  const glm::i64vec2 d = glm::abs(b - a);
-  const int minor = d.x >= d.y ? 1 : 0;
-  glm::i64vec2 moved(0);  // so that what begins below the box, and reaches into it, is seen
-  moved[minor] = kSubpixel * (width - 1) - kSubpixel / 2 * (width - 1);
-  glm::ivec2 box(size);
-  box[minor] += width - 1;
-  std::vector<glm::ivec2> pixels;
-  for (glm::ivec2 p : raster::diamond_exit_line(a + moved, b + moved, box)) {
-    p[minor] -= width - 1;
-    for (int k = 0; k < width; ++k, ++p[minor]) {
-      if (p[minor] >= 0 && p[minor] < size) pixels.push_back(p);
-    }
-  }
-  return pixels;
-}
-
-std::vector<glm::ivec2> point_pixels(glm::i64vec2 at, int width, int size) {
-  const glm::ivec2 first((at + std::int64_t{kSubpixel / 2 * (2 - width)}) >> std::int64_t{8});
-  std::vector<glm::ivec2> pixels;
-  for (int y = std::max(first.y, 0); y < std::min(first.y + width, size); ++y) {
-    for (int x = std::max(first.x, 0); x < std::min(first.x + width, size); ++x) pixels.emplace_back(x, y);
-  }
-  return pixels;
-}
-
-}  // namespace
-
 std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
-  const glm::i64vec2 a = glm::i64vec2(line_or_point.v[0].snapped) - std::int64_t{kSubpixel} * glm::i64vec2(origin);
-  const glm::i64vec2 b = glm::i64vec2(line_or_point.v[1].snapped) - std::int64_t{kSubpixel} * glm::i64vec2(origin);
-  const auto width = static_cast<int>(line_or_point.width);
-  std::vector<glm::ivec2> pixels =
-      line_or_point.corners == 2 ? line_pixels(a, b, width, size) : point_pixels(a, width, size);
-  for (glm::ivec2& p : pixels) p += origin;
+  std::vector<glm::ivec2> pixels;
+  visit_thin_pixels(line_or_point, origin, size, [&](glm::ivec2 p) { pixels.push_back(p); });
   return pixels;
 }
 

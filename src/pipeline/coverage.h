@@ -10,10 +10,12 @@
 // every E is exact: below 2^46 for frames of up to 16384 pixels a side.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "pipeline/lanes.h"
+#include "raster/line_diamond.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -44,12 +46,38 @@ struct PixelBounds {
 };
 PixelBounds pixel_bounds(const WindowTriangle<float>& triangle);
 
-/// The pixels of a line (line_diamond.h) or of a point within the `size` x `size` that begin at pixel `origin`.
+/// Calls visit(pixel) for those of a line (line_diamond.h) or of a point within the `size` x `size` that begin at pixel
+/// `origin`.
 ///
 /// A wide line is moved down its minor axis by (width - 1) / 2; each of its pixels is the lowest of `width` in a column
 /// (y-major: the first of a row; OpenGL 2.1, section 3.4.2). A wide point is a square of so many pixels, about the
 /// centre of the pixel that it lies in, or, of an even size, about the nearest corner of pixels (section 3.3): either
 /// way its first column is floor(x - (width - 1) / 2).
+void visit_thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size, auto visit) {
+  const glm::i64vec2 from = std::int64_t{kSubpixel} * glm::i64vec2(origin);
+  const glm::i64vec2 a = glm::i64vec2(line_or_point.v[0].snapped) - from;
+  const glm::i64vec2 b = glm::i64vec2(line_or_point.v[1].snapped) - from;
+  const auto width = static_cast<int>(line_or_point.width);
+  if (line_or_point.corners == 1) {
+    const glm::ivec2 first((a + std::int64_t{kSubpixel / 2 * (2 - width)}) >> std::int64_t{8});
+    for (int y = std::max(first.y, 0); y < std::min(first.y + width, size); ++y) {
+      for (int x = std::max(first.x, 0); x < std::min(first.x + width, size); ++x) visit(origin + glm::ivec2(x, y));
+    }
+    return;
+  }
+  const glm::i64vec2 d = glm::abs(b - a);
+  const int minor = d.x >= d.y ? 1 : 0;
+  glm::i64vec2 moved(0);  // so that what begins below the box, and reaches into it, is seen
+  moved[minor] = kSubpixel * (width - 1) - kSubpixel / 2 * (width - 1);
+  glm::ivec2 box(size);
+  box[minor] += width - 1;
+  raster::visit_diamond_exit_line(a + moved, b + moved, box, [&](glm::ivec2 p) {
+    p[minor] -= width - 1;
+    for (int k = 0; k < width; ++k, ++p[minor]) {
+      if (p[minor] >= 0 && p[minor] < size) visit(origin + p);
+    }
+  });
+}
 std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size);
 
 template <class R>

@@ -25,6 +25,8 @@ struct Places {
   glm::ivec2 coverage, depth, color;
 };
 
+inline constexpr int kTile = 64;  ///< pixels, either way
+
 /// The stage functions of the fragment half; a variant inherits them and hides some by its own. Attributes and colours
 /// are of whatever types the functions hand to each other.
 struct FragmentStages {
@@ -35,8 +37,8 @@ struct FragmentStages {
   static Places places(glm::ivec2 sample) { return {sample, sample, {0, 0}}; }
   static PixelBounds bounds(const WindowTriangle<float>& triangle) { return pixel_bounds(triangle); }
   static Edges edges(const WindowTriangle<float>& triangle) { return edges_of(triangle); }
-  static std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
-    return pipeline::thin_pixels(line_or_point, origin, size);
+  static void visit_thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size, auto visit) {
+    pipeline::visit_thin_pixels(line_or_point, origin, size, visit);
   }
   /// Coverage and depth are handed all that is known of the triangle (TriangleSetup).
   template <class R>
@@ -257,14 +259,13 @@ SurfaceAttributes<R> surface_attributes(const Stages& stages, const AttributeSet
   return out;
 }
 
-/// 64 x 64 pixels of the frame, stored block by block; colour and depth in the frame's formats, as floats.
-inline constexpr int kTile = 64;
 /// Of the block whose lower left pixel is (x, y) in the tile, its first pixel's place.
 inline int block_offset(int x, int y) {
   static_assert(kBlock == 4 && kTile == 64);
   return (y >> 2 << 8) + (x >> 2 << 4);
 }
 
+/// A square of the frame, stored block by block; colour and depth in the frame's formats, as floats.
 struct Tile {
   int x0, y0;  ///< its lower left pixel
   alignas(64) float depth[kTile * kTile];
@@ -341,27 +342,29 @@ void covered_pixels(const Stages& stages, const BlockState& state, const auto& s
   finish(attributes, stages.template shade<R>(attributes));
 }
 
-/// Pixels one by one, in their order; those that follow each other and lie in the same lanes, together.
+/// A line's or point's pixels, in their order; those that follow each other and lie in the same lanes, together.
 template <class R, class Stages, class Tap>
-void thin_fragments(const Stages& stages, const BlockState& state, const SetupOf<Stages>& s,
-                    std::span<const glm::ivec2> pixels, float color_scale, auto& tile, Tap& tap) {
+void thin_fragments(const Stages& stages, const BlockState& state, const WindowTriangle<float>& line_or_point,
+                    const SetupOf<Stages>& s, float color_scale, auto& tile, Tap& tap) {
   constexpr int kLanes = Lanes<R>::width;
-  for (std::size_t next = 0; next < pixels.size();) {
-    const int block_x = pixels[next].x & ~(kBlock - 1), block_y = pixels[next].y & ~(kBlock - 1);
-    const auto in_block = [&](glm::ivec2 pixel) { return (pixel.y - block_y) * kBlock + (pixel.x - block_x); };
-    const int first = in_block(pixels[next]) & ~(kLanes - 1);
-    unsigned lanes = 0;
-    for (; next < pixels.size(); ++next) {
-      const glm::ivec2 pixel = pixels[next];
-      const bool here = (pixel.x & ~(kBlock - 1)) == block_x && (pixel.y & ~(kBlock - 1)) == block_y;
-      const int lane = in_block(pixel) - first;
-      if (!here || lane < 0 || lane >= kLanes || (lanes >> lane & 1u) != 0) break;
-      lanes |= 1u << lane;
+  glm::ivec2 block(0);  // the lanes' own: its first pixel, and the first lane's place in it
+  int first = 0;
+  unsigned lanes = 0;
+  const auto paint = [&] {
+    if (lanes == 0) return;
+    covered_pixels<R>(stages, state, s, block_pixels<R>(block.x, block.y, first), mask_of<R>(lanes),
+                      tile.offset(block.x, block.y) + first, color_scale, tile, tap);
+  };
+  stages.visit_thin_pixels(line_or_point, {tile.x0, tile.y0}, kTile, [&](glm::ivec2 pixel) {
+    const glm::ivec2 at = pixel & (kBlock - 1);
+    const int place = at.y * kBlock + at.x, lane = place & (kLanes - 1);
+    if (pixel - at != block || place - lane != first || (lanes >> lane & 1u) != 0) {
+      paint();
+      block = pixel - at, first = place - lane, lanes = 0;
     }
-    const Pixels<R> p = block_pixels<R>(block_x, block_y, first);
-    covered_pixels<R>(stages, state, s, p, mask_of<R>(lanes), tile.offset(block_x, block_y) + first, color_scale, tile,
-                      tap);
-  }
+    lanes |= 1u << lane;
+  });
+  paint();
 }
 
 }  // namespace plumbline::pipeline

@@ -50,8 +50,7 @@ void draw_triangle(const Stages& stages, const BlockState& state, const WindowTr
     }
   }
   if (triangle.corners < 3) {
-    const std::vector<glm::ivec2> pixels = stages.thin_pixels(triangle, {tile.x0, tile.y0}, kTile);
-    return thin_fragments<R>(stages, state, s, pixels, formats.color_scale, tile, tap);
+    return thin_fragments<R>(stages, state, triangle, s, formats.color_scale, tile, tap);
   }
   const int x0 = std::max(s.bounds.x0, tile.x0) & ~(kBlock - 1), x1 = std::min(s.bounds.x1, tile.x0 + kTile);
   const int y0 = std::max(s.bounds.y0, tile.y0) & ~(kBlock - 1), y1 = std::min(s.bounds.y1, tile.y0 + kTile);

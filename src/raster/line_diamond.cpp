@@ -24,7 +24,7 @@ bool in_diamond(glm::i64vec2 p, glm::i64vec2 pixel) {
 
 }  // namespace
 
-std::vector<glm::ivec2> diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame) {
+DiamondSteps diamond_steps(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame) {
   constexpr std::int64_t kFarthest = std::int64_t{1} << 29;  // keeps the products below 2^62
   for (const glm::i64vec2 p : {a, b})
     if (p.x < -kFarthest || p.x > kFarthest || p.y < -kFarthest || p.y > kFarthest)
@@ -56,22 +56,15 @@ std::vector<glm::ivec2> diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::i
 
   first = std::max<std::int64_t>(first, 0);
   last = std::min<std::int64_t>(last, frame[u] - 1);
+  if (first > last) return {};
+  const std::int64_t from = forward ? first : last;
+  const glm::i64vec2 pixel = pixel_at(from);
+  return {u, last - first + 1, pixel, sign, dividend_at(from) - pixel[v] * divisor, sign * kUnit * m, divisor};
+}
+
+std::vector<glm::ivec2> diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame) {
   std::vector<glm::ivec2> pixels;
-  if (first > last) return pixels;
-  pixels.reserve(static_cast<std::size_t>(last - first + 1));
-  glm::i64vec2 p = pixel_at(first);
-  std::int64_t rest = dividend_at(first) - p[v] * divisor;  // of the division, which goes on by at most one a column
-  for (;; ++p[u]) {
-    if (p[v] >= 0 && p[v] < frame[v]) pixels.emplace_back(p);
-    if (p[u] == last) break;
-    rest += kUnit * m;
-    if (rest >= divisor) {
-      rest -= divisor, ++p[v];
-    } else if (rest < 0) {
-      rest += divisor, --p[v];
-    }
-  }
-  if (!forward) std::reverse(pixels.begin(), pixels.end());
+  visit_diamond_exit_line(a, b, frame, [&](glm::ivec2 p) { pixels.push_back(p); });
   return pixels;
 }
 

@@ -16,8 +16,36 @@
 
 namespace plumbline::raster {
 
-/// The pixels of the line from `a` to `b` within [0, frame.x) x [0, frame.y), in the order in which they are exited.
-/// Ends in 1/256 pixel, pixel (i, j)'s centre at (256 i, 256 j), within +-2^29; std::invalid_argument beyond.
+/// A line's way along its major axis, and the division that says where it is on the other, by its remainder.
+struct DiamondSteps {
+  int major;            ///< axis
+  std::int64_t count;   ///< of columns, 0 or less: none
+  glm::i64vec2 pixel;   ///< the first
+  std::int64_t toward;  ///< 1 or -1
+  std::int64_t rest, step, divisor;
+};
+/// Of the columns in the frame.
+DiamondSteps diamond_steps(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame);
+
+/// Calls visit(pixel) for the pixels of the line from `a` to `b` within [0, frame.x) x [0, frame.y), in the order in
+/// which they are exited. Ends in 1/256 pixel, pixel (i, j)'s centre at (256 i, 256 j), within +-2^29;
+/// std::invalid_argument beyond.
+void visit_diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame, auto visit) {
+  const DiamondSteps s = diamond_steps(a, b, frame);
+  const int minor = 1 - s.major;
+  glm::i64vec2 p = s.pixel;
+  std::int64_t rest = s.rest;
+  for (std::int64_t i = 0; i < s.count; ++i, p[s.major] += s.toward) {
+    if (p[minor] >= 0 && p[minor] < frame[minor]) visit(glm::ivec2(p));
+    rest += s.step;  // by at most the divisor
+    if (rest >= s.divisor) {
+      rest -= s.divisor, ++p[minor];
+    } else if (rest < 0) {
+      rest += s.divisor, --p[minor];
+    }
+  }
+}
+/// The same, in a list.
 std::vector<glm::ivec2> diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame);
 
 }  // namespace plumbline::raster

@@ -141,7 +141,7 @@ TEST(Painter, TellsOneStepOfDepth) {
   EXPECT_FALSE(same_bits(render(scene), other));
 }
 
-// But for what is clipped, and for lines, whose pixels are listed.
+// But for what is clipped, and flat lines.
 TEST(Painter, AsksForNoMemoryAfterTheFirstFrame) {
   for (const int threads : {1, 2}) {
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
@@ -149,6 +149,13 @@ TEST(Painter, AsksForNoMemoryAfterTheFirstFrame) {
         Scene scene = spheres(60, Cull::back);
         for (Draw& draw : scene.draws) draw.shading = shading;
         scene.draws[1].merge.blend = Blend{};
+        Mesh lines = scene.meshes[scene.draws[0].mesh];
+        lines.topology = Topology::lines;
+        for (glm::uvec3& line : lines.triangles) line[2] = line[1];
+        scene.draws.push_back(scene.draws[0]);
+        scene.draws.back().mesh = static_cast<std::uint32_t>(scene.meshes.size());
+        scene.draws.back().shading = Shading::gouraud;
+        scene.meshes.push_back(lines);
         scene.frame.antialias.kind = kind;
         Painter painter(threads);
         painter.draw(scene);

@@ -15,8 +15,8 @@ struct Tabled : pipeline::FragmentStages {
   pipeline::Places places(glm::ivec2 sample) const { return f.places(sample); }
   pipeline::PixelBounds bounds(const WindowTriangle<float>& t) const { return f.bounds(t); }
   pipeline::Edges edges(const WindowTriangle<float>& t) const { return f.edges(t); }
-  std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size) const {
-    return f.thin_pixels(t, origin, size);
+  void visit_thin_pixels(const WindowTriangle<float>& t, glm::ivec2 origin, int size, auto visit) const {
+    for (const glm::ivec2 pixel : f.thin_pixels(t, origin, size)) visit(pixel);
   }
   template <class R>
   bool coverage(const pipeline::TriangleSetup<>& s, const pipeline::Pixels<R>& p) const {
@@ -89,7 +89,7 @@ Table production() {
   f.places = FragmentStages::places;
   f.bounds = FragmentStages::bounds;
   f.edges = FragmentStages::edges;
-  f.thin_pixels = FragmentStages::thin_pixels;
+  f.thin_pixels = pipeline::thin_pixels;
   f.coverage = [](const pipeline::TriangleSetup<>& s, const pipeline::Pixels<float>& p) {
     return FragmentStages::coverage<float>(s, p);
   };
