@@ -1,5 +1,7 @@
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "check/compare_records.h"
 #include "check/compare_words.h"
 #include "check/shade_bounds.h"

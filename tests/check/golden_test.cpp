@@ -1,6 +1,7 @@
 // Goldens: what their hashes see, what is told from what, who may vouch, and that an update happens in one moment.
 #include "check/golden.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/file.h>

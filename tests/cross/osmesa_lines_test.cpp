@@ -1,4 +1,5 @@
 // OSMesa's lines and points: how far it is from the diamond-exit rule, which the pipeline draws by.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "check/compare_lines.h"

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "pipeline/environment.h"
 #include "pipeline/texture.h"
 #include "scene/texture_images.h"
