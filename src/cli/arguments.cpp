@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include <string_view>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
@@ -197,6 +199,25 @@ std::vector<std::string> names_of(const CLI::App& app) {
   return names;
 }
 
+// CLI11 takes the next word where a value is empty, even if it is an option: an unset variable would write anywhere.
+void require_values(int argc, char** argv) {
+  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+    const std::string_view word = argv[i];
+    if (word.starts_with("--") && word.find('=') == word.size() - 1) {
+      throw CLI::ArgumentMismatch(fmt::format("{}: expected a value, found nothing", word.substr(0, word.size() - 1)));
+    }
+  }
+}
+void require_values(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (option->get_positional() || !value.starts_with("--")) continue;
+      throw CLI::ArgumentMismatch(fmt::format("{}: expected a value, found {}", option->get_name(), value));
+    }
+  }
+  for (const CLI::App* command : app.get_subcommands()) require_values(*command);
+}
+
 }  // namespace
 
 Parsed parse(int argc, char** argv) {
@@ -224,7 +245,9 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "notes",
               "Show what each section of the course notes teaches, and where it is done and shown here", notes);
   try {
+    require_values(argc, argv);
     app.parse(argc, argv);
+    require_values(app);
     if (!out.command) throw CLI::RequiredError(fmt::format("A command: {}", fmt::join(names_of(app), ", ")));
   } catch (const CLI::ParseError& e) {
     out.command = nullptr;

@@ -86,7 +86,7 @@ std::string leave_report(const std::string& folder, const Scene& scene, const ch
   page.add(verdict, references, drawn, scene, verdict.failure, verdict.repeat);
   page.write(verdict.failure);
   std::string out = fmt::format("  report: {}\n", (to / "index.html").string());
-  if (std::getenv("DASHBOARD_TEST_FROM_CTEST") == nullptr) return out;
+  if (std::getenv("CTEST_INTERACTIVE_DEBUG_MODE") == nullptr) return out;  // which CTest alone sets, in all its modes
   const auto attach = [&](const std::string& name, const Plane<glm::vec4>& color) {
     if (color.empty()) return;
     const std::filesystem::path file = std::filesystem::absolute(to.string() + "-" + name + ".png");

@@ -201,6 +201,11 @@ int golden_update(const GoldenOptions& o) {
     require_writable_file(fs::path(o.golden) / "manifest.json");
   }
   check::GoldenSet goldens(o.golden, check::GoldenSet::Access::update);
+  const std::size_t orphaned = orphans(suite, goldens.manifest()).size(), all = goldens.manifest().scenes.size();
+  if (orphaned > 10 && 2 * orphaned > all) {
+    throw SceneError(fmt::format("--suite {}: expected the scenes of {}, found no scene for {} of its {} goldens",
+                                 o.suite, o.golden, orphaned, all));
+  }
   std::optional<report::GoldenPage> page;
   if (!o.report.empty()) page.emplace(o.report);
   const std::unique_ptr<Renderer> candidate = make_candidate(o.fault);

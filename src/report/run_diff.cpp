@@ -79,7 +79,9 @@ void add_row(RunDiff& out, const std::string& what, const Comparison& was, const
     out.broken.push_back(change);
   } else if (was_judged(was.outcome) && !was_judged(now.outcome)) {
     out.lost.push_back(change);
-  } else if (failed && !fails) {
+  } else if (now.outcome == Outcome::expected && was.outcome != Outcome::expected) {
+    out.excused.push_back(change);
+  } else if ((failed || was.outcome == Outcome::expected) && !fails && now.outcome != Outcome::expected) {
     out.fixed.push_back(change);
   } else if (was.outcome != now.outcome) {
     out.moved.push_back(change);
@@ -106,6 +108,7 @@ using Kind = std::pair<std::string_view, const std::vector<Change>*>;
 std::vector<Kind> kinds(const RunDiff& d) {
   return {{"newly broken", &d.broken},
           {"not run any more", &d.lost},
+          {"newly expected to differ", &d.excused},
           {"newly fixed", &d.fixed},
           {"other outcome", &d.moved},
           {"added", &d.added},

@@ -151,6 +151,8 @@ CheckRun read_run(const std::filesystem::path& path) {
     Comparison c = comparison_at(node, run.words);
     while (at < run.verdicts.size() && run.verdicts[at].scene != c.scene) ++at;
     if (at == run.verdicts.size()) node["scene"].refuse("one of \"scenes\", in their order");
+    const bool fails = is_failure(c.outcome) && c.outcome != Outcome::missing;  // which --allow-missing allows
+    if (fails && run.verdicts[at].failure.empty()) node["outcome"].refuse("one that holds, as its scene does");
     run.verdicts[at].comparisons.push_back(std::move(c));
   }
   return run;

@@ -154,8 +154,10 @@ TEST_F(RunFiles, OfShardsAreOneRun) {
 
 TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
   const auto rows = [&](Outcome depth, Outcome clip, double largest = 1) {
-    return run({scene(
-        "light/a", {scene_row("light/a", Stage::clip, clip, 1), scene_row("light/a", Stage::depth, depth, largest)})});
+    SceneVerdict verdict = scene(
+        "light/a", {scene_row("light/a", Stage::clip, clip, 1), scene_row("light/a", Stage::depth, depth, largest)});
+    if (depth == Outcome::different) verdict.failure = "depth differs\n";
+    return run({verdict});
   };
   const CheckRun before = rows(Outcome::within, Outcome::equal);
   EXPECT_EQ(diff_text(diff(before, before)), "nothing has changed\n");
@@ -182,10 +184,29 @@ TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
   EXPECT_TRUE(holds(diff(before, rows(Outcome::dispute, Outcome::equal)))) << "listed, no failure";
   EXPECT_EQ(diff(before, rows(Outcome::dispute, Outcome::equal)).moved.size(), 1u);
 
+  const RunDiff excused = diff(before, rows(Outcome::expected, Outcome::equal));
+  EXPECT_TRUE(holds(excused));
+  EXPECT_TRUE(diff_text(excused).starts_with("newly expected to differ: 1\n")) << diff_text(excused);
+  EXPECT_EQ(diff(rows(Outcome::different, Outcome::equal), rows(Outcome::expected, Outcome::equal)).fixed.size(), 0u);
+  EXPECT_EQ(diff(rows(Outcome::expected, Outcome::equal), before).fixed.size(), 1u);
+  EXPECT_FALSE(holds(diff(rows(Outcome::expected, Outcome::equal), rows(Outcome::different, Outcome::equal))));
+
   SceneVerdict nobody = scene("light/a", {scene_row("light/a", Stage::clip, Outcome::equal, 1),
                                           scene_row("light/a", Stage::depth, Outcome::within, 1)});
   nobody.failure = "unjudged light/a: no reference judged merge\n";
   EXPECT_EQ(diff(before, run({nobody})).broken.at(0).now, "unjudged light/a: no reference judged merge");
+}
+
+TEST_F(RunFiles, ARowThatFailsInASceneThatHoldsIsRefused) {
+  const SceneVerdict holds = scene("light/a", {scene_row("light/a", Stage::clip, Outcome::different, 1)});
+  write_json(at("said.json"), {&holds, 1}, run({}).head);
+  try {
+    read_run(at("said.json"));
+    FAIL() << "it is read";
+  } catch (const std::exception& e) {
+    EXPECT_NE(std::string(e.what()).find("/comparisons/0/outcome"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("one that holds, as its scene does"), std::string::npos) << e.what();
+  }
 }
 
 TEST_F(RunFiles, WhatIsWrongWithTheRunItselfIsKept) {

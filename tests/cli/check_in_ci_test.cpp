@@ -18,6 +18,7 @@ class CheckInCi : public Cli {
 };
 
 TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
+  ::unsetenv("CTEST_INTERACTIVE_DEBUG_MODE");
   const std::string outputs = " --junit " + at("j.xml") + " --markdown " + at("m.md") + " --rows " + at("rows") +
                               " --failures " + at("failures") + " --json " + at("c.json");
   Outcome run = plumb("check " + kSharedEdges + kFault + outputs);
@@ -30,7 +31,7 @@ TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
   EXPECT_NE(read(at("m.md")).find("| coverage/shared\\_edges | coverage |"), std::string::npos) << read(at("m.md"));
   EXPECT_TRUE(read(at("rows/coverage/shared_edges.txt")).ends_with("\nFAILED\n"));
 
-  run = shell("DASHBOARD_TEST_FROM_CTEST=1 " PLUMBLINE_PLUMB " check " + kSharedEdges + kFault + outputs);
+  run = shell("CTEST_INTERACTIVE_DEBUG_MODE=1 " PLUMBLINE_PLUMB " check " + kSharedEdges + kFault + outputs);
   const std::size_t tag = run.text.find("<CTestMeasurementFile type=\"image/png\" name=\"");
   ASSERT_NE(tag, std::string::npos) << run.text;
   const std::size_t from = run.text.find('>', tag) + 1;

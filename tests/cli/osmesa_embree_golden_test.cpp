@@ -306,5 +306,15 @@ TEST_F(GoldenCommand, a_killed_update_leaves_the_old_set_or_the_new_one) {
   fmt::print("{} kills: {} left the old set, {} the new one\n", kills, olds, kills - olds);
 }
 
+TEST_F(GoldenCommand, a_suite_of_a_few_does_not_remove_the_goldens_of_all_others) {
+  const std::string manifest = read(PLUMBLINE_SOURCE_DIR "/golden/manifest.json");
+  fs::create_directories(folder_ / "whole");
+  write(folder_ / "whole/manifest.json", manifest);
+  const Outcome run = plumb("golden update --suite " + at("suite") + " --golden " + at("whole"));
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(run.says("--suite " + at("suite") + ": expected the scenes of " + at("whole"))) << run.text;
+  EXPECT_EQ(read(folder_ / "whole/manifest.json"), manifest);
+}
+
 }  // namespace
 }  // namespace plumbline

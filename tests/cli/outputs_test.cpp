@@ -20,6 +20,19 @@ struct Bad {
   std::string path, reason;
 };
 
+TEST_F(Outputs, without_a_value_are_refused_before_anything_is_written) {
+  const std::string scene = kScenes + "cull/both_windings.json";
+  for (const std::string& words :
+       {"check " + scene + " --json= " + at("next"), "check " + scene + " --json --report",
+        "golden update " + scene + " --golden= --check", "render " + scene + " -o --depth"}) {
+    const Outcome run = plumb(words);
+    EXPECT_EQ(run.code, 2) << words;
+    EXPECT_TRUE(run.says("expected a value, found")) << words << ": " << run.text;
+  }
+  EXPECT_TRUE(fs::is_empty(at(""))) << "nothing is written";
+  EXPECT_EQ(plumb("check " + scene + " --against exact --json=" + at("a=")).code, 0) << "a name that ends so";
+}
+
 TEST_F(Outputs, that_cannot_be_written_end_the_run_before_the_work) {
   fs::create_directories(folder_ / "folder.exr/");
   fs::create_directories(folder_ / "folder.png/");
