@@ -202,6 +202,7 @@ double note_color(glm::dvec3 n, const std::vector<Lamp>& lamps, double ks, doubl
 /// What stage 2 makes of it: a vertex at the origin, the camera on +z looking at it.
 double stage_color(glm::dvec3 n, const std::vector<Lamp>& lamps, double ks, double kd, double s) {
   Scene scene;
+  scene.meshes.resize(1);
   for (const Lamp& lamp : lamps) {
     const glm::vec3 light(static_cast<float>(lamp.intensity));
     scene.lights.push_back({Light::Kind::directional, lamp.to_light, glm::vec3(0), light, light});

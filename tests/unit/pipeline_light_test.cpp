@@ -97,6 +97,7 @@ class PipelineLight : public testing::Test {
   PipelineLight() {
     scene_.camera = {{0, 0, 2}, {0, 0, 0}, {0, 1, 0}};
     scene_.lights = {Light{}};
+    scene_.meshes.resize(1);
     scene_.lights[0].ambient = scene_.lights[0].diffuse = scene_.lights[0].specular = glm::vec3(0);
     draw_.material = {glm::vec4(0), glm::vec4(0), glm::vec4(0), glm::vec4(0), 0};
   }
