@@ -1,16 +1,14 @@
 // The fault matrix as a program: exit 0 where what must hold holds, 1 where it does not, 2 on bad usage.
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <numeric>
 #include <optional>
 #include <random>
 #include <thread>
 
 #include <fmt/format.h>
-#include <getopt.h>
+#include <CLI/CLI.hpp>
 
 #include "faults/faults.h"
 #include "faults/legal.h"
@@ -189,56 +187,21 @@ Matrix matrix_of(const std::filesystem::path& folder, const Extent& extent, unsi
 
 }  // namespace plumbline::matrix
 
-namespace {
-
-constexpr char kUsage[] = R"(fault_matrix [--quick | --all] [--json FILE] [--scenes FOLDER] [--workers N]
-Every fault on the scenes that it affects: is it seen, and its stage named?
-  --all      all scenes that a fault affects, and the big models
-  --quick    one scene for each third fault; no pairs
-  --json     the same as JSON
-  --scenes   the folder of scenes
-  --workers  threads
-)";
-
-}  // namespace
-
 int main(int argc, char** argv) {
   using namespace plumbline;
+  CLI::App app("Every fault on the scenes that it affects: is it seen, and its stage named?");
   bool all = false, quick = false;
   std::string json, scenes = PLUMBLINE_SOURCE_DIR "/tests/scenes";
   unsigned workers = std::max(1u, std::thread::hardware_concurrency());
-  // By hand: CLI11 would take longer to compile than all the rest.
-  constexpr option kOptions[] = {{"all", no_argument, nullptr, 'a'},
-                                 {"quick", no_argument, nullptr, 'q'},
-                                 {"json", required_argument, nullptr, 'j'},
-                                 {"scenes", required_argument, nullptr, 's'},
-                                 {"workers", required_argument, nullptr, 'w'},
-                                 {"help", no_argument, nullptr, 'h'},
-                                 {}};
-  bool usage = false;
-  for (int o; (o = getopt_long(argc, argv, "h", kOptions, nullptr)) != -1;) {
-    const std::string_view value = optarg == nullptr ? "" : optarg;
-    if (o == 'h') {
-      fmt::print("{}", kUsage);
-      return 0;
-    } else if (o == 'a') {
-      all = true;
-    } else if (o == 'q') {
-      quick = true;
-    } else if (o == 'j') {
-      json = value;
-    } else if (o == 's') {
-      scenes = value;
-    } else if (o == 'w') {
-      const auto read = std::from_chars(value.begin(), value.end(), workers);
-      usage |= read.ec != std::errc{} || read.ptr != value.end() || workers < 1 || workers > 1024;
-    } else {
-      usage = true;
-    }
-  }
-  if (usage || (all && quick) || optind < argc || !std::filesystem::is_directory(scenes)) {
-    fmt::print(stderr, "{}", kUsage);
-    return 2;
+  app.add_flag("--all", all, "all scenes that a fault affects, and the big models");
+  app.add_flag("--quick", quick, "one scene for each fifth fault; no pairs")->excludes("--all");
+  app.add_option("--json", json, "the same as JSON");
+  app.add_option("--scenes", scenes, "the folder of scenes")->check(CLI::ExistingDirectory);
+  app.add_option("--workers", workers, "threads")->check(CLI::Range(1u, 1024u));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
   }
   try {
     const matrix::Extent extent = all ? matrix::kAll : quick ? matrix::kQuick : matrix::kUsual;

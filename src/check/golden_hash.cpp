@@ -158,26 +158,20 @@ Hash scene_hash(const Scene& scene) {
 
 Fingerprint fingerprint(const Scene& scene, Renderer& renderer) {
   StageHashers hashers;
-  if (scene.frame.antialias.kind == Antialias::Kind::none) {
-    const Capture all = all_that_fits(scene, renderer);
-    hashers.next(all);
-    visit_capture(all, hashers);
-    Request request;
-    request.planes = WantedPlanes::picture;
-    Planes picture = renderer.capture(scene, request).planes;
-    return {hashers.done(), std::move(picture.color), std::move(picture.depth)};
-  }
   for (const Scene& pass : passes_of(scene)) {
     const Capture all = all_that_fits(pass, renderer);
     hashers.next(all);
     visit_capture(all, hashers);
   }
-  Capture frame = renderer.capture(scene, Request{});
-  hashers.array(Stage::resolve, "color", frame.planes.color.values().data(),
-                frame.planes.color.size() * sizeof(glm::vec4));
-  hashers.array(Stage::resolve, "depth", frame.planes.depth.values().data(),
-                frame.planes.depth.size() * sizeof(double));
-  return {hashers.done(), std::move(frame.planes.color), std::move(frame.planes.depth)};
+  if (scene.frame.antialias.kind != Antialias::Kind::none) {
+    const Planes resolved = renderer.capture(scene, Request{}).planes;
+    hashers.array(Stage::resolve, "color", resolved.color.values().data(), resolved.color.size() * sizeof(glm::vec4));
+    hashers.array(Stage::resolve, "depth", resolved.depth.values().data(), resolved.depth.size() * sizeof(double));
+  }
+  Request request;
+  request.planes = WantedPlanes::picture;
+  Planes picture = renderer.capture(scene, request).planes;
+  return {hashers.done(), std::move(picture.color), std::move(picture.depth)};
 }
 
 }  // namespace plumbline::check

@@ -1,7 +1,6 @@
 #include "cli/arguments.h"
 
 #include <memory>
-
 #include <string_view>
 
 #include <fmt/format.h>

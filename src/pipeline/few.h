@@ -2,8 +2,8 @@
 #pragma once
 
 #include <array>
-#include <cassert>
 #include <cstddef>
+#include <stdexcept>
 
 namespace plumbline::pipeline {
 
@@ -11,7 +11,7 @@ template <class T, std::size_t N>
 class Few {
  public:
   void push_back(const T& value) {
-    assert(size_ < N);
+    if (size_ == N) throw std::length_error("more of a kind than there is room for");
     values_[size_++] = value;
   }
   std::size_t size() const { return size_; }

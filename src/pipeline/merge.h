@@ -68,6 +68,7 @@ template <class W>
 /// The commonest: source alpha, and one minus it.
 constexpr BlendTerm kOverTerm{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
 constexpr Blend kOver{kOverTerm, kOverTerm, glm::vec4(0)};
+inline bool is_over(const Blend& blend) { return blend.rgb == kOverTerm && blend.alpha == kOverTerm; }
 
 /// One channel of kOver, in codes but not rounded to them: `source` in [0,1], `alpha_codes` its alpha times the largest
 /// code, `rest` 1 - alpha.
@@ -99,7 +100,7 @@ template <class R>
   const bool codes = scale != 0.0f;
   const double unit = codes ? scale : 1.0;
   const auto wide = [&](R value) { return to_wide(codes ? clamp01(value) : value); };
-  if (codes && state.rgb == kOverTerm && state.alpha == kOverTerm) {
+  if (codes && is_over(state)) {
     const W alpha = wide(source.a), alpha_codes = alpha * unit, rest = 1.0 - alpha;
     const auto code = [&](const R& channel, const R& held) {
       return to_float(round_even(over<W>(wide(channel), alpha_codes, to_wide(held), rest)));

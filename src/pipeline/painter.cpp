@@ -41,8 +41,7 @@ PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const BlockState& s) {
   if (plain && !glm::any(s.merge.color_mask)) return PaintKernel::depth_alone;
   if (!plain || s.surface != nullptr || s.merge.logic_op || !glm::all(s.merge.color_mask)) return PaintKernel::any;
   if (!s.merge.blend) return PaintKernel::replaces;
-  const bool over = s.merge.blend->rgb == kOverTerm && s.merge.blend->alpha == kOverTerm;
-  return over ? PaintKernel::blends_over : PaintKernel::any;
+  return is_over(*s.merge.blend) ? PaintKernel::blends_over : PaintKernel::any;
 }
 
 // Whether tiles take a pixel's samples at once. Other antialiased frames are resolved from whole passes.
@@ -122,16 +121,7 @@ void Painter::Memory::prepare(const Scene& scene) {
                                                 : std::span<const glm::ivec2>(&painting.formats.sample, 1);
   painting.columns = (scene.frame.width + kTile - 1) / kTile;
   painting.rows = (scene.frame.height + kTile - 1) / kTile;
-  ranges.clear();
-  DrawRange next{};
-  for (const Draw& draw : scene.draws) {  // draw_ranges(), in memory that is kept
-    const Mesh& mesh = scene.meshes[draw.mesh];
-    next.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
-    next.primitive_count = static_cast<std::uint32_t>(mesh.triangles.size());
-    ranges.push_back(next);
-    next.first_vertex += next.vertex_count;
-    next.first_primitive += next.primitive_count;
-  }
+  draw_ranges(scene, ranges);
   surfaces.clear();
   static const Records<float> kNoRecords;
   for (const Draw& draw : scene.draws) surfaces.push_back(surface_of(scene, draw, kNoRecords));

@@ -83,15 +83,15 @@ class PipelineRenderer : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     Capture out = empty_capture(scene);
+    if (request.planes == WantedPlanes::picture && !request.records.any()) {
+      out.planes = planes_of_frame(picture(scene), formats_of(scene.frame));
+      return out;
+    }
     if (scene.frame.antialias.kind != Antialias::Kind::none) {
       std::vector<Frame> passes;
       for (const Scene& pass : passes_of(scene)) passes.push_back(picture(pass));
       out.planes = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame));
       for (const Frame& pass : passes) out.samples.push_back(planes_of_frame(pass, formats_of(scene.frame)).color);
-      return out;
-    }
-    if (request.planes == WantedPlanes::picture && !request.records.any()) {
-      out.planes = planes_of_frame(picture(scene), formats_of(scene.frame));
       return out;
     }
     const Geometry geometry = run_geometry(scene, stages_.geometry);

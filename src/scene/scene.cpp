@@ -15,17 +15,22 @@ bool draws(const Scene& scene, Topology topology) {
 }
 
 std::vector<DrawRange> draw_ranges(const Scene& scene) {
-  std::vector<DrawRange> ranges;
+  std::vector<DrawRange> out;
+  draw_ranges(scene, out);
+  return out;
+}
+
+void draw_ranges(const Scene& scene, std::vector<DrawRange>& out) {
+  out.clear();
   std::uint32_t vertex = 0, primitive = 0;
   for (const Draw& draw : scene.draws) {
     const Mesh& mesh = scene.meshes[draw.mesh];
     const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
     const auto primitives = static_cast<std::uint32_t>(mesh.triangles.size());
-    ranges.push_back({vertex, vertices, primitive, primitives});
+    out.push_back({vertex, vertices, primitive, primitives});
     vertex += vertices;
     primitive += primitives;
   }
-  return ranges;
 }
 
 double depth_step(DepthFormat format, double z_win) {

@@ -320,6 +320,8 @@ struct DrawRange {
 
 /// One range per draw.
 std::vector<DrawRange> draw_ranges(const Scene& scene);
+/// The same in memory that is kept.
+void draw_ranges(const Scene& scene, std::vector<DrawRange>& out);
 
 /// The largest code of a colour channel (2^8-1, 2^12-1, 2^16-1); 0 for rgba32f.
 constexpr double color_scale(ColorFormat format) {

@@ -206,7 +206,8 @@ std::pair<Texture, Image> read_texture(const JsonNode& node, const AssetFolders&
   if (const auto n = node.find("texels")) {
     texture.type = n->choice<TexelType>({{"unorm8", TexelType::unorm8}, {"float32", TexelType::float32}});
   }
-  const int levels = std::bit_width(static_cast<unsigned>(std::max(image.size.width, image.size.height)));
+  const int levels =
+      static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(image.size.width, image.size.height))));
   if (texture.sampler.base_level >= levels) {
     node["base_level"].refuse(fmt::format("one of the {} levels that the image has", levels));
   }
