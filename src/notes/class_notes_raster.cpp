@@ -94,7 +94,7 @@ std::vector<Teaching> class_notes_raster() {
        .mistake_shown_by = {test("unit/raster_polygon", "Decompose.RefusesWhatCrossesOrTouchesItselfOrHasNoArea")}},
       {.section = "2 Rasterization: 3. Triangles Rasterization",
        .teaches = "draw the samples inside the edges, and interpolate what the corners have",
-       .where = {function("pipeline/fragment.h", "covered_pixels"), function("pipeline/attributes.h", "attributes")},
+       .where = {function("pipeline/fragment.h", "covered_pixels"), function("pipeline/attributes.h", "mean")},
        .shown_by = {test("unit/pipeline_attributes", "PipelineAttributes.AgainstLongDouble"),
                     scene("interpolation/ramps"), scene("coverage/shared_edges")}},
       {.section = "2 Rasterization: 4. Hidden Surface Removal: Image order",

@@ -5,6 +5,7 @@
 // a0) with k_i = (l_i / w_i) / sum, it is exact for equal corners, and its rounding is bounded by the corners' values.
 #pragma once
 
+#include <array>
 #include <type_traits>
 
 #include "pipeline/depth.h"
@@ -13,8 +14,19 @@
 
 namespace plumbline::pipeline {
 
+/// 1/w at the corners, and what is affine by it: q_1 = l_1 / w_1, q_2 likewise, and the sum of all three.
+struct PerspectiveSetup {
+  std::array<float, 3> inv_w;
+  Affine<double> q1, q2, sum;
+};
+template <class W>
+[[gnu::always_inline]] inline Affine<W> scaled(const Affine<W>& f, const W& by) {
+  return {f.at_0 * by, f.x * by, f.y * by};
+}
+PerspectiveSetup perspective_setup(const std::array<float, 3>& inv_w, const CornerPlanes<double>& planes);
+PerspectiveSetup perspective_setup(const WindowTriangle<float>& triangle, const CornerPlanes<double>& planes);
+
 struct AttributeSetup {
-  float inv_w[3];
   Vec4<float> color0, d_color1, d_color2;  ///< corner 0's, and the others' differences from it
   bool constant = false;                   ///< no differences
 };
@@ -31,16 +43,23 @@ template <class R>
 struct Weights {
   R k1, k2;
 };
-/// `S`: float, or R where each lane is another triangle's.
-template <class R, class S = float>
-[[gnu::always_inline]] inline Weights<R> weights(const S (&inv_w)[3], const Barycentric<R>& b) {
-  const R q0 = to_float(b.l0) * inv_w[0], q1 = to_float(b.l1) * inv_w[1], q2 = to_float(b.l2) * inv_w[2];
-  const R sum = q0 + q1 + q2;
+/// Of q_1, q_2 and their sum with q_0.
+template <class R>
+[[gnu::always_inline]] inline Weights<R> weights(const R& q1, const R& q2, const R& sum) {
   // A plane extrapolated out of a sliver may reach the horizon: no division by (nearly) 0 there.
   const R reciprocal = where(magnitude(sum) > R(1.17549435e-38f), R(1) / sum);
   return {q1 * reciprocal, q2 * reciprocal};
 }
+template <class R>
+[[gnu::always_inline]] inline Weights<R> weights(const PerspectiveSetup& s, const Offset<R>& at) {
+  return weights<R>(to_float(value_at<R>(s.q1, at)), to_float(value_at<R>(s.q2, at)), to_float(value_at<R>(s.sum, at)));
+}
 
+/// Channel i of the mean.
+template <class R>
+[[gnu::always_inline]] inline R mixed(const auto& s, const Weights<R>& k, int i) {
+  return s.color0[i] + k.k1 * s.d_color1[i] + k.k2 * s.d_color2[i];
+}
 /// Of the first `kChannels` channels; the others are 0.
 template <class R, int kChannels = 4, class Setup = AttributeSetup>
 [[gnu::always_inline]] inline Color<R> mean(const Setup& s, const Weights<R>& k) {
@@ -49,14 +68,9 @@ template <class R, int kChannels = 4, class Setup = AttributeSetup>
     if constexpr (std::is_same_v<Setup, AttributeSetup>) {
       if (s.constant) return s.color0[i] + 0.0f;  // + 0: -0 is 0, as it is where there are differences
     }
-    return s.color0[i] + k.k1 * s.d_color1[i] + k.k2 * s.d_color2[i];
+    return mixed<R>(s, k, i);
   };
   return {channel(0), channel(1), channel(2), channel(3)};
-}
-
-template <class R>
-[[gnu::always_inline]] inline Color<R> attributes(const AttributeSetup& s, const Barycentric<R>& b) {
-  return mean<R>(s, weights<R>(s.inv_w, b));
 }
 
 }  // namespace plumbline::pipeline

@@ -9,11 +9,10 @@ namespace plumbline::pipeline {
 
 namespace {
 
-BarycentricPlanes along_line(const WindowTriangle<float>& line, glm::dvec2 anchor) {
+// A line is a triangle whose third corner, at a right angle to it, has the values of the first; a point has no slopes.
+PlaneCorners<double> corners_of_line(const WindowTriangle<float>& line) {
   const glm::dvec2 p0(line.v[0].p_win), d = glm::dvec2(line.v[1].p_win) - p0;
-  const double square = glm::dot(d, d);
-  if (square == 0) return {anchor.x, anchor.y, 0, 0, 0, 0, 0, 0};
-  return {anchor.x, anchor.y, glm::dot(anchor - p0, d) / square, d.x / square, d.y / square, 0, 0, 0};
+  return {p0.x, p0.y, d.x, d.y, -d.y, d.x, glm::dot(d, d)};
 }
 
 PlaneCorners<double> corners_of(const WindowTriangle<float>& t) {
@@ -37,10 +36,13 @@ double offset_of(const WindowTriangle<float>& triangle, const DepthState& state)
 }  // namespace
 
 BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y0) {
-  if (triangle.corners < 3) return along_line(triangle, {x0 + 0.5, y0 + 0.5});
-  const glm::dvec2 anchor(x0 + 0.5, y0 + 0.5);
-  const AffinePlanes<double> p = planes_through(corners_of(triangle), anchor.x, anchor.y);
-  return {anchor.x, anchor.y, p.l1_0, p.l1_x, p.l1_y, p.l2_0, p.l2_x, p.l2_y};
+  const double x = x0 + 0.5, y = y0 + 0.5;
+  if (triangle.corners == 3) return {corner_planes(corners_of(triangle), x, y), x, y};
+  PlaneCorners<double> line = corners_of_line(triangle);
+  if (line.twice_area == 0) line = {line.p0_x, line.p0_y, 0, 0, 0, 0, 1};
+  BarycentricPlanes planes{corner_planes(line, x, y), x, y};
+  planes.l2 = {0, 0, 0};
+  return planes;
 }
 
 BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place) {
@@ -66,16 +68,22 @@ DepthSetup depth_setup(const WindowTriangle<float>& triangle, const DepthState& 
   const double z0 = triangle.v[0].p_win.z;
   return {z0 + offset_of(triangle, state),
           triangle.v[1].p_win.z - z0,
-          triangle.v[2].p_win.z - z0,
+          triangle.corners == 3 ? triangle.v[2].p_win.z - z0 : 0,
           depth_scale(state.format),
           state.low,
           state.high};
 }
 
-DepthSetup moved(const DepthSetup& depth, const BarycentricPlanes& planes, glm::ivec2 place) {
+DepthPlane depth_plane(const DepthSetup& depth, const CornerPlanes<double>& planes) {
+  const double unit = depth.scale == 0 ? 1 : depth.scale;
+  return {planes.through(depth.z0 * unit, depth.dz1 * unit, depth.dz2 * unit), depth.scale, depth.low * unit,
+          depth.high * unit};
+}
+
+DepthPlane moved(const DepthPlane& depth, glm::ivec2 place) {
   const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
-  DepthSetup out = depth;
-  out.z0 += (by.x * planes.l1_x + by.y * planes.l1_y) * out.dz1 + (by.x * planes.l2_x + by.y * planes.l2_y) * out.dz2;
+  DepthPlane out = depth;
+  out.code.at_0 += by.x * out.code.x + by.y * out.code.y;
   return out;
 }
 

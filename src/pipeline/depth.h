@@ -1,8 +1,9 @@
 // Stage 6: the depth of each fragment, and the depth test.
 //
-// Barycentric coordinates are affine in the window; two planes in double serve depth here and attributes in stage 7.
-// They go through the *unsnapped* positions: the snapped ones only decide coverage (through them, the colours of tiny
-// triangles would move visibly). Double, because for a sliver in float even the third bit of a depth may be wrong.
+// Depth is affine in the window, and so are barycentric coordinates, over w or not: planes in double serve depth here
+// and attributes in stage 7. They go through the *unsnapped* positions: the snapped ones only decide coverage (through
+// them, the colours of tiny triangles would move visibly). Double, because for a sliver in float even the third bit of
+// a depth may be wrong.
 #pragma once
 
 #include "pipeline/lanes.h"
@@ -11,13 +12,21 @@
 
 namespace plumbline::pipeline {
 
-/// A triangle's barycentric planes, anchored at a pixel centre nearby: l1 = l1_0 + dx * l1_x + dy * l1_y, l2 likewise,
-/// l0 = 1 - l1 - l2.
-struct BarycentricPlanes {
-  double x0, y0;  ///< the anchor, window
-  double l1_0, l1_x, l1_y;
-  double l2_0, l2_x, l2_y;
+/// What is affine in the window: its value at an anchor, a pixel's centre nearby, and how much it grows by x and by y.
+template <class W>
+struct Affine {
+  W at_0, x, y;
 };
+/// From the anchor to where a value is asked for.
+template <class R>
+struct Offset {
+  Wide<R> dx, dy;
+};
+/// The sum in brackets is a row's.
+template <class R>
+[[gnu::always_inline]] inline Wide<R> value_at(const Affine<double>& f, const Offset<R>& from_anchor) {
+  return (f.at_0 + from_anchor.dy * f.y) + from_anchor.dx * f.x;
+}
 
 /// a b - c d to within two roundings of the result, however close the products are (Kahan).
 template <class W>
@@ -61,19 +70,35 @@ PlaneCorners<Wide<R>> plane_corners(const R (&x_win)[3], const R (&y_win)[3], co
   return out;
 }
 
-/// The planes, anchored at a point of the window.
+/// What a triangle's planes are made of, and its barycentric coordinates l1 and l2 (l0 = 1 - l1 - l2).
 template <class W>
-struct AffinePlanes {
-  W l1_0, l1_x, l1_y;
-  W l2_0, l2_x, l2_y;
+struct CornerPlanes {
+  PlaneCorners<W> corners;
+  W area_1, area_2;  ///< l1 and l2 at the anchor, times twice the triangle's area
+  Affine<W> l1, l2;
+
+  /// The plane of what is `v0` at corner 0, and `d1` and `d2` more at the others; its slopes, however thin the triangle
+  /// is, to within a few roundings.
+  [[gnu::always_inline]] Affine<W> through(const W& v0, const W& d1, const W& d2) const {
+    const PlaneCorners<W>& c = corners;
+    return {v0 + difference_of_products(area_1, d1, -area_2, d2) / c.twice_area,
+            difference_of_products(d1, c.d2_y, d2, c.d1_y) / c.twice_area,
+            difference_of_products(d2, c.d1_x, d1, c.d2_x) / c.twice_area};
+  }
 };
 template <class W>
-AffinePlanes<W> planes_through(const PlaneCorners<W>& c, double anchor_x, double anchor_y) {
-  const W d_x = W(anchor_x) - c.p0_x, d_y = W(anchor_y) - c.p0_y;
-  return {
-      difference_of_products(d_x, c.d2_y, d_y, c.d2_x) / c.twice_area, c.d2_y / c.twice_area,  -c.d2_x / c.twice_area,
-      difference_of_products(c.d1_x, d_y, c.d1_y, d_x) / c.twice_area, -c.d1_y / c.twice_area, c.d1_x / c.twice_area};
+[[gnu::always_inline]] inline CornerPlanes<W> corner_planes(const PlaneCorners<W>& c, double anchor_x,
+                                                            double anchor_y) {
+  const W dx = W(anchor_x) - c.p0_x, dy = W(anchor_y) - c.p0_y, inv = W(1) / c.twice_area;
+  const W area_1 = difference_of_products(dx, c.d2_y, dy, c.d2_x);
+  const W area_2 = difference_of_products(c.d1_x, dy, c.d1_y, dx);
+  return {c, area_1, area_2, {area_1 * inv, c.d2_y * inv, -c.d2_x * inv}, {area_2 * inv, -c.d1_y * inv, c.d1_x * inv}};
 }
+
+/// Those of a window triangle, and where their anchor is.
+struct BarycentricPlanes : CornerPlanes<double> {
+  double x0, y0;  ///< the anchor, window
+};
 
 /// Along a line, l1 = (p - p0).(p1 - p0) / |p1 - p0|^2 and l2 = 0 (OpenGL 2.1, equation 3.5); of a point both are 0.
 /// Where the unsnapped area is zero or of the other sign than the snapped, the planes go through the snapped corners.
@@ -85,14 +110,18 @@ BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y
 BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place);
 
 template <class R>
+[[gnu::always_inline]] inline Offset<R> from_anchor(const auto& planes, const Pixels<R>& p) {
+  return {p.x_win - planes.x0, p.y_win - planes.y0};
+}
+
+template <class R>
 struct Barycentric {
   Wide<R> l0, l1, l2;
 };
 template <class R>
 [[gnu::always_inline]] inline Barycentric<R> barycentric(const BarycentricPlanes& planes, const Pixels<R>& p) {
-  const Wide<R> dx = p.x_win - planes.x0, dy = p.y_win - planes.y0;
-  const Wide<R> l1 = planes.l1_0 + (dx * planes.l1_x + dy * planes.l1_y);
-  const Wide<R> l2 = planes.l2_0 + (dx * planes.l2_x + dy * planes.l2_y);
+  const Offset<R> at = from_anchor<R>(planes, p);
+  const Wide<R> l1 = value_at<R>(planes.l1, at), l2 = value_at<R>(planes.l2, at);
   return {1.0 - l1 - l2, l1, l2};
 }
 
@@ -112,29 +141,30 @@ struct DepthSetup {
 };
 /// With the polygon offset, which moves the whole plane.
 DepthSetup depth_setup(const WindowTriangle<float>& triangle, const DepthState& state);
-/// The same for the points `place` (in 1/256 pixel) from those that the barycentrics are of.
-DepthSetup moved(const DepthSetup& depth, const BarycentricPlanes& planes, glm::ivec2 place);
+/// Their plane, in codes of the depth format; of float depth as they are.
+struct DepthPlane {
+  Affine<double> code;
+  double scale, low, high;  ///< as DepthSetup, but in codes
+};
+DepthPlane depth_plane(const DepthSetup& depth, const CornerPlanes<double>& planes);
+/// The same for the points `place` (in 1/256 pixel) from those that it is asked for.
+DepthPlane moved(const DepthPlane& depth, glm::ivec2 place);
 
-/// The code of z in [0,1], `scale` the largest: the nearest, half to even; of 8 bits half up, as tinyrenderer's
-/// int(z + .5) (note 002).
+/// The code nearest to `scaled` in [0, scale], half to even; of 8 bits half up, as tinyrenderer's int(z + .5) (note
+/// 002).
 template <class W>
-[[gnu::always_inline]] inline W depth_code(const W& z, double scale) {
-  const W scaled = z * scale, code = round_even(scaled);
+[[gnu::always_inline]] inline W rounded_code(const W& scaled, double scale) {
+  const W code = round_even(scaled);
   return scale == 255.0 ? select(scaled - code == 0.5, code + 1.0, code) : code;
 }
+/// Of z in [0,1].
+inline double depth_code(double z, double scale) { return rounded_code(z * scale, scale); }
 
-/// The same, its format and limits known when it is compiled.
-struct Z24Setup {
-  double z0, dz1, dz2;
-  static constexpr double scale = 16777215.0, low = 0, high = 1;
-};
-
-/// `s`: either of them. In the depth format: a code, which a float holds exactly up to 2^24, or window z itself for
-/// z32f.
-template <class R, class Setup = DepthSetup>
-[[gnu::always_inline]] inline R depth(const Setup& s, const Barycentric<R>& b) {
-  const Wide<R> z = clamped<Wide<R>>(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2, s.low, s.high);
-  return to_float(s.scale == 0.0 ? z : depth_code(z, s.scale));
+/// In the depth format: a code, which a float holds exactly up to 2^24, or window z itself for z32f.
+template <class R>
+[[gnu::always_inline]] inline R depth(const DepthPlane& s, const Offset<R>& at) {
+  const Wide<R> code = clamped<Wide<R>>(value_at<R>(s.code, at), s.low, s.high);
+  return to_float(s.scale == 0.0 ? code : rounded_code(code, s.scale));
 }
 
 }  // namespace plumbline::pipeline

@@ -53,16 +53,16 @@ struct FragmentStages {
     return pipeline::depth_setup(triangle, state);
   }
   template <class R>
-  static R depth(const auto& s, const Barycentric<R>& b) {
-    return pipeline::depth<R>(s.depth, b);
+  static R depth(const auto& s, const Pixels<R>& p) {
+    return pipeline::depth<R>(s.depth_plane, from_anchor<R>(s.planes, p));
   }
   template <class R>
   static Mask<R> depth_passes(DepthFunc func, R incoming, R stored) {
     return compares<R>(func, incoming, stored);
   }
   template <class R>
-  static Color<R> attributes(const AttributeSetup& s, const Barycentric<R>& b) {
-    return pipeline::attributes<R>(s, b);
+  static Color<R> attributes(const auto& s, const AttributeSetup& of, const Pixels<R>& p) {
+    return mean<R>(of, weights<R>(s.perspective, from_anchor<R>(s.planes, p)));
   }
   template <class R>
   static Color<R> shade(const Color<R>& attributes) {
@@ -191,6 +191,8 @@ struct TriangleSetup {
   Edges edges;
   BarycentricPlanes planes;
   DepthSetup depth;
+  DepthPlane depth_plane;
+  PerspectiveSetup perspective;
   Attributes attributes;
   const SurfaceSetup* surface = nullptr;  ///< null: plain
 };
@@ -203,9 +205,12 @@ SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std
                        const DepthState& depth_state, glm::ivec2 sample, int x0, int y0) {
   const BarycentricPlanes planes = planes_of(t, x0, y0);
   const DepthSetup depth = stages.depth_setup(t, depth_state);
+  const DepthPlane plane = depth_plane(depth, planes);
+  const PerspectiveSetup perspective = perspective_setup(t, planes);
   const auto attributes = stages.attribute_setup(t, triangle);
   if (sample == glm::ivec2(0)) {
-    return {triangle, t.primitive, t.front, stages.bounds(t), stages.edges(t), planes, depth, attributes, nullptr};
+    return {triangle, t.primitive, t.front,     stages.bounds(t), stages.edges(t), planes,
+            depth,    plane,       perspective, attributes,       nullptr};
   }
   const Places places = stages.places(sample);
   const WindowTriangle<float> to_cover = as_seen_from(t, places.coverage);
@@ -215,7 +220,9 @@ SetupOf<Stages> set_up(const Stages& stages, const WindowTriangle<float>& t, std
           stages.bounds(to_cover),
           stages.edges(to_cover),
           moved(planes, places.color),
-          moved(depth, planes, places.depth - places.color),
+          depth,
+          moved(plane, places.depth - places.color),
+          perspective,
           attributes,
           nullptr};
 }
@@ -236,20 +243,20 @@ SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const 
 
 /// Stage 7 of a surface: every varying as the colour; and stage 8. `kAll`: or of texture coordinates only s and t.
 template <class R, bool kAll, class Stages>
-SurfaceAttributes<R> surface_attributes(const Stages& stages, const AttributeSetup& color, const SurfaceSetup& s,
-                                        const Pixels<R>& p, const Barycentric<R>& b) {
+SurfaceAttributes<R> surface_attributes(const Stages& stages, const auto& of, const SurfaceSetup& s,
+                                        const Pixels<R>& p) {
   SurfaceAttributes<R> out;
   if constexpr (std::is_same_v<Stages, FragmentStages>) {  // all have the same weights
-    const Weights<R> k = weights<R>(color.inv_w, b);
-    out.color = mean<R>(color, k);
+    const Weights<R> k = weights<R>(of.perspective, from_anchor<R>(of.planes, p));
+    out.color = mean<R>(of.attributes, k);
     for (const Varying v : s.surface->carried) {
       const AttributeSetup& setup = s.varyings[static_cast<std::size_t>(v)];
       out[v] = kAll || v != Varying::texture ? mean<R>(setup, k) : mean<R, 2>(setup, k);
     }
   } else {
-    out.color = stages.template attributes<R>(color, b);
+    out.color = stages.template attributes<R>(of, of.attributes, p);
     for (const Varying v : s.surface->carried) {
-      out[v] = stages.template attributes<R>(s.varyings[static_cast<std::size_t>(v)], b);
+      out[v] = stages.template attributes<R>(of, s.varyings[static_cast<std::size_t>(v)], p);
     }
   }
   if (s.surface->texture) {
@@ -281,6 +288,7 @@ struct Tile {
 struct PackedTile {
   int x0, y0;
   alignas(64) float depth[kTile * kTile];
+  alignas(64) char apart[2112];  ///< so that a pixel's depth and colour are not 16 KiB apart: stores would stall loads
   alignas(64) std::uint32_t color[kTile * kTile];
   alignas(64) std::uint8_t stencil[kTile * kTile];
   alignas(64) float farthest[kTile * kTile / kBlockPixels];  ///< of each block: none of its depths is greater
@@ -304,8 +312,7 @@ void covered_pixels(const Stages& stages, const BlockState& state, const auto& s
     covered = covered & stages.template scissor<R>(*state.scissor, p);
     if (!any(covered)) return;
   }
-  const Barycentric<R> b = barycentric<R>(s.planes, p);
-  const R z = stages.template depth<R>(s, b);
+  const R z = stages.template depth<R>(s, p);
   const auto stored = tile.at(place);
   const Mask<R> nearer = covered & stages.template depth_passes<R>(state.depth_func, z, load<R>(stored.depth));
   if constexpr (!Tap::every_fragment) {
@@ -332,13 +339,12 @@ void covered_pixels(const Stages& stages, const BlockState& state, const auto& s
   }
   if constexpr (Stages::has_surfaces && requires { s.surface; }) {
     if (s.surface != nullptr) {
-      const SurfaceAttributes<R> attributes =
-          surface_attributes<R, Tap::every_fragment>(stages, s.attributes, *s.surface, p, b);
+      const SurfaceAttributes<R> attributes = surface_attributes<R, Tap::every_fragment>(stages, s, *s.surface, p);
       const SurfaceSetup& setup = *s.surface;
       return finish(attributes, stages.template shade_surface<R>(*setup.surface, setup.front, attributes));
     }
   }
-  const auto attributes = stages.template attributes<R>(s.attributes, b);
+  const auto attributes = stages.template attributes<R>(s, s.attributes, p);
   finish(attributes, stages.template shade<R>(attributes));
 }
 

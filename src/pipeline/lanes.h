@@ -146,6 +146,13 @@ template <>
 inline float load<float>(const float* from) {
   return *from;
 }
+/// Those of a row of pixels: four of each block, from block to block.
+template <class R>
+R load_row(const float* from);
+template <>
+inline float load_row<float>(const float* from) {
+  return *from;
+}
 inline void store(bool mask, float value, float* to) {
   if (mask) *to = value;
 }
@@ -172,6 +179,8 @@ inline std::int64_t packed_codes(float r, float g, float b, float a) {
   const auto code = [](float value) { return to_int(round_even(clamped(value, 0.0f, 255.0f))); };
   return code(r) | code(g) << 8 | code(b) << 16 | code(a) << 24;
 }
+/// The same of |value| below 2^31.
+inline std::int64_t packed_codes_near(float r, float g, float b, float a) { return packed_codes(r, g, b, a); }
 inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {
   if (mask) *to = static_cast<std::uint32_t>(value);
 }

@@ -32,6 +32,13 @@ template <class R>
   return packed_codes(color.r * most, color.g * most, color.b * most, color.a * most);
 }
 
+/// The same where no channel is beyond 2^22.
+template <class R>
+[[gnu::always_inline]] inline Int<R> packed_merge_near(const Color<R>& color) {
+  const R most(255.0f);
+  return packed_codes_near(color.r * most, color.g * most, color.b * most, color.a * most);
+}
+
 /// A blend factor's channels, times `unit`, so that those of the frame's colour are its codes and rounded nowhere.
 /// `source` in [0,1] and `stored` in codes, or both as they are, and unit 1.
 template <class W>

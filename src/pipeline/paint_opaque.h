@@ -7,78 +7,97 @@
 
 namespace plumbline::pipeline {
 
+inline constexpr double kMostZ24 = 16777215;  ///< the largest code
+
 enum class Order { first_to_last, last_to_first };
 
-/// A lane's triangle. `one_color`: that of a triangle that has but one.
-template <class R, PaintKernel kKernel, Order kOrder, bool kOneColor>
-[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup<Z24Setup>& s, const Color<R>& one_color,
-                                                         float cleared, PackedTile& tile) {
+/// What of a triangle needs no care (SetupLanes): nothing; its depth, and it has but one colour; its depth and colours.
+enum class Plain { nothing, one_color, colors };
+
+template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
+[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup& s, float cleared, PackedTile& tile) {
   using W = Wide<R>;
   constexpr int kLanes = Lanes<R>::width;
   constexpr bool kFromLast = kOrder == Order::last_to_first;
+  constexpr bool kColors = kKernel != PaintKernel::depth_alone && kPlain != Plain::one_color;
+  constexpr int kPlanes = kColors ? 4 : 1;
+  const Affine<double>* const plane[4] = {&s.depth_plane.code, &s.perspective.q1, &s.perspective.q2,
+                                          &s.perspective.sum};
+  const Vec4<float>& c0 = s.attributes.color0;
+  const Color<R> one_color{R(c0.r), R(c0.g), R(c0.b), R(c0.a)};
   const Int<R> one_code = packed_merge(one_color);
-  const BarycentricPlanes& planes = s.planes;
-  // From last to first, a fragment as near as one that was painted before it comes before it; one as near as the clear
-  // depth is none.
-  const auto limit = [](R held) { return kFromLast ? held + R(1.0f) : held; };
-  W of_row[2][kParts<R>];  // dy l1_y, dy l2_y
+
+  W of_row[kPlanes][kParts<R>];
   const auto row = [&](int y) {
     for (int part = 0; part < kParts<R>; ++part) {
       const W dy = rows_of_block<R>(y, part * kLanes);
-      of_row[0][part] = dy * planes.l1_y;
-      of_row[1][part] = dy * planes.l2_y;
+      for (int k = 0; k < kPlanes; ++k) of_row[k][part] = plane[k]->at_0 + dy * plane[k]->y;
     }
     unsigned nearer = 0;
     for (int b = 0; b < kTile / kBlock; b += kLanes) {
-      nearer |= bits_of(limit(load<R>(tile.farthest + y / kBlock * (kTile / kBlock) + b)) > R(s.nearest)) << b;
+      const R farthest = load<R>(tile.farthest + y / kBlock * (kTile / kBlock) + b);
+      nearer |= bits_of(kFromLast ? farthest >= R(s.nearest) : farthest > R(s.nearest)) << b;
     }
     return nearer;
   };
   visit_covered<R>(s, row, [&](int x, int y, const Mask<R>(&covered)[kParts<R>]) {
+    const StoredCodes block = tile.at(block_offset(x, y));
+    W of_column[kPlanes];
+    const auto value = [&](int k, int part) {  // value_at()
+      if constexpr (kLanes >= kBlock) return of_row[k][part] + of_column[k];
+      return of_row[k][part] + columns_of_block<R>(x, part * kLanes) * plane[k]->x;
+    };
+    for (int k = 0; k < kPlanes; ++k) of_column[k] = columns_of_block<R>(x, 0) * plane[k]->x;
+    // From last to first, a fragment as near as one that was painted before it comes before it; one as near as the
+    // clear depth is none.
+    Mask<R> kept[kParts<R>], some = mask_of<R>(0), full = mask_of<R>(~0u);
     R farthest(0);
-    bool full = true;
     for (int part = 0; part < kParts<R>; ++part) {
-      if (!any(covered[part])) {
-        full = false;
-        continue;
+      R z;
+      if constexpr (kPlain == Plain::nothing) {
+        z = to_float(round_even(clamped(value(0, part), W(0), W(kMostZ24))));
+      } else {
+        z = to_float(nearest_int(value(0, part)));
       }
-      const W dx = columns_of_block<R>(x, part * kLanes);
-      const StoredCodes to = tile.at(block_offset(x, y) + part * kLanes);
-      const W l1 = planes.l1_0 + (dx * planes.l1_x + of_row[0][part]),
-              l2 = planes.l2_0 + (dx * planes.l2_x + of_row[1][part]);
-      const Barycentric<R> b{1.0 - l1 - l2, l1, l2};
-      const R z = depth<R>(s.depth, b), held = load<R>(to.depth);
-      Mask<R> kept = covered[part] & (z < limit(held));
-      if constexpr (kFromLast) kept = kept & (z < R(cleared));
-      full = full && all(kept);
-      if (!any(kept)) continue;
+      float* const to = block.depth + part * kLanes;
+      const R held = load<R>(to);
+      kept[part] = covered[part] & (kFromLast ? z <= held : z < held);
+      if constexpr (kFromLast && kPlain == Plain::nothing) kept[part] = kept[part] & (z < R(cleared));
+      some = some | kept[part];
+      full = full & kept[part];
       farthest = greater_of(farthest, z);
-      store(kept, z, to.depth);
-      if constexpr (kKernel == PaintKernel::depth_alone) continue;
+      store(kept[part], z, to);
+    }
+    if (!any(some)) return;
+    for (int part = 0; part < kParts<R>; ++part) {
+      if (kKernel == PaintKernel::depth_alone || (kLanes < kBlock && !any(kept[part]))) continue;
+      std::uint32_t* const to = block.color + part * kLanes;
       const auto color = [&]() -> Color<R> {
-        if constexpr (kOneColor) return one_color;
-        return attributes<R>(s.attributes, b);
+        if constexpr (!kColors) return one_color;
+        const R q1 = to_float(value(1, part)), q2 = to_float(value(2, part)), sum = to_float(value(3, part));
+        if constexpr (kPlain == Plain::nothing) return mean<R>(s.attributes, weights<R>(q1, q2, sum));
+        const R reciprocal = R(1) / sum;
+        const Weights<R> k{q1 * reciprocal, q2 * reciprocal};
+        return {mixed(s.attributes, k, 0), mixed(s.attributes, k, 1), mixed(s.attributes, k, 2), one_color.a};
       };
       if constexpr (kKernel == PaintKernel::blends_over) {
-        store_packed(kept, packed_over<R>(color(), load_packed<R>(to.color)), to.color);
+        store_packed(kept[part], packed_over<R>(color(), load_packed<R>(to)), to);
+      } else if constexpr (kPlain == Plain::one_color) {
+        store_packed(kept[part], one_code, to);
+      } else if constexpr (kPlain == Plain::colors) {
+        store_packed(kept[part], packed_merge_near(color()), to);
       } else {
-        store_packed(kept, kOneColor ? one_code : packed_merge(color()), to.color);
+        store_packed(kept[part], packed_merge(color()), to);
       }
     }
-    if (full) tile.farthest[y / kBlock * (kTile / kBlock) + x / kBlock] = greatest_lane(farthest);
+    if (all(full)) tile.farthest[y / kBlock * (kTile / kBlock) + x / kBlock] = greatest_lane(farthest);
   });
 }
 
-/// Of lanes' triangles, what attributes() asks of one.
+/// AttributeSetup, of lanes' triangles.
 template <class R>
 struct AttributeLanes {
-  R inv_w[3];
   R color0[4], d_color1[4], d_color2[4];
-};
-template <class R>
-struct Z24Lanes {
-  Wide<R> z0, dz1, dz2;
-  static constexpr double scale = Z24Setup::scale, low = Z24Setup::low, high = Z24Setup::high;
 };
 
 inline constexpr int kSmall = 24;  ///< pixels of a box
@@ -93,12 +112,8 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
   alignas(64) float z_of[kSmall][kLanes];
   alignas(64) std::int32_t code_of[kSmall][kLanes], place_of[kSmall][kLanes];
 
-  const W l1_0 = load_wide<R>(lanes.planes[0]), l1_x = load_wide<R>(lanes.planes[1]);
-  const W l1_y = load_wide<R>(lanes.planes[2]), l2_0 = load_wide<R>(lanes.planes[3]);
-  const W l2_x = load_wide<R>(lanes.planes[4]), l2_y = load_wide<R>(lanes.planes[5]);
-  const Z24Lanes<R> depths{load_wide<R>(lanes.depth[0]), load_wide<R>(lanes.depth[1]), load_wide<R>(lanes.depth[2])};
+  const Affine<W> code = lanes.code.of_all(), q1 = lanes.q1.of_all(), q2 = lanes.q2.of_all(), sum = lanes.sum.of_all();
   AttributeLanes<R> of;
-  for (int k = 0; k < 3; ++k) of.inv_w[k] = load<R>(lanes.inv_w[k]);
   for (int c = 0; c < 4; ++c) {
     of.color0[c] = load<R>(lanes.color[0][c]);
     of.d_color1[c] = load<R>(lanes.color[1][c]);
@@ -109,29 +124,31 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
   const I x0 = load_ints<R>(lanes.bounds[0]), y0 = load_ints<R>(lanes.bounds[1]);
   const I x1 = load_ints<R>(lanes.bounds[2]), y1 = load_ints<R>(lanes.bounds[3]);
   const Mask<R> wanted = load_ints<R>(kBlockNumbers) < I(count);
-  I of_row[3], step_x[3], step_y[3];
+  I e_of_row[3], step_x[3], step_y[3];
   for (int k = 0; k < 3; ++k) {
     step_x[k] = load_ints<R>(lanes.step_x[k]), step_y[k] = load_ints<R>(lanes.step_y[k]);
-    of_row[k] = load_ints<R>(lanes.at_tile[k]) + step_x[k] * x0 + step_y[k] * y0;
+    e_of_row[k] = load_ints<R>(lanes.at_tile[k]) + step_x[k] * x0 + step_y[k] * y0;
   }
   I seen(0);  // a bit for each of the pixels that any triangle covers
   int pixels = 0;
   for (int row = 0; row < lanes.height; ++row) {
     const I y = y0 + I(row), place_y = shifted_left<8>(shifted_right<2>(y)) + shifted_left<2>(y & I(kBlock - 1));
     const Mask<R> in_row = wanted & (y < y1);
-    const W dy = to_wide(y), l1_of_row = dy * l1_y, l2_of_row = dy * l2_y;
-    I e[3] = {of_row[0], of_row[1], of_row[2]};
+    const W dy = to_wide(y);
+    const auto of_row = [&](const Affine<W>& f) { return f.at_0 + dy * f.y; };
+    const W code_of_row = of_row(code), q1_of_row = of_row(q1), q2_of_row = of_row(q2), sum_of_row = of_row(sum);
+    I e[3] = {e_of_row[0], e_of_row[1], e_of_row[2]};
     for (int column = 0; column < lanes.width; ++column) {
       const I x = x0 + I(column);
-      const Mask<R> covered = in_row & (x < x1) & ((e[0] | e[1] | e[2]) >= I(0));
+      const Mask<R> covered = in_row & (x < x1) & ((e[0] & e[1] & e[2]) < I(0));
       for (int k = 0; k < 3; ++k) e[k] = e[k] + step_x[k];
       if (!any(covered)) continue;
       const W dx = to_wide(x);
-      const W l1 = l1_0 + (dx * l1_x + l1_of_row), l2 = l2_0 + (dx * l2_x + l2_of_row);
-      const Barycentric<R> b{1.0 - l1 - l2, l1, l2};
-      store(depth<R>(depths, b), z_of[pixels]);
+      const W clamped_code = clamped(code_of_row + dx * code.x, W(0), W(kMostZ24));
+      store(to_float(round_even(clamped_code)), z_of[pixels]);
       if constexpr (kKernel == PaintKernel::replaces) {
-        const Weights<R> k = weights<R>(of.inv_w, b);
+        const Weights<R> k = weights<R>(to_float(q1_of_row + dx * q1.x), to_float(q2_of_row + dx * q2.x),
+                                        to_float(sum_of_row + dx * sum.x));
         const Color<R> color = mean<R>(of, Weights<R>{select(constant, R(0), k.k1), select(constant, R(0), k.k2)});
         store(packed_merge(color), code_of[pixels]);
       }
@@ -139,7 +156,7 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
       seen = seen | select(covered, I(1 << pixels), I(0));
       ++pixels;
     }
-    for (int k = 0; k < 3; ++k) of_row[k] = of_row[k] + step_y[k];
+    for (int k = 0; k < 3; ++k) e_of_row[k] = e_of_row[k] + step_y[k];
   }
   alignas(64) std::int32_t seen_of[kLanes];
   store(seen, seen_of);
@@ -166,13 +183,14 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& til
     return true;
   };
   const auto paint = [&](const PaintTriangle&, const auto& lanes, int lane) {
-    const auto s = lanes.template of<Z24Setup>(lane);
-    const Vec4<float>& c = s.attributes.color0;
-    const Color<R> color{R(c.r), R(c.g), R(c.b), R(c.a)};
-    if (kKernel == PaintKernel::depth_alone || s.attributes.constant) {
-      paint_opaque_triangle<R, kKernel, kOrder, true>(s, color, cleared, tile);
+    const LaneSetup s = lanes.of(lane);
+    const auto as = [&]<Plain kPlain>() { paint_opaque_triangle<R, kKernel, kOrder, kPlain>(s, cleared, tile); };
+    if (s.plain_depth && (kKernel == PaintKernel::depth_alone || s.attributes.constant)) {
+      as.template operator()<Plain::one_color>();
+    } else if (kKernel != PaintKernel::depth_alone && s.plain_depth && s.plain_color) {
+      as.template operator()<Plain::colors>();
     } else {
-      paint_opaque_triangle<R, kKernel, kOrder, false>(s, color, cleared, tile);
+      as.template operator()<Plain::nothing>();
     }
   };
   each_lane<R>(painting, run, kOrder == Order::last_to_first, tile.x0, tile.y0, together, alone, paint);

@@ -35,15 +35,14 @@ void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTri
 }
 
 /// A lane's depth, with what of the draw's state changes it.
-inline DepthSetup depth_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
-                                const BarycentricPlanes& planes, const DepthSetup& as_it_is) {
-  DepthSetup out = as_it_is;
-  out.scale = painting.formats.depth_scale;
-  out.low = draw.state.depth.low;
-  out.high = draw.state.depth.high;
-  if (draw.state.depth.offset == PolygonOffset{}) return out;
-  out = depth_setup(record_of(painting, draw, t), draw.state.depth);
-  return painting.formats.sample == glm::ivec2(0) ? out : moved(out, planes, painting.formats.sample);
+inline DepthPlane depth_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
+                                const Affine<double>& code, int x0, int y0) {
+  const double scale = painting.formats.depth_scale, unit = scale == 0 ? 1 : scale;
+  if (draw.state.depth.offset == PolygonOffset{}) {
+    return {code, scale, draw.state.depth.low * unit, draw.state.depth.high * unit};
+  }
+  const WindowTriangle<float> record = record_of(painting, draw, t);
+  return moved(depth_plane(depth_setup(record, draw.state.depth), planes_of(record, x0, y0)), painting.formats.sample);
 }
 
 /// Those of the run, by the draw's state.
@@ -53,32 +52,33 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   NoTap tap;
   const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
   const auto together = [](const auto&, int) { return false; };
-  each_lane<R>(
-      painting, run, false, tile.x0, tile.y0, together, alone,
-      [&](const PaintTriangle& t, const auto& lanes, int lane) {
-        auto s = lanes.template of<DepthSetup>(lane);
-        s.front = t.front;
-        s.planes.x0 = tile.x0 + 0.5;
-        s.planes.y0 = tile.y0 + 0.5;
-        s.depth = depth_of_lane(painting, draw, t, s.planes, s.depth);
-        const auto paint = [&](const auto& setup) {
-          visit_covered<R>(
-              setup, [](int) { return ~0u; },
-              [&](int x, int y, const auto& covered) {
-                for (int part = 0; part < kParts<R>; ++part) {
-                  if (!any(covered[part])) continue;
-                  const int i = part * Lanes<R>::width;
-                  covered_pixels<R>(FragmentStages(), draw.state, setup, block_pixels<R>(tile.x0 + x, tile.y0 + y, i),
-                                    covered[part], block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
-                }
-              });
-        };
-        if (draw.state.surface == nullptr) return paint(s);
-        const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
-        const SurfaceSetup surface =
-            set_up_surface(FragmentStages(), *draw.state.surface, record_of(painting, draw, t), 0, varying, s.planes);
-        paint(LaneSurfaceSetup{s, &surface});
-      });
+  each_lane<R>(painting, run, false, tile.x0, tile.y0, together, alone,
+               [&](const PaintTriangle& t, const auto& lanes, int lane) {
+                 LaneSetup s = lanes.of(lane);
+                 s.front = t.front;
+                 s.planes.x0 = tile.x0 + 0.5;
+                 s.planes.y0 = tile.y0 + 0.5;
+                 s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
+                 const auto paint = [&](const auto& setup) {
+                   visit_covered<R>(
+                       setup, [](int) { return ~0u; },
+                       [&](int x, int y, const auto& covered) {
+                         for (int part = 0; part < kParts<R>; ++part) {
+                           if (!any(covered[part])) continue;
+                           const int i = part * Lanes<R>::width;
+                           covered_pixels<R>(FragmentStages(), draw.state, setup,
+                                             block_pixels<R>(tile.x0 + x, tile.y0 + y, i), covered[part],
+                                             block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
+                         }
+                       });
+                 };
+                 if (draw.state.surface == nullptr) return paint(s);
+                 const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
+                 const WindowTriangle<float> record = record_of(painting, draw, t);
+                 const SurfaceSetup surface = set_up_surface(FragmentStages(), *draw.state.surface, record, 0, varying,
+                                                             planes_of(record, tile.x0, tile.y0));
+                 paint(LaneSurfaceSetup{s, &surface});
+               });
 }
 
 /// The tile's triangles, chunk by chunk and draw by draw.
@@ -151,31 +151,49 @@ template <class R>
 void copy_out(const Tile& tile, Frame& frame) {
   write_out(tile, frame);
 }
-/// Four pixels of a row at once.
+/// Lanes of a row at once; one plane after the other, for twice as many streams of memory are slower.
 template <class R>
 void copy_out(const PackedTile& tile, Frame& frame) {
-  const int width = frame.color_rgba8.width(), height = frame.color_rgba8.height();
-  if (width % kBlock != 0 || frame.depth_code.empty() || !frame.stencil.empty()) return write_out(tile, frame);
-  const int blocks = std::min(kTile, width - tile.x0) / kBlock;
-  for (int y = 0; y < std::min(kTile, height - tile.y0); ++y) {
-    const int from = block_offset(0, y) + y % kBlock * kBlock;
-    auto* colors = reinterpret_cast<std::uint32_t*>(frame.color_rgba8.row(tile.y0 + y) + tile.x0);
-    std::uint32_t* depths = frame.depth_code.row(tile.y0 + y) + tile.x0;
-    for (int b = 0; b < blocks; ++b) {
-      const std::uint32_t* color = tile.color + from + b * kBlockPixels;
-      const float* depth = tile.depth + from + b * kBlockPixels;
-      for (int i = 0; i < kBlock; ++i) colors[b * kBlock + i] = color[i];
-      for (int i = 0; i < kBlock; ++i) {
-        depths[b * kBlock + i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(depth[i]));
-      }
-    }
+  constexpr int kLanes = Lanes<R>::width;
+  const int columns = std::min(kTile, frame.color_rgba8.width() - tile.x0);
+  if (kLanes < kBlock || columns % kLanes != 0 || frame.depth_code.empty() || !frame.stencil.empty()) {
+    return write_out(tile, frame);
   }
+  const int rows = std::min(kTile, frame.color_rgba8.height() - tile.y0);
+  for (int y = 0; y < rows; ++y) {
+    auto* to = reinterpret_cast<std::int32_t*>(frame.color_rgba8.row(tile.y0 + y) + tile.x0);
+    const auto* from = reinterpret_cast<const float*>(tile.color + block_offset(0, y) + y % kBlock * kBlock);
+    for (int x = 0; x < columns; x += kLanes) store(as_int(load_row<R>(from + x * kBlock)), to + x);
+  }
+  for (int y = 0; y < rows; ++y) {
+    auto* to = reinterpret_cast<std::int32_t*>(frame.depth_code.row(tile.y0 + y) + tile.x0);
+    const float* from = tile.depth + block_offset(0, y) + y % kBlock * kBlock;
+    for (int x = 0; x < columns; x += kLanes) store(to_int(load_row<R>(from + x * kBlock)), to + x);
+  }
+}
+
+template <class R>
+void clear(Tile& tile, const Painting& painting) {
+  clear(tile, painting.format, painting.formats);
+}
+template <class R>
+void clear(PackedTile& tile, const Painting& painting) {
+  const FrameFormat& frame = painting.format;
+  const ClearPixel pixel = clear_pixel(frame, painting.formats);
+  const R depth(pixel.depth);
+  const Int<R> codes = packed_codes(R(pixel.color.r), R(pixel.color.g), R(pixel.color.b), R(pixel.color.a));
+  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) store(depth, tile.depth + i);
+  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) {
+    store(codes, reinterpret_cast<std::int32_t*>(tile.color + i));
+  }
+  std::fill(std::begin(tile.farthest), std::end(tile.farthest), pixel.depth);
+  if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
 }
 
 /// What lies in the tile, over clear ground.
 template <class R>
 void paint_runs(const Painting& painting, std::span<const PaintRun> runs, auto& tile) {
-  clear(tile, painting.format, painting.formats);
+  clear<R>(tile, painting);
   for (std::size_t i = paint_first_runs<R>(painting, runs, tile); i < runs.size(); ++i) {
     paint_next_run<R>(painting, runs[i], tile);
   }

@@ -75,12 +75,12 @@ class ProgramStages : public FragmentStages {
     return out;
   }
   template <class R>
-  static Varyings attributes(const std::array<AttributeSetup, kFours>& s, const Barycentric<R>& b) {
+  static Varyings attributes(const auto& s, const std::array<AttributeSetup, kFours>& of, const Pixels<R>& p) {
     Varyings out{};
     if constexpr (kFloats != 0) {
-      const Weights<R> k = weights<R>(s[0].inv_w, b);
+      const Weights<R> k = weights<R>(s.perspective, from_anchor<R>(s.planes, p));
       std::array<Color<R>, kFours> fours;
-      for (std::size_t i = 0; i < kFours; ++i) fours[i] = mean<R>(s[i], k);
+      for (std::size_t i = 0; i < kFours; ++i) fours[i] = mean<R>(of[i], k);
       std::memcpy(&out, fours.data(), sizeof out);
     }
     return out;

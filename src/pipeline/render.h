@@ -49,10 +49,10 @@ FragmentFunctions fragment_functions(const S& s = S()) {
     draw_tiles<float>(s, list, format, frame, tap);
   };
   f.depth = [s](const TriangleSetup<>& setup, const Pixels<float>& p) {
-    return s.template depth<float>(setup, barycentric<float>(setup.planes, p));
+    return s.template depth<float>(setup, p);
   };
   f.attributes = [s](const TriangleSetup<>& setup, const Pixels<float>& p) {
-    return s.template attributes<float>(setup.attributes, barycentric<float>(setup.planes, p));
+    return s.template attributes<float>(setup, setup.attributes, p);
   };
   f.texture = [s](const TextureSetup& texture, const TexCoords<float>& at, const Gradients<float>& gradients) {
     return s.template texture<float>(texture, at, gradients);

@@ -6,7 +6,8 @@
 namespace plumbline::pipeline {
 
 /// An edge function in 32 bits, counted from the tile: E(x, y) >= 0 (coverage.h) exactly where at_tile + step_x x +
-/// step_y y >= 0. Its steps are multiples of 256, so that of the rest its floor tells.
+/// step_y y < 0, so that the sign bit of all three is that of their "and". E's steps are multiples of 256, so that of
+/// the rest its floor tells; here they have the other sign.
 struct TileEdge {
   std::int32_t at_tile, step_x, step_y;
 };
@@ -15,18 +16,21 @@ struct TileEdge {
 inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
 
 /// A triangle in its lane.
-template <class Depth>
 struct LaneSetup {
   bool front;
   int x0, y0, x1, y1;  ///< the pixels of the tile in its bounding box, x0 and y0 rounded down to a block's
   TileEdge edge[3];
-  BarycentricPlanes planes;
-  Depth depth;
-  float nearest;  ///< a depth code: none of its fragments in the tile is nearer
+  struct {
+    double x0, y0;
+  } planes;  ///< of BarycentricPlanes, the anchor
+  DepthPlane depth_plane;
+  PerspectiveSetup perspective;
+  float nearest;                  ///< a depth code: none of its fragments in the tile is nearer
+  bool plain_depth, plain_color;  ///< SetupLanes
   AttributeSetup attributes;
 };
 /// Of a draw that has a surface.
-struct LaneSurfaceSetup : LaneSetup<DepthSetup> {
+struct LaneSurfaceSetup : LaneSetup {
   const SurfaceSetup* surface;
 };
 
@@ -36,25 +40,28 @@ struct SetupLanes {
   alignas(64) std::int32_t bounds[4][kLanes];  ///< as LaneSetup, x0 and y0 not rounded
   alignas(64) std::int32_t at_tile[3][kLanes];
   std::int32_t step_x[3][kLanes], step_y[3][kLanes];
-  alignas(64) double planes[6][kLanes];
-  double depth[3][kLanes];
-  alignas(64) float inv_w[3][kLanes];
-  float color[3][4][kLanes];
+  struct AffineLanes {
+    double at_0[kLanes], x[kLanes], y[kLanes];
+    Affine<double> of(int lane) const { return {at_0[lane], x[lane], y[lane]}; }
+    Affine<Wide<R>> of_all() const { return {load_wide<R>(at_0), load_wide<R>(x), load_wide<R>(y)}; }
+  };
+  alignas(64) AffineLanes code, q1, q2, sum;
+  alignas(64) float color[3][4][kLanes];
   float nearest[kLanes];
   alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
   unsigned fitting;                                  ///< a bit a lane
-  int width, height;                                 ///< the largest box
+  /// In the tile, no fragment's code has to be clamped, and all are nearer than the clear depth; their colours' weights
+  /// are small, with no horizon near, and all corners have the same alpha.
+  unsigned plain_depth, plain_color;
+  int width, height;  ///< the largest box
 
-  template <class Depth>
-  [[gnu::always_inline]] LaneSetup<Depth> of(int lane) const {
-    LaneSetup<Depth> s;
+  [[gnu::always_inline]] LaneSetup of(int lane) const {
+    LaneSetup s;
     s.x0 = bounds[0][lane] & ~(kBlock - 1), s.y0 = bounds[1][lane] & ~(kBlock - 1);
     s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
     for (int k = 0; k < 3; ++k) s.edge[k] = {at_tile[k][lane], step_x[k][lane], step_y[k][lane]};
-    s.planes.l1_0 = planes[0][lane], s.planes.l1_x = planes[1][lane], s.planes.l1_y = planes[2][lane];
-    s.planes.l2_0 = planes[3][lane], s.planes.l2_x = planes[4][lane], s.planes.l2_y = planes[5][lane];
-    s.depth.z0 = depth[0][lane], s.depth.dz1 = depth[1][lane], s.depth.dz2 = depth[2][lane];
-    for (int k = 0; k < 3; ++k) s.attributes.inv_w[k] = inv_w[k][lane];
+    s.depth_plane.code = code.of(lane);
+    s.perspective.q1 = q1.of(lane), s.perspective.q2 = q2.of(lane), s.perspective.sum = sum.of(lane);
     for (int c = 0; c < 4; ++c) {
       s.attributes.color0[c] = color[0][c][lane];
       s.attributes.d_color1[c] = color[1][c][lane];
@@ -62,6 +69,8 @@ struct SetupLanes {
     }
     s.attributes.constant = constant_colors[lane] != 0;
     s.nearest = nearest[lane];
+    s.plain_depth = (plain_depth >> lane & 1u) != 0;
+    s.plain_color = (plain_color >> lane & 1u) != 0;
     return s;
   }
 };
@@ -71,6 +80,7 @@ struct SetupSite {
   int tile_x, tile_y;  ///< the tile's lower left pixel
   glm::ivec2 sample;   ///< Formats::sample
   double depth_scale;  ///< Formats::depth_scale
+  double clear_code;   ///< of depth
   bool flat;
 };
 
@@ -94,7 +104,6 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
     fours(
         k, [](const WindowVertex<float>* v) { return reinterpret_cast<const float*>(&v->snapped); }, four);
     snapped_x[k] = as_int(four[0]), snapped_y[k] = as_int(four[1]);
-    store(p_win[k][3], out.inv_w[k]);
   }
   for (int k = 0; k < 3; ++k)
     fours(
@@ -113,16 +122,24 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
   const PlaneCorners<W> through =
       plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
                        snapped_y, to_wide(face));
-  const AffinePlanes<W> planes = planes_through(through, site.tile_x + 0.5, site.tile_y + 0.5);
-  const W wide_z0 = to_wide(p_win[0][2]), dz1 = to_wide(p_win[1][2]) - wide_z0, dz2 = to_wide(p_win[2][2]) - wide_z0;
-  W z0 = wide_z0;
+  const CornerPlanes<W> planes = corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5);
+  const auto corners = [&](int coordinate, double unit, Affine<W>& plane) {
+    const W at_0 = to_wide(p_win[0][coordinate]);
+    const auto beyond = [&](int k) { return (to_wide(p_win[k][coordinate]) - at_0) * unit; };
+    plane = planes.through(at_0 * unit, beyond(1), beyond(2));
+  };
+  Affine<W> code, sum;
+  corners(2, site.depth_scale == 0 ? 1 : site.depth_scale, code);
+  corners(3, 1, sum);
+  const Affine<W> q1 = scaled(planes.l1, to_wide(p_win[1][3])), q2 = scaled(planes.l2, to_wide(p_win[2][3]));
   if (site.sample != glm::ivec2(0)) {  // moved(), depth.h; colours are the centre's
     const glm::dvec2 by = glm::dvec2(site.sample) / static_cast<double>(kSubpixel);
-    z0 = z0 + ((by.x * planes.l1_x + by.y * planes.l1_y) * dz1 + (by.x * planes.l2_x + by.y * planes.l2_y) * dz2);
+    code.at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
   }
-  store(planes.l1_0, out.planes[0]), store(planes.l1_x, out.planes[1]), store(planes.l1_y, out.planes[2]);
-  store(planes.l2_0, out.planes[3]), store(planes.l2_x, out.planes[4]), store(planes.l2_y, out.planes[5]);
-  store(z0, out.depth[0]), store(dz1, out.depth[1]), store(dz2, out.depth[2]);
+  const auto keep = [](const Affine<W>& plane, typename SetupLanes<R>::AffineLanes& to) {
+    store(plane.at_0, to.at_0), store(plane.x, to.x), store(plane.y, to.y);
+  };
+  keep(code, out.code), keep(q1, out.q1), keep(q2, out.q2), keep(sum, out.sum);
 
   // From here on, corners are counted from the tile, and from the sample.
   const I origin_x(site.tile_x * kSubpixel + site.sample.x), origin_y(site.tile_y * kSubpixel + site.sample.y);
@@ -138,19 +155,20 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
   store(x_first, out.bounds[0]), store(y_first, out.bounds[1]);
   store(x_end, out.bounds[2]), store(y_end, out.bounds[3]);
 
-  // The plane of depth at the box's nearest corner. What rounding does to it and to the fragments' depths is far below
-  // 2^-48 of the terms' sum; a code's rounding, and all that is left, is below one code.
+  // The planes at the box's corners. What rounding does there and at the fragments is far below 2^-48 of the terms'
+  // sum; a code's own rounding is below one code.
+  const W low_x = to_wide(x_first), high_x = to_wide(x_end), low_y = to_wide(y_first), high_y = to_wide(y_end);
   const auto size = [](const W& value) { return greater_of(value, -value); };
-  const W z_x = planes.l1_x * dz1 + planes.l2_x * dz2, z_y = planes.l1_y * dz1 + planes.l2_y * dz2;
-  const W at_x = lesser_of(z_x * to_wide(x_first), z_x * to_wide(x_end));
-  const W at_y = lesser_of(z_y * to_wide(y_first), z_y * to_wide(y_end));
-  const W z1 = planes.l1_0 * dz1, z2 = planes.l2_0 * dz2;
-  const W terms =
-      size(z0) + size(z1) + size(z2) +
-      (size(planes.l1_x * dz1) + size(planes.l2_x * dz2) + size(planes.l1_y * dz1) + size(planes.l2_y * dz2)) *
-          W(kTile);
-  const W least_z = (z0 + z1 + z2 + at_x + at_y) - terms * W(0x1p-48);
-  store(to_float(floor_of(clamped(least_z, W(0), W(1)) * site.depth_scale) - W(1)), out.nearest);
+  const auto terms = [&](const Affine<W>& f) { return size(f.at_0) + (size(f.x) + size(f.y)) * W(kTile); };
+  const auto least_of = [&](const Affine<W>& f) {
+    return f.at_0 + lesser_of(f.x * low_x, f.x * high_x) + lesser_of(f.y * low_y, f.y * high_y) - terms(f) * W(0x1p-48);
+  };
+  const W least_code = least_of(code), most_code = -least_of({-code.at_0, -code.x, -code.y}), least_sum = least_of(sum);
+  store(to_float(floor_of(clamped(least_code, W(0), W(site.depth_scale))) - W(1)), out.nearest);
+  out.plain_depth = bits_of(Mask<R>((least_code >= W(0)) & (most_code < W(site.clear_code - 1))));
+  const W most_weight = least_sum * W(1024);  // 255 of them are far from 2^31, too
+  const Mask<R> small = (least_sum > W(0x1p-60)) & (terms(q1) < most_weight) & (terms(q2) < most_weight);
+  out.plain_color = bits_of(small & (color[1][3] == color[0][3]) & (color[2][3] == color[0][3]));
 
   // Counter-clockwise.
   const Mask<R> front = face > R(0);
@@ -166,9 +184,9 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
     const Mask<R> owns = (step_x > I(0)) | ((step_x == I(0)) & (d_x > I(0)));
     const W e = to_wide(d_y) * to_wide(x[k]) - to_wide(d_x) * to_wide(y[k]);
     const W at_tile = floor_of((e - to_wide(select(owns, I(0), I(1)))) * W(1.0 / kSubpixel));
-    store(to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.at_tile[k]);
-    store(step_x, out.step_x[k]);
-    store(d_x, out.step_y[k]);
+    store(I(-1) - to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.at_tile[k]);
+    store(d_y, out.step_x[k]);
+    store(I(0) - d_x, out.step_y[k]);
   }
   out.fitting = bits_of(longest <= I(kLongestEdge));
 }

@@ -189,25 +189,38 @@ inline SimdInt as_int(Simd value) { return hn::BitCast(kInts, value.v); }
 inline Simd as_float(SimdInt bits) { return hn::BitCast(kFloats, bits.v); }
 // x86's own: the nearest, of what fits no int the most negative; and packs that saturate, by blocks of 128 bits.
 inline __m128i rounded(__m128 v) { return _mm_cvtps_epi32(v); }
+inline __m128i rounded(__m128d v) { return _mm_cvtpd_epi32(v); }
 inline __m128i to_shorts(__m128i a, __m128i b) { return _mm_packs_epi32(a, b); }
 inline __m128i to_bytes(__m128i a, __m128i b) { return _mm_packus_epi16(a, b); }
 #if HWY_TARGET <= HWY_AVX2
+inline __m128i rounded(__m256d v) { return _mm256_cvtpd_epi32(v); }
 inline __m256i rounded(__m256 v) { return _mm256_cvtps_epi32(v); }
 inline __m256i to_shorts(__m256i a, __m256i b) { return _mm256_packs_epi32(a, b); }
 inline __m256i to_bytes(__m256i a, __m256i b) { return _mm256_packus_epi16(a, b); }
 #endif
 #if HWY_TARGET <= HWY_AVX3
+inline __m256i rounded(__m512d v) { return _mm512_cvtpd_epi32(v); }
 inline __m512i rounded(__m512 v) { return _mm512_cvtps_epi32(v); }
 inline __m512i to_shorts(__m512i a, __m512i b) { return _mm512_packs_epi32(a, b); }
 inline __m512i to_bytes(__m512i a, __m512i b) { return _mm512_packus_epi16(a, b); }
 #endif
-inline SimdInt packed_codes(Simd r, Simd g, Simd b, Simd a) {
-  const auto code = [](Simd value) { return rounded(lesser_of(Simd(255.0f), value).v.raw); };  // NaN stays NaN
-  const IntVector codes{to_bytes(to_shorts(code(r), code(g)), to_shorts(code(b), code(a)))};
+inline SimdInt packed(SimdInt r, SimdInt g, SimdInt b, SimdInt a) {
+  const IntVector codes{to_bytes(to_shorts(r.v.raw, g.v.raw), to_shorts(b.v.raw, a.v.raw))};
   HWY_ALIGN static constexpr std::int32_t kByPixel[4] = {0x0c080400, 0x0d090501, 0x0e0a0602, 0x0f0b0703};
   return hn::TableLookupBytes(codes, hn::LoadDup128(kInts, kByPixel));
 }
-inline SimdInt nearest_int(SimdWide value) { return to_int(value); }
+inline SimdInt packed_codes_near(Simd r, Simd g, Simd b, Simd a) {
+  const auto code = [](Simd value) { return IntVector{rounded(value.v.raw)}; };
+  return packed(code(r), code(g), code(b), code(a));
+}
+inline SimdInt packed_codes(Simd r, Simd g, Simd b, Simd a) {
+  const auto least = [](Simd value) { return lesser_of(Simd(255.0f), value); };  // NaN stays NaN
+  return packed_codes_near(least(r), least(g), least(b), least(a));
+}
+inline SimdInt nearest_int(SimdWide value) {
+  const auto half = [](DoubleVector v) { return hn::Vec<decltype(kHalfInts)>{rounded(v.raw)}; };
+  return hn::Combine(kInts, half(value.high), half(value.low));
+}
 inline SimdInt nearest_int(Simd value) { return hn::NearestInt(value.v); }
 
 #if HWY_NATIVE_FMA
@@ -313,6 +326,11 @@ struct Lanes<PLUMBLINE_TARGET::Simd> {
 template <>
 inline PLUMBLINE_TARGET::Simd load<PLUMBLINE_TARGET::Simd>(const float* from) {
   return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kFloats, from);
+}
+template <>
+inline PLUMBLINE_TARGET::Simd load_row<PLUMBLINE_TARGET::Simd>(const float* from) {
+  using namespace PLUMBLINE_TARGET;
+  return of_blocks([&](int lane) { return hn::LoadU(kBlockFloats, from + lane * kBlock); });
 }
 template <>
 inline PLUMBLINE_TARGET::SimdInt load_codes<PLUMBLINE_TARGET::Simd>(const std::uint8_t* from) {

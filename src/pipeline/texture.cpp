@@ -6,22 +6,14 @@ namespace plumbline::pipeline {
 
 GradientSetup gradient_setup(const WindowTriangle<float>& triangle, const std::array<Vec4<float>, 3>& texcoords,
                              const BarycentricPlanes& planes) {
-  // A plane through the corners' values over w, which are sums of two products at most: exact enough in double.
-  const auto over_w = [&](int i, double value) {
-    return value * static_cast<double>(triangle.v[static_cast<std::size_t>(i)].inv_w);
+  const std::size_t third = triangle.corners == 3 ? 2 : 0;  // of a line, as depth_setup() has it
+  const auto plane = [&](auto value) {
+    const auto over_w = [&](std::size_t i) { return to_wide(value(texcoords[i])) * to_wide(triangle.v[i].inv_w); };
+    const double at_0 = over_w(0);
+    return planes.through(at_0, over_w(1) - at_0, over_w(third) - at_0);
   };
-  const auto plane = [&](double f0, double f1, double f2, double& at, double& d_dx, double& d_dy) {
-    d_dx = planes.l1_x * (f1 - f0) + planes.l2_x * (f2 - f0);
-    d_dy = planes.l1_y * (f1 - f0) + planes.l2_y * (f2 - f0);
-    at = f0 + planes.l1_0 * (f1 - f0) + planes.l2_0 * (f2 - f0);
-  };
-  GradientSetup g{};
-  g.x0 = planes.x0;
-  g.y0 = planes.y0;
-  plane(over_w(0, texcoords[0].s), over_w(1, texcoords[1].s), over_w(2, texcoords[2].s), g.s_0, g.s_x, g.s_y);
-  plane(over_w(0, texcoords[0].t), over_w(1, texcoords[1].t), over_w(2, texcoords[2].t), g.t_0, g.t_x, g.t_y);
-  plane(over_w(0, 1), over_w(1, 1), over_w(2, 1), g.q_0, g.q_x, g.q_y);
-  return g;
+  return {planes.x0, planes.y0, plane([](const Vec4<float>& v) { return v.s; }),
+          plane([](const Vec4<float>& v) { return v.t; }), plane([](const Vec4<float>&) { return 1.0f; })};
 }
 
 TextureSetup texture_setup(const Texture& texture, const Sampler& sampler) {

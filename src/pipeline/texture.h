@@ -33,7 +33,7 @@ struct FilteredTexel {
 /// s/w, t/w and 1/w, affine in the window, at the anchor of the triangle's barycentric planes.
 struct GradientSetup {
   double x0, y0;
-  double s_0, s_x, s_y, t_0, t_x, t_y, q_0, q_x, q_y;
+  Affine<double> s, t, q;
 };
 GradientSetup gradient_setup(const WindowTriangle<float>& triangle, const std::array<Vec4<float>, 3>& texcoords,
                              const BarycentricPlanes& planes);
@@ -41,13 +41,13 @@ GradientSetup gradient_setup(const WindowTriangle<float>& triangle, const std::a
 /// d(s/w : 1/w) = (d(s/w) - s d(1/w)) / (1/w), exact for each pixel: no neighbours are asked.
 template <class R>
 Gradients<R> gradients(const GradientSetup& g, const Pixels<R>& p) {
-  const Wide<R> dx = p.x_win - g.x0, dy = p.y_win - g.y0;
-  const Wide<R> q = g.q_0 + (dx * g.q_x + dy * g.q_y);
+  const Offset<R> at{p.x_win - g.x0, p.y_win - g.y0};
+  const Wide<R> q = value_at<R>(g.q, at);
   // Extrapolated out of a sliver, 1/w may reach 0: no division there.
   const auto divides = q * q > 1e-300;
   const Wide<R> w = select(divides, Wide<R>(1) / select(divides, q, Wide<R>(1)), Wide<R>(0));
-  const Wide<R> s = (g.s_0 + (dx * g.s_x + dy * g.s_y)) * w, t = (g.t_0 + (dx * g.t_x + dy * g.t_y)) * w;
-  return {(g.s_x - s * g.q_x) * w, (g.t_x - t * g.q_x) * w, (g.s_y - s * g.q_y) * w, (g.t_y - t * g.q_y) * w};
+  const Wide<R> s = value_at<R>(g.s, at) * w, t = value_at<R>(g.t, at) * w;
+  return {(g.s.x - s * g.q.x) * w, (g.t.x - t * g.q.x) * w, (g.s.y - s * g.q.y) * w, (g.t.y - t * g.q.y) * w};
 }
 
 /// What of a texture is looked at per fragment, chosen once per draw.

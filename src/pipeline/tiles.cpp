@@ -48,42 +48,20 @@ Formats formats_of(const FrameFormat& frame) {
   return {depth_scale(frame.depth), static_cast<float>(color_scale(frame.color)), sample_place(frame)};
 }
 
-namespace {
-
-struct Cleared {
-  float depth;
-  Color<float> color;
-};
-Cleared cleared(const FrameFormat& frame, const Formats& formats) {
+ClearPixel clear_pixel(const FrameFormat& frame, const Formats& formats) {
   const glm::vec4& c = frame.clear_color;
   const double z = formats.depth_scale == 0.0 ? frame.clear_depth : depth_code(frame.clear_depth, formats.depth_scale);
   return {static_cast<float>(z), merge<float>({c.r, c.g, c.b, c.a}, formats.color_scale)};
 }
 
-void clear_rest(auto& tile, const FrameFormat& frame, float depth) {
+void clear(Tile& tile, const FrameFormat& frame, const Formats& formats) {
+  const auto [depth, color] = clear_pixel(frame, formats);
   std::fill_n(tile.depth, kTile * kTile, depth);
   if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
-}
-
-}  // namespace
-
-void clear(Tile& tile, const FrameFormat& frame, const Formats& formats) {
-  const auto [depth, color] = cleared(frame, formats);
-  clear_rest(tile, frame, depth);
   std::fill_n(tile.color[0], kTile * kTile, color.r);
   std::fill_n(tile.color[1], kTile * kTile, color.g);
   std::fill_n(tile.color[2], kTile * kTile, color.b);
   std::fill_n(tile.color[3], kTile * kTile, color.a);
-}
-
-void clear(PackedTile& tile, const FrameFormat& frame, const Formats& formats) {
-  const auto [depth, color] = cleared(frame, formats);
-  clear_rest(tile, frame, depth);
-  std::uint32_t codes = 0;
-  const glm::bvec4 all(true);
-  StoredCodes{nullptr, &codes, nullptr}.store_color<float>(true, color, all);
-  std::fill_n(tile.color, kTile * kTile, codes);
-  std::fill(std::begin(tile.farthest), std::end(tile.farthest), depth);
 }
 
 namespace {

@@ -31,8 +31,13 @@ struct Bins {
 Bins bin(std::span<const WindowTriangle<float>> triangles, const FrameFormat& frame);
 
 Formats formats_of(const FrameFormat& frame);
+/// What a cleared pixel holds, in the frame's formats.
+struct ClearPixel {
+  float depth;
+  Color<float> color;
+};
+ClearPixel clear_pixel(const FrameFormat& frame, const Formats& formats);
 void clear(Tile& tile, const FrameFormat& frame, const Formats& formats);
-void clear(PackedTile& tile, const FrameFormat& frame, const Formats& formats);
 /// Copies the tile's part of the frame out of its blocks.
 void write_out(const Tile& tile, Frame& frame);
 void write_out(const PackedTile& tile, Frame& frame);

@@ -30,7 +30,7 @@ template <class R>
                           load_ints<R>(kRowInBlock + part * kLanes) * I(e.step_y);
     }
     most[k] = load_ints<R>(kBlockNumbers) * I(kBlock * e.step_x) +
-              I(e.at_tile + (kBlock - 1) * ((e.step_x > 0 ? e.step_x : 0) + (e.step_y > 0 ? e.step_y : 0)));
+              I(e.at_tile + (kBlock - 1) * ((e.step_x < 0 ? e.step_x : 0) + (e.step_y < 0 ? e.step_y : 0)));
   }
   const bool few = s.x1 - s.x0 <= 3 * kBlock;  // are looked at one by one
   for (int y = s.y0; y < s.y1; y += kBlock) {
@@ -40,18 +40,20 @@ template <class R>
       unsigned blocks = (left < kLanes ? (1u << left) - 1 : ~0u >> (32 - kLanes)) & wanted >> (x / kBlock);
       if (!few) {
         const auto at = [&](int k) { return most[k] + I(s.edge[k].step_x * x + s.edge[k].step_y * y); };
-        blocks &= bits_of((at(0) | at(1) | at(2)) > I(-1));
+        blocks &= bits_of((at(0) & at(1) & at(2)) < I(0));
       }
       for (; blocks != 0; blocks &= blocks - 1) {
         const int block_x = x + kBlock * std::countr_zero(blocks);
         const auto at = [&](int k) { return I(s.edge[k].at_tile + s.edge[k].step_x * block_x + s.edge[k].step_y * y); };
         const I at_block[3] = {at(0), at(1), at(2)};
         Mask<R> covered[kParts<R>];
+        Mask<R> some = mask_of<R>(0);
         for (int part = 0; part < kParts<R>; ++part) {
-          covered[part] = ((at_block[0] + in_block[0][part]) | (at_block[1] + in_block[1][part]) |
-                           (at_block[2] + in_block[2][part])) > I(-1);
+          covered[part] = ((at_block[0] + in_block[0][part]) & (at_block[1] + in_block[1][part]) &
+                           (at_block[2] + in_block[2][part])) < I(0);
+          some = some | covered[part];
         }
-        block(block_x, y, covered);
+        if (any(some)) block(block_x, y, covered);
       }
     }
   }
@@ -64,7 +66,12 @@ template <class R>
 [[gnu::always_inline]] inline void each_lane(const Painting& painting, const PaintRun& run, bool from_last, int tile_x,
                                              int tile_y, auto together, auto alone, auto paint) {
   constexpr std::size_t kLanes = Lanes<R>::width;
-  const SetupSite site{tile_x, tile_y, painting.formats.sample, painting.formats.depth_scale,
+  const Formats& formats = painting.formats;
+  const SetupSite site{tile_x,
+                       tile_y,
+                       formats.sample,
+                       formats.depth_scale,
+                       depth_code(painting.format.clear_depth, formats.depth_scale),
                        painting.draws[run.draw].flat};
   const std::size_t size = run.numbers.size();
   SetupLanes<R> lanes;

@@ -1,6 +1,7 @@
 // The formulas of the notes that are no matrices, ours beside an evaluation of their own, in integers or in a wider
 // format: the table goes on (transforms_table_test.cpp). What is an integer is equal. Of a sum, the unit is an ULP of
 // its largest term, or of the sum where that is larger: at most 4, as there. In a million inputs 3.5 is seen.
+#include "../at_weights.h"
 #include "pipeline/attributes.h"
 #include "pipeline/coverage.h"
 #include "pipeline/depth.h"
@@ -179,8 +180,10 @@ Weighed weighed(Inputs& r) {
   const pipeline::BarycentricPlanes p = pipeline::planes_of(t, x - dx, y - dy);
   out.ours = pipeline::barycentric<float>(p, {x, y, x + 0.5, y + 0.5});
   for (std::size_t i = 0; i < 3; ++i) out.at[i] = WideVec3(t.v[i].p_win) - WideVec3(x + 0.5, y + 0.5, 0);
-  const double l1 = std::max({std::abs(p.l1_0), std::abs(dx * p.l1_x), std::abs(dy * p.l1_y)});
-  const double l2 = std::max({std::abs(p.l2_0), std::abs(dx * p.l2_x), std::abs(dy * p.l2_y)});
+  const auto largest = [&](const pipeline::Affine<double>& f) {
+    return std::max({std::abs(f.at_0), std::abs(dx * f.x), std::abs(dy * f.y)});
+  };
+  const double l1 = largest(p.l1), l2 = largest(p.l2);
   out.terms = {std::max(1.0, l1 + l2), l1, l2};  // l0 = 1 - l1 - l2
   return out;
 }
@@ -223,7 +226,7 @@ Row color_row(const char* formula, const char* ours, const char* reference, doub
               sum += weight * WideVec3(t.v[i].color);
               of_weights += weight;
             }
-            const auto c = pipeline::attributes<float>(pipeline::attribute_setup(t), {l[0], l[1], l[2]});
+            const auto c = test::attributes_at(t, l[1], l[2]);
             sum /= of_weights;
             Entries out;  // colours are in [0, 1], and so is what is added to the first corner's
             for (const auto& [mine, theirs] : {std::pair(c.r, sum.r), {c.g, sum.g}, {c.b, sum.b}}) {
@@ -239,7 +242,7 @@ std::vector<Row> interpolation_rows() {
     WindowTriangle<float> t{};
     t.v[0].p_win.z = z0, t.v[1].p_win.z = z1;
     const double at = r.between(0, 1);
-    const float ours = pipeline::depth<float>(pipeline::depth_setup(t, {DepthFormat::z32f}), {1 - at, at, 0});
+    const float ours = test::depth_at(pipeline::depth_setup(t, {DepthFormat::z32f}), at, 0);
     return number(ours, z0 * (1 - Wide(at)) + z1 * Wide(at));
   };
   return {

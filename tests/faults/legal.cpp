@@ -224,19 +224,21 @@ pipeline::PixelBounds larger_box(const Triangle& t) {
   return {b.x0 - 1, b.y0 - 1, b.x1 + 1, b.y1 + 1};
 }
 
-float depth_of_three_weights(const Setup& s, const Barycentric<float>& b) {
+float depth_of_three_weights(const Setup& s, const Pixels<float>& p) {
+  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
   const pipeline::DepthSetup& d = s.depth;
-  const double z = b.l0 * d.z0 + b.l1 * (d.z0 + d.dz1) + b.l2 * (d.z0 + d.dz2);
-  return pipeline::depth<float>({z, 0, 0, d.scale, d.low, d.high}, b);
+  return stored_depth(d, b.l0 * d.z0 + b.l1 * (d.z0 + d.dz1) + b.l2 * (d.z0 + d.dz2));
 }
 
-Color<float> attributes_in_double(const pipeline::AttributeSetup& s, const Barycentric<float>& b) {
-  const double q0 = b.l0 * static_cast<double>(s.inv_w[0]), q1 = b.l1 * static_cast<double>(s.inv_w[1]),
-               q2 = b.l2 * static_cast<double>(s.inv_w[2]), sum = q0 + q1 + q2;
-  if (!(std::abs(sum) > 1e-37)) return pipeline::attributes<float>(s, b);
+Color<float> attributes_in_double(const Setup& s, const pipeline::AttributeSetup& of, const Pixels<float>& p) {
+  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
+  const auto& inv_w = s.perspective.inv_w;
+  const double q0 = b.l0 * static_cast<double>(inv_w[0]), q1 = b.l1 * static_cast<double>(inv_w[1]),
+               q2 = b.l2 * static_cast<double>(inv_w[2]), sum = q0 + q1 + q2;
+  if (!(std::abs(sum) > 1e-37)) return pipeline::FragmentStages::attributes<float>(s, of, p);
   const auto channel = [&](int i) {
-    const double of_0 = static_cast<double>(s.color0[i]), d1 = static_cast<double>(s.d_color1[i]),
-                 d2 = static_cast<double>(s.d_color2[i]);
+    const double of_0 = static_cast<double>(of.color0[i]), d1 = static_cast<double>(of.d_color1[i]),
+                 d2 = static_cast<double>(of.d_color2[i]);
     return static_cast<float>(of_0 + (q1 * d1 + q2 * d2) / sum);
   };
   return {channel(0), channel(1), channel(2), channel(3)};

@@ -153,19 +153,18 @@ std::vector<glm::ivec2> incremental_line(const Triangle& t, glm::ivec2 origin, i
 // (sum b z) / (sum b w), z and w before the division, b on the screen. Since z = A w + B, that is A + B / (sum b w):
 // the depth of the point whose distance is interpolated on the screen. So 002's z/w and the Z that 004 warns of are one
 // mistake.
-float depth_of_linear_z(const Setup& setup, const Barycentric<float>& b) {
+float depth_of_linear_z(const Setup& setup, const Pixels<float>& p) {
+  const Barycentric<float> b = pipeline::barycentric<float>(setup.planes, p);
   const pipeline::DepthSetup& s = setup.depth;
-  const auto& inv_w = setup.attributes.inv_w;
+  const auto& inv_w = setup.perspective.inv_w;
   const double b0 = b.l0 / pipeline::to_wide(inv_w[0]), b1 = b.l1 / pipeline::to_wide(inv_w[1]),
                b2 = b.l2 / pipeline::to_wide(inv_w[2]);
   const double z = b0 * s.z0 + b1 * (s.z0 + s.dz1) + b2 * (s.z0 + s.dz2), w = b0 + b1 + b2;
-  return pipeline::depth<float>({z / w, 0, 0, s.scale}, b);
+  return stored_depth(s, z / w);
 }
 
-float eight_bit_depth(const Setup& setup, const Barycentric<float>& b) {
-  const pipeline::DepthSetup& s = setup.depth;
-  const double z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
-  return pipeline::depth<float>({pipeline::depth_code(z, 255.0) / 255.0, 0, 0, s.scale}, b);
+float eight_bit_depth(const Setup& setup, const Pixels<float>& p) {
+  return stored_depth(setup.depth, pipeline::depth_code(window_z(setup, p), 255.0) / 255.0);
 }
 
 constexpr std::array kNotes = {

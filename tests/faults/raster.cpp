@@ -118,23 +118,20 @@ pipeline::DepthSetup one_depth(const Triangle& triangle, const pipeline::DepthSt
   return s;
 }
 
-float truncated_depth(const Setup& setup, const Barycentric<float>& b) {
-  const pipeline::DepthSetup& s = setup.depth;
-  const double z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
-  return s.scale == 0.0 ? static_cast<float>(z) : static_cast<float>(static_cast<std::int64_t>(z * s.scale));
+float truncated_depth(const Setup& setup, const Pixels<float>& p) {
+  const double z = window_z(setup, p), scale = setup.depth.scale;
+  return scale == 0.0 ? static_cast<float>(z) : static_cast<float>(static_cast<std::int64_t>(z * scale));
 }
 
 // 2^n for 2^n - 1, and the last code for what that makes too large.
-float scaled_by_power_of_two(const Setup& setup, const Barycentric<float>& b) {
-  const pipeline::DepthSetup& s = setup.depth;
-  if (s.scale == 0.0) return pipeline::depth<float>(s, b);
-  const double z = pipeline::clamp01(s.z0 + b.l1 * s.dz1 + b.l2 * s.dz2);
-  return static_cast<float>(std::min(pipeline::round_even(z * (s.scale + 1)), s.scale));
+float scaled_by_power_of_two(const Setup& setup, const Pixels<float>& p) {
+  const double scale = setup.depth.scale;
+  if (scale == 0.0) return pipeline::FragmentStages::depth<float>(setup, p);
+  return static_cast<float>(std::min(pipeline::round_even(window_z(setup, p) * (scale + 1)), scale));
 }
 
-float depth_at_corner(const Setup& s, const Barycentric<float>& b) {
-  const double l1 = b.l1 - (s.planes.l1_x + s.planes.l1_y) / 2, l2 = b.l2 - (s.planes.l2_x + s.planes.l2_y) / 2;
-  return pipeline::depth<float>(s.depth, {1.0 - l1 - l2, l1, l2});
+float depth_at_corner(const Setup& s, const Pixels<float>& p) {
+  return pipeline::FragmentStages::depth<float>(s, Pixels<float>{p.x, p.y, p.x_win - 0.5, p.y_win - 0.5});
 }
 
 // 7. Attributes.
@@ -143,21 +140,29 @@ using TriangleAttributes = pipeline::AttributeSetup;
 
 pipeline::Places color_of_sample(glm::ivec2 sample) { return {sample, sample, sample}; }
 
-Color<float> of_wrong_corners(const TriangleAttributes& s, const Barycentric<float>& b) {
-  return pipeline::attributes<float>(s, {b.l0, b.l2, b.l1});
+pipeline::Weights<float> weights_of(const Setup& s, const Pixels<float>& p) {
+  return pipeline::weights<float>(s.perspective, pipeline::from_anchor<float>(s.planes, p));
+}
+
+Color<float> of_wrong_corners(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
+  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
+  const auto over_w = [&](double l, std::size_t corner) { return pipeline::to_float(l) * s.perspective.inv_w[corner]; };
+  const float q1 = over_w(b.l2, 1), q2 = over_w(b.l1, 2);
+  return pipeline::mean<float>(of, pipeline::weights<float>(q1, q2, over_w(b.l0, 0) + q1 + q2));
 }
 
 // By w for 1/w.
-Color<float> nearness_reversed(const TriangleAttributes& s, const Barycentric<float>& b) {
-  TriangleAttributes wrong = s;
-  for (float& inv_w : wrong.inv_w) inv_w = 1 / inv_w;
-  return pipeline::attributes<float>(wrong, b);
+Color<float> nearness_reversed(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
+  std::array<float, 3> w = s.perspective.inv_w;
+  for (float& inv_w : w) inv_w = 1 / inv_w;
+  const pipeline::PerspectiveSetup wrong = pipeline::perspective_setup(w, s.planes);
+  return pipeline::mean<float>(of, pipeline::weights<float>(wrong, pipeline::from_anchor<float>(s.planes, p)));
 }
 
 // Each channel of the stage's changed.
 template <auto change>
-Color<float> each_channel(const TriangleAttributes& s, const Barycentric<float>& b) {
-  const Color<float> c = pipeline::attributes<float>(s, b);
+Color<float> each_channel(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
+  const Color<float> c = pipeline::mean<float>(of, weights_of(s, p));
   return {change(c.r), change(c.g), change(c.b), change(c.a)};
 }
 
@@ -165,11 +170,9 @@ constexpr auto kClamped = [](float v) { return pipeline::clamp01(v); };
 constexpr auto kOf8Bits = [](float v) { return pipeline::round_even(v * 255) / 255; };
 
 // The sum of a / w is left at that.
-Color<float> not_divided(const TriangleAttributes& s, const Barycentric<float>& b) {
-  const double l[3] = {b.l0, b.l1, b.l2};
-  double inv_w = 0;
-  for (int i = 0; i < 3; ++i) inv_w += l[i] * static_cast<double>(s.inv_w[i]);
-  const Color<float> c = pipeline::attributes<float>(s, b);
+Color<float> not_divided(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
+  const double inv_w = pipeline::value_at<float>(s.perspective.sum, pipeline::from_anchor<float>(s.planes, p));
+  const Color<float> c = pipeline::mean<float>(of, weights_of(s, p));
   const auto over_w = [&](float v) { return static_cast<float>(static_cast<double>(v) * inv_w); };
   return {over_w(c.r), over_w(c.g), over_w(c.b), over_w(c.a)};
 }

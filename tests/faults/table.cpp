@@ -30,16 +30,17 @@ struct Tabled : pipeline::FragmentStages {
     return f.depth_setup(t, state);
   }
   template <class R>
-  R depth(const pipeline::TriangleSetup<>& s, const pipeline::Barycentric<R>& b) const {
-    return f.depth(s, b);
+  R depth(const pipeline::TriangleSetup<>& s, const pipeline::Pixels<R>& p) const {
+    return f.depth(s, p);
   }
   template <class R>
   bool depth_passes(DepthFunc func, R incoming, R stored) const {
     return f.depth_passes(func, incoming, stored);
   }
   template <class R>
-  pipeline::Color<R> attributes(const pipeline::AttributeSetup& s, const pipeline::Barycentric<R>& b) const {
-    return f.attributes(s, b);
+  pipeline::Color<R> attributes(const pipeline::TriangleSetup<>& s, const pipeline::AttributeSetup& of,
+                                const pipeline::Pixels<R>& p) const {
+    return f.attributes(s, of, p);
   }
   template <class R>
   pipeline::Color<R> shade(const pipeline::Color<R>& attributes) const {
@@ -95,11 +96,12 @@ Table production() {
   };
   f.scissor = FragmentStages::scissor<float>;
   f.depth_setup = FragmentStages::depth_setup;
-  f.depth = [](const pipeline::TriangleSetup<>& s, const pipeline::Barycentric<float>& b) {
-    return FragmentStages::depth<float>(s, b);
+  f.depth = [](const pipeline::TriangleSetup<>& s, const pipeline::Pixels<float>& p) {
+    return FragmentStages::depth<float>(s, p);
   };
   f.depth_passes = FragmentStages::depth_passes<float>;
-  f.attributes = FragmentStages::attributes<float>;
+  f.attributes = [](const pipeline::TriangleSetup<>& s, const pipeline::AttributeSetup& of,
+                    const pipeline::Pixels<float>& p) { return FragmentStages::attributes<float>(s, of, p); };
   f.texture = FragmentStages::texture<float>;
   f.shade = FragmentStages::shade<float>;
   f.shade_surface = FragmentStages::shade_surface<float>;

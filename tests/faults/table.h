@@ -19,9 +19,10 @@ struct FragmentTable {
   bool (*coverage)(const pipeline::TriangleSetup<>&, const pipeline::Pixels<float>&);
   bool (*scissor)(const Scissor&, const pipeline::Pixels<float>&);
   pipeline::DepthSetup (*depth_setup)(const WindowTriangle<float>&, const pipeline::DepthState&);
-  float (*depth)(const pipeline::TriangleSetup<>&, const pipeline::Barycentric<float>&);
+  float (*depth)(const pipeline::TriangleSetup<>&, const pipeline::Pixels<float>&);
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
-  pipeline::Color<float> (*attributes)(const pipeline::AttributeSetup&, const pipeline::Barycentric<float>&);
+  pipeline::Color<float> (*attributes)(const pipeline::TriangleSetup<>&, const pipeline::AttributeSetup&,
+                                       const pipeline::Pixels<float>&);
   pipeline::FilteredTexel<float> (*texture)(const pipeline::TextureSetup&, const pipeline::TexCoords<float>&,
                                             const pipeline::Gradients<float>&);
   pipeline::Color<float> (*shade)(const pipeline::Color<float>&);

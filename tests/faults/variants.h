@@ -42,10 +42,19 @@ pipeline::Edges tied(const Triangle& triangle) {
 
 inline bool all_edges_in(std::int64_t, std::int64_t) { return true; }
 
-inline Color<float> affine_attributes(const pipeline::AttributeSetup& s, const Barycentric<float>& b) {
-  pipeline::AttributeSetup affine = s;
-  for (float& inv_w : affine.inv_w) inv_w = 1;
-  return pipeline::attributes<float>(affine, b);
+inline Color<float> affine_attributes(const Setup& s, const pipeline::AttributeSetup& of, const Pixels<float>& p) {
+  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
+  return pipeline::mean<float>(of, {pipeline::to_float(b.l1), pipeline::to_float(b.l2)});
+}
+
+inline double window_z(const Setup& s, const Pixels<float>& p) {
+  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
+  return pipeline::clamp01(s.depth.z0 + b.l1 * s.depth.dz1 + b.l2 * s.depth.dz2);
+}
+/// Window z in the triangle's depth format.
+inline float stored_depth(const pipeline::DepthSetup& s, double z) {
+  const double unit = s.scale == 0 ? 1 : s.scale;
+  return pipeline::depth<float>({{z * unit, 0, 0}, s.scale, s.low * unit, s.high * unit}, {0, 0});
 }
 
 }  // namespace plumbline::faults

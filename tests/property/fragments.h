@@ -41,16 +41,19 @@ inline std::vector<Fragment> fragments(const WindowTriangle<float>& triangle, do
   const pipeline::BarycentricPlanes planes = pipeline::planes_of(triangle, anchor.x, anchor.y);
   pipeline::DepthSetup depth = pipeline::depth_setup(triangle, {DepthFormat::z32f});
   depth.scale = scale;
+  const pipeline::DepthPlane plane = pipeline::depth_plane(depth, planes);
   const pipeline::AttributeSetup attributes = pipeline::attribute_setup(triangle);
+  const pipeline::PerspectiveSetup perspective = pipeline::perspective_setup(triangle, planes);
   std::vector<Fragment> out;
   for_each_covered(triangle, [&](const pipeline::Pixels<float>& p) {
     const pipeline::Barycentric<float> b = pipeline::barycentric<float>(planes, p);
-    const pipeline::Color<float> c = pipeline::attributes<float>(attributes, b);
+    const pipeline::Offset<float> at = pipeline::from_anchor<float>(planes, p);
+    const pipeline::Color<float> c = pipeline::mean<float>(attributes, pipeline::weights<float>(perspective, at));
     const auto& v = triangle.v;
     const double q0 = b.l0 * v[0].inv_w, q1 = b.l1 * v[1].inv_w, q2 = b.l2 * v[2].inv_w;
     out.push_back({static_cast<int>(p.x),
                    static_cast<int>(p.y),
-                   pipeline::depth<float>(depth, b),
+                   pipeline::depth<float>(plane, at),
                    {c.r, c.g, c.b, c.a},
                    (std::abs(q0) + std::abs(q1) + std::abs(q2)) / std::abs(q0 + q1 + q2)});
   });

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../at_weights.h"
 #include "pipeline/shade.h"
 #include "window_triangles.h"
 
@@ -17,11 +18,9 @@ using testing_words::window_vertex;
 using Triangle = WindowTriangle<float>;
 
 Color<float> at(const Triangle& t, int x, int y) {
-  return attributes<float>(attribute_setup(t), barycentric<float>(planes_of(t, 0, 0), {x, y, x + 0.5, y + 0.5}));
-}
-/// At the given weights.
-Color<float> at(const Triangle& t, double l0, double l1, double l2) {
-  return attributes<float>(attribute_setup(t), Barycentric<float>{l0, l1, l2});
+  const BarycentricPlanes planes = planes_of(t, 0, 0);
+  const Offset<float> offset = from_anchor<float>(planes, Pixels<float>{x, y, x + 0.5, y + 0.5});
+  return mean<float>(attribute_setup(t), weights<float>(perspective_setup(t, planes), offset));
 }
 
 const glm::vec4 kA(1, 0, 0.25f, 1), kB(0, 1, 0.75f, 0.5f), kC(0.5f, 0.125f, 0, 0);
@@ -82,8 +81,8 @@ TEST(PipelineAttributes, AgainstLongDouble) {
       mean += weight[k] * t.v[k].inv_w * glm::vec<4, long double>(t.v[k].color);
     }
     mean /= sum;
-    // Of each k_i: three roundings of its numerator, four of the sum, two of the quotient; then of the mean.
-    const Color<float> c = at(t, l0, l1, l2);
+    // Of each k_i: one rounding of its numerator, one of the sum, two of the quotient; then of the mean.
+    const Color<float> c = test::attributes_at(t, l1, l2);
     const double bound = 12 * 0x1p-24;
     ASSERT_NEAR(c.r, static_cast<double>(mean.r), bound);
     ASSERT_NEAR(c.g, static_cast<double>(mean.g), bound);
@@ -101,22 +100,22 @@ TEST(PipelineAttributes, EqualCornersGiveExactlyThatValue) {
     Triangle t = triangle(w(random), w(random), w(random));
     for (auto& v : t.v) v.color = color;
     const double l1 = weight(random), l2 = weight(random);  // off the triangle too
-    const Color<float> c = at(t, 1 - l1 - l2, l1, l2);
+    const Color<float> c = test::attributes_at(t, l1, l2);
     ASSERT_EQ(glm::vec4(c.r, c.g, c.b, c.a), color);
   }
 }
 
 TEST(PipelineAttributes, OnTheHorizonThereIsNoDivisionByZero) {
   // 1/w of 1 and 0.5, extrapolated by l0 = -1, l1 = 2: their sum is 0.
-  const Color<float> c = at(triangle(1, 2, 1), -1.0, 2.0, 0.0);
+  const Color<float> c = test::attributes_at(triangle(1, 2, 1), 2.0, 0.0);
   EXPECT_EQ(glm::vec4(c.r, c.g, c.b, c.a), kA) << "corner 0's colour";
-  const Color<float> near = at(triangle(1, 2, 1), -1.0, 2.0000002, 0.0);
+  const Color<float> near = test::attributes_at(triangle(1, 2, 1), 2.0000002, 0.0);
   EXPECT_TRUE(std::isfinite(near.r) && std::isfinite(near.g) && std::isfinite(near.b) && std::isfinite(near.a));
 }
 
 TEST(PipelineAttributes, BeyondTheHorizonTheMeanGoesOn) {
   // Weights -1 and 2 / 4: of their sum, -1/2, they are 2 and -1.
-  const Color<float> c = at(triangle(1, 4, 1), -1.0, 2.0, 0.0);
+  const Color<float> c = test::attributes_at(triangle(1, 4, 1), 2.0, 0.0);
   EXPECT_EQ(glm::vec4(c.r, c.g, c.b, c.a), 2.0f * kA - kB);
 }
 
@@ -124,15 +123,12 @@ TEST(PipelineAttributes, BesideTheHorizonOfTheFarthestCornersToo) {
   // w near the largest float: the sum of the weights is subnormal, and 1 over it beyond every float.
   Triangle t = triangle(3e38f, 1.5e38f, 3e38f);
   for (auto& v : t.v) v.color = kA;
-  const Color<float> c = at(t, 2.0001, -1.0001, 0);
+  const Color<float> c = test::attributes_at(t, -1.0001, 0);
   EXPECT_EQ(glm::vec4(c.r, c.g, c.b, c.a), kA) << c.r;
 }
 
 TEST(PipelineAttributes, SetUpIsDifferencesFromCornerZero) {
   const AttributeSetup s = attribute_setup(triangle(1, 4, 0.5f));
-  EXPECT_EQ(s.inv_w[0], 1);
-  EXPECT_EQ(s.inv_w[1], 0.25f);
-  EXPECT_EQ(s.inv_w[2], 2);
   EXPECT_EQ(s.color0, kA);
   EXPECT_EQ(s.d_color1, kB - kA);
   EXPECT_EQ(s.d_color2, kC - kA);

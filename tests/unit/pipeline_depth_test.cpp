@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../at_weights.h"
 #include "pipeline/coverage.h"
 #include "pipeline/compare.h"
 #include "window_triangles.h"
@@ -27,7 +28,8 @@ Barycentric<float> weights_at(const Triangle& t, int x, int y) {
 float depth_at(const Triangle& t, int x, int y, double scale) {
   DepthSetup setup = depth_setup(t, {DepthFormat::z32f});
   setup.scale = scale;
-  return depth<float>(setup, weights_at(t, x, y));
+  const BarycentricPlanes planes = planes_of(t, x / kTile * kTile, y / kTile * kTile);
+  return depth<float>(depth_plane(setup, planes), from_anchor<float>(planes, pixel(x, y)));
 }
 Triangle with_depths(Triangle t, float z0, float z1, float z2) {
   t.v[0].p_win.z = z0;
@@ -141,31 +143,24 @@ TEST(PipelineDepth, EightBitCodesAreRoundedHalfUp) {
 TEST(PipelineDepth, CodesAreRoundedHalfToEven) {
   // One step per two pixels: every other pixel's depth is half way between two codes.
   for (double scale : {kZ16, kZ24}) {
-    const double z0 = 1000 / scale, z1 = 1032 / scale;
-    Triangle t = window_triangle(glm::vec2(0.5f, 0.5f), {64.5f, 0.5f}, {0.5f, 8.5f});
-    const DepthSetup setup{z0, z1 - z0, 0, scale};
+    const DepthPlane plane{{1000, 0.5, 0}, scale, 0, scale};
     for (int x = 0; x < 64; ++x) {
-      const Barycentric<float> b = weights_at(t, x, 0);
-      const double z = (z0 + b.l1 * (z1 - z0)) * scale;
-      EXPECT_EQ(depth<float>(setup, b), static_cast<float>(std::nearbyint(z))) << "x " << x;
-      EXPECT_NEAR(depth<float>(setup, b), 1000 + x / 2.0, 0.5001);
+      EXPECT_EQ(depth<float>(plane, {static_cast<double>(x), 0}), static_cast<float>(std::nearbyint(1000 + x / 2.0)));
     }
   }
-  const Barycentric<float> corner{1, 0, 0};
   for (int k : {0, 1, 2, 3, 65533, 65534}) {
     const double half = (k + 0.5) / kZ16;
     if (half * kZ16 == k + 0.5) {
-      EXPECT_EQ(depth<float>({half, 0, 0, kZ16}, corner), static_cast<float>(k + k % 2)) << "half way from " << k;
+      EXPECT_EQ(test::depth_at({half, 0, 0, kZ16}, 0, 0), static_cast<float>(k + k % 2)) << "half way from " << k;
     }
-    EXPECT_EQ(depth<float>({half * (1 - 1e-13), 0, 0, kZ16}, corner), static_cast<float>(k));
-    EXPECT_EQ(depth<float>({half * (1 + 1e-13), 0, 0, kZ16}, corner), static_cast<float>(k + 1));
+    EXPECT_EQ(test::depth_at({half * (1 - 1e-13), 0, 0, kZ16}, 0, 0), static_cast<float>(k));
+    EXPECT_EQ(test::depth_at({half * (1 + 1e-13), 0, 0, kZ16}, 0, 0), static_cast<float>(k + 1));
   }
 }
 
 TEST(PipelineDepth, EveryCodeOfZ24IsHeldByAFloat) {
-  const Barycentric<float> corner{1, 0, 0};
   for (int k : {0, 1, 8388607, 8388608, 16777213, 16777214, 16777215}) {
-    EXPECT_EQ(depth<float>({k / kZ24, 0, 0, kZ24}, corner), static_cast<float>(k));
+    EXPECT_EQ(test::depth_at({k / kZ24, 0, 0, kZ24}, 0, 0), static_cast<float>(k));
   }
 }
 
@@ -337,7 +332,8 @@ TEST(PipelineDepth, ClampsToTheRangeOnlyWhereNothingIsCut) {
   draw.depth_range = {0.75f, 0.25f};
   const Triangle t = with_depths(window_triangle({0, 0}, {8, 0}, {0, 8}), -2, 2, -2);
   const auto at = [&](int x, bool clamps) {
-    return depth<float>(depth_setup(t, depth_state(draw, DepthFormat::z32f, clamps)), weights_at(t, x, 0));
+    const Barycentric<float> b = weights_at(t, x, 0);
+    return test::depth_at(depth_setup(t, depth_state(draw, DepthFormat::z32f, clamps)), b.l1, b.l2);
   };
   EXPECT_EQ(at(0, true), 0.25f);
   EXPECT_EQ(at(6, true), 0.75f);

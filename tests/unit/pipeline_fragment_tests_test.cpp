@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../at_weights.h"
 #include "pipeline/depth.h"
 #include "pipeline/render.h"
 #include "scene/mesh_shapes.h"
@@ -180,8 +181,8 @@ TEST(PolygonOffset, MovesTheWholePlaneBeforeItIsClamped) {
   const DepthSetup moved = depth_setup(slope(), {DepthFormat::z32f, 0, 1, {8, 0}});
   EXPECT_EQ(moved.dz1, 0.25);
   EXPECT_EQ(moved.dz2, -0.25);
-  EXPECT_EQ(depth<float>(moved, {1, 0, 0}), 1) << "1.5, clamped";
-  EXPECT_EQ(depth<float>(depth_setup(slope(), {DepthFormat::z32f, 0, 1, {2, 0}}), {0, 0, 1}), 0.5f);
+  EXPECT_EQ(test::depth_at(moved, 0, 0), 1) << "1.5, clamped";
+  EXPECT_EQ(test::depth_at(depth_setup(slope(), {DepthFormat::z32f, 0, 1, {2, 0}}), 0, 1), 0.5f);
 }
 
 TEST(PolygonOffset, LinesAndPointsHaveNone) {

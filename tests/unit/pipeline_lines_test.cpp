@@ -171,24 +171,28 @@ TEST(PipelineLines, depth_and_color_go_by_the_projection_onto_the_line) {
   // From (2.5, 1.5) along (4, 2), |d|^2 = 20; the pixel above its middle projects 0.1 farther.
   const WindowTriangle<float> t = window_line({2.5f, 1.5f, 0.25f}, {6.5f, 3.5f, 0.75f});
   const BarycentricPlanes planes = planes_of(t, 0, 0);
-  const DepthSetup z = depth_setup(t, {DepthFormat::z32f});
-  const auto at = [&](int x, int y) { return barycentric<float>(planes, {x, y, x + 0.5, y + 0.5}); };
+  const DepthPlane z = depth_plane(depth_setup(t, {DepthFormat::z32f}), planes);
+  const auto at = [&](int x, int y) { return from_anchor<float>(planes, Pixels<float>{x, y, x + 0.5, y + 0.5}); };
+  const auto color = [&](const WindowTriangle<float>& line, int x, int y) {
+    return mean<float>(attribute_setup(line), weights<float>(perspective_setup(line, planes), at(x, y)));
+  };
   EXPECT_EQ(depth<float>(z, at(2, 1)), 0.25f);
   EXPECT_FLOAT_EQ(depth<float>(z, at(4, 2)), 0.5f);
   EXPECT_FLOAT_EQ(depth<float>(z, at(4, 3)), 0.55f);
   EXPECT_FLOAT_EQ(depth<float>(z, at(6, 3)), 0.75f);
-  EXPECT_FLOAT_EQ(attributes<float>(attribute_setup(t), at(4, 3)).g, 0.6f);
+  EXPECT_FLOAT_EQ(color(t, 4, 3).g, 0.6f);
   // Perspective, w 1 and 3: in the middle (0.5 * 1/3) / (0.5 + 0.5 / 3) = 1/4 of the second colour; z stays affine.
   const WindowTriangle<float> far = window_line({2.5f, 1.5f, 0.25f}, {6.5f, 3.5f, 0.75f}, 3);
-  EXPECT_FLOAT_EQ(attributes<float>(attribute_setup(far), at(4, 2)).g, 0.25f);
-  EXPECT_FLOAT_EQ(attributes<float>(attribute_setup(far), at(4, 2)).r, 0.75f);
+  EXPECT_FLOAT_EQ(color(far, 4, 2).g, 0.25f);
+  EXPECT_FLOAT_EQ(color(far, 4, 2).r, 0.75f);
 }
 
 TEST(PipelineLines, a_point_has_its_own_depth_and_color) {
   const WindowTriangle<float> t = window_point({2.75f, 1.25f, 0.3f});
-  const auto b = barycentric<float>(planes_of(t, 0, 0), {2, 1, 2.5, 1.5});
-  EXPECT_EQ(depth<float>(depth_setup(t, {DepthFormat::z32f}), b), 0.3f);
-  EXPECT_EQ(attributes<float>(attribute_setup(t), b).r, 1.0f);
+  const BarycentricPlanes planes = planes_of(t, 0, 0);
+  const Offset<float> at{2, 1};
+  EXPECT_EQ(depth<float>(depth_plane(depth_setup(t, {DepthFormat::z32f}), planes), at), 0.3f);
+  EXPECT_EQ(mean<float>(attribute_setup(t), weights<float>(perspective_setup(t, planes), at)).r, 1.0f);
   const WindowTriangle<float> nothing = window_line({2.5f, 1.5f, 0.25f}, {2.5f, 1.5f, 0.75f});  // no length: no NaN
   EXPECT_EQ(barycentric<float>(planes_of(nothing, 0, 0), {2, 1, 2.5, 1.5}).l1, 0);
 }

@@ -70,11 +70,10 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
       for (std::size_t d = 0; d < draws.size(); ++d) {
         for (std::uint32_t n = first[d]; n < first[d + 1]; ++n) {
           if (!coverage<float>(setups[n].edges, p)) continue;
-          const Barycentric<float> b = barycentric<float>(setups[n].planes, p);
-          const float incoming = depth<float>(setups[n].depth, b);
+          const float incoming = FragmentStages::depth<float>(setups[n], p);
           if (!compares<float>(draws[d].depth_func, incoming, z)) continue;
           z = incoming;
-          color = merge<float>(attributes<float>(setups[n].attributes, b), formats.color_scale);
+          color = merge<float>(FragmentStages::attributes<float>(setups[n], setups[n].attributes, p), formats.color_scale);
         }
       }
       if (f.color == ColorFormat::rgba8) {

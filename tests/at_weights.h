@@ -1,0 +1,21 @@
+// Stages 6 and 7 where the barycentric coordinates are given: in a triangle whose corners are (0, 0), (1, 0) and (0, 1),
+// the place itself.
+#pragma once
+
+#include "pipeline/attributes.h"
+#include "pipeline/depth.h"
+
+namespace plumbline::test {
+
+inline pipeline::CornerPlanes<double> planes_of_weights() {
+  return pipeline::corner_planes<double>({0, 0, 1, 0, 0, 1, 1}, 0, 0);
+}
+inline float depth_at(const pipeline::DepthSetup& depth, double l1, double l2) {
+  return pipeline::depth<float>(pipeline::depth_plane(depth, planes_of_weights()), {l1, l2});
+}
+inline pipeline::Color<float> attributes_at(const WindowTriangle<float>& triangle, double l1, double l2) {
+  const pipeline::PerspectiveSetup perspective = pipeline::perspective_setup(triangle, planes_of_weights());
+  return pipeline::mean<float>(pipeline::attribute_setup(triangle), pipeline::weights<float>(perspective, {l1, l2}));
+}
+
+}  // namespace plumbline::test
