@@ -2,7 +2,7 @@
 #include "pipeline/draw_simd.h"
 
 #include "pipeline/simd_coverage.h"
-#include "pipeline/simd_surface.h"
+#include "pipeline/simd.h"
 
 #include "pipeline/paint_tile.h"
 #include "pipeline/paint_vertices.h"

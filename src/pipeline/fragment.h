@@ -136,6 +136,11 @@ struct Stored {
     if (channels.a) store(kept, merged.a, color[3]);
   }
 };
+/// Whether a fragment's colour replaces what is there.
+inline bool is_opaque(const Merge& state) {
+  const glm::bvec4& channels = state.color_mask;
+  return !state.blend && !state.logic_op && channels.r && channels.g && channels.b && channels.a;
+}
 /// The same of rgba8, red in the lowest byte.
 struct StoredCodes {
   float* depth;
@@ -147,6 +152,11 @@ struct StoredCodes {
     const Int<R> held = load_packed<R>(color), most(255);
     return {to_float(held & most), to_float(shifted_right<8>(held) & most), to_float(shifted_right<16>(held) & most),
             to_float(shifted_right<24>(held) & most)};
+  }
+  /// merge() and store_color() at once.
+  template <class M, class R>
+  void store_merged(M kept, const Color<R>& shaded) const {
+    store_packed(kept, packed_merge(shaded), color);
   }
   template <class R>
   void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
@@ -162,9 +172,12 @@ struct StoredCodes {
 
 /// Of the fragments `kept`, depth and colour into the frame.
 template <class R, class Stages>
-void write(const Stages& stages, const Merge& state, Mask<R> kept, R z, const Color<R>& shaded, float color_scale,
-           const auto& to) {
+[[gnu::always_inline]] inline void write(const Stages& stages, const Merge& state, Mask<R> kept, R z,
+                                         const Color<R>& shaded, float color_scale, const auto& to) {
   if (state.depth_mask) store(kept, z, to.depth);
+  if constexpr (std::is_same_v<Stages, FragmentStages> && requires { to.store_merged(kept, shaded); }) {
+    if (is_opaque(state)) return to.store_merged(kept, shaded);
+  }
   const Color<R> merged = [&]() -> Color<R> {
     if (!state.blend && !state.logic_op) return stages.template merge<R>(shaded, color_scale);
     const Color<R> stored = to.template load_color<R>();
@@ -243,8 +256,8 @@ SurfaceSetup set_up_surface(const Stages& stages, const Surface& surface, const 
 
 /// Stage 7 of a surface: every varying as the colour; and stage 8. `kAll`: or of texture coordinates only s and t.
 template <class R, bool kAll, class Stages>
-SurfaceAttributes<R> surface_attributes(const Stages& stages, const auto& of, const SurfaceSetup& s,
-                                        const Pixels<R>& p) {
+[[gnu::always_inline]] inline SurfaceAttributes<R> surface_attributes(const Stages& stages, const auto& of,
+                                                                      const SurfaceSetup& s, const Pixels<R>& p) {
   SurfaceAttributes<R> out;
   if constexpr (std::is_same_v<Stages, FragmentStages>) {  // all have the same weights
     const Weights<R> k = weights<R>(of.perspective, from_anchor<R>(of.planes, p));
@@ -261,7 +274,14 @@ SurfaceAttributes<R> surface_attributes(const Stages& stages, const auto& of, co
   }
   if (s.surface->texture) {
     const Color<R>& st = out[Varying::texture];
-    out.texel = stages.template texture<R>(*s.surface->texture, {st.r, st.g}, gradients<R>(s.gradients, p));
+    const TextureSetup& texture = *s.surface->texture;
+    const Offset<R> at = from_anchor<R>(of.planes, p);
+    const Gradients<R> g = gradients<R>(s.gradients, at, value_at<R>(of.perspective.sum, at));
+    if constexpr (!kAll && std::is_same_v<Stages, FragmentStages>) {
+      out.texel.color = texel_color<R>(texture, {st.r, st.g}, g);
+    } else {
+      out.texel = stages.template texture<R>(texture, {st.r, st.g}, g);
+    }
   }
   return out;
 }

@@ -3,6 +3,7 @@
 // taken out of the loops that they do not change in.
 #pragma once
 
+#include "pipeline/paint_shaded.h"
 #include "pipeline/visit_covered.h"
 
 namespace plumbline::pipeline {
@@ -14,12 +15,15 @@ enum class Order { first_to_last, last_to_first };
 /// What of a triangle needs no care (SetupLanes): nothing; its depth, and it has but one colour; its depth and colours.
 enum class Plain { nothing, one_color, colors };
 
+/// `shaded`: ShadedPixels<R>, of PaintKernel::shades.
 template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
-[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup& s, float cleared, PackedTile& tile) {
+[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup& s, float cleared, PackedTile& tile,
+                                                         auto& shaded) {
   using W = Wide<R>;
   constexpr int kLanes = Lanes<R>::width;
   constexpr bool kFromLast = kOrder == Order::last_to_first;
-  constexpr bool kColors = kKernel != PaintKernel::depth_alone && kPlain != Plain::one_color;
+  constexpr bool kDepthFirst = kKernel == PaintKernel::depth_alone || kKernel == PaintKernel::shades;
+  constexpr bool kColors = !kDepthFirst && kPlain != Plain::one_color;
   constexpr int kPlanes = kColors ? 4 : 1;
   const Affine<double>* const plane[4] = {&s.depth_plane.code, &s.perspective.q1, &s.perspective.q2,
                                           &s.perspective.sum};
@@ -70,7 +74,8 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
     }
     if (!any(some)) return;
     for (int part = 0; part < kParts<R>; ++part) {
-      if (kKernel == PaintKernel::depth_alone || (kLanes < kBlock && !any(kept[part]))) continue;
+      if constexpr (kKernel == PaintKernel::shades) shaded.add(block_offset(x, y) + part * kLanes, kept[part]);
+      if (kDepthFirst || (kLanes < kBlock && !any(kept[part]))) continue;
       std::uint32_t* const to = block.color + part * kLanes;
       const auto color = [&]() -> Color<R> {
         if constexpr (!kColors) return one_color;
@@ -178,19 +183,28 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& til
   const auto cleared = static_cast<float>(depth_code(painting.format.clear_depth, painting.formats.depth_scale));
   const auto together = [&](const auto& lanes, int count) {
     const int box = std::max(lanes.width, 0) * std::max(lanes.height, 0);
-    if (kKernel == PaintKernel::blends_over || Lanes<R>::width == 1 || box > kSmall) return false;
+    if (kKernel == PaintKernel::blends_over || kKernel == PaintKernel::shades || Lanes<R>::width == 1 || box > kSmall)
+      return false;
     paint_small_triangles<R, kKernel, kOrder>(lanes, count, cleared, tile);
     return true;
   };
-  const auto paint = [&](const PaintTriangle&, const auto& lanes, int lane) {
-    const LaneSetup s = lanes.of(lane);
-    const auto as = [&]<Plain kPlain>() { paint_opaque_triangle<R, kKernel, kOrder, kPlain>(s, cleared, tile); };
-    if (s.plain_depth && (kKernel == PaintKernel::depth_alone || s.attributes.constant)) {
-      as.template operator()<Plain::one_color>();
-    } else if (kKernel != PaintKernel::depth_alone && s.plain_depth && s.plain_color) {
-      as.template operator()<Plain::colors>();
+  const auto paint = [&](const PaintTriangle& triangle, const auto& lanes, int lane) {
+    LaneSetup s = lanes.of(lane);
+    const auto as = [&]<Plain kPlain>(auto& shaded) {
+      paint_opaque_triangle<R, kKernel, kOrder, kPlain>(s, cleared, tile, shaded);
+    };
+    const auto by_depth = [&](auto& shaded) {
+      s.plain_depth ? as.template operator()<Plain::one_color>(shaded) : as.template operator()<Plain::nothing>(shaded);
+    };
+    if constexpr (kKernel == PaintKernel::shades) {
+      ShadedPixels<R> shaded(painting, painting.draws[run.draw], triangle, s, tile);
+      by_depth(shaded);
+      shaded.finish();
     } else {
-      as.template operator()<Plain::nothing>();
+      int none = 0;
+      if (kKernel == PaintKernel::depth_alone || s.attributes.constant) return by_depth(none);
+      if (!s.plain_depth || !s.plain_color) return as.template operator()<Plain::nothing>(none);
+      as.template operator()<Plain::colors>(none);
     }
   };
   each_lane<R>(painting, run, kOrder == Order::last_to_first, tile.x0, tile.y0, together, alone, paint);

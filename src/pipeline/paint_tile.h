@@ -9,22 +9,6 @@
 
 namespace plumbline::pipeline {
 
-/// A triangle's varyings at its corners; of those that light made, flat shading takes the provoking one's.
-inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
-                                             Varying v) {
-  const Vec4<float>* column = painting.varyings[static_cast<std::size_t>(v)];
-  const bool flat = draw.flat && is_lit(v);
-  return {column[t.corner[flat ? 1 : 0]], column[t.corner[1]], column[t.corner[flat ? 1 : 2]]};
-}
-
-/// The triangle as stage 4 has it.
-inline WindowTriangle<float> record_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t) {
-  WindowTriangle<float> record{{}, 0, t.front, t.corners, t.width};
-  for (std::size_t k = 0; k < 3; ++k) record.v[k] = painting.vertices[t.corner[k]];
-  if (draw.flat) record.v[0].color = record.v[2].color = record.v[1].color;
-  return record;
-}
-
 /// Of lines, points, and triangles whose edges do not fit: one by one (tiles.h).
 template <class R>
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, auto& tile) {
@@ -73,10 +57,7 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
                        });
                  };
                  if (draw.state.surface == nullptr) return paint(s);
-                 const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
-                 const WindowTriangle<float> record = record_of(painting, draw, t);
-                 const SurfaceSetup surface = set_up_surface(FragmentStages(), *draw.state.surface, record, 0, varying,
-                                                             planes_of(record, tile.x0, tile.y0));
+                 const SurfaceSetup surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
                  paint(LaneSurfaceSetup{s, &surface});
                });
 }
@@ -129,6 +110,9 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile& t
   }
   if (draw.kernel == PaintKernel::blends_over) {
     return paint_opaque<R, PaintKernel::blends_over, Order::first_to_last>(painting, run, tile, alone);
+  }
+  if (draw.kernel == PaintKernel::shades) {
+    return paint_opaque<R, PaintKernel::shades, Order::first_to_last>(painting, run, tile, alone);
   }
   if (draw.kernel == PaintKernel::depth_alone) {
     return paint_opaque<R, PaintKernel::depth_alone, Order::first_to_last>(painting, run, tile, alone);

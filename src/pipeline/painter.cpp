@@ -39,9 +39,9 @@ PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const BlockState& s) {
                      s.depth.high == 1.0 && s.depth.offset == PolygonOffset{} && s.depth_func == DepthFunc::less &&
                      !s.scissor && !s.alpha_test && !s.stencil && s.merge.depth_mask;
   if (plain && !glm::any(s.merge.color_mask)) return PaintKernel::depth_alone;
-  if (!plain || s.surface != nullptr || s.merge.logic_op || !glm::all(s.merge.color_mask)) return PaintKernel::any;
-  if (!s.merge.blend) return PaintKernel::replaces;
-  return is_over(*s.merge.blend) ? PaintKernel::blends_over : PaintKernel::any;
+  if (!plain || s.merge.logic_op || !glm::all(s.merge.color_mask)) return PaintKernel::any;
+  if (!s.merge.blend) return s.surface == nullptr ? PaintKernel::replaces : PaintKernel::shades;
+  return s.surface == nullptr && is_over(*s.merge.blend) ? PaintKernel::blends_over : PaintKernel::any;
 }
 
 // Whether tiles take a pixel's samples at once. Other antialiased frames are resolved from whole passes.

@@ -87,7 +87,7 @@ struct Chunk {
 };
 
 /// How a draw's filled triangles are painted: paint_opaque.h has those that are commonest.
-enum class PaintKernel { any, replaces, blends_over, depth_alone };
+enum class PaintKernel { any, replaces, blends_over, depth_alone, shades };
 
 /// A draw, as tiles want it.
 struct PaintDraw {

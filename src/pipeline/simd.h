@@ -285,6 +285,31 @@ inline void transpose_fours(const Simd (&in)[4], Simd (&out)[4]) {
     }
   }
 }
+// Of fours: a vector of doubles holds those of one lane, or half of them, or those of two lanes.
+inline constexpr hn::FixedTag<double, kHalf == 2 ? 2 : 4> kFourDoubles{};
+inline constexpr hn::FixedTag<float, kHalf == 2 ? 2 : 4> kFourFloats{};
+template <class Four>
+[[gnu::always_inline]] inline SimdWide row_of(int row, Four four) {
+  if constexpr (kHalf == 2) {
+    return {four(row, 0), four(row, 2)};
+  } else if constexpr (kHalf == 4) {
+    return {four(row, 0), four(row + 4, 0)};
+  } else {
+    return {hn::Combine(kDoubles, four(row + 4, 0), four(row, 0)),
+            hn::Combine(kDoubles, four(row + 12, 0), four(row + 8, 0))};
+  }
+}
+[[gnu::always_inline]] inline SimdWide row_of_fours(Simd, int row, auto at) {
+  return row_of(
+      row, [&](int lane, int first) { return hn::PromoteTo(kFourDoubles, hn::LoadU(kFourFloats, at(lane) + first)); });
+}
+[[gnu::always_inline]] inline SimdWide row_of_shares(Simd, int row, const double (&k)[kWidth]) {
+  return row_of(row, [&](int lane, int) { return hn::Set(kFourDoubles, k[lane]); });
+}
+[[gnu::always_inline]] inline void fours_of_rows(const SimdWide (&rows)[4], Simd (&out)[4]) {
+  const Simd of[4] = {to_float(rows[0]), to_float(rows[1]), to_float(rows[2]), to_float(rows[3])};
+  transpose_fours(of, out);
+}
 inline float greatest_lane(Simd value) { return hn::GetLane(hn::MaxOfLanes(kFloats, value.v)); }
 inline int greatest_lane(SimdInt value) { return hn::GetLane(hn::MaxOfLanes(kInts, value.v)); }
 inline void load_threes(const float* from, Simd (&out)[3]) {

@@ -72,8 +72,8 @@ void words(std::size_t n, const float* in, float* out) {
     of.put_wide(power_of_two(round_even(clamped(product, W(-126), W(126)))));
     of.put_wide(log2_of(product));
     of.put_wide(exp2_of(product));
-    of.put_wide(wrapped(Wrap::repeat, floor_of(clamped(product, W(-0x1p40), W(0x1p40))), 1001.0));
-    of.put_wide(mirrored(clamped(product, W(-0x1p40), W(0x1p40)), 1001.0));
+    of.put_wide(wrapped(Wrap::repeat, floor_of(clamped(product, W(-0x1p40), W(0x1p40))), W(1001.0)));
+    of.put_wide(mirrored(clamped(product, W(-0x1p40), W(0x1p40)), W(1001.0)));
   });
 }
 

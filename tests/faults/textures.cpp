@@ -20,7 +20,7 @@ FilteredTexel<float> flipped_t(const TextureSetup& t, const TexCoords<float>& at
 }
 
 FilteredTexel<float> s_for_t(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
-  return pipeline::texture<float>(t, {at.t, at.s}, {g.dt_dx, g.ds_dx, g.dt_dy, g.ds_dy});
+  return pipeline::texture<float>(t, {at.t, at.s}, {g.dt_dx, g.ds_dx, g.dt_dy, g.ds_dy, g.q});
 }
 
 FilteredTexel<float> half_texel_off(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
@@ -55,7 +55,7 @@ constexpr auto kMagnifiedAlways = [](TextureSetup& t) {
 
 // The level of detail by x alone, as a scan line's stepping knows it.
 FilteredTexel<float> levels_by_row(const TextureSetup& t, const TexCoords<float>& at, const Gradients<float>& g) {
-  return pipeline::texture<float>(t, at, {g.ds_dx, g.dt_dx, g.ds_dx, g.dt_dx});
+  return pipeline::texture<float>(t, at, {g.ds_dx, g.dt_dx, g.ds_dx, g.dt_dx, g.q});
 }
 
 // log2 of rho squared.

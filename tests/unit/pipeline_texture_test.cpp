@@ -84,7 +84,7 @@ TEST(PipelineTexture, LinearMixesFourTexels) {
 TEST(PipelineTexture, WrapsAreThoseOfTheSpecification) {
   const auto row = [](Wrap wrap) {
     std::vector<double> out;
-    for (double i = -5; i < 8; ++i) out.push_back(wrapped(wrap, i, 3));
+    for (double i = -5; i < 8; ++i) out.push_back(wrapped(wrap, i, 3.0));
     return out;
   };
   using Row = std::vector<double>;
@@ -96,7 +96,7 @@ TEST(PipelineTexture, WrapsAreThoseOfTheSpecification) {
 TEST(PipelineTexture, EveryOtherImageIsMirrored) {
   const std::pair<double, double> places[] = {{0, 0}, {2.5, 2.5},  {3, 3},  {3.25, 2.75}, {5.5, 0.5},  {6, 0},
                                               {7, 1}, {-0.5, 0.5}, {-2, 2}, {-3, 3},      {-3.5, 2.5}, {-6, 0}};
-  for (const auto& [u, at] : places) EXPECT_EQ(mirrored(u, 3), at) << u;
+  for (const auto& [u, at] : places) EXPECT_EQ(mirrored(u, 3.0), at) << u;
   const Texture t = texture_of(ramp(3), filters(MinFilter::nearest, MagFilter::nearest, Wrap::mirrored_repeat));
   EXPECT_EQ(red(t, 1.0f, 0.5f, 0), 2);
   EXPECT_EQ(red(t, 1.5f, 0.5f, 0), 1);
@@ -215,19 +215,19 @@ TEST(PipelineTexture, GradientsAreThoseOfTheFunction) {
   // Affine where all w are 1: s = x / 8, t = y / 4 + x / 16
   const WindowTriangle<float> flat = triangle({0, 0, 1}, {8, 0, 1}, {0, 8, 1});
   const GradientSetup f = gradient_setup(flat, corners({0, 0}, {1, 0.5f}, {0, 2}), planes_of(flat, 0, 0));
-  const Gradients<float> g = gradients<float>(f, {3, 2, 3.5, 2.5});
+  const Gradients<float> g = gradients<float>(f, {3, 2}, 1);
   EXPECT_EQ(g.ds_dx, 0.125);
   EXPECT_EQ(g.dt_dx, 0.0625);
   EXPECT_EQ(g.ds_dy, 0);
   EXPECT_EQ(g.dt_dy, 0.25);
   // In perspective: w from 1 at x = 0 to 4 at x = 8, s from 0 to 1: 1/w = 1 - 3x/32, s/w = x/32, s = x / (32 - 3x),
-  // ds/dx = 32 / (32 - 3x)^2
+  // ds/dx = 32 / (32 - 3x)^2, and times q^2 = (32 - 3x)^2 / 32^2 it is 1/32 everywhere
   const WindowTriangle<float> deep = triangle({0, 0, 1}, {8, 0, 4}, {0, 8, 1});
   const GradientSetup d = gradient_setup(deep, corners({0, 0}, {1, 0}, {0, 0}), planes_of(deep, 0, 0));
   for (const double x : {0.5, 2.5, 6.5}) {
-    const auto pixel = static_cast<std::int64_t>(x);
-    const Gradients<float> p = gradients<float>(d, {pixel, 0, x, 0.5});
-    EXPECT_NEAR(p.ds_dx, 32 / ((32 - 3 * x) * (32 - 3 * x)), 1e-15);
+    const double q = 1 - 3 * x / 32;
+    const Gradients<float> p = gradients<float>(d, {x - 0.5, 0}, q);
+    EXPECT_NEAR(p.ds_dx / (q * q), 32 / ((32 - 3 * x) * (32 - 3 * x)), 1e-15);
     EXPECT_NEAR(p.ds_dy, 0, 1e-15);
   }
 }

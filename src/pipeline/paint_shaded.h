@@ -1,0 +1,85 @@
+// Stages 7 to 11 of a triangle's fragments that are coloured by a surface and replace what is there. Those that passed
+// the depth test are collected from their blocks, so that as many are shaded at a time as there are lanes.
+#pragma once
+
+#include <bit>
+
+#include "pipeline/set_up_lanes.h"
+
+namespace plumbline::pipeline {
+
+/// A triangle's varyings at its corners; of those that light made, flat shading takes the provoking one's.
+inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
+                                             Varying v) {
+  const Vec4<float>* column = painting.varyings[static_cast<std::size_t>(v)];
+  const bool flat = draw.flat && is_lit(v);
+  return {column[t.corner[flat ? 1 : 0]], column[t.corner[1]], column[t.corner[flat ? 1 : 2]]};
+}
+
+/// The triangle as stage 4 has it.
+inline WindowTriangle<float> record_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t) {
+  WindowTriangle<float> record{{}, 0, t.front, t.corners, t.width};
+  for (std::size_t k = 0; k < 3; ++k) record.v[k] = painting.vertices[t.corner[k]];
+  if (draw.flat) record.v[0].color = record.v[2].color = record.v[1].color;
+  return record;
+}
+
+inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t, int x0,
+                                    int y0) {
+  const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
+  const WindowTriangle<float> record = record_of(painting, draw, t);
+  return set_up_surface(FragmentStages(), *draw.state.surface, record, 0, varying, planes_of(record, x0, y0));
+}
+
+template <class R>
+class ShadedPixels {
+ public:
+  ShadedPixels(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, LaneSetup& setup,
+               PackedTile& tile)
+      : painting_(painting), draw_(draw), triangle_(triangle), setup_(setup), tile_(tile) {
+    setup.front = triangle.front;
+    setup.planes.x0 = tile.x0 + 0.5;
+    setup.planes.y0 = tile.y0 + 0.5;
+  }
+
+  /// Those of a part of a block, from `place` on.
+  void add(int place, const Mask<R>& kept) {
+    for (unsigned bits = bits_of(kept); bits != 0; bits &= bits - 1) places_[count_++] = place + std::countr_zero(bits);
+    if (count_ >= kLanes) shade(kLanes);
+  }
+  void finish() {
+    if (count_ == 0) return;
+    const int count = count_;
+    while (count_ < kLanes) places_[count_++] = places_[0];
+    shade(count);
+  }
+
+ private:
+  static constexpr int kLanes = Lanes<R>::width;
+
+  // The last ones, `count` of as many as there are lanes.
+  void shade(int count) {
+    using I = Int<R>;
+    if (!surface_) surface_.emplace(surface_of_lane(painting_, draw_, triangle_, tile_.x0, tile_.y0));
+    count_ -= kLanes;
+    const I place = load_ints<R>(places_ + count_), within(kBlock - 1), blocks(kTile - kBlock);  // block_offset()
+    const I x = I(tile_.x0) + ((shifted_right<2>(place) & blocks) | (place & within));
+    const I y = I(tile_.y0) + ((shifted_right<6>(place) & blocks) | (shifted_right<2>(place) & within));
+    const Pixels<R> p{x, y, to_wide(x) + 0.5, to_wide(y) + 0.5};
+    const SurfaceAttributes<R> attributes = surface_attributes<R, false>(FragmentStages(), setup_, *surface_, p);
+    alignas(64) std::int32_t codes[kLanes];
+    store(packed_merge(shade_surface<R>(*surface_->surface, surface_->front, attributes)), codes);
+    for (int i = 0; i < count; ++i) tile_.color[places_[count_ + i]] = static_cast<std::uint32_t>(codes[i]);
+  }
+
+  const Painting& painting_;
+  const PaintDraw& draw_;
+  const PaintTriangle& triangle_;
+  const LaneSetup& setup_;
+  PackedTile& tile_;
+  std::optional<SurfaceSetup> surface_;  ///< when the first is shaded
+  std::int32_t places_[2 * kLanes];
+  int count_ = 0;
+};
+
+}  // namespace plumbline::pipeline
