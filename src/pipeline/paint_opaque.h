@@ -105,17 +105,41 @@ struct AttributeLanes {
   R color0[4], d_color1[4], d_color2[4];
 };
 
-inline constexpr int kSmall = 24;  ///< pixels of a box
+inline constexpr int kSmall = 30;  ///< pixels of a box: as many bits a float's exponent tells apart
 
-/// Triangles in boxes of `lanes.width` x `lanes.height` pixels, all at once: pixel by pixel of their boxes; then, one
-/// after the other, what they cover into the tile.
-template <class R, PaintKernel kKernel, Order kOrder>
+/// Triangles in boxes of `lanes.width` x `lanes.height` pixels, all at once: which pixels of their boxes they cover;
+/// each one's first pixel, second and so on; then, one triangle after the other, these into the tile.
+template <class R, PaintKernel kKernel, Order kOrder, bool kPlain>
 void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared, PackedTile& tile) {
   using I = Int<R>;
   using W = Wide<R>;
   constexpr int kLanes = Lanes<R>::width;
-  alignas(64) float z_of[kSmall][kLanes];
-  alignas(64) std::int32_t code_of[kSmall][kLanes], place_of[kSmall][kLanes];
+
+  const I x0 = load_ints<R>(lanes.bounds[0]), y0 = load_ints<R>(lanes.bounds[1]);
+  const I columns = load_ints<R>(lanes.bounds[2]) - x0, rows = load_ints<R>(lanes.bounds[3]) - y0;
+  const Mask<R> wanted = load_ints<R>(kBlockNumbers) < I(count);
+  I e_of_row[3], step_x[3], step_y[3];
+  for (int k = 0; k < 3; ++k) {
+    step_x[k] = load_ints<R>(lanes.step_x[k]), step_y[k] = load_ints<R>(lanes.step_y[k]);
+    e_of_row[k] = load_ints<R>(lanes.at_tile[k]) + step_x[k] * x0 + step_y[k] * y0;
+  }
+  I covered(0);  // a bit a pixel, row by row
+  for (int row = 0, bit = 0; row < lanes.height; ++row) {
+    const Mask<R> in_row = wanted & (I(row) < rows);
+    I e[3] = {e_of_row[0], e_of_row[1], e_of_row[2]};
+    for (int column = 0; column < lanes.width; ++column, ++bit) {
+      const Mask<R> inside = in_row & (I(column) < columns) & ((e[0] & e[1] & e[2]) < I(0));
+      covered = covered | select(inside, I(1 << bit), I(0));
+      for (int k = 0; k < 3; ++k) e[k] = e[k] + step_x[k];
+    }
+    for (int k = 0; k < 3; ++k) e_of_row[k] = e_of_row[k] + step_y[k];
+  }
+  alignas(64) std::int32_t covered_of[kLanes];
+  store(covered, covered_of);
+  int most = 0;
+  for (int lane = 0; lane < count; ++lane) {
+    most = std::max(most, std::popcount(static_cast<unsigned>(covered_of[lane])));
+  }
 
   const Affine<W> code = lanes.code.of_all(), q1 = lanes.q1.of_all(), q2 = lanes.q2.of_all(), sum = lanes.sum.of_all();
   AttributeLanes<R> of;
@@ -125,49 +149,41 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
     of.d_color2[c] = load<R>(lanes.color[2][c]);
   }
   const Mask<R> constant = load_ints<R>(lanes.constant_colors) != I(0);
-
-  const I x0 = load_ints<R>(lanes.bounds[0]), y0 = load_ints<R>(lanes.bounds[1]);
-  const I x1 = load_ints<R>(lanes.bounds[2]), y1 = load_ints<R>(lanes.bounds[3]);
-  const Mask<R> wanted = load_ints<R>(kBlockNumbers) < I(count);
-  I e_of_row[3], step_x[3], step_y[3];
-  for (int k = 0; k < 3; ++k) {
-    step_x[k] = load_ints<R>(lanes.step_x[k]), step_y[k] = load_ints<R>(lanes.step_y[k]);
-    e_of_row[k] = load_ints<R>(lanes.at_tile[k]) + step_x[k] * x0 + step_y[k] * y0;
-  }
-  I seen(0);  // a bit for each of the pixels that any triangle covers
-  int pixels = 0;
-  for (int row = 0; row < lanes.height; ++row) {
-    const I y = y0 + I(row), place_y = shifted_left<8>(shifted_right<2>(y)) + shifted_left<2>(y & I(kBlock - 1));
-    const Mask<R> in_row = wanted & (y < y1);
-    const W dy = to_wide(y);
-    const auto of_row = [&](const Affine<W>& f) { return f.at_0 + dy * f.y; };
-    const W code_of_row = of_row(code), q1_of_row = of_row(q1), q2_of_row = of_row(q2), sum_of_row = of_row(sum);
-    I e[3] = {e_of_row[0], e_of_row[1], e_of_row[2]};
-    for (int column = 0; column < lanes.width; ++column) {
-      const I x = x0 + I(column);
-      const Mask<R> covered = in_row & (x < x1) & ((e[0] & e[1] & e[2]) < I(0));
-      for (int k = 0; k < 3; ++k) e[k] = e[k] + step_x[k];
-      if (!any(covered)) continue;
-      const W dx = to_wide(x);
-      const W clamped_code = clamped(code_of_row + dx * code.x, W(0), W(kMostZ24));
-      store(to_float(round_even(clamped_code)), z_of[pixels]);
-      if constexpr (kKernel == PaintKernel::replaces) {
-        const Weights<R> k = weights<R>(to_float(q1_of_row + dx * q1.x), to_float(q2_of_row + dx * q2.x),
-                                        to_float(sum_of_row + dx * sum.x));
-        const Color<R> color = mean<R>(of, Weights<R>{select(constant, R(0), k.k1), select(constant, R(0), k.k2)});
-        store(packed_merge(color), code_of[pixels]);
-      }
-      store(place_y + shifted_left<4>(shifted_right<2>(x)) + (x & I(kBlock - 1)), place_of[pixels]);
-      seen = seen | select(covered, I(1 << pixels), I(0));
-      ++pixels;
+  alignas(64) float z_of[kSmall][kLanes];
+  alignas(64) std::int32_t code_of[kSmall][kLanes], place_of[kSmall][kLanes];
+  const I width(lanes.width), per_width((1 << 16) / lanes.width + 1);
+  for (int i = 0; i < most; ++i) {
+    const I rest = covered & (covered - I(1)), lowest = covered ^ rest;
+    const I bit = shifted_right<23>(as_int(to_float(lowest))) - I(127);  // a float's exponent
+    const I row = shifted_right<16>(bit * per_width), x = x0 + (bit - row * width), y = y0 + row;
+    covered = rest;
+    const W dx = to_wide(x), dy = to_wide(y);
+    const auto value = [&](const Affine<W>& f) { return (f.at_0 + dy * f.y) + dx * f.x; };  // value_at()
+    store(shifted_left<8>(shifted_right<2>(y)) + shifted_left<4>(shifted_right<2>(x)) +
+              shifted_left<2>(y & I(kBlock - 1)) + (x & I(kBlock - 1)),
+          place_of[i]);
+    if constexpr (kPlain) {
+      store(to_float(nearest_int(value(code))), z_of[i]);
+    } else {
+      store(to_float(round_even(clamped(value(code), W(0), W(kMostZ24)))), z_of[i]);
     }
-    for (int k = 0; k < 3; ++k) e_of_row[k] = e_of_row[k] + step_y[k];
+    if constexpr (kKernel == PaintKernel::replaces) {
+      const R q1_here = to_float(value(q1)), q2_here = to_float(value(q2)), sum_here = to_float(value(sum));
+      if constexpr (kPlain) {
+        const R reciprocal = R(1) / sum_here;
+        const Weights<R> k{q1_here * reciprocal, q2_here * reciprocal};
+        store(packed_merge_near<R>({mixed(of, k, 0), mixed(of, k, 1), mixed(of, k, 2), of.color0[3]}), code_of[i]);
+      } else {
+        const Weights<R> k = weights<R>(q1_here, q2_here, sum_here);
+        const Color<R> color = mean<R>(of, Weights<R>{select(constant, R(0), k.k1), select(constant, R(0), k.k2)});
+        store(packed_merge(color), code_of[i]);
+      }
+    }
   }
-  alignas(64) std::int32_t seen_of[kLanes];
-  store(seen, seen_of);
   for (int lane = 0; lane < count; ++lane) {
-    for (auto bits = static_cast<unsigned>(seen_of[lane]); bits != 0; bits &= bits - 1) {
-      const int i = std::countr_zero(bits), place = place_of[i][lane];
+    const int pixels = std::popcount(static_cast<unsigned>(covered_of[lane]));
+    for (int i = 0; i < pixels; ++i) {
+      const int place = place_of[i][lane];
       const float z = z_of[i][lane], held = tile.depth[place];
       if (kOrder == Order::last_to_first ? z <= held && z < cleared : z < held) {
         tile.depth[place] = z;
@@ -185,7 +201,13 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& til
     const int box = std::max(lanes.width, 0) * std::max(lanes.height, 0);
     if (kKernel == PaintKernel::blends_over || kKernel == PaintKernel::shades || Lanes<R>::width == 1 || box > kSmall)
       return false;
-    paint_small_triangles<R, kKernel, kOrder>(lanes, count, cleared, tile);
+    if (box == 0) return true;
+    constexpr unsigned kAll = ~0u >> (32 - Lanes<R>::width);
+    if ((lanes.plain_depth & lanes.plain_color) == kAll) {
+      paint_small_triangles<R, kKernel, kOrder, true>(lanes, count, cleared, tile);
+    } else {
+      paint_small_triangles<R, kKernel, kOrder, false>(lanes, count, cleared, tile);
+    }
     return true;
   };
   const auto paint = [&](const PaintTriangle& triangle, const auto& lanes, int lane) {

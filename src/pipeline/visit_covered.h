@@ -22,38 +22,37 @@ template <class R>
   using I = Int<R>;
   constexpr int kLanes = Lanes<R>::width;
   I in_block[3][kParts<R>];  // what E adds to that of the block's first pixel
-  I most[3];                 // the most that E comes to in a block, counted from the row's first
+  I of_blocks[3], least[3];  // of blocks side by side, from the row's first; and the least that it adds in a block
   for (int k = 0; k < 3; ++k) {
     const TileEdge& e = s.edge[k];
     for (int part = 0; part < kParts<R>; ++part) {
       in_block[k][part] = load_ints<R>(kColumnInBlock + part * kLanes) * I(e.step_x) +
                           load_ints<R>(kRowInBlock + part * kLanes) * I(e.step_y);
     }
-    most[k] = load_ints<R>(kBlockNumbers) * I(kBlock * e.step_x) +
-              I(e.at_tile + (kBlock - 1) * ((e.step_x < 0 ? e.step_x : 0) + (e.step_y < 0 ? e.step_y : 0)));
+    of_blocks[k] = load_ints<R>(kBlockNumbers) * I(kBlock * e.step_x) + I(e.at_tile);
+    least[k] = I((kBlock - 1) * ((e.step_x < 0 ? e.step_x : 0) + (e.step_y < 0 ? e.step_y : 0)));
   }
-  const bool few = s.x1 - s.x0 <= 3 * kBlock;  // are looked at one by one
   for (int y = s.y0; y < s.y1; y += kBlock) {
     const unsigned wanted = row(y);
     for (int x = s.x0; x < s.x1; x += kBlock * kLanes) {
       const int left = (s.x1 - x + kBlock - 1) / kBlock;
-      unsigned blocks = (left < kLanes ? (1u << left) - 1 : ~0u >> (32 - kLanes)) & wanted >> (x / kBlock);
-      if (!few) {
-        const auto at = [&](int k) { return most[k] + I(s.edge[k].step_x * x + s.edge[k].step_y * y); };
-        blocks &= bits_of((at(0) & at(1) & at(2)) < I(0));
+      alignas(64) std::int32_t at[3][kLanes];
+      I some(-1);
+      for (int k = 0; k < 3; ++k) {
+        const I here = of_blocks[k] + I(s.edge[k].step_x * x + s.edge[k].step_y * y);
+        store(here, at[k]);
+        some = some & (here + least[k]);
       }
-      for (; blocks != 0; blocks &= blocks - 1) {
-        const int block_x = x + kBlock * std::countr_zero(blocks);
-        const auto at = [&](int k) { return I(s.edge[k].at_tile + s.edge[k].step_x * block_x + s.edge[k].step_y * y); };
-        const I at_block[3] = {at(0), at(1), at(2)};
-        Mask<R> covered[kParts<R>];
-        Mask<R> some = mask_of<R>(0);
+      unsigned blocks = (left < kLanes ? (1u << left) - 1 : ~0u >> (32 - kLanes)) & wanted >> (x / kBlock);
+      for (blocks &= bits_of(some < I(0)); blocks != 0; blocks &= blocks - 1) {
+        const int b = std::countr_zero(blocks);
+        const I e[3] = {I(at[0][b]), I(at[1][b]), I(at[2][b])};
+        Mask<R> covered[kParts<R>], any_covered = mask_of<R>(0);
         for (int part = 0; part < kParts<R>; ++part) {
-          covered[part] = ((at_block[0] + in_block[0][part]) & (at_block[1] + in_block[1][part]) &
-                           (at_block[2] + in_block[2][part])) < I(0);
-          some = some | covered[part];
+          covered[part] = ((e[0] + in_block[0][part]) & (e[1] + in_block[1][part]) & (e[2] + in_block[2][part])) < I(0);
+          any_covered = any_covered | covered[part];
         }
-        if (any(some)) block(block_x, y, covered);
+        if (any(any_covered)) block(x + kBlock * b, y, covered);
       }
     }
   }
