@@ -37,10 +37,10 @@ double offset_of(const WindowTriangle<float>& triangle, const DepthState& state)
 
 BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y0) {
   const double x = x0 + 0.5, y = y0 + 0.5;
-  if (triangle.corners == 3) return {corner_planes(corners_of(triangle), x, y), x, y};
+  if (triangle.corners == 3) return {corner_planes(corners_of(triangle), x, y), {x, y}};
   PlaneCorners<double> line = corners_of_line(triangle);
   if (line.twice_area == 0) line = {line.p0_x, line.p0_y, 0, 0, 0, 0, 1};
-  BarycentricPlanes planes{corner_planes(line, x, y), x, y};
+  BarycentricPlanes planes{corner_planes(line, x, y), {x, y}};
   planes.l2 = {0, 0, 0};
   return planes;
 }

@@ -95,10 +95,11 @@ template <class W>
   return {c, area_1, area_2, {area_1 * inv, c.d2_y * inv, -c.d2_x * inv}, {area_2 * inv, -c.d1_y * inv, c.d1_x * inv}};
 }
 
-/// Those of a window triangle, and where their anchor is.
-struct BarycentricPlanes : CornerPlanes<double> {
-  double x0, y0;  ///< the anchor, window
+struct Anchor {
+  double x0, y0;  ///< window
 };
+/// Those of a window triangle, and where their anchor is.
+struct BarycentricPlanes : CornerPlanes<double>, Anchor {};
 
 /// Along a line, l1 = (p - p0).(p1 - p0) / |p1 - p0|^2 and l2 = 0 (OpenGL 2.1, equation 3.5); of a point both are 0.
 /// Where the unsnapped area is zero or of the other sign than the snapped, the planes go through the snapped corners.
@@ -110,8 +111,8 @@ BarycentricPlanes planes_of(const WindowTriangle<float>& triangle, int x0, int y
 BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place);
 
 template <class R>
-[[gnu::always_inline]] inline Offset<R> from_anchor(const auto& planes, const Pixels<R>& p) {
-  return {p.x_win - planes.x0, p.y_win - planes.y0};
+[[gnu::always_inline]] inline Offset<R> from_anchor(const Anchor& anchor, const Pixels<R>& p) {
+  return {p.x_win - anchor.x0, p.y_win - anchor.y0};
 }
 
 template <class R>

@@ -211,7 +211,8 @@ inline void store_fours(const float (&values)[4], float* const (&to)[1]) {
 }
 
 /// Each lane's four floats, which lie where at(lane) says, in double, in four rows that suit the memory's order: of
-/// float, each a row. Of shares `k`, as many rows of each lane's own. The first argument: of which lanes.
+/// float, each a row. Of shares `k`, as many rows of each lane's own. The first argument is of no use, but for its
+/// type.
 inline double row_of_fours(float, int row, auto at) { return to_wide(at(0)[row]); }
 inline double row_of_shares(float, int, const double (&k)[1]) { return k[0]; }
 inline void fours_of_rows(const double (&rows)[4], float (&out)[4]) {

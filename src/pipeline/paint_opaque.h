@@ -211,7 +211,7 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& til
     return true;
   };
   const auto paint = [&](const PaintTriangle& triangle, const auto& lanes, int lane) {
-    LaneSetup s = lanes.of(lane);
+    const LaneSetup s = lanes.of(lane, triangle.front, tile.x0, tile.y0);
     const auto as = [&]<Plain kPlain>(auto& shaded) {
       paint_opaque_triangle<R, kKernel, kOrder, kPlain>(s, cleared, tile, shaded);
     };

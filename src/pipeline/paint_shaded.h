@@ -24,6 +24,7 @@ inline WindowTriangle<float> record_of(const Painting& painting, const PaintDraw
   return record;
 }
 
+/// (x0, y0): the tile's lower left pixel.
 inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t, int x0,
                                     int y0) {
   const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
@@ -31,16 +32,13 @@ inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& d
   return set_up_surface(FragmentStages(), *draw.state.surface, record, 0, varying, planes_of(record, x0, y0));
 }
 
+/// A triangle's: add() them block by block, then finish().
 template <class R>
 class ShadedPixels {
  public:
-  ShadedPixels(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, LaneSetup& setup,
+  ShadedPixels(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, const LaneSetup& setup,
                PackedTile& tile)
-      : painting_(painting), draw_(draw), triangle_(triangle), setup_(setup), tile_(tile) {
-    setup.front = triangle.front;
-    setup.planes.x0 = tile.x0 + 0.5;
-    setup.planes.y0 = tile.y0 + 0.5;
-  }
+      : painting_(painting), draw_(draw), triangle_(triangle), setup_(setup), tile_(tile) {}
 
   /// Those of a part of a block, from `place` on.
   void add(int place, const Mask<R>& kept) {

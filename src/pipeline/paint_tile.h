@@ -34,32 +34,28 @@ template <class R>
 void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   const PaintDraw& draw = painting.draws[run.draw];
   NoTap tap;
+  const auto paint_blocks = [&](const auto& setup) {
+    const auto block = [&](int x, int y, const auto& covered) {
+      for (int part = 0; part < kParts<R>; ++part) {
+        if (!any(covered[part])) continue;
+        const int i = part * Lanes<R>::width;
+        covered_pixels<R>(FragmentStages(), draw.state, setup, block_pixels<R>(tile.x0 + x, tile.y0 + y, i),
+                          covered[part], block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
+      }
+    };
+    visit_covered<R>(
+        setup, [](int) { return ~0u; }, block);
+  };
+  const auto paint = [&](const PaintTriangle& t, const auto& lanes, int lane) {
+    LaneSetup s = lanes.of(lane, t.front, tile.x0, tile.y0);
+    s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
+    if (draw.state.surface == nullptr) return paint_blocks(s);
+    const SurfaceSetup surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
+    paint_blocks(LaneSurfaceSetup{s, &surface});
+  };
   const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
   const auto together = [](const auto&, int) { return false; };
-  each_lane<R>(painting, run, false, tile.x0, tile.y0, together, alone,
-               [&](const PaintTriangle& t, const auto& lanes, int lane) {
-                 LaneSetup s = lanes.of(lane);
-                 s.front = t.front;
-                 s.planes.x0 = tile.x0 + 0.5;
-                 s.planes.y0 = tile.y0 + 0.5;
-                 s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
-                 const auto paint = [&](const auto& setup) {
-                   visit_covered<R>(
-                       setup, [](int) { return ~0u; },
-                       [&](int x, int y, const auto& covered) {
-                         for (int part = 0; part < kParts<R>; ++part) {
-                           if (!any(covered[part])) continue;
-                           const int i = part * Lanes<R>::width;
-                           covered_pixels<R>(FragmentStages(), draw.state, setup,
-                                             block_pixels<R>(tile.x0 + x, tile.y0 + y, i), covered[part],
-                                             block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
-                         }
-                       });
-                 };
-                 if (draw.state.surface == nullptr) return paint(s);
-                 const SurfaceSetup surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
-                 paint(LaneSurfaceSetup{s, &surface});
-               });
+  each_lane<R>(painting, run, false, tile.x0, tile.y0, together, alone, paint);
 }
 
 /// The tile's triangles, chunk by chunk and draw by draw.

@@ -236,8 +236,8 @@ class PipelineRenderer : public Renderer {
                          {Vec4<float>(corners[0]), Vec4<float>(corners[1]), Vec4<float>(corners[2])}, setup.planes);
       const Color<float> at = color_of(st.fragments.at(i));
       const Offset<float> offset = from_anchor<float>(setup.planes, p);
-      const FilteredTexel<float> texel =
-          stages_.fragment.texture(*of_draw, {at.r, at.g}, gradients<float>(gradient, offset, value_at<float>(setup.perspective.sum, offset)));
+      const FilteredTexel<float> texel = stages_.fragment.texture(
+          *of_draw, {at.r, at.g}, gradients<float>(gradient, offset, value_at<float>(setup.perspective.sum, offset)));
       to = {widen(texel.color), texel.lod};
     });
   }

@@ -48,9 +48,7 @@ FragmentFunctions fragment_functions(const S& s = S()) {
   f.draw_tapped = [s](const DrawList& list, const FrameFormat& format, Frame& frame, CaptureTap& tap) {
     draw_tiles<float>(s, list, format, frame, tap);
   };
-  f.depth = [s](const TriangleSetup<>& setup, const Pixels<float>& p) {
-    return s.template depth<float>(setup, p);
-  };
+  f.depth = [s](const TriangleSetup<>& setup, const Pixels<float>& p) { return s.template depth<float>(setup, p); };
   f.attributes = [s](const TriangleSetup<>& setup, const Pixels<float>& p) {
     return s.template attributes<float>(setup, setup.attributes, p);
   };

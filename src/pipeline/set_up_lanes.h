@@ -20,9 +20,7 @@ struct LaneSetup {
   bool front;
   int x0, y0, x1, y1;  ///< the pixels of the tile in its bounding box, x0 and y0 rounded down to a block's
   TileEdge edge[3];
-  struct {
-    double x0, y0;
-  } planes;  ///< of BarycentricPlanes, the anchor
+  Anchor planes;
   DepthPlane depth_plane;
   PerspectiveSetup perspective;
   float nearest;                  ///< a depth code: none of its fragments in the tile is nearer
@@ -55,8 +53,11 @@ struct SetupLanes {
   unsigned plain_depth, plain_color;
   int width, height;  ///< the largest box
 
-  [[gnu::always_inline]] LaneSetup of(int lane) const {
+  /// In the tile whose lower left pixel that is.
+  [[gnu::always_inline]] LaneSetup of(int lane, bool front, int tile_x, int tile_y) const {
     LaneSetup s;
+    s.front = front;
+    s.planes = {tile_x + 0.5, tile_y + 0.5};
     s.x0 = bounds[0][lane] & ~(kBlock - 1), s.y0 = bounds[1][lane] & ~(kBlock - 1);
     s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
     for (int k = 0; k < 3; ++k) s.edge[k] = {at_tile[k][lane], step_x[k][lane], step_y[k][lane]};
