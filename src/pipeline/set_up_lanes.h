@@ -168,7 +168,8 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
   store(to_float(floor_of(clamped(least_code, W(0), W(site.depth_scale))) - W(1)), out.nearest);
   out.plain_depth = bits_of(Mask<R>((least_code >= W(0)) & (most_code < W(site.clear_code - 1))));
   const W most_weight = least_sum * W(1024);  // 255 of them are far from 2^31, too
-  const Mask<R> small = (least_sum > W(0x1p-60)) & (terms(q1) < most_weight) & (terms(q2) < most_weight);
+  const W terms_1 = terms(q1), terms_2 = terms(q2);
+  const Mask<R> small = (least_sum > W(0x1p-60)) & (terms_1 < most_weight) & (terms_2 < most_weight);
   out.plain_color = bits_of(small & (color[1][3] == color[0][3]) & (color[2][3] == color[0][3]));
 
   // Counter-clockwise.
