@@ -312,6 +312,7 @@ struct PackedTile {
   alignas(64) std::uint32_t color[kTile * kTile];
   alignas(64) std::uint8_t stencil[kTile * kTile];
   alignas(64) float farthest[kTile * kTile / kBlockPixels];  ///< of each block: none of its depths is greater
+  float farthest_of_all;
 
   int offset(int x, int y) const { return block_offset(x - x0, y - y0); }
   StoredCodes at(int place) { return {depth + place, color + place, stencil + place}; }

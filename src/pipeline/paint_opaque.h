@@ -31,16 +31,19 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
   const Color<R> one_color{R(c0.r), R(c0.g), R(c0.b), R(c0.a)};
   const Int<R> one_code = packed_merge(one_color);
 
+  bool hidden = true;
   W of_row[kPlanes][kParts<R>];
   const auto row = [&](int y) {
-    for (int part = 0; part < kParts<R>; ++part) {
-      const W dy = rows_of_block<R>(y, part * kLanes);
-      for (int k = 0; k < kPlanes; ++k) of_row[k][part] = plane[k]->at_0 + dy * plane[k]->y;
-    }
     unsigned nearer = 0;
     for (int b = 0; b < kTile / kBlock; b += kLanes) {
       const R farthest = load<R>(tile.farthest + y / kBlock * (kTile / kBlock) + b);
       nearer |= bits_of(kFromLast ? farthest >= R(s.nearest) : farthest > R(s.nearest)) << b;
+    }
+    if (nearer == 0) return nearer;
+    hidden = false;
+    for (int part = 0; part < kParts<R>; ++part) {
+      const W dy = rows_of_block<R>(y, part * kLanes);
+      for (int k = 0; k < kPlanes; ++k) of_row[k][part] = plane[k]->at_0 + dy * plane[k]->y;
     }
     return nearer;
   };
@@ -97,6 +100,10 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
     }
     if (all(full)) tile.farthest[y / kBlock * (kTile / kBlock) + x / kBlock] = greatest_lane(farthest);
   });
+  const bool all_blocks = s.x0 == 0 && s.y0 == 0 && s.x1 == kTile && s.y1 == kTile;
+  if (hidden && all_blocks) {  // the next that it would hide are not even looked at
+    tile.farthest_of_all = *std::max_element(std::begin(tile.farthest), std::end(tile.farthest));
+  }
 }
 
 /// AttributeSetup, of lanes' triangles.
@@ -211,6 +218,8 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& til
     return true;
   };
   const auto paint = [&](const PaintTriangle& triangle, const auto& lanes, int lane) {
+    const float nearest = lanes.nearest[lane];
+    if (kOrder == Order::last_to_first ? nearest > tile.farthest_of_all : nearest >= tile.farthest_of_all) return;
     const LaneSetup s = lanes.of(lane, triangle.front, tile.x0, tile.y0);
     const auto as = [&]<Plain kPlain>(auto& shaded) {
       paint_opaque_triangle<R, kKernel, kOrder, kPlain>(s, cleared, tile, shaded);

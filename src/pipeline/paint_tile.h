@@ -117,7 +117,8 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile& t
   const bool farther =
       func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;
   if (farther) {
-    std::fill(std::begin(tile.farthest), std::end(tile.farthest), std::numeric_limits<float>::infinity());
+    tile.farthest_of_all = std::numeric_limits<float>::infinity();
+    std::fill(std::begin(tile.farthest), std::end(tile.farthest), tile.farthest_of_all);
   }
   paint_run<R>(painting, run, tile);
 }
@@ -167,6 +168,7 @@ void clear(PackedTile& tile, const Painting& painting) {
     store(codes, reinterpret_cast<std::int32_t*>(tile.color + i));
   }
   std::fill(std::begin(tile.farthest), std::end(tile.farthest), pixel.depth);
+  tile.farthest_of_all = pixel.depth;
   if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
 }
 

@@ -34,6 +34,7 @@ template <class R>
   }
   for (int y = s.y0; y < s.y1; y += kBlock) {
     const unsigned wanted = row(y);
+    if (wanted == 0) continue;
     for (int x = s.x0; x < s.x1; x += kBlock * kLanes) {
       const int left = (s.x1 - x + kBlock - 1) / kBlock;
       alignas(64) std::int32_t at[3][kLanes];
