@@ -58,7 +58,12 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   each_lane<R>(painting, run, false, tile.x0, tile.y0, together, alone, paint);
 }
 
-/// The tile's triangles, chunk by chunk and draw by draw.
+/// Whether one's triangles may be painted as the other's: all else that a draw says, such kernels are there not to ask.
+inline bool alike(const PaintDraw& a, const PaintDraw& b) {
+  return a.kernel == b.kernel && a.flat == b.flat && a.kernel != PaintKernel::any && a.kernel != PaintKernel::shades;
+}
+
+/// The tile's triangles, chunk by chunk and draw by draw; those of draws that are alike together.
 inline void find_runs(const Painting& painting, std::size_t tile, std::vector<PaintRun>& runs) {
   runs.clear();
   for (const Chunk& chunk : painting.chunks) {
@@ -67,10 +72,13 @@ inline void find_runs(const Painting& painting, std::size_t tile, std::vector<Pa
     auto of_draw = chunk.draws.begin();
     while (!numbers.empty()) {
       while (numbers.front() >= of_draw->end) ++of_draw;
+      const std::uint32_t draw = of_draw->draw;
+      while (of_draw + 1 != chunk.draws.end() && alike(painting.draws[draw], painting.draws[of_draw[1].draw]))
+        ++of_draw;
       const auto end =
           std::partition_point(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return n < of_draw->end; });
       const auto count = static_cast<std::size_t>(end - numbers.begin());
-      runs.push_back({of_draw->draw, chunk.triangles.data(), numbers.first(count)});
+      runs.push_back({draw, chunk.triangles.data(), numbers.first(count)});
       numbers = numbers.subspan(count);
     }
   }
