@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <new>
+#include <random>
 
 #include "../extent.h"
 #include "pipeline/painter.h"
@@ -16,6 +17,7 @@
 #include "scene/antialias.h"
 #include "scene/mesh_shapes.h"
 #include "scene/scene_file.h"
+#include "scene/texture_images.h"
 
 namespace {
 std::atomic<std::size_t> asked_for_memory{0};
@@ -112,6 +114,53 @@ TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
           }
         }
       }
+    }
+  }
+}
+
+// Draws of all kinds over each other, some alike and some not, and walls that hide whole tiles.
+TEST(Painter, DrawsAllKindsInTheirOrder) {
+  const Stages stages = production_stages();
+  const auto all = painters();
+  std::mt19937 random(4);
+  const auto one_in = [&](int n) { return static_cast<int>(random() % 1000) % n == 0; };
+  for (int round = 0; round < 40; ++round) {
+    Scene scene = spheres(round % 2 == 0 ? 16 : 60, Cull::none);
+    scene.meshes.push_back(make_globe(round % 2 == 0 ? 12 : 50, 20));
+    scene.meshes.push_back(make_grid(1, 1));
+    Texture texture;
+    texture.sampler.min = round % 3 == 0 ? MinFilter::linear : MinFilter::linear_mipmap_linear;
+    texture.sampler.wrap_s = round % 4 == 0 ? Wrap::clamp_to_border : Wrap::repeat;
+    texture.sampler.mag = one_in(3) ? MagFilter::nearest : MagFilter::linear;
+    set_levels(texture, make_noise(round % 5 == 0 ? 30 : 64, 16, 1));
+    scene.textures.push_back(texture);
+    scene.frame.clear_depth = one_in(4) ? 0.96 : 1.0;
+    std::vector<Draw> draws;
+    for (int i = 0; i < 12; ++i) {
+      Draw draw = scene.draws[random() % 4];
+      if (one_in(3)) {  // a wall
+        draw.mesh = 2;
+        draw.transforms = {Translate{{0, 0, -1.0 + 0.001 * static_cast<double>(random() % 1000)}}, Scale{{4, 4, 1}}};
+      }
+      draw.lit = !one_in(3);
+      draw.shading = one_in(4) ? Shading::flat : Shading::gouraud;
+      draw.material.diffuse = {0.1 * static_cast<double>(random() % 10), 0.5, 0.9, one_in(2) ? 1.0 : 0.4};
+      if (one_in(4)) draw.merge.blend = Blend{kOverTerm, kOverTerm, glm::vec4(0)};
+      if (one_in(8)) draw.merge.color_mask = glm::bvec4(false);
+      if (one_in(12)) draw.depth_func = DepthFunc::greater;
+      if (one_in(12)) draw.depth_func = DepthFunc::less_equal;
+      if (one_in(4)) draw.shading = Shading::phong, draw.lit = true;
+      if (one_in(4)) {
+        draw.mesh = 1;
+        draw.texture = DrawTexture{};
+      }
+      draws.push_back(draw);
+    }
+    scene.draws = draws;
+    if (one_in(4)) scene.frame.antialias = {Antialias::Kind::multisample, 1};
+    const Frame definition = render(scene, stages);
+    for (const auto& [name, painter] : all) {
+      EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name << ", round " << round;
     }
   }
 }

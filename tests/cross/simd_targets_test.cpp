@@ -119,7 +119,8 @@ TEST(SimdTargets, PaintTrianglesOfFarCorners) {
   }
 }
 
-// Large ones, slivers and those smaller than a pixel, over each other.
+// Large ones, slivers and those smaller than a pixel, over each other; of one colour, of one alpha, of neither; their
+// depths all nearer than the clear depth, and not.
 TEST(SimdTargets, PaintRandomTriangles) {
   std::mt19937 random(8);
   const auto between = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
@@ -128,16 +129,24 @@ TEST(SimdTargets, PaintRandomTriangles) {
       Triangles triangles;
       for (int i = 0; i < 150; ++i) {
         const glm::vec2 at(between(-10, 150), between(-10, 80)), along(between(-size, size), between(-size, size));
+        const float beyond = i % 2 == 0 ? 0.0f : 0.2f;
         const auto corner = [&](float k) {
           const glm::vec2 p = sliver ? at + k * along + glm::vec2(between(-.01f, .01f), between(-.01f, .01f))
                                      : at + glm::vec2(between(-size, size), between(-size, size));
-          return glm::vec3(p, between(0, 1));
+          return glm::vec3(p, between(-beyond, 1 + beyond));
         };
-        const WindowTriangle<float> t =
+        WindowTriangle<float> t =
             triangle({corner(0), corner(.4f), corner(1)}, {between(.1f, 2), between(.1f, 2), between(.1f, 2)});
+        if (i % 3 == 1) t.v[1].color.a = between(0, 1);
+        if (i % 5 == 1) t.v[1].color = t.v[2].color = t.v[0].color;
+        if (i % 7 == 1) t.v[2].inv_w = 1e-6f;
         if (snapped_area(t) != 0) triangles.push_back(t);
       }
-      expect_same(triangles, format_of(140, 70), std::to_string(size) + (sliver ? ", slivers" : ""));
+      FrameFormat format = format_of(140, 70);
+      for (const double clear : {1.0, 0.4}) {
+        format.clear_depth = clear;
+        expect_same(triangles, format, std::to_string(size) + (sliver ? ", slivers" : ""));
+      }
     }
   }
 }
