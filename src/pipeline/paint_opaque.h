@@ -37,7 +37,7 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
     unsigned nearer = 0;
     for (int b = 0; b < kTile / kBlock; b += kLanes) {
       const R farthest = load<R>(tile.farthest + y / kBlock * (kTile / kBlock) + b);
-      nearer |= bits_of(kFromLast ? farthest >= R(s.nearest) : farthest > R(s.nearest)) << b;
+      nearer |= bits_of(farthest > R(s.nearest)) << b;
     }
     if (nearer == 0) return nearer;
     hidden = false;
@@ -218,8 +218,7 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& til
     return true;
   };
   const auto paint = [&](const PaintTriangle& triangle, const auto& lanes, int lane) {
-    const float nearest = lanes.nearest[lane];
-    if (kOrder == Order::last_to_first ? nearest > tile.farthest_of_all : nearest >= tile.farthest_of_all) return;
+    if (lanes.nearest[lane] >= tile.farthest_of_all) return;
     const LaneSetup s = lanes.of(lane, triangle.front, tile.x0, tile.y0);
     const auto as = [&]<Plain kPlain>(auto& shaded) {
       paint_opaque_triangle<R, kKernel, kOrder, kPlain>(s, cleared, tile, shaded);

@@ -23,7 +23,7 @@ struct LaneSetup {
   Anchor planes;
   DepthPlane depth_plane;
   PerspectiveSetup perspective;
-  float nearest;                  ///< a depth code: none of its fragments in the tile is nearer
+  float nearest;                  ///< a depth code: all its fragments in the tile are farther
   bool plain_depth, plain_color;  ///< SetupLanes
   AttributeSetup attributes;
 };

@@ -138,19 +138,19 @@ TEST(Painter, DrawsAllKindsInTheirOrder) {
     std::vector<Draw> draws;
     for (int i = 0; i < 12; ++i) {
       Draw draw = scene.draws[random() % 4];
-      if (one_in(3)) {  // a wall
+      if (one_in(4)) {  // a wall
         draw.mesh = 2;
         draw.transforms = {Translate{{0, 0, -1.0 + 0.001 * static_cast<double>(random() % 1000)}}, Scale{{4, 4, 1}}};
       }
-      draw.lit = !one_in(3);
-      draw.shading = one_in(4) ? Shading::flat : Shading::gouraud;
+      draw.lit = !one_in(4);
+      draw.shading = one_in(2) ? Shading::flat : Shading::gouraud;
       draw.material.diffuse = {0.1 * static_cast<double>(random() % 10), 0.5, 0.9, one_in(2) ? 1.0 : 0.4};
-      if (one_in(4)) draw.merge.blend = Blend{kOverTerm, kOverTerm, glm::vec4(0)};
-      if (one_in(8)) draw.merge.color_mask = glm::bvec4(false);
-      if (one_in(12)) draw.depth_func = DepthFunc::greater;
-      if (one_in(12)) draw.depth_func = DepthFunc::less_equal;
-      if (one_in(4)) draw.shading = Shading::phong, draw.lit = true;
-      if (one_in(4)) {
+      if (one_in(6)) draw.merge.blend = Blend{kOverTerm, kOverTerm, glm::vec4(0)};
+      if (one_in(12)) draw.merge.color_mask = glm::bvec4(false);
+      if (one_in(16)) draw.depth_func = DepthFunc::greater;
+      if (one_in(16)) draw.depth_func = DepthFunc::less_equal;
+      if (one_in(6)) draw.shading = Shading::phong, draw.lit = true;
+      if (one_in(6)) {
         draw.mesh = 1;
         draw.texture = DrawTexture{};
       }

@@ -2,6 +2,7 @@
 // that others would run.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstring>
@@ -44,15 +45,16 @@ Frame by_definition(const Triangles& triangles, const Draw& draw, const FrameFor
   return frame;
 }
 
+// `any_far`: else the triangles may be painted from the last to the first.
 Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw& draw, PaintKernel kernel,
-                const FrameFormat& format) {
+                const FrameFormat& format, bool any_far = true) {
   Painting painting{};
   painting.format = format;
   painting.formats = formats_of(format);
   painting.samples = std::span<const glm::ivec2>(&painting.formats.sample, 1);
   painting.columns = (format.width + kTile - 1) / kTile;
   painting.rows = (format.height + kTile - 1) / kTile;
-  painting.any_far = true;
+  painting.any_far = any_far;
   const auto tiles = static_cast<std::size_t>(painting.columns * painting.rows);
   const auto count = static_cast<std::uint32_t>(triangles.size());
   std::vector<WindowVertex<float>> vertices;
@@ -78,13 +80,13 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
 }
 
 // By each kernel that may paint it, of every target.
-void expect_same(const Triangles& triangles, const FrameFormat& format, const std::string& what) {
+void expect_same(const Triangles& triangles, const FrameFormat& format, const std::string& what, bool any_far = true) {
   Draw draw, over, depth_alone;
   over.merge.blend = kOver;
   depth_alone.merge.color_mask = glm::bvec4(false);
   for (const SimdTarget& target : simd_targets()) {
     for (const PaintKernel kernel : {PaintKernel::any, PaintKernel::replaces}) {
-      const Frame frame = by_target(target, triangles, draw, kernel, format);
+      const Frame frame = by_target(target, triangles, draw, kernel, format, any_far);
       const Frame definition = by_definition(triangles, draw, format);
       EXPECT_TRUE(frame.color_rgba8.values() == definition.color_rgba8.values()) << target.name << ", " << what;
       EXPECT_TRUE(frame.depth_code.values() == definition.depth_code.values()) << target.name << ", " << what;
@@ -137,15 +139,21 @@ TEST(SimdTargets, PaintRandomTriangles) {
         };
         WindowTriangle<float> t =
             triangle({corner(0), corner(.4f), corner(1)}, {between(.1f, 2), between(.1f, 2), between(.1f, 2)});
-        if (i % 3 == 1) t.v[1].color.a = between(0, 1);
+        if (i % 3 == 1) t.v[1 + i % 2].color.a = between(0, 1);
         if (i % 5 == 1) t.v[1].color = t.v[2].color = t.v[0].color;
         if (i % 7 == 1) t.v[2].inv_w = 1e-6f;
         if (snapped_area(t) != 0) triangles.push_back(t);
       }
       FrameFormat format = format_of(140, 70);
-      for (const double clear : {1.0, 0.4}) {
+      for (const float clear : {1.0f, 0.4f}) {
         format.clear_depth = clear;
-        expect_same(triangles, format, std::to_string(size) + (sliver ? ", slivers" : ""));
+        for (std::size_t i = 0; i < triangles.size(); i += 11) {  // as far as the clear depth
+          for (auto& v : triangles[i].v) v.p_win.z = clear;
+        }
+        const std::string what = std::to_string(size) + (sliver ? ", slivers" : "");
+        expect_same(triangles, format, what, size > 1000);
+        std::reverse(triangles.begin(), triangles.end());
+        expect_same(triangles, format, what, size > 1000);
       }
     }
   }
