@@ -1,8 +1,8 @@
 // Compiled once for each target (src/CMakeLists.txt).
 #include "pipeline/draw_simd.h"
 
-#include "pipeline/simd.h"
 #include "pipeline/simd_coverage.h"
+#include "pipeline/simd_fours.h"
 
 #include "pipeline/paint_tile.h"
 #include "pipeline/paint_vertices.h"

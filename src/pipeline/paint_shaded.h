@@ -3,6 +3,7 @@
 #pragma once
 
 #include <bit>
+#include <optional>
 
 #include "pipeline/set_up_lanes.h"
 

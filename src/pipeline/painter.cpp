@@ -128,9 +128,11 @@ void Painter::Memory::prepare(const Scene& scene) {
   draws.clear();
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];
-    const BlockState state =
+    BlockState state =
         block_state(draw, scene.frame.depth, scene.depth_clamp, surfaces[d].plain() ? nullptr : &surfaces[d]);
-    draws.push_back({state, kernel_of(scene.meshes[draw.mesh], draw, state), draw.shading == Shading::flat});
+    const PaintKernel kernel = kernel_of(scene.meshes[draw.mesh], draw, state);
+    if (kernel == PaintKernel::depth_alone) state.surface = nullptr;  // nothing asks for colours
+    draws.push_back({state, kernel, draw.shading == Shading::flat});
   }
   painting.draws = draws;
 }

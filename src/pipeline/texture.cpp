@@ -32,7 +32,7 @@ TextureSetup texture_setup(const Texture& texture, const Sampler& sampler) {
       std::min(static_cast<int>(texture.levels.size()) - 1, sampler.max_level),
       c,
       // A little less than 4^(c - bias): which side of it log2 finds is then beyond doubt.
-      to_wide(sampler.min_lod) > c ? -1 : 0.999 * exp2_of(lesser_of(2 * (c - to_wide(sampler.lod_bias)), 1000.0)),
+      to_wide(sampler.min_lod) > c ? 0 : 0.999 * exp2_of(lesser_of(2 * (c - to_wide(sampler.lod_bias)), 1000.0)),
       static_cast<double>(base.width),
       static_cast<double>(base.height),
       {},

@@ -53,7 +53,7 @@ struct TextureSetup {
   Sampler sampler;
   int last;                                 ///< the highest level that may be sampled
   double c;                                 ///< lambda up to which a texture is magnified
-  double magnified_rho2;                    ///< up to which it surely is; below 0: none
+  double magnified_rho2;                    ///< up to which it surely is; 0: none
   double width, height;                     ///< of the base level
   std::array<const glm::vec4*, 16> texels;  ///< of each level
   glm::vec4 border;                         ///< texture source components
@@ -307,7 +307,7 @@ template <class R>
 [[gnu::always_inline]] inline Color<R> texel_color(const TextureSetup& t, const TexCoords<R>& at,
                                                    const Gradients<R>& g) {
   const Wide<R> q2 = g.q * g.q;
-  if (all(longer_squared<R>(t, g) <= q2 * q2 * t.magnified_rho2)) return magnified<R>(t, at);
+  if (t.magnified_rho2 > 0 && all(longer_squared<R>(t, g) <= q2 * q2 * t.magnified_rho2)) return magnified<R>(t, at);
   return sample<R>(t, at, level_of_detail<R>(t, g));
 }
 

@@ -165,6 +165,34 @@ TEST(Painter, DrawsAllKindsInTheirOrder) {
   }
 }
 
+// 1/w is 0 at the centres of pixels that are covered beside them: no level is then found, which is the least that the
+// sampler lets be, and not magnified.
+TEST(Painter, TakesTheLeastLevelAtTheHorizon) {
+  Scene scene;
+  scene.frame.width = scene.frame.height = 64;
+  scene.frame.antialias = {Antialias::Kind::multisample, 1};
+  scene.projection = Frustum{-1, 1, -1, 1, 1, 100};
+  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  const auto at = [](float x, float y, float w) { return glm::vec3((x / 32 - 1) * w, (y / 32 - 1) * w, -w); };
+  scene.meshes = {make_triangles({at(.75f, 0, 64), at(16.5f, 2, 1), at(.75f, 4, 64)}, {{0, 1, 2}}, {})};
+  scene.meshes[0].texcoords.assign(3, {0, 0});
+  Texture texture;
+  texture.sampler.min = MinFilter::nearest_mipmap_nearest;
+  texture.sampler.mag = MagFilter::nearest;
+  texture.sampler.min_lod = 1000;
+  set_levels(texture, make_noise(4, 4, 1));
+  scene.textures.push_back(texture);
+  Draw draw;
+  draw.lit = false;
+  draw.texture = DrawTexture{0, TextureEnvironment::replace};
+  scene.draws.push_back(draw);
+  const std::uint8_t last = static_cast<std::uint8_t>(std::nearbyint(texture.levels.back().texels[0].r * 255.0f));
+  const Frame definition = render(scene, production_stages());
+  EXPECT_EQ(definition.color_rgba8(4, 1).r, last);
+  EXPECT_EQ(definition.color_rgba8(0, 1).r, definition.color_rgba8(0, 2).r);
+  for (const auto& [name, painter] : painters()) EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name;
+}
+
 // The same surface twice: of two fragments as near as each other the first stays, whichever way tiles are painted.
 TEST(Painter, KeepsTheFirstOfEquallyNearFragments) {
   const Stages stages = production_stages();
