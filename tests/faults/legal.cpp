@@ -227,7 +227,7 @@ pipeline::PixelBounds larger_box(const Triangle& t) {
 float depth_of_three_weights(const Setup& s, const Pixels<float>& p) {
   const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
   const pipeline::DepthSetup& d = s.depth;
-  return stored_depth(d, b.l0 * d.z0 + b.l1 * (d.z0 + d.dz1) + b.l2 * (d.z0 + d.dz2));
+  return stored_depth(d, b.l0 * d.z0 + b.l1 * (d.z0 + d.dz1) + b.l2 * (d.z0 + d.dz2) + z_of_sample(s));
 }
 
 Color<float> attributes_in_double(const Setup& s, const pipeline::AttributeSetup& of, const Pixels<float>& p) {

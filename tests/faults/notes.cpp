@@ -160,7 +160,7 @@ float depth_of_linear_z(const Setup& setup, const Pixels<float>& p) {
   const double b0 = b.l0 / pipeline::to_wide(inv_w[0]), b1 = b.l1 / pipeline::to_wide(inv_w[1]),
                b2 = b.l2 / pipeline::to_wide(inv_w[2]);
   const double z = b0 * s.z0 + b1 * (s.z0 + s.dz1) + b2 * (s.z0 + s.dz2), w = b0 + b1 + b2;
-  return stored_depth(s, z / w);
+  return stored_depth(s, z / w + z_of_sample(setup));
 }
 
 float eight_bit_depth(const Setup& setup, const Pixels<float>& p) {

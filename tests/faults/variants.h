@@ -47,9 +47,14 @@ inline Color<float> affine_attributes(const Setup& s, const pipeline::AttributeS
   return pipeline::mean<float>(of, {pipeline::to_float(b.l1), pipeline::to_float(b.l2)});
 }
 
+/// How much farther the plane of depth is at a pass' sample than where its colours are taken.
+inline double z_of_sample(const Setup& s) {
+  const double there = pipeline::depth_plane(s.depth, s.planes).code.at_0;
+  return (s.depth_plane.code.at_0 - there) / (s.depth.scale == 0 ? 1 : s.depth.scale);
+}
 inline double window_z(const Setup& s, const Pixels<float>& p) {
   const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
-  return pipeline::clamp01(s.depth.z0 + b.l1 * s.depth.dz1 + b.l2 * s.depth.dz2);
+  return pipeline::clamp01(s.depth.z0 + b.l1 * s.depth.dz1 + b.l2 * s.depth.dz2 + z_of_sample(s));
 }
 /// Window z in the triangle's depth format.
 inline float stored_depth(const pipeline::DepthSetup& s, double z) {
