@@ -13,7 +13,7 @@ using Color = glm::dvec4;
 // Of codes, code by code: where a frame has codes their sums, weighted by integers, are exact, and so is which of two
 // codes is nearer.
 Color mean_codes(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples,
-                 const std::vector<PixelSample>& of_pixel, int x, int y) {
+                 const PixelSamples& of_pixel, int x, int y) {
   const double scale = color_scale(frame.color);
   Color sum(0);
   double weights = 0;
@@ -28,7 +28,7 @@ Color mean_codes(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& 
 
 template <class Finish>
 Plane<glm::vec4> each_pixel(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples, Finish finish) {
-  const std::vector<PixelSample> of_pixel = samples_of(frame.antialias);
+  const PixelSamples of_pixel = samples_of(frame.antialias);
   Plane<glm::vec4> out(frame.width, frame.height);
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) out(x, y) = glm::vec4(finish(mean_codes(frame, samples, of_pixel, x, y)));

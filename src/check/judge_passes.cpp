@@ -32,7 +32,7 @@ class SamplesAt {
 
  private:
   int factor_;
-  std::vector<PixelSample> samples_;
+  PixelSamples samples_;
 };
 
 int severity(Outcome outcome) {

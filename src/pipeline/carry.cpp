@@ -27,25 +27,4 @@ void carry(const Scene& scene, const Draw& draw, Varying varying, std::span<cons
   for (std::size_t i = 0; i < vertices.size(); ++i) out.push_back(of_vertex(varying, mesh, vertices[i], i));
 }
 
-std::vector<Vec4<float>> colors_of(std::span<const ClipVertex<float>> vertices) {
-  std::vector<Vec4<float>> out;
-  out.reserve(vertices.size());
-  for (const ClipVertex<float>& v : vertices) out.push_back(v.color);
-  return out;
-}
-
-std::vector<std::array<Vec4<float>, 3>> colors_of(std::span<const WindowTriangle<float>> triangles) {
-  std::vector<std::array<Vec4<float>, 3>> out;
-  out.reserve(triangles.size());
-  for (const WindowTriangle<float>& t : triangles) out.push_back({t.v[0].color, t.v[1].color, t.v[2].color});
-  return out;
-}
-
-std::vector<Lit<float>> as_lit(std::span<const Vec4<float>> column) {
-  std::vector<Lit<float>> out;
-  out.reserve(column.size());
-  for (const Vec4<float>& four : column) out.push_back({four});
-  return out;
-}
-
 }  // namespace plumbline::pipeline

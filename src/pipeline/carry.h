@@ -16,9 +16,4 @@ void carry(const Scene& scene, const Draw& draw, Varying varying, std::span<cons
 /// The shading that a varying is assembled under: lit ones as the draw's colours, others never flat.
 inline Shading shading_of(const Draw& draw, Varying v) { return is_lit(v) ? draw.shading : Shading::gouraud; }
 
-/// The colours of records as a column, and a column as the colours of records.
-std::vector<Vec4<float>> colors_of(std::span<const ClipVertex<float>> vertices);
-std::vector<std::array<Vec4<float>, 3>> colors_of(std::span<const WindowTriangle<float>> triangles);
-std::vector<Lit<float>> as_lit(std::span<const Vec4<float>> column);
-
 }  // namespace plumbline::pipeline

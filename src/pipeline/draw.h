@@ -29,21 +29,26 @@ GeometryStages geometry_stages();
 /// carries: they treat them alike, so that what holds of a colour holds of it.
 class GeometryRun {
  public:
-  GeometryRun(const Scene& scene, const GeometryStages& stages);
+  /// Of the scene from here on, in memory that is kept from one to the next.
+  void begin(const Scene& scene, const GeometryStages& stages);
 
   /// Appends the draw's records of the stage to `out`, from those of the stage before in `in`; both may be one.
-  void run(std::size_t draw, Stage stage, const Records<float>& in, Records<float>& out) const;
-  std::size_t draws() const { return scene_.draws.size(); }
+  void run(std::size_t draw, Stage stage, const Records<float>& in, Records<float>& out);
+  std::size_t draws() const { return scene_->draws.size(); }
 
  private:
   void light(std::size_t draw, const Records<float>& in, Records<float>& out) const;
-  void clip(std::size_t draw, const Records<float>& in, Records<float>& out) const;
-  void window(std::size_t draw, const Records<float>& in, Records<float>& out) const;
+  void clip(std::size_t draw, const Records<float>& in, Records<float>& out);
+  void window(std::size_t draw, const Records<float>& in, Records<float>& out);
 
-  const Scene& scene_;
-  const GeometryStages& stages_;
+  const Scene* scene_ = nullptr;
+  GeometryStages stages_{};
   std::vector<DrawRange> ranges_;
   std::vector<Varying> carried_;
+  // One varying's, in the place of the colour.
+  std::vector<Lit<float>> as_lit_;
+  ClipPolygons<float> polygons_;
+  std::vector<WindowTriangle<float>> triangles_;
 };
 
 /// What stages 0 to 4 hand on for a scene (records.covered and after stay empty).
@@ -53,6 +58,8 @@ struct Geometry {
 };
 
 Geometry run_geometry(const Scene& scene, const GeometryStages& stages);
+/// Its records, into those of a scene before, whose memory is kept like that of the run.
+void run_geometry(const Scene& scene, const GeometryStages& stages, GeometryRun& run, Records<float>& out);
 
 /// The draws' shares of `triangles`, which are in draw order.
 std::vector<std::uint32_t> triangles_of_draws(const Scene& scene, std::span<const WindowTriangle<float>> triangles);

@@ -4,22 +4,9 @@
 
 namespace plumbline::pipeline {
 
-void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
-           std::vector<Lit<float>>& out) {
-  if (!is_lit_per_vertex(draw)) {
-    const Mesh& mesh = scene.meshes[draw.mesh];
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      out.push_back({glm::clamp(mesh.colors.empty() ? draw.material.diffuse : mesh.colors[i], 0.0f, 1.0f)});
-    }
-    return;
-  }
-  std::vector<Vec4<float>> colors;
-  light_part(scene, draw, {}, vertices, colors);
-  for (const Vec4<float>& color : colors) out.push_back({color});
-}
+namespace {
 
-void light_part(const Scene& scene, const Draw& draw, LitPart part, std::span<const Vertex<float>> vertices,
-                std::vector<Vec4<float>>& out) {
+void each_lit(const Scene& scene, const Draw& draw, LitPart part, std::span<const Vertex<float>> vertices, auto add) {
   const std::vector<glm::vec4>& colors = scene.meshes[draw.mesh].colors;
   const bool by_color = draw.color_material != ColorMaterial::none && !colors.empty();
   const Illumination lights = illumination(scene);
@@ -32,8 +19,27 @@ void light_part(const Scene& scene, const Draw& draw, LitPart part, std::span<co
     }
     const Vector<float> p = spread<float>(vertices[i].p_eye), n = spread<float>(vertices[i].n_eye);
     const Color<float> color = lit(lights, of_vertex, p, part.back ? -n : n);
-    out.push_back({color.r, color.g, color.b, part.secondary ? 0 : color.a});
+    add({color.r, color.g, color.b, part.secondary ? 0 : color.a});
   }
+}
+
+}  // namespace
+
+void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
+           std::vector<Lit<float>>& out) {
+  if (!is_lit_per_vertex(draw)) {
+    const Mesh& mesh = scene.meshes[draw.mesh];
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      out.push_back({glm::clamp(mesh.colors.empty() ? draw.material.diffuse : mesh.colors[i], 0.0f, 1.0f)});
+    }
+    return;
+  }
+  each_lit(scene, draw, {}, vertices, [&](const Vec4<float>& color) { out.push_back({color}); });
+}
+
+void light_part(const Scene& scene, const Draw& draw, LitPart part, std::span<const Vertex<float>> vertices,
+                std::vector<Vec4<float>>& out) {
+  each_lit(scene, draw, part, vertices, [&](const Vec4<float>& color) { out.push_back(color); });
 }
 
 }  // namespace plumbline::pipeline

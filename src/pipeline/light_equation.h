@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "pipeline/attributes.h"
-#include "pipeline/few.h"
 #include "pipeline/math.h"
 #include "pipeline/vector.h"
+#include "scene/few.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 

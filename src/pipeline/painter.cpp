@@ -11,9 +11,9 @@
 #include <tbb/task_arena.h>
 
 #include "pipeline/assemble.h"
-#include "pipeline/draw.h"
 #include "pipeline/fragment_light.h"
 #include "pipeline/matrices.h"
+#include "pipeline/other_geometry.h"
 #include "pipeline/resolve.h"
 #include "pipeline/surface.h"
 #include "pipeline/vertex.h"
@@ -103,7 +103,7 @@ struct Painter::Memory {
   std::vector<Share> shares;
   std::vector<AssemblyWork> assembly;
   std::vector<OtherTriangles> others;
-  Geometry other_geometry;
+  OtherGeometry other_geometry;
   std::vector<Chunk> chunks;
   Scratch<WindowVertex<float>> vertices;
   Scratch<std::uint8_t> outside;
@@ -112,6 +112,9 @@ struct Painter::Memory {
 
   std::optional<FrameFormat> format;
   std::unique_ptr<Frame> frame;
+  Scene pass;
+  FrameFormat pass_format;
+  std::vector<Frame> passes;
 };
 
 void Painter::Memory::prepare(const Scene& scene) {
@@ -192,61 +195,14 @@ void Painter::Memory::run_vertices(const Scene& scene) {
        [&](std::size_t i) { target.vertices(vertex_work[shares[i].draw], shares[i].from, shares[i].to); });
 }
 
-// What does not go in lanes, as a scene of its own through the definition's stages 0 to 4.
+// What goes by the definition, beside what goes in lanes.
 void Painter::Memory::run_others(const Scene& scene) {
-  Scene rest;
-  std::vector<std::uint32_t> primitives;  // of the rest, in the scene
-  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
-    const AssemblyWork& work = assembly[d];
-    if (work.outside != nullptr) {
-      const std::span<const std::uint8_t> of_vertices(work.outside, work.range.vertex_count);
-      const auto violates = [&](std::uint8_t bits) { return (bits & work.planes) != 0; };
-      if (std::none_of(of_vertices.begin(), of_vertices.end(), violates)) continue;
-    }
-    std::vector<std::uint32_t> of_draw;
-    for (std::uint32_t i = 0; i < work.range.primitive_count; ++i) {
-      const glm::uvec3& c = work.mesh->triangles[i];
-      const auto clipped = [&] {
-        const std::uint8_t a = work.outside[c[0]], b = work.outside[c[1]], e = work.outside[c[2]];
-        return ((a | b | e) & work.planes) != 0 && (a & b & e & work.planes) == 0 && ((a | b | e) & kNotFinite) == 0;
-      };
-      if (work.outside == nullptr || clipped()) of_draw.push_back(i);
-    }
-    if (of_draw.empty()) continue;
-    Mesh mesh;
-    mesh.topology = work.mesh->topology;
-    for (const std::uint32_t i : of_draw) {
-      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-      const std::uint32_t corners = corner_count(mesh.topology);
-      for (std::uint32_t k = 0; k < corners; ++k) {
-        const std::uint32_t v = work.mesh->triangles[i][static_cast<int>(k)];
-        mesh.positions.push_back(work.mesh->positions[v]);
-        mesh.normals.push_back(work.mesh->normals[v]);
-        if (!work.mesh->colors.empty()) mesh.colors.push_back(work.mesh->colors[v]);
-        if (!work.mesh->texcoords.empty()) mesh.texcoords.push_back(work.mesh->texcoords[v]);
-      }
-      mesh.triangles.push_back({first, first + std::min(1u, corners - 1), first + corners - 1});
-      primitives.push_back(work.range.first_primitive + i);
-    }
-    rest.draws.push_back(*work.draw);
-    rest.draws.back().mesh = static_cast<std::uint32_t>(rest.meshes.size());
-    rest.meshes.push_back(std::move(mesh));
-  }
   others.assign(scene.draws.size(), {});
-  if (primitives.empty()) return;
-  rest.dialect = scene.dialect;
-  rest.frame = scene.frame;
-  rest.camera = scene.camera;
-  rest.projection = scene.projection;
-  rest.depth_clamp = scene.depth_clamp;
-  rest.light_model = scene.light_model;
-  rest.lights = scene.lights;
-  other_geometry = run_geometry(rest, geometry_stages());
-  Records<float>& records = other_geometry.records;
+  const Records<float>& records = other_geometry.run(scene, assembly);
+  if (records.triangles.empty()) return;
   const std::size_t corners = 3 * records.triangles.size();
   WindowVertex<float>* to = vertices.of(vertex_count + corners, vertex_count);
   for (std::size_t i = 0; i < records.triangles.size(); ++i) {
-    records.triangles[i].primitive = primitives[records.triangles[i].primitive];
     std::copy(records.triangles[i].v.begin(), records.triangles[i].v.end(), to + vertex_count + 3 * i);
   }
   for (const Varying v : kAllVaryings) {
@@ -320,10 +276,13 @@ std::size_t Painter::bytes() const {
     sum += chunk.triangles.bytes() + chunk.boxes.bytes() + chunk.numbers.bytes() + 4 * chunk.first.capacity();
   }
   const auto of = [](const auto& plane) { return plane.size() * sizeof(plane.values()[0]); };
-  if (!m.frame) return sum;
-  const Frame& f = *m.frame;
-  return sum + of(f.color_rgba8) + of(f.color_rgba12) + of(f.color_rgba16) + of(f.color_rgba32f) + of(f.depth_code) +
-         of(f.depth_z32f) + of(f.stencil);
+  const auto add = [&](const Frame& f) {
+    sum += of(f.color_rgba8) + of(f.color_rgba12) + of(f.color_rgba16) + of(f.color_rgba32f) + of(f.depth_code) +
+           of(f.depth_z32f) + of(f.stencil);
+  };
+  if (m.frame) add(*m.frame);
+  std::ranges::for_each(m.passes, add);
+  return sum + m.other_geometry.bytes();
 }
 
 Frame& Painter::draw(const Scene& scene) {
@@ -335,12 +294,18 @@ Frame& Painter::draw(const Scene& scene) {
     memory_->draw_pass(scene, *memory_->frame);
     return *memory_->frame;
   }
-  std::vector<Frame> passes;
-  for (const Scene& pass : passes_of(scene)) {
-    Frame& frame = passes.emplace_back(pass.frame);
-    memory_->draw_pass(pass, frame);
+  const std::size_t count = pass_count(scene.frame.antialias);
+  std::vector<Frame>& passes = memory_->passes;
+  for (std::size_t i = 0; i < count; ++i) {
+    pass_of(scene, i, memory_->pass);
+    const FrameFormat& format = memory_->pass.frame;
+    if (i == 0 && !(passes.size() == count && same_planes(memory_->pass_format, format))) {
+      passes.assign(count, Frame(format));
+      memory_->pass_format = format;
+    }
+    memory_->draw_pass(memory_->pass, passes[i]);
   }
-  *memory_->frame = resolve({}, scene.frame, passes);
+  resolve({}, scene.frame, passes, *memory_->frame);
   return *memory_->frame;
 }
 

@@ -147,7 +147,8 @@ class PipelineRenderer : public Renderer {
 
   void run_geometry_stage(const Scene& scene, Stage stage, const Records<float>& in, Capture& out) {
     Records<float> made;
-    const GeometryRun run(scene, stages_.geometry);
+    GeometryRun run;
+    run.begin(scene, stages_.geometry);
     for (std::size_t d = 0; d < run.draws(); ++d) run.run(d, stage, in, made);
     widen_geometry(made, {StageSet{stage}, false, {}, {}}, out.records);
   }

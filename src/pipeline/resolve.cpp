@@ -1,8 +1,9 @@
 #include "pipeline/resolve.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace plumbline::pipeline {
 
@@ -13,9 +14,11 @@ template <class T>
 void resolve_colors(Resolve channel, const FrameFormat& format, std::span<const Frame> passes, Plane<T> Frame::*plane,
                     Frame& frame) {
   Plane<T>& to = frame.*plane;
-  const std::vector<PixelSample> samples = samples_of(format.antialias);
+  if (to.empty()) return;
+  const PixelSamples samples = samples_of(format.antialias);
   const auto scale = static_cast<float>(color_scale(format.color));
-  std::vector<float> values(samples.size());
+  std::array<float, PixelSamples::kMost> room;
+  const std::span<float> values = std::span(room).first(samples.size());
   for (int y = 0; y < to.height(); ++y) {
     for (int x = 0; x < to.width(); ++x) {
       for (int c = 0; c < 4; ++c) {
@@ -59,6 +62,11 @@ float weighted_mean(std::span<const float> values, std::span<const PixelSample> 
 
 Frame resolve(const ResolveStage& stage, const FrameFormat& format, std::span<const Frame> passes) {
   Frame frame(format);
+  resolve(stage, format, passes, frame);
+  return frame;
+}
+
+void resolve(const ResolveStage& stage, const FrameFormat& format, std::span<const Frame> passes, Frame& frame) {
   const Resolve channel = format.antialias.kind == Antialias::Kind::multisample ? stage.multisample : stage.weighted;
   resolve_colors(channel, format, passes, &Frame::color_rgba8, frame);
   resolve_colors(channel, format, passes, &Frame::color_rgba12, frame);
@@ -66,7 +74,7 @@ Frame resolve(const ResolveStage& stage, const FrameFormat& format, std::span<co
   resolve_colors(channel, format, passes, &Frame::color_rgba32f, frame);
   take_first_depths(format.antialias.factor, passes[0], &Frame::depth_code, frame);
   take_first_depths(format.antialias.factor, passes[0], &Frame::depth_z32f, frame);
-  return frame;
+  std::ranges::fill(frame.stencil.values(), std::uint8_t{0});
 }
 
 }  // namespace plumbline::pipeline

@@ -27,7 +27,9 @@ struct ResolveStage {
   bool operator==(const ResolveStage&) const = default;
 };
 
-/// `passes`: the frames of passes_of(scene), in their order. The depth is that of a pixel's first sample.
+/// `passes`: the frames of passes_of(scene), in their order. The depth is that of a pixel's first sample, stencil
+/// values are 0.
+void resolve(const ResolveStage& stage, const FrameFormat& format, std::span<const Frame> passes, Frame& to);
 Frame resolve(const ResolveStage& stage, const FrameFormat& format, std::span<const Frame> passes);
 
 }  // namespace plumbline::pipeline

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "pipeline/attributes.h"
-#include "pipeline/few.h"
 #include "pipeline/fragment_light.h"
 #include "pipeline/texture.h"
+#include "scene/few.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 

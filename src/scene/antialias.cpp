@@ -2,19 +2,24 @@
 
 namespace plumbline {
 
-std::vector<Scene> passes_of(const Scene& scene) {
+std::size_t pass_count(const Antialias& antialias) {
+  switch (antialias.kind) {
+    case Antialias::Kind::none: return 1;
+    case Antialias::Kind::multisample: return kSamples.size();
+    case Antialias::Kind::supersample: return 1;
+    case Antialias::Kind::taps: return kTaps.size();
+  }
+  return 1;
+}
+
+void pass_of(const Scene& scene, std::size_t i, Scene& pass) {
   const Antialias antialias = scene.frame.antialias;
-  Scene pass = scene;
+  pass = scene;
   pass.frame.antialias = {};
   if (antialias.kind != Antialias::Kind::none) pass.path.clear();
   switch (antialias.kind) {
-    case Antialias::Kind::none: return {pass};
-    case Antialias::Kind::multisample: {
-      std::vector<Scene> passes(kSamples.size(), pass);
-      for (int i = 0; i < static_cast<int>(passes.size()); ++i)
-        passes[static_cast<std::size_t>(i)].frame.pass.sample = i;
-      return passes;
-    }
+    case Antialias::Kind::none: return;
+    case Antialias::Kind::multisample: pass.frame.pass.sample = static_cast<int>(i); return;
     case Antialias::Kind::supersample: {
       const int n = antialias.factor;
       pass.frame.width *= n;
@@ -25,21 +30,22 @@ std::vector<Scene> passes_of(const Scene& scene) {
           draw.scissor = {s.x * n, s.y * n, s.width * n, s.height * n};
         }
       }
-      return {pass};
+      return;
     }
-    case Antialias::Kind::taps: {
-      std::vector<Scene> passes(kTaps.size(), pass);
-      for (std::size_t i = 0; i < passes.size(); ++i) passes[i].frame.pass.shift = {-kTaps[i].dx, -kTaps[i].dy};
-      return passes;
-    }
+    case Antialias::Kind::taps: pass.frame.pass.shift = {-kTaps[i].dx, -kTaps[i].dy}; return;
   }
-  return {pass};
 }
 
-std::vector<PixelSample> samples_of(const Antialias& antialias) {
-  std::vector<PixelSample> samples;
+std::vector<Scene> passes_of(const Scene& scene) {
+  std::vector<Scene> passes(pass_count(scene.frame.antialias));
+  for (std::size_t i = 0; i < passes.size(); ++i) pass_of(scene, i, passes[i]);
+  return passes;
+}
+
+PixelSamples samples_of(const Antialias& antialias) {
+  PixelSamples samples;
   switch (antialias.kind) {
-    case Antialias::Kind::none: return {{0, {0, 0}, 1}};
+    case Antialias::Kind::none: samples.push_back({0, {0, 0}, 1}); break;
     case Antialias::Kind::multisample:
       for (std::size_t i = 0; i < kSamples.size(); ++i) samples.push_back({i, {0, 0}, 1});
       break;

@@ -12,6 +12,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/few.h"
 #include "scene/scene.h"
 
 namespace plumbline {
@@ -32,6 +33,9 @@ inline constexpr std::array<Tap, 6> kTaps = {
 /// The scenes that are drawn for one, in order; where it is not antialiased, itself. Each has its frame's antialias
 /// `none`, and no path: it stands in no file. Supersampled scissor boxes grow with the frame.
 std::vector<Scene> passes_of(const Scene& scene);
+std::size_t pass_count(const Antialias& antialias);
+/// The i-th of them, into a scene whose memory is kept.
+void pass_of(const Scene& scene, std::size_t i, Scene& pass);
 
 /// One of the samples that a pixel (x, y) of a frame is made of: pixel (x, y) * factor + offset of a pass.
 struct PixelSample {
@@ -39,9 +43,10 @@ struct PixelSample {
   glm::ivec2 offset;
   int weight;
 };
+using PixelSamples = Few<PixelSample, 64>;
 /// All of them, by pass, then row. The frame's depth is that of the first: depths are not averaged, and Mesa's
 /// glBlitFramebuffer too takes sample 0's.
-std::vector<PixelSample> samples_of(const Antialias& antialias);
+PixelSamples samples_of(const Antialias& antialias);
 
 /// From the pixel's centre to where coverage and depth are taken, in 1/256 pixel.
 inline glm::ivec2 sample_place(const FrameFormat& frame) {

@@ -22,10 +22,15 @@ bool carries(const Scene& scene, const Draw& draw, Varying v) {
 
 std::vector<Varying> carried(const Scene& scene) {
   std::vector<Varying> out;
+  carried(scene, out);
+  return out;
+}
+
+void carried(const Scene& scene, std::vector<Varying>& out) {
+  out.clear();
   std::copy_if(kAllVaryings.begin(), kAllVaryings.end(), std::back_inserter(out), [&](Varying v) {
     return std::any_of(scene.draws.begin(), scene.draws.end(), [&](const Draw& d) { return carries(scene, d, v); });
   });
-  return out;
 }
 
 bool is_plain(const Scene& scene, const Draw& draw) {

@@ -43,6 +43,8 @@ constexpr bool is_secondary(Varying v) { return v == Varying::secondary || v == 
 bool carries(const Scene& scene, const Draw& draw, Varying v);
 /// Those that any draw carries, in their order.
 std::vector<Varying> carried(const Scene& scene);
+/// The same, into memory that is kept.
+void carried(const Scene& scene, std::vector<Varying>& out);
 /// Whether a fragment's colour is the interpolated one as it is.
 bool is_plain(const Scene& scene, const Draw& draw);
 /// Whether all draws' are.

@@ -218,7 +218,22 @@ TEST(Painter, TellsOneStepOfDepth) {
   EXPECT_FALSE(same_bits(render(scene), other));
 }
 
-// But for what is clipped, and flat lines.
+// Antialiased, clipped, lit from two sides, textured: all.
+TEST(Painter, AsksForNoMemoryAfterAnyScenesFirstFrame) {
+  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
+  const std::vector<std::filesystem::path> files = find_scenes(folder);
+  for (const int threads : {1, 2}) {
+    Painter painter(threads);
+    for (std::size_t i = static_cast<std::size_t>(threads); i < files.size(); i += one_of(6)) {
+      const Scene scene = load_scene(files[i], {});
+      painter.draw(scene);
+      const std::size_t before = asked_for_memory;
+      painter.draw(scene);
+      EXPECT_EQ(asked_for_memory - before, 0u) << files[i] << ", " << threads << " threads";
+    }
+  }
+}
+
 TEST(Painter, AsksForNoMemoryAfterTheFirstFrame) {
   for (const int threads : {1, 2}) {
     for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {

@@ -126,7 +126,7 @@ TEST(Antialias, DepthIsTheSamplesAndColourTheCentres) {
 }
 
 TEST(Resolve, OfFourRoundsTheMeanOfFloats) {
-  const std::vector<PixelSample> samples = samples_of({Kind::multisample, 1});
+  const PixelSamples samples = samples_of({Kind::multisample, 1});
   const auto mean = [&](std::vector<float> codes) { return mean_of_four(codes, samples, 255); };
   EXPECT_EQ(mean({0, 0, 0, 0}), 0);
   EXPECT_EQ(mean({255, 255, 255, 255}), 255);
@@ -141,7 +141,7 @@ TEST(Resolve, OfFourRoundsTheMeanOfFloats) {
 }
 
 TEST(Resolve, OfWeightsIsExactButForOneRounding) {
-  const std::vector<PixelSample> taps = samples_of({Kind::taps, 1}), four = samples_of({Kind::supersample, 2});
+  const PixelSamples taps = samples_of({Kind::taps, 1}), four = samples_of({Kind::supersample, 2});
   EXPECT_EQ(weighted_mean(std::vector<float>{1, 0, 0, 1}, four, 255), 1) << "halves up";
   EXPECT_EQ(weighted_mean(std::vector<float>{1, 0, 0, 0}, four, 255), 0);
   EXPECT_EQ(weighted_mean(std::vector<float>{7, 7, 7, 7, 7, 7}, taps, 4095), 7);

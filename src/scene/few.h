@@ -5,17 +5,20 @@
 #include <cstddef>
 #include <stdexcept>
 
-namespace plumbline::pipeline {
+namespace plumbline {
 
 template <class T, std::size_t N>
 class Few {
  public:
+  static constexpr std::size_t kMost = N;
   void push_back(const T& value) {
     if (size_ == N) throw std::length_error("more of a kind than there is room for");
     values_[size_++] = value;
   }
+  void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t i) const { return values_[i]; }
+  const T& back() const { return values_[size_ - 1]; }
   const T* begin() const { return values_.data(); }
   const T* end() const { return values_.data() + size_; }
 
@@ -24,4 +27,4 @@ class Few {
   std::size_t size_ = 0;
 };
 
-}  // namespace plumbline::pipeline
+}  // namespace plumbline

@@ -1,0 +1,83 @@
+#include "pipeline/other_geometry.h"
+
+#include <algorithm>
+
+namespace plumbline::pipeline {
+
+namespace {
+
+// The primitives of `from`, with vertices of their own.
+void copy_primitives(const Mesh& from, std::span<const std::uint32_t> primitives, Mesh& to) {
+  to.topology = from.topology;
+  to.positions.clear(), to.normals.clear(), to.colors.clear(), to.texcoords.clear();
+  to.triangles.clear();
+  const std::uint32_t corners = corner_count(from.topology);
+  for (const std::uint32_t i : primitives) {
+    const auto first = static_cast<std::uint32_t>(to.positions.size());
+    for (std::uint32_t k = 0; k < corners; ++k) {
+      const std::uint32_t v = from.triangles[i][static_cast<int>(k)];
+      to.positions.push_back(from.positions[v]);
+      to.normals.push_back(from.normals[v]);
+      if (!from.colors.empty()) to.colors.push_back(from.colors[v]);
+      if (!from.texcoords.empty()) to.texcoords.push_back(from.texcoords[v]);
+    }
+    to.triangles.push_back({first, first + std::min(1u, corners - 1), first + corners - 1});
+  }
+}
+
+}  // namespace
+
+// All, or what is clipped.
+void OtherGeometry::find(const AssemblyWork& draw) {
+  of_draw_.clear();
+  const auto violates = [&](unsigned bits) { return (bits & draw.planes) != 0; };
+  if (draw.outside != nullptr && std::none_of(draw.outside, draw.outside + draw.range.vertex_count, violates)) return;
+  for (std::uint32_t i = 0; i < draw.range.primitive_count; ++i) {
+    const glm::uvec3& c = draw.mesh->triangles[i];
+    const auto clipped = [&] {
+      const unsigned a = draw.outside[c[0]], b = draw.outside[c[1]], e = draw.outside[c[2]];
+      return violates(a | b | e) && !violates(a & b & e) && ((a | b | e) & kNotFinite) == 0;
+    };
+    if (draw.outside == nullptr || clipped()) of_draw_.push_back(i);
+  }
+}
+
+const Records<float>& OtherGeometry::run(const Scene& scene, std::span<const AssemblyWork> draws) {
+  primitives_.clear();
+  rest_.meshes.resize(draws.size());
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    find(draws[d]);
+    copy_primitives(*draws[d].mesh, of_draw_, rest_.meshes[d]);
+    for (const std::uint32_t i : of_draw_) primitives_.push_back(draws[d].range.first_primitive + i);
+  }
+  records_.triangles.clear();
+  if (primitives_.empty()) return records_;
+  rest_.draws = scene.draws;
+  for (std::size_t d = 0; d < draws.size(); ++d) rest_.draws[d].mesh = static_cast<std::uint32_t>(d);
+  rest_.dialect = scene.dialect;
+  rest_.frame = scene.frame;
+  rest_.camera = scene.camera;
+  rest_.projection = scene.projection;
+  rest_.depth_clamp = scene.depth_clamp;
+  rest_.light_model = scene.light_model;
+  rest_.lights = scene.lights;
+  run_geometry(rest_, geometry_stages(), run_, records_);
+  for (WindowTriangle<float>& t : records_.triangles) t.primitive = primitives_[t.primitive];
+  return records_;
+}
+
+std::size_t OtherGeometry::bytes() const {
+  const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  std::size_t sum = of(records_.vertices) + of(records_.lit) + of(records_.polygons.vertices) +
+                    of(records_.polygons.polygons) + of(records_.triangles);
+  for (const Varying v : kAllVaryings) {
+    const VaryingColumns<float>& columns = records_.varyings[v];
+    sum += of(columns.vertices) + of(columns.clipped) + of(columns.triangles);
+  }
+  for (const Mesh& mesh : rest_.meshes) {
+    sum += of(mesh.positions) + of(mesh.normals) + of(mesh.colors) + of(mesh.texcoords) + of(mesh.triangles);
+  }
+  return sum + of(primitives_) + of(of_draw_);
+}
+
+}  // namespace plumbline::pipeline
