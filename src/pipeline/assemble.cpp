@@ -11,8 +11,6 @@ namespace {
 class Assembler {
  public:
   Assembler(Chunk& chunk, const Painting& painting) : chunk_(chunk), painting_(painting), vertices_(painting.vertices) {
-    const auto tiles = static_cast<std::size_t>(painting.columns * painting.rows);
-    chunk.first.assign(tiles + 1, 0);
     chunk.draws.clear();
     chunk.count = 0;
     chunk.any_far = false;
@@ -50,6 +48,19 @@ class Assembler {
     }
   }
 
+  CullWork cull_work(const AssemblyWork& of) const {
+    return {vertices_ + of.first_vertex, of.draw->cull, least_, most_, painting_.format.width, painting_.format.height};
+  }
+  void add_kept(const AssemblyWork& of, const glm::uvec3& v, const KeptTriangle& kept) {
+    const std::uint32_t first = of.first_vertex;
+    if (kept.kept == Kept::far)
+      return add_primitive(*of.draw, Topology::triangles, {first + v[0], first + v[1], first + v[2]});
+    triangles_[chunk_.count] = {{first + v[1], first + v[2], first + v[0]}, kept.kept == Kept::front, 3, 1};
+    boxes_[chunk_.count] = kept.box;
+    chunk_.count += kept.kept != Kept::none;  // without a branch
+  }
+  void note_far(bool any_far) { chunk_.any_far |= any_far; }
+
   void add_other(const WindowTriangle<float>& t, std::uint32_t first_corner) {
     add({{first_corner, first_corner + 1, first_corner + 2},
          t.front,
@@ -66,15 +77,18 @@ class Assembler {
   // A counting sort: numbers ascend within each tile.
   void fill_bins() {
     std::vector<std::uint32_t>& first = chunk_.first;
+    first.assign(static_cast<std::size_t>(painting_.columns * painting_.rows) + 1, 0);
+    const auto each_tile = [&](TileBox box, auto visit) {
+      for (int y = box.y0; y <= box.y1; ++y) {
+        for (int x = box.x0; x <= box.x1; ++x) visit(first[static_cast<std::size_t>(y * painting_.columns + x)]);
+      }
+    };
+    for (std::uint32_t n = 0; n < chunk_.count; ++n) each_tile(boxes_[n], [](std::uint32_t& count) { ++count; });
     std::uint32_t sum = 0;
     for (std::uint32_t& f : first) sum += std::exchange(f, sum);
     std::uint32_t* numbers = chunk_.numbers.of(sum);
     for (std::uint32_t n = 0; n < chunk_.count; ++n) {
-      const TileBox box = boxes_[n];
-      for (int y = box.y0; y <= box.y1; ++y) {
-        for (int x = box.x0; x <= box.x1; ++x)
-          numbers[first[static_cast<std::size_t>(y * painting_.columns + x)]++] = n;
-      }
+      each_tile(boxes_[n], [&](std::uint32_t& next) { numbers[next++] = n; });
     }
     // Each tile's first number has moved to the next tile's.
     for (std::size_t t = first.size() - 1; t > 0; --t) first[t] = first[t - 1];
@@ -106,9 +120,6 @@ class Assembler {
                       static_cast<std::uint8_t>(x1 / kTile), static_cast<std::uint8_t>(y1 / kTile)};
     triangles_[chunk_.count] = triangle;
     boxes_[chunk_.count++] = box;
-    for (int y = box.y0; y <= box.y1; ++y) {
-      for (int x = box.x0; x <= box.x1; ++x) ++chunk_.first[static_cast<std::size_t>(y * painting_.columns + x)];
-    }
   }
 
   Chunk& chunk_;
@@ -122,7 +133,7 @@ class Assembler {
 }  // namespace
 
 void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const OtherTriangles> others,
-              const Painting& painting) {
+              const Painting& painting, CullTriangles cull) {
   Assembler to(chunk, painting);
   for (std::size_t d = 0; d < draws.size(); ++d) {
     const AssemblyWork& work = draws[d];
@@ -143,17 +154,40 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const
         to.add_other(*other, others[d].first_vertex + 3 * number);
       }
     };
-    for (std::uint32_t primitive = begin; work.outside != nullptr && primitive < end; ++primitive) {
-      const glm::uvec3& corner = work.mesh->triangles[primitive - work.range.first_primitive];
-      const std::uint8_t a = work.outside[corner[0]], b = work.outside[corner[1]], c = work.outside[corner[2]];
-      const unsigned any = a | b | c;
-      if ((any & kNotFinite) != 0 || (a & b & c & work.planes) != 0) continue;
-      if ((any & work.planes) != 0) {
-        add_others(primitive);
-      } else if ((any & kNotDrawable) == 0) {
-        const std::uint32_t first = work.first_vertex;
-        to.add_primitive(*work.draw, work.mesh->topology, {first + corner[0], first + corner[1], first + corner[2]});
+    const std::span<const glm::uvec3> corners =
+        std::span(work.mesh->triangles).subspan(begin - work.range.first_primitive, end - begin);
+    // add(i), of those that are wholly in the view volume.
+    const auto each_inside = [&](std::size_t from, std::size_t to_end, auto add) {
+      if (work.all_inside()) {
+        for (std::size_t i = from; i < to_end; ++i) add(i);
+        return;
       }
+      for (std::size_t i = from; i < to_end; ++i) {
+        const glm::uvec3& corner = corners[i];
+        const unsigned a = work.outside[corner[0]], b = work.outside[corner[1]], c = work.outside[corner[2]];
+        const unsigned any = a | b | c;
+        if ((any & kNotFinite) != 0 || (a & b & c & work.planes) != 0) continue;
+        if ((any & work.planes) != 0) {
+          add_others(begin + static_cast<std::uint32_t>(i));
+        } else if ((any & kNotDrawable) == 0) {
+          add(i);
+        }
+      }
+    };
+    if (work.outside != nullptr && filled && work.mesh->topology == Topology::triangles) {
+      constexpr std::size_t kMost = 256;
+      KeptTriangle kept[kMost];
+      for (std::size_t from = 0; from < corners.size(); from += kMost) {
+        const auto some = corners.subspan(from, std::min(kMost, corners.size() - from));
+        to.note_far(cull(to.cull_work(work), some, kept));
+        each_inside(from, from + some.size(), [&](std::size_t i) { to.add_kept(work, corners[i], kept[i - from]); });
+      }
+    } else if (work.outside != nullptr) {
+      const std::uint32_t first = work.first_vertex;
+      each_inside(0, corners.size(), [&](std::size_t i) {
+        const glm::uvec3 v = first + corners[i];
+        to.add_primitive(*work.draw, work.mesh->topology, {v[0], v[1], v[2]});
+      });
     }
     add_others(end);
     to.end_draw(static_cast<std::uint32_t>(d));

@@ -13,7 +13,27 @@ struct AssemblyWork {
   std::uint8_t planes;  ///< bits of those that cut (clip.h)
   std::uint32_t first_vertex;
   const std::uint8_t* outside;  ///< null: its window triangles are all in `others`
+  std::uint8_t any_outside;     ///< what is so of any of the vertices
+
+  bool all_inside() const { return (any_outside & (planes | kNotFinite | kNotDrawable)) == 0; }
 };
+
+/// What is the same for all filled triangles of a draw.
+struct CullWork {
+  const WindowVertex<float>* vertices;  ///< the mesh's
+  Cull cull;
+  glm::ivec2 least, most;  ///< of the samples' places
+  int width, height;       ///< of the frame
+};
+/// What of a triangle is drawn; far: too large to be told in lanes.
+enum class Kept : std::int32_t { none, back, front, far };
+struct KeptTriangle {
+  Kept kept;
+  TileBox box;
+};
+/// One for each of `corners`, the vertices' numbers in the mesh; returns whether any may have an edge longer than
+/// kLongestEdge (cull_lanes.h).
+using CullTriangles = bool (*)(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to);
 
 /// Window triangles that came another way (draw.h), by primitive: clipped ones, lines, points.
 struct OtherTriangles {
@@ -23,6 +43,6 @@ struct OtherTriangles {
 
 /// The chunk's triangles, and which tiles they touch. `others`: per draw.
 void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const OtherTriangles> others,
-              const Painting& painting);
+              const Painting& painting, CullTriangles cull);
 
 }  // namespace plumbline::pipeline

@@ -4,6 +4,7 @@
 #include "pipeline/simd_coverage.h"
 #include "pipeline/simd_fours.h"
 
+#include "pipeline/cull_lanes.h"
 #include "pipeline/paint_tile.h"
 #include "pipeline/paint_vertices.h"
 
@@ -12,8 +13,14 @@
 
 namespace plumbline::pipeline {
 
-void PLUMBLINE_NAME(paint_vertices_, PLUMBLINE_TARGET)(const VertexWork& work, std::size_t from, std::size_t to) {
-  paint_vertices<PLUMBLINE_TARGET::Simd>(work, from, to);
+std::uint8_t PLUMBLINE_NAME(paint_vertices_, PLUMBLINE_TARGET)(const VertexWork& work, std::size_t from,
+                                                               std::size_t to) {
+  return paint_vertices<PLUMBLINE_TARGET::Simd>(work, from, to);
+}
+
+bool PLUMBLINE_NAME(cull_triangles_, PLUMBLINE_TARGET)(const CullWork& work, std::span<const glm::uvec3> corners,
+                                                       KeptTriangle* to) {
+  return cull_triangles<PLUMBLINE_TARGET::Simd>(work, corners, to);
 }
 
 void PLUMBLINE_NAME(paint_tile_, PLUMBLINE_TARGET)(const Painting& painting, int number, TileMemory& memory,

@@ -4,14 +4,15 @@
 #include <span>
 #include <string_view>
 
-#include "pipeline/painting.h"
+#include "pipeline/assemble.h"
 
 namespace plumbline::pipeline {
 
 struct SimdTarget {
   std::string_view name;  ///< "float" (one vertex, triangle or pixel at a time), "sse4", "avx2", "avx512"
-  /// Vertices [from, to) of a draw.
-  void (*vertices)(const VertexWork& work, std::size_t from, std::size_t to);
+  /// Vertices [from, to) of a draw; returns what of any lies outside.
+  std::uint8_t (*vertices)(const VertexWork& work, std::size_t from, std::size_t to);
+  CullTriangles cull;
   /// A tile of the frame.
   void (*tile)(const Painting& painting, int number, TileMemory& memory, Frame& frame);
 };

@@ -31,7 +31,7 @@ void copy_primitives(const Mesh& from, std::span<const std::uint32_t> primitives
 void OtherGeometry::find(const AssemblyWork& draw) {
   of_draw_.clear();
   const auto violates = [&](unsigned bits) { return (bits & draw.planes) != 0; };
-  if (draw.outside != nullptr && std::none_of(draw.outside, draw.outside + draw.range.vertex_count, violates)) return;
+  if (draw.outside != nullptr && !violates(draw.any_outside)) return;
   for (std::uint32_t i = 0; i < draw.range.primitive_count; ++i) {
     const glm::uvec3& c = draw.mesh->triangles[i];
     const auto clipped = [&] {

@@ -38,9 +38,9 @@ Int<R> outside_planes(const R (&p)[4]) {
          bit(-p[2] <= p[3], 16) | bit(p[2] <= p[3], 32);
 }
 
-/// Those from the i-th on.
+/// Those from the i-th on; returns what of any lies outside.
 template <class R>
-void paint_vertex_lanes(const VertexWork& work, std::size_t i) {
+Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   constexpr int kLanes = Lanes<R>::width;
   const auto store_beside = [&](const R(&four)[4], auto address) {
     float* to[kLanes];
@@ -66,9 +66,9 @@ void paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   const Mask<R> drawable = x_near & y_near & (nothing(p_win[2]) + nothing(inv_w) == R(0));
   const R of_all = nothing(p_clip[0]) + nothing(p_clip[1]) + nothing(p_clip[2]) + nothing(p_clip[3]);
   const Mask<R> all_finite = of_all == R(0);
-  store_codes(outside_planes(p_clip) | select(all_finite, Int<R>(0), Int<R>(kNotFinite)) |
-                  select(drawable, Int<R>(0), Int<R>(kNotDrawable)),
-              work.outside + i);
+  const Int<R> outside = outside_planes(p_clip) | select(all_finite, Int<R>(0), Int<R>(kNotFinite)) |
+                         select(drawable, Int<R>(0), Int<R>(kNotDrawable));
+  store_codes(outside, work.outside + i);
   // round((win - 1/2) 256), as snap() has it: 128 is even, and the product exact.
   const auto snapped = [&](R win) { return as_float(nearest_int(select(drawable, win, R(0)) * R(256)) - Int<R>(128)); };
 
@@ -110,14 +110,20 @@ void paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   store_beside({snapped(p_win[0]), snapped(p_win[1]), color[0], color[1]},
                [&](std::size_t k) { return reinterpret_cast<float*>(&work.out[k].snapped); });
   store_beside(color, [&](std::size_t k) { return &work.out[k].color.r; });
+  return outside;
 }
 
-/// [from, to) of the draw's vertices.
+/// [from, to) of the draw's vertices; returns what of any lies outside.
 template <class R>
-void paint_vertices(const VertexWork& work, std::size_t from, std::size_t to) {
+std::uint8_t paint_vertices(const VertexWork& work, std::size_t from, std::size_t to) {
   std::size_t i = from;
-  for (; i + Lanes<R>::width <= to; i += Lanes<R>::width) paint_vertex_lanes<R>(work, i);
-  for (; i < to; ++i) paint_vertex_lanes<float>(work, i);
+  Int<R> of_lanes(0);
+  for (; i + Lanes<R>::width <= to; i += Lanes<R>::width) of_lanes = of_lanes | paint_vertex_lanes<R>(work, i);
+  std::uint8_t bits[Lanes<R>::width], outside = 0;
+  store_codes(of_lanes, bits);
+  for (const std::uint8_t of_lane : bits) outside |= of_lane;
+  for (; i < to; ++i) outside |= static_cast<std::uint8_t>(paint_vertex_lanes<float>(work, i));
+  return outside;
 }
 
 }  // namespace plumbline::pipeline

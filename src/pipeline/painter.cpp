@@ -99,6 +99,7 @@ struct Painter::Memory {
   std::vector<VertexWork> vertex_work;
   struct Share {
     std::size_t draw, from, to;
+    std::uint8_t outside;
   };
   std::vector<Share> shares;
   std::vector<AssemblyWork> assembly;
@@ -163,7 +164,7 @@ void Painter::Memory::run_vertices(const Scene& scene) {
     const unsigned planes = scene.depth_clamp ? 0xfu : 0x3fu;
     const bool in_lanes = goes_in_lanes(scene, draw);
     assembly.push_back({&draw, &mesh, range, static_cast<std::uint8_t>(planes), range.first_vertex,
-                        in_lanes ? outside_of + range.first_vertex : nullptr});
+                        in_lanes ? outside_of + range.first_vertex : nullptr, 0});
     VertexWork work{};
     work.mesh = &mesh;
     work.matrices = matrices(scene, draw);
@@ -188,11 +189,14 @@ void Painter::Memory::run_vertices(const Scene& scene) {
     }
     vertex_work.push_back(work);
     for (std::size_t from = 0; in_lanes && from < range.vertex_count; from += kShare) {
-      shares.push_back({d, from, std::min<std::size_t>(from + kShare, range.vertex_count)});
+      shares.push_back({d, from, std::min<std::size_t>(from + kShare, range.vertex_count), 0});
     }
   }
-  each(shares.size(),
-       [&](std::size_t i) { target.vertices(vertex_work[shares[i].draw], shares[i].from, shares[i].to); });
+  each(shares.size(), [&](std::size_t i) {
+    Share& share = shares[i];
+    share.outside = target.vertices(vertex_work[share.draw], share.from, share.to);
+  });
+  for (const Share& share : shares) assembly[share.draw].any_outside |= share.outside;
 }
 
 // What goes by the definition, beside what goes in lanes.
@@ -238,7 +242,7 @@ void Painter::Memory::run_triangles() {
   each(count, [&](std::size_t i) {
     chunks[i].first_primitive = static_cast<std::uint32_t>(std::uint64_t{primitives} * i / count);
     chunks[i].end_primitive = static_cast<std::uint32_t>(std::uint64_t{primitives} * (i + 1) / count);
-    assemble(chunks[i], assembly, others, painting);
+    assemble(chunks[i], assembly, others, painting, target.cull);
   });
   painting.chunks = std::span(chunks).first(count);
   painting.any_far =
