@@ -1,5 +1,7 @@
 #include "cli/arguments.h"
 
+#include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <string_view>
 
@@ -158,17 +160,24 @@ void add(CLI::App& command, NotesOptions& o) {
       ->check(CLI::IsMember(numbers));
 }
 
+void add_factor(CLI::App& command, const std::string& name, double& value, const std::string& help) {
+  // The range alone lets NaN pass.
+  const auto number = [](std::string& given) {
+    return std::string(std::isnan(std::atof(given.c_str())) ? "it is no number" : "");
+  };
+  command.add_option(name, value, help)
+      ->check(CLI::Range(1.0, 1e9))
+      ->check(CLI::Validator(number, ""))
+      ->capture_default_str();
+}
+
 void add(CLI::App& command, DiffOptions& o) {
   text(command, "OLD", o.before, "What plumb check --json wrote, then")->required();
   text(command, "NEW", o.now, "and now")->required();
   text(command, "--json", o.json, "Write the changes as JSON");
   text(command, "--markdown", o.markdown, "Write the changes for a CI page");
-  command.add_option("--moved", o.factor, "By which factor a largest difference is larger or smaller to be told")
-      ->check(CLI::Range(1.0, 1e9))
-      ->capture_default_str();
-  command.add_option("--slower", o.slower, "By which factor a scene's time is, and by 0.25 s")
-      ->check(CLI::Range(1.0, 1e9))
-      ->capture_default_str();
+  add_factor(command, "--moved", o.factor, "By which factor a largest difference is larger or smaller to be told");
+  add_factor(command, "--slower", o.slower, "By which factor a scene's time is, and by 0.25 s");
 }
 
 void add(CLI::App& command, MergeOptions& o) {

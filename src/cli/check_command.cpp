@@ -81,7 +81,11 @@ std::vector<std::filesystem::path> inputs_of(const CheckOptions& o, std::span<co
   for (const Scene& scene : scenes) out.insert(out.end(), scene.files.begin(), scene.files.end());
   if (!o.expect.empty()) out.emplace_back(o.expect);
   if (o.golden.empty() || !std::filesystem::is_directory(o.golden)) return out;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(o.golden)) out.push_back(entry.path());
+  try {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(o.golden)) out.push_back(entry.path());
+  } catch (const std::filesystem::filesystem_error& e) {  // of a folder within it names none
+    throw std::runtime_error(fmt::format("{}: cannot be read: {}", o.golden, e.code().message()));
+  }
   return out;
 }
 

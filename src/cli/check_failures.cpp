@@ -19,7 +19,8 @@ namespace plumbline::cli {
 namespace {
 
 std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& verdict) {
-  std::string out = shell_word(o.program) + " check " + shell_word(verdict.path);
+  const bool as_option = verdict.path.starts_with('-');
+  std::string out = shell_word(o.program) + " check " + shell_word((as_option ? "./" : "") + verdict.path);
   if (o.against != reference_names()) out += fmt::format(" --against {}", fmt::join(o.against, ","));
   if (!o.golden.empty()) out += " --golden " + shell_word(o.golden);
   if (!o.fault.empty()) out += " --fault " + shell_word(o.fault);

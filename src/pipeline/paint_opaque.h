@@ -15,6 +15,15 @@ enum class Order { first_to_last, last_to_first };
 /// What of a triangle needs no care (SetupLanes): nothing; its depth, and it has but one colour; its depth and colours.
 enum class Plain { nothing, one_color, colors };
 
+/// mean(), where 1/w is not near 0 and the corners have the same alpha.
+template <class R>
+[[gnu::always_inline]] inline Color<R> plain_color(const auto& s, const R& q1, const R& q2, const R& sum,
+                                                   const R& alpha) {
+  const R reciprocal = R(1) / sum;
+  const Weights<R> k{q1 * reciprocal, q2 * reciprocal};
+  return {mixed(s, k, 0), mixed(s, k, 1), mixed(s, k, 2), alpha};
+}
+
 /// `shaded`: ShadedPixels<R>, of PaintKernel::shades.
 template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
 [[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup& s, float cleared, PackedTile& tile,
@@ -84,9 +93,7 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
         if constexpr (!kColors) return one_color;
         const R q1 = to_float(value(1, part)), q2 = to_float(value(2, part)), sum = to_float(value(3, part));
         if constexpr (kPlain == Plain::nothing) return mean<R>(s.attributes, weights<R>(q1, q2, sum));
-        const R reciprocal = R(1) / sum;
-        const Weights<R> k{q1 * reciprocal, q2 * reciprocal};
-        return {mixed(s.attributes, k, 0), mixed(s.attributes, k, 1), mixed(s.attributes, k, 2), one_color.a};
+        return plain_color(s.attributes, q1, q2, sum, one_color.a);
       };
       if constexpr (kKernel == PaintKernel::blends_over) {
         store_packed(kept[part], packed_over<R>(color(), load_packed<R>(to)), to);
@@ -166,9 +173,7 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
     covered = rest;
     const W dx = to_wide(x), dy = to_wide(y);
     const auto value = [&](const Affine<W>& f) { return (f.at_0 + dy * f.y) + dx * f.x; };  // value_at()
-    store(shifted_left<8>(shifted_right<2>(y)) + shifted_left<4>(shifted_right<2>(x)) +
-              shifted_left<2>(y & I(kBlock - 1)) + (x & I(kBlock - 1)),
-          place_of[i]);
+    store(place_in_tile(x, y), place_of[i]);
     if constexpr (kPlain) {
       store(to_float(nearest_int(value(code))), z_of[i]);
     } else {
@@ -177,9 +182,7 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
     if constexpr (kKernel == PaintKernel::replaces) {
       const R q1_here = to_float(value(q1)), q2_here = to_float(value(q2)), sum_here = to_float(value(sum));
       if constexpr (kPlain) {
-        const R reciprocal = R(1) / sum_here;
-        const Weights<R> k{q1_here * reciprocal, q2_here * reciprocal};
-        store(packed_merge_near<R>({mixed(of, k, 0), mixed(of, k, 1), mixed(of, k, 2), of.color0[3]}), code_of[i]);
+        store(packed_merge_near(plain_color(of, q1_here, q2_here, sum_here, of.color0[3])), code_of[i]);
       } else {
         const Weights<R> k = weights<R>(q1_here, q2_here, sum_here);
         const Color<R> color = mean<R>(of, Weights<R>{select(constant, R(0), k.k1), select(constant, R(0), k.k2)});

@@ -61,9 +61,8 @@ class ShadedPixels {
     using I = Int<R>;
     if (!surface_) surface_.emplace(surface_of_lane(painting_, draw_, triangle_, tile_.x0, tile_.y0));
     count_ -= kLanes;
-    const I place = load_ints<R>(places_ + count_), within(kBlock - 1), blocks(kTile - kBlock);  // block_offset()
-    const I x = I(tile_.x0) + ((shifted_right<2>(place) & blocks) | (place & within));
-    const I y = I(tile_.y0) + ((shifted_right<6>(place) & blocks) | (shifted_right<2>(place) & within));
+    const I place = load_ints<R>(places_ + count_);
+    const I x = I(tile_.x0) + x_of_place(place), y = I(tile_.y0) + y_of_place(place);
     const Pixels<R> p{x, y, to_wide(x) + 0.5, to_wide(y) + 0.5};
     const SurfaceAttributes<R> attributes = surface_attributes<R, false>(FragmentStages(), setup_, *surface_, p);
     alignas(64) std::int32_t codes[kLanes];

@@ -65,6 +65,25 @@ TEST_F(Cli, the_command_that_repeats_works_as_it_stands) {
   EXPECT_TRUE(again.says("repeat: " + repeat)) << again.text;
 }
 
+TEST_F(Cli, the_command_that_repeats_takes_no_file_for_an_option) {
+  fs::copy(kScenes + "coverage/shared_edges.json", folder_ / "-a.json");
+  const Outcome run =
+      shell("cd '" + folder_.string() +
+            "' && " PLUMBLINE_PLUMB " check --against exact --fault coverage.inclusive_edges -- -a.json");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("repeat: " PLUMBLINE_PLUMB " check ./-a.json --against exact")) << run.text;
+}
+
+TEST_F(Cli, factors_are_numbers) {
+  for (const char* option : {"--moved", "--slower"}) {
+    for (const char* value : {"nan", "0.5", "x", "inf"}) {
+      const Outcome run = plumb("report diff a.json b.json " + std::string(option) + " " + value);
+      EXPECT_EQ(run.code, 2) << run.text;
+      EXPECT_TRUE(run.says(option)) << run.text;
+    }
+  }
+}
+
 TEST_F(Cli, a_reference_asked_for_twice_is_asked_once) {
   const std::string scene = kScenes + "cull/both_windings.json";
   const auto rows = [](std::string text) { return text.substr(0, text.rfind("comparisons in ")); };  // without times
