@@ -58,7 +58,9 @@ TEST(InOrder, results_are_taken_in_order_whoever_makes_them_of_whose_things) {
       taken.push_back(std::get<0>(result));
       users[std::get<1>(result)].insert(std::get<2>(result));
     };
-    in_order(kMany, first, static_cast<std::size_t>(others), make, work, take);
+    std::vector<std::size_t> begin = numbers(kMany);
+    if (others > 1) std::ranges::reverse(begin);
+    in_order(begin, first, static_cast<std::size_t>(others), make, work, take);
     EXPECT_EQ(taken, numbers(kMany));
     EXPECT_TRUE(all.try_wait()) << "they worked at a time";
     EXPECT_EQ(made, others);
@@ -75,13 +77,14 @@ struct Ended {
   std::size_t begun = 0;
 };
 template <class Make, class Work, class Take>
-Ended ended(std::size_t others, const Make& make, const Work& work, const Take& take) {
+Ended ended(std::size_t others, const Make& make, const Work& work, const Take& take,
+            const std::vector<std::size_t>& begin = numbers(kMost)) {
   Ended out;
   std::atomic<std::size_t> begun = 0;
   int first = 0;
   try {
     in_order(
-        kMost, first, others, make,
+        begin, first, others, make,
         [&](int&, std::size_t i) {
           ++begun;
           linger(i);
@@ -122,6 +125,21 @@ TEST(InOrder, the_first_failure_in_order_ends_it) {
     EXPECT_EQ(end.taken, numbers(7)) << "nothing is taken after it";
     EXPECT_LT(end.begun, others == 0 ? 9 : kMost);
   }
+  // What is begun before them fails after them, or not at all; all before the first are done.
+  std::vector<std::size_t> begin = numbers(kMost);
+  std::swap(begin[0], begin[800]);
+  std::swap(begin[1], begin[9]);
+  for (const std::size_t others : {0u, 1u, 4u}) {
+    const Ended end = ended(
+        others, zero,
+        [](std::size_t i) {
+          fail_at({800, 9, 10}, i);
+        },
+        nothing, begin);
+    EXPECT_EQ(end.says, "9");
+    EXPECT_EQ(end.taken, numbers(9));
+    EXPECT_LT(end.begun, kMost);
+  }
   const Ended end = ended(
       2, [] { return throw std::runtime_error("no things"), 0; }, nothing, nothing);
   EXPECT_EQ(end.says, "no things");
@@ -130,7 +148,7 @@ TEST(InOrder, the_first_failure_in_order_ends_it) {
 TEST(InOrder, nothing_to_do_is_done) {
   int first = 0, taken = 0;
   in_order(
-      0, first, 2, [] { return 0; }, [](int&, std::size_t i) { return i; }, [&](std::size_t) { ++taken; });
+      {}, first, 2, [] { return 0; }, [](int&, std::size_t i) { return i; }, [&](std::size_t) { ++taken; });
   EXPECT_EQ(taken, 0);
 }
 
