@@ -167,10 +167,10 @@ TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
   std::vector<glm::uvec3> corners(501);
   std::vector<WindowVertex<float>> vertices(300);
   const auto any = [&](std::uint32_t of) { return static_cast<std::uint32_t>(random() % of); };
-  for (const float size : {1.0f, 70.0f, 3000.0f, 100000.0f, 1048576.0f}) {
+  for (const float size : {1.0f, 70.0f, 3000.0f, 10000.0f, 100000.0f, 1048500.0f}) {
     std::uniform_real_distribution<float> place(-size, size);
     for (auto& v : vertices) {
-      v.p_win = {place(random), any(5) == 0 ? 20.5f : place(random), 0.5f};
+      v.p_win = {64 + place(random), 64 + (any(5) == 0 ? 0.5f : place(random)), 0.5f};
       v.snapped = {snap(v.p_win.x), snap(v.p_win.y)};
     }
     for (auto& c : corners) c = {any(300), any(300), any(9) == 0 ? c[1] : any(300)};
