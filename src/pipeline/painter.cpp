@@ -304,6 +304,7 @@ Frame& Painter::draw(const Scene& scene) {
     pass_of(scene, i, memory_->pass);
     const FrameFormat& format = memory_->pass.frame;
     if (i == 0 && !(passes.size() == count && same_planes(memory_->pass_format, format))) {
+      passes.clear();  // should there be no memory, none are left that are of another format
       passes.assign(count, Frame(format));
       memory_->pass_format = format;
     }

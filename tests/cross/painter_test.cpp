@@ -10,6 +10,7 @@
 #include <map>
 #include <new>
 #include <random>
+#include <tuple>
 
 #include "../extent.h"
 #include "pipeline/painter.h"
@@ -21,14 +22,20 @@
 
 namespace {
 std::atomic<std::size_t> asked_for_memory{0};
+std::atomic<std::size_t> refused_at{0};  // that many are given before one is not; 0: all are
+
+void* given(void* memory) {
+  ++asked_for_memory;
+  if (refused_at != 0 && --refused_at == 0) {
+    std::free(memory);
+    throw std::bad_alloc();
+  }
+  return memory != nullptr ? memory : throw std::bad_alloc();
+}
 }  // namespace
 
 // Counted, for all of this program. (gtest's own calls as well: the tests look at differences.)
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++asked_for_memory;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
+[[gnu::noinline]] void* operator new(std::size_t size) { return given(std::malloc(size == 0 ? 1 : size)); }
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
@@ -231,6 +238,41 @@ TEST(Painter, AsksForNoMemoryAfterAnyScenesFirstFrame) {
       painter.draw(scene);
       EXPECT_EQ(asked_for_memory - before, 0u) << files[i] << ", " << threads << " threads";
     }
+  }
+}
+
+// Whatever there is no memory for, the next scene is drawn right.
+TEST(Painter, DrawsOnAfterItWasRefusedMemory) {
+  Scene small = spheres(4, Cull::none), large = spheres(5, Cull::back);
+  small.frame.width = small.frame.height = 9;
+  small.frame.color = ColorFormat::rgba12;
+  large.frame.width = large.frame.height = 70;
+  large.draws[0].transforms = {Translate{{0, 0, 2}}};  // clipped
+  large.light_model.sides = LightModel::Sides::two;
+  constexpr Antialias kNone, kTwice = {Antialias::Kind::supersample, 2}, kTaps = {Antialias::Kind::taps, 1};
+  for (const auto& [of_one, of_other] : {std::pair(kNone, kTwice), std::pair(kTaps, kTwice), std::pair(kTaps, kTaps)}) {
+    small.frame.antialias = of_one, large.frame.antialias = of_other;
+    const Frame of_small = render(small, production_stages()), of_large = render(large, production_stages());
+    bool any_refused = true;
+    std::size_t n = 0;
+    while (any_refused) {
+      ++n;
+      any_refused = false;
+      Painter painter;
+      for (const auto& [scene, other, definition] :
+           {std::tuple(&small, &large, &of_small), std::tuple(&large, &small, &of_large)}) {
+        painter.draw(*scene);
+        refused_at = n;
+        try {
+          painter.draw(*other);
+        } catch (const std::bad_alloc&) {
+          any_refused = true;
+        }
+        refused_at = 0;
+        ASSERT_TRUE(same_bits(painter.draw(*scene), *definition)) << "the " << n << "th";
+      }
+    }
+    EXPECT_GT(n, 10u);
   }
 }
 
