@@ -1,6 +1,8 @@
 #include "pipeline/assemble.h"
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
 
 #include "scene/antialias.h"
 
@@ -84,8 +86,11 @@ class Assembler {
       }
     };
     for (std::uint32_t n = 0; n < chunk_.count; ++n) each_tile(boxes_[n], [](std::uint32_t& count) { ++count; });
-    std::uint32_t sum = 0;
-    for (std::uint32_t& f : first) sum += std::exchange(f, sum);
+    std::uint64_t sum = 0;
+    for (std::uint32_t& f : first) sum += std::exchange(f, static_cast<std::uint32_t>(sum));
+    if (sum > std::numeric_limits<std::uint32_t>::max()) {
+      throw std::length_error("triangles that touch more tiles together than 2^32");
+    }
     std::uint32_t* numbers = chunk_.numbers.of(sum);
     for (std::uint32_t n = 0; n < chunk_.count; ++n) {
       each_tile(boxes_[n], [&](std::uint32_t& next) { numbers[next++] = n; });

@@ -64,6 +64,11 @@ void GeometryRun::begin(const Scene& scene, const GeometryStages& stages) {
   plumbline::carried(scene, carried_);
 }
 
+std::size_t GeometryRun::bytes() const {
+  const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  return of(as_lit_) + of(polygons_.vertices) + of(polygons_.polygons) + of(triangles_);
+}
+
 void GeometryRun::run(std::size_t draw, Stage stage, const Records<float>& in, Records<float>& out) {
   const Draw& d = scene_->draws[draw];
   switch (stage) {

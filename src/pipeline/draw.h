@@ -35,6 +35,7 @@ class GeometryRun {
   /// Appends the draw's records of the stage to `out`, from those of the stage before in `in`; both may be one.
   void run(std::size_t draw, Stage stage, const Records<float>& in, Records<float>& out);
   std::size_t draws() const { return scene_->draws.size(); }
+  std::size_t bytes() const;
 
  private:
   void light(std::size_t draw, const Records<float>& in, Records<float>& out) const;

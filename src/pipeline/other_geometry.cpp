@@ -6,6 +6,11 @@ namespace plumbline::pipeline {
 
 namespace {
 
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
+  return values.capacity() * sizeof(T);
+}
+
 // The primitives of `from`, with vertices of their own.
 void copy_primitives(const Mesh& from, std::span<const std::uint32_t> primitives, Mesh& to) {
   to.topology = from.topology;
@@ -47,7 +52,11 @@ const Records<float>& OtherGeometry::run(const Scene& scene, std::span<const Ass
   rest_.meshes.resize(draws.size());
   for (std::size_t d = 0; d < draws.size(); ++d) {
     find(draws[d]);
-    copy_primitives(*draws[d].mesh, of_draw_, rest_.meshes[d]);
+    if (draws[d].outside == nullptr) {
+      rest_.meshes[d] = *draws[d].mesh;
+    } else {
+      copy_primitives(*draws[d].mesh, of_draw_, rest_.meshes[d]);
+    }
     for (const std::uint32_t i : of_draw_) primitives_.push_back(draws[d].range.first_primitive + i);
   }
   records_.triangles.clear();
@@ -66,18 +75,21 @@ const Records<float>& OtherGeometry::run(const Scene& scene, std::span<const Ass
   return records_;
 }
 
+std::size_t bytes_of(const Mesh& mesh) {
+  return bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(mesh.colors) + bytes_of(mesh.texcoords) +
+         bytes_of(mesh.triangles);
+}
+
 std::size_t OtherGeometry::bytes() const {
-  const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  std::size_t sum = of(records_.vertices) + of(records_.lit) + of(records_.polygons.vertices) +
-                    of(records_.polygons.polygons) + of(records_.triangles);
+  std::size_t sum = run_.bytes() + bytes_of(records_.vertices) + bytes_of(records_.lit) +
+                    bytes_of(records_.polygons.vertices) + bytes_of(records_.polygons.polygons) +
+                    bytes_of(records_.triangles);
   for (const Varying v : kAllVaryings) {
     const VaryingColumns<float>& columns = records_.varyings[v];
-    sum += of(columns.vertices) + of(columns.clipped) + of(columns.triangles);
+    sum += bytes_of(columns.vertices) + bytes_of(columns.clipped) + bytes_of(columns.triangles);
   }
-  for (const Mesh& mesh : rest_.meshes) {
-    sum += of(mesh.positions) + of(mesh.normals) + of(mesh.colors) + of(mesh.texcoords) + of(mesh.triangles);
-  }
-  return sum + of(primitives_) + of(of_draw_);
+  for (const Mesh& mesh : rest_.meshes) sum += bytes_of(mesh);
+  return sum + bytes_of(primitives_) + bytes_of(of_draw_);
 }
 
 }  // namespace plumbline::pipeline

@@ -10,6 +10,8 @@
 
 namespace plumbline::pipeline {
 
+std::size_t bytes_of(const Mesh& mesh);
+
 /// Its memory is kept from frame to frame.
 class OtherGeometry {
  public:

@@ -286,6 +286,10 @@ std::size_t Painter::bytes() const {
   };
   if (m.frame) add(*m.frame);
   std::ranges::for_each(m.passes, add);
+  for (const Mesh& mesh : m.pass.meshes) sum += bytes_of(mesh);
+  for (const Texture& texture : m.pass.textures) {
+    for (const auto& level : texture.levels) sum += level.texels.capacity() * sizeof(level.texels[0]);
+  }
   return sum + m.other_geometry.bytes();
 }
 
@@ -300,14 +304,15 @@ Frame& Painter::draw(const Scene& scene) {
   }
   const std::size_t count = pass_count(scene.frame.antialias);
   std::vector<Frame>& passes = memory_->passes;
+  pass_of(scene, 0, memory_->pass);
+  const FrameFormat& format = memory_->pass.frame;
+  if (passes.size() != count || !same_planes(memory_->pass_format, format)) {
+    passes.clear();  // should there be no memory, none are left that are of another format
+    passes.assign(count, Frame(format));
+    memory_->pass_format = format;
+  }
   for (std::size_t i = 0; i < count; ++i) {
-    pass_of(scene, i, memory_->pass);
-    const FrameFormat& format = memory_->pass.frame;
-    if (i == 0 && !(passes.size() == count && same_planes(memory_->pass_format, format))) {
-      passes.clear();  // should there be no memory, none are left that are of another format
-      passes.assign(count, Frame(format));
-      memory_->pass_format = format;
-    }
+    memory_->pass.frame.pass = own_of_pass(scene.frame, i);
     memory_->draw_pass(memory_->pass, passes[i]);
   }
   resolve({}, scene.frame, passes, *memory_->frame);

@@ -12,27 +12,28 @@ std::size_t pass_count(const Antialias& antialias) {
   return 1;
 }
 
+Pass own_of_pass(const FrameFormat& frame, std::size_t i) {
+  Pass own = frame.pass;
+  if (frame.antialias.kind == Antialias::Kind::multisample) own.sample = static_cast<int>(i);
+  if (frame.antialias.kind == Antialias::Kind::taps) own.shift = {-kTaps[i].dx, -kTaps[i].dy};
+  return own;
+}
+
 void pass_of(const Scene& scene, std::size_t i, Scene& pass) {
   const Antialias antialias = scene.frame.antialias;
   pass = scene;
   pass.frame.antialias = {};
+  pass.frame.pass = own_of_pass(scene.frame, i);
   if (antialias.kind != Antialias::Kind::none) pass.path.clear();
-  switch (antialias.kind) {
-    case Antialias::Kind::none: return;
-    case Antialias::Kind::multisample: pass.frame.pass.sample = static_cast<int>(i); return;
-    case Antialias::Kind::supersample: {
-      const int n = antialias.factor;
-      pass.frame.width *= n;
-      pass.frame.height *= n;
-      for (Draw& draw : pass.draws) {
-        if (draw.scissor) {
-          const Scissor& s = *draw.scissor;
-          draw.scissor = {s.x * n, s.y * n, s.width * n, s.height * n};
-        }
-      }
-      return;
+  if (antialias.kind != Antialias::Kind::supersample) return;
+  const int n = antialias.factor;
+  pass.frame.width *= n;
+  pass.frame.height *= n;
+  for (Draw& draw : pass.draws) {
+    if (draw.scissor) {
+      const Scissor& s = *draw.scissor;
+      draw.scissor = {s.x * n, s.y * n, s.width * n, s.height * n};
     }
-    case Antialias::Kind::taps: pass.frame.pass.shift = {-kTaps[i].dx, -kTaps[i].dy}; return;
   }
 }
 

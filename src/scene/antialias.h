@@ -34,8 +34,9 @@ inline constexpr std::array<Tap, 6> kTaps = {
 /// `none`, and no path: it stands in no file. Supersampled scissor boxes grow with the frame.
 std::vector<Scene> passes_of(const Scene& scene);
 std::size_t pass_count(const Antialias& antialias);
-/// The i-th of them, into a scene whose memory is kept.
+/// The i-th of them, into a scene whose memory is kept; and what it alone has.
 void pass_of(const Scene& scene, std::size_t i, Scene& pass);
+Pass own_of_pass(const FrameFormat& frame, std::size_t i);
 
 /// One of the samples that a pixel (x, y) of a frame is made of: pixel (x, y) * factor + offset of a pass.
 struct PixelSample {
