@@ -7,14 +7,13 @@ namespace plumbline::pipeline {
 namespace {
 
 void each_lit(const Scene& scene, const Draw& draw, LitPart part, std::span<const Vertex<float>> vertices, auto add) {
-  const std::vector<glm::vec4>& colors = scene.meshes[draw.mesh].colors;
-  const bool by_color = draw.color_material != ColorMaterial::none && !colors.empty();
+  const bool by_color = draw.color_material != ColorMaterial::none && !scene.meshes[draw.mesh].colors.empty();
   const Illumination lights = illumination(scene);
   const ColoredMaterial material = colored_material(scene, draw, part);
   Reflectance<float> of_vertex = reflectance(scene, material.own);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (by_color) {
-      const glm::vec4& c = colors[i];
+      const glm::vec4& c = scene.meshes[draw.mesh].colors[i];
       of_vertex = reflectance<float>(scene, material, {c.r, c.g, c.b, c.a});
     }
     const Vector<float> p = spread<float>(vertices[i].p_eye), n = spread<float>(vertices[i].n_eye);

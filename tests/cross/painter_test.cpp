@@ -55,7 +55,8 @@ namespace {
 
 template <class T>
 bool same_bits(const Plane<T>& a, const Plane<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0);
 }
 
 bool same_bits(const Frame& a, const Frame& b) {
