@@ -292,22 +292,6 @@ inline int block_offset(int x, int y) {
   return (y >> 2 << 8) + (x >> 2 << 4);
 }
 
-/// Where a tile keeps its pixel (x, y), and back.
-template <class I>
-[[gnu::always_inline]] inline I place_in_tile(const I& x, const I& y) {
-  const I within(kBlock - 1);
-  return shifted_left<8>(shifted_right<2>(y)) + shifted_left<4>(shifted_right<2>(x)) + shifted_left<2>(y & within) +
-         (x & within);
-}
-template <class I>
-[[gnu::always_inline]] inline I x_of_place(const I& place) {
-  return (shifted_right<2>(place) & I(kTile - kBlock)) | (place & I(kBlock - 1));
-}
-template <class I>
-[[gnu::always_inline]] inline I y_of_place(const I& place) {
-  return (shifted_right<6>(place) & I(kTile - kBlock)) | (shifted_right<2>(place) & I(kBlock - 1));
-}
-
 /// A square of the frame, stored block by block; colour and depth in the frame's formats, as floats.
 struct Tile {
   int x0, y0;  ///< its lower left pixel

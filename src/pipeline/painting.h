@@ -37,6 +37,22 @@ class Scratch {
   std::size_t count_ = 0;
 };
 
+/// Where a tile keeps its pixel (x, y), as block_offset() has it, and back.
+template <class I>
+[[gnu::always_inline]] inline I place_in_tile(const I& x, const I& y) {
+  const I within(kBlock - 1);
+  return shifted_left<8>(shifted_right<2>(y)) + shifted_left<4>(shifted_right<2>(x)) + shifted_left<2>(y & within) +
+         (x & within);
+}
+template <class I>
+[[gnu::always_inline]] inline I x_of_place(const I& place) {
+  return (shifted_right<2>(place) & I(kTile - kBlock)) | (place & I(kBlock - 1));
+}
+template <class I>
+[[gnu::always_inline]] inline I y_of_place(const I& place) {
+  return (shifted_right<6>(place) & I(kTile - kBlock)) | (shifted_right<2>(place) & I(kBlock - 1));
+}
+
 /// What of a mesh's vertex lies outside: a bit for each plane of the view volume (clip.h, in its order), and
 inline constexpr std::uint8_t kNotFinite = 1 << 6;    ///< a coordinate
 inline constexpr std::uint8_t kNotDrawable = 1 << 7;  ///< its place in the window (window.h)
