@@ -3,26 +3,16 @@
 // taken out of the loops that they do not change in.
 #pragma once
 
+#include "pipeline/paint_pixels.h"
 #include "pipeline/paint_shaded.h"
 #include "pipeline/visit_covered.h"
 
 namespace plumbline::pipeline {
 
-inline constexpr double kMostZ24 = 16777215;  ///< the largest code
-
 enum class Order { first_to_last, last_to_first };
 
 /// What of a triangle needs no care (SetupLanes): nothing; its depth, and it has but one colour; its depth and colours.
 enum class Plain { nothing, one_color, colors };
-
-/// mean(), where 1/w is not near 0 and the corners have the same alpha.
-template <class R>
-[[gnu::always_inline]] inline Color<R> plain_color(const auto& s, const R& q1, const R& q2, const R& sum,
-                                                   const R& alpha) {
-  const R reciprocal = R(1) / sum;
-  const Weights<R> k{q1 * reciprocal, q2 * reciprocal};
-  return {mixed(s, k, 0), mixed(s, k, 1), mixed(s, k, 2), alpha};
-}
 
 /// `shaded`: ShadedPixels<R>, of PaintKernel::shades.
 template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
@@ -113,20 +103,13 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
   }
 }
 
-/// AttributeSetup, of lanes' triangles.
-template <class R>
-struct AttributeLanes {
-  R color0[4], d_color1[4], d_color2[4];
-};
-
 inline constexpr int kSmall = 30;  ///< pixels of a box: as many bits a float's exponent tells apart
 
-/// Triangles in boxes of `lanes.width` x `lanes.height` pixels, all at once: which pixels of their boxes they cover;
-/// each one's first pixel, second and so on; then, one triangle after the other, these into the tile.
+/// Triangles in boxes of `lanes.width` x `lanes.height` pixels, all at once: which pixels of their boxes they cover,
+/// and these (paint_pixels.h).
 template <class R, PaintKernel kKernel, Order kOrder, bool kPlain>
 void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared, PackedTile& tile) {
   using I = Int<R>;
-  using W = Wide<R>;
   constexpr int kLanes = Lanes<R>::width;
 
   const I x0 = load_ints<R>(lanes.bounds[0]), y0 = load_ints<R>(lanes.bounds[1]);
@@ -155,52 +138,18 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
     most = std::max(most, std::popcount(static_cast<unsigned>(covered_of[lane])));
   }
 
-  const Affine<W> code = lanes.code.of_all(), q1 = lanes.q1.of_all(), q2 = lanes.q2.of_all(), sum = lanes.sum.of_all();
-  AttributeLanes<R> of;
-  for (int c = 0; c < 4; ++c) {
-    of.color0[c] = load<R>(lanes.color[0][c]);
-    of.d_color1[c] = load<R>(lanes.color[1][c]);
-    of.d_color2[c] = load<R>(lanes.color[2][c]);
-  }
-  const Mask<R> constant = load_ints<R>(lanes.constant_colors) != I(0);
-  alignas(64) float z_of[kSmall][kLanes];
-  alignas(64) std::int32_t code_of[kSmall][kLanes], place_of[kSmall][kLanes];
+  PixelsOfLanes<R, kKernel == PaintKernel::replaces, kPlain, kSmall> values(lanes);
   const I width(lanes.width), per_width((1 << 16) / lanes.width + 1);
   for (int i = 0; i < most; ++i) {
     const I rest = covered & (covered - I(1)), lowest = covered ^ rest;
     const I bit = shifted_right<23>(as_int(to_float(lowest))) - I(127);  // a float's exponent
-    const I row = shifted_right<16>(bit * per_width), x = x0 + (bit - row * width), y = y0 + row;
+    const I row = shifted_right<16>(bit * per_width);
+    values.work_out(i, x0 + (bit - row * width), y0 + row);
     covered = rest;
-    const W dx = to_wide(x), dy = to_wide(y);
-    const auto value = [&](const Affine<W>& f) { return (f.at_0 + dy * f.y) + dx * f.x; };  // value_at()
-    store(place_in_tile(x, y), place_of[i]);
-    if constexpr (kPlain) {
-      store(to_float(nearest_int(value(code))), z_of[i]);
-    } else {
-      store(to_float(round_even(clamped(value(code), W(0), W(kMostZ24)))), z_of[i]);
-    }
-    if constexpr (kKernel == PaintKernel::replaces) {
-      const R q1_here = to_float(value(q1)), q2_here = to_float(value(q2)), sum_here = to_float(value(sum));
-      if constexpr (kPlain) {
-        store(packed_merge_near(plain_color(of, q1_here, q2_here, sum_here, of.color0[3])), code_of[i]);
-      } else {
-        const Weights<R> k = weights<R>(q1_here, q2_here, sum_here);
-        const Color<R> color = mean<R>(of, Weights<R>{select(constant, R(0), k.k1), select(constant, R(0), k.k2)});
-        store(packed_merge(color), code_of[i]);
-      }
-    }
   }
   for (int lane = 0; lane < count; ++lane) {
-    const int pixels = std::popcount(static_cast<unsigned>(covered_of[lane]));
-    for (int i = 0; i < pixels; ++i) {
-      const int place = place_of[i][lane];
-      const float z = z_of[i][lane], held = tile.depth[place];
-      if (kOrder == Order::last_to_first ? z <= held && z < cleared : z < held) {
-        tile.depth[place] = z;
-        if constexpr (kKernel == PaintKernel::replaces)
-          tile.color[place] = static_cast<std::uint32_t>(code_of[i][lane]);
-      }
-    }
+    values.paint(lane, std::popcount(static_cast<unsigned>(covered_of[lane])), kOrder == Order::last_to_first, cleared,
+                 tile);
   }
 }
 

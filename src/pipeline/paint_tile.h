@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "pipeline/merge.h"
+#include "pipeline/paint_lines.h"
 #include "pipeline/paint_opaque.h"
 
 namespace plumbline::pipeline {
@@ -121,6 +122,7 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile& t
   if (draw.kernel == PaintKernel::depth_alone) {
     return paint_opaque<R, PaintKernel::depth_alone, Order::first_to_last>(painting, run, tile, alone);
   }
+  if (draw.kernel == PaintKernel::lines) return paint_lines<R>(painting, run, tile, alone);
   const DepthFunc func = draw.state.depth_func;
   const bool farther =
       func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;

@@ -33,15 +33,24 @@ bool goes_in_lanes(const Scene& scene, const Draw& draw) {
          !carries(scene, draw, Varying::back_color) && !carries(scene, draw, Varying::back_secondary);
 }
 
+// Whether triangles are drawn so whose faces are not culled.
+bool draws_as(const Draw& draw, PolygonMode mode) {
+  return (draw.cull == Cull::front || draw.front_mode == mode) && (draw.cull == Cull::back || draw.back_mode == mode);
+}
+
 PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const BlockState& s) {
-  const bool plain = mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
-                     draw.back_mode == PolygonMode::fill && s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 &&
-                     s.depth.high == 1.0 && s.depth.offset == PolygonOffset{} && s.depth_func == DepthFunc::less &&
-                     !s.scissor && !s.alpha_test && !s.stencil && s.merge.depth_mask;
-  if (plain && !glm::any(s.merge.color_mask)) return PaintKernel::depth_alone;
-  if (!plain || s.merge.logic_op || !glm::all(s.merge.color_mask)) return PaintKernel::any;
-  if (!s.merge.blend) return s.surface == nullptr ? PaintKernel::replaces : PaintKernel::shades;
-  return s.surface == nullptr && is_over(*s.merge.blend) ? PaintKernel::blends_over : PaintKernel::any;
+  const bool plain = s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 && s.depth.high == 1.0 &&
+                     s.depth_func == DepthFunc::less && !s.scissor && !s.alpha_test && !s.stencil && s.merge.depth_mask;
+  if (!plain) return PaintKernel::any;
+  const bool triangles = mesh.topology == Topology::triangles;
+  if (mesh.topology == Topology::lines || (triangles && draws_as(draw, PolygonMode::line))) {
+    return is_opaque(s.merge) && s.surface == nullptr ? PaintKernel::lines : PaintKernel::any;
+  }
+  if (!triangles || !draws_as(draw, PolygonMode::fill) || s.depth.offset != PolygonOffset{}) return PaintKernel::any;
+  if (!glm::any(s.merge.color_mask)) return PaintKernel::depth_alone;
+  if (is_opaque(s.merge)) return s.surface == nullptr ? PaintKernel::replaces : PaintKernel::shades;
+  const bool over = s.merge.blend && is_over(*s.merge.blend) && !s.merge.logic_op && glm::all(s.merge.color_mask);
+  return over && s.surface == nullptr ? PaintKernel::blends_over : PaintKernel::any;
 }
 
 // Whether tiles take a pixel's samples at once. Other antialiased frames are resolved from whole passes.

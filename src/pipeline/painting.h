@@ -102,8 +102,8 @@ struct Chunk {
   Scratch<std::uint32_t> numbers;
 };
 
-/// How a draw's filled triangles are painted: paint_opaque.h has those that are commonest.
-enum class PaintKernel { any, replaces, blends_over, depth_alone, shades };
+/// How a draw's triangles and lines are painted: paint_opaque.h and paint_lines.h have those that are commonest.
+enum class PaintKernel { any, replaces, blends_over, depth_alone, shades, lines };
 
 /// A draw, as tiles want it.
 struct PaintDraw {

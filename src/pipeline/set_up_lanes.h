@@ -84,32 +84,54 @@ struct SetupSite {
   double clear_code;   ///< of depth
   bool flat;
 };
+inline SetupSite site_of(const Painting& painting, const PaintRun& run, int tile_x, int tile_y) {
+  const Formats& formats = painting.formats;
+  return {tile_x,
+          tile_y,
+          formats.sample,
+          formats.depth_scale,
+          depth_code(painting.format.clear_depth, formats.depth_scale),
+          painting.draws[run.draw].flat};
+}
 
-/// `corner`: per corner, each lane's vertex; `facing`: 1 of a front face, -1 of a back one.
+/// Per corner, each lane's vertex.
 template <class R>
-void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width],
-                  const float (&facing)[Lanes<R>::width], const SetupSite& site, SetupLanes<R>& out) {
-  using I = Int<R>;
-  using W = Wide<R>;
-  const auto fours = [&](int k, auto member, R(&four)[4]) {
-    const float* from[Lanes<R>::width];
-    for (int lane = 0; lane < Lanes<R>::width; ++lane) from[lane] = member(corner[k][lane]);
-    load_fours(from, four);
-  };
-  R p_win[3][4], color[3][4];
-  I snapped_x[3], snapped_y[3];
+using CornersOfLanes = const WindowVertex<float>* [3][Lanes<R>::width];
+
+template <class R>
+struct CornerLanes {
+  R p_win[3][4];
+  Int<R> snapped_x[3], snapped_y[3];
+};
+template <class R>
+[[gnu::always_inline]] inline void load_corner(const WindowVertex<float>* const (&corner)[Lanes<R>::width], auto member,
+                                               R (&four)[4]) {
+  const float* from[Lanes<R>::width];
+  for (int lane = 0; lane < Lanes<R>::width; ++lane) from[lane] = member(corner[lane]);
+  load_fours(from, four);
+}
+template <class R>
+[[gnu::always_inline]] inline CornerLanes<R> load_corners(const CornersOfLanes<R>& corner) {
+  CornerLanes<R> out;
   for (int k = 0; k < 3; ++k) {
-    fours(
-        k, [](const WindowVertex<float>* v) { return &v->p_win.x; }, p_win[k]);
+    load_corner<R>(
+        corner[k], [](const WindowVertex<float>* v) { return &v->p_win.x; }, out.p_win[k]);
     R four[4];
-    fours(
-        k, [](const WindowVertex<float>* v) { return reinterpret_cast<const float*>(&v->snapped); }, four);
-    snapped_x[k] = as_int(four[0]), snapped_y[k] = as_int(four[1]);
+    load_corner<R>(
+        corner[k], [](const WindowVertex<float>* v) { return reinterpret_cast<const float*>(&v->snapped); }, four);
+    out.snapped_x[k] = as_int(four[0]), out.snapped_y[k] = as_int(four[1]);
   }
+  return out;
+}
+
+/// Colours into `out`; returns which lanes' corners all have the same alpha.
+template <class R>
+[[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat, SetupLanes<R>& out) {
+  R color[3][4];
   for (int k = 0; k < 3; ++k)
-    fours(
-        site.flat ? 1 : k, [](const WindowVertex<float>* v) { return &v->color.r; }, color[k]);
-  Mask<R> constant = p_win[0][0] == p_win[0][0];
+    load_corner<R>(
+        corner[flat ? 1 : k], [](const WindowVertex<float>* v) { return &v->color.r; }, color[k]);
+  Mask<R> constant = mask_of<R>(~0u);
   for (int c = 0; c < 4; ++c) {
     const R d1 = color[1][c] - color[0][c], d2 = color[2][c] - color[0][c];
     constant = constant & (d1 == R(0)) & (d2 == R(0));
@@ -117,30 +139,51 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
     store(d1, out.color[1][c]);
     store(d2, out.color[2][c]);
   }
-  store(select(constant, I(1), I(0)), out.constant_colors);
+  store(select(constant, Int<R>(1), Int<R>(0)), out.constant_colors);
+  return (color[1][3] == color[0][3]) & (color[2][3] == color[0][3]);
+}
 
-  const R face = load<R>(facing);
-  const PlaneCorners<W> through =
-      plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
-                       snapped_y, to_wide(face));
-  const CornerPlanes<W> planes = corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5);
-  const auto corners = [&](int coordinate, double unit, Affine<W>& plane) {
+template <class R>
+struct PlaneLanes {
+  Affine<Wide<R>> code, q1, q2, sum;
+};
+/// Of depth, and of the colours' weights; into `out`, too.
+template <class R>
+[[gnu::always_inline]] inline PlaneLanes<R> set_up_planes(const CornerPlanes<Wide<R>>& planes, const R (&p_win)[3][4],
+                                                          const SetupSite& site, SetupLanes<R>& out) {
+  using W = Wide<R>;
+  const auto corners = [&](int coordinate, double unit) {
     const W at_0 = to_wide(p_win[0][coordinate]);
     const auto beyond = [&](int k) { return (to_wide(p_win[k][coordinate]) - at_0) * unit; };
-    plane = planes.through(at_0 * unit, beyond(1), beyond(2));
+    return planes.through(at_0 * unit, beyond(1), beyond(2));
   };
-  Affine<W> code, sum;
-  corners(2, site.depth_scale == 0 ? 1 : site.depth_scale, code);
-  corners(3, 1, sum);
-  const Affine<W> q1 = scaled(planes.l1, to_wide(p_win[1][3])), q2 = scaled(planes.l2, to_wide(p_win[2][3]));
+  PlaneLanes<R> of{corners(2, site.depth_scale == 0 ? 1 : site.depth_scale),
+                   scaled(planes.l1, to_wide(p_win[1][3])), scaled(planes.l2, to_wide(p_win[2][3])), corners(3, 1)};
   if (site.sample != glm::ivec2(0)) {  // moved(), depth.h; colours are the centre's
     const glm::dvec2 by = glm::dvec2(site.sample) / static_cast<double>(kSubpixel);
-    code.at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
+    of.code.at_0 = of.code.at_0 + (by.x * of.code.x + by.y * of.code.y);
   }
   const auto keep = [](const Affine<W>& plane, typename SetupLanes<R>::AffineLanes& to) {
     store(plane.at_0, to.at_0), store(plane.x, to.x), store(plane.y, to.y);
   };
-  keep(code, out.code), keep(q1, out.q1), keep(q2, out.q2), keep(sum, out.sum);
+  keep(of.code, out.code), keep(of.q1, out.q1), keep(of.q2, out.q2), keep(of.sum, out.sum);
+  return of;
+}
+
+/// `facing`: 1 of a front face, -1 of a back one.
+template <class R>
+void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const SetupSite& site,
+                  SetupLanes<R>& out) {
+  using I = Int<R>;
+  using W = Wide<R>;
+  const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(corner);
+  const Mask<R> same_alpha = set_up_colors<R>(corner, site.flat, out);
+  const R face = load<R>(facing);
+  const PlaneCorners<W> through =
+      plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
+                       snapped_y, to_wide(face));
+  const auto [code, q1, q2, sum] =
+      set_up_planes<R>(corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5), p_win, site, out);
 
   // From here on, corners are counted from the tile, and from the sample.
   const I origin_x(site.tile_x * kSubpixel + site.sample.x), origin_y(site.tile_y * kSubpixel + site.sample.y);
@@ -170,7 +213,7 @@ void set_up_lanes(const WindowVertex<float>* const (&corner)[3][Lanes<R>::width]
   const W most_weight = least_sum * W(1024);  // 255 of them are far from 2^31, too
   const W terms_1 = terms(q1), terms_2 = terms(q2);
   const Mask<R> small = (least_sum > W(0x1p-60)) & (terms_1 < most_weight) & (terms_2 < most_weight);
-  out.plain_color = bits_of(small & (color[1][3] == color[0][3]) & (color[2][3] == color[0][3]));
+  out.plain_color = bits_of(small & same_alpha);
 
   // Counter-clockwise.
   const Mask<R> front = face > R(0);

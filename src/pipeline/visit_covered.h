@@ -66,13 +66,7 @@ template <class R>
 [[gnu::always_inline]] inline void each_lane(const Painting& painting, const PaintRun& run, bool from_last, int tile_x,
                                              int tile_y, auto together, auto alone, auto paint) {
   constexpr std::size_t kLanes = Lanes<R>::width;
-  const Formats& formats = painting.formats;
-  const SetupSite site{tile_x,
-                       tile_y,
-                       formats.sample,
-                       formats.depth_scale,
-                       depth_code(painting.format.clear_depth, formats.depth_scale),
-                       painting.draws[run.draw].flat};
+  const SetupSite site = site_of(painting, run, tile_x, tile_y);
   const std::size_t size = run.numbers.size();
   SetupLanes<R> lanes;
   for (std::size_t i = 0; i < size; i += kLanes) {
