@@ -14,29 +14,35 @@ enum class Order { first_to_last, last_to_first };
 /// What of a triangle needs no care (SetupLanes): nothing; its depth, and it has but one colour; its depth and colours.
 enum class Plain { nothing, one_color, colors };
 
-/// `shaded`: ShadedPixels<R>, of PaintKernel::shades.
-template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
-[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup& s, float cleared, PackedTile& tile,
+/// `tiles`: of each sample one; `shaded`: ShadedPixels, of PaintKernel::shades.
+template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples>
+[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup<kSamples>& s, float cleared, PackedTile* tiles,
                                                          auto& shaded) {
   using W = Wide<R>;
   constexpr int kLanes = Lanes<R>::width;
   constexpr bool kFromLast = kOrder == Order::last_to_first;
   constexpr bool kDepthFirst = kKernel == PaintKernel::depth_alone || kKernel == PaintKernel::shades;
   constexpr bool kColors = !kDepthFirst && kPlain != Plain::one_color;
-  constexpr int kPlanes = kColors ? 4 : 1;
-  const Affine<double>* const plane[4] = {&s.depth_plane.code, &s.perspective.q1, &s.perspective.q2,
-                                          &s.perspective.sum};
   const Vec4<float>& c0 = s.attributes.color0;
   const Color<R> one_color{R(c0.r), R(c0.g), R(c0.b), R(c0.a)};
   const Int<R> one_code = packed_merge(one_color);
+
+  constexpr int kPlanes = kSamples + (kColors ? 3 : 0);  // the samples' depths, and the weights
+  const Affine<double>* plane[kSamples + 3];
+  for (int i = 0; i < kSamples; ++i) plane[i] = &s.code[i];
+  plane[kSamples] = &s.perspective.q1, plane[kSamples + 1] = &s.perspective.q2,
+  plane[kSamples + 2] = &s.perspective.sum;
 
   bool hidden = true;
   W of_row[kPlanes][kParts<R>];
   const auto row = [&](int y) {
     unsigned nearer = 0;
     for (int b = 0; b < kTile / kBlock; b += kLanes) {
-      const R farthest = load<R>(tile.farthest + y / kBlock * (kTile / kBlock) + b);
-      nearer |= bits_of(farthest > R(s.nearest)) << b;
+      Mask<R> some = mask_of<R>(0);
+      for (int i = 0; i < kSamples; ++i) {
+        some = some | (load<R>(tiles[i].farthest + y / kBlock * (kTile / kBlock) + b) > R(s.nearest));
+      }
+      nearer |= bits_of(some) << b;
     }
     if (nearer == 0) return nearer;
     hidden = false;
@@ -46,59 +52,80 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain>
     }
     return nearer;
   };
-  visit_covered<R>(s, row, [&](int x, int y, const Mask<R>(&covered)[kParts<R>]) {
-    const StoredCodes block = tile.at(block_offset(x, y));
+  visit_covered<R, kSamples>(s, row, [&](int x, int y, const Mask<R>(&covered)[kSamples][kParts<R>]) {
+    const int place = block_offset(x, y);
     W of_column[kPlanes];
-    const auto value = [&](int k, int part) {  // value_at()
-      if constexpr (kLanes >= kBlock) return of_row[k][part] + of_column[k];
-      return of_row[k][part] + columns_of_block<R>(x, part * kLanes) * plane[k]->x;
+    for (int k = kSamples - 1; k < kPlanes; ++k) of_column[k] = columns_of_block<R>(x, 0) * plane[k]->x;
+    const auto value = [&](int k, int part) {  // value_at(); all depths have the same slopes
+      const int slope = k < kSamples ? kSamples - 1 : k;
+      if constexpr (kLanes >= kBlock) return of_row[k][part] + of_column[slope];
+      return of_row[k][part] + columns_of_block<R>(x, part * kLanes) * plane[slope]->x;
     };
-    for (int k = 0; k < kPlanes; ++k) of_column[k] = columns_of_block<R>(x, 0) * plane[k]->x;
     // From last to first, a fragment as near as one that was painted before it comes before it; one as near as the
     // clear depth is none.
-    Mask<R> kept[kParts<R>], some = mask_of<R>(0), full = mask_of<R>(~0u);
-    R farthest(0);
-    for (int part = 0; part < kParts<R>; ++part) {
-      R z;
-      if constexpr (kPlain == Plain::nothing) {
-        z = to_float(round_even(clamped(value(0, part), W(0), W(kMostZ24))));
-      } else {
-        z = to_float(nearest_int(value(0, part)));
+    Mask<R> kept[kSamples][kParts<R>], some = mask_of<R>(0), full[kSamples];
+    R farthest[kSamples];
+    for (int i = 0; i < kSamples; ++i) {
+      full[i] = mask_of<R>(~0u), farthest[i] = R(0);
+      for (int part = 0; part < kParts<R>; ++part) {
+        R z;
+        if constexpr (kPlain == Plain::nothing) {
+          z = to_float(round_even(clamped(value(i, part), W(0), W(kMostZ24))));
+        } else {
+          z = to_float(nearest_int(value(i, part)));
+        }
+        float* const to = tiles[i].depth + place + part * kLanes;
+        const R held = load<R>(to);
+        Mask<R>& here = kept[i][part];
+        here = covered[i][part] & (kFromLast ? z <= held : z < held);
+        if constexpr (kFromLast && kPlain == Plain::nothing) here = here & (z < R(cleared));
+        some = some | here;
+        full[i] = full[i] & here;
+        farthest[i] = greater_of(farthest[i], z);
+        store(here, z, to);
       }
-      float* const to = block.depth + part * kLanes;
-      const R held = load<R>(to);
-      kept[part] = covered[part] & (kFromLast ? z <= held : z < held);
-      if constexpr (kFromLast && kPlain == Plain::nothing) kept[part] = kept[part] & (z < R(cleared));
-      some = some | kept[part];
-      full = full & kept[part];
-      farthest = greater_of(farthest, z);
-      store(kept[part], z, to);
     }
     if (!any(some)) return;
     for (int part = 0; part < kParts<R>; ++part) {
-      if constexpr (kKernel == PaintKernel::shades) shaded.add(block_offset(x, y) + part * kLanes, kept[part]);
-      if (kDepthFirst || (kLanes < kBlock && !any(kept[part]))) continue;
-      std::uint32_t* const to = block.color + part * kLanes;
-      const auto color = [&]() -> Color<R> {
-        if constexpr (!kColors) return one_color;
-        const R q1 = to_float(value(1, part)), q2 = to_float(value(2, part)), sum = to_float(value(3, part));
-        if constexpr (kPlain == Plain::nothing) return mean<R>(s.attributes, weights<R>(q1, q2, sum));
-        return plain_color(s.attributes, q1, q2, sum, one_color.a);
-      };
-      if constexpr (kKernel == PaintKernel::blends_over) {
-        store_packed(kept[part], packed_over<R>(color(), load_packed<R>(to)), to);
-      } else if constexpr (kPlain == Plain::one_color) {
-        store_packed(kept[part], one_code, to);
-      } else if constexpr (kPlain == Plain::colors) {
-        store_packed(kept[part], packed_merge_near(color()), to);
-      } else {
-        store_packed(kept[part], packed_merge(color()), to);
+      if constexpr (kKernel == PaintKernel::shades) {
+        std::array<Mask<R>, kSamples> of_sample;
+        for (int i = 0; i < kSamples; ++i) of_sample[static_cast<std::size_t>(i)] = kept[i][part];
+        shaded.add(place + part * kLanes, of_sample);
+      }
+      if constexpr (!kDepthFirst) {
+        if (kSamples == 1 && kLanes < kBlock && !any(kept[0][part])) continue;
+        const auto color = [&]() -> Color<R> {
+          if constexpr (!kColors) return one_color;
+          const auto weight = [&](int k) { return to_float(value(kSamples + k, part)); };
+          const R q1 = weight(0), q2 = weight(1), sum = weight(2);
+          if constexpr (kPlain == Plain::nothing) return mean<R>(s.attributes, weights<R>(q1, q2, sum));
+          return plain_color(s.attributes, q1, q2, sum, one_color.a);
+        };
+        const auto to = [&](int i) { return tiles[i].color + place + part * kLanes; };
+        if constexpr (kKernel == PaintKernel::blends_over) {
+          const Color<R> over = color();
+          for (int i = 0; i < kSamples; ++i)
+            store_packed(kept[i][part], packed_over<R>(over, load_packed<R>(to(i))), to(i));
+        } else {
+          const auto code = [&] {
+            if constexpr (kPlain == Plain::one_color) return one_code;
+            if constexpr (kPlain == Plain::colors) return packed_merge_near(color());
+            return packed_merge(color());
+          };
+          const Int<R> codes = code();
+          for (int i = 0; i < kSamples; ++i) store_packed(kept[i][part], codes, to(i));
+        }
       }
     }
-    if (all(full)) tile.farthest[y / kBlock * (kTile / kBlock) + x / kBlock] = greatest_lane(farthest);
+    for (int i = 0; i < kSamples; ++i) {
+      if (all(full[i])) {
+        tiles[i].farthest[y / kBlock * (kTile / kBlock) + x / kBlock] = greatest_lane(farthest[i]);
+      }
+    }
   });
   const bool all_blocks = s.x0 == 0 && s.y0 == 0 && s.x1 == kTile && s.y1 == kTile;
-  if (hidden && all_blocks) {  // the next that it would hide are not even looked at
+  for (int i = 0; i < kSamples && hidden && all_blocks; ++i) {  // the next that it would hide are not even looked at
+    PackedTile& tile = tiles[i];
     tile.farthest_of_all = *std::max_element(std::begin(tile.farthest), std::end(tile.farthest));
   }
 }
@@ -108,7 +135,7 @@ inline constexpr int kSmall = 30;  ///< pixels of a box: as many bits a float's 
 /// Triangles in boxes of `lanes.width` x `lanes.height` pixels, all at once: which pixels of their boxes they cover,
 /// and these (paint_pixels.h).
 template <class R, PaintKernel kKernel, Order kOrder, bool kPlain>
-void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared, PackedTile& tile) {
+void paint_small_triangles(const auto& lanes, int sample, int count, float cleared, PackedTile& tile) {
   using I = Int<R>;
   constexpr int kLanes = Lanes<R>::width;
 
@@ -118,7 +145,7 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
   I e_of_row[3], step_x[3], step_y[3];
   for (int k = 0; k < 3; ++k) {
     step_x[k] = load_ints<R>(lanes.step_x[k]), step_y[k] = load_ints<R>(lanes.step_y[k]);
-    e_of_row[k] = load_ints<R>(lanes.at_tile[k]) + step_x[k] * x0 + step_y[k] * y0;
+    e_of_row[k] = load_ints<R>(lanes.at_tile[sample][k]) + step_x[k] * x0 + step_y[k] * y0;
   }
   I covered(0);  // a bit a pixel, row by row
   for (int row = 0, bit = 0; row < lanes.height; ++row) {
@@ -138,7 +165,7 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
     most = std::max(most, std::popcount(static_cast<unsigned>(covered_of[lane])));
   }
 
-  PixelsOfLanes<R, kKernel == PaintKernel::replaces, kPlain, kSmall> values(lanes);
+  PixelsOfLanes<R, kKernel == PaintKernel::replaces, kPlain, kSmall> values(lanes, sample);
   const I width(lanes.width), per_width((1 << 16) / lanes.width + 1);
   for (int i = 0; i < most; ++i) {
     const I rest = covered & (covered - I(1)), lowest = covered ^ rest;
@@ -153,8 +180,9 @@ void paint_small_triangles(const SetupLanes<R>& lanes, int count, float cleared,
   }
 }
 
-template <class R, PaintKernel kKernel, Order kOrder>
-void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& tile, auto alone) {
+template <class R, PaintKernel kKernel, Order kOrder, int kSamples>
+void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile* tiles, auto alone) {
+  const int x0 = tiles[0].x0, y0 = tiles[0].y0;
   const auto cleared = static_cast<float>(depth_code(painting.format.clear_depth, painting.formats.depth_scale));
   const auto together = [&](const auto& lanes, int count) {
     const int box = std::max(lanes.width, 0) * std::max(lanes.height, 0);
@@ -162,24 +190,28 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& til
       return false;
     if (box == 0) return true;
     constexpr unsigned kAll = ~0u >> (32 - Lanes<R>::width);
-    if ((lanes.plain_depth & lanes.plain_color) == kAll) {
-      paint_small_triangles<R, kKernel, kOrder, true>(lanes, count, cleared, tile);
-    } else {
-      paint_small_triangles<R, kKernel, kOrder, false>(lanes, count, cleared, tile);
+    for (int i = 0; i < kSamples; ++i) {
+      if ((lanes.plain_depth & lanes.plain_color) == kAll) {
+        paint_small_triangles<R, kKernel, kOrder, true>(lanes, i, count, cleared, tiles[i]);
+      } else {
+        paint_small_triangles<R, kKernel, kOrder, false>(lanes, i, count, cleared, tiles[i]);
+      }
     }
     return true;
   };
   const auto paint = [&](const PaintTriangle& triangle, const auto& lanes, int lane) {
-    if (lanes.nearest[lane] >= tile.farthest_of_all) return;
-    const LaneSetup s = lanes.of(lane, triangle.front, tile.x0, tile.y0);
+    bool hidden = true;
+    for (int i = 0; i < kSamples; ++i) hidden &= lanes.nearest[lane] >= tiles[i].farthest_of_all;
+    if (hidden) return;
+    const LaneSetup<kSamples> s = lanes.of(lane, triangle.front, x0, y0);
     const auto as = [&]<Plain kPlain>(auto& shaded) {
-      paint_opaque_triangle<R, kKernel, kOrder, kPlain>(s, cleared, tile, shaded);
+      paint_opaque_triangle<R, kKernel, kOrder, kPlain, kSamples>(s, cleared, tiles, shaded);
     };
     const auto by_depth = [&](auto& shaded) {
       s.plain_depth ? as.template operator()<Plain::one_color>(shaded) : as.template operator()<Plain::nothing>(shaded);
     };
     if constexpr (kKernel == PaintKernel::shades) {
-      ShadedPixels<R> shaded(painting, painting.draws[run.draw], triangle, s, tile);
+      ShadedPixels<R, kSamples> shaded(painting, painting.draws[run.draw], triangle, s, tiles);
       by_depth(shaded);
       shaded.finish();
     } else {
@@ -189,7 +221,7 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile& til
       as.template operator()<Plain::colors>(none);
     }
   };
-  each_lane<R>(painting, run, kOrder == Order::last_to_first, tile.x0, tile.y0, together, alone, paint);
+  each_lane<R, kSamples>(painting, run, kOrder == Order::last_to_first, x0, y0, together, alone, paint);
 }
 
 }  // namespace plumbline::pipeline

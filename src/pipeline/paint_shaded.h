@@ -2,6 +2,7 @@
 // the depth test are collected from their blocks, so that as many are shaded at a time as there are lanes.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <optional>
 
@@ -33,17 +34,23 @@ inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& d
   return set_up_surface(FragmentStages(), *draw.state.surface, record, 0, varying, planes_of(record, x0, y0));
 }
 
-/// A triangle's: add() them block by block, then finish().
-template <class R>
+/// A triangle's: add() them block by block, then finish(). A pixel is shaded once for all of its samples.
+template <class R, int kSamples>
 class ShadedPixels {
  public:
-  ShadedPixels(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, const LaneSetup& setup,
-               PackedTile& tile)
-      : painting_(painting), draw_(draw), triangle_(triangle), setup_(setup), tile_(tile) {}
+  ShadedPixels(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle,
+               const LaneSetup<kSamples>& setup, PackedTile* tiles)
+      : painting_(painting), draw_(draw), triangle_(triangle), setup_(setup), tiles_(tiles) {}
 
   /// Those of a part of a block, from `place` on.
-  void add(int place, const Mask<R>& kept) {
-    for (unsigned bits = bits_of(kept); bits != 0; bits &= bits - 1) places_[count_++] = place + std::countr_zero(bits);
+  void add(int place, const std::array<Mask<R>, kSamples>& kept) {
+    unsigned of_sample[kSamples], some = 0;
+    for (int i = 0; i < kSamples; ++i) some |= of_sample[i] = bits_of(kept[static_cast<std::size_t>(i)]);
+    for (; some != 0; some &= some - 1, ++count_) {
+      const int lane = std::countr_zero(some);
+      places_[count_] = place + lane;
+      for (int i = 0; i < kSamples && kSamples > 1; ++i) kept_[count_][i] = (of_sample[i] >> lane & 1u) != 0;
+    }
     if (count_ >= kLanes) shade(kLanes);
   }
   void finish() {
@@ -59,24 +66,31 @@ class ShadedPixels {
   // The last ones, `count` of as many as there are lanes.
   void shade(int count) {
     using I = Int<R>;
-    if (!surface_) surface_.emplace(surface_of_lane(painting_, draw_, triangle_, tile_.x0, tile_.y0));
+    const int x0 = tiles_[0].x0, y0 = tiles_[0].y0;
+    if (!surface_) surface_.emplace(surface_of_lane(painting_, draw_, triangle_, x0, y0));
     count_ -= kLanes;
     const I place = load_ints<R>(places_ + count_);
-    const I x = I(tile_.x0) + x_of_place(place), y = I(tile_.y0) + y_of_place(place);
+    const I x = I(x0) + x_of_place(place), y = I(y0) + y_of_place(place);
     const Pixels<R> p{x, y, to_wide(x) + 0.5, to_wide(y) + 0.5};
     const SurfaceAttributes<R> attributes = surface_attributes<R, false>(FragmentStages(), setup_, *surface_, p);
     alignas(64) std::int32_t codes[kLanes];
     store(packed_merge(shade_surface<R>(*surface_->surface, surface_->front, attributes)), codes);
-    for (int i = 0; i < count; ++i) tile_.color[places_[count_ + i]] = static_cast<std::uint32_t>(codes[i]);
+    for (int lane = 0; lane < count; ++lane) {
+      for (int i = 0; i < kSamples; ++i) {
+        if (kSamples == 1 || kept_[count_ + lane][i])
+          tiles_[i].color[places_[count_ + lane]] = static_cast<std::uint32_t>(codes[lane]);
+      }
+    }
   }
 
   const Painting& painting_;
   const PaintDraw& draw_;
   const PaintTriangle& triangle_;
-  const LaneSetup& setup_;
-  PackedTile& tile_;
+  const LaneSetup<kSamples>& setup_;
+  PackedTile* tiles_;
   std::optional<SurfaceSetup> surface_;  ///< when the first is shaded
   std::int32_t places_[2 * kLanes];
+  bool kept_[2 * kLanes][kSamples];
   int count_ = 0;
 };
 

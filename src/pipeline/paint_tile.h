@@ -38,17 +38,17 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   const auto paint_blocks = [&](const auto& setup) {
     const auto block = [&](int x, int y, const auto& covered) {
       for (int part = 0; part < kParts<R>; ++part) {
-        if (!any(covered[part])) continue;
+        if (!any(covered[0][part])) continue;
         const int i = part * Lanes<R>::width;
         covered_pixels<R>(FragmentStages(), draw.state, setup, block_pixels<R>(tile.x0 + x, tile.y0 + y, i),
-                          covered[part], block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
+                          covered[0][part], block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
       }
     };
-    visit_covered<R>(
+    visit_covered<R, 1>(
         setup, [](int) { return ~0u; }, block);
   };
   const auto paint = [&](const PaintTriangle& t, const auto& lanes, int lane) {
-    LaneSetup s = lanes.of(lane, t.front, tile.x0, tile.y0);
+    LaneSetup<> s = lanes.of(lane, t.front, tile.x0, tile.y0);
     s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
     if (draw.state.surface == nullptr) return paint_blocks(s);
     const SurfaceSetup surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
@@ -56,7 +56,7 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   };
   const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
   const auto together = [](const auto&, int) { return false; };
-  each_lane<R>(painting, run, false, tile.x0, tile.y0, together, alone, paint);
+  each_lane<R, 1>(painting, run, false, tile.x0, tile.y0, together, alone, paint);
 }
 
 /// Whether one's triangles may be painted as the other's: all else that a draw says, such kernels are there not to ask.
@@ -98,43 +98,55 @@ std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun>
   const PaintRun &first = runs[0], &last = runs[count - 1];
   if (painting.any_far || !(depth(last, last.numbers.back()) < depth(first, first.numbers.front()))) return 0;
   for (std::size_t i = count; i-- > 0;)
-    paint_opaque<R, PaintKernel::replaces, Order::last_to_first>(painting, runs[i], tile, [](const PaintTriangle&) {});
+    paint_opaque<R, PaintKernel::replaces, Order::last_to_first, 1>(painting, runs[i], &tile,
+                                                                    [](const PaintTriangle&) {});
   return count;
 }
-template <class R>
-std::size_t paint_first_runs(const Painting&, std::span<const PaintRun>, Tile&) {
-  return 0;
+
+/// paint(painting, tile) of each sample's own.
+template <int kSamples>
+void each_sample(const Painting& painting, PackedTile* tiles, auto paint) {
+  if constexpr (kSamples == 1) return paint(painting, tiles[0]);
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    Painting of_sample = painting;
+    of_sample.samples = painting.samples.subspan(i, 1);
+    of_sample.formats.sample = painting.samples[i];
+    paint(of_sample, tiles[i]);
+  }
 }
 
-template <class R>
-void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile& tile) {
+/// `tiles`: of each sample one.
+template <class R, int kSamples>
+void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
   const PaintDraw& draw = painting.draws[run.draw];
-  const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
-  if (draw.kernel == PaintKernel::replaces) {
-    return paint_opaque<R, PaintKernel::replaces, Order::first_to_last>(painting, run, tile, alone);
+  const auto alone = [&](const PaintTriangle& t) {
+    each_sample<kSamples>(painting, tiles,
+                          [&](const Painting& of, PackedTile& tile) { paint_alone<R>(of, draw, t, tile); });
+  };
+  const auto opaque = [&]<PaintKernel kKernel>() {
+    paint_opaque<R, kKernel, Order::first_to_last, kSamples>(painting, run, tiles, alone);
+  };
+  switch (draw.kernel) {
+    case PaintKernel::replaces: return opaque.template operator()<PaintKernel::replaces>();
+    case PaintKernel::blends_over: return opaque.template operator()<PaintKernel::blends_over>();
+    case PaintKernel::depth_alone: return opaque.template operator()<PaintKernel::depth_alone>();
+    case PaintKernel::shades: return opaque.template operator()<PaintKernel::shades>();
+    case PaintKernel::lines:
+      return each_sample<kSamples>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
+        paint_lines<R>(of, run, tile, [&](const PaintTriangle& t) { paint_alone<R>(of, draw, t, tile); });
+      });
+    case PaintKernel::any: break;
   }
-  if (draw.kernel == PaintKernel::blends_over) {
-    return paint_opaque<R, PaintKernel::blends_over, Order::first_to_last>(painting, run, tile, alone);
-  }
-  if (draw.kernel == PaintKernel::shades) {
-    return paint_opaque<R, PaintKernel::shades, Order::first_to_last>(painting, run, tile, alone);
-  }
-  if (draw.kernel == PaintKernel::depth_alone) {
-    return paint_opaque<R, PaintKernel::depth_alone, Order::first_to_last>(painting, run, tile, alone);
-  }
-  if (draw.kernel == PaintKernel::lines) return paint_lines<R>(painting, run, tile, alone);
   const DepthFunc func = draw.state.depth_func;
   const bool farther =
       func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;
-  if (farther) {
-    tile.farthest_of_all = std::numeric_limits<float>::infinity();
-    std::fill(std::begin(tile.farthest), std::end(tile.farthest), tile.farthest_of_all);
-  }
-  paint_run<R>(painting, run, tile);
-}
-template <class R>
-void paint_next_run(const Painting& painting, const PaintRun& run, Tile& tile) {
-  paint_run<R>(painting, run, tile);
+  each_sample<kSamples>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
+    if (farther) {
+      tile.farthest_of_all = std::numeric_limits<float>::infinity();
+      std::fill(std::begin(tile.farthest), std::end(tile.farthest), tile.farthest_of_all);
+    }
+    paint_run<R>(of, run, tile);
+  });
 }
 
 /// Copies the tile's part of the frame out of its blocks.
@@ -182,15 +194,6 @@ void clear(PackedTile& tile, const Painting& painting) {
   if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
 }
 
-/// What lies in the tile, over clear ground.
-template <class R>
-void paint_runs(const Painting& painting, std::span<const PaintRun> runs, auto& tile) {
-  clear<R>(tile, painting);
-  for (std::size_t i = paint_first_runs<R>(painting, runs, tile); i < runs.size(); ++i) {
-    paint_next_run<R>(painting, runs[i], tile);
-  }
-}
-
 /// mean_of_four() (resolve.h) of the samples' codes, into the first's.
 template <class R>
 void resolve_samples(PackedTile (&samples)[4]) {
@@ -211,21 +214,29 @@ void resolve_samples(PackedTile (&samples)[4]) {
 template <class R>
 void paint_tile(const Painting& painting, int number, TileMemory& memory, Frame& frame) {
   const int x0 = number % painting.columns * kTile, y0 = number / painting.columns * kTile;
+  const std::vector<PaintRun>& runs = memory.runs;
   find_runs(painting, static_cast<std::size_t>(number), memory.runs);
+  const auto begin = [&](auto& tile) {
+    tile.x0 = x0, tile.y0 = y0;
+    clear<R>(tile, painting);
+  };
   if (painting.format.color != ColorFormat::rgba8) {
-    memory.tile.x0 = x0, memory.tile.y0 = y0;
-    paint_runs<R>(painting, memory.runs, memory.tile);
+    begin(memory.tile);
+    for (const PaintRun& run : runs) paint_run<R>(painting, run, memory.tile);
     return copy_out<R>(memory.tile, frame);
   }
-  for (std::size_t i = 0; i < painting.samples.size(); ++i) {
-    PackedTile& tile = memory.packed[i];
-    tile.x0 = x0, tile.y0 = y0;
-    Painting of_sample = painting;
-    of_sample.formats.sample = painting.samples[i];
-    paint_runs<R>(of_sample, memory.runs, tile);
+  PackedTile& first = memory.packed[0];
+  if (painting.samples.size() == 1 || runs.empty()) {
+    begin(first);
+    for (std::size_t i = paint_first_runs<R>(painting, runs, first); i < runs.size(); ++i) {
+      paint_next_run<R, 1>(painting, runs[i], &first);
+    }
+  } else {
+    for (PackedTile& tile : memory.packed) begin(tile);
+    for (const PaintRun& run : runs) paint_next_run<R, 4>(painting, run, memory.packed);
+    resolve_samples<R>(memory.packed);
   }
-  if (painting.samples.size() > 1) resolve_samples<R>(memory.packed);
-  copy_out<R>(memory.packed[0], frame);
+  copy_out<R>(first, frame);
 }
 
 }  // namespace plumbline::pipeline

@@ -15,11 +15,15 @@ struct TileEdge {
 /// changes. Corners cut where w is tiny may be rounded to far outside of the frame: such edges do not fit.
 inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
 
-/// A triangle in its lane.
+/// A triangle in its lane. Edges and depths are taken at each of the pixel's samples, which differ but in what is added
+/// there; `edge` has the least of what is, so that a pixel outside of it is outside for all samples.
+template <int kSamples = 1>
 struct LaneSetup {
   bool front;
   int x0, y0, x1, y1;  ///< the pixels of the tile in its bounding box, x0 and y0 rounded down to a block's
   TileEdge edge[3];
+  std::int32_t at_tile[kSamples][3];
+  Affine<double> code[kSamples];
   Anchor planes;
   DepthPlane depth_plane;
   PerspectiveSetup perspective;
@@ -28,22 +32,22 @@ struct LaneSetup {
   AttributeSetup attributes;
 };
 /// Of a draw that has a surface.
-struct LaneSurfaceSetup : LaneSetup {
+struct LaneSurfaceSetup : LaneSetup<> {
   const SurfaceSetup* surface;
 };
 
-template <class R>
+template <class R, int kSamples = 1>
 struct SetupLanes {
   static constexpr int kLanes = Lanes<R>::width;
   alignas(64) std::int32_t bounds[4][kLanes];  ///< as LaneSetup, x0 and y0 not rounded
-  alignas(64) std::int32_t at_tile[3][kLanes];
+  alignas(64) std::int32_t at_tile[kSamples][3][kLanes];
   std::int32_t step_x[3][kLanes], step_y[3][kLanes];
   struct AffineLanes {
     double at_0[kLanes], x[kLanes], y[kLanes];
     Affine<double> of(int lane) const { return {at_0[lane], x[lane], y[lane]}; }
     Affine<Wide<R>> of_all() const { return {load_wide<R>(at_0), load_wide<R>(x), load_wide<R>(y)}; }
   };
-  alignas(64) AffineLanes code, q1, q2, sum;
+  alignas(64) AffineLanes code[kSamples], q1, q2, sum;
   alignas(64) float color[3][4][kLanes];
   float nearest[kLanes];
   alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
@@ -54,14 +58,19 @@ struct SetupLanes {
   int width, height;  ///< the largest box
 
   /// In the tile whose lower left pixel that is.
-  [[gnu::always_inline]] LaneSetup of(int lane, bool front, int tile_x, int tile_y) const {
-    LaneSetup s;
+  [[gnu::always_inline]] LaneSetup<kSamples> of(int lane, bool front, int tile_x, int tile_y) const {
+    LaneSetup<kSamples> s;
     s.front = front;
     s.planes = {tile_x + 0.5, tile_y + 0.5};
     s.x0 = bounds[0][lane] & ~(kBlock - 1), s.y0 = bounds[1][lane] & ~(kBlock - 1);
     s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
-    for (int k = 0; k < 3; ++k) s.edge[k] = {at_tile[k][lane], step_x[k][lane], step_y[k][lane]};
-    s.depth_plane.code = code.of(lane);
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < kSamples; ++i) s.at_tile[i][k] = at_tile[i][k][lane];
+      s.edge[k] = {s.at_tile[0][k], step_x[k][lane], step_y[k][lane]};
+      for (int i = 1; i < kSamples; ++i) s.edge[k].at_tile = std::min(s.edge[k].at_tile, s.at_tile[i][k]);
+    }
+    for (int i = 0; i < kSamples; ++i) s.code[i] = code[i].of(lane);
+    s.depth_plane.code = s.code[0];
     s.perspective.q1 = q1.of(lane), s.perspective.q2 = q2.of(lane), s.perspective.sum = sum.of(lane);
     for (int c = 0; c < 4; ++c) {
       s.attributes.color0[c] = color[0][c][lane];
@@ -79,7 +88,7 @@ struct SetupLanes {
 /// What is the same for all lanes.
 struct SetupSite {
   int tile_x, tile_y;  ///< the tile's lower left pixel
-  glm::ivec2 sample;   ///< Formats::sample
+  std::span<const glm::ivec2> samples;
   double depth_scale;  ///< Formats::depth_scale
   double clear_code;   ///< of depth
   bool flat;
@@ -88,7 +97,7 @@ inline SetupSite site_of(const Painting& painting, const PaintRun& run, int tile
   const Formats& formats = painting.formats;
   return {tile_x,
           tile_y,
-          formats.sample,
+          painting.samples,
           formats.depth_scale,
           depth_code(painting.format.clear_depth, formats.depth_scale),
           painting.draws[run.draw].flat};
@@ -126,7 +135,7 @@ template <class R>
 
 /// Colours into `out`; returns which lanes' corners all have the same alpha.
 template <class R>
-[[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat, SetupLanes<R>& out) {
+[[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat, auto& out) {
   R color[3][4];
   for (int k = 0; k < 3; ++k)
     load_corner<R>(
@@ -143,37 +152,41 @@ template <class R>
   return (color[1][3] == color[0][3]) & (color[2][3] == color[0][3]);
 }
 
-template <class R>
+template <class R, int kSamples>
 struct PlaneLanes {
-  Affine<Wide<R>> code, q1, q2, sum;
+  Affine<Wide<R>> code[kSamples], q1, q2, sum;
 };
-/// Of depth, and of the colours' weights; into `out`, too.
-template <class R>
-[[gnu::always_inline]] inline PlaneLanes<R> set_up_planes(const CornerPlanes<Wide<R>>& planes, const R (&p_win)[3][4],
-                                                          const SetupSite& site, SetupLanes<R>& out) {
+/// Of depth at each sample, and of the colours' weights, which are the centre's; into `out`, too.
+template <class R, int kSamples>
+[[gnu::always_inline]] inline PlaneLanes<R, kSamples> set_up_planes(const CornerPlanes<Wide<R>>& planes,
+                                                                    const R (&p_win)[3][4], const SetupSite& site,
+                                                                    SetupLanes<R, kSamples>& out) {
   using W = Wide<R>;
   const auto corners = [&](int coordinate, double unit) {
     const W at_0 = to_wide(p_win[0][coordinate]);
     const auto beyond = [&](int k) { return (to_wide(p_win[k][coordinate]) - at_0) * unit; };
     return planes.through(at_0 * unit, beyond(1), beyond(2));
   };
-  PlaneLanes<R> of{corners(2, site.depth_scale == 0 ? 1 : site.depth_scale),
-                   scaled(planes.l1, to_wide(p_win[1][3])), scaled(planes.l2, to_wide(p_win[2][3])), corners(3, 1)};
-  if (site.sample != glm::ivec2(0)) {  // moved(), depth.h; colours are the centre's
-    const glm::dvec2 by = glm::dvec2(site.sample) / static_cast<double>(kSubpixel);
-    of.code.at_0 = of.code.at_0 + (by.x * of.code.x + by.y * of.code.y);
-  }
-  const auto keep = [](const Affine<W>& plane, typename SetupLanes<R>::AffineLanes& to) {
+  const auto keep = [](const Affine<W>& plane, auto& to) {
     store(plane.at_0, to.at_0), store(plane.x, to.x), store(plane.y, to.y);
   };
-  keep(of.code, out.code), keep(of.q1, out.q1), keep(of.q2, out.q2), keep(of.sum, out.sum);
+  const Affine<W> code = corners(2, site.depth_scale == 0 ? 1 : site.depth_scale);
+  PlaneLanes<R, kSamples> of{
+      {}, scaled(planes.l1, to_wide(p_win[1][3])), scaled(planes.l2, to_wide(p_win[2][3])), corners(3, 1)};
+  for (int i = 0; i < kSamples; ++i) {  // moved(), depth.h
+    of.code[i] = code;
+    const glm::dvec2 by = glm::dvec2(site.samples[static_cast<std::size_t>(i)]) / static_cast<double>(kSubpixel);
+    if (by != glm::dvec2(0)) of.code[i].at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
+    keep(of.code[i], out.code[i]);
+  }
+  keep(of.q1, out.q1), keep(of.q2, out.q2), keep(of.sum, out.sum);
   return of;
 }
 
 /// `facing`: 1 of a front face, -1 of a back one.
-template <class R>
+template <class R, int kSamples>
 void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const SetupSite& site,
-                  SetupLanes<R>& out) {
+                  SetupLanes<R, kSamples>& out) {
   using I = Int<R>;
   using W = Wide<R>;
   const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(corner);
@@ -183,17 +196,24 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
       plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
                        snapped_y, to_wide(face));
   const auto [code, q1, q2, sum] =
-      set_up_planes<R>(corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5), p_win, site, out);
+      set_up_planes<R, kSamples>(corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5), p_win, site, out);
 
-  // From here on, corners are counted from the tile, and from the sample.
-  const I origin_x(site.tile_x * kSubpixel + site.sample.x), origin_y(site.tile_y * kSubpixel + site.sample.y);
+  // From here on, corners are counted from the tile.
+  const I origin_x(site.tile_x * kSubpixel), origin_y(site.tile_y * kSubpixel);
   I x[3], y[3];
   for (int k = 0; k < 3; ++k) x[k] = snapped_x[k] - origin_x, y[k] = snapped_y[k] - origin_y;
+  glm::ivec2 low_sample = site.samples[0], high_sample = low_sample;
+  for (const glm::ivec2& sample : site.samples) {
+    low_sample = glm::min(low_sample, sample), high_sample = glm::max(high_sample, sample);
+  }
   const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
   const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
-  const auto first = [](I low) { return greater_of(shifted_right<8>(low + I(kSubpixel - 1)), I(0)); };
-  const auto end = [](I high) { return lesser_of(shifted_right<8>(high) + I(1), I(kTile)); };
-  const I x_first = first(least(x)), y_first = first(least(y)), x_end = end(most(x)), y_end = end(most(y));
+  const auto first = [](I low, int sample) {
+    return greater_of(shifted_right<8>(low + I(kSubpixel - 1 - sample)), I(0));
+  };
+  const auto end = [](I high, int sample) { return lesser_of(shifted_right<8>(high - I(sample)) + I(1), I(kTile)); };
+  const I x_first = first(least(x), high_sample.x), y_first = first(least(y), high_sample.y);
+  const I x_end = end(most(x), low_sample.x), y_end = end(most(y), low_sample.y);
   out.width = greatest_lane(x_end - x_first);
   out.height = greatest_lane(y_end - y_first);
   store(x_first, out.bounds[0]), store(y_first, out.bounds[1]);
@@ -207,7 +227,12 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
   const auto least_of = [&](const Affine<W>& f) {
     return f.at_0 + lesser_of(f.x * low_x, f.x * high_x) + lesser_of(f.y * low_y, f.y * high_y) - terms(f) * W(0x1p-48);
   };
-  const W least_code = least_of(code), most_code = -least_of({-code.at_0, -code.x, -code.y}), least_sum = least_of(sum);
+  W least_code = least_of(code[0]), most_code = -least_of({-code[0].at_0, -code[0].x, -code[0].y});
+  for (int i = 1; i < kSamples; ++i) {
+    least_code = lesser_of(least_code, least_of(code[i]));
+    most_code = greater_of(most_code, -least_of({-code[i].at_0, -code[i].x, -code[i].y}));
+  }
+  const W least_sum = least_of(sum);
   store(to_float(floor_of(clamped(least_code, W(0), W(site.depth_scale))) - W(1)), out.nearest);
   out.plain_depth = bits_of(Mask<R>((least_code >= W(0)) & (most_code < W(site.clear_code - 1))));
   const W most_weight = least_sum * W(1024);  // 255 of them are far from 2^31, too
@@ -227,9 +252,14 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
     const I step_x = I(0) - d_y;
     // owns_its_centres (coverage.cpp): else 1 less, so that 0 is outside.
     const Mask<R> owns = (step_x > I(0)) | ((step_x == I(0)) & (d_x > I(0)));
-    const W e = to_wide(d_y) * to_wide(x[k]) - to_wide(d_x) * to_wide(y[k]);
-    const W at_tile = floor_of((e - to_wide(select(owns, I(0), I(1)))) * W(1.0 / kSubpixel));
-    store(I(-1) - to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.at_tile[k]);
+    const W less = to_wide(select(owns, I(0), I(1)));
+    const W wide_x = to_wide(d_x), wide_y = to_wide(d_y), e = wide_y * to_wide(x[k]) - wide_x * to_wide(y[k]);
+    for (int i = 0; i < kSamples; ++i) {
+      const glm::dvec2 sample(site.samples[static_cast<std::size_t>(i)]);
+      const W at_sample = e - (wide_y * sample.x - wide_x * sample.y);
+      const W at_tile = floor_of((at_sample - less) * W(1.0 / kSubpixel));
+      store(I(-1) - to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.at_tile[i][k]);
+    }
     store(d_y, out.step_x[k]);
     store(I(0) - d_x, out.step_y[k]);
   }
