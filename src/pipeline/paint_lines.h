@@ -9,19 +9,20 @@
 
 namespace plumbline::pipeline {
 
-/// planes_of() a line (depth.cpp): a triangle whose third corner has the values of the first.
+/// planes_of() a line (depth.cpp): a triangle whose third corner has the values of the first. Those of a line without
+/// length are not numbers, and it covers nothing.
 template <class R>
 [[gnu::always_inline]] inline CornerPlanes<Wide<R>> planes_of_lines(const R (&p_win)[3][4], const SetupSite& site) {
   using W = Wide<R>;
   const W x = to_wide(p_win[0][0]), y = to_wide(p_win[0][1]);
-  const W d_x = to_wide(p_win[1][0]) - x, d_y = to_wide(p_win[1][1]) - y, area = d_x * d_x + d_y * d_y;
-  CornerPlanes<W> planes = corner_planes<W>({x, y, d_x, d_y, -d_y, d_x, select(area == W(0), W(1), area)},
-                                            site.tile_x + 0.5, site.tile_y + 0.5);
+  const W d_x = to_wide(p_win[1][0]) - x, d_y = to_wide(p_win[1][1]) - y;
+  CornerPlanes<W> planes =
+      corner_planes<W>({x, y, d_x, d_y, -d_y, d_x, d_x * d_x + d_y * d_y}, site.tile_x + 0.5, site.tile_y + 0.5);
   planes.l2 = {W(0), W(0), W(0)};
   return planes;
 }
 
-/// alone(triangle): of what is not such a line.
+/// alone(line): of wider ones.
 template <class R>
 void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile, auto alone) {
   using I = Int<R>;
@@ -41,7 +42,7 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
       const PaintTriangle& t = line(lane);
       corner[0][lane] = corner[2][lane] = painting.vertices + t.corner[0];
       corner[1][lane] = painting.vertices + t.corner[1];
-      all_fit &= t.corners == 2 && t.width == 1;
+      all_fit &= t.width == 1;
     }
     if (!all_fit) {
       for (std::size_t lane = 0; lane < count; ++lane) alone(line(lane));

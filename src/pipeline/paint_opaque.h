@@ -3,6 +3,8 @@
 // taken out of the loops that they do not change in.
 #pragma once
 
+#include <array>
+
 #include "pipeline/paint_pixels.h"
 #include "pipeline/paint_shaded.h"
 #include "pipeline/visit_covered.h"
@@ -63,7 +65,8 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples
     };
     // From last to first, a fragment as near as one that was painted before it comes before it; one as near as the
     // clear depth is none.
-    Mask<R> kept[kSamples][kParts<R>], some = mask_of<R>(0), full[kSamples];
+    std::array<Mask<R>, kSamples> kept[kParts<R>];
+    Mask<R> some = mask_of<R>(0), full[kSamples];
     R farthest[kSamples];
     for (int i = 0; i < kSamples; ++i) {
       full[i] = mask_of<R>(~0u), farthest[i] = R(0);
@@ -76,7 +79,7 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples
         }
         float* const to = tiles[i].depth + place + part * kLanes;
         const R held = load<R>(to);
-        Mask<R>& here = kept[i][part];
+        Mask<R>& here = kept[part][static_cast<std::size_t>(i)];
         here = covered[i][part] & (kFromLast ? z <= held : z < held);
         if constexpr (kFromLast && kPlain == Plain::nothing) here = here & (z < R(cleared));
         some = some | here;
@@ -87,13 +90,9 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples
     }
     if (!any(some)) return;
     for (int part = 0; part < kParts<R>; ++part) {
-      if constexpr (kKernel == PaintKernel::shades) {
-        std::array<Mask<R>, kSamples> of_sample;
-        for (int i = 0; i < kSamples; ++i) of_sample[static_cast<std::size_t>(i)] = kept[i][part];
-        shaded.add(place + part * kLanes, of_sample);
-      }
+      if constexpr (kKernel == PaintKernel::shades) shaded.add(place + part * kLanes, kept[part]);
       if constexpr (!kDepthFirst) {
-        if (kSamples == 1 && kLanes < kBlock && !any(kept[0][part])) continue;
+        if (kSamples == 1 && kLanes < kBlock && !any(kept[part][0])) continue;
         const auto color = [&]() -> Color<R> {
           if constexpr (!kColors) return one_color;
           const auto weight = [&](int k) { return to_float(value(kSamples + k, part)); };
@@ -101,19 +100,23 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples
           if constexpr (kPlain == Plain::nothing) return mean<R>(s.attributes, weights<R>(q1, q2, sum));
           return plain_color(s.attributes, q1, q2, sum, one_color.a);
         };
-        const auto to = [&](int i) { return tiles[i].color + place + part * kLanes; };
+        const auto store_each = [&](auto codes) {
+          for (int i = 0; i < kSamples; ++i) {
+            std::uint32_t* const to = tiles[i].color + place + part * kLanes;
+            store_packed(kept[part][static_cast<std::size_t>(i)], codes(to), to);
+          }
+        };
         if constexpr (kKernel == PaintKernel::blends_over) {
           const Color<R> over = color();
-          for (int i = 0; i < kSamples; ++i)
-            store_packed(kept[i][part], packed_over<R>(over, load_packed<R>(to(i))), to(i));
+          store_each([&](const std::uint32_t* held) { return packed_over<R>(over, load_packed<R>(held)); });
         } else {
-          const auto code = [&] {
+          const auto merged = [&] {
             if constexpr (kPlain == Plain::one_color) return one_code;
             if constexpr (kPlain == Plain::colors) return packed_merge_near(color());
             return packed_merge(color());
           };
-          const Int<R> codes = code();
-          for (int i = 0; i < kSamples; ++i) store_packed(kept[i][part], codes, to(i));
+          const Int<R> codes = merged();
+          store_each([&](const std::uint32_t*) { return codes; });
         }
       }
     }

@@ -127,6 +127,7 @@ TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
         if (nearest_first) std::reverse(scene.draws.begin(), scene.draws.end());
         for (const double clear : {1.0, 0.97}) {
           scene.frame.clear_depth = clear;
+          scene.frame.antialias = {clear == 1.0 ? Antialias::Kind::none : Antialias::Kind::multisample, 1};
           const Frame definition = render(scene, stages);
           for (const auto& [name, painter] : all) {
             EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name << ", " << slices << " slices";
@@ -134,6 +135,43 @@ TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
         }
       }
     }
+  }
+}
+
+// Steep triangles behind a wall, but for some of a pixel's four samples, in tiles that the wall covers wholly.
+TEST(Painter, HidesNoSampleThatIsNearer) {
+  constexpr int kSize = 256;
+  Scene scene;
+  scene.frame.width = scene.frame.height = kSize;
+  scene.frame.antialias = {Antialias::Kind::multisample, 1};
+  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  scene.projection = Orthographic{0, kSize, 0, kSize, 0, 100};
+  std::mt19937 random(6);
+  const auto up_to = [&](double most) { return most * 0x1p-32 * static_cast<double>(random()); };
+  std::vector<glm::vec3> corners;
+  std::vector<glm::uvec3> triangles;
+  for (unsigned i = 0; i < 4000; ++i) {
+    const double angle = up_to(6.28), slope = 0.01 + up_to(0.5), nearest = up_to(1.5);
+    const glm::dvec2 middle(up_to(kSize), up_to(kSize)), toward(std::cos(angle), std::sin(angle));
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec2 p = middle + glm::dvec2(up_to(12), up_to(12));
+      const double behind = slope * (glm::dot(p - middle, toward) + nearest);
+      corners.emplace_back(p.x, p.y, -50 - behind);
+    }
+    triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  scene.meshes = {make_triangles({{0, 0, -50}, {2 * kSize, 0, -50}, {0, 2 * kSize, -50}}, {{0, 1, 2}}, {}),
+                  make_triangles(corners, triangles, {})};
+  Draw draw;
+  draw.lit = false;
+  scene.draws = {draw, draw};
+  scene.draws[1].mesh = 1;
+  scene.draws[1].material.diffuse = {1, 0, 0, 1};
+  const Frame definition = render(scene, production_stages());
+  const auto red = [](const glm::u8vec4& c) { return c.r > c.g && c.g > 0; };
+  EXPECT_GT(std::ranges::count_if(definition.color_rgba8.values(), red), 100) << "pixels that are partly behind";
+  for (const auto& [name, painter] : painters()) {
+    EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name;
   }
 }
 
@@ -172,6 +210,10 @@ TEST(Painter, DrawsAllKindsInTheirOrder) {
       if (one_in(6)) {
         draw.mesh = 1;
         draw.texture = DrawTexture{};
+      } else if (one_in(5)) {
+        draw.front_mode = one_in(6) ? PolygonMode::point : PolygonMode::line;
+        draw.back_mode = one_in(6) ? PolygonMode::fill : PolygonMode::line;
+        draw.line_width = one_in(4) ? 2 : 1;
       }
       draws.push_back(draw);
     }
