@@ -214,7 +214,9 @@ TEST(Painter, DrawsAllKindsInTheirOrder) {
         draw.front_mode = one_in(6) ? PolygonMode::point : PolygonMode::line;
         draw.back_mode = one_in(6) ? PolygonMode::fill : PolygonMode::line;
         draw.line_width = one_in(4) ? 2 : 1;
+        draw.cull = one_in(3) ? Cull::back : one_in(3) ? Cull::front : Cull::none;
       }
+      if (one_in(16)) draw.merge.logic_op = LogicOp::xor_;
       draws.push_back(draw);
     }
     scene.draws = draws;
