@@ -60,7 +60,7 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
     const CornerLanes<R> corners = load_corners<R>(corner);
     set_up_colors<R>(corner, site.flat, lanes);
     set_up_planes<R, 1>(planes_of_lines<R>(corners.p_win, site), corners.p_win, site, lanes);
-    PixelsOfLanes<R, true, false, kTile> values(lanes, 0);
+    PixelsOfLanes<R, true, false, kTile> values(lanes, lanes.sample[0].code);
     for (int k = 0; k < most; ++k) {
       const I pixel = load_ints<R>(pixel_of[k]);
       values.work_out(k, pixel & I(kTile - 1), shifted_right<6>(pixel));

@@ -138,7 +138,8 @@ inline constexpr int kSmall = 30;  ///< pixels of a box: as many bits a float's 
 /// Triangles in boxes of `lanes.width` x `lanes.height` pixels, all at once: which pixels of their boxes they cover,
 /// and these (paint_pixels.h).
 template <class R, PaintKernel kKernel, Order kOrder, bool kPlain>
-void paint_small_triangles(const auto& lanes, int sample, int count, float cleared, PackedTile& tile) {
+void paint_small_triangles(const CommonLanes<R>& lanes, const SampleLanes<R>& sample, int count, float cleared,
+                           PackedTile& tile) {
   using I = Int<R>;
   constexpr int kLanes = Lanes<R>::width;
 
@@ -148,7 +149,7 @@ void paint_small_triangles(const auto& lanes, int sample, int count, float clear
   I e_of_row[3], step_x[3], step_y[3];
   for (int k = 0; k < 3; ++k) {
     step_x[k] = load_ints<R>(lanes.step_x[k]), step_y[k] = load_ints<R>(lanes.step_y[k]);
-    e_of_row[k] = load_ints<R>(lanes.at_tile[sample][k]) + step_x[k] * x0 + step_y[k] * y0;
+    e_of_row[k] = load_ints<R>(sample.at_tile[k]) + step_x[k] * x0 + step_y[k] * y0;
   }
   I covered(0);  // a bit a pixel, row by row
   for (int row = 0, bit = 0; row < lanes.height; ++row) {
@@ -168,7 +169,7 @@ void paint_small_triangles(const auto& lanes, int sample, int count, float clear
     most = std::max(most, std::popcount(static_cast<unsigned>(covered_of[lane])));
   }
 
-  PixelsOfLanes<R, kKernel == PaintKernel::replaces, kPlain, kSmall> values(lanes, sample);
+  PixelsOfLanes<R, kKernel == PaintKernel::replaces, kPlain, kSmall> values(lanes, sample.code);
   const I width(lanes.width), per_width((1 << 16) / lanes.width + 1);
   for (int i = 0; i < most; ++i) {
     const I rest = covered & (covered - I(1)), lowest = covered ^ rest;
@@ -195,9 +196,9 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile* til
     constexpr unsigned kAll = ~0u >> (32 - Lanes<R>::width);
     for (int i = 0; i < kSamples; ++i) {
       if ((lanes.plain_depth & lanes.plain_color) == kAll) {
-        paint_small_triangles<R, kKernel, kOrder, true>(lanes, i, count, cleared, tiles[i]);
+        paint_small_triangles<R, kKernel, kOrder, true>(lanes, lanes.sample[i], count, cleared, tiles[i]);
       } else {
-        paint_small_triangles<R, kKernel, kOrder, false>(lanes, i, count, cleared, tiles[i]);
+        paint_small_triangles<R, kKernel, kOrder, false>(lanes, lanes.sample[i], count, cleared, tiles[i]);
       }
     }
     return true;

@@ -28,8 +28,8 @@ struct AttributeLanes {
 template <class R, bool kColors, bool kPlain, int kMost>
 class PixelsOfLanes {
  public:
-  [[gnu::always_inline]] PixelsOfLanes(const auto& lanes, int sample)
-      : code_(lanes.code[sample].of_all()), q1_(lanes.q1.of_all()), q2_(lanes.q2.of_all()), sum_(lanes.sum.of_all()) {
+  [[gnu::always_inline]] PixelsOfLanes(const CommonLanes<R>& lanes, const AffineLanes<R>& code)
+      : code_(code.of_all()), q1_(lanes.q1.of_all()), q2_(lanes.q2.of_all()), sum_(lanes.sum.of_all()) {
     for (int c = 0; c < 4; ++c) {
       attributes_.color0[c] = load<R>(lanes.color[0][c]);
       attributes_.d_color1[c] = load<R>(lanes.color[1][c]);

@@ -36,18 +36,27 @@ struct LaneSurfaceSetup : LaneSetup<> {
   const SurfaceSetup* surface;
 };
 
-template <class R, int kSamples = 1>
-struct SetupLanes {
+template <class R>
+struct AffineLanes {
+  static constexpr int kLanes = Lanes<R>::width;
+  alignas(64) double at_0[kLanes];
+  double x[kLanes], y[kLanes];
+
+  Affine<double> of(int lane) const { return {at_0[lane], x[lane], y[lane]}; }
+  Affine<Wide<R>> of_all() const { return {load_wide<R>(at_0), load_wide<R>(x), load_wide<R>(y)}; }
+};
+/// What a pixel's samples have each of their own.
+template <class R>
+struct SampleLanes {
+  alignas(64) std::int32_t at_tile[3][Lanes<R>::width];
+  AffineLanes<R> code;
+};
+template <class R>
+struct CommonLanes {
   static constexpr int kLanes = Lanes<R>::width;
   alignas(64) std::int32_t bounds[4][kLanes];  ///< as LaneSetup, x0 and y0 not rounded
-  alignas(64) std::int32_t at_tile[kSamples][3][kLanes];
   std::int32_t step_x[3][kLanes], step_y[3][kLanes];
-  struct AffineLanes {
-    double at_0[kLanes], x[kLanes], y[kLanes];
-    Affine<double> of(int lane) const { return {at_0[lane], x[lane], y[lane]}; }
-    Affine<Wide<R>> of_all() const { return {load_wide<R>(at_0), load_wide<R>(x), load_wide<R>(y)}; }
-  };
-  alignas(64) AffineLanes code[kSamples], q1, q2, sum;
+  AffineLanes<R> q1, q2, sum;
   alignas(64) float color[3][4][kLanes];
   float nearest[kLanes];
   alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
@@ -56,31 +65,36 @@ struct SetupLanes {
   /// are small, with no horizon near, and all corners have the same alpha.
   unsigned plain_depth, plain_color;
   int width, height;  ///< the largest box
+};
+template <class R, int kSamples = 1>
+struct SetupLanes : CommonLanes<R> {
+  SampleLanes<R> sample[kSamples];
 
   /// In the tile whose lower left pixel that is.
   [[gnu::always_inline]] LaneSetup<kSamples> of(int lane, bool front, int tile_x, int tile_y) const {
+    const CommonLanes<R>& all = *this;
     LaneSetup<kSamples> s;
     s.front = front;
     s.planes = {tile_x + 0.5, tile_y + 0.5};
-    s.x0 = bounds[0][lane] & ~(kBlock - 1), s.y0 = bounds[1][lane] & ~(kBlock - 1);
-    s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
+    s.x0 = all.bounds[0][lane] & ~(kBlock - 1), s.y0 = all.bounds[1][lane] & ~(kBlock - 1);
+    s.x1 = all.bounds[2][lane], s.y1 = all.bounds[3][lane];
+    for (int i = 0; i < kSamples; ++i) s.code[i] = sample[i].code.of(lane);
     for (int k = 0; k < 3; ++k) {
-      for (int i = 0; i < kSamples; ++i) s.at_tile[i][k] = at_tile[i][k][lane];
-      s.edge[k] = {s.at_tile[0][k], step_x[k][lane], step_y[k][lane]};
+      for (int i = 0; i < kSamples; ++i) s.at_tile[i][k] = sample[i].at_tile[k][lane];
+      s.edge[k] = {s.at_tile[0][k], all.step_x[k][lane], all.step_y[k][lane]};
       for (int i = 1; i < kSamples; ++i) s.edge[k].at_tile = std::min(s.edge[k].at_tile, s.at_tile[i][k]);
     }
-    for (int i = 0; i < kSamples; ++i) s.code[i] = code[i].of(lane);
     s.depth_plane.code = s.code[0];
-    s.perspective.q1 = q1.of(lane), s.perspective.q2 = q2.of(lane), s.perspective.sum = sum.of(lane);
+    s.perspective.q1 = all.q1.of(lane), s.perspective.q2 = all.q2.of(lane), s.perspective.sum = all.sum.of(lane);
     for (int c = 0; c < 4; ++c) {
-      s.attributes.color0[c] = color[0][c][lane];
-      s.attributes.d_color1[c] = color[1][c][lane];
-      s.attributes.d_color2[c] = color[2][c][lane];
+      s.attributes.color0[c] = all.color[0][c][lane];
+      s.attributes.d_color1[c] = all.color[1][c][lane];
+      s.attributes.d_color2[c] = all.color[2][c][lane];
     }
-    s.attributes.constant = constant_colors[lane] != 0;
-    s.nearest = nearest[lane];
-    s.plain_depth = (plain_depth >> lane & 1u) != 0;
-    s.plain_color = (plain_color >> lane & 1u) != 0;
+    s.attributes.constant = all.constant_colors[lane] != 0;
+    s.nearest = all.nearest[lane];
+    s.plain_depth = (all.plain_depth >> lane & 1u) != 0;
+    s.plain_color = (all.plain_color >> lane & 1u) != 0;
     return s;
   }
 };
@@ -135,7 +149,7 @@ template <class R>
 
 /// Colours into `out`; returns which lanes' corners all have the same alpha.
 template <class R>
-[[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat, auto& out) {
+[[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat, CommonLanes<R>& out) {
   R color[3][4];
   for (int k = 0; k < 3; ++k)
     load_corner<R>(
@@ -167,7 +181,7 @@ template <class R, int kSamples>
     const auto beyond = [&](int k) { return (to_wide(p_win[k][coordinate]) - at_0) * unit; };
     return planes.through(at_0 * unit, beyond(1), beyond(2));
   };
-  const auto keep = [](const Affine<W>& plane, auto& to) {
+  const auto keep = [](const Affine<W>& plane, AffineLanes<R>& to) {
     store(plane.at_0, to.at_0), store(plane.x, to.x), store(plane.y, to.y);
   };
   const Affine<W> code = corners(2, site.depth_scale == 0 ? 1 : site.depth_scale);
@@ -177,7 +191,7 @@ template <class R, int kSamples>
     of.code[i] = code;
     const glm::dvec2 by = glm::dvec2(site.samples[static_cast<std::size_t>(i)]) / static_cast<double>(kSubpixel);
     if (by != glm::dvec2(0)) of.code[i].at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
-    keep(of.code[i], out.code[i]);
+    keep(of.code[i], out.sample[i].code);
   }
   keep(of.q1, out.q1), keep(of.q2, out.q2), keep(of.sum, out.sum);
   return of;
@@ -258,7 +272,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
       const glm::dvec2 sample(site.samples[static_cast<std::size_t>(i)]);
       const W at_sample = e - (wide_y * sample.x - wide_x * sample.y);
       const W at_tile = floor_of((at_sample - less) * W(1.0 / kSubpixel));
-      store(I(-1) - to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.at_tile[i][k]);
+      store(I(-1) - to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.sample[i].at_tile[k]);
     }
     store(d_y, out.step_x[k]);
     store(I(0) - d_x, out.step_y[k]);

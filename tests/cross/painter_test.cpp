@@ -1,19 +1,14 @@
-// The painter draws what the stages' functions draw, bit for bit: by every SIMD target, on any number of threads; and
-// in memory that is kept.
+// The painter draws what the stages' functions draw, bit for bit: by every SIMD target, on any number of threads.
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <limits>
 #include <map>
-#include <new>
 #include <random>
-#include <tuple>
 
 #include "../extent.h"
+#include "painter_frames.h"
 #include "pipeline/painter.h"
 #include "pipeline/render.h"
 #include "scene/antialias.h"
@@ -21,50 +16,8 @@
 #include "scene/scene_file.h"
 #include "scene/texture_images.h"
 
-namespace {
-std::atomic<std::size_t> asked_for_memory{0};
-thread_local std::size_t asked_by_this_thread = 0;
-std::atomic<std::size_t> refused_at{0};  // that many are given before one is not; 0: all are
-
-void* given(void* memory) {
-  ++asked_for_memory;
-  ++asked_by_this_thread;
-  if (refused_at != 0 && --refused_at == 0) {
-    std::free(memory);
-    throw std::bad_alloc();
-  }
-  return memory != nullptr ? memory : throw std::bad_alloc();
-}
-}  // namespace
-
-// Counted, for all of this program. (gtest's own calls as well: the tests look at differences.)
-[[gnu::noinline]] void* operator new(std::size_t size) { return given(std::malloc(size == 0 ? 1 : size)); }
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {  // std::stable_sort's
-  try {
-    return operator new(size);
-  } catch (const std::bad_alloc&) {
-    return nullptr;
-  }
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-
 namespace plumbline::pipeline {
 namespace {
-
-template <class T>
-bool same_bits(const Plane<T>& a, const Plane<T>& b) {
-  return a.size() == b.size() &&
-         (a.empty() || std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0);
-}
-
-bool same_bits(const Frame& a, const Frame& b) {
-  return same_bits(a.color_rgba8, b.color_rgba8) && same_bits(a.color_rgba12, b.color_rgba12) &&
-         same_bits(a.color_rgba16, b.color_rgba16) && same_bits(a.color_rgba32f, b.color_rgba32f) &&
-         same_bits(a.depth_code, b.depth_code) && same_bits(a.depth_z32f, b.depth_z32f) &&
-         same_bits(a.stencil, b.stencil);
-}
 
 // One for each target, and for some numbers of threads of the widest.
 std::map<std::string, std::unique_ptr<Painter>> painters() {
@@ -100,22 +53,6 @@ TEST(Painter, DrawsEverySceneAsItsDefinitionDoes) {
   std::printf("%zu frames compared, by %zu painters\n", compared, all.size());
 }
 
-Scene spheres(int slices, Cull cull) {
-  Scene scene;
-  scene.frame.width = 200;
-  scene.frame.height = 136;
-  scene.camera.eye = {0, 0, 3};
-  scene.meshes.push_back(make_uv_sphere(slices, slices / 2));
-  scene.lights.emplace_back();
-  for (int i = 0; i < 4; ++i) {
-    Draw draw;
-    draw.cull = cull;
-    draw.transforms = {Translate{{0.3 * i - 0.4, 0, -0.4 * i}}, Rotate{20.0 * i, {1, 0.3, 0}}};
-    scene.draws.push_back(draw);
-  }
-  return scene;
-}
-
 // From large triangles to those smaller than pixels; nearer ones first and last.
 TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
   const Stages stages = production_stages();
@@ -138,41 +75,73 @@ TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
   }
 }
 
+// Two meshes before an orthographic camera: x and y are the window's, z its distance; the second is red.
+Scene wall_and_others(int size, Mesh wall, Mesh others) {
+  Scene scene;
+  scene.frame.width = scene.frame.height = size;
+  scene.frame.antialias = {Antialias::Kind::multisample, 1};
+  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  scene.projection = Orthographic{0, static_cast<double>(size), 0, static_cast<double>(size), 0, 100};
+  scene.meshes = {std::move(wall), std::move(others)};
+  Draw draw;
+  draw.lit = false;
+  draw.transforms = {Scale{{1, 1, -1}}};
+  scene.draws = {draw, draw};
+  scene.draws[1].mesh = 1;
+  scene.draws[1].material.diffuse = {1, 0, 0, 1};
+  return scene;
+}
+
+void expect_parts_of_pixels(const Scene& scene, int at_least) {
+  const Frame definition = render(scene, production_stages());
+  const auto red = [](const glm::u8vec4& c) { return c.r > c.g && c.g > 0; };
+  EXPECT_GT(std::ranges::count_if(definition.color_rgba8.values(), red), at_least);
+  for (const auto& [name, painter] : painters()) {
+    EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name;
+  }
+}
+
 // Steep triangles behind a wall, but for some of a pixel's four samples, in tiles that the wall covers wholly.
 TEST(Painter, HidesNoSampleThatIsNearer) {
   constexpr int kSize = 256;
-  Scene scene;
-  scene.frame.width = scene.frame.height = kSize;
-  scene.frame.antialias = {Antialias::Kind::multisample, 1};
-  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
-  scene.projection = Orthographic{0, kSize, 0, kSize, 0, 100};
   std::mt19937 random(6);
   const auto up_to = [&](double most) { return most * 0x1p-32 * static_cast<double>(random()); };
   std::vector<glm::vec3> corners;
   std::vector<glm::uvec3> triangles;
   for (unsigned i = 0; i < 4000; ++i) {
-    const double angle = up_to(6.28), slope = 0.01 + up_to(0.5), nearest = up_to(1.5);
-    const glm::dvec2 middle(up_to(kSize), up_to(kSize)), toward(std::cos(angle), std::sin(angle));
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec2 p = middle + glm::dvec2(up_to(12), up_to(12));
-      const double behind = slope * (glm::dot(p - middle, toward) + nearest);
-      corners.emplace_back(p.x, p.y, -50 - behind);
+    const double angle = i % 2 == 0 ? 1.5708 * (i / 2 % 4) : up_to(6.28);
+    const double slope = 0.01 + up_to(0.5), in_front = up_to(0.6);  // pixels
+    const glm::dvec2 low(up_to(kSize), up_to(kSize)), toward(std::cos(angle), std::sin(angle));
+    glm::dvec2 p[3];
+    for (glm::dvec2& corner : p) corner = low + glm::dvec2(up_to(12), up_to(12));
+    const double nearest = std::min({glm::dot(p[0], toward), glm::dot(p[1], toward), glm::dot(p[2], toward)});
+    for (const glm::dvec2& corner : p) {
+      corners.emplace_back(corner, 50 + slope * (glm::dot(corner, toward) - nearest - in_front));
     }
     triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
   }
-  scene.meshes = {make_triangles({{0, 0, -50}, {2 * kSize, 0, -50}, {0, 2 * kSize, -50}}, {{0, 1, 2}}, {}),
-                  make_triangles(corners, triangles, {})};
-  Draw draw;
-  draw.lit = false;
-  scene.draws = {draw, draw};
-  scene.draws[1].mesh = 1;
-  scene.draws[1].material.diffuse = {1, 0, 0, 1};
-  const Frame definition = render(scene, production_stages());
-  const auto red = [](const glm::u8vec4& c) { return c.r > c.g && c.g > 0; };
-  EXPECT_GT(std::ranges::count_if(definition.color_rgba8.values(), red), 100) << "pixels that are partly behind";
-  for (const auto& [name, painter] : painters()) {
-    EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name;
+  const Mesh wall = make_triangles({{0, 0, 50}, {2 * kSize, 0, 50}, {0, 2 * kSize, 50}}, {{0, 1, 2}}, {});
+  expect_parts_of_pixels(wall_and_others(kSize, wall, make_triangles(corners, triangles, {})), 100);
+}
+
+// A wall that is farther to the right, so that of a tile's right column some samples are farther than others are:
+// there, triangles stand between these. That the wall hides all of a tile is known since a second wall was behind it.
+TEST(Painter, HidesNoSampleThatIsNearerThanATilesFarthest) {
+  constexpr int kSize = 256;
+  const auto corner = [](double x, double y, double behind) { return glm::vec3(x, y, 50 + 0.02 * x + behind); };
+  const std::vector<glm::vec3> walls = {corner(0, 0, 0), corner(2 * kSize, 0, 0), corner(0, 2 * kSize, 0),
+                                        corner(0, 0, 3), corner(2 * kSize, 0, 3), corner(0, 2 * kSize, 3)};
+  std::vector<glm::vec3> corners;
+  std::vector<glm::uvec3> triangles;
+  for (unsigned i = 0; i < 16; ++i) {
+    const double x = 63 + 64 * (i % 4), y = 4 + 64 * (i / 4);
+    const double z = 50 + 0.02 * (x + 0.75);  // samples are at x + .125, .375, .625, .875
+    corners.insert(corners.end(), {glm::vec3(x + 0.1, y, z), glm::vec3(x + 1, y, z), glm::vec3(x + 1, y + 50, z)});
+    triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
   }
+  expect_parts_of_pixels(
+      wall_and_others(kSize, make_triangles(walls, {{0, 1, 2}, {3, 4, 5}}, {}), make_triangles(corners, triangles, {})),
+      100);
 }
 
 // Draws of all kinds over each other, some alike and some not, and walls that hide whole tiles.
@@ -279,94 +248,6 @@ TEST(Painter, TellsOneStepOfDepth) {
   EXPECT_TRUE(same_bits(render(scene), other));
   other.depth_code(3, 3) ^= 1;
   EXPECT_FALSE(same_bits(render(scene), other));
-}
-
-// How often drawing once more asks for memory. Of a painter of one thread, that thread; else all threads, of which
-// those of libraries (TBB's, as they start late) ask now and then, so that the least of some frames is the painter's.
-std::size_t asks_again(Painter& painter, const Scene& scene, int threads) {
-  std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (int i = 0; i < (threads == 1 ? 1 : 20) && least > 0; ++i) {
-    const std::size_t before = threads == 1 ? asked_by_this_thread : asked_for_memory.load();
-    painter.draw(scene);
-    least = std::min(least, (threads == 1 ? asked_by_this_thread : asked_for_memory.load()) - before);
-  }
-  return least;
-}
-
-// Antialiased, clipped, lit from two sides, textured: all.
-TEST(Painter, AsksForNoMemoryAfterAnyScenesFirstFrame) {
-  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
-  const std::vector<std::filesystem::path> files = find_scenes(folder);
-  for (const int threads : {1, 2}) {
-    Painter painter(threads);
-    for (std::size_t i = static_cast<std::size_t>(threads); i < files.size(); i += one_of(6)) {
-      const Scene scene = load_scene(files[i], {});
-      painter.draw(scene);
-      EXPECT_EQ(asks_again(painter, scene, threads), 0u) << files[i] << ", " << threads << " threads";
-    }
-  }
-}
-
-// Whatever there is no memory for, the next scene is drawn right.
-TEST(Painter, DrawsOnAfterItWasRefusedMemory) {
-  Scene small = spheres(4, Cull::none), large = spheres(5, Cull::back);
-  small.frame.width = small.frame.height = 9;
-  small.frame.color = ColorFormat::rgba12;
-  large.frame.width = large.frame.height = 70;
-  large.draws[0].transforms = {Translate{{0, 0, 2}}};  // clipped
-  large.light_model.sides = LightModel::Sides::two;
-  constexpr Antialias kNone, kTwice = {Antialias::Kind::supersample, 2}, kTaps = {Antialias::Kind::taps, 1};
-  for (const auto& [of_one, of_other] : {std::pair(kNone, kTwice), std::pair(kTaps, kTwice), std::pair(kTaps, kTaps)}) {
-    small.frame.antialias = of_one, large.frame.antialias = of_other;
-    const Frame of_small = render(small, production_stages()), of_large = render(large, production_stages());
-    bool any_refused = true;
-    std::size_t n = 0;
-    while (any_refused) {
-      ++n;
-      any_refused = false;
-      Painter painter;
-      for (const auto& [scene, other, definition] :
-           {std::tuple(&small, &large, &of_small), std::tuple(&large, &small, &of_large)}) {
-        painter.draw(*scene);
-        refused_at = n;
-        try {
-          painter.draw(*other);
-        } catch (const std::bad_alloc&) {
-          any_refused = true;
-        }
-        refused_at = 0;
-        ASSERT_TRUE(same_bits(painter.draw(*scene), *definition)) << "the " << n << "th";
-      }
-    }
-    EXPECT_GT(n, 10u);
-  }
-}
-
-TEST(Painter, AsksForNoMemoryAfterTheFirstFrame) {
-  for (const int threads : {1, 2}) {
-    for (const Shading shading : {Shading::flat, Shading::gouraud, Shading::phong}) {
-      for (const Antialias::Kind kind : {Antialias::Kind::none, Antialias::Kind::multisample}) {
-        Scene scene = spheres(60, Cull::back);
-        for (Draw& draw : scene.draws) draw.shading = shading;
-        scene.draws[1].merge.blend = Blend{};
-        Mesh lines = scene.meshes[scene.draws[0].mesh];
-        lines.topology = Topology::lines;
-        for (glm::uvec3& line : lines.triangles) line[2] = line[1];
-        scene.draws.push_back(scene.draws[0]);
-        scene.draws.back().mesh = static_cast<std::uint32_t>(scene.meshes.size());
-        scene.draws.back().shading = Shading::gouraud;
-        scene.meshes.push_back(lines);
-        scene.frame.antialias.kind = kind;
-        Painter painter(threads);
-        painter.draw(scene);
-        EXPECT_EQ(asks_again(painter, scene, threads), 0u) << threads << " threads";
-        const std::size_t of_another = asked_for_memory;
-        scene.frame.width += 70;
-        painter.draw(scene);
-        EXPECT_GT(asked_for_memory, of_another) << "a larger frame does";
-      }
-    }
-  }
 }
 
 }  // namespace
