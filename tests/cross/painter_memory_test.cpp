@@ -1,17 +1,20 @@
 // The painter keeps its memory from frame to frame, and draws right whatever there was none for.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <new>
 #include <tuple>
+#include <vector>
 
 #include "../extent.h"
 #include "painter_frames.h"
 #include "pipeline/painter.h"
 #include "pipeline/render.h"
+#include "scene/antialias.h"
 #include "scene/scene_file.h"
 
 namespace {

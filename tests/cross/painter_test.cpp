@@ -1,11 +1,15 @@
 // The painter draws what the stages' functions draw, bit for bit: by every SIMD target, on any number of threads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "../extent.h"
 #include "painter_frames.h"
