@@ -8,8 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "../at_weights.h"
-#include "pipeline/coverage.h"
 #include "pipeline/compare.h"
+#include "pipeline/coverage.h"
+#include "pipeline/fragment.h"
 #include "window_triangles.h"
 
 namespace plumbline::pipeline {
