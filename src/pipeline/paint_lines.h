@@ -22,7 +22,7 @@ template <class R>
   return planes;
 }
 
-/// alone(line): of wider ones.
+/// alone(line): of wider ones, and of those that share their lanes.
 template <class R>
 void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile, auto alone) {
   using I = Int<R>;

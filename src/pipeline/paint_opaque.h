@@ -17,9 +17,9 @@ enum class Order { first_to_last, last_to_first };
 enum class Plain { nothing, one_color, colors };
 
 /// `tiles`: of each sample one; `shaded`: ShadedPixels, of PaintKernel::shades.
-template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples>
-[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup<kSamples>& s, float cleared, PackedTile* tiles,
-                                                         auto& shaded) {
+template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSampleCount>
+[[gnu::always_inline]] inline void paint_opaque_triangle(const LaneSetup<kSampleCount>& s, float cleared,
+                                                         PackedTile* tiles, auto& shaded) {
   using W = Wide<R>;
   constexpr int kLanes = Lanes<R>::width;
   constexpr bool kFromLast = kOrder == Order::last_to_first;
@@ -29,11 +29,11 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples
   const Color<R> one_color{R(c0.r), R(c0.g), R(c0.b), R(c0.a)};
   const Int<R> one_code = packed_merge(one_color);
 
-  constexpr int kPlanes = kSamples + (kColors ? 3 : 0);  // the samples' depths, and the weights
-  const Affine<double>* plane[kSamples + 3];
-  for (int i = 0; i < kSamples; ++i) plane[i] = &s.code[i];
-  plane[kSamples] = &s.perspective.q1, plane[kSamples + 1] = &s.perspective.q2,
-  plane[kSamples + 2] = &s.perspective.sum;
+  constexpr int kPlanes = kSampleCount + (kColors ? 3 : 0);  // the samples' depths, and the weights
+  const Affine<double>* plane[kSampleCount + 3];
+  for (int i = 0; i < kSampleCount; ++i) plane[i] = &s.code[i];
+  plane[kSampleCount] = &s.perspective.q1, plane[kSampleCount + 1] = &s.perspective.q2,
+  plane[kSampleCount + 2] = &s.perspective.sum;
 
   bool hidden = true;
   W of_row[kPlanes][kParts<R>];
@@ -41,7 +41,7 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples
     unsigned nearer = 0;
     for (int b = 0; b < kTile / kBlock; b += kLanes) {
       Mask<R> some = mask_of<R>(0);
-      for (int i = 0; i < kSamples; ++i) {
+      for (int i = 0; i < kSampleCount; ++i) {
         some = some | (load<R>(tiles[i].farthest + y / kBlock * (kTile / kBlock) + b) > R(s.nearest));
       }
       nearer |= bits_of(some) << b;
@@ -54,21 +54,21 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples
     }
     return nearer;
   };
-  visit_covered<R, kSamples>(s, row, [&](int x, int y, const Mask<R>(&covered)[kSamples][kParts<R>]) {
+  visit_covered<R, kSampleCount>(s, row, [&](int x, int y, const Mask<R>(&covered)[kSampleCount][kParts<R>]) {
     const int place = block_offset(x, y);
     W of_column[kPlanes];
-    for (int k = kSamples - 1; k < kPlanes; ++k) of_column[k] = columns_of_block<R>(x, 0) * plane[k]->x;
+    for (int k = kSampleCount - 1; k < kPlanes; ++k) of_column[k] = columns_of_block<R>(x, 0) * plane[k]->x;
     const auto value = [&](int k, int part) {  // value_at(); all depths have the same slopes
-      const int slope = k < kSamples ? kSamples - 1 : k;
+      const int slope = k < kSampleCount ? kSampleCount - 1 : k;
       if constexpr (kLanes >= kBlock) return of_row[k][part] + of_column[slope];
       return of_row[k][part] + columns_of_block<R>(x, part * kLanes) * plane[slope]->x;
     };
     // From last to first, a fragment as near as one that was painted before it comes before it; one as near as the
     // clear depth is none.
-    std::array<Mask<R>, kSamples> kept[kParts<R>];
-    Mask<R> some = mask_of<R>(0), full[kSamples];
-    R farthest[kSamples];
-    for (int i = 0; i < kSamples; ++i) {
+    std::array<Mask<R>, kSampleCount> kept[kParts<R>];
+    Mask<R> some = mask_of<R>(0), full[kSampleCount];
+    R farthest[kSampleCount];
+    for (int i = 0; i < kSampleCount; ++i) {
       full[i] = mask_of<R>(~0u), farthest[i] = R(0);
       for (int part = 0; part < kParts<R>; ++part) {
         R z;
@@ -92,16 +92,16 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples
     for (int part = 0; part < kParts<R>; ++part) {
       if constexpr (kKernel == PaintKernel::shades) shaded.add(place + part * kLanes, kept[part]);
       if constexpr (!kDepthFirst) {
-        if (kSamples == 1 && kLanes < kBlock && !any(kept[part][0])) continue;
+        if (kSampleCount == 1 && kLanes < kBlock && !any(kept[part][0])) continue;
         const auto color = [&]() -> Color<R> {
           if constexpr (!kColors) return one_color;
-          const auto weight = [&](int k) { return to_float(value(kSamples + k, part)); };
+          const auto weight = [&](int k) { return to_float(value(kSampleCount + k, part)); };
           const R q1 = weight(0), q2 = weight(1), sum = weight(2);
           if constexpr (kPlain == Plain::nothing) return mean<R>(s.attributes, weights<R>(q1, q2, sum));
           return plain_color(s.attributes, q1, q2, sum, one_color.a);
         };
         const auto store_each = [&](auto codes) {
-          for (int i = 0; i < kSamples; ++i) {
+          for (int i = 0; i < kSampleCount; ++i) {
             std::uint32_t* const to = tiles[i].color + place + part * kLanes;
             store_packed(kept[part][static_cast<std::size_t>(i)], codes(to), to);
           }
@@ -120,14 +120,15 @@ template <class R, PaintKernel kKernel, Order kOrder, Plain kPlain, int kSamples
         }
       }
     }
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < kSampleCount; ++i) {
       if (all(full[i])) {
         tiles[i].farthest[y / kBlock * (kTile / kBlock) + x / kBlock] = greatest_lane(farthest[i]);
       }
     }
   });
   const bool all_blocks = s.x0 == 0 && s.y0 == 0 && s.x1 == kTile && s.y1 == kTile;
-  for (int i = 0; i < kSamples && hidden && all_blocks; ++i) {  // the next that it would hide are not even looked at
+  for (int i = 0; i < kSampleCount && hidden && all_blocks;
+       ++i) {  // the next that it would hide are not even looked at
     PackedTile& tile = tiles[i];
     tile.farthest_of_all = *std::max_element(std::begin(tile.farthest), std::end(tile.farthest));
   }
@@ -184,7 +185,7 @@ void paint_small_triangles(const CommonLanes<R>& lanes, const SampleLanes<R>& sa
   }
 }
 
-template <class R, PaintKernel kKernel, Order kOrder, int kSamples>
+template <class R, PaintKernel kKernel, Order kOrder, int kSampleCount>
 void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile* tiles, auto alone) {
   const int x0 = tiles[0].x0, y0 = tiles[0].y0;
   const auto cleared = static_cast<float>(depth_code(painting.format.clear_depth, painting.formats.depth_scale));
@@ -194,7 +195,7 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile* til
       return false;
     if (box == 0) return true;
     constexpr unsigned kAll = ~0u >> (32 - Lanes<R>::width);
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < kSampleCount; ++i) {
       if ((lanes.plain_depth & lanes.plain_color) == kAll) {
         paint_small_triangles<R, kKernel, kOrder, true>(lanes, lanes.sample[i], count, cleared, tiles[i]);
       } else {
@@ -205,17 +206,17 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile* til
   };
   const auto paint = [&](const PaintTriangle& triangle, const auto& lanes, int lane) {
     bool hidden = true;
-    for (int i = 0; i < kSamples; ++i) hidden &= lanes.nearest[lane] >= tiles[i].farthest_of_all;
+    for (int i = 0; i < kSampleCount; ++i) hidden &= lanes.nearest[lane] >= tiles[i].farthest_of_all;
     if (hidden) return;
-    const LaneSetup<kSamples> s = lanes.of(lane, triangle.front, x0, y0);
+    const LaneSetup<kSampleCount> s = lanes.of(lane, triangle.front, x0, y0);
     const auto as = [&]<Plain kPlain>(auto& shaded) {
-      paint_opaque_triangle<R, kKernel, kOrder, kPlain, kSamples>(s, cleared, tiles, shaded);
+      paint_opaque_triangle<R, kKernel, kOrder, kPlain, kSampleCount>(s, cleared, tiles, shaded);
     };
     const auto by_depth = [&](auto& shaded) {
       s.plain_depth ? as.template operator()<Plain::one_color>(shaded) : as.template operator()<Plain::nothing>(shaded);
     };
     if constexpr (kKernel == PaintKernel::shades) {
-      ShadedPixels<R, kSamples> shaded(painting, painting.draws[run.draw], triangle, s, tiles);
+      ShadedPixels<R, kSampleCount> shaded(painting, painting.draws[run.draw], triangle, s, tiles);
       by_depth(shaded);
       shaded.finish();
     } else {
@@ -225,7 +226,7 @@ void paint_opaque(const Painting& painting, const PaintRun& run, PackedTile* til
       as.template operator()<Plain::colors>(none);
     }
   };
-  each_lane<R, kSamples>(painting, run, kOrder == Order::last_to_first, x0, y0, together, alone, paint);
+  each_lane<R, kSampleCount>(painting, run, kOrder == Order::last_to_first, x0, y0, together, alone, paint);
 }
 
 }  // namespace plumbline::pipeline

@@ -35,21 +35,21 @@ inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& d
 }
 
 /// A triangle's: add() them block by block, then finish(). A pixel is shaded once for all of its samples.
-template <class R, int kSamples>
+template <class R, int kSampleCount>
 class ShadedPixels {
  public:
   ShadedPixels(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle,
-               const LaneSetup<kSamples>& setup, PackedTile* tiles)
+               const LaneSetup<kSampleCount>& setup, PackedTile* tiles)
       : painting_(painting), draw_(draw), triangle_(triangle), setup_(setup), tiles_(tiles) {}
 
   /// Those of a part of a block, from `place` on.
-  void add(int place, const std::array<Mask<R>, kSamples>& kept) {
-    unsigned of_sample[kSamples], some = 0;
-    for (int i = 0; i < kSamples; ++i) some |= of_sample[i] = bits_of(kept[static_cast<std::size_t>(i)]);
+  void add(int place, const std::array<Mask<R>, kSampleCount>& kept) {
+    unsigned of_sample[kSampleCount], some = 0;
+    for (int i = 0; i < kSampleCount; ++i) some |= of_sample[i] = bits_of(kept[static_cast<std::size_t>(i)]);
     for (; some != 0; some &= some - 1, ++count_) {
       const int lane = std::countr_zero(some);
       places_[count_] = place + lane;
-      for (int i = 0; i < kSamples && kSamples > 1; ++i) kept_[count_][i] = (of_sample[i] >> lane & 1u) != 0;
+      for (int i = 0; i < kSampleCount && kSampleCount > 1; ++i) kept_[count_][i] = (of_sample[i] >> lane & 1u) != 0;
     }
     if (count_ >= kLanes) shade(kLanes);
   }
@@ -76,8 +76,8 @@ class ShadedPixels {
     alignas(64) std::int32_t codes[kLanes];
     store(packed_merge(shade_surface<R>(*surface_->surface, surface_->front, attributes)), codes);
     for (int lane = 0; lane < count; ++lane) {
-      for (int i = 0; i < kSamples; ++i) {
-        if (kSamples == 1 || kept_[count_ + lane][i])
+      for (int i = 0; i < kSampleCount; ++i) {
+        if (kSampleCount == 1 || kept_[count_ + lane][i])
           tiles_[i].color[places_[count_ + lane]] = static_cast<std::uint32_t>(codes[lane]);
       }
     }
@@ -86,11 +86,11 @@ class ShadedPixels {
   const Painting& painting_;
   const PaintDraw& draw_;
   const PaintTriangle& triangle_;
-  const LaneSetup<kSamples>& setup_;
+  const LaneSetup<kSampleCount>& setup_;
   PackedTile* tiles_;
   std::optional<SurfaceSetup> surface_;  ///< when the first is shaded
   std::int32_t places_[2 * kLanes];
-  bool kept_[2 * kLanes][kSamples];
+  bool kept_[2 * kLanes][kSampleCount];
   int count_ = 0;
 };
 

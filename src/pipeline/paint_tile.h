@@ -104,10 +104,10 @@ std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun>
 }
 
 /// paint(painting, tile) of each sample's own.
-template <int kSamples>
+template <int kSampleCount>
 void each_sample(const Painting& painting, PackedTile* tiles, auto paint) {
-  if constexpr (kSamples == 1) return paint(painting, tiles[0]);
-  for (std::size_t i = 0; i < kSamples; ++i) {
+  if constexpr (kSampleCount == 1) return paint(painting, tiles[0]);
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
     Painting of_sample = painting;
     of_sample.samples = painting.samples.subspan(i, 1);
     of_sample.formats.sample = painting.samples[i];
@@ -116,15 +116,15 @@ void each_sample(const Painting& painting, PackedTile* tiles, auto paint) {
 }
 
 /// `tiles`: of each sample one.
-template <class R, int kSamples>
+template <class R, int kSampleCount>
 void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
   const PaintDraw& draw = painting.draws[run.draw];
   const auto alone = [&](const PaintTriangle& t) {
-    each_sample<kSamples>(painting, tiles,
-                          [&](const Painting& of, PackedTile& tile) { paint_alone<R>(of, draw, t, tile); });
+    each_sample<kSampleCount>(painting, tiles,
+                              [&](const Painting& of, PackedTile& tile) { paint_alone<R>(of, draw, t, tile); });
   };
   const auto opaque = [&]<PaintKernel kKernel>() {
-    paint_opaque<R, kKernel, Order::first_to_last, kSamples>(painting, run, tiles, alone);
+    paint_opaque<R, kKernel, Order::first_to_last, kSampleCount>(painting, run, tiles, alone);
   };
   switch (draw.kernel) {
     case PaintKernel::replaces: return opaque.template operator()<PaintKernel::replaces>();
@@ -132,7 +132,7 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* t
     case PaintKernel::depth_alone: return opaque.template operator()<PaintKernel::depth_alone>();
     case PaintKernel::shades: return opaque.template operator()<PaintKernel::shades>();
     case PaintKernel::lines:
-      return each_sample<kSamples>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
+      return each_sample<kSampleCount>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
         paint_lines<R>(of, run, tile, [&](const PaintTriangle& t) { paint_alone<R>(of, draw, t, tile); });
       });
     case PaintKernel::any: break;
@@ -140,7 +140,7 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* t
   const DepthFunc func = draw.state.depth_func;
   const bool farther =
       func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;
-  each_sample<kSamples>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
+  each_sample<kSampleCount>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
     if (farther) {
       tile.farthest_of_all = std::numeric_limits<float>::infinity();
       std::fill(std::begin(tile.farthest), std::end(tile.farthest), tile.farthest_of_all);

@@ -43,6 +43,7 @@ PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const BlockState& s) {
                      s.depth_func == DepthFunc::less && !s.scissor && !s.alpha_test && !s.stencil && s.merge.depth_mask;
   if (!plain) return PaintKernel::any;
   const bool triangles = mesh.topology == Topology::triangles;
+  // Lines have no offset, whatever their draw's is (depth.cpp).
   if (mesh.topology == Topology::lines || (triangles && draws_as(draw, PolygonMode::line))) {
     return is_opaque(s.merge) && s.surface == nullptr ? PaintKernel::lines : PaintKernel::any;
   }

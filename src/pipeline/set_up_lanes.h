@@ -17,13 +17,13 @@ inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
 
 /// A triangle in its lane. Edges and depths are taken at each of the pixel's samples, which differ but in what is added
 /// there; `edge` has the least of what is, so that a pixel outside of it is outside for all samples.
-template <int kSamples = 1>
+template <int kSampleCount = 1>
 struct LaneSetup {
   bool front;
   int x0, y0, x1, y1;  ///< the pixels of the tile in its bounding box, x0 and y0 rounded down to a block's
   TileEdge edge[3];
-  std::int32_t at_tile[kSamples][3];
-  Affine<double> code[kSamples];
+  std::int32_t at_tile[kSampleCount][3];
+  Affine<double> code[kSampleCount];
   Anchor planes;
   DepthPlane depth_plane;
   PerspectiveSetup perspective;
@@ -66,23 +66,23 @@ struct CommonLanes {
   unsigned plain_depth, plain_color;
   int width, height;  ///< the largest box
 };
-template <class R, int kSamples = 1>
+template <class R, int kSampleCount = 1>
 struct SetupLanes : CommonLanes<R> {
-  SampleLanes<R> sample[kSamples];
+  SampleLanes<R> sample[kSampleCount];
 
   /// In the tile whose lower left pixel that is.
-  [[gnu::always_inline]] LaneSetup<kSamples> of(int lane, bool front, int tile_x, int tile_y) const {
+  [[gnu::always_inline]] LaneSetup<kSampleCount> of(int lane, bool front, int tile_x, int tile_y) const {
     const CommonLanes<R>& all = *this;
-    LaneSetup<kSamples> s;
+    LaneSetup<kSampleCount> s;
     s.front = front;
     s.planes = {tile_x + 0.5, tile_y + 0.5};
     s.x0 = all.bounds[0][lane] & ~(kBlock - 1), s.y0 = all.bounds[1][lane] & ~(kBlock - 1);
     s.x1 = all.bounds[2][lane], s.y1 = all.bounds[3][lane];
-    for (int i = 0; i < kSamples; ++i) s.code[i] = sample[i].code.of(lane);
+    for (int i = 0; i < kSampleCount; ++i) s.code[i] = sample[i].code.of(lane);
     for (int k = 0; k < 3; ++k) {
-      for (int i = 0; i < kSamples; ++i) s.at_tile[i][k] = sample[i].at_tile[k][lane];
+      for (int i = 0; i < kSampleCount; ++i) s.at_tile[i][k] = sample[i].at_tile[k][lane];
       s.edge[k] = {s.at_tile[0][k], all.step_x[k][lane], all.step_y[k][lane]};
-      for (int i = 1; i < kSamples; ++i) s.edge[k].at_tile = std::min(s.edge[k].at_tile, s.at_tile[i][k]);
+      for (int i = 1; i < kSampleCount; ++i) s.edge[k].at_tile = std::min(s.edge[k].at_tile, s.at_tile[i][k]);
     }
     s.depth_plane.code = s.code[0];
     s.perspective.q1 = all.q1.of(lane), s.perspective.q2 = all.q2.of(lane), s.perspective.sum = all.sum.of(lane);
@@ -166,15 +166,15 @@ template <class R>
   return (color[1][3] == color[0][3]) & (color[2][3] == color[0][3]);
 }
 
-template <class R, int kSamples>
+template <class R, int kSampleCount>
 struct PlaneLanes {
-  Affine<Wide<R>> code[kSamples], q1, q2, sum;
+  Affine<Wide<R>> code[kSampleCount], q1, q2, sum;
 };
 /// Of depth at each sample, and of the colours' weights, which are the centre's; into `out`, too.
-template <class R, int kSamples>
-[[gnu::always_inline]] inline PlaneLanes<R, kSamples> set_up_planes(const CornerPlanes<Wide<R>>& planes,
-                                                                    const R (&p_win)[3][4], const SetupSite& site,
-                                                                    SetupLanes<R, kSamples>& out) {
+template <class R, int kSampleCount>
+[[gnu::always_inline]] inline PlaneLanes<R, kSampleCount> set_up_planes(const CornerPlanes<Wide<R>>& planes,
+                                                                        const R (&p_win)[3][4], const SetupSite& site,
+                                                                        SetupLanes<R, kSampleCount>& out) {
   using W = Wide<R>;
   const auto corners = [&](int coordinate, double unit) {
     const W at_0 = to_wide(p_win[0][coordinate]);
@@ -185,9 +185,9 @@ template <class R, int kSamples>
     store(plane.at_0, to.at_0), store(plane.x, to.x), store(plane.y, to.y);
   };
   const Affine<W> code = corners(2, site.depth_scale == 0 ? 1 : site.depth_scale);
-  PlaneLanes<R, kSamples> of{
+  PlaneLanes<R, kSampleCount> of{
       {}, scaled(planes.l1, to_wide(p_win[1][3])), scaled(planes.l2, to_wide(p_win[2][3])), corners(3, 1)};
-  for (int i = 0; i < kSamples; ++i) {  // moved(), depth.h
+  for (int i = 0; i < kSampleCount; ++i) {  // moved(), depth.h
     of.code[i] = code;
     const glm::dvec2 by = glm::dvec2(site.samples[static_cast<std::size_t>(i)]) / static_cast<double>(kSubpixel);
     if (by != glm::dvec2(0)) of.code[i].at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
@@ -198,9 +198,9 @@ template <class R, int kSamples>
 }
 
 /// `facing`: 1 of a front face, -1 of a back one.
-template <class R, int kSamples>
+template <class R, int kSampleCount>
 void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const SetupSite& site,
-                  SetupLanes<R, kSamples>& out) {
+                  SetupLanes<R, kSampleCount>& out) {
   using I = Int<R>;
   using W = Wide<R>;
   const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(corner);
@@ -210,7 +210,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
       plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
                        snapped_y, to_wide(face));
   const auto [code, q1, q2, sum] =
-      set_up_planes<R, kSamples>(corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5), p_win, site, out);
+      set_up_planes<R, kSampleCount>(corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5), p_win, site, out);
 
   // From here on, corners are counted from the tile.
   const I origin_x(site.tile_x * kSubpixel), origin_y(site.tile_y * kSubpixel);
@@ -242,7 +242,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
     return f.at_0 + lesser_of(f.x * low_x, f.x * high_x) + lesser_of(f.y * low_y, f.y * high_y) - terms(f) * W(0x1p-48);
   };
   W least_code = least_of(code[0]), most_code = -least_of({-code[0].at_0, -code[0].x, -code[0].y});
-  for (int i = 1; i < kSamples; ++i) {
+  for (int i = 1; i < kSampleCount; ++i) {
     least_code = lesser_of(least_code, least_of(code[i]));
     most_code = greater_of(most_code, -least_of({-code[i].at_0, -code[i].x, -code[i].y}));
   }
@@ -268,7 +268,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
     const Mask<R> owns = (step_x > I(0)) | ((step_x == I(0)) & (d_x > I(0)));
     const W less = to_wide(select(owns, I(0), I(1)));
     const W wide_x = to_wide(d_x), wide_y = to_wide(d_y), e = wide_y * to_wide(x[k]) - wide_x * to_wide(y[k]);
-    for (int i = 0; i < kSamples; ++i) {
+    for (int i = 0; i < kSampleCount; ++i) {
       const glm::dvec2 sample(site.samples[static_cast<std::size_t>(i)]);
       const W at_sample = e - (wide_y * sample.x - wide_x * sample.y);
       const W at_tile = floor_of((at_sample - less) * W(1.0 / kSubpixel));

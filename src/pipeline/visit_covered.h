@@ -18,19 +18,19 @@ alignas(64) inline constexpr std::int32_t kBlockNumbers[] = {0, 1, 2, 3, 4, 5, 6
 /// Calls block(x, y, for each sample which pixels of each part) for the blocks with pixels inside of all three edges,
 /// by rows; x, y: the block's first pixel, from the tile's. row(y), before each row: a bit for each of its sixteen
 /// blocks that matter.
-template <class R, int kSamples>
-[[gnu::always_inline]] inline void visit_covered(const LaneSetup<kSamples>& s, auto row, auto block) {
+template <class R, int kSampleCount>
+[[gnu::always_inline]] inline void visit_covered(const LaneSetup<kSampleCount>& s, auto row, auto block) {
   using I = Int<R>;
   constexpr int kLanes = Lanes<R>::width;
-  I in_block[kSamples][3][kParts<R>];  // what E adds to that of the block's first pixel
+  I in_block[kSampleCount][3][kParts<R>];  // what E adds to that of the block's first pixel
   I of_blocks[3], least[3];  // of blocks side by side, from the row's first; and the least that it adds in a block
   for (int k = 0; k < 3; ++k) {
     const TileEdge& e = s.edge[k];
     for (int part = 0; part < kParts<R>; ++part) {
       const I within = load_ints<R>(kColumnInBlock + part * kLanes) * I(e.step_x) +
                        load_ints<R>(kRowInBlock + part * kLanes) * I(e.step_y);
-      for (int i = 0; i < kSamples; ++i) {
-        in_block[i][k][part] = kSamples == 1 ? within : within + I(s.at_tile[i][k] - e.at_tile);
+      for (int i = 0; i < kSampleCount; ++i) {
+        in_block[i][k][part] = kSampleCount == 1 ? within : within + I(s.at_tile[i][k] - e.at_tile);
       }
     }
     of_blocks[k] = load_ints<R>(kBlockNumbers) * I(kBlock * e.step_x) + I(e.at_tile);
@@ -52,8 +52,8 @@ template <class R, int kSamples>
       for (blocks &= bits_of(some < I(0)); blocks != 0; blocks &= blocks - 1) {
         const int b = std::countr_zero(blocks);
         const I e[3] = {I(at[0][b]), I(at[1][b]), I(at[2][b])};
-        Mask<R> covered[kSamples][kParts<R>], any_covered = mask_of<R>(0);
-        for (int i = 0; i < kSamples; ++i) {
+        Mask<R> covered[kSampleCount][kParts<R>], any_covered = mask_of<R>(0);
+        for (int i = 0; i < kSampleCount; ++i) {
           const auto& in = in_block[i];
           for (int part = 0; part < kParts<R>; ++part) {
             covered[i][part] = ((e[0] + in[0][part]) & (e[1] + in[1][part]) & (e[2] + in[2][part])) < I(0);
@@ -69,13 +69,13 @@ template <class R, int kSamples>
 /// Sets the run's triangles up, as many at a time as there are lanes; then, in their order (or the other way round),
 /// calls together(lanes, how many) where all fit lanes, and if that does not paint them, paint(triangle, lanes, lane)
 /// for each, or alone(triangle) for those that do not fit.
-template <class R, int kSamples>
+template <class R, int kSampleCount>
 [[gnu::always_inline]] inline void each_lane(const Painting& painting, const PaintRun& run, bool from_last, int tile_x,
                                              int tile_y, auto together, auto alone, auto paint) {
   constexpr std::size_t kLanes = Lanes<R>::width;
   const SetupSite site = site_of(painting, run, tile_x, tile_y);
   const std::size_t size = run.numbers.size();
-  SetupLanes<R, kSamples> lanes;
+  SetupLanes<R, kSampleCount> lanes;
   for (std::size_t i = 0; i < size; i += kLanes) {
     const std::size_t count = std::min(kLanes, size - i);
     const auto triangle = [&](std::size_t lane) -> const PaintTriangle& {  // lanes that are too many do as the last
@@ -92,7 +92,7 @@ template <class R, int kSamples>
       thin |= t.corners < 3;
     }
     lanes.fitting = 0;
-    if (!thin) set_up_lanes<R, kSamples>(corner, facing, site, lanes);
+    if (!thin) set_up_lanes<R, kSampleCount>(corner, facing, site, lanes);
     if (lanes.fitting == ~0u >> (32 - kLanes) && together(lanes, static_cast<int>(count))) continue;
     for (std::size_t lane = 0; lane < count; ++lane) {
       if ((lanes.fitting >> lane & 1u) != 0) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../extent.h"
@@ -66,9 +67,11 @@ TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
       for (const Cull cull : {Cull::none, Cull::back}) {
         Scene scene = spheres(slices, cull);
         if (nearest_first) std::reverse(scene.draws.begin(), scene.draws.end());
-        for (const double clear : {1.0, 0.97}) {
+        for (const auto& [clear, antialias] :
+             {std::pair(1.0, Antialias::Kind::none), std::pair(0.97, Antialias::Kind::none),
+              std::pair(1.0, Antialias::Kind::multisample), std::pair(0.97, Antialias::Kind::multisample)}) {
           scene.frame.clear_depth = clear;
-          scene.frame.antialias = {clear == 1.0 ? Antialias::Kind::none : Antialias::Kind::multisample, 1};
+          scene.frame.antialias = {antialias, 1};
           const Frame definition = render(scene, stages);
           for (const auto& [name, painter] : all) {
             EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name << ", " << slices << " slices";
