@@ -1,45 +1,18 @@
 #include "check/golden.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "check/compare_bits.h"
 #include "check/votes.h"
 
 namespace plumbline::check {
 
 namespace {
-
-// Apart in a bit, even where the numbers are equal, as -0 and 0 are.
-double steps_apart(double a, double b, double scale) {
-  if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b)) return 0;
-  return std::max(difference(a, b) * (scale > 0 ? scale : 1), 0x1p-1074);
-}
-
-std::string unit_of(double scale) { return scale > 0 ? fmt::format("1/{}", scale) : "1"; }
-
-Measurement compare_colors(const Scene& scene, const Fingerprint& drawn, const Fingerprint& golden) {
-  const double scale = color_scale(scene.frame.color);
-  constexpr const char* kFields[] = {"r", "g", "b", "a"};
-  return compare_planes(drawn.color, golden.color, unit_of(scale), [&](Meter& meter, int x, int y) {
-    for (int c = 0; c < 4; ++c) {
-      const double a = drawn.color(x, y)[c], b = golden.color(x, y)[c];
-      meter.value(steps_apart(a, b, scale), 0, {x, y, -1, kFields[c]}, a, b);
-    }
-  });
-}
-
-Measurement compare_depths(const Scene& scene, const Fingerprint& drawn, const Fingerprint& golden) {
-  const double scale = depth_scale(scene.frame.depth);
-  return compare_planes(drawn.depth, golden.depth, unit_of(scale), [&](Meter& meter, int x, int y) {
-    const double a = drawn.depth(x, y), b = golden.depth(x, y);
-    meter.value(steps_apart(a, b, scale), 0, {x, y, -1, "z"}, a, b);
-  });
-}
 
 std::string word(const std::optional<Hash>& hash) { return hash ? to_string(*hash).substr(0, 16) : "nothing"; }
 
@@ -75,8 +48,8 @@ GoldenDifference compare_golden(const Scene& scene, Renderer& candidate, const G
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     if (out.golden.stages[i] != out.drawn.stages[i]) out.stages.push_back(static_cast<Stage>(i));
   }
-  out.color = compare_colors(scene, out.drawn, out.golden);
-  out.depth = compare_depths(scene, out.drawn, out.golden);
+  out.color = compare_color_bits(out.drawn.color, out.golden.color, scene.frame.color);
+  out.depth = compare_depth_bits(out.drawn.depth, out.golden.depth, scene.frame.depth);
   return out;
 }
 
@@ -151,6 +124,8 @@ Vouch vouch(const SceneVerdict& verdict, const std::string& candidate, std::span
       against.insert(reference);
       out.refusals.push_back(fmt::format("{}, {}: {}{}{}", c.reference, name_of(c.stage), name_of(c.outcome),
                                          more.empty() ? "" : ": ", more));
+    } else if (!votes(c)) {
+      continue;
     } else if (reference == candidate) {
       out.refusals.push_back(fmt::format("{} cannot vouch for itself", candidate));
     } else if (c.outcome == Outcome::dispute) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "check/case.h"
+#include "check/compare_bits.h"
 #include "check/compare_planes.h"
 #include "check/compare_records.h"
 #include "check/compare_texels.h"
@@ -209,6 +210,19 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
   return out;
 }
 
+Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture& watched) {
+  const Stage stage = scene.frame.antialias.kind == Antialias::Kind::none ? Stage::merge : Stage::resolve;
+  try {
+    Request request;
+    request.planes = WantedPlanes::picture;
+    const Capture shipped = candidate.capture(scene, request);
+    return judged(scene.name, std::string(kPicture), stage,
+                  compare_picture(scene.frame, shipped.planes, watched.planes));
+  } catch (const std::exception& e) {
+    return not_judged(scene.name, std::string(kPicture), stage, Outcome::failed, e.what());
+  }
+}
+
 SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references, Drawn* drawn,
                    std::uint64_t most_fragments) {
   if (scene.frame.antialias.kind != Antialias::Kind::none) return judge_passes(scene, candidate, references, drawn);
@@ -283,6 +297,7 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
     }
   }
   settle_votes(verdict.comparisons);
+  if (mine && candidate.info().paints) verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
   verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (drawn != nullptr) {
     if (mine) drawn->candidate = std::move(*mine);

@@ -32,6 +32,9 @@ struct Drawn {
 SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                    Drawn* drawn = nullptr, std::uint64_t most_fragments = ~std::uint64_t{0});
 
+/// The frame as the candidate ships it against the one that was watched: row `picture`, of the last stage.
+Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture& watched);
+
 /// The part of it that needs no scene but for what is drawn: each stage but the first as `referee` makes it of the
 /// candidate's own records, against the candidate's. `filtered`: what it made of the texture stage, if it did already.
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,

@@ -207,6 +207,7 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
       skip(name, Outcome::failed, e.what());
     }
   }
+  if (mine && candidate.info().paints) verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
   if (drawn != nullptr) {
     if (mine) drawn->candidate = std::move(*mine);
     drawn->references = std::move(theirs);

@@ -77,7 +77,7 @@ std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const bool judged_by_any = std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
-      return c.stage == stage && c.reference != kGolden && c.outcome != Outcome::unsupported &&
+      return c.stage == stage && votes(c) && c.outcome != Outcome::unsupported &&
              c.outcome != Outcome::missing && c.outcome != Outcome::failed;
     });
     // Of a scene without textures, or that is not antialiased, nobody says anything of their stages.

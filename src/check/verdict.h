@@ -42,6 +42,11 @@ struct Comparison {
 
 /// The reference of rows that compare a scene with its golden (golden.h): what was drawn before, which judges nothing.
 inline constexpr std::string_view kGolden = "golden";
+/// The reference of rows that compare the frame as it ships (the painter's) with the frame that was watched, bit for
+/// bit.
+inline constexpr std::string_view kPicture = "picture";
+/// Whether the row's reference judges a stage: goldens and pictures repeat the candidate, and have no vote.
+inline bool votes(const Comparison& row) { return row.reference != kGolden && row.reference != kPicture; }
 
 /// The outcome that a measurement comes to.
 Comparison judged(std::string scene, std::string reference, Stage stage, Measurement measurement,

@@ -36,7 +36,7 @@ std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Compa
   std::string exact;
   for (const Comparison& other : rows) {
     const bool own = voter(other) == voter(row);
-    if (other.stage > row.stage || (own && other.stage == row.stage)) continue;
+    if (!votes(other) || other.stage > row.stage || (own && other.stage == row.stage)) continue;
     if (fails(other)) return {};
     if (other.stage < row.stage || !holds(other)) continue;
     if (other.reference.ends_with(kFromRecords)) exact = voter(other);
@@ -53,7 +53,7 @@ void settle_votes(std::vector<Comparison>& rows) {
   std::ranges::stable_sort(by_stage, {}, &Comparison::stage);
   for (Comparison* each : by_stage) {
     Comparison& row = *each;
-    if (row.outcome != Outcome::different || row.reference.ends_with(kFromRecords)) continue;
+    if (!votes(row) || row.outcome != Outcome::different || row.reference.ends_with(kFromRecords)) continue;
     if (row.measurement.max_ratio <= 1) continue;  // its budget of ambiguity alone: no number that others contradict
     const std::set<std::string> against = outvoted_by(row, rows);
     if (against.empty()) continue;

@@ -54,6 +54,7 @@ std::vector<check::Settled> settle(check::SceneVerdict& verdict, const CheckOpti
                                    const std::vector<check::Expectation>& expectations, std::chrono::sys_days today) {
   std::vector<std::string> asked = o.against;
   if (!o.golden.empty()) asked.emplace_back(check::kGolden);
+  if (o.fault.empty()) asked.emplace_back(check::kPicture);
   std::vector<check::Settled> out = check::settle(expectations, asked, today, verdict);
   std::string lines;
   for (const check::Settled& settled : out) {

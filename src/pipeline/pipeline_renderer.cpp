@@ -75,8 +75,9 @@ class PipelineRenderer : public Renderer {
   PipelineRenderer(const Stages& stages, bool paints) : stages_(stages), paints_(paints) {}
 
   RendererInfo info() const override {
-    RendererInfo info{"ours", PLUMBLINE_VERSION, {}, false};
+    RendererInfo info{"ours", PLUMBLINE_VERSION, {}, false, false};
     for (Ability& ability : info.stages) ability = {true, true, ""};
+    info.paints = paints_;
     return info;
   }
 

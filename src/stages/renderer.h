@@ -62,7 +62,8 @@ struct RendererInfo {
   std::string name;
   std::string version;
   std::array<Ability, kStageNames.size()> stages;
-  bool legal = false;  ///< capture() hands legal answers out
+  bool legal = false;   ///< capture() hands legal answers out
+  bool paints = false;  ///< a picture alone (WantedPlanes::picture) is drawn by other code than the one that is watched
   const Ability& operator[](Stage s) const { return stages[static_cast<std::size_t>(s)]; }
   Ability& operator[](Stage s) { return stages[static_cast<std::size_t>(s)]; }
 };
