@@ -1,6 +1,7 @@
 #include "reference/osmesa/frame_loop.h"
 
 #include "reference/osmesa/context.h"
+#include "reference/osmesa/default_state.h"
 #include "reference/osmesa/gl.h"
 #include "reference/osmesa/light_state.h"
 #include "reference/osmesa/scene_in_gl.h"
@@ -33,7 +34,7 @@ void OsmesaFrames::draw() {
   frames_->context->make_current();
   const osmesa::Gl& gl = frames_->gl;
   const osmesa::SceneInGl& scene = frames_->in_gl;
-  const osmesa::SavedState state(gl);
+  const osmesa::PassState state(gl);
   frames_->target.bind();
   scene.clear(scene.scene().frame.clear_color);
   osmesa::set_lights(gl, scene.scene());

@@ -44,15 +44,17 @@ void check(const Gl& gl, std::string_view where);
 /// One of GL's limits.
 GLint limit(const Gl& gl, GLenum name);
 
-/// What is set during its lifetime goes back to what it was, which between two passes is GL's default. All but the
-/// matrices.
+/// State set during its lifetime goes back to what it was: all but the matrices, and what Mesa's pop leaves out
+/// (default_state.h).
 class SavedState {
  public:
   explicit SavedState(const Gl& gl) : gl_(gl) {
     gl_.PushAttrib(GL_ALL_ATTRIB_BITS);
     gl_.GetIntegerv(GL_CURRENT_PROGRAM, &program_);
+    gl_.GetIntegerv(GL_FRAMEBUFFER_BINDING, &frame_buffer_);
   }
   ~SavedState() {
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(frame_buffer_));  // whose draw buffers were saved
     gl_.PopAttrib();
     gl_.UseProgram(static_cast<GLuint>(program_));
   }
@@ -61,7 +63,7 @@ class SavedState {
 
  private:
   const Gl& gl_;
-  GLint program_ = 0;
+  GLint program_ = 0, frame_buffer_ = 0;
 };
 
 /// The same for vertex arrays and their buffers.

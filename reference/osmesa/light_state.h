@@ -6,7 +6,7 @@
 
 namespace plumbline::osmesa {
 
-/// Light model and lights; leaves MODELVIEW the identity. Call within a SavedState.
+/// Light model and lights; leaves MODELVIEW the identity. Call within a PassState.
 void set_lights(const Gl& gl, const Scene& scene);
 
 /// Of a draw that is lit: material, what of it follows the vertex colour, and what becomes of normals.

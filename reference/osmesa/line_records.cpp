@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "reference/osmesa/default_state.h"
 #include "reference/osmesa/fragment_state.h"
 #include "reference/osmesa/target.h"
 
@@ -34,7 +35,7 @@ void draw_edge(const Gl& gl, const Mesh& mesh, const glm::uvec3& triangle, std::
 void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& records) {
   const FrameFormat& frame = scene.scene().frame;
   const Target target(gl, frame, ColorFormat::rgba8);
-  const SavedState state(gl);
+  const PassState state(gl);
   target.bind();
   scene.clear(glm::vec4(0));
   gl.ShadeModel(GL_FLAT);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reference/osmesa/default_state.h"
 #include "scene/antialias.h"
 #include "stages/renderer.h"
 #include "stages/stages.h"
@@ -85,7 +86,7 @@ void Multisamples::fetch_colors(int sample, GLuint to) const { fetch(textures_[0
 void Multisamples::fetch_depths(int sample, GLuint to) const { fetch(textures_[1], sample, to); }
 
 void Multisamples::fetch(GLuint texture, int sample, GLuint to) const {
-  const SavedState state(gl_);
+  const PassState state(gl_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, to);
   gl_.Viewport(0, 0, width_, height_);
   gl_.ClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_FALSE);
@@ -103,6 +104,7 @@ void Multisamples::fetch(GLuint texture, int sample, GLuint to) const {
 }
 
 void Multisamples::resolve(GLuint to) const {
+  const PassState state(gl_);  // without a scissor test, which would cut what is copied
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_buffer_);
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
   gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,

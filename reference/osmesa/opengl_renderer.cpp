@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reference/math/resolve.h"
+#include "reference/osmesa/default_state.h"
 #include "reference/osmesa/gl.h"
 #include "reference/osmesa/line_records.h"
 #include "reference/osmesa/pixel_fragments.h"
@@ -106,7 +107,7 @@ class OpenGlRenderer final : public Renderer {
     FrameFormat frame = scene.scene().frame;
     frame.pass.sample.reset();  // vertices have no samples
     const Target target(gl_, frame, ColorFormat::rgba8);
-    const SavedState state(gl_);
+    const PassState state(gl_);
     target.bind();
     if (request.records.has(Stage::matrices)) records.matrices = read_matrices(gl_, scene);
     if (request.records.has(Stage::vertex)) records.vertices = vertex_program_.run(scene);

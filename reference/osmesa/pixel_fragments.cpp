@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/osmesa/default_state.h"
 #include "reference/osmesa/fragment_state.h"
 #include "reference/osmesa/light_state.h"
 #include "reference/osmesa/target.h"
@@ -37,7 +38,7 @@ class OnePixel {
   /// Alone, with no test in its way.
   Values values(const Found& f) const {
     {
-      const SavedState state(gl_);
+      const PassState state(gl_);
       floats_.bind();
       scene_.clear(glm::vec4(0));
       set_state(f.draw);
@@ -52,7 +53,7 @@ class OnePixel {
 
   glm::vec4 texel(const Found& f) const {
     {
-      const SavedState state(gl_);
+      const PassState state(gl_);
       floats_.bind();
       scene_.clear(glm::vec4(0));
       set_state(f.draw);
@@ -64,7 +65,7 @@ class OnePixel {
   }
 
   void clear_frame() const {
-    const SavedState state(gl_);
+    const PassState state(gl_);
     frame_.bind();
     scene_.clear(glm::vec4(0));
   }
@@ -72,7 +73,7 @@ class OnePixel {
   bool draws(const Found& f, const glm::vec4& shaded) const {
     const float before = shaded.r < 0.5f ? 1 : 0;
     {
-      const SavedState state(gl_);
+      const PassState state(gl_);
       frame_.bind();
       gl_.ClearColor(before, 0, 0, 0);
       gl_.Clear(GL_COLOR_BUFFER_BIT);
@@ -96,7 +97,7 @@ class OnePixel {
 
   bool reached_by(std::size_t draw, Primitives these, bool but_back = false) const {
     {
-      const SavedState state(gl_);
+      const PassState state(gl_);
       floats_.bind();
       scene_.clear(glm::vec4(0));
       gl_.ShadeModel(GL_FLAT);

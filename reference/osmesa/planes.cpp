@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "reference/osmesa/default_state.h"
 #include "reference/osmesa/fragment_state.h"
 #include "reference/osmesa/light_state.h"
 #include "reference/osmesa/target.h"
@@ -41,7 +42,7 @@ enum class Colors {
 };
 
 void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colors colors) {
-  const SavedState state(gl);
+  const PassState state(gl);
   const CountedFragments counted(gl);
   target.bind();
   scene.clear(colors == Colors::texels ? glm::vec4(0) : scene.scene().frame.clear_color);
@@ -77,7 +78,7 @@ std::int32_t number_of(const glm::vec4& color) {
 /// As draw_ids(), in a target of the frame's own format, whose alpha test it is.
 Plane<std::int32_t> draw_tested_ids(const Gl& gl, const SceneInGl& scene, const Target& target) {
   {
-    const SavedState state(gl);
+    const PassState state(gl);
     const CountedFragments counted(gl);
     const NumberedFragments numbered(gl);
     target.bind();
@@ -113,7 +114,7 @@ Plane<std::int32_t> draw_tested_ids(const Gl& gl, const SceneInGl& scene, const 
 /// The scene with each primitive's number + 1 for its colour, on 0.
 Plane<std::int32_t> draw_ids(const Gl& gl, const SceneInGl& scene, const Target& target) {
   {
-    const SavedState state(gl);
+    const PassState state(gl);
     const CountedFragments counted(gl);
     target.bind();
     scene.clear(glm::vec4(0));
@@ -135,7 +136,7 @@ Plane<std::int32_t> draw_ids(const Gl& gl, const SceneInGl& scene, const Target&
 /// All fragments of all primitives, added up: r counts them, g, b and a sum their weights' parts.
 Plane<glm::vec4> draw_weights(const Gl& gl, const SceneInGl& scene, const Target& target) {
   {
-    const SavedState state(gl);
+    const PassState state(gl);
     target.bind();
     scene.clear(glm::vec4(0));
     gl.ShadeModel(GL_FLAT);

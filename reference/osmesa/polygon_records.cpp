@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "reference/osmesa/default_state.h"
 #include "reference/osmesa/feedback.h"
 #include "reference/osmesa/light_state.h"
 
@@ -217,7 +218,7 @@ void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std
 void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<double>> lit, const Request& request,
                    Records<double>& records) {
   const bool clip = request.records.has(Stage::clip), window = request.records.has(Stage::window);
-  const SavedState before(gl);
+  const PassState state(gl);
   Feedback feedback(gl, GL_4D_COLOR_TEXTURE);
   set_lights(gl, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {

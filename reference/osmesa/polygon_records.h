@@ -9,7 +9,7 @@
 namespace plumbline::osmesa {
 
 /// Puts records.polygons and records.triangles, where the request names their stages. `lit`: the colours of all draws'
-/// vertices. Call within a SavedState, a Target bound.
+/// vertices. Call with a Target bound.
 void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<double>> lit, const Request& request,
                    Records<double>& records);
 

@@ -21,7 +21,7 @@ class TexturesInGl {
   TexturesInGl(const TexturesInGl&) = delete;
   TexturesInGl& operator=(const TexturesInGl&) = delete;
 
-  // Call within a SavedState.
+  // Call within a PassState.
   void set(const Draw& draw) const;  ///< the draw's texture and environment; without one, texturing is off
   /// The draw's fragments become the texture source, (0, 0, 0, 1) without a texture, if their colour is (0, 0, 0, 1):
   /// what a format lacks comes from there (OpenGL 2.1 spec, table 3.22, REPLACE).

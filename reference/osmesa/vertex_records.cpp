@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "reference/osmesa/default_state.h"
 #include "reference/osmesa/light_state.h"
 #include "reference/osmesa/target.h"
 #include "stages/renderer.h"
@@ -138,7 +139,7 @@ std::vector<Lit<double>> VertexColors::read(const SceneInGl& scene) const {
   frame.height = kHeight;
   const Target target(gl_, frame, ColorFormat::rgba32f);
   std::vector<Lit<double>> records;
-  const SavedState state(gl_);
+  const PassState state(gl_);
   target.bind();
   set_lights(gl_, scene.scene());
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {

@@ -7,7 +7,7 @@
 
 namespace plumbline::osmesa {
 
-/// Loads each draw's matrices and reads GL's own back. Call within a SavedState, a Target bound.
+/// Loads each draw's matrices and reads GL's own back. Call within a PassState, a Target bound.
 std::vector<Matrices<double>> read_matrices(const Gl& gl, const SceneInGl& scene);
 
 /// A program that hands on what the fixed function computes of a vertex; made once per context.

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "../extent.h"
-#include "check/compare_stored.h"
 #include "reference/osmesa/osmesa.h"
+#include "same_captures.h"
 #include "scene/scene_file.h"
 #include "stages/process_renderer.h"
 
@@ -19,29 +19,6 @@ std::unique_ptr<Renderer> egl() {
   spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{folder}", "--with", "egl"};
   spec.shows = StageSet::all();
   return make_process_renderer(spec);
-}
-
-template <class T>
-void expect_same_bits(const Plane<T>& a, const Plane<T>& b, const char* what) {
-  ASSERT_EQ(a.size(), b.size()) << what;
-  ASSERT_GT(a.size(), 0u) << what;
-  EXPECT_EQ(std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)), 0) << what;
-}
-
-// Planes as bytes; all records, windows among them, as numbers.
-void expect_same_captures(const Capture& a, const Capture& b) {
-  expect_same_bits(a.planes.count, b.planes.count, "count");
-  expect_same_bits(a.planes.id_sum, b.planes.id_sum, "id_sum");
-  expect_same_bits(a.planes.id, b.planes.id, "id");
-  expect_same_bits(a.planes.shaded, b.planes.shaded, "shaded");
-  expect_same_bits(a.planes.color, b.planes.color, "color");
-  expect_same_bits(a.planes.depth, b.planes.depth, "depth");
-  int windows = 0;
-  for (const check::StoredComparison& row : check::compare_captures(a, b, 0)) {
-    EXPECT_EQ(row.outcome, check::Outcome::equal) << row.what << ' ' << row.note;
-    windows += row.what == "window.snapped" || row.what == "window.p_win";
-  }
-  EXPECT_EQ(windows, a.records.triangles.empty() ? 0 : 2);
 }
 
 // One of `every` scenes.
@@ -65,7 +42,7 @@ void compare_on(const std::vector<std::filesystem::path>& folders, std::size_t e
       EXPECT_ANY_THROW(other->capture(scene, all));
       continue;
     }
-    expect_same_captures(mine, other->capture(scene, all));
+    test::expect_same_captures(mine, other->capture(scene, all));
   }
 }
 
