@@ -1,4 +1,5 @@
 // plumb render: a scene to a picture. plumb capture: a scene to a capture folder.
+#include <cstdio>
 #include <memory>
 #include <stdexcept>
 
@@ -9,6 +10,7 @@
 #include "stages/atomic_path.h"
 #include "stages/capture_folder.h"
 #include "stages/image_file.h"
+#include "stages/process_renderer.h"
 
 namespace plumbline::cli {
 
@@ -70,8 +72,16 @@ int render(const RenderOptions& o) {
 int capture(const CaptureOptions& o) {
   require_writable_capture(o.folder);
   const std::unique_ptr<Renderer> renderer = renderer_of(o.with, o.fault);
-  write_capture(renderer->capture(o.scene_arguments.load(o.scene), {StageSet::all(), false, {}, {}}), o.folder);
-  return kHolds;
+  const Scene scene = o.scene_arguments.load(o.scene);
+  try {
+    write_capture(renderer->capture(scene, {StageSet::all(), false, {}, {}}), o.folder);
+    return kHolds;
+  } catch (const Unsupported& e) {
+    fmt::print(stderr, "{}\n", e.what());
+  } catch (const OverBudget& e) {
+    fmt::print(stderr, "{}\n", e.what());
+  }
+  return kUnsupportedStatus;
 }
 
 }  // namespace plumbline::cli

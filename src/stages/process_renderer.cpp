@@ -117,8 +117,14 @@ int spawn(std::vector<std::string> argv, std::vector<std::string> environment, c
   return error;
 }
 
-/// How a process ended, in words; empty: with exit status 0. Its whole group is gone afterwards.
-std::string wait_for(pid_t pid, std::chrono::milliseconds timeout, const HeldSignals& signals) {
+/// How a process ended: its exit status, or in words what else came. Of another status than 0, in words as well.
+struct Ending {
+  std::string words;
+  int status = 0;
+};
+
+/// Waits for a process' end. Its whole group is gone afterwards.
+Ending wait_for(pid_t pid, std::chrono::milliseconds timeout, const HeldSignals& signals) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point deadline = Clock::now() + timeout;
   std::chrono::milliseconds pause{1};
@@ -133,20 +139,20 @@ std::string wait_for(pid_t pid, std::chrono::milliseconds timeout, const HeldSig
   ::kill(-pid, SIGKILL);
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0) {
-    if (errno != EINTR) return fmt::format("could not be waited for: {}", std::strerror(errno));
+    if (errno != EINTR) return {fmt::format("could not be waited for: {}", std::strerror(errno))};
   }
-  if (hung && signals.any_came()) return "was killed, for we were told to end";
-  if (hung) return fmt::format("took longer than {} and was killed", timeout);
+  if (hung && signals.any_came()) return {"was killed, for we were told to end"};
+  if (hung) return {fmt::format("took longer than {} and was killed", timeout)};
   if (WIFSIGNALED(status)) {
-    return fmt::format("was killed by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
+    return {fmt::format("was killed by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))};
   }
-  return WEXITSTATUS(status) == 0 ? "" : fmt::format("exited with status {}", WEXITSTATUS(status));
+  if (WEXITSTATUS(status) == 0) return {};
+  return {fmt::format("exited with status {}", WEXITSTATUS(status)), WEXITSTATUS(status)};
 }
 
 /// The last lines of a file, of which not more than the last few KiB are read.
-std::string last_lines(const fs::path& file) {
+std::string last_lines(const fs::path& file, int lines) {
   constexpr std::uintmax_t kBytes = 4096;
-  constexpr int kLines = 10;
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error || size == 0) return "";
@@ -155,7 +161,7 @@ std::string last_lines(const fs::path& file) {
   std::string text{std::istreambuf_iterator<char>(in), {}};
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::size_t from = text.size();
-  for (int line = 0; line < kLines && from != text.npos && from > 0; ++line) from = text.rfind('\n', from - 1);
+  for (int line = 0; line < lines && from != text.npos && from > 0; ++line) from = text.rfind('\n', from - 1);
   return from == text.npos || from == 0 ? text : text.substr(from + 1);
 }
 
@@ -218,7 +224,12 @@ class ProcessRenderer : public Renderer {
     if (const int error = spawn(argv, merged_environment(spec_.environment), log, signals, pid); error != 0) {
       fail(argv, fmt::format("cannot be started: {}", std::strerror(error)), log);
     }
-    if (const std::string how = wait_for(pid, spec_.timeout, signals); !how.empty()) fail(argv, how, log);
+    const Ending ending = wait_for(pid, spec_.timeout, signals);
+    if (ending.status == kUnsupportedStatus) {
+      const std::string reason = last_lines(log, 1);
+      throw Unsupported(reason.empty() ? fmt::format("{}: {}, and gave no reason", spec_.name, ending.words) : reason);
+    }
+    if (!ending.words.empty()) fail(argv, ending.words, log);
     if (!fs::is_directory(folder)) fail(argv, "left no capture: its folder is gone", log);
     require_budget(scene, bytes_below(folder), request.memory_budget);
     try {
@@ -239,7 +250,8 @@ class ProcessRenderer : public Renderer {
 
  private:
   [[noreturn]] void fail(const std::vector<std::string>& argv, std::string_view what, const fs::path& log) const {
-    const std::string lines = last_lines(log);
+    constexpr int kLines = 10;
+    const std::string lines = last_lines(log, kLines);
     throw RendererFailed(fmt::format("{}: {} {}{}{}", spec_.name, fmt::join(argv, " "), what,
                                      lines.empty() ? "" : "\nthe end of its stderr:\n", lines));
   }

@@ -12,6 +12,10 @@
 
 namespace plumbline {
 
+/// Exit status of a program that cannot draw the scene or show it: outcome `unsupported`, and the last line of its
+/// stderr is the reason.
+inline constexpr int kUnsupportedStatus = 77;
+
 struct ProcessSpec {
   std::string name;
   std::string version;            ///< shown until a capture tells it
@@ -24,9 +28,10 @@ struct ProcessSpec {
 
 /// info() runs nothing. capture() runs the program, waits, and reads the folder; of its records those that the request
 /// names are handed on, of these all primitives and pixels. Throws RendererFailed, with the last lines of the program's
-/// stderr, where it cannot be started, exits with other than 0, is killed by a signal, takes longer than the timeout,
-/// or leaves no capture, a broken one, or one of another size; OverBudget where what it left is beyond the budget; and
-/// Unsupported for a scene that was not read from a file. Refuses a spec without argv (std::invalid_argument).
+/// stderr, where it cannot be started, exits with other than 0 and 77, is killed by a signal, takes longer than the
+/// timeout, or leaves no capture, a broken one, or one of another size; OverBudget where what it left is beyond the
+/// budget; and Unsupported where it exits with 77, and for a scene that was not read from a file. Refuses a spec
+/// without argv (std::invalid_argument).
 std::unique_ptr<Renderer> make_process_renderer(ProcessSpec spec);
 
 }  // namespace plumbline

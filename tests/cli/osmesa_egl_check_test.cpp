@@ -15,6 +15,19 @@ TEST_F(Cli, osmesa_and_egl_and_softpipe_vote_in_one_run) {
   EXPECT_LT(softpipe, run.text.find(" exact from scene ")) << run.text;
 }
 
+// The child process hands on the reason.
+TEST_F(Cli, egl_and_softpipe_say_why_a_scene_is_unsupported) {
+  const Outcome run = plumb("check " + kScenes + "polygon_mode/clipped.json --against egl,softpipe,exact");
+  EXPECT_EQ(run.code, 0) << run.text;
+  for (const char* name : {" egl  ", " softpipe  "}) {
+    const std::size_t row = run.text.find(name);
+    ASSERT_NE(row, std::string::npos) << run.text;
+    const std::string line = run.text.substr(row, run.text.find('\n', row) - row);
+    EXPECT_NE(line.find("unsupported"), std::string::npos) << line;
+    EXPECT_NE(line.find("Mesa draws no edges where the view volume cuts"), std::string::npos) << line;
+  }
+}
+
 // Unlike softpipe, it shows every stage that osmesa does.
 TEST_F(Cli, egl_is_listed_with_its_stages) {
   const std::string text = plumb("list renderers").text;

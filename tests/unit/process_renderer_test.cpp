@@ -127,6 +127,21 @@ TEST_F(Process, ShowsTheEndOfStderr) {
   EXPECT_HAS(failure(shell("printf 'only line' >&2; exit 1")), "stderr:\nonly line");
 }
 
+TEST_F(Process, AnExitWith77IsUnsupportedForTheLastLinesReason) {
+  const auto reason = [&](const std::string& script) -> std::string {
+    try {
+      shell(script)->capture(scene_, {});
+    } catch (const Unsupported& unsupported) {
+      return unsupported.what();
+    }
+    return "it was supported";
+  };
+  EXPECT_EQ(reason("echo working >&2; echo no fog here >&2; exit 77"), "no fog here");
+  EXPECT_EQ(reason("exit 77"), "outside: exited with status 77, and gave no reason");
+  EXPECT_HAS(failure(shell("echo no fog here >&2; exit 76")), "exited with status 76");
+  EXPECT_HAS(failure(shell("echo no fog here >&2; kill -KILL $$")), "was killed by signal 9");
+}
+
 TEST_F(Process, KillsAHangingProgramAndAllThatItStarted) {
   const auto renderer = make_process_renderer(
       {.name = "outside",
