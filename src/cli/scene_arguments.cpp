@@ -1,5 +1,9 @@
 #include "cli/scene_arguments.h"
 
+#include <cstdio>
+
+#include <fmt/format.h>
+
 #include "scene/scene_file.h"
 
 namespace plumbline::cli {
@@ -7,7 +11,9 @@ namespace plumbline::cli {
 Scene SceneArguments::load(const std::filesystem::path& file) const {
   SceneFileOptions options;
   options.asset_folders.insert(options.asset_folders.begin(), assets.begin(), assets.end());
-  return load_scene(file, options);
+  Scene scene = load_scene(file, options);
+  for (const std::string& note : scene.notes) fmt::print(stderr, "plumb: note: {}: {}\n", file.string(), note);
+  return scene;
 }
 
 std::string SceneArguments::repeated() const {

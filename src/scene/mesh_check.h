@@ -2,18 +2,26 @@
 // it cannot read, makes up what a truncated file lacks, and takes hours over counts that are not true.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace plumbline {
 
-/// An OBJ file's text: statements that we draw or that do not matter; v with 3 numbers (4: w; 6: a colour, in all lines
-/// or in none), each beginning with a sign or a digit; f with three corners or more.
+/// Checks an OBJ file's text: statements that are drawn or that do not matter; v with 3 numbers (4: w; 6: a colour, in
+/// all lines or in none), vt with 2 or 3, each number beginning with a sign or a digit; f with three corners or more.
+/// Returns a note where something is left out, else nothing: a third texture coordinate other than 0.
 /// Throws std::runtime_error: expected ..., found ... in line n.
-void check_obj(std::string_view text);
+std::string check_obj(std::string_view text);
 
-/// A PLY file's bytes, ASCII or binary: the header, and that the elements that it announces are there, one after the
-/// other to the file's end (in ASCII each on a line of its own); faces of three corners or more.
+/// Checks a PLY file's bytes, ASCII or binary: the header; the elements that it announces, one after the other to the
+/// file's end (in ASCII each on a line of its own); faces of three corners or more.
 /// Throws std::runtime_error: expected ..., found ....
 void check_ply(std::string_view bytes);
+
+/// A checked PLY file with its triangle strips (element tristrips, one list vertex_indices) as faces, each strip's in
+/// order; a file without strips as it is. Corners i, i + 1, i + 2 of a strip are a triangle, every second one with its
+/// first two corners exchanged, as in OpenGL (4.5, section 10.1.7); -1 ends a strip within the list.
+/// Throws std::runtime_error: other properties, faces beside strips, indices out of range.
+std::string with_faces_for_strips(std::string_view bytes);
 
 }  // namespace plumbline

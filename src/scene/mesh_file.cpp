@@ -56,6 +56,7 @@ std::string packed(const std::vector<MeshPart>& parts) {
     bytes.put(std::span<const glm::vec2>(part.mesh.texcoords));
     bytes.put(std::span<const glm::uvec3>(part.mesh.triangles));
     bytes.put(part.material ? std::span<const Material>(&*part.material, 1) : std::span<const Material>());
+    bytes.put(std::span<const char>(part.note));
   }
   return bytes.take();
 }
@@ -70,6 +71,8 @@ std::vector<MeshPart> unpacked(std::string packed_parts) {
     part.mesh.texcoords = bytes.get<glm::vec2>();
     part.mesh.triangles = bytes.get<glm::uvec3>();
     for (const Material& material : bytes.get<Material>()) part.material = material;
+    const std::vector<char> note = bytes.get<char>();
+    part.note.assign(note.begin(), note.end());
   }
   return parts;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "scene/asset_folders.h"
@@ -17,10 +18,11 @@ struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A mesh and the material that its file gives it, if it does.
+/// A mesh, and the material that its file gives it, if it does.
 struct MeshPart {
   Mesh mesh;
   std::optional<Material> material;
+  std::string note{};  ///< on the first part: what of the file is left out, if anything
 };
 
 /// An OBJ, 3DS, PLY, glTF or GLB file in the file's world space: parts are moved to where its nodes place them, in its
@@ -32,7 +34,11 @@ struct MeshPart {
 ///
 /// Materials are those of OBJ (Ka, Kd, Ks, Ke, Ns, d) and 3DS as they are, Ns above 128, OpenGL's limit, as 128; of
 /// glTF the base colour (as ambient and diffuse) and the emission. Images, skins and animations are not read. Texture
-/// coordinates are the first set, t upwards; where one of the meshes that are put together has none, none.
+/// coordinates are the first set, t upwards; where one of the meshes that are put together has none, none. PLY files
+/// may have triangle strips (element tristrips) in place of faces.
+///
+/// Left out with a note: materials of an OBJ file whose material file is missing, or that names none; an OBJ file's
+/// third texture coordinates other than 0 (the depth in a volume texture; textures here have two dimensions).
 ///
 /// The library that reads the files crashes, hangs and guesses on some bad ones: it runs in a process of its own, for
 /// at most a minute, what it would guess is checked before, and what it complains about is refused. It opens files
@@ -41,8 +47,8 @@ struct MeshPart {
 /// Throws MeshError: not readable, longer than 256 MiB, not one of the formats, truncated; no triangles, or more than
 /// `most_triangles`; faces of fewer than three corners, polygons that are not flat or cross themselves (polygon.h);
 /// an index out of range; a position not finite or beyond kLargestCoordinate (scene_values.h); a normal zero or not
-/// finite; a colour beyond [0,1]; texture coordinates not finite or beyond +-16384; another file that it
-/// names and that is missing or not allowed.
+/// finite; a colour beyond [0,1]; texture coordinates not finite or beyond +-16384; another file that it names and that
+/// is not allowed, or is missing and no material file; a material that the material files do not define.
 std::vector<MeshPart> load_mesh(const std::filesystem::path& file, const AssetFolders& folders,
                                 std::size_t most_triangles);
 

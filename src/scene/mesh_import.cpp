@@ -4,9 +4,13 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <memory>
+#include <set>
+#include <string>
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -39,58 +43,103 @@ std::string read_bytes(const fs::path& file) {
   return bytes;
 }
 
-/// Opens only regular files that the folders allow, and notes what it did not open.
+/// Files for assimp: the mesh file's bytes as they were checked, and regular files that the folders allow. A material
+/// file that does not exist is an empty one.
 class AllowedFiles : public Assimp::DefaultIOSystem {
  public:
-  /// `refused` becomes what is wrong with the first file that is not opened.
-  AllowedFiles(const AssetFolders& folders, std::string& refused) : folders_(folders), refused_(refused) {}
+  /// Material files asked for, and the first other file that was not opened.
+  struct Asked {
+    std::string refused;     ///< with what is wrong
+    std::string missing;     ///< material file that does not exist, the first
+    bool materials = false;  ///< a material file was opened
+  };
+  AllowedFiles(const AssetFolders& folders, const fs::path& mesh, std::string_view bytes, Asked& asked)
+      : folders_(folders), mesh_(mesh), bytes_(bytes), asked_(asked) {}
   /// Without opening it, as assimp's own does: a pipe would wait for ever.
   bool Exists(const char* file) const override {
     std::error_code error;
     return fs::is_regular_file(file, error);
   }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
+    const bool reads = mode[0] == 'r';
+    if (reads && file == mesh_ && folders_.allow(file)) return stream_of(bytes_);
+    const bool material = fs::path(file).extension() == ".mtl";
+    if (reads && material && lacks(file)) {
+      if (asked_.missing.empty()) asked_.missing = file;
+      return stream_of("# no material\n");  // assimp would open a file of the mesh's name instead
+    }
     std::error_code error;
     const bool there = fs::is_regular_file(file, error);
-    if (there && mode[0] == 'r' && folders_.allow(file)) return DefaultIOSystem::Open(file, mode);
-    if (refused_.empty()) refused_ = fmt::format("\"{}\", {}", file, there ? "which is elsewhere" : "which is no file");
+    if (there && reads && folders_.allow(file)) {
+      asked_.materials = asked_.materials || material;
+      return DefaultIOSystem::Open(file, mode);
+    }
+    if (asked_.refused.empty()) {
+      asked_.refused = fmt::format("\"{}\", {}", file, there ? "which is elsewhere" : "which is no file");
+    }
     return nullptr;
   }
 
  private:
+  static Assimp::IOStream* stream_of(std::string_view bytes) {
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  }
+  /// A name with blanks may be several files' names.
+  static bool lacks(const std::string& file) {
+    std::error_code error;
+    return fs::symlink_status(file, error).type() == fs::file_type::not_found &&
+           fs::path(file).filename().string().find(' ') == std::string::npos;
+  }
+
   const AssetFolders& folders_;
-  std::string& refused_;
+  const fs::path& mesh_;
+  std::string_view bytes_;
+  Asked& asked_;
 };
 
-/// Complaints after which nothing of the shape is guessed: parts without nodes, an OBJ without "o", animations.
-constexpr std::array<std::string_view, 5> kHarmless = {"No hierarchy information", "No object detected to attach",
-                                                       "animation", "roll track", "Skipping pivot"};
+/// Complaints after which nothing of the shape is guessed: parts without nodes, an OBJ without "o", animations, third
+/// texture coordinates that are 0.
+constexpr std::array<std::string_view, 6> kHarmless = {
+    "No hierarchy information", "No object detected to attach",         "animation", "roll track",
+    "Skipping pivot",           "UVs are declared to be 3D but they're"};
+
+using Names = std::set<std::string, std::less<>>;
 
 /// What assimp complains about while this lives: what it then does is guess.
 class Complaints {
  public:
   Complaints() {
     Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
-    Assimp::DefaultLogger::get()->attachStream(new Stream(first_), Assimp::Logger::Err | Assimp::Logger::Warn);
+    Assimp::DefaultLogger::get()->attachStream(new Stream(*this), Assimp::Logger::Err | Assimp::Logger::Warn);
   }
   ~Complaints() { Assimp::DefaultLogger::kill(); }
   Complaints(const Complaints&) = delete;
   Complaints& operator=(const Complaints&) = delete;
   const std::string& first() const { return first_; }
+  /// Names of materials that the file uses and no material file defines.
+  const Names& undefined_materials() const { return undefined_; }
 
  private:
   struct Stream : Assimp::LogStream {
-    explicit Stream(std::string& to) : first(to) {}
-    void write(const char* message) override {
-      const std::string_view text = message;
-      const bool harmless = std::any_of(kHarmless.begin(), kHarmless.end(),
-                                        [&](std::string_view part) { return text.find(part) != text.npos; });
-      if (first.empty() && !harmless) first = text.substr(0, text.find('\n'));
-      if (const std::size_t head = first.find(": "); head < 12) first.erase(0, head + 2);  // "Warn,  T0: "
-    }
-    std::string& first;
+    explicit Stream(Complaints& to) : complaints(to) {}
+    void write(const char* message) override { complaints.add(message); }
+    Complaints& complaints;
   };
+  void add(std::string_view text) {
+    constexpr std::string_view kUndefined = "OBJ: failed to locate material ", kRest = ", creating new material";
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const std::size_t undefined = line.find(kUndefined), rest = line.rfind(kRest);
+    if (undefined != line.npos && rest != line.npos) {
+      undefined_.emplace(line.substr(undefined + kUndefined.size(), rest - undefined - kUndefined.size()));
+      return;
+    }
+    const bool harmless = std::any_of(kHarmless.begin(), kHarmless.end(),
+                                      [&](std::string_view part) { return text.find(part) != text.npos; });
+    if (first_.empty() && !harmless) first_ = line;
+    if (const std::size_t head = first_.find(": "); head < 12) first_.erase(0, head + 2);  // "Warn,  T0: "
+  }
   std::string first_;
+  Names undefined_;
 };
 
 /// Before anything is made of it: a post-processing step would trust the numbers.
@@ -160,10 +209,11 @@ glm::vec4 read_color(const aiMaterial& from, const char* key, float alpha) {
   return {c.r, c.g, c.b, alpha};
 }
 
-std::optional<Material> read_material(const aiMaterial& from, std::string_view ending) {
+/// None for the materials that assimp makes up: where a file has none (a PLY file never has), and `undefined` ones.
+std::optional<Material> read_material(const aiMaterial& from, std::string_view ending, const Names& undefined) {
   const std::string name = from.GetName().C_Str();
-  // What assimp invents where a file has no material; a PLY file never has one.
-  if (ending == ".ply" || name == AI_DEFAULT_MATERIAL_NAME || name == "%%%DEFAULT") return std::nullopt;
+  const bool made_up = name == AI_DEFAULT_MATERIAL_NAME || name == "%%%DEFAULT" || undefined.contains(name);
+  if (ending == ".ply" || made_up) return std::nullopt;
   float opacity = 1, shininess = 0;
   from.Get(AI_MATKEY_OPACITY, opacity);
   from.Get(AI_MATKEY_SHININESS, shininess);
@@ -186,8 +236,8 @@ std::optional<Material> read_material(const aiMaterial& from, std::string_view e
 /// Puts the file's parts, placed, one after the other.
 class Assembly {
  public:
-  Assembly(const aiScene& scene, std::string_view ending, std::size_t most_triangles)
-      : scene_(scene), ending_(ending), most_triangles_(most_triangles) {}
+  Assembly(const aiScene& scene, std::string_view ending, const Names& undefined_materials, std::size_t most_triangles)
+      : scene_(scene), ending_(ending), undefined_(undefined_materials), most_triangles_(most_triangles) {}
 
   void add(const aiNode& node, const aiMatrix4x4& parent, int depth = 0) {
     constexpr int kDeepest = 256;
@@ -203,7 +253,7 @@ class Assembly {
     triangles_ += from.mNumFaces;
     if (triangles_ > most_triangles_) fail(fmt::format("at most {} triangles", most_triangles_), "more");
     if (parts_.empty() || material_ != from.mMaterialIndex) {
-      parts_.push_back({{}, read_material(*scene_.mMaterials[from.mMaterialIndex], ending_)});
+      parts_.push_back({{}, read_material(*scene_.mMaterials[from.mMaterialIndex], ending_, undefined_), ""});
       material_ = from.mMaterialIndex;
     }
     Mesh& mesh = parts_.back().mesh;
@@ -243,6 +293,7 @@ class Assembly {
 
   const aiScene& scene_;
   std::string_view ending_;
+  const Names& undefined_;
   std::size_t most_triangles_, triangles_ = 0;
   unsigned material_ = 0;
   std::vector<MeshPart> parts_;
@@ -262,6 +313,8 @@ void repair_normals(Mesh& mesh) {
   }
 }
 
+void add_note(std::string& notes, const std::string& note) { notes += (notes.empty() ? "" : "; ") + note; }
+
 /// On bytes that are not the ending's, assimp tries every format that it knows, and may then read for ever.
 void check_beginning(std::string_view bytes, std::string_view ending) {
   if (ending == ".glb" && !bytes.starts_with("glTF"))
@@ -280,32 +333,47 @@ std::vector<MeshPart> import_mesh(const fs::path& file, const AssetFolders& fold
   if (ending != ".obj" && ending != ".3ds" && ending != ".ply" && ending != ".gltf" && ending != ".glb") {
     fail("a mesh file ending in .obj, .3ds, .ply, .gltf or .glb", fmt::format("\"{}\"", ending));
   }
-  const std::string bytes = read_bytes(file);
+  std::string bytes = read_bytes(file);
   check_beginning(bytes, ending);
-  if (ending == ".obj") check_obj(bytes);
-  if (ending == ".ply") check_ply(bytes);
+  std::string note;
+  if (ending == ".obj") note = check_obj(bytes);
+  if (ending == ".ply") {
+    check_ply(bytes);
+    bytes = with_faces_for_strips(bytes);
+  }
 
-  std::string refused;
+  AllowedFiles::Asked asked;
   const Complaints complaints;
+  const Names& undefined = complaints.undefined_materials();
   Assimp::Importer importer;
-  importer.SetIOHandler(new AllowedFiles(folders, refused));
+  importer.SetIOHandler(new AllowedFiles(folders, file, bytes, asked));
   const aiScene* scene = importer.ReadFile(file.string(), 0);
-  if (!refused.empty()) fail("a mesh whose other files are in the scene's folder or an asset folder", refused);
+  if (!asked.refused.empty())
+    fail("a mesh whose other files are in the scene's folder or an asset folder", asked.refused);
   if (scene == nullptr) fail("a mesh", importer.GetErrorString());
   if (scene->mRootNode == nullptr) fail("a mesh", "a scene of nothing");
   if (!complaints.first().empty()) fail("a mesh that can be read as it is", complaints.first());
+  if (!undefined.empty() && asked.materials && asked.missing.empty()) {
+    fail("materials that the material files define", fmt::format("\"{}\"", *undefined.begin()));
+  }
+  if (!asked.missing.empty()) {
+    add_note(note, fmt::format("materials of \"{}\" are left out: there is no such file", asked.missing));
+  } else if (!undefined.empty()) {
+    add_note(note, fmt::format("the material \"{}\" is left out: no material file is named", *undefined.begin()));
+  }
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) check_part(*scene->mMeshes[m]);
 
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                        aiProcess_GenSmoothNormals);
   if (scene == nullptr) fail("a mesh", importer.GetErrorString());
   if (!complaints.first().empty()) fail("polygons that can be cut into triangles", complaints.first());
-  Assembly assembly(*scene, ending, most_triangles);
+  Assembly assembly(*scene, ending, undefined, most_triangles);
   assembly.add(*scene->mRootNode, aiMatrix4x4());
   std::vector<MeshPart> parts = assembly.take();
   std::erase_if(parts, [](const MeshPart& part) { return part.mesh.triangles.empty(); });
   if (parts.empty()) fail("triangles", "none");
   for (MeshPart& part : parts) repair_normals(part.mesh);
+  parts.front().note = std::move(note);
   return parts;
 }
 

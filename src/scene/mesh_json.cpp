@@ -27,7 +27,9 @@ std::vector<MeshPart> read_file(const JsonNode& node, const AssetFolders& folder
   const std::filesystem::path file =
       folders.find(node, "a mesh file (scripts/setup installs those of the package glmark2-data)");
   try {
-    return load_mesh(file, folders, most_triangles);
+    std::vector<MeshPart> parts = load_mesh(file, folders, most_triangles);
+    if (std::string& note = parts.front().note; !note.empty()) note = fmt::format("{}: {}", file.string(), note);
+    return parts;
   } catch (const MeshError& error) {
     node.refuse("a mesh file that can be used", error.what());
   }
@@ -239,7 +241,7 @@ std::vector<MeshPart> read_mesh(const JsonNode& node, const AssetFolders& folder
   const std::string_view kind = node.one_of({"file", "triangle", "triangles", "lines", "points", "quad", "grid", "cube",
                                              "uv_sphere", "globe", "icosphere", "torus_knot", "revolution", "soup"});
   if (kind == "file") return read_file(node[kind], folders, most_triangles);
-  return {{make(kind, node[kind], most_triangles), std::nullopt}};
+  return {{make(kind, node[kind], most_triangles), std::nullopt, ""}};
 }
 
 }  // namespace plumbline

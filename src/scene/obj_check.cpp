@@ -2,6 +2,8 @@
 #include <array>
 #include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,17 +13,18 @@
 namespace plumbline {
 namespace {
 
-/// How many numbers follow, each of which assimp's reader takes for one.
-int count_numbers(std::string_view line) {
-  int count = 0;
-  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++count) {
+/// The numbers of a line, each of which assimp's reader takes for one.
+std::vector<double> read_numbers(std::string_view line) {
+  std::vector<double> numbers;
+  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
     const bool point_first = word.front() == '.';
     const auto number = number_in<double>(word);
     if (!number || point_first) {
       throw std::runtime_error(fmt::format("expected a number that begins with a sign or a digit, found \"{}\"", word));
     }
+    numbers.push_back(*number);
   }
-  return count;
+  return numbers;
 }
 
 /// Of v, vt and vn, in the order in which a corner names them.
@@ -68,9 +71,10 @@ void check_face(std::string_view line, const Counts& all, const Counts& above) {
 
 }  // namespace
 
-void check_obj(std::string_view text) {
-  constexpr std::array<std::string_view, 9> kHarmless = {"vn", "vt", "g", "o", "s", "mg", "mtllib", "usemtl", ""};
-  int numbers_of_all = 0;
+std::string check_obj(std::string_view text) {
+  constexpr std::array<std::string_view, 8> kHarmless = {"vn", "g", "o", "s", "mg", "mtllib", "usemtl", ""};
+  std::string note;
+  std::size_t numbers_of_all = 0;
   const Counts all = count_all(text);
   Counts above{};
   for (std::size_t number = 1; !text.empty(); ++number) {
@@ -80,7 +84,7 @@ void check_obj(std::string_view text) {
     count(statement, above);
     try {
       if (statement == "v") {
-        const int numbers = count_numbers(line);
+        const std::size_t numbers = read_numbers(line).size();
         if (numbers != 3 && numbers != 4 && numbers != 6) {
           throw std::runtime_error(fmt::format("expected v with 3, 4 or 6 numbers, found {}", numbers));
         }
@@ -89,6 +93,14 @@ void check_obj(std::string_view text) {
               fmt::format("expected v with {} numbers as in the lines before, found {}", numbers_of_all, numbers));
         }
         numbers_of_all = numbers;
+      } else if (statement == "vt") {
+        const std::vector<double> numbers = read_numbers(line);
+        if (numbers.size() != 2 && numbers.size() != 3) {
+          throw std::runtime_error(fmt::format("expected vt with 2 or 3 numbers, found {}", numbers.size()));
+        }
+        if (note.empty() && numbers.size() == 3 && numbers[2] != 0) {
+          note = fmt::format("third texture coordinates, as in line {}, are left out: textures have two", number);
+        }
       } else if (statement == "f") {
         check_face(line, all, above);
       } else if (std::find(kHarmless.begin(), kHarmless.end(), statement) == kHarmless.end()) {
@@ -99,6 +111,7 @@ void check_obj(std::string_view text) {
       throw std::runtime_error(fmt::format("{} in line {}", error.what(), number));
     }
   }
+  return note;
 }
 
 }  // namespace plumbline

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -17,6 +18,7 @@ struct Property {
   std::string name;
   std::size_t size = 0;        ///< bytes of the value, or of each of a list's
   std::size_t count_size = 0;  ///< bytes of a list's count; 0: no list
+  bool integer = false, has_sign = false;
 };
 struct Element {
   std::string name;
@@ -59,6 +61,8 @@ Property read_property(std::string_view line) {
     type = take_word(line);
   }
   property.size = size_of(type, false);
+  property.integer = type.find("int") != type.npos || type.find("char") != type.npos || type.find("short") != type.npos;
+  property.has_sign = !type.starts_with('u');
   property.name = take_word(line);
   return property;
 }
@@ -165,6 +169,105 @@ void check_row_of_bytes(std::string_view& bytes, const Element& element, std::ui
   }
 }
 
+void check_row(std::string_view& bytes, const Element& element, std::uint64_t row, Format format) {
+  if (format == Format::ascii)
+    check_row_of_text(bytes, element, row);
+  else
+    check_row_of_bytes(bytes, element, row, format);
+}
+
+bool is_strips(const Element& element) { return element.name == "tristrips"; }
+
+void require_strips_alone(const Header& header) {
+  std::uint64_t elements = 0;
+  for (const Element& element : header.elements) {
+    elements += is_strips(element) || element.name == "face";
+    if (!is_strips(element)) continue;
+    const bool one = element.properties.size() == 1;
+    const Property property = one ? element.properties.front() : Property{};
+    const bool of_indices = property.name == "vertex_indices" || property.name == "vertex_index";
+    if (!of_indices || property.count_size == 0 || !property.integer) {
+      bad_ply("tristrips with one property, a list vertex_indices of integers", "others");
+    }
+  }
+  if (elements > 1) bad_ply("faces in one element, face or tristrips", "more");
+}
+
+/// The indices in a row of a strips' element, taken off the bytes.
+std::vector<std::int64_t> take_strip(std::string_view& bytes, const Property& property, Format format) {
+  std::vector<std::int64_t> indices;
+  if (format == Format::ascii) {
+    std::string_view line = take_line(bytes);
+    take_word(line);  // the count
+    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
+      const auto index = number_in<std::int64_t>(word);
+      if (!index) bad_ply("an index of a vertex in tristrips", fmt::format("\"{}\"", word));
+      indices.push_back(*index);
+    }
+    return indices;
+  }
+  const auto take = [&](std::size_t size) {
+    const std::uint64_t value = read_count(bytes.substr(0, size), size, format);
+    bytes.remove_prefix(size);
+    return value;
+  };
+  for (std::uint64_t left = take(property.count_size); left > 0; --left) {
+    const std::uint64_t value = take(property.size), sign = std::uint64_t{1} << (8 * property.size - 1);
+    const bool negative = property.has_sign && (value & sign) != 0;
+    indices.push_back(static_cast<std::int64_t>(negative ? value - 2 * sign : value));
+  }
+  return indices;
+}
+
+using Corners = std::array<std::int64_t, 3>;
+
+void add_triangles(const std::vector<std::int64_t>& strip, std::uint64_t vertices, std::vector<Corners>& triangles) {
+  std::size_t first = 0;  // of the strip that the list is at
+  for (std::size_t i = 0; i < strip.size(); ++i) {
+    if (strip[i] == -1) {
+      first = i + 1;
+    } else if (strip[i] < 0 || static_cast<std::uint64_t>(strip[i]) >= vertices) {
+      bad_ply(fmt::format("vertices below {} in tristrips, or -1", vertices), fmt::format("{}", strip[i]));
+    } else if (i >= first + 2) {
+      const bool turned = (i - first) % 2 == 1;
+      triangles.push_back({strip[i - (turned ? 1 : 2)], strip[i - (turned ? 2 : 1)], strip[i]});
+    }
+  }
+}
+
+std::string rows_of(const std::vector<Corners>& triangles, Format format) {
+  std::string rows;
+  for (const Corners& t : triangles) {
+    if (format == Format::ascii) {
+      rows += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+      continue;
+    }
+    rows += '\3';
+    for (const std::int64_t index : t) {
+      for (int i = 0; i < 4; ++i) rows += static_cast<char>(index >> 8 * (format == Format::little ? i : 3 - i));
+    }
+  }
+  return rows;
+}
+
+/// The header's lines with the strips' element replaced by `faces` faces.
+std::string header_with_faces(std::string_view header, std::size_t faces) {
+  std::string out;
+  bool in_strips = false;
+  while (!header.empty()) {
+    const std::string_view line = take_line(header);
+    std::string_view rest = line;
+    const std::string_view word = take_word(rest);
+    if (word == "element") in_strips = take_word(rest) == "tristrips";
+    if (!in_strips || word == "end_header") {
+      out += fmt::format("{}\n", line);
+    } else if (word == "element") {
+      out += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", faces);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 void check_ply(std::string_view bytes) {
@@ -172,16 +275,36 @@ void check_ply(std::string_view bytes) {
   require_positions(header);
   for (const Element& element : header.elements) {
     if (element.properties.empty() && element.count > 0) bad_ply("properties", fmt::format("none of {}", element.name));
-    for (std::uint64_t row = 0; row < element.count; ++row) {
-      if (header.format == Format::ascii)
-        check_row_of_text(bytes, element, row);
-      else
-        check_row_of_bytes(bytes, element, row, header.format);
-    }
+    for (std::uint64_t row = 0; row < element.count; ++row) check_row(bytes, element, row, header.format);
   }
   if (bytes.find_first_not_of(" \t\r\n") != bytes.npos) {
     bad_ply("the file's end after its last element", fmt::format("{} bytes more", bytes.size()));
   }
+}
+
+std::string with_faces_for_strips(std::string_view bytes) {
+  std::string_view rest = bytes;
+  const Header header = read_header(rest);
+  if (std::ranges::none_of(header.elements, is_strips)) return std::string(bytes);
+  require_strips_alone(header);
+  const std::string_view head = bytes.substr(0, bytes.size() - rest.size());
+  std::string rows;
+  std::uint64_t vertices = 0;
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex") vertices = element.count;
+  }
+  std::vector<Corners> triangles;
+  for (const Element& element : header.elements) {
+    const std::string_view from = rest;
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      if (is_strips(element))
+        add_triangles(take_strip(rest, element.properties.front(), header.format), vertices, triangles);
+      else
+        check_row(rest, element, row, header.format);
+    }
+    rows += is_strips(element) ? rows_of(triangles, header.format) : from.substr(0, from.size() - rest.size());
+  }
+  return header_with_faces(head, triangles.size()) + rows;
 }
 
 }  // namespace plumbline

@@ -9,7 +9,7 @@
 namespace plumbline {
 
 /// What is wrong with a polygon of three corners or more, in words that follow "found"; empty if nothing is. It must be
-/// flat (no corner further from its plane than a thousandth of its extent), have an area, and not touch itself.
+/// flat (no corner further from its plane than a 128th of its extent), have an area, and not touch itself.
 /// A triangle is always right. Corners are finite.
 std::string polygon_fault(std::span<const glm::dvec3> corners);
 

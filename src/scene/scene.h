@@ -272,6 +272,7 @@ struct Scene {
   std::string name;                ///< group/file, without the ending
   std::string path;                ///< the file it was read from, empty if made in memory
   std::vector<std::string> files;  ///< of JSON, that it was read from: that and what it includes, as they were read
+  std::vector<std::string> notes;  ///< what of its mesh files is left out: "file: ...", for people
   std::string description;         ///< what must be seen, and why
   Dialect dialect = Dialect::gl;
   FrameFormat frame;

@@ -196,6 +196,7 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
       for (MeshPart& part : read_mesh(mesh, folders, left)) {
         scene.meshes.push_back(std::move(part.mesh));
         read.materials.push_back(part.material);
+        if (!part.note.empty()) scene.notes.push_back(std::move(part.note));
       }
       same = known.insert(known.end(), std::move(read));
     }

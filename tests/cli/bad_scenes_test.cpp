@@ -39,7 +39,6 @@ const std::map<std::string, std::string> kFiles = {
     {"group/points.obj", kTriangle + "p 1\n"},
     {"group/two.obj", kTriangle + "f 1 2\n"},
     {"group/zero_normal.obj", kTriangle + "vn 0 0 0\nf 1//1 2//1 3//1\n"},
-    {"group/no_mtl.obj", "mtllib none.mtl\n" + kTriangle + "f 1 2 3\n"},
     {"group/leak.obj", "mtllib ../secret.mtl\n" + kTriangle + "f 1 2 3\n"},
     {"group/truncated.ply", kPly},
     {"group/huge.ply",

@@ -74,6 +74,18 @@ TEST_F(Cli, the_command_that_repeats_takes_no_file_for_an_option) {
   EXPECT_TRUE(run.says("repeat: " PLUMBLINE_PLUMB " check ./-a.json --against exact")) << run.text;
 }
 
+TEST_F(Cli, a_note_tells_once_what_of_a_mesh_file_is_left_out) {
+  write(folder_ / "mesh.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  const fs::path scene = folder_ / "scene.json";
+  write(scene, R"({"description": "two draws", "draws": [{"mesh": {"file": "mesh.obj"}}, {"mesh": {"file": "mesh.obj"}}]})");
+  const Outcome run = plumb("check --against exact " + scene.string());
+  EXPECT_EQ(run.code, 0) << run.text;
+  const std::string note =
+      "plumb: note: " + scene.string() + ": " + (folder_ / "mesh.obj").string() + ": materials of ";
+  EXPECT_TRUE(run.says(note)) << run.text;
+  EXPECT_EQ(run.text.find("note:"), run.text.rfind("note:")) << run.text;
+}
+
 TEST_F(Cli, factors_are_numbers) {
   for (const char* option : {"--moved", "--slower"}) {
     for (const char* value : {"nan", "0.5", "x", "inf"}) {
