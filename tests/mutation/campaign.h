@@ -1,0 +1,32 @@
+// Changes of seeds, compiled one after the other, and judged beside that.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mutation/score.h"
+
+namespace plumbline::mutation {
+
+struct CampaignOptions {
+  std::filesystem::path root;       ///< of the repository
+  std::filesystem::path out;        ///< where the copy is built, and files are left
+  std::vector<std::string> seeds;   ///< hexadecimal
+  std::size_t changes = 67;         ///< that compile, of each seed
+  std::optional<std::size_t> only;  ///< the number of the one that is wanted
+  unsigned workers = 2;  ///< 1: compiled and judged in turns; else one change is compiled while others are judged
+};
+
+/// `took` is called with each change as soon as it is judged, one at a time. Throws std::runtime_error where the
+/// sources as they are do not build or hold, and of a bad table.
+std::vector<Judged> run_campaign(const CampaignOptions& options, const std::vector<FileRule>& rules,
+                                 const std::function<void(const Judged&)>& took);
+
+/// The changes of a seed, in order, numbered, of the sources below `root`.
+std::vector<Judged> changes_of_seed(const std::filesystem::path& root, const std::vector<FileRule>& rules,
+                                    const std::string& seed);
+
+}  // namespace plumbline::mutation

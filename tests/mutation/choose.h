@@ -1,0 +1,51 @@
+// Which changes a seed comes to, and what the table of files says of each.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "mutation/changes.h"
+
+namespace plumbline::mutation {
+
+/// A row of files.tsv.
+struct FileRule {
+  std::string prefix;              ///< of the path from the repository's root
+  std::vector<std::string> names;  ///< stages of which one must be named first; "picture"; "any"; "-": left alone
+  std::string what;                ///< what stands there, or why it is left alone
+};
+
+/// Throws std::runtime_error with file and line where a row has not three fields.
+std::vector<FileRule> read_file_rules(const std::filesystem::path& table);
+/// The rule with the longest prefix of the path; null if none fits.
+const FileRule* rule_of(const std::vector<FileRule>& rules, std::string_view path);
+
+/// The sources that may be changed, by path, with their text. Throws std::runtime_error where no rule says anything of
+/// a source below src.
+std::map<std::string, std::string> sources_of(const std::filesystem::path& root, const std::vector<FileRule>& rules);
+
+/// Changes drawn by a seed: a line that has any, each as likely; of these a kind; of this one. No line is drawn twice.
+/// The same on every machine.
+class Draw {
+ public:
+  Draw(const std::map<std::string, std::string>& sources, std::uint64_t seed);
+  /// Whether there is a next one.
+  bool next(Change& change);
+
+ private:
+  std::vector<std::vector<Change>> lines_;
+  std::mt19937_64 random_;
+};
+
+/// A row of equivalent.tsv: a change by its content.
+struct Equivalent {
+  std::string file, before, after, reason;
+};
+/// Throws std::runtime_error with file and line where a row has not four fields.
+std::vector<Equivalent> read_equivalents(const std::filesystem::path& table);
+
+}  // namespace plumbline::mutation

@@ -1,0 +1,13 @@
+// Random scenes of the property tests, by number.
+#pragma once
+
+#include <cstdint>
+
+#include "scene/scene.h"
+
+namespace plumbline::mutation {
+
+/// The same for the same seed and number.
+Scene random_scene_of(std::uint64_t seed, int number);
+
+}  // namespace plumbline::mutation

@@ -1,0 +1,101 @@
+// What the pipeline hands on of scenes, as hashes: scene_hashes FOLDER, or scene_hashes --random SEED COUNT. A line for
+// each scene, fields apart by tabs: name, about what drawing it takes, the hash of each stage (-: none), and of the
+// picture as it ships. Each scene has a process of its own; of one that crashes or never ends the line is name, work,
+// "failed" and why. After five such no more are drawn.
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "check/golden_hash.h"
+#include "pipeline/pipeline_renderer.h"
+#include "random_scenes.h"
+#include "scene/antialias.h"
+#include "scene/child_process.h"
+#include "scene/scene_file.h"
+
+namespace plumbline::mutation {
+namespace {
+
+constexpr unsigned kMostSeconds = 20;
+constexpr int kMostFailed = 5;
+
+// Pixels of each draw, and a triangle as 50 of them.
+std::size_t work_of(const Scene& scene) {
+  std::size_t out = 0;
+  for (const Scene& pass : passes_of(scene)) {
+    const std::size_t pixels = static_cast<std::size_t>(pass.frame.width) * static_cast<std::size_t>(pass.frame.height);
+    for (const Draw& draw : pass.draws) out += pixels + 50 * pass.meshes[draw.mesh].triangles.size();
+  }
+  return out;
+}
+
+template <class T>
+void add(check::Hasher& hasher, const Plane<T>& plane) {
+  hasher.add(plane.values().data(), plane.size() * sizeof(T));
+}
+
+std::string hashes_of(const Scene& scene) {
+  const check::Fingerprint drawn = check::fingerprint(scene, *pipeline::make_pipeline());
+  std::string out;
+  for (const auto& hash : drawn.stages) out += fmt::format("\t{}", hash ? to_string(*hash) : "-");
+  check::Hasher picture;
+  add(picture, drawn.color);
+  add(picture, drawn.depth);
+  return fmt::format("{}\t{}", out, to_string(picture.done()));
+}
+
+// Whether the scene could be drawn.
+bool print_line(const Scene& scene) {
+  std::string line;
+  bool drawn = true;
+  try {
+    line = in_child_process([&] { return hashes_of(scene); }, kMostSeconds);
+  } catch (const std::runtime_error& error) {
+    line = fmt::format("\tfailed\t{}", error.what());
+    drawn = false;
+  }
+  fmt::print("{}\t{}{}\n", scene.name, work_of(scene), line);
+  std::fflush(stdout);
+  return drawn;
+}
+
+int of_folder(const char* folder) {
+  int failed = 0;
+  const std::filesystem::path path = folder;
+  for (const auto& file : find_scenes({&path, 1})) {
+    if (!print_line(load_scene(file)) && ++failed == kMostFailed) break;
+  }
+  return EXIT_SUCCESS;
+}
+
+int of_random_scenes(std::uint64_t seed, int count) {
+  int failed = 0;
+  for (int i = 0; i < count && failed < kMostFailed; ++i) {
+    Scene scene = random_scene_of(seed, i);
+    scene.name = fmt::format("random {}", i);
+    failed += print_line(scene) ? 0 : 1;
+  }
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+}  // namespace plumbline::mutation
+
+int main(int argc, char** argv) {
+  using namespace plumbline::mutation;
+  try {
+    if (argc == 2) return of_folder(argv[1]);
+    if (argc == 4 && std::string_view(argv[1]) == "--random") {
+      return of_random_scenes(std::strtoull(argv[2], nullptr, 10), std::atoi(argv[3]));
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "scene_hashes: {}\n", error.what());
+    return 2;
+  }
+  fmt::print(stderr, "scene_hashes FOLDER | --random SEED COUNT\n");
+  return 2;
+}

@@ -1,0 +1,91 @@
+// What plumb's programs say, read.
+#include <algorithm>
+#include <array>
+
+#include <nlohmann/json.hpp>
+
+#include "mutation/judge.h"
+
+namespace plumbline::mutation {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array<std::string_view, 13> kStages = {"matrices",   "vertex", "light",      "clip",    "window",
+                                                      "coverage",   "depth",  "attributes", "texture", "shade",
+                                                      "visibility", "merge",  "resolve"};
+
+std::size_t order_of(const std::string& stage) {
+  return static_cast<std::size_t>(std::ranges::find(kStages, stage) - kStages.begin());
+}
+
+bool fails(const Json& row) { return row["outcome"] == "different" || row["outcome"] == "failed"; }
+bool is_picture(const Json& row) { return row["reference"] == "picture"; }
+
+// Of the rows that fail the first stage; `picture` where no other does.
+struct First {
+  Named named{"none", ""};
+  std::size_t at = ~std::size_t{0};
+
+  void add(const Json& row) {
+    const std::size_t here = is_picture(row) ? kStages.size() + 1 : order_of(row["stage"]);
+    if (here >= at) return;
+    at = here;
+    named.first = is_picture(row) ? "picture" : row["stage"].get<std::string>();
+    named.by = row["reference"].get<std::string>() + ", " + row["stage"].get<std::string>();
+    if (row["outcome"] == "failed") named.by += " (failed: " + row.value("note", "") + ")";
+  }
+};
+
+bool is_among(const std::string& name, const std::vector<std::string>& expected) {
+  return expected.empty() || std::ranges::count(expected, name) > 0;
+}
+
+}  // namespace
+
+std::string_view name_of(Outcome outcome) {
+  static constexpr std::array<std::string_view, kOutcomes> kNames = {"references", "picture",  "ended",
+                                                                     "goldens",    "survived", "equivalent"};
+  return kNames[static_cast<std::size_t>(outcome)];
+}
+
+bool Verdict::named_by_check() const { return found() && is_among(check.first, expected); }
+bool Verdict::named_by_diagnose() const { return found() && is_among(diagnose.first, expected); }
+
+std::vector<Affected> affected(const SceneHashes& as_it_is, const SceneHashes& changed) {
+  std::vector<Affected> out;
+  for (const auto& [name, line] : changed.of) {
+    const auto before = as_it_is.of.find(name);
+    if (before == as_it_is.of.end() || before->second.hashes == line.hashes) continue;
+    const auto& was = before->second.hashes;
+    const bool both = !line.failed() && was.size() == line.hashes.size();
+    out.push_back({name, both && std::equal(was.begin(), was.end() - 1, line.hashes.begin()), line.failed()});
+  }
+  std::ranges::stable_sort(out, {},
+                           [&](const Affected& a) { return std::pair(a.picture_alone, as_it_is.of.at(a.scene).work); });
+  return out;
+}
+
+std::map<std::string, Named> named_by_check(const std::string& json) {
+  std::map<std::string, First> first;
+  const Json run = Json::parse(json);
+  for (const Json& row : run["comparisons"]) {
+    if (fails(row)) first[row["scene"]].add(row);
+  }
+  std::map<std::string, Named> out;
+  for (auto& [scene, f] : first) out[scene] = std::move(f.named);
+  return out;
+}
+
+Named named_by_diagnose(const std::string& json) {
+  const Json run = Json::parse(json);
+  First first;
+  for (const Json& row : run["comparisons"]) {
+    if (fails(row)) first.add(row);
+  }
+  if (first.named.first != "picture" && run["first"].is_string()) first.named.first = run["first"];
+  return first.named;
+}
+
+}  // namespace plumbline::mutation

@@ -1,0 +1,172 @@
+// The random changes of scripts/mutate_source: the same for a seed, each another text, none where none belongs.
+#include "mutation/changes.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "mutation/choose.h"
+#include "mutation/judge.h"
+#include "mutation/score.h"
+
+namespace plumbline::mutation {
+namespace {
+
+const std::filesystem::path kRoot = PLUMBLINE_SOURCE_DIR;
+
+std::map<std::string, std::string> sources() {
+  return sources_of(kRoot, read_file_rules(kRoot / "tests/mutation/files.tsv"));
+}
+
+std::vector<Change> drawn(const std::map<std::string, std::string>& from, std::uint64_t seed, std::size_t count) {
+  Draw draw(from, seed);
+  std::vector<Change> out;
+  for (Change change; out.size() < count && draw.next(change);) out.push_back(change);
+  return out;
+}
+
+// A function's body with all its changes, as "before -> after".
+std::set<std::string> changes_in(const std::string& body) {
+  const std::string source = "void f(int a, int b) {\n" + body + "\n}\n";
+  std::set<std::string> out;
+  for (const Change& change : changes_of("f.cpp", source)) {
+    const ChangedLines lines = lines_of(source, change);
+    EXPECT_EQ(lines.before, body);
+    out.insert(lines.after);
+  }
+  return out;
+}
+
+TEST(SourceChanges, ASeedDrawsTheSameChanges) {
+  const auto from = sources();
+  const std::vector<Change> first = drawn(from, 0xe4d66d8, 300), again = drawn(from, 0xe4d66d8, 300);
+  ASSERT_EQ(first.size(), 300u);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].file, again[i].file);
+    EXPECT_EQ(first[i].at, again[i].at);
+    EXPECT_EQ(first[i].replacement, again[i].replacement);
+  }
+  EXPECT_NE(drawn(from, 0xe4d66d9, 1)[0].at, first[0].at);
+}
+
+TEST(SourceChanges, EachDiffersFromTheSource) {
+  std::size_t count = 0;
+  for (const auto& [file, text] : sources()) {
+    for (const Change& change : changes_of(file, text)) {
+      const ChangedLines lines = lines_of(text, change);
+      EXPECT_NE(lines.before, lines.after) << file << ":" << change.line;
+      EXPECT_EQ(std::ranges::count(text.substr(0, change.at), '\n') + 1, static_cast<std::ptrdiff_t>(change.line));
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 5000u);
+}
+
+TEST(SourceChanges, AreSlipsThatPeopleMake) {
+  EXPECT_EQ(changes_in("if (a < b) g();"),
+            (std::set<std::string>{"if (a <= b) g();", "if (a > b) g();", "if (!(a < b)) g();", "if (a < b) ;"}));
+  EXPECT_EQ(changes_in("const int c = a - b;"),
+            (std::set<std::string>{"const int c = a + b;", "const int c = b - a;"}));
+  EXPECT_EQ(changes_in("c = v.x;"), (std::set<std::string>{"c = v.y;", ";"}));
+  EXPECT_EQ(changes_in("return g(a, b);"), (std::set<std::string>{"return g(b, a);"}));
+  EXPECT_EQ(changes_in("return a ? b : 2;"),
+            (std::set<std::string>{"return a ? 2 : b;", "return a ? b : 1;", "return a ? b : 3;"}));
+  EXPECT_EQ(changes_in("return -0.5f;"), (std::set<std::string>{"return 0.5f;", "return -1.0f;", "return -0.0f;"}));
+}
+
+TEST(SourceChanges, LeaveAloneWhatDrawsNothing) {
+  EXPECT_EQ(changes_in("int c;"), std::set<std::string>{});
+  EXPECT_EQ(changes_in("static_assert(1 + 1 == 2);"), std::set<std::string>{});
+  EXPECT_EQ(changes_in("if (a < 0) throw 1;"), std::set<std::string>{});
+  EXPECT_EQ(changes_in("list.reserve(a + 1);"), std::set<std::string>{});
+  EXPECT_EQ(changes_in("const std::vector<int> c(b);  // a < b"), std::set<std::string>{});
+  EXPECT_EQ(changes_in("g(\"a < b\");"), std::set<std::string>{";"});
+  EXPECT_TRUE(changes_of("f.h", "#define A 1 + 1\nstruct S {\n  int a = 1;\n};\nenum E { one = 1 };\n").empty());
+  EXPECT_EQ(changes_of("f.h", "constexpr int kTwo = 2;\n").size(), 2u);
+}
+
+TEST(SourceChanges, EachFileOfTheSourcesHasARule) {
+  const auto rules = read_file_rules(kRoot / "tests/mutation/files.tsv");
+  EXPECT_EQ(rule_of(rules, "src/pipeline/light_equation.cpp")->names, std::vector<std::string>{"light"});
+  EXPECT_EQ(rule_of(rules, "src/pipeline/painter.cpp")->names, std::vector<std::string>{"picture"});
+  EXPECT_EQ(rule_of(rules, "reference/exact/clip.cpp"), nullptr);
+  for (const FileRule& rule : rules) {
+    EXPECT_TRUE(std::ranges::any_of(std::filesystem::recursive_directory_iterator(kRoot / "src"),
+                                    [&](const auto& entry) {
+                                      return rule_of(rules, entry.path().lexically_relative(kRoot).generic_string()) ==
+                                             &rule;
+                                    }))
+        << rule.prefix << " is no file's beginning";
+  }
+  for (const Equivalent& e : read_equivalents(kRoot / "tests/mutation/equivalent.tsv")) {
+    EXPECT_NE(rule_of(rules, e.file)->names[0], "-") << e.file;
+  }
+}
+
+TEST(SourceChanges, AScenesFirstStageIsNamed) {
+  const auto named = named_by_check(R"({"comparisons": [
+    {"scene": "a", "reference": "osmesa", "stage": "merge", "outcome": "different"},
+    {"scene": "a", "reference": "embree", "stage": "depth", "outcome": "different"},
+    {"scene": "a", "reference": "exact from scene", "stage": "clip", "outcome": "within"},
+    {"scene": "a", "reference": "picture", "stage": "merge", "outcome": "different"},
+    {"scene": "b", "reference": "picture", "stage": "merge", "outcome": "failed", "note": "SIGSEGV"},
+    {"scene": "c", "reference": "osmesa", "stage": "merge", "outcome": "dispute"}]})");
+  ASSERT_EQ(named.size(), 2u);
+  EXPECT_EQ(named.at("a").first, "depth");
+  EXPECT_EQ(named.at("a").by, "embree, depth");
+  EXPECT_EQ(named.at("b").first, "picture");
+  EXPECT_EQ(named.at("b").by, "picture, merge (failed: SIGSEGV)");
+}
+
+TEST(SourceChanges, ScenesAreAffectedByAnyBit) {
+  SceneHashes was, is;
+  was.of = {{"a", {9, {"1", "2"}}}, {"b", {1, {"1", "2"}}}, {"c", {2, {"1", "2"}}}, {"d", {0, {"1", "2"}}}};
+  is.of = {{"a", {9, {"0", "2"}}}, {"b", {1, {"1", "0"}}}, {"c", {2, {"failed", "why"}}}, {"d", {0, {"1", "2"}}}};
+  const std::vector<Affected> scenes = affected(was, is);
+  ASSERT_EQ(scenes.size(), 3u);
+  EXPECT_EQ(scenes[0].scene, "c");
+  EXPECT_TRUE(scenes[0].failed);
+  EXPECT_EQ(scenes[1].scene, "a");
+  EXPECT_FALSE(scenes[1].picture_alone);
+  EXPECT_EQ(scenes[2].scene, "b");
+  EXPECT_TRUE(scenes[2].picture_alone);
+}
+
+// So many changes in files of that rule, each of that outcome and named so.
+void add(std::vector<Judged>& to, const FileRule& rule, std::size_t count, Outcome outcome, const std::string& name) {
+  for (std::size_t i = 0; i < count; ++i) {
+    Judged j;
+    j.rule = &rule;
+    j.verdict.outcome = outcome;
+    j.verdict.expected = rule.names[0] == "any" ? std::vector<std::string>{} : rule.names;
+    j.verdict.check.first = j.verdict.diagnose.first = name;
+    to.push_back(j);
+  }
+}
+
+TEST(SourceChanges, TheScoreHoldsJustWhereItMay) {
+  const FileRule clip{"c", {"clip"}, ""}, painter{"p", {"picture"}, ""}, scene{"s", {"any"}, ""};
+  std::vector<Judged> judged;
+  add(judged, clip, 93, Outcome::references, "clip");
+  add(judged, clip, 4, Outcome::references, "window");
+  add(judged, clip, 3, Outcome::survived, "none");
+  add(judged, painter, 50, Outcome::picture, "picture");
+  add(judged, scene, 50, Outcome::references, "depth");
+  add(judged, clip, 27, Outcome::equivalent, "none");
+  EXPECT_TRUE(holds(score_of(judged)));
+  const auto fails_with = [&](const FileRule& rule, Outcome outcome, const std::string& name) {
+    std::vector<Judged> more = judged;
+    add(more, rule, 4, outcome, name);
+    return !holds(score_of(more));
+  };
+  EXPECT_TRUE(fails_with(clip, Outcome::references, "window"));
+  EXPECT_TRUE(fails_with(scene, Outcome::goldens, "none"));
+  EXPECT_TRUE(fails_with(scene, Outcome::equivalent, "none"));
+  EXPECT_TRUE(fails_with(painter, Outcome::references, "merge"));
+  EXPECT_FALSE(fails_with(scene, Outcome::references, "light"));
+  EXPECT_FALSE(holds(score_of({})));
+}
+
+}  // namespace
+}  // namespace plumbline::mutation
