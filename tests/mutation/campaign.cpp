@@ -68,13 +68,13 @@ std::vector<Judged> changes_of_seed(const fs::path& root, const std::vector<File
   const std::uint64_t value = std::stoull(seed, &used, 16);
   if (used != seed.size()) throw std::runtime_error(fmt::format("{}: expected hexadecimal digits", seed));
   const std::map<std::string, std::string> sources = sources_of(root, rules);
-  Draw draw(sources, value);
+  Draw draw(sources, rules, value);
   std::vector<Judged> out;
   for (Judged next; draw.next(next.change);) {
     next.seed = seed;
     next.number = out.size() + 1;
     next.lines = lines_of(sources.at(next.change.file), next.change);
-    next.rule = rule_of(rules, next.change.file);
+    next.rule = rule_of(rules, next.change.file, next.change.function);
     out.push_back(next);
   }
   return out;

@@ -66,8 +66,9 @@ std::vector<Change> changes_of(const std::string& file, std::string_view source)
   const Emit emit = [&](std::string_view kind, std::size_t first, std::size_t last, std::string replacement) {
     const std::string_view before = s.between(first, last);
     if (trimmed(before) == trimmed(replacement)) return;
-    out.push_back(
-        {file, tokens[first].line, tokens[first].at, before.size(), std::move(replacement), std::string(kind)});
+    const Token& token = tokens[first];
+    out.push_back({file, std::string(token.function), token.line, token.at, before.size(), std::move(replacement),
+                   std::string(kind)});
   };
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const std::size_t first = tokens[i].statement, last = last_of_statement(s, first);

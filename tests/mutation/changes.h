@@ -13,6 +13,7 @@ namespace plumbline::mutation {
 /// A change of one place in one file.
 struct Change {
   std::string file;         ///< path from the repository's root
+  std::string function;     ///< in which it is made; empty: in none
   std::size_t line = 0;     ///< from 1
   std::size_t at = 0;       ///< byte offset of the text that is replaced
   std::size_t length = 0;   ///< bytes replaced

@@ -42,10 +42,11 @@ std::vector<FileRule> read_file_rules(const std::filesystem::path& table) {
   return out;
 }
 
-const FileRule* rule_of(const std::vector<FileRule>& rules, std::string_view path) {
+const FileRule* rule_of(const std::vector<FileRule>& rules, const std::string& path, const std::string& function) {
   const FileRule* out = nullptr;
+  const std::string place = path + "#" + function;
   for (const FileRule& rule : rules) {
-    if (path.starts_with(rule.prefix) && (out == nullptr || rule.prefix.size() > out->prefix.size())) out = &rule;
+    if (place.starts_with(rule.prefix) && (out == nullptr || rule.prefix.size() > out->prefix.size())) out = &rule;
   }
   return out;
 }
@@ -56,7 +57,7 @@ std::map<std::string, std::string> sources_of(const std::filesystem::path& root,
     const std::string extension = entry.path().extension().string();
     if (!entry.is_regular_file() || (extension != ".cpp" && extension != ".h")) continue;
     const std::string path = entry.path().lexically_relative(root).generic_string();
-    const FileRule* rule = rule_of(rules, path);
+    const FileRule* rule = rule_of(rules, path, "");
     if (rule == nullptr) throw std::runtime_error(fmt::format("{}: no row of files.tsv says what it is", path));
     if (rule->names[0] == "-") continue;
     std::ifstream in(entry.path());
@@ -65,10 +66,13 @@ std::map<std::string, std::string> sources_of(const std::filesystem::path& root,
   return out;
 }
 
-Draw::Draw(const std::map<std::string, std::string>& sources, std::uint64_t seed) : random_(seed) {
+Draw::Draw(const std::map<std::string, std::string>& sources, const std::vector<FileRule>& rules, std::uint64_t seed)
+    : random_(seed) {
   for (const auto& [file, text] : sources) {
     std::map<std::size_t, std::vector<Change>> by_line;
-    for (Change& change : changes_of(file, text)) by_line[change.line].push_back(std::move(change));
+    for (Change& change : changes_of(file, text)) {
+      if (rule_of(rules, file, change.function)->names[0] != "-") by_line[change.line].push_back(std::move(change));
+    }
     for (auto& [line, changes] : by_line) lines_.push_back(std::move(changes));
   }
 }

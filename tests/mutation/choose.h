@@ -14,15 +14,15 @@ namespace plumbline::mutation {
 
 /// A row of files.tsv.
 struct FileRule {
-  std::string prefix;              ///< of the path from the repository's root
+  std::string prefix;              ///< of the path from the repository's root, "#" and the function
   std::vector<std::string> names;  ///< stages of which one must be named first; "picture"; "any"; "-": left alone
   std::string what;                ///< what stands there, or why it is left alone
 };
 
 /// Throws std::runtime_error with file and line where a row has not three fields.
 std::vector<FileRule> read_file_rules(const std::filesystem::path& table);
-/// The rule with the longest prefix of the path; null if none fits.
-const FileRule* rule_of(const std::vector<FileRule>& rules, std::string_view path);
+/// The rule with the longest prefix; null if none fits.
+const FileRule* rule_of(const std::vector<FileRule>& rules, const std::string& path, const std::string& function);
 
 /// The sources that may be changed, by path, with their text. Throws std::runtime_error where no rule says anything of
 /// a source below src.
@@ -32,7 +32,7 @@ std::map<std::string, std::string> sources_of(const std::filesystem::path& root,
 /// The same on every machine.
 class Draw {
  public:
-  Draw(const std::map<std::string, std::string>& sources, std::uint64_t seed);
+  Draw(const std::map<std::string, std::string>& sources, const std::vector<FileRule>& rules, std::uint64_t seed);
   /// Whether there is a next one.
   bool next(Change& change);
 

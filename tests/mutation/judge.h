@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -69,11 +70,13 @@ Named named_by_diagnose(const std::string& json);
 
 class Judge {
  public:
-  /// `programs`: of the sources as they are; `scenes`: the folder. Throws std::runtime_error where not all scenes hold.
+  /// `programs`: of the sources as they are; `scenes`: the folder. Throws std::runtime_error where they cannot be
+  /// drawn.
   Judge(std::filesystem::path programs, std::filesystem::path scenes, std::filesystem::path out);
 
   /// `programs`: of the changed sources; `reason`: of equivalent.tsv, or empty; files of `name` are left in the folder
-  /// `out`. May be called by many threads.
+  /// `out`. May be called by many threads. Throws std::runtime_error where a scene that fails does so in the sources as
+  /// they are.
   Verdict judge(const std::filesystem::path& programs, const FileRule& rule, const std::string& reason,
                 const std::string& name) const;
 
@@ -82,11 +85,14 @@ class Judge {
                      const std::filesystem::path& file) const;
   void find(const std::filesystem::path& programs, const FileRule& rule, const std::vector<Affected>& scenes,
             const std::string& name, Verdict& verdict) const;
+  void require_held(const std::string& scene, const std::string& name) const;
   void survive(const std::filesystem::path& programs, const std::string& reason, const std::string& name,
                Verdict& verdict) const;
 
   std::filesystem::path programs_, scenes_, out_;
-  SceneHashes as_it_is_, random_as_it_is_;
+  SceneHashes as_it_is_;
+  mutable std::once_flag random_drawn_;
+  mutable SceneHashes random_as_it_is_;  ///< when first needed
 };
 
 }  // namespace plumbline::mutation

@@ -113,36 +113,37 @@ class Scanner {
 bool is_open(std::string_view t) { return t == "(" || t == "[" || t == "{"; }
 bool is_close(std::string_view t) { return t == ")" || t == "]" || t == "}"; }
 
-// Whether the brace at `brace` opens a function's body: those of namespaces, types and values do not.
-bool opens_function(const std::vector<Token>& tokens, std::size_t brace) {
-  bool parentheses = false;
+// The name of the function whose body the brace at `brace` opens: none of namespaces, types and values.
+std::string_view opened_function(const std::vector<Token>& tokens, std::size_t brace) {
+  std::string_view name;
   for (std::size_t i = tokens[brace].statement; i < brace; ++i) {
     const std::string_view t = tokens[i].text;
-    if (t == "namespace" || t == "enum") return false;
-    if ((t == "struct" || t == "class" || t == "union") && !parentheses &&
+    if (t == "namespace" || t == "enum") return "";
+    if ((t == "struct" || t == "class" || t == "union") && name.empty() &&
         (i == 0 || (tokens[i - 1].text != "<" && tokens[i - 1].text != ",")))
-      return false;
-    if (t == "(") parentheses = true;
+      return "";
+    if (t == "(" && name.empty() && i > 0) name = tokens[i - 1].text;
   }
-  return parentheses;
+  return name;
 }
 
 void find_surroundings(std::vector<Token>& tokens) {
   std::vector<std::size_t> open;
   std::size_t statement = 0, for_end = 0;
-  std::vector<bool> functions = {false};
+  std::vector<std::string_view> functions = {""};
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     Token& token = tokens[i];
     token.partner = i;
     token.statement = statement;
-    token.in_function = functions.back();
+    token.function = functions.back();
+    token.in_function = !token.function.empty();
     if (is_open(token.text)) open.push_back(i);
     if (is_close(token.text) && !open.empty()) {
       token.partner = open.back();
       tokens[open.back()].partner = i;
       open.pop_back();
     }
-    if (token.text == "{") functions.push_back(functions.back() || opens_function(tokens, i));
+    if (token.text == "{") functions.push_back(token.in_function ? token.function : opened_function(tokens, i));
     if (token.text == "}" && functions.size() > 1) functions.pop_back();
     if (token.text == ";" || token.text == "{" || token.text == "}") statement = i + 1;
   }

@@ -54,6 +54,7 @@ void copy_with_time(const fs::path& from, const fs::path& to) {
 
 // The regular files of `from` that `to` has not, or has with another time or size.
 void copy_differing(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to);
   for (const auto& entry : fs::recursive_directory_iterator(from)) {
     const fs::path target = to / entry.path().lexically_relative(from);
     if (entry.is_symlink()) continue;

@@ -8,6 +8,7 @@
 
 #include "mutation/choose.h"
 #include "mutation/judge.h"
+#include "mutation/run.h"
 #include "mutation/score.h"
 
 namespace plumbline::mutation {
@@ -20,7 +21,7 @@ std::map<std::string, std::string> sources() {
 }
 
 std::vector<Change> drawn(const std::map<std::string, std::string>& from, std::uint64_t seed, std::size_t count) {
-  Draw draw(from, seed);
+  Draw draw(from, read_file_rules(kRoot / "tests/mutation/files.tsv"), seed);
   std::vector<Change> out;
   for (Change change; out.size() < count && draw.next(change);) out.push_back(change);
   return out;
@@ -84,23 +85,28 @@ TEST(SourceChanges, LeaveAloneWhatDrawsNothing) {
   EXPECT_EQ(changes_in("g(\"a < b\");"), std::set<std::string>{";"});
   EXPECT_TRUE(changes_of("f.h", "#define A 1 + 1\nstruct S {\n  int a = 1;\n};\nenum E { one = 1 };\n").empty());
   EXPECT_EQ(changes_of("f.h", "constexpr int kTwo = 2;\n").size(), 2u);
+  EXPECT_EQ(changes_of("f.h", "struct S {\n  int f(int a) { return [] { return 7; }(); }\n};\n")[0].function, "f");
 }
 
 TEST(SourceChanges, EachFileOfTheSourcesHasARule) {
   const auto rules = read_file_rules(kRoot / "tests/mutation/files.tsv");
-  EXPECT_EQ(rule_of(rules, "src/pipeline/light_equation.cpp")->names, std::vector<std::string>{"light"});
-  EXPECT_EQ(rule_of(rules, "src/pipeline/painter.cpp")->names, std::vector<std::string>{"picture"});
-  EXPECT_EQ(rule_of(rules, "reference/exact/clip.cpp"), nullptr);
+  EXPECT_EQ(rule_of(rules, "src/pipeline/light_equation.cpp", "light_at")->names, std::vector<std::string>{"light"});
+  EXPECT_EQ(rule_of(rules, "src/pipeline/painter.cpp", "")->names, std::vector<std::string>{"picture"});
+  EXPECT_EQ(rule_of(rules, "reference/exact/clip.cpp", ""), nullptr);
+  std::set<const FileRule*> used;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / "src")) {
+    if (!entry.is_regular_file()) continue;
+    const std::string path = entry.path().lexically_relative(kRoot).generic_string();
+    used.insert(rule_of(rules, path, ""));
+    for (const Change& change : changes_of(path, text_of(entry.path()))) {
+      used.insert(rule_of(rules, path, change.function));
+    }
+  }
   for (const FileRule& rule : rules) {
-    EXPECT_TRUE(std::ranges::any_of(std::filesystem::recursive_directory_iterator(kRoot / "src"),
-                                    [&](const auto& entry) {
-                                      return rule_of(rules, entry.path().lexically_relative(kRoot).generic_string()) ==
-                                             &rule;
-                                    }))
-        << rule.prefix << " is no file's beginning";
+    EXPECT_TRUE(used.contains(&rule)) << rule.prefix << " is the beginning of no file or function";
   }
   for (const Equivalent& e : read_equivalents(kRoot / "tests/mutation/equivalent.tsv")) {
-    EXPECT_NE(rule_of(rules, e.file)->names[0], "-") << e.file;
+    EXPECT_NE(rule_of(rules, e.file, "")->names[0], "-") << e.file;
   }
 }
 
