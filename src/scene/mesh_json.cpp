@@ -1,6 +1,7 @@
 #include "scene/mesh_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -58,6 +59,19 @@ std::vector<glm::vec2> read_texcoords(const JsonNode& node, std::size_t count) {
   return texcoords;
 }
 
+/// Empty where the file has none.
+std::vector<glm::vec3> read_normals(const JsonNode& node, std::size_t count) {
+  constexpr double kFromUnitLength = 1e-3;  // of three decimals, each rounded by at most 5e-4
+  std::vector<glm::vec3> normals;
+  if (const auto list = node.find("normals")) {
+    for (const JsonNode& n : list->elements(count, count)) {
+      normals.emplace_back(read_point(n));
+      if (!(std::abs(glm::length(normals.back()) - 1) <= kFromUnitLength)) n.refuse("a normal of unit length");
+    }
+  }
+  return normals;
+}
+
 Mesh read_triangle(const JsonNode& node) {
   node.only({"positions", "colors", "texcoords"});
   Mesh mesh = make_triangles(read_positions(node["positions"], 3, 3), {{0, 1, 2}}, read_colors(node, 3));
@@ -66,7 +80,7 @@ Mesh read_triangle(const JsonNode& node) {
 }
 
 Mesh read_triangles(const JsonNode& node) {
-  node.only({"positions", "indices", "colors", "texcoords"});
+  node.only({"positions", "indices", "normals", "colors", "texcoords"});
   std::vector<glm::vec3> positions = read_positions(node["positions"], 3, SIZE_MAX);
   std::vector<glm::uvec3> triangles;
   for (const JsonNode& triangle : node["indices"].elements(1, SIZE_MAX)) {
@@ -83,7 +97,9 @@ Mesh read_triangles(const JsonNode& node) {
   }
   std::vector<glm::vec4> colors = read_colors(node, positions.size());
   std::vector<glm::vec2> texcoords = read_texcoords(node, positions.size());
+  std::vector<glm::vec3> normals = read_normals(node, positions.size());
   Mesh mesh = make_triangles(std::move(positions), std::move(triangles), std::move(colors));
+  if (!normals.empty()) mesh.normals = std::move(normals);
   mesh.texcoords = std::move(texcoords);
   return mesh;
 }

@@ -60,7 +60,8 @@ struct SceneFileOptions {
 ///     mesh *       one of  "file": "bunny.obj", an OBJ, 3DS, PLY, glTF or GLB file (mesh_file.h)
 ///                          "triangle": {positions *: [[x, y, z] x 3], colors: [[r, g, b, a] x 3],
 ///                          texcoords: [[s, t] x 3]}
-///                          "triangles": {positions *, indices *: [[i, j, k], ...], colors, texcoords}
+///                          "triangles": {positions *, indices *: [[i, j, k], ...], normals: of unit length, else
+///                          area-weighted; colors, texcoords}
 ///                          "lines": {positions *, indices *: [[i, j], ...], colors}
 ///                          "points": {positions *, colors}: each a point; normals of both are +z
 ///                          "quad": {positions: [[x, y, z] x 4], else the square of grid; colors; texcoords, else

@@ -1,0 +1,95 @@
+// A scene as its parts are added; the parts' files each add some.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ordinary/choices.h"
+#include "ordinary/json_text.h"
+
+namespace plumbline::ordinary {
+
+struct Builder {
+  Choices choose;
+  std::string dialect;  ///< "gl", "gzrender", "games101", "tinyrenderer"
+  double reach = 3;     ///< solids stand within +-reach of the origin in x and z; the floor is at y = -reach / 3
+  bool greater_is_nearer = false;  ///< the dialect's depth buffer
+  int width = 64, height = 64;     ///< pixels
+  bool wants_stencil = false;      ///< a draw tests the stencil buffer
+  bool has_thin = false;           ///< lines or points are drawn
+  bool is_lit = true;              ///< lights stand in the scene
+  int texture_count = 0;
+  Object textures;
+  std::vector<Object> draws;
+
+  explicit Builder(std::uint64_t seed) : choose(seed) {}
+};
+
+// Small values.
+std::vector<double> color(Builder& b);          ///< r, g, b
+std::vector<double> opaque(Builder& b);         ///< r, g, b, 1
+std::vector<double> see_through(Builder& b);    ///< r, g, b, alpha below 1
+std::string rgba_array(Builder& b, int count);  ///< opaque colours, now and then one with alpha below 1
+std::string translate(const std::vector<double>& by);
+std::string scale(const std::vector<double>& by);
+std::string rotate(double degrees, const std::vector<double>& axis);
+/// Depth functions that let pass what is nearer, or as near.
+std::string_view nearer(const Builder& b);
+std::string_view nearer_or_equal(const Builder& b);
+
+// Looks (looks.cpp).
+Object material(Builder& b);
+Object fog(Builder& b);
+/// Adds a texture to the scene and returns its name.
+std::string add_texture(Builder& b);
+Object draw_texture(Builder& b, const std::string& name);
+/// Adds what a beginner tries on a solid: shading, culling, polygon modes, normals, colour material.
+void add_solid_state(Builder& b, Object& draw);
+
+// Meshes (meshes.cpp).
+Object floor_mesh(Builder& b, double y);
+Object wall_mesh(Builder& b);
+/// A solid about the origin, of about unit size.
+struct Solid {
+  Object mesh;
+  bool textured = false;  ///< the mesh has texture coordinates
+  double size = 1;        ///< half of its extent
+};
+Solid solid(Builder& b);
+Solid model(Builder& b);
+Object axes_mesh(Builder& b);
+Object wire_grid_mesh(Builder& b);
+Object curve_mesh(Builder& b);
+Object star_mesh(Builder& b, int count);
+
+// Things (things.cpp): each adds one or several draws.
+std::string place(Builder& b, const Solid& solid);  ///< transforms that stand it somewhere on the floor
+void add_floor(Builder& b);
+void add_wall(Builder& b);
+void add_solids(Builder& b);
+void add_lines(Builder& b);
+void add_points(Builder& b);
+void add_triangles(Builder& b);
+
+// Effects (effects.cpp): each adds one or several draws.
+void add_wireframe(Builder& b);
+void add_decal(Builder& b);
+void add_glass(Builder& b);
+void add_glow(Builder& b);
+void add_cut_out(Builder& b);
+void add_mirror(Builder& b);
+void add_shadow(Builder& b);
+void add_outline(Builder& b);
+void add_inset(Builder& b);
+void add_oddity(Builder& b);  ///< a logic op, a colour mask, a depth range, an unusual depth function
+
+// The scene around them (view.cpp).
+Object frame(Builder& b);
+Object camera(Builder& b);
+Object projection(Builder& b);
+std::string lights(Builder& b);
+Object light_model(Builder& b);
+
+}  // namespace plumbline::ordinary

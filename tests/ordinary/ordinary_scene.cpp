@@ -1,0 +1,83 @@
+#include "ordinary/ordinary_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "ordinary/builder.h"
+
+namespace plumbline::ordinary {
+namespace {
+
+void choose_dialect(Builder& b) {
+  b.dialect = b.choose.word({"gl", "gl", "gl", "gl", "gl", "gzrender", "games101", "tinyrenderer"});
+  b.greater_is_nearer = b.dialect == "games101" || b.dialect == "tinyrenderer";
+  if (b.dialect == "tinyrenderer") b.reach = 1;
+}
+
+// Opaque things, then effects, then what is seen through: as a tutorial orders them.
+void add_draws(Builder& b) {
+  Choices& c = b.choose;
+  if (c.chance(12)) add_triangles(b);
+  if (c.chance(60)) add_floor(b);
+  if (c.chance(20)) add_wall(b);
+  if (c.chance(85)) add_solids(b);
+  if (c.chance(18)) add_lines(b);
+  if (c.chance(14)) add_points(b);
+  if (c.chance(12)) add_wireframe(b);
+  if (c.chance(8)) add_decal(b);
+  if (c.chance(6)) add_mirror(b);
+  if (c.chance(6)) add_shadow(b);
+  if (c.chance(4)) add_outline(b);
+  if (c.chance(6)) add_cut_out(b);
+  if (c.chance(5)) add_oddity(b);
+  if (c.chance(14)) add_glass(b);
+  if (c.chance(6)) add_glow(b);
+  if (c.chance(4)) add_inset(b);
+  if (b.draws.empty()) add_triangles(b);
+}
+
+Object defaults(Builder& b) {
+  Object out;
+  if (b.choose.chance(30)) out.put("fog", fog(b));
+  if (b.choose.chance(15)) out.put("material", material(b));
+  if (b.choose.chance(8)) out.put_word("shading", b.choose.word({"flat", "phong"}));
+  if (b.choose.chance(8)) out.put_word("cull", b.choose.word({"back", "back", "front"}));
+  if (b.choose.chance(3)) out.put_word("normals", b.choose.word({"rescale", "as_they_are"}));
+  return out;
+}
+
+}  // namespace
+
+std::string ordinary_scene(std::uint64_t seed) {
+  Builder b(seed);
+  choose_dialect(b);
+  const Object seen = camera(b), onto = projection(b);
+  b.is_lit = b.choose.chance(85);
+  const std::string lamps = lights(b);
+  const Object model = light_model(b), all = defaults(b);
+  add_draws(b);
+
+  std::vector<std::string> lines;
+  const auto line = [&](std::string_view key, const std::string& value) {
+    lines.push_back(fmt::format("  {}: {}", json_string(key), value));
+  };
+  line("description", json_string(fmt::format("Ordinary scene {}.", seed)));
+  line("dialect", json_string(b.dialect));
+  line("frame", frame(b).text());
+  line("camera", seen.text());
+  line("projection", onto.text());
+  if (b.choose.chance(70)) {
+    const double grey = b.choose.number(0, 0.4);
+    line("ambient", json_numbers({grey, grey, b.choose.chance(50) ? grey : b.choose.number(0, 0.4)}));
+  }
+  if (!model.empty()) line("light_model", model.text());
+  if (b.is_lit) line("lights", lamps);
+  if (!b.textures.empty()) line("textures", b.textures.text());
+  if (!all.empty()) line("defaults", all.text());
+  std::vector<std::string> draws;
+  for (const Object& draw : b.draws) draws.push_back("    " + draw.text());
+  line("draws", fmt::format("[\n{}\n  ]", fmt::join(draws, ",\n")));
+  return fmt::format("{{\n{}\n}}\n", fmt::join(lines, ",\n"));
+}
+
+}  // namespace plumbline::ordinary

@@ -1,0 +1,68 @@
+// Generated scenes against all references: what a finding says and leaves.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "check/judge.h"
+#include "pipeline/pipeline_renderer.h"
+#include "reference/embree/embree.h"
+#include "reference/exact/exact.h"
+#include "reference/osmesa/osmesa.h"
+#include "scene/scene_file.h"
+
+namespace plumbline::test {
+
+/// Where findings are left; scripts/test empties it as it starts.
+inline std::filesystem::path findings_folder() {
+  return std::filesystem::path(PLUMBLINE_SUITE).parent_path() / "failures";
+}
+
+/// Assets of the build, and the suite's images, which the ordinary scenes name.
+inline SceneFileOptions with_suite_images() {
+  SceneFileOptions options;
+  options.asset_folders.emplace_back(PLUMBLINE_SOURCE_DIR "/tests/scenes/texture");
+  return options;
+}
+
+inline void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// The rows that fail, a line for each.
+inline std::string failures(const check::SceneVerdict& verdict) {
+  std::string out;
+  for (const check::Comparison& c : verdict.comparisons) {
+    if (!is_failure(c.outcome)) continue;
+    const check::Measurement& m = c.measurement;
+    out += fmt::format("{} {} {}: {} of {}, {}, ours {}, theirs {}, {} > {} {} {}\n", c.reference, name_of(c.stage),
+                       name_of(c.outcome), m.differing, m.items, to_string(m.worst.place), m.worst.candidate,
+                       m.worst.reference, m.worst.difference, m.worst.tolerance, m.unit, c.note);
+  }
+  return out;
+}
+
+inline check::SceneVerdict judge_by_all(const Scene& scene) {
+  static const auto ours = pipeline::make_pipeline();
+  static const auto osmesa = make_osmesa();
+  static const auto embree = embree::make_embree();
+  static const auto exact = exact::make_exact();
+  const check::Reference references[] = {{"osmesa", osmesa.get()}, {"embree", embree.get()}, {"exact", exact.get()}};
+  return check::judge(scene, *ours, references);
+}
+
+/// A test failure that names the seed and the scene's file, where any row fails.
+inline void expect_holds(const Scene& scene, std::uint64_t seed, const std::filesystem::path& file,
+                         const std::string& text) {
+  const std::string failed = failures(judge_by_all(scene));
+  if (failed.empty()) return;
+  write_text(file, text);
+  ADD_FAILURE() << "seed " << seed << ": plumb check " << file.string() << " --assets tests/scenes/texture\n" << failed;
+}
+
+}  // namespace plumbline::test
