@@ -15,9 +15,26 @@ namespace {
 
 // Statements without effect on a picture: what is refused, reserved, or worked out while compiling.
 bool is_left_alone(const Source& s, std::size_t first, std::size_t last) {
-  static const std::set<std::string_view> kWords = {
-      "throw",   "static_assert", "template", "reserve", "using", "concept", "fmt",      "requires", "typename",
-      "alignas", "asm",           "decltype", "sizeof",  "try",   "catch",   "operator", "abort"};
+  static const std::set<std::string_view> kWords = {"throw",
+                                                    "static_assert",
+                                                    "template",
+                                                    "reserve",
+                                                    "using",
+                                                    "concept",
+                                                    "fmt",
+                                                    "requires",
+                                                    "typename",
+                                                    "alignas",
+                                                    "asm",
+                                                    "decltype",
+                                                    "sizeof",
+                                                    "try",
+                                                    "catch",
+                                                    "operator",
+                                                    "abort",
+                                                    "fail",
+                                                    "PLUMBLINE_VERSION",
+                                                    "global_control"};
   for (std::size_t i = first; i <= last; ++i) {
     if (kWords.contains(s.word(i))) return true;
     if (s.word(i) == "if" && s.word(i + 1) == "constexpr") return true;

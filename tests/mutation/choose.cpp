@@ -59,7 +59,9 @@ std::map<std::string, std::string> sources_of(const std::filesystem::path& root,
     const std::string path = entry.path().lexically_relative(root).generic_string();
     const FileRule* rule = rule_of(rules, path, "");
     if (rule == nullptr) throw std::runtime_error(fmt::format("{}: no row of files.tsv says what it is", path));
-    if (rule->names[0] == "-") continue;
+    const bool by_function =
+        std::ranges::any_of(rules, [&](const FileRule& r) { return r.prefix.starts_with(path + "#"); });
+    if (rule->names[0] == "-" && !by_function) continue;
     std::ifstream in(entry.path());
     out[path] = std::string(std::istreambuf_iterator<char>(in), {});
   }
