@@ -7,6 +7,7 @@
 #include "check/case.h"
 #include "check/causes.h"
 #include "check/coverage_differences.h"
+#include "check/failing_stage.h"
 #include "check/judge_passes.h"
 #include "check/repair.h"
 #include "check/worst_record.h"
@@ -171,6 +172,14 @@ Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference>
   Pass pass{judge(scene, candidate, references, &drawn, most_fragments), {}, {}, {}};
   pass.repaired = std::move(drawn.candidate);
   Renderer* referee = referee_of(references);
+  if (pass.repaired.width == 0) {  // it drew nothing
+    for (const Comparison& c : pass.verdict.comparisons) {
+      if (judges_alone(c) && is_wrong(c)) pass.findings.push_back(finding_of(c));
+    }
+    const auto at = referee != nullptr ? failing_stage(scene, candidate, *referee) : std::nullopt;
+    if (at) pass.findings.push_back({at->stage, candidate.info().name, {}, {at->how}, {}, ""});
+    return pass;
+  }
   std::set<Stage> wrong;
   for (const Comparison& c : pass.verdict.comparisons) {
     if (referee == nullptr || !judges_alone(c) || !is_wrong(c) || !wrong.insert(c.stage).second) continue;
@@ -286,6 +295,8 @@ Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Ref
     if (!out.wrong.empty() && row->stage < out.wrong[0] && holds_alone(out.verdict, row->stage))
       out.first = out.wrong[0];
     if (out.wrong.empty()) out.findings.push_back(first ? *first : finding_of(*row));
+  } else if (!out.wrong.empty()) {
+    out.first = out.wrong[0];  // which failed
   }
   return out;
 }

@@ -14,8 +14,10 @@
 #include "check/compare_planes.h"
 #include "check/compare_records.h"
 #include "check/compare_texels.h"
+#include "check/failing_stage.h"
 #include "check/judge_passes.h"
 #include "check/open_pixels.h"
+#include "check/repair.h"
 #include "check/votes.h"
 
 namespace plumbline::check {
@@ -178,6 +180,31 @@ Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const
   }
 }
 
+// The row of a candidate that draws nothing; `shown` is left what its stages before that one show alone.
+Comparison candidate_failed(const Scene& scene, Renderer& candidate, Renderer* referee, const std::string& how,
+                            RendererInfo& shown) {
+  const auto at = referee == nullptr ? std::nullopt : failing_stage(scene, candidate, *referee);
+  const Stage stage = at ? at->stage : Stage::merge;
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    if (at && i < static_cast<std::size_t>(std::min(stage, Stage::coverage))) continue;
+    shown.stages[i] = {false, false, fmt::format("{} failed at stage {}", shown.name, name_of(stage))};
+  }
+  return not_judged(scene.name, shown.name, stage, Outcome::failed, at ? at->how : how);
+}
+
+// The records of the stages that `shown` shows, each run alone on those before it.
+Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown) {
+  Capture out;
+  for (std::size_t i = 0; shown.stages[i].shows; ++i) {
+    try {
+      hand_on(static_cast<Stage>(i), candidate.run_stage(scene, static_cast<Stage>(i), out), out);
+    } catch (const std::exception& e) {
+      for (Ability& later : std::span(shown.stages).subspan(i)) later = {false, false, e.what()};
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
@@ -232,10 +259,11 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
     verdict.comparisons.push_back(not_judged(scene.name, name, Stage::merge, outcome, why));
   };
   std::optional<Capture> mine;
+  std::string failure;
   try {
     mine = capture_all(scene, candidate, most_fragments);
   } catch (const std::exception& e) {
-    nothing(candidate.info().name, Outcome::failed, e.what());
+    failure = e.what();
   }
   std::vector<Capture> theirs(references.size());
   std::vector<std::string> failures(references.size());
@@ -264,13 +292,19 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
       failures[i] = e.what();
     }
   }
+  RendererInfo mine_info = candidate.info();
+  const bool drew = mine.has_value();
+  if (!drew) {
+    verdict.comparisons.push_back(candidate_failed(scene, candidate, referee, failure, mine_info));
+    mine = run_alone(scene, candidate, mine_info);
+  }
   Legal somewhere;
-  if (mine && legal->empty() && referee != nullptr && referee->info().legal) {
+  if (drew && legal->empty() && referee != nullptr && referee->info().legal) {
     somewhere = legal_where_apart(scene, *mine, theirs, *referee);
     legal = &somewhere;
   }
   std::optional<Capture> filtered;
-  if (mine && referee != nullptr && textured(scene)) {
+  if (drew && referee != nullptr && textured(scene)) {
     try {
       filtered = referee->run_stage(scene, Stage::texture, *mine);
       mine->legal.texels = std::move(filtered->legal.texels);
@@ -280,10 +314,10 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
   for (std::size_t i = 0; i < references.size(); ++i) {
     if (!failures[i].empty()) {
       nothing(references[i].name, outcomes[i], failures[i]);
-    } else if (mine) {
+    } else {
       Case c{scene, *mine, *legal, referee, verdict.comparisons};
       try {
-        const RendererInfo info = references[i].renderer->info(), mine_info = candidate.info();
+        const RendererInfo info = references[i].renderer->info();
         judge_from_scene(c, theirs[i], info, mine_info);
         if (runs_stages(info)) {
           const bool same = filtered && references[i].renderer == referee;
@@ -297,10 +331,10 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
     }
   }
   settle_votes(verdict.comparisons);
-  if (mine && candidate.info().paints) verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
+  if (drew && mine_info.paints && mine_info[Stage::merge].shows) verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
   verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (drawn != nullptr) {
-    if (mine) drawn->candidate = std::move(*mine);
+    if (drew) drawn->candidate = std::move(*mine);
     drawn->references = std::move(theirs);
   }
   return verdict;

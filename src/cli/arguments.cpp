@@ -37,6 +37,20 @@ void add_against(CLI::App& command, std::vector<std::string>& against) {
       ->delimiter(',');
 }
 
+// Of the processes in which renderers run.
+void add_limits(CLI::App& command, WorkerLimits& limits) {
+  command
+      .add_option_function<int>(
+          "--time-limit", [&limits](int seconds) { limits.step = std::chrono::seconds(seconds); },
+          "Seconds that a renderer may take to draw a scene or run a stage (default: 300)")
+      ->check(CLI::Range(1, 1'000'000));
+  command
+      .add_option_function<int>(
+          "--memory-limit", [&limits](int mebibytes) { limits.memory = static_cast<std::uint64_t>(mebibytes) << 20; },
+          "MiB that all renderers of a process may take (default: 12288)")
+      ->check(CLI::Range(64, 1 << 30));
+}
+
 template <class Options>
 void add_drawing(CLI::App& command, Options& o) {
   text(command, "scene", o.scene, "Scene file")->required();
@@ -69,9 +83,9 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   command
       .add_option("--jobs", o.jobs,
-                  "Scenes judged at a time (default: the number of processors); one, where a reference runs in a "
-                  "process of its own")
+                  "Scenes judged at a time, each in a process of its own (default: the number of processors)")
       ->check(CLI::Range(1, kMostJobs));
+  add_limits(command, o.limits);
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
   add_assets(command, o.scene_arguments);
 }
@@ -88,6 +102,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
       .add_option("--fragments", o.most_fragments,
                   "Of a scene with more fragments, look at those about the worst pixels alone")
       ->capture_default_str();
+  add_limits(command, o.limits);
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
   text(

@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,12 +19,12 @@
 #include "check/golden_set.h"
 #include "cli/check_failures.h"
 #include "cli/commands.h"
-#include "cli/in_order.h"
 #include "cli/outputs.h"
 #include "cli/references.h"
 #include "cli/renderers.h"
 #include "cli/scene_judge.h"
 #include "cli/shard_argument.h"
+#include "cli/worker_bytes.h"
 #include "report/html_report.h"
 #include "report/json_report.h"
 #include "report/junit.h"
@@ -90,10 +91,8 @@ std::vector<std::filesystem::path> inputs_of(const CheckOptions& o, std::span<co
   return out;
 }
 
-// How many scenes are judged at a time. Signals that end us are held by the one thread that waits for another process
-// (process_renderer.cpp): it must be the only one.
+// Scenes judged at a time.
 std::size_t jobs(const CheckOptions& o, std::size_t scenes) {
-  if (std::ranges::any_of(o.against, in_own_process)) return 1;
   const int wanted = o.jobs > 0 ? o.jobs : static_cast<int>(std::thread::hardware_concurrency());
   return std::min(static_cast<std::size_t>(std::clamp(wanted, 1, kMostJobs)), std::max<std::size_t>(scenes, 1));
 }
@@ -112,6 +111,37 @@ std::vector<std::size_t> order_to_judge(std::span<const Scene> scenes, std::size
   std::iota(out.begin(), out.end(), std::size_t{0});
   if (at_a_time > 1) std::ranges::stable_partition(out, [&](std::size_t i) { return costs[i] > most; });
   return out;
+}
+
+// Judges the scenes in worker processes; take(judged) for each, in order. A renderer that ends its worker has failed at
+// that step: the next worker judges the scene once more without asking it again.
+void judge_in_workers(std::span<const Scene> scenes, const CheckRules& rules, std::set<std::string>& words,
+                      const std::function<void(JudgedScene)>& take) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const std::size_t at_a_time = jobs(rules.options, scenes.size());
+  const std::vector<std::size_t> order = order_to_judge(scenes, at_a_time);
+  std::vector<JudgeRequest> requests(scenes.size());
+  const auto make = [&](Progress& progress) -> Workers::Answer {
+    const auto judge = std::make_shared<SceneJudge>(rules, progress);
+    return [&, judge](const std::string& bytes) {
+      JudgeRequest request = request_of(bytes);
+      const Scene& scene = scenes[request.scene];
+      return to_bytes(request.not_compared.empty() ? judge->judge(scene, std::move(request.ended))
+                                                   : not_compared(scene, rules, request.not_compared),
+                      rules);
+    };
+  };
+  const auto ask = [&](std::size_t i) {
+    if (terminal) fmt::print(stderr, "\r\x1b[K[{}/{}] {}\r", i + 1, scenes.size(), scenes[i].path);
+    requests[i].scene = i;
+    return to_bytes(requests[i]);
+  };
+  const auto ask_again = [&](std::size_t i, const WorkerEnd& end) {
+    (end.step == Progress::kBetween ? requests[i].not_compared : requests[i].ended[end.step]) = end.how;
+    return to_bytes(requests[i]);
+  };
+  const auto took = [&](std::size_t, const std::string& answer) { take(judged_scene_of(answer, rules, words)); };
+  Workers(at_a_time, rules.options.limits, make).run({order, ask, took, ask_again});
 }
 
 }  // namespace
@@ -134,19 +164,14 @@ int check(const CheckOptions& given) {
       {"--json", o.json}, {"--ledger", o.ledger}, {"--junit", o.junit}, {"--markdown", o.markdown}};
   require_outputs(outputs, {"--report", o.report}, inputs_of(o, scenes));
   require_folders(o, scenes);
-  SceneJudge first(rules);
-  report::RunHead head{first.versions(), o.fault, o.against, !o.golden.empty(), shard, {}};
+  report::RunHead head{{}, o.fault, o.against, !o.golden.empty(), shard, {}};
   if (!o.golden.empty()) rules.goldens.emplace(o.golden, check::GoldenSet::Access::read);
   if (!o.report.empty()) rules.page.emplace(o.report, scenes.size());
-  const bool terminal = isatty(STDERR_FILENO) != 0;
+  std::set<std::string> words;  // that verdicts refer to
   std::vector<check::SceneVerdict> verdicts;
   std::vector<check::Settled> settled;
   std::string failures;
   fmt::print("{}", report::table_head());
-  const auto judge = [&](SceneJudge& by, std::size_t i) {
-    if (terminal) fmt::print(stderr, "\r\x1b[K[{}/{}] {}\r", i + 1, scenes.size(), scenes[i].path);
-    return by.judge(scenes[i]);
-  };
   const auto take = [&](JudgedScene judged) {
     const check::SceneVerdict& verdict = verdicts.emplace_back(std::move(judged.verdict));
     std::ranges::move(judged.settled, std::back_inserter(settled));
@@ -155,10 +180,9 @@ int check(const CheckOptions& given) {
     if (!o.rows.empty()) leave_rows(o.rows, verdict, judged.failure);
     failures += judged.failure;
     if (judged.drawing) rules.page->add(std::move(*judged.drawing));
+    head.versions.merge(judged.versions);
   };
-  const auto make = [&] { return SceneJudge(rules); };
-  const std::size_t at_a_time = jobs(o, scenes.size());
-  in_order(order_to_judge(scenes, at_a_time), first, at_a_time - 1, make, judge, take);
+  judge_in_workers(scenes, rules, words, take);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (is_whole(o, verdicts)) head.failures = check::of_no_scene(rules.expectations, verdicts);
   const bool holds = report::all_hold(verdicts) && head.failures.empty();

@@ -27,6 +27,9 @@ std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& ver
   if (!o.expect.empty()) out += " --expect " + shell_word(o.expect);
   if (!o.today.empty()) out += " --today " + o.today;
   if (o.allow_missing) out += " --allow-missing";
+  const WorkerLimits usual;
+  if (o.limits.step != usual.step) out += fmt::format(" --time-limit {}", o.limits.step / std::chrono::seconds(1));
+  if (o.limits.memory != usual.memory) out += fmt::format(" --memory-limit {}", o.limits.memory >> 20);
   return out + o.scene_arguments.repeated();
 }
 

@@ -7,6 +7,7 @@
 #include "check/diagnose.h"
 #include "cli/renderers.h"
 #include "cli/scene_arguments.h"
+#include "scene/workers.h"
 
 namespace plumbline::cli {
 
@@ -30,6 +31,7 @@ struct CheckOptions {
   std::string golden;    ///< the folder of goldens, whose rows stand beside the references'; or empty
   std::string fault;     ///< a bug to put into our renderer, or empty
   int jobs = 0;          ///< scenes judged at a time; 0: as many as there are processors
+  WorkerLimits limits;   ///< of the processes that judge
   bool allow_missing = false;
   SceneArguments scene_arguments;
   std::string program = "plumb";  ///< as it was called, for the command that repeats a failure
@@ -47,6 +49,7 @@ struct DiagnoseOptions {
   std::string folder, command;  ///< of another renderer, or empty
   std::string pixel;            ///< X,Y: its history as well; or empty
   std::uint64_t most_fragments = check::kMostFragments;
+  WorkerLimits limits;  ///< of the process that diagnoses
   SceneArguments scene_arguments;
 };
 int diagnose(const DiagnoseOptions& options);

@@ -12,6 +12,7 @@
 #include "cli/outputs.h"
 #include "cli/pixel_argument.h"
 #include "cli/references.h"
+#include "cli/worker_bytes.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_text.h"
 #include "report/history_text.h"
@@ -71,47 +72,82 @@ std::vector<report::Pictured> pictured(const Scene& scene, Renderer& candidate, 
   return out;
 }
 
+// The scene to be diagnosed, and where the page goes.
+struct Subject {
+  const DiagnoseOptions& options;
+  const Scene& scene;
+  std::optional<glm::ivec2> pixel;
+  std::optional<report::PageFolder> page;
+};
+
+// In a worker: writes the files, and returns the exit code, as one character, and the text.
+std::string diagnose_here(Subject& subject, const Watch& watch) {
+  const DiagnoseOptions& o = subject.options;
+  const Scene& scene = subject.scene;
+  const bool outside = !o.folder.empty() || !o.command.empty();
+  std::unique_ptr<Renderer> candidate;
+  try {
+    candidate = make_watched(outside ? outside_candidate(o, scene) : make_candidate(o.fault), 0, watch);
+  } catch (const RendererFailed& e) {
+    return fmt::format("{}failed {}: {}\n", static_cast<int>(kDiffers), scene.path, e.what());
+  }
+  const References references = make_references(without_repeats(o.against), o.scene_arguments.assets, watch);
+  const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list, o.most_fragments);
+  std::string out = fmt::format("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
+  std::string history, history_text;
+  if (subject.pixel) {
+    const check::History known = check::pixel_history(scene, *candidate, references.list, *subject.pixel);
+    history_text = report::history_text(scene, known);
+    out += "\n" + history_text;
+    history = report::history_json(scene, known);
+  }
+  if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
+  if (subject.page) {
+    report::write_diagnosis_page(*subject.page, scene, diagnosis, pictured(scene, *candidate, references),
+                                 history_text);
+  }
+  const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
+                                          [](const check::Comparison& c) { return is_failure(c.outcome); });
+  return fmt::format("{}{}", static_cast<int>(holds ? kHolds : kDiffers), out);
+}
+
 }  // namespace
 
 int diagnose(const DiagnoseOptions& o) {
   if (!o.picture.empty()) return diagnose_picture(o);
   const Scene scene = o.scene_arguments.load(o.scene);
   require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
-  std::optional<glm::ivec2> pixel;
-  if (!o.pixel.empty()) pixel = parse_pixel("--pixel", o.pixel, scene.frame);
+  Subject subject{o, scene, {}, {}};
+  if (!o.pixel.empty()) subject.pixel = parse_pixel("--pixel", o.pixel, scene.frame);
   const Output outputs[] = {{"--json", o.json}};
   std::vector<std::filesystem::path> inputs = {o.scene};
   if (!o.folder.empty() && std::filesystem::is_directory(o.folder)) {
     for (const auto& entry : std::filesystem::directory_iterator(o.folder)) inputs.push_back(entry.path());
   }
   require_outputs(outputs, {"--report", o.report}, inputs);
-  std::optional<report::PageFolder> page;
-  if (!o.report.empty()) page.emplace(o.report);
-  const bool outside = !o.folder.empty() || !o.command.empty();
-  std::unique_ptr<Renderer> candidate;
-  try {
-    candidate = outside ? outside_candidate(o, scene) : make_candidate(o.fault);
-  } catch (const RendererFailed& e) {
-    fmt::print("failed {}: {}\n", scene.path, e.what());
-    return kDiffers;
-  }
-  const References references = make_references(without_repeats(o.against), o.scene_arguments.assets);
-  const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list, o.most_fragments);
-  fmt::print("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
-  std::string history, history_text;
-  if (pixel) {
-    const check::History told = check::pixel_history(scene, *candidate, references.list, *pixel);
-    history_text = report::history_text(scene, told);
-    fmt::print("\n{}", history_text);
-    history = report::history_json(scene, told);
-  }
-  if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
-  if (page) {
-    report::write_diagnosis_page(*page, scene, diagnosis, pictured(scene, *candidate, references), history_text);
-  }
-  const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
-                                          [](const check::Comparison& c) { return is_failure(c.outcome); });
-  return holds ? kHolds : kDiffers;
+  if (!o.report.empty()) subject.page.emplace(o.report);
+  WorkerLimits limits = o.limits;
+  if (!o.command.empty()) limits.step += kOwnProcessLimit;  // a program has a time limit of its own
+  JudgeRequest request;
+  int code = kDiffers;
+  const auto make = [&](Progress& progress) -> Workers::Answer {
+    return [&subject, &progress, &limits](const std::string& bytes) {
+      const EndedSteps ended = request_of(bytes).ended;
+      return diagnose_here(subject, {&progress, &ended, limits.step});
+    };
+  };
+  const auto take = [&](std::size_t, const std::string& answer) {
+    code = answer.front() - '0';
+    fmt::print("{}", answer.substr(1));
+  };
+  const auto ask_again = [&](std::size_t, const WorkerEnd& end) {
+    if (end.step == Progress::kBetween) throw std::runtime_error(fmt::format("{}: the diagnosis {}", o.scene, end.how));
+    request.ended[end.step] = end.how;
+    return to_bytes(request);
+  };
+  const std::size_t only[] = {0};
+  Workers(1, limits, make).run({only, [&](std::size_t) { return to_bytes(request); }, take, ask_again});
+  return code;
 }
 
 }  // namespace plumbline::cli

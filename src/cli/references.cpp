@@ -16,6 +16,18 @@ References make_references(const std::vector<std::string>& names, const std::vec
   return out;
 }
 
+References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
+                           const Watch& watch) {
+  References out = make_references(names, assets);
+  for (std::size_t i = 0; i < out.owned.size(); ++i) {
+    Watch own = watch;
+    if (in_own_process(names[i])) own.limit += kOwnProcessLimit;  // which ends it before
+    out.owned[i] = make_watched(std::move(out.owned[i]), static_cast<std::uint32_t>(i + 1), own);
+    out.list[i].renderer = out.owned[i].get();
+  }
+  return out;
+}
+
 std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
   std::vector<std::string> out = known_reference_names();
   std::erase_if(out, [&](const std::string& name) { return std::ranges::count(names, name) == 0; });

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "check/judge.h"
-#include "stages/renderer.h"
+#include "stages/watched_renderer.h"
 
 namespace plumbline::cli {
 
@@ -17,6 +17,9 @@ struct References {
 };
 /// `assets`: where those in processes of their own look for meshes as well.
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets);
+/// In a worker: each is watched, numbered from 1.
+References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
+                           const Watch& watch);
 
 /// Each once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
 std::vector<std::string> without_repeats(const std::vector<std::string>& names);

@@ -19,6 +19,7 @@
 #include "reference/osmesa/osmesa.h"
 #endif
 #ifdef PLUMBLINE_FAULTS
+#include "faults/endings.h"
 #include "faults/faults.h"
 #endif
 
@@ -52,7 +53,7 @@ class OwnProcess final : public Renderer {
                  "--with",
                  info_.name};
     for (const std::string& folder : assets) spec.argv.insert(spec.argv.end(), {"--assets", folder});
-    spec.timeout = std::chrono::minutes(10);  // softpipe takes its time
+    spec.timeout = kOwnProcessLimit;
     process_ = make_process_renderer(std::move(spec));
   }
   RendererInfo info() const override { return info_; }
@@ -137,6 +138,9 @@ std::vector<FaultInfo> fault_infos() {
 std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
   if (fault.empty()) return pipeline::make_pipeline();
   for (const faults::Fault& f : faults::all()) {
+    if (f.name == fault) return pipeline::make_pipeline(f.stages());
+  }
+  for (const faults::Fault& f : faults::endings()) {
     if (f.name == fault) return pipeline::make_pipeline(f.stages());
   }
   throw std::invalid_argument(fmt::format("no fault '{}': plumb list faults shows all", fault));

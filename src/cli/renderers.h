@@ -1,6 +1,7 @@
 // The renderers and faults that this program was built with, by name.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -22,6 +23,8 @@ const std::vector<std::string>& renderer_names();
 /// in. Throws std::invalid_argument, naming those there are, if unknown.
 std::unique_ptr<Renderer> make_renderer(const std::string& name);
 
+/// How long a renderer in a process of its own may take.
+inline constexpr std::chrono::minutes kOwnProcessLimit{10};  // softpipe takes its time
 /// Whether it would be a second Mesa in this process.
 bool in_own_process(const std::string& name);
 /// One of several in a run: what in_own_process() is this program once more, which looks for meshes in `assets` as

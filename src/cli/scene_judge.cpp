@@ -10,13 +10,16 @@
 
 namespace plumbline::cli {
 
-SceneJudge::SceneJudge(const CheckRules& rules)
-    : rules_(&rules),
-      candidate_(make_candidate(rules.options.fault)),
-      references_(make_references(rules.options.against, rules.options.scene_arguments.assets)) {}
+SceneJudge::SceneJudge(const CheckRules& rules, Progress& progress) : rules_(&rules) {
+  const CheckOptions& o = rules.options;
+  const Watch watch{&progress, &ended_, o.limits.step};
+  candidate_ = make_watched(make_candidate(o.fault), 0, watch);
+  references_ = make_references(o.against, o.scene_arguments.assets, watch);
+}
 
-JudgedScene SceneJudge::judge(const Scene& scene) {
+JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   const CheckOptions& o = rules_->options;
+  ended_ = std::move(ended);
   JudgedScene out;
   check::Drawn drawn;
   out.verdict = check::judge(scene, *candidate_, references_.list, rules_->page ? &drawn : nullptr);
@@ -32,6 +35,18 @@ JudgedScene SceneJudge::judge(const Scene& scene) {
   if (rules_->page) {
     out.drawing = rules_->page->draw(verdict, references_.list, drawn, scene, verdict.failure, verdict.repeat);
   }
+  out.versions = versions_of(*candidate_, references_);
+  return out;
+}
+
+JudgedScene not_compared(const Scene& scene, const CheckRules& rules, const std::string& how) {
+  JudgedScene out;
+  out.verdict.scene = scene.name;
+  out.verdict.path = scene.path;
+  out.verdict.comparisons = {
+      check::not_judged(scene.name, "comparison", Stage::merge, check::Outcome::failed, "the comparison " + how)};
+  out.settled = settle(out.verdict, rules.options, rules.expectations, rules.today);
+  out.failure = out.verdict.failure;
   return out;
 }
 

@@ -35,20 +35,24 @@ struct JudgedScene {
   std::vector<check::Settled> settled;
   std::string failure;  ///< lines: why it does not hold, and the page of it that was left
   std::optional<report::HtmlReport::Drawing> drawing;
+  std::map<std::string, std::string> versions;  ///< by renderer
 };
+/// Of a scene whose comparison, none of the renderers, ended a worker.
+JudgedScene not_compared(const Scene& scene, const CheckRules& rules, const std::string& how);
 
-/// A candidate and references of its own, for one thread at a time.
+/// A worker's candidate and references.
 class SceneJudge {
  public:
-  /// One at a time: Mesa reads its environment, which the first sets (reference/osmesa/context.h).
-  explicit SceneJudge(const CheckRules& rules);
-  /// Leaves a page of a scene that does not hold, if asked. Throws OutputError.
-  JudgedScene judge(const Scene& scene);
-  /// By renderer.
-  std::map<std::string, std::string> versions() const { return versions_of(*candidate_, references_); }
+  SceneJudge(const CheckRules& rules, Progress& progress);
+  SceneJudge(const SceneJudge&) = delete;
+  SceneJudge& operator=(const SceneJudge&) = delete;
+  /// `ended`: the steps that ended workers before. Leaves a page of a scene that does not hold, if asked. Throws
+  /// OutputError.
+  JudgedScene judge(const Scene& scene, EndedSteps ended);
 
  private:
   const CheckRules* rules_;
+  EndedSteps ended_;
   std::unique_ptr<Renderer> candidate_;
   References references_;
 };

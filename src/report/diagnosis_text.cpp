@@ -38,13 +38,15 @@ std::string first_line(const check::Diagnosis& diagnosis) {
   for (const Comparison& c : diagnosis.verdict.comparisons) {
     if (c.stage == *diagnosis.first && c.outcome == Outcome::different) by.push_back(c.reference);
   }
+  if (by.empty()) return fmt::format("{} (failed)", name_of(*diagnosis.first));
   return fmt::format("{} (against {})", name_of(*diagnosis.first), fmt::join(by, "; "));
 }
 
 std::string finding_text(const check::Finding& f) {
   const check::Measurement& m = f.measurement;
-  std::string out =
-      fmt::format("\n{}, against {}: {} of {} beyond tolerance\n", name_of(f.stage), f.reference, m.differing, m.items);
+  std::string out = m.items == 0 ? fmt::format("\n{}, of {}: failed\n", name_of(f.stage), f.reference)
+                                 : fmt::format("\n{}, against {}: {} of {} beyond tolerance\n", name_of(f.stage),
+                                               f.reference, m.differing, m.items);
   for (const std::string& line : f.numbers) out += fmt::format("  {}\n", line);
   for (const std::string& cause : f.causes) out += fmt::format("  likely cause: {}\n", cause);
   return out + f.picture;

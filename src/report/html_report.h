@@ -28,7 +28,7 @@ class HtmlReport {
   /// What the page holds of a scene, but for its name there. Several threads may draw at a time.
   struct Drawing {
     std::string scene, description, thumbnail;  ///< the last a PNG, or empty
-    std::string_view outcome, first;            ///< the first different stage, or empty
+    std::string outcome, first;                 ///< the first different stage, or empty
     bool fails = false;
     std::string all, color_alone;  ///< what it is shown from; the latter empty where nothing may be left out
   };

@@ -53,7 +53,7 @@ std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> un
   std::string out;
   for (const Comparison& c : verdict.comparisons) {
     if (c.outcome == Outcome::failed || c.outcome == Outcome::missing) {
-      out += fmt::format("{} {}: {}: {}\n", name_of(c.outcome), c.scene, c.reference, c.note);
+      out += fmt::format("{} {}: {}, {}: {}\n", name_of(c.outcome), c.scene, c.reference, name_of(c.stage), c.note);
     }
   }
   for (Stage stage : unjudged) {

@@ -23,7 +23,7 @@ class Changed : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override {
     before_capture(request);
     Capture out = inner_->capture(scene, request);
-    on_capture(out);
+    (request.planes == WantedPlanes::picture ? on_picture : on_capture)(out);
     return out;
   }
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
@@ -33,6 +33,7 @@ class Changed : public Renderer {
   std::function<void(RendererInfo&)> on_info = [](auto&) {};
   std::function<void(const Request&)> before_capture = [](auto&) {};
   std::function<void(Capture&)> on_capture = [](auto&) {};
+  std::function<void(Capture&)> on_picture = [](auto&) {};  // of the picture alone
   std::function<void(Stage)> before_run = [](auto) {};
 
  private:
@@ -41,7 +42,9 @@ class Changed : public Renderer {
 
 struct Judge : testing::Test {
   Judge() {
+    candidate.on_info = [](RendererInfo& info) { info.paints = false; };  // check_picture_test.cpp's
     witness.on_info = [](RendererInfo& info) {
+      info.paints = false;
       info.name = "witness";
       for (Ability& a : info.stages) a.runs = false;
       info.legal = false;

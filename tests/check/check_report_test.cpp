@@ -83,7 +83,7 @@ TEST_F(Reports, FailuresNameStagePlaceNumbersAndCommand) {
   EXPECT_TRUE(contains(unjudged, "repeat: again")) << unjudged;
   for (Outcome outcome : {Outcome::missing, Outcome::failed}) {
     const std::string why = failure_lines(verdict_of({not_compared(outcome, "no such thing")}), {}, "again");
-    EXPECT_TRUE(contains(why, "embree: no such thing")) << why;
+    EXPECT_TRUE(contains(why, "embree, light: no such thing")) << why;
     EXPECT_TRUE(contains(why, "repeat: again"));
   }
 }

@@ -165,13 +165,28 @@ TEST_F(Diagnose, OfTooManyFragmentsNoTriangleIsDrawnAsMissing) {
   }
 }
 
-TEST_F(Diagnose, ARendererThatFailsIsWrongInNoStage) {
+TEST_F(Diagnose, ARendererThatFailsAsAWholeIsWrongInNoStage) {
   Changed candidate(pipeline::make_pipeline());
   candidate.before_capture = [](const Request&) { throw RendererFailed("crashed"); };
   const Diagnosis d = of(candidate);
   EXPECT_TRUE(d.wrong.empty());
-  ASSERT_EQ(d.verdict.comparisons.size(), 1u);
+  EXPECT_FALSE(d.first);
   EXPECT_EQ(d.verdict.comparisons[0].outcome, Outcome::failed);
+  EXPECT_EQ(d.verdict.comparisons[0].note, "crashed");
+}
+
+TEST_F(Diagnose, ARendererThatFailsInAStageIsWrongThere) {
+  Changed candidate(pipeline::make_pipeline());
+  candidate.before_capture = [](const Request&) { throw RendererFailed("crashed"); };
+  candidate.before_run = [](Stage stage) {
+    if (stage == Stage::window) throw RendererFailed("crashed in window");
+  };
+  const Diagnosis d = of(candidate);
+  EXPECT_EQ(d.wrong, std::vector{Stage::window});
+  EXPECT_EQ(d.first, Stage::window);
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].numbers, std::vector<std::string>{"crashed in window"});
+  EXPECT_EQ(d.verdict.comparisons[0].stage, Stage::window);
 }
 
 TEST_F(Diagnose, WithoutExactTheFirstDifferentStageIsTheFinding) {

@@ -1,0 +1,26 @@
+// Requests and answers between plumb and the workers that judge scenes for it.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "cli/scene_judge.h"
+
+namespace plumbline::cli {
+
+/// A scene to be judged: its number, the steps that ended workers before, and, where the comparison itself did, how.
+struct JudgeRequest {
+  std::size_t scene = 0;
+  EndedSteps ended;
+  std::string not_compared;
+};
+std::string to_bytes(JudgeRequest request);
+JudgeRequest request_of(std::string_view bytes);
+
+/// Without the pixels that differ (Measurement::differing_at, disputed_at): what is shown of them is drawn by then.
+std::string to_bytes(JudgedScene scene, const CheckRules& rules);
+/// The places of what is worst refer to `words`.
+JudgedScene judged_scene_of(std::string_view bytes, const CheckRules& rules, std::set<std::string>& words);
+
+}  // namespace plumbline::cli

@@ -1,0 +1,49 @@
+// Renderers that crash, hang, take all memory or throw: a row each, and everything else is judged.
+#include "run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+const std::string kWindings = kScenes + "cull/both_windings.json";
+
+class FailingRenderers : public Cli {};
+
+TEST_F(FailingRenderers, are_rows_with_the_stage_that_was_running) {
+  const std::string limits = " --against exact --time-limit 10 --memory-limit 1024 ";
+  const std::pair<const char*, const char*> kEndings[] = {
+      {"throw", "vertex: a vertex too many"},
+      {"memory", "light: took more memory than a worker may have"},
+      {"crash", "clip: was killed by signal 11 (Segmentation fault)"},
+      {"hang", "window: took longer than 10s and was killed"}};
+  for (const auto& [fault, says] : kEndings) {
+    const Outcome check = plumb("check " + kWindings + limits + "--fault endings." + fault + " --json " + at("c.json"));
+    EXPECT_EQ(check.code, 1) << check.text;
+    EXPECT_TRUE(check.says("failed cull/both_windings: ours, " + std::string(says))) << check.text;
+    EXPECT_TRUE(check.says("repeat: ") && check.says(" --time-limit 10 --memory-limit 1024")) << check.text;
+    EXPECT_NE(read(at("c.json")).find("\"failed\""), std::string::npos) << "the run is written all the same";
+    const Outcome diagnosis = plumb("diagnose " + kWindings + limits + "--fault endings." + fault);
+    EXPECT_EQ(diagnosis.code, 1) << diagnosis.text;
+    const std::string stage = std::string(says).substr(0, std::string(says).find(':'));
+    EXPECT_TRUE(diagnosis.says("first different stage: " + stage + " (failed)")) << diagnosis.text;
+    EXPECT_TRUE(diagnosis.says("wrong by itself: " + stage + "\n")) << diagnosis.text;
+  }
+}
+
+TEST_F(FailingRenderers, are_judged_up_to_the_stage_that_fails) {
+  const Outcome run = plumb("check " + kWindings + " --against exact --fault endings.crash");
+  EXPECT_TRUE(run.says("exact from its records   light      equal")) << run.text;
+  EXPECT_TRUE(run.says("exact from its records   clip       unsupported")) << run.text;
+  EXPECT_TRUE(run.says("ours failed at stage clip")) << run.text;
+}
+
+TEST_F(FailingRenderers, leave_the_other_scenes_alone) {
+  const std::string two = kWindings + " " + kScenes + "scissor/windows.json";
+  const Outcome run = plumb("check " + two + " --against exact --fault endings.crash --jobs 2");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_TRUE(run.says("failed cull/both_windings: ours, clip: ")) << run.text;
+  EXPECT_TRUE(run.says("failed scissor/windows: ours, clip: ")) << run.text;
+  EXPECT_TRUE(run.says("FAILED: 2 scenes")) << run.text;
+}
+
+}  // namespace
+}  // namespace plumbline
