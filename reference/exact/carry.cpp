@@ -4,6 +4,7 @@
 #include "reference/exact/fragments.h"
 #include "reference/exact/input.h"
 #include "reference/exact/window.h"
+#include "reference/math/draw_ranges.h"
 #include "reference/math/light.h"
 #include "reference/math/matrices.h"
 #include "stages/seen_as.h"
@@ -22,7 +23,7 @@ glm::dvec4 at_vertex(Varying varying, const Mesh& mesh, const Vertex<double>& ve
 
 void light_varyings(const Scene& scene, const Records<double>& in, Records<double>& out) {
   const glm::dmat4 view = math::view_matrix(scene);
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const std::vector<DrawRange> ranges = math::ranges_of_draws(scene);
   for (const Varying v : carried(scene)) {
     std::vector<glm::dvec4>& column = out.varyings[v].vertices;
     column.assign(in.vertices.size(), glm::dvec4(0));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/exact/input.h"
+#include "reference/math/draw_ranges.h"
 
 namespace plumbline::exact {
 namespace {
@@ -91,7 +92,7 @@ Polygon clip_primitive(Topology topology, const std::array<ClipVertex<double>, 3
 ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Vertex<double>>& vertices,
                                      const std::vector<Lit<double>>& lit, bool flat_applies) {
   require_size("records.lit", lit.size(), vertices.size());
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const std::vector<DrawRange> ranges = math::ranges_of_draws(scene);
   ClipPolygons<double> out;
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const std::vector<glm::uvec3>& triangles = scene.meshes.at(scene.draws[d].mesh).triangles;

@@ -6,7 +6,7 @@
 #include "reference/exact/input.h"
 #include "reference/exact/line_coverage.h"
 #include "reference/exact/window.h"
-#include "scene/antialias.h"
+#include "reference/math/passes.h"
 #include "stages/renderer.h"
 
 namespace plumbline::exact {
@@ -33,7 +33,8 @@ int clamped(Int128 value, int low, int high) { return static_cast<int>(std::clam
 
 /// The corners counted from the sample of pixel (0, 0).
 std::array<glm::ivec2, 3> from_sample(std::array<glm::ivec2, 3> snapped, const FrameFormat& frame) {
-  for (glm::ivec2& corner : snapped) corner -= sample_place(frame);
+  const glm::ivec2 sample(static_cast<double>(kSubpixel) * math::sample_offset(frame));  // a whole number
+  for (glm::ivec2& corner : snapped) corner -= sample;
   return snapped;
 }
 

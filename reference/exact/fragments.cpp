@@ -1,12 +1,30 @@
 #include "reference/exact/fragments.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reference/exact/input.h"
-#include "scene/antialias.h"
+#include "reference/math/passes.h"
 
 namespace plumbline::exact {
 namespace {
+
+/// r of OpenGL 4.5, section 14.6.5: 2^(e - 23) of float depths, e the exponent of the largest corner's (normal) depth;
+/// of n-bit codes two steps 1 / (2^n - 1), as Mesa has it where OpenGL leaves it open.
+long double offset_unit(DepthFormat format, double largest_z) {
+  int bits = 0;
+  switch (format) {
+    case DepthFormat::z8: bits = 8; break;
+    case DepthFormat::z16: bits = 16; break;
+    case DepthFormat::z24: bits = 24; break;
+    case DepthFormat::z32f: {
+      int exponent = 0;  // largest_z is in [1/2, 1) * 2^exponent
+      std::frexp(std::max(largest_z, 0x1p-126), &exponent);
+      return std::ldexp(1.0L, exponent - 1 - 23);
+    }
+  }
+  return 2 / (std::ldexp(1.0L, bits) - 1);
+}
 
 /// OpenGL 2.1 spec, equations 3.10 to 3.13: m the larger of |dz/dx|, |dz/dy|.
 long double polygon_offset(DepthFormat format, const PolygonOffset& offset, const WindowTriangle<double>& triangle,
@@ -16,8 +34,7 @@ long double polygon_offset(DepthFormat format, const PolygonOffset& offset, cons
   const auto slope = weights.slope(z1 - z0, z2 - z0);
   const auto size = [](Float128 v) { return static_cast<long double>(v < 0 ? -v : v); };
   const long double m = std::max(size(slope[0]), size(slope[1]));
-  return m * offset.factor +
-         static_cast<long double>(polygon_offset_unit(format, std::max({z0, z1, z2}))) * offset.units;
+  return m * offset.factor + offset_unit(format, std::max({z0, z1, z2})) * offset.units;
 }
 
 }  // namespace
@@ -26,7 +43,7 @@ long double polygon_offset(DepthFormat format, const PolygonOffset& offset, cons
 DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
                      const Barycentric& weights) {
   DepthRule rule;
-  rule.place = glm::dvec2(sample_place(scene.frame)) / static_cast<double>(kSubpixel);
+  rule.place = math::sample_offset(scene.frame);
   rule.offset = polygon_offset(scene.frame.depth, draw.polygon_offset, triangle, weights);
   if (!scene.depth_clamp) return rule;
   const double near = draw.depth_range.near, far = draw.depth_range.far;

@@ -5,14 +5,52 @@
 
 #include "reference/exact/input.h"
 #include "reference/math/depth_format.h"
-#include "stages/fragment_outcomes.h"
 
 namespace plumbline::exact {
 
 using math::in_format;
-using math::passes;
 
 namespace {
+
+/// The comparisons in OpenGL's order are the sets of less (1), equal (2) and greater (4) at which they pass.
+bool passes(CompareFunc func, double a, double b) {
+  const int relation = a < b ? 1 : a == b ? 2 : a > b ? 4 : 0;
+  return func == CompareFunc::always || (static_cast<int>(func) & relation) != 0;
+}
+
+/// OpenGL 4.5, compatibility profile, section 17.3.4: both values in the frame's format.
+bool alpha_passes(const AlphaTest& test, ColorFormat format, double alpha) {
+  double codes = 0;
+  switch (format) {
+    case ColorFormat::rgba8: codes = 0xff; break;
+    case ColorFormat::rgba12: codes = 0xfff; break;
+    case ColorFormat::rgba16: codes = 0xffff; break;
+    case ColorFormat::rgba32f: return passes(test.func, alpha, test.reference);
+  }
+  const auto code = [&](double value) { return std::nearbyint(codes * std::min(std::max(value, 0.0), 1.0)); };
+  return passes(test.func, code(alpha), code(test.reference));
+}
+
+/// OpenGL 4.5, section 17.3.5.
+bool stencil_passes(const StencilFace& face, unsigned held) {
+  return passes(face.func, static_cast<unsigned>(face.reference) & face.mask, held & face.mask);
+}
+
+std::uint8_t stencil_value(const StencilFace& face, StencilOp op, unsigned held) {
+  unsigned value = held;
+  switch (op) {
+    case StencilOp::keep: break;
+    case StencilOp::zero: value = 0; break;
+    case StencilOp::replace: value = face.reference; break;
+    case StencilOp::increment: value = held == 255 ? 255 : held + 1; break;
+    case StencilOp::increment_wrap: value = held == 255 ? 0 : held + 1; break;
+    case StencilOp::decrement: value = held == 0 ? 0 : held - 1; break;
+    case StencilOp::decrement_wrap: value = held == 0 ? 255 : held - 1; break;
+    case StencilOp::invert: value = 255 - held; break;
+  }
+  const unsigned changed = (held ^ value) & face.write_mask;
+  return static_cast<std::uint8_t>(held ^ changed);
+}
 
 /// Calls visit(index of the fragment, the fragment, its primitive) for each fragment in draw order.
 template <class Visit>
@@ -66,14 +104,14 @@ TestedFrame::TestedFrame(const FrameFormat& frame)
 
 bool TestedFrame::test(const Fragment& f) {
   const Draw& draw = f.draw;
-  if (draw.alpha_test && !alpha_outcomes(*draw.alpha_test, color_, f.alpha, f.alpha).may_pass) return false;
+  if (draw.alpha_test && !alpha_passes(*draw.alpha_test, color_, f.alpha)) return false;
   const double incoming = in_format(format_, f.depth);  // equal codes are equal numbers
   const bool nearer = passes(draw.depth_func, incoming, depth_(f.x, f.y));
   if (draw.stencil) {
     const StencilFace& face = f.front ? draw.stencil->front : draw.stencil->back;
     std::uint8_t& held = stencil_(f.x, f.y);
     const bool passed = stencil_passes(face, held);
-    held = stencil_after(face, nearer, held);
+    held = stencil_value(face, !passed ? face.fail : nearer ? face.pass : face.depth_fail, held);
     if (!passed) return false;
   }
   if (nearer) store(f);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reference/exact/input.h"
+#include "reference/math/draw_ranges.h"
 #include "reference/math/light.h"
 #include "reference/math/matrices.h"
 
@@ -35,7 +36,7 @@ std::vector<Vertex<double>> transform_vertices(const Scene& scene, const std::ve
 
 std::vector<Lit<double>> light_vertices(const Scene& scene, const std::vector<Vertex<double>>& vertices) {
   const glm::dmat4 view = math::view_matrix(scene);
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const std::vector<DrawRange> ranges = math::ranges_of_draws(scene);
   require_size("records.vertices", vertices.size(),
                ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count);
   std::vector<Lit<double>> lit;

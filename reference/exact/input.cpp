@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/draw_of.h"
+#include "reference/math/draw_ranges.h"
 
 namespace plumbline::exact {
 
@@ -18,12 +18,12 @@ void require_index(std::string_view what, std::size_t is, std::size_t end) {
   if (is >= end) throw std::invalid_argument(fmt::format("exact: {} is {}, expected less than {}", what, is, end));
 }
 
-DrawOf::DrawOf(const Scene& scene) : scene_(scene), ranges_(draw_ranges(scene)) {}
+DrawOf::DrawOf(const Scene& scene) : scene_(scene), ranges_(math::ranges_of_draws(scene)) {}
 
 std::size_t DrawOf::index(std::uint32_t primitive) const {
   const std::size_t end = ranges_.empty() ? 0 : ranges_.back().first_primitive + ranges_.back().primitive_count;
   require_index("a primitive's number", primitive, end);
-  return draw_of(ranges_, primitive).value();
+  return math::draw_with(ranges_, primitive).value();
 }
 
 std::vector<FragmentRun> runs_by_triangle(const Scene& scene, const Records<double>& records) {

@@ -10,6 +10,25 @@
 
 namespace plumbline::math {
 
+namespace {
+
+/// r of OpenGL 4.5, section 14.6.5: of float depths the distance from the last float at or below z to the next one; of
+/// codes two steps, as Mesa has it where OpenGL leaves it open.
+double step_at(DepthFormat format, double z) {
+  switch (format) {
+    case DepthFormat::z8: return 2.0 / 0xff;
+    case DepthFormat::z16: return 2.0 / 0xffff;
+    case DepthFormat::z24: return 2.0 / 0xffffff;
+    case DepthFormat::z32f: break;
+  }
+  float below = static_cast<float>(std::max(z, 0.0));
+  if (below > 0 && static_cast<double>(below) > z) below = std::nextafter(below, 0.0f);
+  return static_cast<double>(std::nextafter(below, std::numeric_limits<float>::infinity())) -
+         static_cast<double>(below);
+}
+
+}  // namespace
+
 OffsetBounds polygon_offset(const Triangle& t, const PolygonOffset& offset, DepthFormat format) {
   if (offset == PolygonOffset{}) return {};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -25,7 +44,7 @@ OffsetBounds polygon_offset(const Triangle& t, const PolygonOffset& offset, Dept
     largest = std::min(largest, std::max(a, b) + corner_error);
     if (!t.cut) least = std::max(a, b) - corner_error;
   }
-  const double r_lo = polygon_offset_unit(format, std::max(least, 0.0)), r_hi = polygon_offset_unit(format, largest);
+  const double r_lo = step_at(format, least), r_hi = step_at(format, largest);
   OffsetBounds out{0.5 * units * (r_lo + r_hi), 0.5 * std::abs(units) * (r_hi - r_lo)};
   if (factor == 0) return out;
   const double m = scale * std::max(std::abs(t.z_plane.x), std::abs(t.z_plane.y));

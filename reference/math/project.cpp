@@ -7,10 +7,11 @@
 #include <unordered_map>
 
 #include "reference/math/color_error.h"
+#include "reference/math/draw_ranges.h"
 #include "reference/math/light.h"
 #include "reference/math/matrices.h"
+#include "reference/math/passes.h"
 #include "reference/math/polygon_offset.h"
-#include "scene/antialias.h"
 #include "stages/stages.h"
 
 namespace plumbline::math {
@@ -300,9 +301,9 @@ Projected project(const Scene& scene) {
   out.view = view_matrix(scene);
   out.depth_clamp = scene.depth_clamp;
   out.depth = scene.frame.depth;
-  out.sample = glm::dvec2(sample_place(scene.frame)) / static_cast<double>(kSubpixel);
+  out.sample = sample_offset(scene.frame);
   out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const std::vector<DrawRange> ranges = ranges_of_draws(scene);
   for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];
     add_corners(scene, draw, out);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/antialias.h"
+#include "reference/math/passes.h"
 
 namespace plumbline::math {
 
@@ -12,14 +12,12 @@ using Color = glm::dvec4;
 
 // Of codes, code by code: where a frame has codes their sums, weighted by integers, are exact, and so is which of two
 // codes is nearer.
-Color mean_codes(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples,
-                 const PixelSamples& of_pixel, int x, int y) {
+Color mean_codes(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples, int x, int y) {
   const double scale = color_scale(frame.color);
   Color sum(0);
   double weights = 0;
-  for (const PixelSample& s : of_pixel) {
-    const glm::ivec2 at = frame.antialias.factor * glm::ivec2(x, y) + s.offset;
-    const Color value(samples[s.pass](at.x, at.y));
+  for (const PixelShare& s : pixel_shares(frame.antialias, x, y)) {
+    const Color value(samples[s.pass](s.pixel.x, s.pixel.y));
     sum += static_cast<double>(s.weight) * (scale == 0 ? value : glm::round(value * scale));
     weights += s.weight;
   }
@@ -28,10 +26,9 @@ Color mean_codes(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& 
 
 template <class Finish>
 Plane<glm::vec4> each_pixel(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples, Finish finish) {
-  const PixelSamples of_pixel = samples_of(frame.antialias);
   Plane<glm::vec4> out(frame.width, frame.height);
   for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x) out(x, y) = glm::vec4(finish(mean_codes(frame, samples, of_pixel, x, y)));
+    for (int x = 0; x < frame.width; ++x) out(x, y) = glm::vec4(finish(mean_codes(frame, samples, x, y)));
   }
   return out;
 }
@@ -53,7 +50,7 @@ Capture capture_resolved(Renderer& renderer, const Scene& scene, const Request& 
   require_budget(scene, plane_bytes(scene), request.memory_budget);
   const Request planes{.records = {}, .legal = false, .primitives = {}, .pixels = {}};
   Capture out;
-  for (const Scene& pass : passes_of(scene)) {
+  for (const Scene& pass : pass_scenes(scene)) {
     Capture drawn = renderer.capture(pass, planes);
     if (out.samples.empty()) {
       out.renderer = drawn.renderer;

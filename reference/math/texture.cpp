@@ -46,6 +46,17 @@ double wrapped(Wrap wrap, double s, int size) {
   return s;
 }
 
+/// The border's colour as a texel of the format (OpenGL 4.5, compatibility profile, table 15.1).
+glm::dvec4 border_color(TextureFormat format, const glm::dvec4& border) {
+  const bool no_color = format == TextureFormat::alpha;
+  const bool gray = format == TextureFormat::luminance || format == TextureFormat::luminance_alpha ||
+                    format == TextureFormat::intensity;
+  const bool opaque = format == TextureFormat::luminance || format == TextureFormat::rgb;
+  const double alpha = format == TextureFormat::intensity ? border.r : opaque ? 1 : border.a;
+  if (no_color) return {0, 0, 0, alpha};
+  return gray ? glm::dvec4(border.r, border.r, border.r, alpha) : glm::dvec4(border.r, border.g, border.b, alpha);
+}
+
 /// A texel; one outside of the image is its neighbour around (repeat) or the border.
 glm::dvec4 texel(const Texture& texture, const TextureLevel& level, int i, int j) {
   const Sampler& s = texture.sampler;
@@ -56,7 +67,7 @@ glm::dvec4 texel(const Texture& texture, const TextureLevel& level, int i, int j
   };
   const int x = around(s.wrap_s, i, level.width), y = around(s.wrap_t, j, level.height);
   if (x < 0 || y < 0 || x >= level.width || y >= level.height) {
-    return glm::dvec4(source_components(texture.format, s.border));
+    return border_color(texture.format, glm::dvec4(s.border));
   }
   return glm::dvec4(level.at(x, y));
 }

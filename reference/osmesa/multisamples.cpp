@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "reference/math/passes.h"
 #include "reference/osmesa/default_state.h"
-#include "scene/antialias.h"
 #include "stages/renderer.h"
 #include "stages/stages.h"
 
 namespace plumbline::osmesa {
 namespace {
 
-constexpr GLsizei kCount = static_cast<GLsizei>(kSamples.size());
+constexpr GLsizei kCount = static_cast<GLsizei>(math::kSamplePositions.size());
 
 constexpr const char* kFetchSource =
     "#version 150 compatibility\n"
@@ -19,10 +19,10 @@ constexpr const char* kFetchSource =
     "void main() { gl_FragColor = texelFetch(samples, ivec2(gl_FragCoord.xy), number); }\n";
 
 void require_places(const Gl& gl) {
-  for (GLuint i = 0; i < kSamples.size(); ++i) {
+  for (GLuint i = 0; i < math::kSamplePositions.size(); ++i) {
     GLfloat is[2] = {0, 0};
     gl.GetMultisamplefv(GL_SAMPLE_POSITION, i, is);
-    const glm::dvec2 expected = glm::dvec2(kSamples[i]) / static_cast<double>(kSubpixel) + 0.5;
+    const glm::dvec2 expected = math::kSamplePositions[i];
     if (glm::dvec2(is[0], is[1]) == expected) continue;
     throw Unsupported(
         fmt::format("OpenGL has its sample {} at ({}, {}), not at ({}, {})", i, is[0], is[1], expected.x, expected.y));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "reference/math/draw_ranges.h"
 #include "reference/math/matrices.h"
 #include "reference/osmesa/fragment_state.h"
 #include "reference/osmesa/light_program.h"
@@ -131,7 +132,7 @@ SceneInGl::SceneInGl(const Gl& gl, const Scene& scene) : gl_(gl), scene_(scene),
     throw RendererFailed(fmt::format("{}: {} lights; OpenGL has {}", scene.name, scene.lights.size(), most));
   }
   for (const Draw& draw : scene.draws) require_whole(scene, draw);
-  ranges_ = draw_ranges(scene);
+  ranges_ = math::ranges_of_draws(scene);
   for (std::size_t i = 0; i < scene.draws.size(); ++i) {
     const Mesh& mesh = scene.meshes[scene.draws[i].mesh];
     matrices_.push_back(math::float_matrices(scene, scene.draws[i]));

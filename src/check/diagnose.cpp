@@ -9,9 +9,9 @@
 #include "check/coverage_differences.h"
 #include "check/failing_stage.h"
 #include "check/judge_passes.h"
+#include "check/passes.h"
 #include "check/repair.h"
 #include "check/worst_record.h"
-#include "scene/antialias.h"
 
 namespace plumbline::check {
 
@@ -51,6 +51,7 @@ struct Pass {
   SceneVerdict verdict;
   std::vector<Finding> findings;  // of the stages that are wrong by themselves
   std::optional<Finding> first;   // or, where there is none, of the first different stage
+  Plane<glm::vec4> color;         // the candidate's
   Capture repaired;               // what the candidate would have handed on, were its wrong stages right
 };
 
@@ -169,7 +170,8 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
 Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
              std::uint64_t most_fragments, Explain explain) {
   Drawn drawn;
-  Pass pass{judge(scene, candidate, references, &drawn, most_fragments), {}, {}, {}};
+  Pass pass{judge(scene, candidate, references, &drawn, most_fragments), {}, {}, {}, {}};
+  pass.color = drawn.candidate.planes.color;
   pass.repaired = std::move(drawn.candidate);
   Renderer* referee = referee_of(references);
   if (pass.repaired.width == 0) {  // it drew nothing
@@ -245,16 +247,18 @@ Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<con
   Diagnosis out;
   std::vector<Pass> passes;
   std::vector<SceneVerdict> verdicts;
-  const std::vector<Scene> scenes = passes_of(scene);
+  std::vector<Plane<glm::vec4>> colors;
+  const std::vector<Scene> scenes = pass_scenes(scene);
   for (const Scene& pass : scenes) {
     passes.push_back(look_at(pass, candidate, references, most_fragments / scenes.size(), explain));
     verdicts.push_back(passes.back().verdict);
+    colors.push_back(std::move(passes.back().color));
     if (!first) first = passes.back().first;
     std::ranges::move(passes.back().findings, std::back_inserter(out.findings));
   }
   const bool repaired = !out.findings.empty();
   Drawn drawn;
-  out.verdict = judge_resolved(scene, verdicts, candidate, references, &drawn);
+  out.verdict = judge_resolved(scene, verdicts, colors, candidate, references, &drawn);
   Renderer* referee = referee_of(references);
   if (referee == nullptr) return out;
   const Finder find{scene, *referee, explain};

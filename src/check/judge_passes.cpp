@@ -7,8 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "check/case.h"
+#include "check/compare_bits.h"
 #include "check/compare_words.h"
 #include "check/ledger.h"
+#include "check/passes.h"
 #include "scene/antialias.h"
 
 namespace plumbline::check {
@@ -153,14 +156,35 @@ Measurement compare_resolved(const Scene& scene, const Capture& candidate, const
   });
 }
 
+Measurement compare_samples(const Scene& scene, const Capture& candidate, std::span<const Plane<glm::vec4>> colors) {
+  if (candidate.samples.size() != colors.size()) {
+    return mismatch("samples",
+                    fmt::format("{} samples, the scene has {} passes", candidate.samples.size(), colors.size()),
+                    candidate.planes.color.size());
+  }
+  Measurement out;
+  for (std::size_t pass = 0; pass < colors.size(); ++pass) {
+    if (colors[pass].empty()) continue;  // its rows say why
+    Measurement m = compare_color_bits(candidate.samples[pass], colors[pass], scene.frame.color);
+    out = pass == 0 ? std::move(m) : worse(std::move(out), std::move(m));
+  }
+  return out;
+}
+
 SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                           Drawn* drawn) {
   std::vector<SceneVerdict> passes;
-  for (const Scene& pass : passes_of(scene)) passes.push_back(judge(pass, candidate, references));
-  return judge_resolved(scene, passes, candidate, references, drawn);
+  std::vector<Plane<glm::vec4>> colors;
+  for (const Scene& pass : pass_scenes(scene)) {
+    Drawn drawn_pass;
+    passes.push_back(judge(pass, candidate, references, &drawn_pass));
+    colors.push_back(std::move(drawn_pass.candidate.planes.color));
+  }
+  return judge_resolved(scene, passes, colors, candidate, references, drawn);
 }
 
-SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> passes, Renderer& candidate,
+SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> passes,
+                            std::span<const Plane<glm::vec4>> colors, Renderer& candidate,
                             std::span<const Reference> references, Drawn* drawn) {
   SceneVerdict verdict{scene.name, scene.path, joined(passes), 0};
   for (const SceneVerdict& pass : passes) verdict.seconds += pass.seconds;
@@ -184,9 +208,9 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
     try {
       if (is_exact(info) && mine) {
         const Capture made = renderer.run_stage(scene, Stage::resolve, *mine);
-        verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve,
-                                             compare_resolved(scene, *mine, made, tolerance("exact.resolve").factor),
-                                             "exact.resolve"));
+        Measurement m = compare_resolved(scene, *mine, made, tolerance("exact.resolve").factor);
+        if (candidate.info().paints) m = worse(std::move(m), compare_samples(scene, *mine, colors));
+        verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve, std::move(m), "exact.resolve"));
       }
       if (!info[Stage::resolve].shows) skip(name, Outcome::unsupported, info[Stage::resolve].reason);
       const bool compared = mine && info[Stage::resolve].shows && !is_exact(info);

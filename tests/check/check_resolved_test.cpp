@@ -55,6 +55,24 @@ TEST_F(Resolved, IsTheReferencesWhereTheSamplesAre) {
   EXPECT_FALSE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 2.00001)));
 }
 
+TEST_F(Resolved, SamplesAreThoseOfThePassesBitForBit) {
+  const auto holds = [&](const std::vector<double>& samples, const std::vector<double>& passes) {
+    return compare_samples(scene, of(samples, 0), of(passes, 0).samples).differing == 0;
+  };
+  EXPECT_TRUE(holds({1, 2, 3, 4}, {1, 2, 3, 4}));
+  EXPECT_FALSE(holds({1, 2, 3, 4}, {1, 2, 3, 4 + 1e-4}));
+  EXPECT_FALSE(holds({1, 2, 3, 4}, {2, 1, 3, 4})) << "in another order";
+  EXPECT_FALSE(holds({1, 2, 3, 4}, {1, 2, 3}));
+  EXPECT_FALSE(holds({1, 2, 3}, {1, 2, 3, 4}));
+  EXPECT_FALSE(holds({0, 2, 3, 4}, {-0.0, 2, 3, 4}));
+  EXPECT_FALSE(holds({std::nan(""), 2, 3, 4}, {1, 2, 3, 4}));
+  Capture passes = of({1, 2, 3, 4}, 0);
+  passes.samples[0] = Plane<glm::vec4>(1, 2);
+  EXPECT_GT(compare_samples(scene, of({1, 2, 3, 4}, 0), passes.samples).differing, 0u) << "of another size";
+  passes.samples[0] = {};  // not drawn: the passes' rows say so
+  EXPECT_EQ(compare_samples(scene, of({1, 2, 3, 4}, 0), passes.samples).differing, 0u);
+}
+
 TEST_F(Resolved, WhatDisputedSamplesAloneExplainIsDisputed) {
   const Capture mine = of({1, 2, 3, 4}, 2);
   Disputed disputed{{{}, {}, {}, {{0, 0}}}, "switched early"};
