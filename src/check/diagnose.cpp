@@ -28,8 +28,8 @@ bool is_wrong(const Comparison& c) { return c.outcome == Outcome::different || c
 
 // Whether the row judges its stage by itself.
 bool judges_alone(const Comparison& c) {
-  return c.reference.ends_with("from its records") || c.reference.ends_with(kRepaired) ||
-         c.reference.ends_with(kAtWorst) || (c.stage == Stage::matrices && c.reference.ends_with("from scene"));
+  return c.reference.ends_with(kFromRecords) || c.reference.ends_with(kRepaired) || c.reference.ends_with(kAtWorst) ||
+         (c.stage == Stage::matrices && c.reference.ends_with("from scene"));
 }
 
 // What a finding says beyond who judged and by how much.
@@ -270,14 +270,6 @@ Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<con
   }
   if (repaired && !resolve_wrong) judge_repaired_samples(find, passes, candidate, out);
   return out;
-}
-
-// Whether the stage does right by the candidate's own records. If all before it do so as well, what a reference has
-// against it is of a later one: from the scene, the depth stage is seen in the frame's last depths.
-bool holds_alone(const SceneVerdict& verdict, Stage stage) {
-  return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
-    return c.stage == stage && judges_alone(c) && !is_wrong(c) && c.outcome != Outcome::unsupported;
-  });
 }
 
 Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Reference> references,

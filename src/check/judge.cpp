@@ -217,7 +217,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
     const auto stage = static_cast<Stage>(i);
     const bool of_none = stage == Stage::matrices || stage == Stage::resolve;
     if (of_none || !info[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
-    const std::string name = info.name + " from its records";
+    const std::string name = fmt::format("{} {}", info.name, kFromRecords);
     if (const Ability* hidden = shown != nullptr ? first_hidden(scene, *shown, stage) : nullptr) {
       c.skip(name, stage, Outcome::unsupported, hidden->reason);
       continue;

@@ -64,12 +64,21 @@ Comparison not_judged(std::string scene, std::string reference, Stage stage, Out
   return {std::move(scene), std::move(reference), stage, outcome, {}, "", std::move(note)};
 }
 
+bool holds_alone(const SceneVerdict& verdict, Stage stage) {
+  return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
+    return c.stage == stage && c.reference.ends_with(kFromRecords) &&
+           (c.outcome == Outcome::equal || c.outcome == Outcome::within || c.outcome == Outcome::ambiguous_only);
+  });
+}
+
 const Comparison* first_different(const SceneVerdict& verdict) {
-  const Comparison* first = nullptr;
+  const Comparison *first = nullptr, *alone = nullptr;
   for (const Comparison& c : verdict.comparisons) {
-    if (c.outcome == Outcome::different && (first == nullptr || c.stage < first->stage)) first = &c;
+    if (c.outcome != Outcome::different) continue;
+    if (first == nullptr || c.stage < first->stage) first = &c;
+    if (c.reference.ends_with(kFromRecords) && (alone == nullptr || c.stage < alone->stage)) alone = &c;
   }
-  return first;
+  return alone != nullptr && holds_alone(verdict, first->stage) ? alone : first;
 }
 
 std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
@@ -77,8 +86,8 @@ std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const bool judged_by_any = std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
-      return c.stage == stage && votes(c) && c.outcome != Outcome::unsupported &&
-             c.outcome != Outcome::missing && c.outcome != Outcome::failed;
+      return c.stage == stage && votes(c) && c.outcome != Outcome::unsupported && c.outcome != Outcome::missing &&
+             c.outcome != Outcome::failed;
     });
     // Of a scene without textures, or that is not antialiased, nobody says anything of their stages.
     const bool of_some = stage == Stage::texture || stage == Stage::resolve;

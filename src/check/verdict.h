@@ -69,7 +69,15 @@ struct SceneVerdict {
   std::string repeat{};   ///< the command that repeats the failure
 };
 
-/// The first comparison, by stage, that is different; null if none. Of several at one stage, the first listed.
+/// Suffix of the references' names in rows that a reference makes of the candidate's own records.
+inline constexpr std::string_view kFromRecords = "from its records";
+/// Whether a row of that suffix finds nothing wrong with the stage.
+bool holds_alone(const SceneVerdict& verdict, Stage stage);
+
+/// The comparison to be named: the first by stage that is different; of several at one stage, the first listed. Null if
+/// none. Where its stage holds alone, the first stage that is different by the candidate's own records comes before it:
+/// planes of depth, colours and texels are the last winners', so that a wrong test of depths or stencil values, or a
+/// wrong frame, is seen in them, too.
 const Comparison* first_different(const SceneVerdict& verdict);
 
 /// The stages, but texture, that nobody judged: none compared them, or all that are there declined (`unsupported`).

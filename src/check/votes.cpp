@@ -10,13 +10,13 @@ namespace plumbline::check {
 
 namespace {
 
-constexpr std::string_view kFromScene = " from scene", kFromRecords = " from its records";
+constexpr std::string_view kFromScene = " from scene", kOfRecords = " from its records";
 
 }  // namespace
 
 std::string voter(const Comparison& row) {
   std::string name = row.reference;
-  for (const std::string_view kind : {kFromScene, kFromRecords}) {
+  for (const std::string_view kind : {kFromScene, kOfRecords}) {
     if (name.ends_with(kind)) name.resize(name.size() - kind.size());
   }
   return name;

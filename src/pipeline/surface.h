@@ -52,7 +52,7 @@ struct SurfaceAttributes {
 
 /// The triangle with a varying in the place of its colour.
 inline WindowTriangle<float> with_varying(WindowTriangle<float> triangle, const std::array<Vec4<float>, 3>& corners) {
-  for (std::size_t k = 0; k < 3; ++k) triangle.v[k].color = corners[k];
+  for (auto corner = corners.begin(); WindowVertex<float>& v : triangle.v) v.color = *corner++;
   return triangle;
 }
 

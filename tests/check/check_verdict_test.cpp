@@ -100,6 +100,27 @@ TEST(FirstDifferent, IsTheFirstStageNotTheFirstListed) {
   EXPECT_EQ(first_different(verdict), nullptr);
 }
 
+// The depths of the frame are the winners': a wrong test of depths shows in them.
+TEST(FirstDifferent, IsTheStageThatIsWrongAloneWhereThatOfThePlanesHolds) {
+  const Measurement bad = measured(1, 0, 0, 3), good = measured(0, 0, 0, 0);
+  const std::string alone = "exact from its records";
+  SceneVerdict verdict;
+  verdict.comparisons = {judged("s", "osmesa", Stage::depth, bad), judged("s", alone, Stage::depth, good),
+                         judged("s", alone, Stage::merge, bad), judged("s", alone, Stage::visibility, bad)};
+  EXPECT_EQ(first_different(verdict), &verdict.comparisons[3]);
+  EXPECT_TRUE(holds_alone(verdict, Stage::depth));
+  verdict.comparisons[1] = judged("s", alone, Stage::depth, bad);
+  EXPECT_EQ(first_different(verdict), &verdict.comparisons[0]) << "depth is wrong alone";
+  EXPECT_FALSE(holds_alone(verdict, Stage::depth));
+  verdict.comparisons[1] = not_judged("s", alone, Stage::depth, Outcome::unsupported, "");
+  EXPECT_EQ(first_different(verdict), &verdict.comparisons[0]) << "nobody judged depth alone";
+  verdict.comparisons[1] = judged("s", "osmesa from its planes", Stage::depth, good);
+  EXPECT_EQ(first_different(verdict), &verdict.comparisons[0]) << "who holds judged no records";
+  verdict.comparisons = {judged("s", "osmesa", Stage::depth, bad), judged("s", alone, Stage::depth, good),
+                         judged("s", "osmesa", Stage::merge, bad)};
+  EXPECT_EQ(first_different(verdict), &verdict.comparisons[0]) << "no stage is wrong alone";
+}
+
 Comparison declined(Stage stage) { return not_judged("s", "a", stage, Outcome::unsupported, "why"); }
 Comparison compared(Stage stage, std::uint64_t differing = 0) {
   return judged("s", "b", stage, measured(differing, 0, 0, static_cast<double>(differing)));
