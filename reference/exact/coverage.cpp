@@ -38,6 +38,12 @@ std::array<glm::ivec2, 3> from_sample(std::array<glm::ivec2, 3> snapped, const F
   return snapped;
 }
 
+/// The record's facing gives the edges their inner sides: where the corners turn the other way, no centre is on the
+/// inner side of all three. (The facing is stage 4's, which answers for it.)
+bool faces_as_recorded(const WindowTriangle<double>& triangle) {
+  return facing(snapped_corners(triangle)) == (triangle.front ? 1 : -1);
+}
+
 }  // namespace
 
 bool tie_is_in(std::int64_t de_dx, std::int64_t de_dy) { return de_dx != 0 ? de_dx > 0 : de_dy > 0; }
@@ -100,8 +106,10 @@ void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector
 
 void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, const Draw& draw,
                     std::uint32_t triangle, std::vector<Covered>& out) {
-  if (primitive.corners == 3)
+  if (primitive.corners == 3) {
+    if (!faces_as_recorded(primitive)) return;
     return append_covered(CoveredRows(snapped_corners(primitive), frame, draw), triangle, out);
+  }
   const int width = static_cast<int>(primitive.width);
   const std::vector<glm::ivec2> pixels =
       primitive.corners == 2

@@ -57,8 +57,8 @@ void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector
 void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, const Draw& draw,
                     std::uint32_t triangle, std::vector<Covered>& out);
 
-/// Stage 5, from the triangles' snapped corners alone: records.covered, planes.count and planes.id_sum into `out`.
-/// Throws OverBudget where they would take more than `budget` bytes.
+/// Stage 5, from the triangles' snapped corners and facings: records.covered, planes.count and planes.id_sum into
+/// `out`. Throws OverBudget where they would take more than `budget` bytes.
 void cover_triangles(const Scene& scene, const std::vector<WindowTriangle<double>>& triangles, std::size_t budget,
                      Capture& out);
 

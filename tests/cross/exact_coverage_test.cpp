@@ -48,6 +48,14 @@ TEST(ExactCoverage, LeftAndBottomEdgesAreIn) {
 )");
 }
 
+TEST(ExactCoverage, ATriangleFacedAgainstItsCornersCoversNothing) {
+  Records<double> in;
+  in.triangles = {snapped_triangle(centres({{{0, 0}, {4, 0}, {0, 4}}}))};
+  EXPECT_FALSE(run(scene_of(6, 5, 1), Stage::coverage, in).records.covered.empty());
+  in.triangles[0].front = false;
+  EXPECT_TRUE(run(scene_of(6, 5, 1), Stage::coverage, in).records.covered.empty());
+}
+
 TEST(ExactCoverage, RightAndTopEdgesAreOut) {
   EXPECT_EQ(picture(cover(6, 5, {centres({{{4, 0}, {4, 4}, {0, 4}}})})), R"(
 ......

@@ -38,11 +38,12 @@ inline WindowTriangle<double> window_triangle(const std::array<glm::dvec3, 3>& p
   return triangle;
 }
 
-/// A window triangle of snapped corners alone.
+/// A window triangle of snapped corners alone, faced by them.
 inline WindowTriangle<double> snapped_triangle(const std::array<glm::ivec2, 3>& corners, std::uint32_t primitive = 0) {
   WindowTriangle<double> triangle{};
   for (std::size_t i = 0; i < 3; ++i) triangle.v[i].snapped = corners[i];
   triangle.primitive = primitive;
+  triangle.front = exact::facing(corners) > 0;
   return triangle;
 }
 

@@ -172,6 +172,13 @@ void z_not_divided(const Matrices<float>& matrices, const Draw& draw, const Poly
   pipeline::to_window(matrices, draw, wrong, of_draw, out);
 }
 
+void facing_turned(const Matrices<float>& matrices, const Draw& draw, const Polygons& polygons,
+                   std::span<const ClipPolygon> of_draw, Triangles& out) {
+  const std::size_t first = out.size();
+  pipeline::to_window(matrices, draw, polygons, of_draw, out);
+  for (Triangle& t : std::span(out).subspan(first)) t.front = t.front != (t.corners == 3);
+}
+
 void diagonals_drawn(const Matrices<float>& matrices, const Draw& draw, const Polygons& polygons,
                      std::span<const ClipPolygon> of_draw, Triangles& out) {
   if (draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill)
@@ -226,6 +233,7 @@ constexpr std::array kPolygons = {
         "window.whole_rows", "corners' y are rounded to whole pixels, their x are not", "gonetz/GLideN64#1731"),
     of_window<snapped_otherwise<kHalfAPixelOff>>("window.half_pixel_off",
                                                  "corners lie half a pixel too far right and up"),
+    of_window<facing_turned>("window.facing_turned", "triangles whose corners are clockwise are front faces"),
     of_window<z_not_divided>("window.z_not_divided", "window z is not divided by w"),
     of_window<diagonals_drawn>("window.diagonals_drawn",
                                "the edges of a cut triangle's fan are drawn, not those of its polygon"),
