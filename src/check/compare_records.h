@@ -2,6 +2,8 @@
 // are proportional to; candidate and reference records are of the stage compared.
 #pragma once
 
+#include <span>
+
 #include "check/measure.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
@@ -33,11 +35,15 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
                                       double factor);
 
 /// p_win, 1/w and facing against the exact ones, `factor` u of the magnitudes; snapped positions are the rounding of
-/// the candidate's own p_win, exactly. Missing or extra triangles are legal where snapping may turn or empty them.
-Measurement compare_window(const Records<double>& candidate, const Records<double>& reference, double factor);
+/// the candidate's own p_win, exactly. Other facings, and missing or extra triangles, are legal where the candidate's
+/// clip polygons leave them open (legal_window.h); the colours are those of the face.
+Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor);
 /// Bit for bit (as floats), but 1/w, which has the tolerance osmesa.window. Colours are not compared: feedback has none
-/// of flat draws.
-Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference);
+/// of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h, turned_outlines):
+/// ambiguous.
+Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference,
+                                 std::span<const std::uint32_t> turned = {});
 
 /// The same fragments.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);

@@ -32,6 +32,12 @@ Measurement each(const char* what, const std::string& unit, std::size_t candidat
   return meter.done();
 }
 
+// Distance from |value| to the next float.
+inline double ulp(double value) {
+  const auto f = static_cast<float>(std::abs(value));
+  return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
+}
+
 // All entries of two vectors, the difference in units of `unit[c]`.
 template <int n>
 void add(Meter& meter, const glm::vec<n, double>& a, const glm::vec<n, double>& b, const glm::vec<n, double>& unit,

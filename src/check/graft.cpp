@@ -14,10 +14,12 @@ namespace {
 Measurement compare_varying(const Scene& scene, Stage stage, Varying v, const Records<double>& mine,
                             const Records<double>& theirs) {
   if (stage == Stage::light && !is_lit(v)) return compare_carried(v, mine, theirs);
-  const Records<double> a = seen_as(mine, v), b = seen_as(theirs, v);
+  Records<double> a = seen_as(mine, v);
+  const Records<double> b = seen_as(theirs, v);
+  if (v == Varying::secondary) a.varyings[Varying::back_color] = mine.varyings[Varying::back_secondary];
   if (stage == Stage::light) return compare_lit(scene, a, b, factor("exact.light"), {is_back(v), is_secondary(v)});
   if (stage == Stage::clip) return compare_polygons(scene, a, b, factor("exact.clip"), is_lit(v));
-  if (stage == Stage::window) return compare_window(a, b, factor("exact.window"));
+  if (stage == Stage::window) return compare_window(scene, a, b, factor("exact.window"));
   return compare_attributes(a, b, factor("exact.attributes"));
 }
 
@@ -60,7 +62,7 @@ void judge_made(Case& c, const Capture& made, Stage stage, const std::string& na
     case Stage::clip:
       return c.add(name, stage, varyings(compare_polygons(c.scene, mine, theirs, factor("exact.clip"))), "exact.clip");
     case Stage::window:
-      return c.add(name, stage, varyings(compare_window(mine, theirs, factor("exact.window"))), "exact.window");
+      return c.add(name, stage, varyings(compare_window(c.scene, mine, theirs, factor("exact.window"))), "exact.window");
     case Stage::coverage: {
       Measurement planes = compare_coverage(c.candidate.planes, made.planes);
       if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), "", std::string(kOverBudget));

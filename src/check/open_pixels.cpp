@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "check/fragment_bounds.h"
 #include "check/ledger.h"
@@ -101,8 +103,74 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) 
 
 namespace {
 
+// Takes the fragments of the wanted triangles out of the planes of coverage.
+class Removal {
+ public:
+  Removal(const Capture& from, Plane<std::uint8_t>& open) : open_(open) {
+    out_.planes.count = from.planes.count;
+    out_.planes.id_sum = from.planes.id_sum;
+    out_.records.triangles = from.records.triangles;
+    out_.records.covered = from.records.covered;
+  }
+  void add(const Covered& c, std::uint32_t primitive) {
+    if (c.x >= open_.width() || c.y >= open_.height() || out_.planes.count.size() != open_.size()) return;
+    open_(c.x, c.y) = 1;
+    out_.planes.count(c.x, c.y) -= 1;  // modulo 2^32, as the sum is modulo 2^64: what was never there shows
+    out_.planes.id_sum(c.x, c.y) -= id_weight(primitive);
+  }
+  // With the triangles of the primitives `turned` marked as of no corners.
+  Capture done(std::span<const std::uint32_t> turned) {
+    for (WindowTriangle<double>& t : out_.records.triangles) {
+      if (std::ranges::binary_search(turned, t.primitive)) t.corners = 0;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  Plane<std::uint8_t>& open_;
+  Capture out_;
+};
+
+// The triangles that are wanted, as a referee is asked about them.
+template <class Wanted>
+Capture triangles_alone(const Capture& from, const Wanted& wanted) {
+  Capture out;
+  out.width = from.width;
+  out.height = from.height;
+  std::ranges::copy_if(from.records.triangles, std::back_inserter(out.records.triangles), wanted);
+  return out;
+}
+
+}  // namespace
+
+BesideTurned beside_turned(const Scene& scene, const Capture& candidate, const Capture& reference,
+                           std::span<const std::uint32_t> turned, Renderer& referee) {
+  BesideTurned out{{}, {}, Plane<std::uint8_t>(scene.frame.width, scene.frame.height, 0)};
+  const auto is_turned = [&](const WindowTriangle<double>& t) {
+    return std::ranges::binary_search(turned, t.primitive);
+  };
+  const auto settled = [&](const WindowTriangle<double>& t) { return is_turned(t) && t.corners != 2; };
+  const auto remove = [&](Removal& from, const Capture& triangles) {
+    const Capture covers = referee.run_stage(scene, Stage::coverage, triangles);
+    for (const Covered& c : covers.records.covered) from.add(c, triangles.records.triangles[c.triangle].primitive);
+  };
+  Removal mine(candidate, out.open), theirs(reference, out.open);
+  remove(mine, triangles_alone(candidate, is_turned));
+  remove(theirs, triangles_alone(reference, settled));
+  for (const Covered& c : reference.records.covered) {
+    if (c.triangle >= reference.records.triangles.size()) continue;
+    const WindowTriangle<double>& t = reference.records.triangles[c.triangle];
+    if (is_turned(t) && t.corners == 2) theirs.add(c, t.primitive);
+  }
+  out.candidate = mine.done(turned);
+  out.reference = theirs.done(turned);
+  return out;
+}
+
+namespace {
+
 template <class T>
-void settle(Plane<T>& theirs, const Plane<T>& mine, const Plane<std::uint8_t>& open) {
+void settle_plane(Plane<T>& theirs, const Plane<T>& mine, const Plane<std::uint8_t>& open) {
   if (theirs.size() != open.size() || mine.size() != open.size()) return;
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (open.values()[i] != 0) theirs.values()[i] = mine.values()[i];
@@ -111,18 +179,22 @@ void settle(Plane<T>& theirs, const Plane<T>& mine, const Plane<std::uint8_t>& o
 
 }  // namespace
 
+std::uint64_t settle(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference) {
+  settle_plane(reference.id, candidate.id, open);
+  settle_plane(reference.stencil, candidate.stencil, open);
+  settle_plane(reference.texel, candidate.texel, open);
+  settle_plane(reference.shaded, candidate.shaded, open);
+  settle_plane(reference.color, candidate.color, open);
+  settle_plane(reference.depth, candidate.depth, open);
+  return static_cast<std::uint64_t>(std::ranges::count(open.values(), std::uint8_t{1}));
+}
+
 std::uint64_t settle_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
                            Capture& reference) {
   const bool in_float = stage == Stage::attributes || stage == Stage::shade || scene.frame.color == ColorFormat::rgba12;
   const auto open =
       open_by_alpha(scene, candidate, reference, in_float ? ColorFormat::rgba32f : scene.frame.color, factor);
-  Planes& theirs = reference.planes;
-  settle(theirs.id, candidate.planes.id, open);
-  settle(theirs.stencil, candidate.planes.stencil, open);
-  settle(theirs.shaded, candidate.planes.shaded, open);
-  settle(theirs.color, candidate.planes.color, open);
-  settle(theirs.depth, candidate.planes.depth, open);
-  return static_cast<std::uint64_t>(std::ranges::count(open.values(), std::uint8_t{1}));
+  return settle(open, candidate.planes, reference.planes);
 }
 
 }  // namespace plumbline::check

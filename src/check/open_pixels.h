@@ -2,8 +2,12 @@
 // planes may show something else, and both be right.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "scene/scene.h"
 #include "stages/capture.h"
+#include "stages/renderer.h"
 
 namespace plumbline::check {
 
@@ -16,10 +20,23 @@ bool tests_alpha(const Scene& scene);
 Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   ColorFormat theirs, double factor);
 
-/// 1 where some fragment's depth is so near to what the frame held that the bounds of compare_depth_planes, and what goes
-/// by the major axis (bounds.h), let its depth test come out otherwise: also of one that another hides later. Needs the
-/// candidate's records of stages 5, 6 and 10; without them nothing is open.
+/// 1 where some fragment's depth is so near to what the frame held that the bounds of compare_depth_planes, and what
+/// goes by the major axis (bounds.h), let its depth test come out otherwise: also of one that another hides later.
+/// Needs the candidate's records of stages 5, 6 and 10; without them nothing is open.
 Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate);
+
+/// Both sides' coverage without the outlines that each draws legally as another face (legal_window.h, turned_outlines),
+/// and the pixels that they cover on either side: 1. Of the candidate's outlines, and of the reference's points and
+/// filled faces, `referee` says what they cover; of the reference's lines, its own records.
+struct BesideTurned {
+  Capture candidate, reference;  ///< planes count and id_sum; records of window and coverage, outlines not among them
+  Plane<std::uint8_t> open;
+};
+BesideTurned beside_turned(const Scene& scene, const Capture& candidate, const Capture& reference,
+                           std::span<const std::uint32_t> turned, Renderer& referee);
+
+/// The reference's planes from texture on get the candidate's own values where `open` is 1; returns how many pixels.
+std::uint64_t settle(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference);
 
 /// An OpenGL renderer's planes get the candidate's own values where the pixel is open; returns how many are. It draws
 /// in the frame's format, or in float where it has none such, and the colours before merge in float always.

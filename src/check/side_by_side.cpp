@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "check/case.h"
 #include "check/compare_lines.h"
 #include "check/compare_planes.h"
 #include "check/compare_records.h"
 #include "check/compare_texels.h"
+#include "check/legal_window.h"
+#include "check/open_pixels.h"
 
 namespace plumbline::check {
 
@@ -13,11 +17,14 @@ namespace {
 // Whether a reference's coverage contradicts the window triangles that it hands out itself, and the candidate's follows
 // from them: exact arithmetic on the reference's own records is the third witness. (llvmpipe culls by the unsnapped
 // area as well, once anything in a batch is clipped.)
-bool contradicts_itself(Case& c, const Capture& theirs) {
+bool contradicts_itself(Case& c, const Capture& mine, const Capture& theirs) {
   if (c.referee == nullptr || theirs.records.triangles.empty()) return false;
+  Capture window;
+  std::ranges::copy_if(theirs.records.triangles, std::back_inserter(window.records.triangles),
+                       [](const WindowTriangle<double>& t) { return t.corners != 0; });  // those that were taken out
   try {
-    const Capture settled = c.referee->run_stage(c.scene, Stage::coverage, theirs);
-    return compare_coverage(c.candidate.planes, settled.planes).differing == 0;
+    const Capture settled = c.referee->run_stage(c.scene, Stage::coverage, window);
+    return compare_coverage(mine.planes, settled.planes).differing == 0;
   } catch (const std::exception&) {
     return false;  // nobody settled it; the referee's failure shows under its own name
   }
@@ -40,6 +47,17 @@ bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
   });
 }
 
+void compare_covers(Case& c, const Capture& mine, const Capture& theirs, const std::string& name) {
+  if (draws(c.scene, Topology::lines)) {
+    c.add(name, Stage::coverage, compare_covered_lines(mine, theirs, factor("osmesa.lines")), "osmesa.lines");
+  } else {
+    c.add(name, Stage::coverage, compare_coverage(mine.planes, theirs.planes));
+  }
+  if (c.out.back().outcome == Outcome::different && contradicts_itself(c, mine, theirs)) {
+    to_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
+  }
+}
+
 }  // namespace
 
 bool lacks_texels(const Case& c, Stage stage) {
@@ -47,7 +65,9 @@ bool lacks_texels(const Case& c, Stage stage) {
   return of_texels && textured(c.scene) && c.candidate.legal.texels.empty();
 }
 
-void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+namespace {
+
+void compare_stage(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
   const Records<double>& mine = c.candidate.records;
   switch (stage) {
     case Stage::matrices: return c.add(name, stage, compare_matrices_equal(mine, theirs.records));
@@ -59,19 +79,15 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
       return c.add(name, stage, compare_lit(c.scene, mine, theirs.records, factor("osmesa.light")), "osmesa.light");
     case Stage::clip:
       return c.add(name, stage, compare_polygon_positions(mine, theirs.records, factor("osmesa.clip")), "osmesa.clip");
-    case Stage::window: return c.add(name, stage, compare_window_equal(mine, theirs.records), "osmesa.window");
+    case Stage::window: {
+      const std::vector<std::uint32_t> turned = turned_outlines(c.scene, mine, theirs.records);
+      return c.add(name, stage, compare_window_equal(mine, theirs.records, turned), "osmesa.window");
+    }
     case Stage::coverage:
-      if (!draws(c.scene, Topology::lines)) {
-        c.add(name, stage, compare_coverage(c.candidate.planes, theirs.planes));
-      } else if (over_budget(c.candidate)) {
+      if (draws(c.scene, Topology::lines) && over_budget(c.candidate)) {
         return c.skip(name, stage, Outcome::unsupported, kOverBudget);
-      } else {
-        c.add(name, stage, compare_covered_lines(c.candidate, theirs, factor("osmesa.lines")), "osmesa.lines");
       }
-      if (c.out.back().outcome == Outcome::different && contradicts_itself(c, theirs)) {
-        to_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
-      }
-      return;
+      return compare_covers(c, c.candidate, theirs, name);
     case Stage::depth:
       if (!draws_depth_codes(c.scene, theirs)) {
         return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
@@ -136,6 +152,34 @@ void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string
     }
     case Stage::resolve: return;
   }
+}
+
+// Where snapping decides which face an outline is of, the two sides may draw different things (legal_window.h): they
+// are taken out of coverage; the planes after it are open where they lie. Exact judges them by the candidate's records.
+// False: there are none, or nobody says what they cover.
+bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+  const bool lines_untold = draws(c.scene, Topology::lines) && over_budget(c.candidate);
+  if (stage < Stage::coverage || c.referee == nullptr || lines_untold) return false;
+  const std::vector<std::uint32_t> turned = turned_outlines(c.scene, c.candidate.records, theirs.records);
+  if (turned.empty()) return false;
+  const BesideTurned beside = beside_turned(c.scene, c.candidate, theirs, turned, *c.referee);
+  const std::uint64_t before = c.open;
+  if (stage == Stage::coverage) {
+    c.open += turned.size();
+    compare_covers(c, beside.candidate, beside.reference, name);
+  } else {
+    Capture settled = theirs;
+    c.open += settle(beside.open, c.candidate.planes, settled.planes);
+    compare_stage(c, settled, stage, name);
+  }
+  c.open = before;
+  return true;
+}
+
+}  // namespace
+
+void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+  if (!compare_beside_turned(c, theirs, stage, name)) compare_stage(c, theirs, stage, name);
 }
 
 }  // namespace plumbline::check

@@ -194,6 +194,17 @@ void diagonals_drawn(const Matrices<float>& matrices, const Draw& draw, const Po
   pipeline::to_window(matrices, draw, fans, fans.polygons, out);
 }
 
+// An edge begins at the corner that it ends in, but the first.
+void edges_of_one_corner(const Matrices<float>& matrices, const Draw& draw, const Polygons& polygons,
+                         std::span<const ClipPolygon> of_draw, Triangles& out) {
+  const std::size_t first = out.size();
+  pipeline::to_window(matrices, draw, polygons, of_draw, out);
+  for (std::size_t i = first + 1; i < out.size(); ++i) {
+    Triangle& edge = out[i];
+    if (edge.corners == 2 && out[i - 1].primitive == edge.primitive) edge.v[0] = edge.v[1];
+  }
+}
+
 template <auto function>
 constexpr Fault of_clip(std::string_view name, std::string_view changes, std::string_view report = {}) {
   return {name, changes, Stage::clip, put<&Geometry::clip, function>, report};
@@ -237,6 +248,7 @@ constexpr std::array kPolygons = {
     of_window<z_not_divided>("window.z_not_divided", "window z is not divided by w"),
     of_window<diagonals_drawn>("window.diagonals_drawn",
                                "the edges of a cut triangle's fan are drawn, not those of its polygon"),
+    of_window<edges_of_one_corner>("window.edges_of_one_corner", "an edge begins at the corner that it ends in"),
 };
 
 }  // namespace
