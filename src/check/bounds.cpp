@@ -30,9 +30,9 @@ struct OfLine {
   double depth;
   Vec4<double> color;
 };
-OfLine at_share(const WindowTriangle<double>& t, double share) {
+OfLine at_share(const WindowTriangle<double>& t, double share, const DepthLimits& limits) {
   const double q0 = (1 - share) * t.v[0].inv_w, q1 = share * t.v[1].inv_w;
-  return {std::clamp((1 - share) * t.v[0].p_win.z + share * t.v[1].p_win.z, 0.0, 1.0),
+  return {std::clamp((1 - share) * t.v[0].p_win.z + share * t.v[1].p_win.z, limits.low, limits.high),
           (q0 * t.v[0].color + q1 * t.v[1].color) / (q0 + q1)};
 }
 
@@ -119,8 +119,10 @@ double gradient_bound(const WindowTriangle<double>& t, double f0, double f1, dou
 
 }  // namespace
 
-PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
-  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+namespace {
+
+// By these barycentrics at the pixel.
+PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, int x, int y) {
   const auto& v = t.v;
   double x0 = 0, y0 = 0, from_corner = 0;
   for (const auto& corner : v) {
@@ -128,7 +130,6 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
     y0 = std::max(y0, std::abs(corner.p_win.y));
     from_corner = std::max({from_corner, std::abs(x + 0.5 - corner.p_win.x), std::abs(y + 0.5 - corner.p_win.y)});
   }
-  const Vec2<double> e1 = cancelled_in(t).e1;
   // {value at the pixel, bound} of the plane through the corners' values.
   const auto plane = [&](double f0, double f1, double f2) {
     const Vec3<double> f(f0, f1, f2);
@@ -144,32 +145,54 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y) {
     const auto [q, e_q] = plane(v[0].color[c] * v[0].inv_w, v[1].color[c] * v[1].inv_w, v[2].color[c] * v[2].inv_w);
     out.color[c] = (e_q + std::abs(q / inv_w) * e_inv_w) / std::abs(inv_w);
   }
-  if (t.corners != 2) return out;
+  return out;
+}
+
+// A line's by the place on the major axis alone; the share of its second end is value[1].
+Barycentrics along_major(const WindowTriangle<double>& t, const Vec2<double>& e1, int x, int y) {
   const int major = std::abs(e1.x) >= std::abs(e1.y) ? 0 : 1;
-  if (e1[major] == 0) return out;
-  const double share = ((major == 0 ? x : y) + 0.5 - v[0].p_win[major]) / e1[major];
-  const OfLine projected = at_share(t, b.value[1]), along = at_share(t, share);
+  const double share = ((major == 0 ? x : y) + 0.5 - t.v[0].p_win[major]) / e1[major], slope = 1 / e1[major];
+  const Vec3<double> gradient(-slope, slope, 0);
+  return {{1 - share, share, 0}, major == 0 ? gradient : Vec3<double>(0), major == 0 ? Vec3<double>(0) : gradient};
+}
+
+}  // namespace
+
+DepthLimits depth_limits(const Scene& scene, const std::vector<DrawRange>& ranges, std::int32_t primitive) {
+  const auto draw = draw_of(ranges, static_cast<std::uint32_t>(primitive));
+  if (!scene.depth_clamp || !draw) return {};
+  const auto [low, high] = std::minmax(scene.draws[*draw].depth_range.near, scene.draws[*draw].depth_range.far);
+  return {low, high};
+}
+
+PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y, const DepthLimits& limits) {
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  PlaneBounds out = bounds_by(t, b, x, y);
+  if (t.corners != 2) return out;
+  const Vec2<double> e1 = cancelled_in(t).e1;
+  if (e1 == Vec2<double>(0)) return out;
+  const Barycentrics by_major = along_major(t, e1, x, y);
+  const PlaneBounds along_bounds = bounds_by(t, by_major, x, y);
+  out.depth = std::max(out.depth, along_bounds.depth);
+  out.color = glm::max(out.color, along_bounds.color);
+  const OfLine projected = at_share(t, b.value[1], limits), along = at_share(t, by_major.value[1], limits);
   out.along_depth = along.depth - projected.depth;
   out.along_color = along.color - projected.color;
   return out;
 }
 
-namespace {
-
-// A primitive's window triangles.
-std::span<const WindowTriangle<double>> records_of(const Records<double>& r, std::int32_t primitive) {
+std::span<const WindowTriangle<double>> triangles_of(const Records<double>& r, std::int32_t primitive) {
   const auto number = [](const WindowTriangle<double>& t) { return static_cast<std::int32_t>(t.primitive); };
   const auto run = std::ranges::equal_range(r.triangles, primitive, {}, number);
   return {run.begin(), run.end()};
 }
 
-}  // namespace
-
-PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, int x, int y) {
+PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, int x, int y,
+                             const DepthLimits& limits) {
   PlaneBounds out{1, Vec4<double>(1)};
   double nearest = std::numeric_limits<double>::infinity();
-  for (const WindowTriangle<double>& t : records_of(r, primitive)) {
-    const PlaneBounds b = bounds_from_origin(t, x, y);
+  for (const WindowTriangle<double>& t : triangles_of(r, primitive)) {
+    const PlaneBounds b = bounds_from_origin(t, x, y, limits);
     out.depth = std::max(out.depth, b.depth);
     out.color = glm::max(out.color, b.color);
     const double distance = distance_from_line(t, x + 0.5, y + 0.5);
@@ -224,16 +247,45 @@ double OffsetErrors::of(const Records<double>& r, std::int32_t primitive) const 
   return most;
 }
 
-std::vector<EdgeValue> edge_values(const Records<double>& r, std::int32_t primitive, int x, int y) {
+std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges, int x, int y,
+                                   const DepthLimits& limits) {
   std::vector<EdgeValue> out;
-  for (const WindowTriangle<double>& t : records_of(r, primitive)) {
+  for (const WindowTriangle<double>& t : edges) {
     if (t.corners != 2 || distance_from_line(t, x + 0.5, y + 0.5) > t.width + 2.0) continue;
-    const OfLine projected = at_share(t, along_line(t, x + 0.5, y + 0.5).value[1]);
-    const PlaneBounds along = bounds_from_origin(t, x, y);
+    const OfLine projected = at_share(t, along_line(t, x + 0.5, y + 0.5).value[1], limits);
+    const PlaneBounds along = bounds_from_origin(t, x, y, limits);
     out.push_back({projected.depth, projected.color});
     out.push_back({projected.depth + along.along_depth, projected.color + along.along_color});
   }
   if (out.size() <= 2) out.clear();
+  return out;
+}
+
+namespace {
+
+// Whether a point covers the pixel: the square about the nearest centre (odd sizes) or corner of pixels (stages.h, 5).
+bool covers(const WindowTriangle<double>& point, int x, int y) {
+  const Vec2<double> p = Vec2<double>(point.v[0].snapped) / static_cast<double>(kSubpixel) + 0.5;
+  const Vec2<double> middle = point.width % 2 == 1 ? glm::floor(p) + 0.5 : glm::floor(p + 0.5);
+  const Vec2<double> off = glm::abs(Vec2<double>(x + 0.5, y + 0.5) - middle);
+  return std::max(off.x, off.y) < point.width / 2.0;
+}
+
+}  // namespace
+
+std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corners, int x, int y, double tie) {
+  std::vector<EdgeValue> there, out;
+  for (const WindowTriangle<double>& t : corners) {
+    if (t.corners == 1 && covers(t, x, y)) there.push_back({t.v[0].p_win.z, t.v[0].color});
+  }
+  // A point has no slopes: z0 brought to the origin and back, four roundings of |z| each.
+  const auto ties = [&](const EdgeValue& a, const EdgeValue& b) {
+    return std::abs(a.depth - b.depth) <= tie + 4 * kUnitRoundoff * (std::abs(a.depth) + std::abs(b.depth));
+  };
+  for (const EdgeValue& value : there) {
+    if (std::ranges::count_if(there, [&](const EdgeValue& other) { return ties(value, other); }) > 1)
+      out.push_back(value);
+  }
   return out;
 }
 

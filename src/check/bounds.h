@@ -2,6 +2,7 @@
 // formula in double. u = 2^-24 is the unit roundoff of float. Factors stand in the ledger.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "scene/scene.h"
@@ -62,13 +63,24 @@ struct PlaneBounds {
   Vec4<double> along_color{0};
 };
 
+/// The range that depths are clamped to: the format's, or the draw's (scene.h, depth_clamp).
+struct DepthLimits {
+  double low = 0, high = 1;
+};
+DepthLimits depth_limits(const Scene& scene, const std::vector<DrawRange>& ranges, std::int32_t primitive);
+
 /// For a renderer that evaluates a = a0 + da/dx x + da/dy y in float from the window's origin, as llvmpipe does:
 /// |a|max + |da/dx| (x + x0) + |da/dy| (y + y0), x0, y0 the triangle's farthest corner, and the gradients' own error,
 /// by the inverse of the area, times the distance from the corners; for colour the same of c/w and of 1/w, joined by
-/// the division: (E(c/w) + |c| E(1/w)) w.
-PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y);
+/// the division: (E(c/w) + |c| E(1/w)) w. Of a line the larger of both formulas' (PlaneBounds): where 1/w differs much
+/// between its ends, the second errs by another |c/w| over another 1/w.
+PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y, const DepthLimits& limits = {});
 /// The largest over a primitive's triangles, at least 1.
-PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y);
+PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,
+                             const DepthLimits& limits = {});
+
+/// A primitive's window triangles.
+std::span<const WindowTriangle<double>> triangles_of(const Records<double>& records, std::int32_t primitive);
 
 /// What a polygon offset adds to the bound of a depth, times u, for a renderer that finds the slope in float and adds
 /// the offset to the corners' depths: the slope's own error (bounds_from_origin's of a gradient) and four roundings of
@@ -92,7 +104,13 @@ struct EdgeValue {
   double depth;
   Vec4<double> color;
 };
-std::vector<EdgeValue> edge_values(const Records<double>& records, std::int32_t primitive, int x, int y);
+std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges, int x, int y,
+                                   const DepthLimits& limits = {});
+
+/// What a pixel may hold where corners of a triangle that is not filled are drawn over each other: those of the points
+/// there whose depths are no more than `tie` and their errors apart, so that either may hide the other. Empty where
+/// there are none such.
+std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corners, int x, int y, double tie);
 
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
 /// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two

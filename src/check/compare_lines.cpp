@@ -165,6 +165,7 @@ Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, c
     return mismatch("pixels", why, mine.id.size());
   }
   const OffsetErrors offsets(scene);
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
   const Plane<std::uint8_t> open =
       mine.stencil.empty() ? Plane<std::uint8_t>() : open_by_depth(scene, candidate);  // hidden fragments count too
   return compare_planes(mine.id, theirs.id, "pixels", [&](Meter& meter, int x, int y) {
@@ -179,10 +180,11 @@ Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, c
     double off = 0;
     for (const std::int32_t primitive : {a, b}) {
       if (primitive == kBackground) continue;
-      const PlaneBounds bounds = primitive_bounds(candidate.records, primitive, x, y);
+      const DepthLimits limits = depth_limits(scene, ranges, primitive);
+      const PlaneBounds bounds = primitive_bounds(candidate.records, primitive, x, y, limits);
       const double offset = offsets.of(candidate.records, primitive);
       double by_edge = 0;  // where edges of one triangle meet, either may have won
-      const std::vector<EdgeValue> edges = edge_values(candidate.records, primitive, x, y);
+      const std::vector<EdgeValue> edges = edge_values(triangles_of(candidate.records, primitive), x, y, limits);
       for (const EdgeValue& edge : edges) by_edge = std::max(by_edge, std::abs(edge.depth - edges.front().depth));
       off = std::max(off, factor * kUnitRoundoff * (bounds.depth + offset) + std::abs(bounds.along_depth) + by_edge);
     }

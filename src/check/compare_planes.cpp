@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "check/fragment_bounds.h"
 #include "check/ledger.h"
 #include "check/open_pixels.h"
+#include "scene/draw_of.h"
 
 namespace plumbline::check {
 
@@ -43,6 +45,15 @@ Vec4<double> codes_of(const Vec4<double>& color, double scale) {
 double cleared_codes(const FrameFormat& frame, int channel) {
   const double scale = color_scale(frame.color), code = scale * static_cast<double>(frame.clear_color[channel]);
   return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? 1 : 0;
+}
+
+// Values of the winner's edges or corners that another renderer may hold at the pixel.
+std::vector<EdgeValue> values_beside(const Scene& scene, const Capture& candidate, std::int32_t id, int x, int y) {
+  const auto triangles = triangles_of(candidate.records, id);
+  std::vector<EdgeValue> out = edge_values(triangles, x, y);
+  const std::vector<EdgeValue> tied = tied_corners(triangles, x, y, depth_step(scene.frame.depth, 1));
+  out.insert(out.end(), tied.begin(), tied.end());
+  return out;
 }
 
 // What colours of the frame are told apart in.
@@ -98,12 +109,93 @@ Measurement compare_winners(const Planes& candidate, const Planes& reference, co
   });
 }
 
+namespace {
+
+// Where a winner leaves depths in place (depth_mask): how far another renderer's depth may be from the one that a
+// fragment beneath it left. That fragment's own edges and formulas count, and, where a depth test is open
+// (open_pixels.h), those of fragments that either may have hidden.
+class DepthsBeneath {
+ public:
+  DepthsBeneath(const Scene& scene, const Capture& candidate, const std::vector<DrawRange>& ranges)
+      : scene_(scene),
+        records_(depths_replace(scene) ? none_ : candidate.records),
+        ranges_(ranges),
+        fragments_(DrawnAt::covered(scene.frame, records_)),
+        offsets_(scene) {
+    known_ = records_.drawn.size() == records_.covered.size() && records_.depth.size() == records_.covered.size();
+    if (known_ && !records_.covered.empty()) open_ = open_by_depth(scene, candidate);
+  }
+  // visit(how far from z, bound times u), where a fragment left z.
+  template <class Visit>
+  void each(int x, int y, double z, double factor, Visit visit) const {
+    if (!known_) return;
+    const auto leaves = [&](std::size_t i) {
+      const auto draw = draw_of(ranges_, triangle_of(i).primitive);
+      return draw && scene_.draws[*draw].merge.depth_mask;
+    };
+    std::optional<Values> left;
+    fragments_.each(x, y, [&](std::size_t i) {
+      if (records_.drawn[i].drawn && records_.depth[i] == z && leaves(i)) left = values(i, x, y);
+    });
+    if (!left) return;
+    const auto [left_low, left_high] = std::ranges::minmax(left->depths);
+    fragments_.each(x, y, [&](std::size_t i) {
+      if (!leaves(i)) return;
+      const Values of = values(i, x, y);
+      const double reach = factor * u * (left->bound + of.bound) + depth_step(scene_.frame.depth, z);
+      const auto [low, high] = std::ranges::minmax(of.depths);
+      const bool tied = open_(x, y) != 0 && low <= left_high + reach && high >= left_low - reach;
+      if (records_.depth[i] != z && !tied) return;
+      for (const double depth : of.depths) visit(depth - z, of.bound);
+    });
+  }
+
+ private:
+  struct Values {
+    std::vector<double> depths;
+    double bound;
+  };
+  const WindowTriangle<double>& triangle_of(std::size_t i) const {
+    return records_.triangles[records_.covered[i].triangle];
+  }
+  Values values(std::size_t i, int x, int y) const {
+    const WindowTriangle<double>& triangle = triangle_of(i);
+    const auto primitive = static_cast<std::int32_t>(triangle.primitive);
+    const DepthLimits limits = depth_limits(scene_, ranges_, primitive);
+    const PlaneBounds bounds = bounds_from_origin(triangle, x, y, limits);
+    Values out{{records_.depth[i], records_.depth[i] + bounds.along_depth}, bounds.depth + offsets_.of(triangle)};
+    for (const EdgeValue& edge : edge_values(triangles_of(records_, primitive), x, y, limits)) {
+      out.depths.push_back(edge.depth);
+    }
+    return out;
+  }
+
+  const Scene& scene_;
+  const Records<double> none_;
+  const Records<double>& records_;
+  const std::vector<DrawRange>& ranges_;
+  DrawnAt fragments_;
+  OffsetErrors offsets_;
+  Plane<std::uint8_t> open_;
+  bool known_ = false;
+};
+
+}  // namespace
+
 Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
                                  double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
-  const Records<double> none;
-  const DrawnAt drawn(scene.frame, depths_replace(scene) ? none : candidate.records);  // else any may have left it
   const OffsetErrors offsets(scene);
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const DepthsBeneath beneath(scene, candidate, ranges);
+  std::string why;
+  const bool told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why) &&
+                    same_size(a.count, b.count, why) && same_size(a.count, a.id, why);
+  // Of other fragments (lines' may lie beside each other), one that the winner leaves in place may have left its depth:
+  // coverage's matter.
+  const auto others_left_it = [&](int x, int y) {
+    return told && !depths_replace(scene) && (a.id_sum(x, y) != b.id_sum(x, y) || a.count(x, y) != b.count(x, y));
+  };
   return where_winners_agree(a, b, &Planes::depth, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const double z = a.depth(x, y), z_ref = b.depth(x, y);
     const Place place{x, y, id, "z"};
@@ -111,18 +203,17 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
       meter.value(difference(z, z_ref) / u, 0, place, z, z_ref);
       return;
     }
-    const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y);
+    if (others_left_it(x, y)) return open_value(meter, z, place, z_ref);
+    const DepthLimits limits = depth_limits(scene, ranges, id);
+    const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y, limits);
     double bound = bounds.depth + offsets.of(candidate.records, id),
            diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));
-    for (const EdgeValue& edge : edge_values(candidate.records, id, x, y)) {
+    for (const EdgeValue& edge : edge_values(triangles_of(candidate.records, id), x, y, limits)) {
       diff = std::min(diff, difference(edge.depth, z_ref));
     }
-    drawn.each(x, y, [&](std::size_t i) {
-      const Records<double>& r = candidate.records;
-      const WindowTriangle<double>& triangle = r.triangles[r.covered[i].triangle];
-      const PlaneBounds of_other = bounds_from_origin(triangle, x, y);
-      bound = std::max(bound, of_other.depth + offsets.of(triangle));
-      diff = std::min(diff, difference(z + of_other.along_depth, z_ref));
+    beneath.each(x, y, z, factor, [&](double apart, double its_bound) {
+      bound = std::max(bound, its_bound);
+      diff = std::min(diff, difference(z + apart, z_ref));
     });
     if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
     const double step = depth_step(scene.frame.depth, z_ref);
@@ -141,7 +232,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
     }
     const FragmentBound bound = bounds.of_winner(id, x, y);
     meter.suspect(bound.reason);
-    const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
+    const std::vector<EdgeValue> edges = values_beside(scene, candidate, id, x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
       if (!std::isfinite(bound.color[c])) {
@@ -166,7 +257,7 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
     const FragmentBound fragment = cleared ? FragmentBound{} : bounds.of_winner(id, x, y);
     const Vec4<double> bound = fragment.color + fragment.apart;
     meter.suspect(fragment.reason);
-    const std::vector<EdgeValue> edges = edge_values(candidate.records, id, x, y);
+    const std::vector<EdgeValue> edges = values_beside(scene, candidate, id, x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
       if (!std::isfinite(bound[c])) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "check/compare_words.h"
 #include "check/ledger.h"
@@ -68,12 +69,31 @@ std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<
 
 }  // namespace
 
-DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r) : width_(frame.width), records_(r) {
-  if (r.drawn.size() != r.covered.size()) return;
+namespace {
+
+// Numbers of the fragments that are `wanted`; none of a triangle that is not there.
+template <class Wanted>
+std::vector<std::size_t> fragments_of(const Records<double>& r, const Wanted& wanted) {
+  std::vector<std::size_t> out;
   for (std::size_t i = 0; i < r.covered.size(); ++i) {
-    if (r.drawn[i].drawn && r.covered[i].triangle < r.triangles.size()) fragments_.push_back(i);
+    if (r.covered[i].triangle < r.triangles.size() && wanted(i)) out.push_back(i);
   }
+  return out;
+}
+
+}  // namespace
+
+DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r, std::vector<std::size_t> fragments)
+    : width_(frame.width), records_(r), fragments_(std::move(fragments)) {
   std::ranges::stable_sort(fragments_, {}, [&](std::size_t i) { return pixel(i); });
+}
+
+DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r)
+    : DrawnAt(frame, r,
+              fragments_of(r, [&](std::size_t i) { return r.drawn.size() == r.covered.size() && r.drawn[i].drawn; })) {}
+
+DrawnAt DrawnAt::covered(const FrameFormat& frame, const Records<double>& r) {
+  return {frame, r, fragments_of(r, [](std::size_t) { return true; })};
 }
 
 FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, const Capture& reference, double factor)
@@ -139,12 +159,37 @@ Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
   const auto triangle = as_color(i, v);
   if (!triangle) return Vec4<double>(std::numeric_limits<double>::infinity());
   const PlaneBounds plane = bounds_from_origin(*triangle, c.x, c.y);
+  const Vec4<double> beside = by_other_edges(i, &records_.varyings[v]);
   const auto& vertices_apart = v == Varying::position    ? eye_apart_
                                : v == Varying::normal    ? normals_apart_
                                : v == Varying::secondary ? secondary_apart_
                                                          : kNowhere;
-  return factor_ * u * plane.color + glm::abs(plane.along_color) +
+  return factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), beside) +
          apart(triangle->primitive, vertices_apart, is_lit(v));
+}
+
+Vec4<double> FragmentBounds::by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const {
+  const Covered& c = records_.covered[i];
+  const WindowTriangle<double>& own = records_.triangles[c.triangle];
+  Vec4<double> most(0);
+  if (own.corners == 3 || scene_.meshes[draw_of(own.primitive).mesh].topology != Topology::triangles) return most;
+  const auto of_primitive = triangles_of(records_, static_cast<std::int32_t>(own.primitive));
+  std::vector<WindowTriangle<double>> edges(of_primitive.begin(), of_primitive.end());
+  const auto first = static_cast<std::size_t>(of_primitive.data() - records_.triangles.data());
+  for (std::size_t k = 0; columns != nullptr && k < edges.size(); ++k) {
+    if (first + k >= columns->triangles.size()) return Vec4<double>(std::numeric_limits<double>::infinity());
+    for (std::size_t corner = 0; corner < 3; ++corner) edges[k].v[corner].color = columns->triangles[first + k][corner];
+  }
+  std::vector<EdgeValue> values = edge_values(edges, c.x, c.y);
+  const std::vector<EdgeValue> tied = tied_corners(edges, c.x, c.y, depth_step(scene_.frame.depth, 1));
+  values.insert(values.end(), tied.begin(), tied.end());
+  if (values.empty()) return most;
+  const WindowTriangle<double>& here = edges[c.triangle - first];
+  const Vec4<double> mine = color_of_plane(here, c.x, c.y).value;
+  for (const EdgeValue& value : values) most = glm::max(most, glm::abs(value.color - mine));
+  for (const WindowTriangle<double>& edge : edges)
+    most = glm::max(most, factor_ * u * bounds_from_origin(edge, c.x, c.y).color);
+  return most;
 }
 
 OpenShare FragmentBounds::open_texels(std::size_t i) const {
@@ -173,7 +218,8 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Draw& draw = scene_.draws[number];
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   FragmentFours errors;
-  errors.color = factor_ * u * plane.color + glm::abs(plane.along_color) + apart(triangle.primitive, lit_apart_, true);
+  errors.color = factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), by_other_edges(i, nullptr)) +
+                 apart(triangle.primitive, lit_apart_, true);
   for (const Varying v : kAllVaryings) {
     if (!is_back(v) && carries(scene_, draw, v)) errors[v] = varying_error(i, v);
   }

@@ -19,6 +19,8 @@ namespace plumbline::check {
 class DrawnAt {
  public:
   DrawnAt(const FrameFormat& frame, const Records<double>& records);
+  /// Hidden ones too.
+  static DrawnAt covered(const FrameFormat& frame, const Records<double>& records);
   /// Calls visit(number of the fragment) for each of them at (x, y), in draw order.
   template <class Visit>
   void each(int x, int y, Visit visit) const {
@@ -33,6 +35,7 @@ class DrawnAt {
   std::int64_t pixel(std::size_t i) const {
     return std::int64_t{records_.covered[i].y} * width_ + records_.covered[i].x;
   }
+  DrawnAt(const FrameFormat& frame, const Records<double>& records, std::vector<std::size_t> fragments);
   int width_;
   const Records<double>& records_;
   std::vector<std::size_t> fragments_;
@@ -69,6 +72,9 @@ class FragmentBounds {
   /// The fragment's triangle, a varying's corners for its colours; none: nothing can be said.
   std::optional<WindowTriangle<double>> as_color(std::size_t i, Varying v) const;
   Vec4<double> varying_error(std::size_t i, Varying v) const;
+  /// How far the values of other edges or corners of the fragment's triangle that the pixel may hold (bounds.h,
+  /// EdgeValue) are from its own: of the columns' varying, or of the colour.
+  Vec4<double> by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const;
 
   const Scene& scene_;
   const Records<double>& records_;

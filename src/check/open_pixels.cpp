@@ -59,13 +59,15 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
 namespace {
 
 // How far a reference's depth of a fragment may be from the candidate's.
-double depth_error(const Records<double>& r, const OffsetErrors& offsets, std::size_t fragment) {
+double depth_error(const Records<double>& r, const OffsetErrors& offsets, std::size_t fragment,
+                   const DepthLimits& limits) {
   const Covered& c = r.covered[fragment];
   const WindowTriangle<double>& triangle = r.triangles[c.triangle];
-  const PlaneBounds bounds = bounds_from_origin(triangle, c.x, c.y);
+  const PlaneBounds bounds = bounds_from_origin(triangle, c.x, c.y, limits);
   double by_edge = 0;  // where edges of one triangle meet, either may be the fragment's
   if (triangle.corners == 2) {
-    const auto edges = edge_values(r, static_cast<std::int32_t>(triangle.primitive), c.x, c.y);
+    const auto primitive = static_cast<std::int32_t>(triangle.primitive);
+    const auto edges = edge_values(triangles_of(r, primitive), c.x, c.y, limits);
     for (const EdgeValue& edge : edges) by_edge = std::max(by_edge, std::abs(edge.depth - edges.front().depth));
   }
   return tolerance("osmesa.depth").factor * kUnitRoundoff * (bounds.depth + offsets.of(triangle)) +
@@ -92,7 +94,10 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) 
     if (!number) continue;
     const Draw& draw = scene.draws[*number];
     Held& before = held(c.x, c.y);
-    const double z = r.depth[i], error = depth_error(r, offsets, i);
+    const double z = r.depth[i],
+                 error = depth_error(
+                     r, offsets, i,
+                     depth_limits(scene, ranges, static_cast<std::int32_t>(r.triangles[c.triangle].primitive)));
     const bool compares = draw.depth_func != DepthFunc::always && draw.depth_func != DepthFunc::never;
     const double apart = std::abs(z - before.z);
     if (compares && !(apart > error + before.error + depth_step(scene.frame.depth, z))) open(c.x, c.y) = 1;

@@ -145,15 +145,91 @@ TEST(CheckLines, edges_of_one_triangle_are_told_apart) {
   EXPECT_FALSE(passes(compare_covered_lines(mine, drawn({kFlat}, {kFlatPixels}), 1)));
 }
 
+TEST(CheckLines, bounds_hold_for_the_place_along_the_major_axis) {
+  // 1/w falls to a hundredth along a diagonal line: a pixel to its right lies further along by the major axis than by
+  // projection, where the same error of 1/w is of a larger share.
+  WindowTriangle<double> line = line_of({0.5, 0.5}, {16.5, 15.5}, 1);
+  line.v[0].inv_w = 1;
+  line.v[1].inv_w = line.v[2].inv_w = 0.01;
+  WindowTriangle<double> upright = line;  // of the same share by projection, no other by an axis
+  const PlaneBounds far = bounds_from_origin(line, 15, 8);
+  const glm::dvec2 p(15.5, 8.5), a(line.v[0].p_win), d = glm::dvec2(line.v[1].p_win) - a;
+  const double share = glm::dot(p - a, d) / glm::dot(d, d);
+  upright.v[1].p_win = upright.v[2].p_win = {16.5, 0.5, line.v[1].p_win.z};
+  const PlaneBounds near = bounds_from_origin(upright, static_cast<int>(16 * share), 0);
+  EXPECT_GT(far.color.r, 1.5 * near.color.r);
+}
+
+TEST(CheckLines, depths_along_a_line_end_where_the_range_clamps_them) {
+  WindowTriangle<double> line = line_of({2.5, 2.5}, {6.5, 4.5}, 1);
+  line.v[0].p_win.z = 0.5;
+  line.v[1].p_win.z = line.v[2].p_win.z = 0.56;
+  const double beyond = bounds_from_origin(line, 7, 2).along_depth;  // share 5/4
+  const double clamped = bounds_from_origin(line, 7, 2, {0.5, 0.56}).along_depth;
+  const double projected = 0.5 + 0.06 * (5 * 4 + 0 * 2) / 20.0;
+  EXPECT_NEAR(beyond, 0.575 - projected, 1e-12);
+  EXPECT_NEAR(clamped, 0, 1e-12) << "both are 0.56";
+  Scene scene;
+  scene.meshes.resize(1);
+  scene.meshes[0].triangles.resize(2);
+  scene.draws.resize(1);
+  scene.draws[0].depth_range.near = 0.75f;
+  scene.draws[0].depth_range.far = 0.25f;
+  EXPECT_EQ(depth_limits(scene, draw_ranges(scene), 1).high, 1) << "not clamped";
+  scene.depth_clamp = true;
+  EXPECT_EQ(depth_limits(scene, draw_ranges(scene), 1).low, 0.25);
+  EXPECT_EQ(depth_limits(scene, draw_ranges(scene), 1).high, 0.75);
+}
+
+TEST(CheckLines, corners_drawn_over_each_other_tie_within_a_step) {
+  const auto point = [](double x, double z) {
+    WindowTriangle<double> t = line_of({x, 4.5}, {x, 4.5}, 1);
+    t.corners = 1;
+    t.width = 3;
+    for (auto& v : t.v) v.p_win.z = z;
+    return t;
+  };
+  const std::vector<WindowTriangle<double>> corners = {point(4.5, 0.5), point(5.5, 0.501), point(6.5, 0.75)};
+  EXPECT_EQ(tied_corners(corners, 5, 4, 1.0 / 255).size(), 2u);
+  EXPECT_TRUE(tied_corners(corners, 5, 4, 0x1p-24).empty()) << "told apart by 24 bits";
+  EXPECT_TRUE(tied_corners(corners, 7, 4, 1.0 / 255).empty()) << "one alone";
+  EXPECT_TRUE(tied_corners(corners, 5, 6, 1.0 / 255).empty()) << "beside their squares";
+}
+
+TEST(CheckLines, other_fragments_may_have_left_the_depth_that_a_winner_leaves) {
+  Scene scene;
+  scene.frame.depth = DepthFormat::z32f;
+  Capture mine = drawn({kFlat}, {kFlatPixels}), theirs = mine;
+  const int width = mine.planes.count.width(), height = mine.planes.count.height();
+  scene.frame.width = width;
+  scene.frame.height = height;
+  scene.meshes.resize(1);
+  scene.meshes[0].triangles.resize(2);
+  scene.draws.resize(1);
+  for (Capture* c : {&mine, &theirs}) {
+    c->planes.id = Plane<std::int32_t>(width, height, 1);
+    c->planes.depth = Plane<double>(width, height, 0.5);
+  }
+  theirs.planes.depth(1, 1) = 0.25;
+  theirs.planes.count(1, 1) += 1;
+  EXPECT_FALSE(passes(compare_depth_planes(scene, mine, theirs, 4))) << "the winner's depth is its own";
+  scene.draws[0].merge.depth_mask = false;
+  EXPECT_TRUE(passes(compare_depth_planes(scene, mine, theirs, 4)));
+  EXPECT_EQ(compare_depth_planes(scene, mine, theirs, 4).ambiguous, 1u);
+  theirs.planes.count(1, 1) -= 1;
+  EXPECT_FALSE(passes(compare_depth_planes(scene, mine, theirs, 4))) << "of the same fragments";
+}
+
 TEST(CheckLines, where_edges_meet_either_may_have_been_drawn_last) {
   const WindowTriangle<double> second = line_of({6.5, 4.5}, {6.5, 8.5}, 1);
   const Records<double> one = drawn({kFlat}, {{}}).records, two = drawn({kFlat, second}, {{}, {}}).records;
-  EXPECT_TRUE(edge_values(one, 1, 6, 4).empty()) << "a line alone";
-  EXPECT_EQ(edge_values(two, 1, 6, 4).size(), 4u);
-  EXPECT_TRUE(edge_values(two, 1, 2, 3).empty()) << "the other edge is far";
-  EXPECT_TRUE(edge_values(two, 2, 6, 4).empty()) << "another primitive's";
-  EXPECT_NEAR(edge_values(two, 1, 6, 4)[0].depth, 0.75, 1e-12);  // the end of one, the beginning of the other
-  EXPECT_NEAR(edge_values(two, 1, 6, 4)[2].depth, 0.25, 1e-12);
+  EXPECT_TRUE(edge_values(triangles_of(one, 1), 6, 4).empty()) << "a line alone";
+  EXPECT_EQ(edge_values(triangles_of(two, 1), 6, 4).size(), 4u);
+  EXPECT_TRUE(edge_values(triangles_of(two, 1), 2, 3).empty()) << "the other edge is far";
+  EXPECT_TRUE(edge_values(triangles_of(two, 2), 6, 4).empty()) << "another primitive's";
+  EXPECT_NEAR(edge_values(triangles_of(two, 1), 6, 4)[0].depth, 0.75,
+              1e-12);  // the end of one, the beginning of the other
+  EXPECT_NEAR(edge_values(triangles_of(two, 1), 6, 4)[2].depth, 0.25, 1e-12);
   Scene scene;
   scene.frame.depth = DepthFormat::z32f;
   Capture mine = drawn({kFlat, second}, {{}, {{6, 4}}}), theirs = mine;
