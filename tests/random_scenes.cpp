@@ -147,10 +147,11 @@ class Shrinker {
     const Json value = scene_[place];
     if (!value.is_structured()) return;
     if (value.is_array() && !value.empty() && value[0].is_number()) return;  // a vector
+    if (value.contains("width")) return;                                     // a frame, an image
     for (std::size_t i = value.size(); i-- > 0;) {
       const std::string key =
           value.is_array() ? std::to_string(i) : std::next(value.begin(), static_cast<long>(i)).key();
-      if (key == "description" || key == "mesh") continue;
+      if (key == "description" || key == "mesh" || key == "frame") continue;
       Json next = scene_;
       if (value.is_array()) {
         next[place].erase(i);

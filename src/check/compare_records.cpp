@@ -12,6 +12,10 @@ namespace plumbline::check {
 
 namespace {
 
+// Bound on an entry's error before it is rounded to float, in proportion to its column: rounding in double, and entries
+// below 1e-12 become 0.
+constexpr double kDoubleError = 1e-12;
+
 template <class Matrix, class Unit>
 void add_entries(Meter& meter, const Matrix& a, const Matrix& b, Unit unit, double factor, const Place& place) {
   for (int column = 0; column < Matrix::length(); ++column) {
@@ -45,14 +49,15 @@ Measurement compare_matrices_by(const Records<double>& candidate, const Records<
 
 }  // namespace
 
-Measurement compare_matrices_equal(const Records<double>& candidate, const Records<double>& reference) {
-  return compare_matrices_by(candidate, reference, false, "ULP", 0, [](double value, double) { return ulp(value); });
+Measurement compare_rounded_matrices(const Records<double>& candidate, const Records<double>& reference,
+                                     double factor) {
+  return compare_matrices_by(candidate, reference, false, "1e-12", factor,
+                             [](double, double largest) { return kDoubleError * std::max(1.0, largest); });
 }
 
 Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor) {
-  // 1e-12, in proportion to the column, is what rounding in double and setting small entries to 0 may do.
   return compare_matrices_by(candidate, reference, true, "half ULP", factor, [](double value, double largest) {
-    return 0.5 * ulp(value) + 1e-12 * std::max(1.0, largest);
+    return 0.5 * ulp(value) + kDoubleError * std::max(1.0, largest);
   });
 }
 

@@ -10,8 +10,9 @@
 
 namespace plumbline::check {
 
-/// Bit for bit, but for the normal matrix, which OpenGL keeps inside.
-Measurement compare_matrices_equal(const Records<double>& candidate, const Records<double>& reference);
+/// Against matrices that were rounded to float, too; not the normal matrix, which OpenGL keeps inside. Unit: 1e-12 of
+/// the column's largest entry, or of 1.
+Measurement compare_rounded_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
 /// Against unrounded matrices.
 Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
 

@@ -28,13 +28,13 @@ TEST(RandomScenes, HoldAgainstAllReferences) {
   }
 }
 
-// A finding's file is the scene, up to triangles of no area, which the format refuses.
+// A finding's file is the scene, up to what the format refuses: triangles of no area, coordinates beyond 1e6.
 TEST(RandomScenes, AreWrittenAsTheyAre) {
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("plumb-random-{}", getpid());
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Scene scene = random_scene(seed);
     for (Mesh& mesh : scene.meshes) {
-      for (glm::vec3& p : mesh.positions) p = glm::clamp(p, -1e6f, 1e6f);  // the format's range
+      for (glm::vec3& p : mesh.positions) p = glm::clamp(p, -1e6f, 1e6f);
       std::erase_if(mesh.triangles, [](glm::uvec3 t) { return t.x == t.y || t.y == t.z || t.z == t.x; });
       if (mesh.triangles.empty()) mesh.triangles = {{0, 1, 2}};
     }

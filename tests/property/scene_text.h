@@ -94,13 +94,15 @@ inline std::string transform(const Transform& t) {
   return fmt::format(R"({{"rotate": {{"degrees": {}, "axis": {}}}}})", by.degrees, vector(by.axis));
 }
 
-/// Triangles of three different corners; where there is none, one of no area that a triangle of the mesh had.
+/// In the format's limits: coordinates up to 1e6, triangles of three different corners. Where there is none, one of no
+/// area.
 inline std::string mesh(const Mesh& m) {
   std::vector<glm::uvec3> triangles;
   for (const glm::uvec3& t : m.triangles) {
     if (t.x != t.y && t.y != t.z && t.z != t.x) triangles.push_back(t);
   }
   std::vector<glm::vec3> positions = m.positions;
+  for (glm::vec3& p : positions) p = glm::clamp(p, -1e6f, 1e6f);
   if (triangles.empty()) {
     triangles.emplace_back(0, 1, 2);
     std::fill_n(positions.begin(), 3, m.positions.at(m.triangles.at(0).x));
@@ -172,7 +174,6 @@ inline std::string projection(const Projection& p) {
 
 }  // namespace text
 
-/// Coordinates beyond what the format allows are written as they are: the file is then refused.
 inline std::string scene_text(const Scene& s, std::string_view description) {
   std::vector<std::string> lights, draws;
   for (const Light& l : s.lights) lights.push_back(text::light(l));
