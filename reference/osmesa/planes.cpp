@@ -84,6 +84,8 @@ Plane<std::int32_t> draw_tested_ids(const Gl& gl, const SceneInGl& scene, const 
     target.bind();
     scene.clear(glm::vec4(0));
     set_lights(gl, scene.scene());
+    // A separate specular term would be added to the numbers, GL_COLOR_SUM or not (OpenGL 2.1, section 3.9).
+    gl.LightModeli(GL_LIGHT_MODEL_COLOR_CONTROL, GL_SINGLE_COLOR);
     for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
       scene.set_matrices(i);
       scene.set_fragments(i);

@@ -50,6 +50,18 @@ TEST(OsmesaPlanes, IdIsTheNearestPrimitive) {
   EXPECT_EQ(planes.id_sum(6, 4), 0u);
 }
 
+// Numbers are drawn lit where alpha is tested: a separate specular term must not be added to them.
+TEST(OsmesaPlanes, IdUnderAlphaTestKnowsNoSeparateSpecularTerm) {
+  Scene scene = pixel_scene(4, 3);
+  scene.light_model.separate_specular = true;
+  scene.lights.emplace_back();  // from +z, white
+  add(scene, triangle({-1, -1, 0}, {9, -1, 0}, {-1, 9, 0}));
+  scene.draws.back().lit = true;
+  scene.draws.back().material.specular = {0.25f, 0.5f, 0.75f, 1};
+  scene.draws.back().alpha_test = AlphaTest{CompareFunc::greater, 0.5f};
+  EXPECT_EQ(picture(planes_of(scene).id, kBackground), (Picture{"0000", "0000", "0000"}));
+}
+
 TEST(OsmesaPlanes, IdSumAddsEveryPrimitiveOfALargeNumber) {
   Scene scene = pixel_scene(3, 2);
   Mesh mesh;
