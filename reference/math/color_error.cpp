@@ -24,13 +24,13 @@ double largest(const glm::dvec4& material, const glm::vec3& light) {
   return std::max({c.r, c.g, c.b});
 }
 
-/// x^s, and how far it moves where x moves by `error`: a power is monotonic, so the ends of the interval tell. A float
-/// pow: 32 u.
+/// x^s, and its change where x changes by `error`: a power is monotonic, so the interval's ends bound it. A float pow:
+/// 32 u. Finite, as in light(): an infinite power times a specular colour of 0 would leave no bound.
 struct Power {
   double value, error;
 };
 Power power(double x, double s, double error) {
-  const auto at = [&](double t) { return std::pow(std::max(t, 0.0), s); };
+  const auto at = [&](double t) { return std::min(std::pow(std::max(t, 0.0), s), 1e100); };
   const double value = at(x);
   return {value, std::max(at(x + error) - value, value - at(x - error)) + 32 * kFloatRounding * at(x + error)};
 }

@@ -31,7 +31,7 @@ double share_at(const Light& light, const glm::dmat4& view, glm::dvec3 vp) {
   return attenuation * std::pow(std::max(0.0, cosine), static_cast<double>(light.spot->exponent));
 }
 
-/// What the specular term takes to the power of the shininess.
+/// Argument of the specular term's power.
 double highlight(const LightModel& model, glm::dvec3 n, glm::dvec3 l, glm::dvec3 e) {
   switch (model.specular) {
     case LightModel::Specular::half_vector: return std::max(0.0, glm::dot(n, unit_of(l + e)));
@@ -39,6 +39,10 @@ double highlight(const LightModel& model, glm::dvec3 n, glm::dvec3 l, glm::dvec3
   }
   return 0;
 }
+
+/// x^s, finite: a normal as it is may be so long that the power is beyond double, and 0 times infinity no number. At
+/// 1e300 any colour above 1e-200, by any share above 1e-100, comes to more than 1, to which the sum is clamped.
+double finite_power(double x, double s) { return std::min(std::pow(x, s), 1e300); }
 
 }  // namespace
 
@@ -60,8 +64,8 @@ glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, const glm::
     glm::dvec3 color = ambient * glm::dvec3(source.ambient);
     if (reached && n_dot_vp > 0) {  // else the diffuse term is clamped to 0, and the specular one has f = 0
       color += n_dot_vp * diffuse * glm::dvec3(source.diffuse);
-      color +=
-          std::pow(highlight(model, n, to_light, to_eye), material.shininess) * specular * glm::dvec3(source.specular);
+      color += finite_power(highlight(model, n, to_light, to_eye), material.shininess) *
+               (specular * glm::dvec3(source.specular));
     }
     rgb += share * color;
   }

@@ -123,6 +123,7 @@ namespace {
 
 // By these barycentrics at the pixel.
 PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, int x, int y) {
+  constexpr double kFlushed = kFlushedUnderflow / kUnitRoundoff;
   const auto& v = t.v;
   double x0 = 0, y0 = 0, from_corner = 0;
   for (const auto& corner : v) {
@@ -136,14 +137,14 @@ PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, in
     const double d_dx = std::abs(glm::dot(b.d_dx, f)), d_dy = std::abs(glm::dot(b.d_dy, f));
     const double gradient_error = gradient_bound(t, f0, f1, f2, std::max(d_dx, d_dy));
     return std::pair(glm::dot(b.value, f), std::max({std::abs(f0), std::abs(f1), std::abs(f2)}) + d_dx * (x + x0) +
-                                               d_dy * (y + y0) + gradient_error * from_corner);
+                                               d_dy * (y + y0) + gradient_error * from_corner + kFlushed);
   };
   PlaneBounds out;
   out.depth = 1 + plane(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z).second;
   const auto [inv_w, e_inv_w] = plane(v[0].inv_w, v[1].inv_w, v[2].inv_w);
   for (int c = 0; c < 4; ++c) {
     const auto [q, e_q] = plane(v[0].color[c] * v[0].inv_w, v[1].color[c] * v[1].inv_w, v[2].color[c] * v[2].inv_w);
-    out.color[c] = (e_q + std::abs(q / inv_w) * e_inv_w) / std::abs(inv_w);
+    out.color[c] = (e_q + std::abs(q / inv_w) * e_inv_w) / std::abs(inv_w) + kFlushed;
   }
   return out;
 }

@@ -12,6 +12,21 @@ namespace plumbline::check {
 
 inline constexpr double kUnitRoundoff = 1.0 / 16777216.0;
 
+/// Absolute error of one rounding below float's smallest normal number, 2^-126, where u of the number is too little.
+/// Gradual underflow (IEEE 754, 7.5): half of the smallest step, 2^-149. Flushed: numbers below 2^-126 become 0, as
+/// operands and as results; Mesa sets the processor so for its vertices and for llvmpipe (util_fpstate).
+inline constexpr double kGradualUnderflow = 0x1p-150, kFlushedUnderflow = 0x1p-126;
+
+/// Roundings of a stage in float: `count` of them, and the renderer's underflow.
+struct Roundings {
+  double count;
+  double underflow = kGradualUnderflow;
+  /// Error of a result whose terms come to `magnitude`. A sum of nothing but zeros is not rounded.
+  double operator()(double magnitude) const {
+    return magnitude == 0 ? 0 : count * (kUnitRoundoff * magnitude + underflow);
+  }
+};
+
 /// |M| |p|: what the rounding errors of M p are proportional to.
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
 
@@ -38,6 +53,9 @@ struct LightBounds {
   Vec3<double> jump{0};
   /// Per channel, what the inputs' errors come to, to which the magnitude knows nothing.
   Vec3<double> inherited{0};
+  /// Per channel: a specular term of 0 with a power that may be beyond float, of which a renderer that does not limit
+  /// its power makes 0 times infinity.
+  glm::bvec3 overflows{false};
 };
 /// How far position and normal (in length), and the material's colours that follow the vertex', may be off.
 struct LightInputs {
@@ -73,7 +91,8 @@ DepthLimits depth_limits(const Scene& scene, const std::vector<DrawRange>& range
 /// |a|max + |da/dx| (x + x0) + |da/dy| (y + y0), x0, y0 the triangle's farthest corner, and the gradients' own error,
 /// by the inverse of the area, times the distance from the corners; for colour the same of c/w and of 1/w, joined by
 /// the division: (E(c/w) + |c| E(1/w)) w. Of a line the larger of both formulas' (PlaneBounds): where 1/w differs much
-/// between its ends, the second errs by another |c/w| over another 1/w.
+/// between its ends, the second errs by another |c/w| over another 1/w. Each of these three results may be flushed to
+/// zero besides.
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y, const DepthLimits& limits = {});
 /// The largest over a primitive's triangles, at least 1.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,

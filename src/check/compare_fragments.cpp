@@ -69,8 +69,7 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
           }
           return;
         }
-        // Below the smallest normal number a rounding is half of float's smallest step.
-        add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound + 0x1p-150, factor,
+        add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound + kGradualUnderflow, factor,
             {c.x, c.y, c.triangle, "color"});
       });
 }
@@ -89,7 +88,7 @@ Measurement compare_shaded(const Scene& scene, const Records<double>& candidate,
         while (d + 1 < ranges.size() && primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
         if (d >= scene.draws.size() || is_plain(scene, scene.draws[d]))
           return add(meter, a, b, Vec4<double>(u), 0, place);
-        const Vec4<double> bound = shade_error(scene, scene.draws[d], fours_of(candidate, i), {}, 1);
+        const Vec4<double> bound = shade_error(scene, scene.draws[d], fours_of(candidate, i), {}, {1});
         if (!std::isfinite(bound.x)) {  // a light may come or go
           meter.ambiguous();
           for (int k = 0; k < 4; ++k) meter.value(a[k] >= 0 && a[k] <= 1 ? 0 : kInfinite, 0, place, a[k], b[k]);

@@ -97,7 +97,7 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
 }
 
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                        double factor, LitPart part) {
+                        double factor, LitPart part, const FloatRange& range) {
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   std::size_t d = 0;
   if (candidate.vertices.size() != candidate.lit.size()) {
@@ -112,7 +112,9 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
     const Place place{-1, -1, static_cast<std::int64_t>(i), "color"};
     const Vec4<double>&a = candidate.lit[i].color, &b = reference.lit[i].color;
     if (!is_lit_per_vertex(draw)) {
-      add(meter, a, b, Vec4<double>(u), 0, place);
+      for (int c = 0; c < 4; ++c) {
+        meter.value(difference(a[c], b[c]) / u, 0, place, a[c], b[c], range.underflow / u);
+      }
       return;
     }
     const Mesh& mesh = scene.meshes[draw.mesh];
@@ -125,6 +127,7 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
     if (bounds.jump != Vec3<double>(0) || !std::isfinite(bounds.magnitude.x)) meter.ambiguous();
     for (int c = 0; c < 4; ++c) {
       const double magnitude = c < 3 ? bounds.magnitude[c] : 1, jump = c < 3 ? bounds.jump[c] : 0;
+      meter.suspect(c < 3 && bounds.overflows[c] ? range.overflow : "");
       if (std::isfinite(magnitude)) {
         const double unit = u * magnitude;
         meter.value(difference(a[c], b[c]) / unit, factor, place, a[c], b[c], (jump + turned * magnitude) / unit);

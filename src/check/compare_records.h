@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "check/bounds.h"
 #include "check/measure.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
@@ -21,9 +22,14 @@ enum class Inversion { in_double, in_float };
 /// p_eye, p_clip: `positions` u of their magnitudes; n_eye: `normals` u of theirs, by how the reference inverts.
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double positions, double normals, Inversion inversion = Inversion::in_double);
+/// How a reference's float arithmetic ends at both ends of its range.
+struct FloatRange {
+  double underflow = kGradualUnderflow;
+  std::string_view overflow = {};  ///< why a channel whose power overflows (LightBounds) is its fault; empty: it is not
+};
 /// Colours; what the two sides' normals differ by is the vertices' matter.
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                        double factor, LitPart part = {});
+                        double factor, LitPart part = {}, const FloatRange& range = {});
 
 /// Polygons as polygons: the same primitives and numbers of vertices; vertices of the mesh in the same place; each cut
 /// one on the planes that its counterpart lies on, and in the plane of its triangle, colours included. Where a corner

@@ -98,8 +98,8 @@ class RunComparison {
     for (std::size_t k = 0; k < 3; ++k) {
       const WindowVertex<double>&v = a.v[k], &w = b.v[k];
       add(meter_, v.p_win, w.p_win, error_of(b, k) / factor_, factor_, at(number, "p_win"));
-      meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w)), factor_, at(number, "inv_w"), v.inv_w,
-                   w.inv_w);
+      meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_, at(number, "inv_w"),
+                   v.inv_w, w.inv_w);
       for (int c = 0; c < 2; ++c) {
         const double own = std::nearbyint((v.p_win[c] - 0.5) * kSubpixel);
         meter_.value(difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);
@@ -180,7 +180,8 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
         meter.value(diff == 0 ? 0 : diff / ulp(w.p_win[c]), 0, at("p_win"), v.p_win[c], w.p_win[c]);
       }
       const double diff_w = difference(v.inv_w, w.inv_w);
-      meter.value(diff_w == 0 ? 0 : diff_w / ulp(w.inv_w), inv_w, at("inv_w"), v.inv_w, w.inv_w);
+      meter.value(diff_w == 0 ? 0 : diff_w / ulp(w.inv_w), inv_w, at("inv_w"), v.inv_w, w.inv_w,
+                  kFlushedUnderflow / ulp(w.inv_w));
       for (int c = 0; c < 2; ++c) {
         const double x = v.snapped[c], y = w.snapped[c];
         meter.value(difference(x, y), 0, at("snapped"), x, y);

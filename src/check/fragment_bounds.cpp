@@ -54,7 +54,8 @@ std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, 
       const Material material =
           lit_material(scene, draw, {is_back(v), is_secondary(v)}, colors.empty() ? nullptr : &colors[i]);
       const LightBounds bounds = light_bounds(scene, material, vertex);
-      out[ranges[d].first_vertex + i] = {tolerance("osmesa.light").factor * u * bounds.magnitude + bounds.jump, u};
+      out[ranges[d].first_vertex + i] = {
+          tolerance("osmesa.light").factor * u * bounds.magnitude + bounds.jump + Vec3<double>(bounds.overflows), u};
     }
   }
   return out;
@@ -230,13 +231,13 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
         glm::max(glm::abs(bound.range.hi - fours.texel), glm::abs(fours.texel - bound.range.lo)) + bound.slack;
   }
   FragmentBound out;
-  out.color = shade_error(scene_, draw, fours, errors, tolerance("osmesa.shade").factor);
+  out.color = shade_error(scene_, draw, fours, errors, {tolerance("osmesa.shade").factor, kFlushedUnderflow});
   if (draw.texture) out.reason = switched_early(scene_.textures.at(draw.texture->texture), records_.texels.at(i).lod);
   const bool summed = is_lit_per_vertex(draw) && scene_.light_model.separate_specular;
   Vec4<double> primary = fours.color;
   if (draw.texture) {
     const TextureFormat format = scene_.textures.at(draw.texture->texture).format;
-    primary = environ_error(format, *draw.texture, primary, errors.color, fours.texel, errors.texel, 1).color;
+    primary = environ_error(format, *draw.texture, primary, errors.color, fours.texel, errors.texel, {1}).color;
   }
   const Vec3<double> sum(primary + fours[Varying::secondary]);
   const bool clamped = summed && std::max({sum.x, sum.y, sum.z}) > 1;

@@ -122,7 +122,7 @@ Measurement compare_resolved(const Scene& scene, const Capture& candidate, const
     });
     for (int c = 0; c < 4; ++c) {
       const double v = a(x, y)[c], w = b(x, y)[c], diff = difference(v, w);
-      const double bound = 8 * u * largest[c] + (scale > 0 ? 0.5 / scale : 0);
+      const double bound = 8 * (u * largest[c] + kGradualUnderflow) + (scale > 0 ? 0.5 / scale : 0);
       meter.value(diff == 0 ? 0 : diff / bound, factor, {x, y, -1, "color"}, v, w);
       if (scale == 0) continue;
       const double code = std::round(scale * v);

@@ -114,6 +114,9 @@ LightBounds light_bounds(const Scene& scene, const Material& m, const Vertex<dou
     const Power p = power(h.cosine, m.shininess, h.error * kError);
     const Vec3<double> ambient(light.ambient * glm::vec3(m.ambient)), diffuse(light.diffuse * glm::vec3(m.diffuse));
     const Vec3<double> specular(light.specular * glm::vec3(m.specular));
+    if (std::pow(std::max(h.cosine + h.error * kError, 0.0), m.shininess) >= 0x1p127) {
+      for (int c = 0; c < 3; ++c) out.overflows[c] = out.overflows[c] || share.value * specular[c] == 0;
+    }
     const double n_dot_l = glm::dot(n, r.to_light);
     const Vec3<double> all = ambient + std::max(n_dot_l, 0.0) * diffuse + p.value * specular;
     out.magnitude += share.value * (ambient + r.condition * length * diffuse +

@@ -15,23 +15,22 @@ namespace {
 struct Factor {
   double f, error;
 };
-Factor fog_factor(const Fog& fog, double z_eye, double dz, double roundings) {
+Factor fog_factor(const Fog& fog, double z_eye, double dz, const Roundings& roundings) {
   const double c = std::abs(z_eye), density = fog.density, x = density * c;
   const double range = std::abs(static_cast<double>(fog.end) - fog.start);
-  const double rounding = roundings * u;
   switch (fog.mode) {
     case Fog::Mode::linear: {
       const double f = (fog.end - c) / (static_cast<double>(fog.end) - fog.start);
-      return {std::clamp(f, 0.0, 1.0), dz / range + rounding * (std::abs(fog.end) + c) / range};
+      return {std::clamp(f, 0.0, 1.0), dz / range + roundings((std::abs(fog.end) + c) / range)};
     }
     // x exp(-x) <= 1/e: the argument's relative error comes to less than its absolute one.
     case Fog::Mode::exp: {
       const double f = std::exp(-std::max(x - density * dz, 0.0));
-      return {std::exp(-x), f * (density * dz + rounding * (1 + x))};
+      return {std::exp(-x), f * density * dz + roundings(f * (1 + x))};
     }
     case Fog::Mode::exp2: {
       const double near = std::max(x - density * dz, 0.0), f = std::exp(-near * near);
-      return {std::exp(-x * x), f * ((2 * x + density * dz) * density * dz + rounding * (1 + 2 * x * x))};
+      return {std::exp(-x * x), f * (2 * x + density * dz) * density * dz + roundings(f * (1 + 2 * x * x))};
     }
   }
   return {1, 0};
@@ -53,7 +52,7 @@ namespace {
 
 // The error of a fragment's light.
 Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, const FragmentFours& attributes,
-                         const FragmentFours& errors, double roundings) {
+                         const FragmentFours& errors, const Roundings& roundings) {
   const Vec4<double> anything(std::numeric_limits<double>::infinity());
   const auto length = [](const Vec4<double>& four) { return glm::length(Vec3<double>(four)); };
   const double n = length(attributes[Varying::normal]), dn = length(errors[Varying::normal]);
@@ -67,12 +66,12 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, con
   const LightBounds bounds = light_bounds(scene, lit_material(scene, draw, part, colors ? &color : nullptr), at,
                                           {length(errors[Varying::position]), dn / n + 4 * u, d_color});
   if (!std::isfinite(bounds.magnitude.x) || bounds.jump != Vec3<double>(0)) return anything;
-  return Vec4<double>(bounds.inherited + 4 * roundings * u * bounds.magnitude, d_color + u);
+  return Vec4<double>(bounds.inherited + 4 * roundings.count * u * bounds.magnitude, d_color + u);
 }
 
 // Of the face that errs more; `specular`: of the part that is kept apart.
 Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, const FragmentFours& attributes,
-                         const FragmentFours& errors, double roundings) {
+                         const FragmentFours& errors, const Roundings& roundings) {
   Vec4<double> largest = light_error(scene, draw, {false, specular}, attributes, errors, roundings);
   if (scene.light_model.sides == LightModel::Sides::two)
     largest = glm::max(largest, light_error(scene, draw, {true, specular}, attributes, errors, roundings));
@@ -82,7 +81,7 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, co
 }  // namespace
 
 Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
-                         const FragmentFours& errors, double roundings) {
+                         const FragmentFours& errors, const Roundings& roundings) {
   Vec4<double> color = attributes.color, error = errors.color;
   const bool per_fragment = is_lit_per_fragment(draw), summed = draw.lit && scene.light_model.separate_specular;
   if (per_fragment) error = light_error(scene, draw, false, attributes, errors, roundings);
@@ -99,7 +98,7 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
   if (summed) {
     const Vec4<double> apart =
         per_fragment ? light_error(scene, draw, true, attributes, errors, roundings) : errors[Varying::secondary];
-    error += Vec4<double>(Vec3<double>(apart) + roundings * u, 0);
+    error += Vec4<double>(Vec3<double>(apart) + roundings(1), 0);
   }
   if (draw.fog) {
     const auto [f, df] = fog_factor(*draw.fog, attributes[Varying::position].z, errors[Varying::position].z, roundings);
@@ -107,7 +106,7 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
       const double of_fog = draw.fog->color[c];
       if (per_fragment || summed) color[c] = of_fog > 0.5 ? 0 : 1;  // as far from the fog's as light can be
       const double magnitude = f * std::abs(color[c]) + (1 - f) * of_fog;
-      error[c] = df * (std::abs(color[c] - of_fog) + error[c]) + f * error[c] + roundings * u * magnitude;
+      error[c] = df * (std::abs(color[c] - of_fog) + error[c]) + f * error[c] + roundings(magnitude);
       color[c] = f * color[c] + (1 - f) * of_fog;
     }
   }

@@ -57,7 +57,7 @@ std::string_view switched_early(const Texture& texture, double lod) {
 
 Environed environ_error(TextureFormat format, const DrawTexture& state, const Vec4<double>& f,
                         const Vec4<double>& f_error, const Vec4<double>& s, const Vec4<double>& s_error,
-                        double roundings) {
+                        const Roundings& roundings) {
   using E = TextureEnvironment;
   const bool has_color = format != TextureFormat::alpha, intensity = format == TextureFormat::intensity;
   const bool has_alpha = format != TextureFormat::luminance && format != TextureFormat::rgb;
@@ -69,15 +69,15 @@ Environed environ_error(TextureFormat format, const DrawTexture& state, const Ve
     const double v = a.value * (1 - k.value) + b.value * k.value;
     const double error = std::abs(1 - k.value) * a.error + std::abs(k.value) * b.error +
                          (std::abs(b.value - a.value) + a.error + b.error) * k.error;
-    return {v, error + roundings * u * (std::abs(a.value * (1 - k.value)) + std::abs(b.value * k.value))};
+    return {v, error + roundings(std::abs(a.value * (1 - k.value)) + std::abs(b.value * k.value))};
   };
   const auto product = [&](Value a, Value b) -> Value {
     return {a.value * b.value, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error +
-                                   roundings * u * std::abs(a.value * b.value)};
+                                   roundings(std::abs(a.value * b.value))};
   };
   const auto sum = [&](Value a, Value b) -> Value {
     const double v = a.value + b.value;
-    return {std::clamp(v, 0.0, 1.0), a.error + b.error + roundings * u * std::abs(v)};
+    return {std::clamp(v, 0.0, 1.0), a.error + b.error + roundings(std::abs(v))};
   };
   const auto of_f = [&](int k) { return Value{f[k], f_error[k]}; };
   const auto of_s = [&](int k) { return Value{s[k], s_error[k]}; };

@@ -41,13 +41,13 @@ OpenShare open_share(const Texture& texture, const TexelRange& range, const Plan
 std::string_view switched_early(const Texture& texture, double lod);
 
 /// The colour that fragment colour `f` and texel `s` become, and its error, where theirs are f_error and s_error:
-/// |d/df| f_error + |d/ds| s_error + their product, and `roundings` u of the terms (OpenGL 2.1 spec,
+/// |d/df| f_error + |d/ds| s_error + their product, and the `roundings` of the terms (OpenGL 2.1 spec,
 /// tables 3.22, 3.23).
 struct Environed {
   Vec4<double> color, error;
 };
 Environed environ_error(TextureFormat format, const DrawTexture& state, const Vec4<double>& f,
                         const Vec4<double>& f_error, const Vec4<double>& s, const Vec4<double>& s_error,
-                        double roundings);
+                        const Roundings& roundings);
 
 }  // namespace plumbline::check

@@ -169,6 +169,23 @@ TEST(Bounds, OfAFlatTriangleAreThoseOfItsValue) {
   }
 }
 
+TEST(Bounds, OfOpenGLsPlanesLetWhatIsBelowNormalNumbersBecomeZero) {
+  WindowTriangle<double> t = triangle_of({{{0.5, 0.5, 0.5}, {8.5, 0.5, 0.5}, {0.5, 8.5, 0.5}}});
+  for (auto& v : t.v) v.color = {0x1p-127, 0x1p-120, 0, 1};
+  const Vec4<double> bound = tolerance("osmesa.attributes").factor * kU * bounds_from_origin(t, 3, 3).color;
+  EXPECT_GT(bound.r, 0x1p-127) << "flushed";
+  EXPECT_LT(bound.g, 0x1p-120) << "a normal number is not";
+}
+
+TEST(Bounds, ARoundingBelowNormalNumbersIsAbsolute) {
+  const Roundings ours{2}, mesas{2, kFlushedUnderflow};
+  EXPECT_EQ(ours(0), 0) << "nothing is rounded";
+  EXPECT_EQ(ours(1), 2 * kU);
+  EXPECT_GE(ours(0x1p-140), 0x1p-149);
+  EXPECT_LT(ours(0x1p-140), 0x1.01p-149);
+  EXPECT_GE(mesas(0x1p-140), 0x1p-125);
+}
+
 // On the edge from corner 0 to corner 2, corner 1's share is 0, and what double makes of it some 2^-52.
 TEST(Bounds, OfAMeanLeaveRoomForAShareThatIsNearlyZero) {
   WindowTriangle<double> t = triangle_of({{{0.5, 0.5, 0}, {48.5, 16.5, 0}, {32.5, 32.5, 0}}});
@@ -286,6 +303,20 @@ TEST_F(LightBoundsTest, OfALightAtTheVertexAreInfinite) {
   scene.lights = {light};
   EXPECT_EQ(magnitude_at({0, 0, -2}).r, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(std::isfinite(magnitude_at({0, 0, -2.0001}).r));
+}
+
+TEST_F(LightBoundsTest, OverflowIsOfSpecularTermsOfZeroAlone) {
+  draw.material.specular = {0.25, 0, 1, 1};
+  draw.material.shininess = 128;
+  scene.lights = {light};
+  EXPECT_EQ(at({0, 0, 0}, {0, 0, 1}).overflows, glm::bvec3(false));
+  EXPECT_EQ(at({0, 0, 0}, {0, 0, 1.9}).overflows, glm::bvec3(false)) << "1.9^128 = 2^118.5";
+  EXPECT_EQ(at({0, 0, 0}, {0, 0, 2}).overflows, glm::bvec3(false, true, false));
+  scene.lights.push_back(light);
+  scene.lights[1].kind = Light::Kind::point;
+  scene.lights[1].vector = {0, 0, 8};
+  scene.lights[1].spot = Spot{{0, 0, 1}, 10, 0};  // away from the vertex
+  EXPECT_EQ(at({0, 0, 0}, {0, 0, 2}).overflows, glm::bvec3(true)) << "a cone's 0 times the power";
 }
 
 TEST_F(LightBoundsTest, TheHighlightMayComeOrGoWhereTheLightGrazes) {

@@ -162,6 +162,26 @@ TEST_F(Fragments, ShadedInFogAreAsNearAsItsArithmeticAllows) {
   EXPECT_TRUE(fails(run(shaded(), [&](auto& r) { r.shaded[3].color.a += u; }))) << "alpha is copied";
 }
 
+// Below 2^-126 ours rounds to multiples of 2^-149; a renderer of ours that flushed to zero would be another.
+TEST_F(Fragments, ShadedInThickFogUnderflowGradually) {
+  scene.meshes.resize(1);
+  scene.meshes[0].triangles.resize(8);
+  scene.draws.resize(1);
+  scene.draws[0].fog = Fog{Fog::Mode::exp, glm::vec3(0), 0.25f, 0, 1};
+  Records<double> b = records;
+  b.varyings[Varying::position].fragments.assign(6, {0, 0, -360, 1});  // f = e^-90 = 8e-40
+  b.shaded[3].color = {0x1p-131, 0, 0, 1};
+  const auto moved = [&](double by) {
+    Records<double> a = b;
+    a.shaded[3].color.r += by;
+    return compare_shaded(scene, a, b, 4);
+  };
+  EXPECT_TRUE(passes(moved(0x1p-149)));
+  EXPECT_TRUE(passes(moved(-0x1p-149)));
+  EXPECT_TRUE(fails(moved(0x1p-145)));
+  EXPECT_TRUE(fails(moved(-0x1p-131))) << "flushed to zero";
+}
+
 TEST_F(Fragments, CarriedVaryingsAreEqual) {
   records.varyings[Varying::texture].vertices.assign(3, {0.5, 0.25, 0, 1});
   const Compare carried = [](const auto& a, const auto& b) { return compare_carried(Varying::texture, a, b); };

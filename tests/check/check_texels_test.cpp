@@ -123,7 +123,7 @@ TEST(EnvironError, HoldsForAllThatMayComeIn) {
     const DrawTexture state{0, environment, glm::vec4(color(unit))};
     const glm::dvec4 f = color(unit), s = glm::dvec4(source_components(format, glm::vec4(color(unit))));
     const glm::dvec4 f_error = 0.1 * color(unit), s_error = 0.1 * color(unit);
-    const Environed e = environ_error(format, state, f, f_error, s, s_error, 0);
+    const Environed e = environ_error(format, state, f, f_error, s, s_error, {0});
     const glm::dvec4 middle = math::textured_color(format, state, f, s);
     const glm::dvec4 moved =
         math::textured_color(format, state, f + f_error * color(share), s + s_error * color(share));
@@ -138,7 +138,7 @@ TEST(EnvironError, HoldsForAllThatMayComeIn) {
 TEST(EnvironError, IsZeroWhereNothingIsOff) {
   const glm::dvec4 c(0.5, 0.25, 0.75, 1), zero(0);
   const DrawTexture state{0, TextureEnvironment::replace, glm::vec4(0)};
-  EXPECT_EQ(environ_error(TextureFormat::rgba, state, c, zero, c, zero, 1).error, zero) << "nothing is computed";
+  EXPECT_EQ(environ_error(TextureFormat::rgba, state, c, zero, c, zero, {1}).error, zero) << "nothing is computed";
 }
 
 TEST(TexelBound, KnowsACoordinateWithoutError) {

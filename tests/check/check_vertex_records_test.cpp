@@ -345,5 +345,40 @@ TEST_F(VertexRecords, ALightAtAVertexExcusesOnlyThatVertex) {
   EXPECT_TRUE(fails(lit([](auto& a) { a.lit[2].color.r += 1.5; }))) << "colours lie in [0,1] wherever the light is";
 }
 
+TEST_F(VertexRecords, UnlitColoursMayBeFlushedByAReferenceThatDoes) {
+  records.lit[7].color.g = 0x1p-127;
+  Records<double> flushed = records;
+  flushed.lit[7].color.g = 0;
+  EXPECT_TRUE(fails(compare_lit(scene, records, flushed, kFactor)));
+  EXPECT_TRUE(passes(compare_lit(scene, records, flushed, kFactor, {}, {kFlushedUnderflow})));
+  records.lit[7].color.g = 0x1p-120;
+  EXPECT_TRUE(fails(compare_lit(scene, records, flushed, kFactor, {}, {kFlushedUnderflow}))) << "a normal number";
+}
+
+TEST_F(VertexRecords, ATermOfZeroIsDisputedWhereThePowerOverflows) {
+  scene.camera = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};
+  scene.lights = {{Light::Kind::directional, {0, 0, 1}, {}, {}, glm::vec3(1)}};
+  scene.draws[0].material.shininess = 128;
+  scene.draws[0].material.specular = {0.5, 0, 0, 1};
+  records.vertices[5].n_eye = {0, 0, 1000};
+  const auto one = [](auto& a) { a.lit[5].color.g = 1; };
+  Records<double> reference = records;
+  records.lit[5].color.g = 0;
+  one(reference);
+  const Measurement m = compare_lit(scene, records, reference, kFactor, {}, {0, "overflow"});
+  EXPECT_EQ(m.disputed, 1u);
+  EXPECT_EQ(m.reason, "overflow");
+  EXPECT_TRUE(passes(m));
+  EXPECT_TRUE(fails(compare_lit(scene, records, reference, kFactor))) << "nobody says whose fault it is";
+  scene.draws[0].material.specular.g = 0.5;
+  scene.draws[0].material.specular.b = 0;
+  records.lit[5].color.b = reference.lit[5].color.b;
+  EXPECT_EQ(compare_lit(scene, records, reference, kFactor, {}, {0, "overflow"}).disputed, 0u)
+      << "another channel's term";
+  scene.draws[0].material.specular.g = 0;
+  records.vertices[5].n_eye = reference.vertices[5].n_eye = {0, 0, 1};
+  EXPECT_TRUE(fails(compare_lit(scene, records, reference, kFactor, {}, {0, "overflow"}))) << "nothing overflows";
+}
+
 }  // namespace
 }  // namespace plumbline::check

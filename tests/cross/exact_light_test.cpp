@@ -121,5 +121,14 @@ TEST_F(Lamp, EachDrawHasItsOwnMaterialAndVertices) {
   EXPECT_THROW(run(scene, Stage::light, in), std::invalid_argument);
 }
 
+// 1000^128 is beyond double, let alone float.
+TEST_F(Lamp, APowerBeyondDoubleLeavesTermsOfZeroAtZero) {
+  material().specular = {1e-30f, 0, 0, 1};
+  material().shininess = 128;
+  scene.lights[0].vector = {0, 0, 1};
+  expect_near(color({0, 0, 1000}), {1, 0, 0, 0});
+  expect_near(color({0, 0, 1}), {1e-30, 0, 0, 0});
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -149,8 +149,6 @@ inline Scene random_scene(const rc::Gen<float>& of = coordinate()) {
     draw.color_material = one_of<ColorMaterial>(6);
     draw.normals = one_of<Normals>(3);
     if (*evenly(0, 3) == 0) draw.back_material = Material{*color(), *color(), *color(), {0, 0, 0, 1}, 20};
-    // A cosine above 1 to the power of 128 is beyond float, of which OpenGL says nothing.
-    if (draw.normals != Normals::normalize) draw.material.shininess = std::min(draw.material.shininess, 20.0f);
     draw.shading = one_of<Shading>(3);
     draw.cull = *gen::weightedElement<Cull>({{3, Cull::none}, {1, Cull::back}, {1, Cull::front}});
     draw.depth_func = *gen::weightedElement<DepthFunc>({{4, DepthFunc::less},
