@@ -155,10 +155,12 @@ std::pair<int, int> levels_at(const Texture& texture, double lambda) {
 void add_slopes(const Texture& texture, int number, bool linear, glm::dvec2 st, TexelRange& out) {
   const TextureLevel& level = texture.levels[static_cast<std::size_t>(number)];
   const glm::dvec2 size(level.width, level.height);
+  int &first_level = linear ? out.first_linear : out.first_nearest,
+      &last_level = linear ? out.last_linear : out.last_nearest;
+  const bool none = last_level < first_level;
+  first_level = none ? number : std::min(first_level, number);
+  last_level = none ? number : std::max(last_level, number);
   if (!linear) {
-    const bool first = out.last_nearest < out.first_nearest;
-    out.first_nearest = first ? number : std::min(out.first_nearest, number);
-    out.last_nearest = first ? number : std::max(out.last_nearest, number);
     for (int k = 0; k < 2; ++k) {
       const double at = st[k] * size[k];
       out.gap[k] = std::min(out.gap[k], std::abs(at - std::round(at)) / size[k]);
@@ -190,6 +192,8 @@ bool depends_on_lambda(const Sampler& s) {
 
 TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi) {
   TexelRange out;
+  out.lambda_lo = lambda_lo;
+  out.lambda_hi = lambda_hi;
   std::uint64_t sloped = 0;  // a bit for each level and filter whose slopes are in
   out.lo = glm::dvec4(std::numeric_limits<double>::infinity());
   out.hi = -out.lo;
@@ -273,14 +277,24 @@ glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const 
   return fragment;
 }
 
+namespace {
+
+/// Whether slopes hold for a place `bound` off in s and t: within half a texel of each level that is filtered linearly.
+bool within_slopes(const Texture& texture, const TexelRange& range, double bound) {
+  if (range.last_linear < range.first_linear) return std::isfinite(bound);
+  const TextureLevel& finest = texture.levels[static_cast<std::size_t>(range.first_linear)];
+  return bound * std::max(finest.width, finest.height) < 0.5;
+}
+
+}  // namespace
+
 BoundedColor bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedColor& fragment,
                                     const BoundedPlace& place) {
   const TexelRange range = texel_range(texture, place.st, place.lambda_lo, place.lambda_hi);
   const glm::dvec4 texel = filtered_texel(texture, place.st, place.lambda);
   BoundedColor out{textured_color(texture.format, state, fragment.value, texel), 0};
-  const TextureLevel& base = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
   const bool open = !(place.bound < std::min(range.gap.s, range.gap.t)) ||
-                    !(place.bound * std::max(base.width, base.height) < 0.5) || !std::isfinite(fragment.bound);
+                    !within_slopes(texture, range, place.bound) || !std::isfinite(fragment.bound);
   if (open) return {out.value, std::numeric_limits<double>::infinity()};
   const glm::dvec4 slack = (range.slope_s + range.slope_t) * place.bound;
   const glm::dvec4 lo = range.lo - slack, hi = range.hi + slack;

@@ -13,8 +13,6 @@
 
 namespace plumbline::check {
 
-namespace {}  // namespace
-
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor) {
   const std::size_t count = candidate.covered.size();
@@ -65,7 +63,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
         const OpenShare share = bounds.open_texels(*last);
         area += share.area;
         centres += share.centre ? 1 : 0;
-        reason = switched_early(scene.textures.at(draw.texture->texture), candidate.records.texels.at(*last).lod);
+        reason = mesas_other_level(scene.textures.at(draw.texture->texture), bound.range);
       }
     }
     const Place place{x, y, id, "texel"};

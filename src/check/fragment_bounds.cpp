@@ -232,7 +232,8 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   }
   FragmentBound out;
   out.color = shade_error(scene_, draw, fours, errors, {tolerance("osmesa.shade").factor, kFlushedUnderflow});
-  if (draw.texture) out.reason = switched_early(scene_.textures.at(draw.texture->texture), records_.texels.at(i).lod);
+  if (draw.texture && i < texels_.size())
+    out.reason = mesas_other_level(scene_.textures.at(draw.texture->texture), texels_[i]);
   const bool summed = is_lit_per_vertex(draw) && scene_.light_model.separate_specular;
   Vec4<double> primary = fours.color;
   if (draw.texture) {

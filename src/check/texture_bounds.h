@@ -20,25 +20,28 @@ struct TexelBound {
 };
 /// `st_error`: of its texture coordinates (s, t); 4 u of them more for its texel coordinates, and `arithmetic` of the
 /// texel itself. Within st_error of where another texel is the nearest, it is open; of a coordinate that
-/// has no error (it is 0 everywhere) that is known.
+/// has no error (it is 0 everywhere) that is known. Filtered linearly it is open where st_error is half a texel, beyond
+/// which the range knows no slopes.
 TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<double> st, Vec2<double> st_error,
                        double arithmetic);
 
 /// What a pixel has of the bands, st_error to either side, along the lines where another texel is the nearest. With w
 /// the error and s the slope in texels, a band of half width w/s pixels; a pixel within one of such a line stands for a
 /// share w/s of it, and where lines are closer than two pixels, for as much as lies between two. Where the coordinate
-/// moves by less than its error (s <= w) there is no such line: the pixel is in the band or it is not. `plane`:
-/// coordinates and slopes by the triangle's corners, not by the fragment's record, which is what is judged.
+/// moves by less than its error (s <= w) there is no such line: the pixel is in the band or it is not. Likewise where
+/// linear filters have no slopes (texel_bound). `plane`: coordinates and slopes by the triangle's corners, not by the
+/// fragment's record, which is what is judged.
 struct OpenShare {
   double area = 0;      ///< pixels, [0,1]
   bool centre = false;  ///< whether its centre is in one
 };
 OpenShare open_share(const Texture& texture, const TexelRange& range, const PlaneValue& plane, Vec2<double> st_error);
 
-/// Why another texel than the legal ones is Mesa's fault, where the texture is between magnified and minified: linear
-/// magnification gives way to the nearest texels of mipmaps at a lambda of 1/2 (OpenGL 2.1 spec 3.8.9, c), and theirs
-/// at 0. Empty elsewhere. `lod`: the candidate's; its four pixels' may be half a level off.
-std::string_view switched_early(const Texture& texture, double lod);
+/// Why another texel than the legal ones is Mesa's fault, or empty. Linear magnification gives way to the nearest
+/// texels of mipmaps at a lambda of 1/2 (OpenGL 2.1 spec 3.8.9, c), in Mesa at 0. A lambda of d + 1/2 takes level d
+/// (equation 3.25), in Mesa the even one of d and d + 1 (measured: 1.5 and 3.5 go up, 2.5 down); it occurs at the
+/// limits of lambda.
+std::string_view mesas_other_level(const Texture& texture, const TexelRange& range);
 
 /// The colour that fragment colour `f` and texel `s` become, and its error, where theirs are f_error and s_error:
 /// |d/df| f_error + |d/ds| s_error + their product, and the `roundings` of the terms (OpenGL 2.1 spec,

@@ -57,6 +57,8 @@ struct TexelRange {
   glm::dvec4 slope_s{0}, slope_t{0};                        ///< by how much per unit of s and of t, within half a texel
   glm::dvec2 gap{std::numeric_limits<double>::infinity()};  ///< in s and t, to where another texel is the nearest
   int first_nearest = 0, last_nearest = -1;                 ///< the levels whose nearest texel it may be; or none
+  int first_linear = 0, last_linear = -1;                   ///< the levels that may be filtered linearly; or none
+  double lambda_lo = 0, lambda_hi = 0;                      ///< the interval of lambda
 };
 
 /// The legal answers of a whole frame. Empty: not asked for, or not shown.

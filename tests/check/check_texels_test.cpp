@@ -81,7 +81,9 @@ TEST(TexelBound, HoldsWhereverThePlaceMayBe) {
   for (int round = 0; round < 4000; ++round) {
     const auto min = static_cast<MinFilter>(round % 6);
     const Texture texture = noise(min);
-    const glm::dvec2 st(coordinate(random), coordinate(random)), error(0.003, 0.002);
+    // At ten times the error the base level of 16 texels is half a texel off, a level of 4 or 2 is not.
+    const glm::dvec2 st(coordinate(random), coordinate(random)),
+        error = (round % 5 == 0 ? 12.0 : 1.0) * glm::dvec2(0.003, 0.002);
     const double lo = level(random), hi = lo + 0.2;
     const TexelBound bound =
         texel_bound(texture, math::texel_range(texture, st, lo, hi), st, error, 8 * u * largest_texel(texture));
@@ -97,7 +99,61 @@ TEST(TexelBound, HoldsWhereverThePlaceMayBe) {
     }
   }
   EXPECT_GT(open, 0);
-  EXPECT_LT(open, 1000);
+  EXPECT_LT(open, 1600);
+}
+
+TEST(TexelBound, OfLinearFiltersIsOpenByTheTexelsOfTheLevelsThatAreFiltered) {
+  const Texture texture = noise(MinFilter::linear_mipmap_linear);
+  const Vec2<double> st(0.3, 0.4);
+  const auto open = [&](double texels, double lambda_lo, double lambda_hi) {
+    const TexelRange range = math::texel_range(texture, st, lambda_lo, lambda_hi);
+    const Vec2<double> error(texels / 16, 0);
+    const PlaneValue plane{{st, 0, 0}, Vec4<double>(0), Vec4<double>(0)};
+    const OpenShare share = open_share(texture, range, plane, error);
+    const bool opened = std::isinf(texel_bound(texture, range, st, error, 0).slack.r);
+    EXPECT_EQ(share.area, opened ? 1 : 0) << "the budget is of what the bound opens";
+    EXPECT_EQ(share.centre, opened);
+    return opened;
+  };
+  EXPECT_FALSE(open(0.49, -1, -1));
+  EXPECT_TRUE(open(0.51, -1, -1));
+  EXPECT_FALSE(open(0.51, 1, 1)) << "a quarter of a texel of level 1";
+  EXPECT_TRUE(open(0.51, 0.9, 1.1)) << "level 0 has a share";
+  EXPECT_FALSE(open(3.9, 3, 3));
+  EXPECT_TRUE(open(4.1, 3, 3));
+  EXPECT_TRUE(open(std::numeric_limits<double>::infinity(), 3, 3));
+}
+
+TEST(MesasLevel, IsAnotherWhereMagnificationEndsAtTheWrongLambda) {
+  Texture texture = noise(MinFilter::nearest_mipmap_linear);
+  const auto reason = [&](double lo, double hi) {
+    return mesas_other_level(texture, math::texel_range(texture, {0.3, 0.4}, lo, hi));
+  };
+  EXPECT_NE(reason(-0.6, 0.3).find("switches"), std::string_view::npos) << "steep: four pixels are a level apart";
+  EXPECT_EQ(reason(-0.6, 0), "");
+  EXPECT_NE(reason(0.5, 0.9), "");
+  EXPECT_EQ(reason(0.51, 0.9), "");
+  texture.sampler.mag = MagFilter::nearest;
+  EXPECT_EQ(reason(-0.6, 0.3), "");
+  texture.sampler.mag = MagFilter::linear;
+  texture.sampler.min = MinFilter::linear_mipmap_linear;
+  EXPECT_EQ(reason(-0.6, 0.3), "");
+}
+
+TEST(MesasLevel, IsAnotherWhereALimitLiesHalfWayToAnEvenLevel) {
+  Texture texture = noise(MinFilter::linear_mipmap_nearest);
+  const auto reason = [&](double lo, double hi) {
+    return mesas_other_level(texture, math::texel_range(texture, {0.3, 0.4}, lo, hi));
+  };
+  texture.sampler.max_lod = 1.5f;
+  EXPECT_NE(reason(1.2, 1.5).find("rounds"), std::string_view::npos);
+  EXPECT_EQ(reason(1.2, 1.4), "") << "below the limit";
+  texture.sampler.max_lod = 2.5f;
+  EXPECT_EQ(reason(2.2, 2.5), "") << "2 is the even one, and the specification's";
+  texture.sampler.min_lod = 1.5f;
+  EXPECT_NE(reason(1.5, 1.5), "");
+  texture.sampler.min = MinFilter::linear_mipmap_linear;
+  EXPECT_EQ(reason(1.5, 1.5), "") << "both levels are filtered";
 }
 
 TEST(TexelBound, IsTightOnARamp) {
