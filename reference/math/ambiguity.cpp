@@ -12,7 +12,8 @@
 // band as large as (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such
 // line; within w of each other, they are ambiguous everywhere, but not where both are clamped to the same end: that is
 // a tie, which the order of drawing settles. The near and far planes are met likewise, w the half interval, by the
-// winner and by whatever would win were it not cut off. Where a triangle has no plane to rely on, the pixel is
+// winner, by whatever would win were it not cut off, and by all that stencil values count, though its depth test never
+// passes. Where a triangle has no plane to rely on, the pixel is
 // ambiguous whatever else is there. Such a line too may run through a row of centres, and again the larger of the area
 // and the number of centres in the bands is taken.
 #include "reference/math/ambiguity.h"
@@ -197,16 +198,19 @@ DepthShare cut(const PixelDepth& surface, double plane) {
 }  // namespace
 
 DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner) {
-  std::vector<Surface> others;
+  std::vector<Surface> others, never_drawn;
   const PixelDepth cleared{scene.frame.clear_depth, 0, glm::dvec2(0)};
   Surface won{kBackground, DepthFunc::always, cleared, cleared};
   for (const PixelHit& h : hits) {
-    if (h.hit.depth_func == DepthFunc::never || !h.hit.alpha_passes) continue;
+    const bool never = h.hit.depth_func == DepthFunc::never;
+    if ((never && h.hit.stencil == nullptr) || !h.hit.alpha_passes) continue;
     if (!std::isfinite(h.win.half) || h.hit.alpha_fails) return {1, true};
     const bool clamped = h.hit.z_lo == h.hit.z_hi;  // whatever its rounding
     const PixelDepth win = clamped ? PixelDepth{h.hit.z_lo, 0, glm::dvec2(0)} : h.win;
     const Surface surface{h.hit.primitive, h.hit.depth_func, win, h.view};
-    if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
+    if (never) {
+      never_drawn.push_back(surface);
+    } else if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
       others.push_back(won);
       won = surface;
     } else {
@@ -222,16 +226,15 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
     }
   }
   if (scene.depth_clamp) return share;
+  const auto add_cuts = [&](const Surface& of) {
+    share += cut(of.view, 0);
+    share += cut(of.view, 1);
+  };
   for (const Surface& other : others) {
-    if (other.order != kBackground && passes(other.func, other.win.z, won.win.z)) {
-      share += cut(other.view, 0);
-      share += cut(other.view, 1);
-    }
+    if (other.order != kBackground && (counted || passes(other.func, other.win.z, won.win.z))) add_cuts(other);
   }
-  if (won.order != kBackground) {
-    share += cut(won.view, 0);
-    share += cut(won.view, 1);
-  }
+  for (const Surface& of : never_drawn) add_cuts(of);
+  if (won.order != kBackground) add_cuts(won);
   return share;
 }
 

@@ -142,5 +142,23 @@ TEST(AmbiguousByDepth, OfASurfaceThatTheNearPlaneCutsIsTheBandOnBothSides) {
   EXPECT_NEAR(ambiguous_by_depth(scene, hits, 0).area, 2e-4 / 0.02, 1e-9);
 }
 
+TEST(AmbiguousByDepth, OfWhatStencilValuesCountIsWhereAPlaneCutsIt) {
+  const Scene scene = with_24_bits();
+  const StencilFace face;
+  const auto share = [&](const StencilFace* stencil, DepthFunc func, double half) {
+    PixelHit hits[] = {surface(0, 0.25, 1e-6, {0, 0}), surface(1, 0.995, half, {0.02, 0})};
+    for (PixelHit& h : hits) h.hit.stencil = stencil;
+    hits[1].hit.depth_func = func;
+    return ambiguous_by_depth(scene, hits, 0);
+  };
+  EXPECT_NEAR(share(&face, DepthFunc::never, 1e-4).area, 2e-4 / 0.02, 1e-9) << "it changes the stencil value";
+  const double meets_cleared = (1e-4 + kStep) / 0.02;
+  EXPECT_NEAR(share(&face, DepthFunc::less, 1e-4).area, 2e-4 / 0.02 + meets_cleared, 1e-6);
+  for (const DepthFunc func : {DepthFunc::less, DepthFunc::never}) {
+    EXPECT_TRUE(share(&face, func, 0.03).centre) << "grazing: its bound is larger than its slope";
+    EXPECT_EQ(share(nullptr, func, 0.03).area, 0) << "hidden, or never drawn";
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::math
