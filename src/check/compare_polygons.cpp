@@ -190,8 +190,12 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   std::copy_if(all_mine.begin(), all_mine.end(), std::back_inserter(mine), settled);
   std::copy_if(all_theirs.begin(), all_theirs.end(), std::back_inserter(theirs), settled);
   if (a.count > 2 && a.count == b.count) {
-    drop_coincident(mine, factor * unit);
-    drop_coincident(theirs, factor * unit);
+    std::vector<ClipVertex<double>> fewer_mine = mine, fewer_theirs = theirs;
+    drop_coincident(fewer_mine, factor * unit);
+    drop_coincident(fewer_theirs, factor * unit);
+    // A cut along a nearly parallel edge slides: its neighbours may coincide on one side alone. Then each of the
+    // vertices, of which there are as many, is held to its counterpart's planes and edge.
+    if (fewer_mine.size() == fewer_theirs.size()) mine.swap(fewer_mine), theirs.swap(fewer_theirs);
   }
   if (mine.size() != theirs.size()) {
     meter.value(kInfinite, 0, at("vertices of primitive"), a.count, b.count);

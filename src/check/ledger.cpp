@@ -44,7 +44,11 @@ constexpr std::array kLedger = {
     Tolerance{
         "exact.clip", 8, "u",
         "A cut vertex lies on its edge and on its plane but for rounding: the plane's distance (2 u), t (3 u), and "
-        "a + t (b - a) (3 u), of the largest coordinate of the primitive's corners; repeated cuts add.",
+        "a + t (b - a) (3 u), of the largest coordinate of the primitive's corners; repeated cuts add. Along its edge "
+        "it "
+        "may be farther off: an error e of the distances d moves it by e |b - a| / |d_a - d_b|, without bound where "
+        "the "
+        "edge is nearly parallel to the plane and cancellation leaves little of d; its place on the edge is not held.",
         "The distance is taken from the nearer end, so that t and its error are at most a half, mostly far less."},
     Tolerance{"osmesa.clip", 4, "u",
               "p_clip is rebuilt from window coordinates: 1/w, product, scale and translation, at most 4 roundings of "

@@ -366,5 +366,28 @@ TEST_F(Polygons, NorMayOneAppearThatLiesBeyondThePlane) {
   EXPECT_TRUE(fails(compare(kUnchanged, [](auto& r) { r.polygons = {}; })));
 }
 
+// A field of view of 179.9 degrees: an edge of 4700 runs along the far plane 0.0003 away. Float leaves little of that,
+// and the cut slides by a seventh of its w: of two neighbours that coincide (within 8 u of 4700) on one side alone.
+TEST_F(Polygons, ACutThatSlidesAlongAParallelEdgeMayPartNeighboursThatCoincide) {
+  set({{{0.0004195558722130954, 0.000891741830855608, 4.810702800750732, 4.810384273529053},
+        {-0.00045310897985473275, 0.0006299423985183239, 6.302610397338867, 6.302192687988281},
+        {0.8776571750640869, 0.11845716089010239, -4688.509765625, -4688.19775390625}}});
+  ASSERT_EQ(records.polygons.polygons.at(0).count, 5u);
+  for (auto& lit : records.lit) lit.color = glm::dvec4(0.5);
+  for (auto& v : records.polygons.vertices) v.color = glm::dvec4(0.5);
+  const auto in_float = [](Records<double>& r) {  // corners of the float recipe
+    at(r, 0, 0).p_clip = {0.0007202281849458814, 0.0007873839349485934, 0.029369069263339043, 0.029369069263339043};
+    at(r, 0, 4).p_clip = {0.0013144684489816427, 0.0010116759222000837, 0.02281949296593666, 0.02281949296593666};
+  };
+  EXPECT_TRUE(passes(compare(in_float)));
+  EXPECT_TRUE(passes(compare(kUnchanged, in_float)));
+  const double unit = kFactor * kU * 4688.5;
+  for (const std::uint32_t i : {0u, 4u}) {
+    EXPECT_TRUE(fails(compare([&](auto& r) { in_float(r), at(r, 0, i).p_clip.z -= 1.1 * unit; }))) << "off its plane";
+    EXPECT_TRUE(fails(compare([&](auto& r) { in_float(r), at(r, 0, i).p_clip.x -= 3 * unit; }))) << "off its triangle";
+    EXPECT_TRUE(fails(compare([&](auto& r) { in_float(r), at(r, 0, i).cut = false; })));
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::check
