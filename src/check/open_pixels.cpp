@@ -196,7 +196,9 @@ std::uint64_t settle(const Plane<std::uint8_t>& open, const Planes& candidate, P
 
 std::uint64_t settle_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
                            Capture& reference) {
-  const bool in_float = stage == Stage::attributes || stage == Stage::shade || scene.frame.color == ColorFormat::rgba12;
+  // Alpha and its reference are converted with m bits, at least the frame's (OpenGL 2.1 spec, 4.1.4, 2.14.9). We take
+  // the frame's, and so does Mesa of 8 bits; of more it compares them in float, which is legal.
+  const bool in_float = stage == Stage::attributes || stage == Stage::shade || scene.frame.color != ColorFormat::rgba8;
   const auto open =
       open_by_alpha(scene, candidate, reference, in_float ? ColorFormat::rgba32f : scene.frame.color, factor);
   return settle(open, candidate.planes, reference.planes);

@@ -1,4 +1,5 @@
 // The comparator of colours that several fragments of a pixel make.
+#include "check/open_pixels.h"
 #include "check_planes.h"
 
 namespace plumbline::check {
@@ -129,6 +130,30 @@ TEST_F(BlendedPairs, CodesOfALogicOpAreEqualWhereTheFragmentsCodesAreCertainAndO
   EXPECT_EQ(most(3, 1), 99) << "either code may be";
   EXPECT_GT(run(blended(), kUnchangedPlanes).ambiguous, 0u);
   EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r = static_cast<float>(kNaN); })));
+}
+
+// OpenGL lets alpha and its reference be converted with more bits than the frame has (2.1 spec, 2.14.9): 1e-6 is the
+// code 0 of 16 bits, and more than an alpha of 0 in float, where Mesa compares them of all frames but those of 8 bits.
+TEST(SettledAlpha, IsOpenWhereABetterConversionDropsTheFragment) {
+  Scene scene = two_draws();
+  scene.draws.resize(1);
+  scene.draws[0].lit = false;
+  scene.draws[0].material.diffuse = {0.5, 0.5, 0.5, 0};
+  const auto settled = [&](ColorFormat format, float reference) {
+    scene.frame.color = format;
+    scene.draws[0].alpha_test = AlphaTest{CompareFunc::greater_equal, reference};
+    const Capture mine = exact_capture(scene);
+    Capture theirs = mine;
+    theirs.planes.id.values().assign(mine.planes.id.size(), kBackground);
+    const std::uint64_t open = settle_alpha(scene, mine, Stage::visibility, 8, theirs);
+    if (open > 0) {
+      EXPECT_EQ(theirs.planes.id.values(), mine.planes.id.values());
+    }
+    return open;
+  };
+  EXPECT_GT(settled(ColorFormat::rgba16, 1e-6f), 0u);
+  EXPECT_EQ(settled(ColorFormat::rgba8, 1e-6f), 0u) << "Mesa rounds to 8 bits";
+  EXPECT_EQ(settled(ColorFormat::rgba16, 0.25f), 0u) << "dropped in any format";
 }
 
 }  // namespace
