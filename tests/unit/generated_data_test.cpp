@@ -15,13 +15,13 @@
 namespace plumbline {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kNear = 1e-6;
+constexpr double kHalfTurn = std::numbers::pi, kNear = 1e-6;
 
 void expect_near(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::distance(a, b), kNear); }
 
 /// The point of the unit sphere at s (longitude, from +z towards +x) and t (latitude, from the south pole).
 glm::dvec3 on_sphere(double s, double t) {
-  const double longitude = 2 * kPi * s, latitude = kPi * (t - 0.5);
+  const double longitude = 2 * kHalfTurn * s, latitude = kHalfTurn * (t - 0.5);
   return {std::cos(latitude) * std::sin(longitude), std::sin(latitude), std::cos(latitude) * std::cos(longitude)};
 }
 
@@ -92,7 +92,7 @@ TEST(GeneratedData, ATorusKnotsVerticesLieOnItsTube) {
   const TorusKnot knot{.p = 2, .q = 3, .segments = 40, .sides = 9, .tube = 0.1};
   const Mesh mesh = make_torus_knot(knot);
   const auto curve = [&](double turn) {
-    const double around = 2 * kPi * knot.p * turn, through = 2 * kPi * knot.q * turn;
+    const double around = 2 * kHalfTurn * knot.p * turn, through = 2 * kHalfTurn * knot.q * turn;
     const double radius = 0.6 + 0.25 * std::cos(through);
     return glm::dvec3(radius * std::cos(around), radius * std::sin(around), 0.25 * std::sin(through));
   };
@@ -104,7 +104,7 @@ TEST(GeneratedData, ATorusKnotsVerticesLieOnItsTube) {
     EXPECT_NEAR(glm::dot(glm::dvec3(mesh.normals[i]), tangent), 0, 1e-5);
     const glm::dvec3 next(mesh.normals[i / 9 * 9 + (i + 1) % 9]);  // sides are 40 degrees apart
     if (i % 9 != 8) {
-      EXPECT_NEAR(glm::dot(glm::dvec3(mesh.normals[i]), next), std::cos(2 * kPi / 9), kNear);
+      EXPECT_NEAR(glm::dot(glm::dvec3(mesh.normals[i]), next), std::cos(2 * kHalfTurn / 9), kNear);
     }
   }
 }
@@ -115,7 +115,7 @@ TEST(GeneratedData, ARevolutionsVerticesHaveTheProfilesRadii) {
   ASSERT_EQ(mesh.positions.size(), 18u);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const glm::dvec2 point = profile[i == 0 ? 0 : i == 17 ? 3 : (i - 1) / 8 + 1];
-    const double angle = 2 * kPi * static_cast<double>((i - 1) % 8) / 8;
+    const double angle = 2 * kHalfTurn * static_cast<double>((i - 1) % 8) / 8;
     expect_near(mesh.positions[i], {point.x * std::sin(angle), point.y, point.x * std::cos(angle)});
   }
 }
