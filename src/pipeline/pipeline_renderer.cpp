@@ -90,7 +90,7 @@ class PipelineRenderer : public Renderer {
     }
     if (scene.frame.antialias.kind != Antialias::Kind::none) {
       std::vector<Frame> passes;
-      for (const Scene& pass : passes_of(scene)) passes.push_back(picture(pass));
+      for (const Scene& pass : passes_of(scene)) passes.push_back(render(pass, stages_));
       out.planes = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame));
       for (const Frame& pass : passes) out.samples.push_back(planes_of_frame(pass, formats_of(scene.frame)).color);
       return out;

@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t kOrdinarySeeds = 20000;
+
 // A folder of generated scene files, gone afterwards.
 class OrdinaryScenes : public testing::Test {
  protected:
@@ -50,6 +52,13 @@ TEST_F(OrdinaryScenes, AreTheSameForTheSameSeed) {
   std::string all;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) all += ordinary::ordinary_scene(seed);
   EXPECT_EQ(hash(all), 10614548038268845290u);
+}
+
+TEST_F(OrdinaryScenes, HoldAgainstAllReferences) {
+  for (std::uint64_t seed = 1; seed <= kOrdinarySeeds; seed += one_of(133)) {
+    const fs::path file = test::findings_folder() / "ordinary" / fmt::format("{:05}.json", seed);
+    test::expect_holds(scene_of(seed), seed, file, ordinary::ordinary_scene(seed));
+  }
 }
 
 // The rows that plumb leaves of each scene, as text, for what its arguments name.
