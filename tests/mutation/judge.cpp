@@ -23,9 +23,20 @@ std::string ending(const Ended& ended) {
   return ended.how.empty() ? fmt::format("exit code {}", ended.code) : ended.how;
 }
 
-// Seconds for the judgement of so many scenes, the slowest of which takes 5.
+// A renderer that never ends is a row `failed` of its stage after that time; the slowest of the scenes takes 5 s.
+// Memory: below what run() allows, so that the renderer fails and not plumb.
+constexpr unsigned kRendererSeconds = 20;
+const std::vector<std::string> kLimits = {"--time-limit", std::to_string(kRendererSeconds), "--memory-limit", "4096"};
+
+// Seconds for the judgement of so many scenes, in each of which the capture and the painter may never end.
 unsigned seconds_of(std::size_t scenes) {
-  return std::min<unsigned>(60 + 5 * static_cast<unsigned>(scenes), kMostSeconds);
+  return std::min(60 + (5 + 2 * kRendererSeconds) * static_cast<unsigned>(std::min<std::size_t>(scenes, kMostSeconds)),
+                  kMostSeconds);
+}
+
+std::vector<std::string> with_limits(std::vector<std::string> argv) {
+  argv.insert(argv.end(), kLimits.begin(), kLimits.end());
+  return argv;
 }
 
 std::string last_line(const fs::path& file) {
@@ -52,7 +63,7 @@ Judge::Judge(fs::path programs, fs::path scenes, fs::path out)
 // What fails without a change says nothing of one.
 void Judge::require_held(const std::string& scene, const std::string& name) const {
   const fs::path text = out_ / (name + ".as_it_is.txt");
-  if (run({programs_ / "plumb", "check", scenes_ / (scene + ".json")}, text, seconds_of(1)).ok()) return;
+  if (run(with_limits({programs_ / "plumb", "check", scenes_ / (scene + ".json")}), text, seconds_of(1)).ok()) return;
   throw std::runtime_error(fmt::format("{} fails in the sources as they are: see {}", scene, text.string()));
 }
 
@@ -113,7 +124,7 @@ void Judge::find(const fs::path& programs, const FileRule& rule, const std::vect
     const auto some = std::span(scenes).subspan(from, std::min(batch, scenes.size() - from));
     if (some.empty()) return;
     from += some.size();
-    std::vector<std::string> argv = {programs / "plumb", "check", "--jobs", "1", "--json", json};
+    std::vector<std::string> argv = with_limits({programs / "plumb", "check", "--jobs", "1", "--json", json});
     for (const Affected& a : some) argv.push_back(scenes_ / (a.scene + ".json"));
     fs::remove(json);
     const Ended ended = run(argv, text, seconds_of(some.size()));
@@ -136,7 +147,8 @@ void Judge::find(const fs::path& programs, const FileRule& rule, const std::vect
       if (other != named.end()) out.check = other->second;
     }
     const Ended diagnosed =
-        run({programs / "plumb", "diagnose", scenes_ / (out.scene + ".json"), "--json", json}, text, seconds_of(1));
+        run(with_limits({programs / "plumb", "diagnose", scenes_ / (out.scene + ".json"), "--json", json}), text,
+            seconds_of(1));
     out.diagnose = {"ended", ending(diagnosed)};
     if (diagnosed.how.empty() && diagnosed.code < 2) out.diagnose = named_by_diagnose(text_of(json));
     return;

@@ -1,7 +1,7 @@
 // What the pipeline hands on of scenes, as hashes: scene_hashes FOLDER, or scene_hashes --random SEED COUNT. A line for
 // each scene, fields apart by tabs: name, about what drawing it takes, the hash of each stage (-: none), and of the
 // picture as it ships. Each scene has a process of its own; of one that crashes or never ends the line is name, work,
-// "failed" and why. After five such no more are drawn.
+// "failed" and why. After three such no more are drawn.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -21,7 +21,7 @@ namespace plumbline::mutation {
 namespace {
 
 constexpr unsigned kMostSeconds = 20;
-constexpr int kMostFailed = 5;
+constexpr int kMostFailed = 3;
 
 // Pixels of each draw, and a triangle as 50 of them.
 std::size_t work_of(const Scene& scene) {
