@@ -70,8 +70,8 @@ void replace_word(const Source& s, std::size_t i, const Emit& emit) {
                                                                           {"max", "min"},
                                                                           {"floor", "ceil"},
                                                                           {"ceil", "floor"},
-                                                                          {"greater_of", "less_of"},
-                                                                          {"less_of", "greater_of"},
+                                                                          {"greater_of", "lesser_of"},
+                                                                          {"lesser_of", "greater_of"},
                                                                           {"any", "all"},
                                                                           {"all", "any"},
                                                                           {"sin", "cos"},
@@ -124,8 +124,8 @@ bool alike(const Source& s, std::size_t a, std::size_t a_last, std::size_t b, st
 }
 
 void swap_arguments(const Source& s, std::size_t i, const Emit& emit) {
-  static const std::set<std::string_view> kSymmetric = {"min",   "max",  "greater_of", "less_of", "dot", "any",
-                                                        "fused", "Add",  "Mul",        "And",     "Or",  "for",
+  static const std::set<std::string_view> kSymmetric = {"min",   "max",  "greater_of", "lesser_of", "dot", "any",
+                                                        "fused", "Add",  "Mul",        "And",       "Or",  "for",
                                                         "if",    "pair", "switch",     "while"};
   const bool call = s.word(i) == "(", list = s.word(i) == "{";
   if ((!call && !list) || i == 0) return;
