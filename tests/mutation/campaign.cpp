@@ -1,6 +1,7 @@
 #include "mutation/campaign.h"
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -111,12 +112,16 @@ std::vector<Judged> run_campaign(const CampaignOptions& options, const std::vect
       }
     });
   }
+  const auto start = std::chrono::steady_clock::now();
+  const auto late = [&] {
+    return options.minutes && std::chrono::steady_clock::now() - start > std::chrono::minutes(*options.minutes);
+  };
   std::set<std::tuple<std::string, std::string, std::string>> known;  // two seeds may draw the same
   try {
     for (const std::string& seed : options.seeds) {
       std::size_t count = 0;
       for (const Judged& j : changes_of_seed(tree.source(), rules, seed)) {
-        if (count == options.changes) break;
+        if (count == options.changes || late()) break;
         if (options.only && j.number != *options.only) continue;
         if (!known.emplace(j.change.file, j.lines.before, j.lines.after).second) continue;
         if (!tree.build_changed(j.change, options.out / "programs" / name_of(j))) continue;

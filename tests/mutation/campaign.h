@@ -17,6 +17,7 @@ struct CampaignOptions {
   std::vector<std::string> seeds;   ///< hexadecimal
   std::size_t changes = 67;         ///< that compile, of each seed
   std::optional<std::size_t> only;  ///< the number of the one that is wanted
+  std::optional<unsigned> minutes;  ///< after which no other change is begun
   unsigned workers = 2;  ///< 1: compiled and judged in turns; else one change is compiled while others are judged
 };
 

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   app.add_option("seeds", options.seeds, "hexadecimal")->required();
   app.add_option("--changes", options.changes, "that compile, of each seed");
   app.add_option("--number", options.only, "only the seed's change of this number");
+  app.add_option("--minutes", options.minutes, "after which no other change is begun");
   app.add_option("--workers", options.workers, "threads")->check(CLI::Range(1u, 64u));
   app.add_option("--out", options.out, "the folder in which the changed sources are built");
   app.add_flag("--list", list, "prints the changes, and builds none");
