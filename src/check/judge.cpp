@@ -192,6 +192,40 @@ Comparison candidate_failed(const Scene& scene, Renderer& candidate, Renderer* r
   return not_judged(scene.name, shown.name, stage, Outcome::failed, at ? at->how : how);
 }
 
+// Stages that say what the others' rows leave open. A referee that fails shows that under its own name.
+MadeStages make_stages(const Scene& scene, const Capture& candidate, Renderer& referee) {
+  MadeStages made;
+  for (const Stage stage : {Stage::texture, Stage::visibility}) {
+    if (!referee.info()[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
+    try {
+      made.emplace(stage, referee.run_stage(scene, stage, candidate));
+    } catch (const std::exception&) {
+    }
+  }
+  return made;
+}
+
+// Marks the candidate's fragments as drawn by the referee's tests of its earlier records, as long as it lives: a
+// fragment that the candidate draws wrongly leaves nothing open.
+class DrawnAsMade {
+ public:
+  DrawnAsMade(Capture& candidate, MadeStages& made) : candidate_(candidate), visibility_(made.find(Stage::visibility)) {
+    known_ = visibility_ != made.end();
+    swap();
+  }
+  DrawnAsMade(const DrawnAsMade&) = delete;
+  DrawnAsMade& operator=(const DrawnAsMade&) = delete;
+  ~DrawnAsMade() { swap(); }
+
+ private:
+  void swap() {
+    if (known_) candidate_.records.drawn.swap(visibility_->second.records.drawn);
+  }
+  Capture& candidate_;
+  MadeStages::iterator visibility_;
+  bool known_;
+};
+
 // The records of the stages that `shown` shows, each run alone on those before it.
 Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown) {
   Capture out;
@@ -208,7 +242,7 @@ Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown) 
 }  // namespace
 
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
-                                      const RendererInfo* shown, const Capture* filtered) {
+                                      const RendererInfo* shown, const MadeStages& made) {
   std::vector<Comparison> out;
   const Legal none;
   Case c{scene, candidate, none, &referee, out};
@@ -223,8 +257,9 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
       continue;
     }
     try {
-      if (stage == Stage::texture && filtered != nullptr && !over_budget(candidate)) {
-        judge_made(c, *filtered, stage, name);
+      const auto known = made.find(stage);
+      if (known != made.end() && !over_budget(candidate)) {
+        judge_made(c, known->second, stage, name);
       } else {
         graft(c, referee, stage, name);
       }
@@ -303,13 +338,10 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
     somewhere = legal_where_apart(scene, *mine, theirs, *referee);
     legal = &somewhere;
   }
-  std::optional<Capture> filtered;
-  if (drew && referee != nullptr && textured(scene)) {
-    try {
-      filtered = referee->run_stage(scene, Stage::texture, *mine);
-      mine->legal.texels = std::move(filtered->legal.texels);
-    } catch (const std::exception&) {  // the referee's failure shows under its own name
-    }
+  MadeStages made;
+  if (drew && referee != nullptr) made = make_stages(scene, *mine, *referee);
+  if (const auto filtered = made.find(Stage::texture); filtered != made.end()) {
+    mine->legal.texels = std::move(filtered->second.legal.texels);
   }
   for (std::size_t i = 0; i < references.size(); ++i) {
     if (!failures[i].empty()) {
@@ -318,11 +350,14 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
       Case c{scene, *mine, *legal, referee, verdict.comparisons};
       try {
         const RendererInfo info = references[i].renderer->info();
-        judge_from_scene(c, theirs[i], info, mine_info);
+        {
+          const DrawnAsMade drawn_as_made(*mine, made);
+          judge_from_scene(c, theirs[i], info, mine_info);
+        }
         if (runs_stages(info)) {
-          const bool same = filtered && references[i].renderer == referee;
+          const bool same = references[i].renderer == referee;
           std::ranges::move(
-              judge_records(scene, *mine, *references[i].renderer, &mine_info, same ? &*filtered : nullptr),
+              judge_records(scene, *mine, *references[i].renderer, &mine_info, same ? made : MadeStages()),
               std::back_inserter(verdict.comparisons));
         }
       } catch (const std::exception& e) {
@@ -331,7 +366,8 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
     }
   }
   settle_votes(verdict.comparisons);
-  if (drew && mine_info.paints && mine_info[Stage::merge].shows) verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
+  if (drew && mine_info.paints && mine_info[Stage::merge].shows)
+    verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
   verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (drawn != nullptr) {
     if (drew) drawn->candidate = std::move(*mine);

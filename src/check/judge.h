@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 
@@ -35,9 +36,12 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
 /// The frame as the candidate ships it against the one that was watched: row `picture`, of the last stage.
 Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture& watched);
 
+/// Stages as a referee makes them of the candidate's own records.
+using MadeStages = std::map<Stage, Capture>;
+
 /// The part of it that needs no scene but for what is drawn: each stage but the first as `referee` makes it of the
-/// candidate's own records, against the candidate's. `filtered`: what it made of the texture stage, if it did already.
+/// candidate's own records, against the candidate's. `made`: stages that it made already.
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
-                                      const RendererInfo* shown = nullptr, const Capture* filtered = nullptr);
+                                      const RendererInfo* shown = nullptr, const MadeStages& made = {});
 
 }  // namespace plumbline::check

@@ -243,6 +243,31 @@ TEST_F(Judge, EveryStageOfTheCandidateIsHeldToItsOwnRecords) {
   }
 }
 
+// Marked as drawn, a hidden fragment is what the frame holds, and the next of its depth an open test.
+TEST_F(Judge, AFragmentDrawnWronglyLeavesNothingOpen) {
+  scene.draws.push_back(scene.draws[1]);
+  for (Draw& draw : scene.draws) draw.merge.blend = Blend{};
+  const auto spoil = [](Capture& c, bool drawn_wrongly) {
+    const Records<double>& r = c.records;
+    const auto hidden = std::ranges::find_if(r.covered, [&](const Covered& f) {
+      const std::uint32_t primitive = r.triangles[f.triangle].primitive;
+      return c.planes.id(f.x, f.y) < 2 && (primitive == 2 || primitive == 3);
+    });
+    ASSERT_NE(hidden, r.covered.end());
+    if (drawn_wrongly) c.records.drawn[static_cast<std::size_t>(hidden - r.covered.begin())].drawn = true;
+    float& red = c.planes.color(hidden->x, hidden->y).r;
+    red = red < 0.5f ? 1 : 0;
+  };
+  const auto run_it = [&] { return run({{"witness", &witness}, {"exact", &referee}}); };
+  EXPECT_FALSE(is_failure(run_it().at({"witness", Stage::merge}).outcome));
+  for (const bool drawn_wrongly : {false, true}) {
+    candidate.on_capture = [&](Capture& c) { spoil(c, drawn_wrongly); };
+    const Results results = run_it();
+    EXPECT_EQ(results.at({"witness", Stage::merge}).outcome, Outcome::different) << drawn_wrongly;
+    EXPECT_EQ(results.at({"exact from its records", Stage::visibility}).outcome == Outcome::different, drawn_wrongly);
+  }
+}
+
 TEST_F(Judge, AWinnerApartIsOnePixelApart) {
   candidate.on_capture = [](Capture& c) { c.planes.id(5, 5) = 1'000'000; };
   const Measurement m = run({{"exact", &referee}}).at({"exact from its records", Stage::visibility}).measurement;
