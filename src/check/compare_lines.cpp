@@ -9,6 +9,7 @@
 
 #include "check/compare_words.h"
 #include "check/open_pixels.h"
+#include "scene/draw_of.h"
 
 namespace plumbline::check {
 
@@ -88,8 +89,24 @@ std::map<int, Column> columns_of(const std::vector<glm::ivec2>& pixels, int majo
 
 int major_axis(glm::dvec2 d) { return std::abs(d.x) >= std::abs(d.y) ? 0 : 1; }
 
-// `extent`: the frame's size.
-void compare_line(Meter& meter, std::uint32_t primitive, const Line& mine, const Line& theirs, glm::ivec2 extent,
+// Pixels from `low` up to, and without, `high`.
+struct Box {
+  glm::ivec2 low, high;
+};
+
+// The pixels of the frame that a primitive's draw may cover.
+Box box_of(const Scene& scene, const std::vector<DrawRange>& ranges, std::uint32_t primitive, glm::ivec2 extent) {
+  Box out{glm::ivec2(0), extent};
+  const auto draw = draw_of(ranges, primitive);
+  if (!draw || !scene.draws[*draw].scissor) return out;
+  const Scissor& scissor = *scene.draws[*draw].scissor;
+  out.low = glm::max(out.low, glm::ivec2(scissor.x, scissor.y));
+  out.high = glm::min(out.high, glm::ivec2(scissor.x + scissor.width, scissor.y + scissor.height));
+  return out;
+}
+
+// `box`: the pixels that the line may cover.
+void compare_line(Meter& meter, std::uint32_t primitive, const Line& mine, const Line& theirs, const Box& box,
                   double factor) {
   const auto at = [&](glm::ivec2 p, const char* field) {
     return Place{p.x, p.y, static_cast<std::int64_t>(primitive), field};
@@ -109,9 +126,8 @@ void compare_line(Meter& meter, std::uint32_t primitive, const Line& mine, const
   for (const auto& [place, column] : their_columns) {
     if (axis_open) break;
     const glm::ivec2 p = major == 0 ? glm::ivec2(place, column.low) : glm::ivec2(column.low, place);
-    const bool at_border = column.low == 0 || column.high == extent[1 - major] - 1;
+    const bool cut = column.low == box.low[1 - major] || column.high == box.high[1 - major] - 1;
     const auto same = columns.find(place);
-    const bool cut = at_border || (same != columns.end() && same->second.count < width);
     const bool whole = column.high - column.low + 1 == column.count && (cut || column.count == width);
     meter.value(whole && column.count <= width ? 0 : kInfinite, 0, at(p, "width in a column"), width, column.count);
     if (same == columns.end()) continue;
@@ -125,7 +141,8 @@ void compare_line(Meter& meter, std::uint32_t primitive, const Line& mine, const
 
 }  // namespace
 
-Measurement compare_covered_lines(const Capture& candidate, const Capture& reference, double factor) {
+Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                  double factor) {
   std::string why;
   const Planes &a = candidate.planes, &b = reference.planes;
   if (!same_size(a.count, b.count, why) || !same_size(a.id_sum, b.id_sum, why) || !same_size(a.count, a.id_sum, why)) {
@@ -136,12 +153,13 @@ Measurement compare_covered_lines(const Capture& candidate, const Capture& refer
   LinesOfPixels all = mine;
   all.insert(theirs.begin(), theirs.end());
   const glm::ivec2 extent(a.count.width(), a.count.height());
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
   for (const auto& [key, line] : all) {
     const auto at = [&, wanted = key](const LinesOfPixels& lines) {
       const auto found = lines.find(wanted);
       return found == lines.end() ? Line{} : found->second;
     };
-    compare_line(meter, key.first, at(mine), at(theirs), extent, factor);
+    compare_line(meter, key.first, at(mine), at(theirs), box_of(scene, ranges, key.first, extent), factor);
     meter.item();
   }
   const Rest rest_a = without(mine, a), rest_b = without(theirs, b);
@@ -155,41 +173,35 @@ Measurement compare_covered_lines(const Capture& candidate, const Capture& refer
   return meter.done();
 }
 
-Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, const Capture& reference,
-                                 double factor) {
+Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, const Capture& reference) {
   const Planes &mine = candidate.planes, &theirs = reference.planes;
   std::string why;
   if (!same_size(mine.id_sum, theirs.id_sum, why) || !same_size(mine.count, theirs.count, why) ||
-      !same_size(mine.depth, theirs.depth, why) || !same_size(mine.count, mine.id_sum, why) ||
-      !same_size(mine.depth, mine.count, why) || !same_size(mine.id, mine.count, why)) {
+      !same_size(mine.count, mine.id_sum, why) || !same_size(mine.id, mine.count, why)) {
     return mismatch("pixels", why, mine.id.size());
   }
-  const OffsetErrors offsets(scene);
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  const Plane<std::uint8_t> open =
-      mine.stencil.empty() ? Plane<std::uint8_t>() : open_by_depth(scene, candidate);  // hidden fragments count too
+  if (mine.stencil.size() != theirs.stencil.size()) {
+    return mismatch("pixels", "stencil values of one side alone", mine.id.size());
+  }
+  if (candidate.records.depth.size() != candidate.records.covered.size()) {
+    return mismatch("pixels", "not a depth for each fragment", mine.id.size());
+  }
+  const LegalWinners legal(scene, candidate.records);
   return compare_planes(mine.id, theirs.id, "pixels", [&](Meter& meter, int x, int y) {
     const std::int32_t a = mine.id(x, y), b = theirs.id(x, y);
-    const bool held = !mine.stencil.empty() && mine.stencil.size() == theirs.stencil.size();
+    const bool held = !mine.stencil.empty();
     const int stencil_a = held ? mine.stencil(x, y) : 0, stencil_b = held ? theirs.stencil(x, y) : 0;
     if (a == b && stencil_a == stencil_b) return;
     const bool alike = mine.id_sum(x, y) == theirs.id_sum(x, y) && mine.count(x, y) == theirs.count(x, y);
-    if (!alike || (held && open(x, y) != 0)) return meter.ambiguous();
+    if (!alike) return meter.ambiguous();
+    const std::vector<LegalAnswer> answers = legal.at(x, y);
+    const auto is_legal = [&](std::int32_t primitive, int stencil) {
+      return std::ranges::any_of(answers, [&](const LegalAnswer& answer) {
+        return answer.primitive == primitive && (!held || answer.stencil == stencil);
+      });
+    };
+    if (is_legal(a, stencil_a) && is_legal(b, stencil_b)) return meter.ambiguous();
     if (a == b) return meter.value(1, 0, {x, y, -1, "stencil"}, stencil_a, stencil_b);
-    // Each side's winner is the other's loser: their depths are apart by no more than one of them may be off.
-    double off = 0;
-    for (const std::int32_t primitive : {a, b}) {
-      if (primitive == kBackground) continue;
-      const DepthLimits limits = depth_limits(scene, ranges, primitive);
-      const PlaneBounds bounds = primitive_bounds(candidate.records, primitive, x, y, limits);
-      const double offset = offsets.of(candidate.records, primitive);
-      double by_edge = 0;  // where edges of one triangle meet, either may have won
-      const std::vector<EdgeValue> edges = edge_values(triangles_of(candidate.records, primitive), x, y, limits);
-      for (const EdgeValue& edge : edges) by_edge = std::max(by_edge, std::abs(edge.depth - edges.front().depth));
-      off = std::max(off, factor * kUnitRoundoff * (bounds.depth + offset) + std::abs(bounds.along_depth) + by_edge);
-    }
-    const double z = theirs.depth(x, y);
-    if (std::abs(mine.depth(x, y) - z) <= off + depth_step(scene.frame.depth, z)) return meter.ambiguous();
     meter.value(1, 0, {x, y, -1, "primitive"}, a, b);
   });
 }

@@ -106,6 +106,43 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) 
   return open;
 }
 
+LegalWinners::LegalWinners(const Scene& scene, const Records<double>& records)
+    : scene_(scene),
+      records_(records),
+      ranges_(draw_ranges(scene)),
+      offsets_(scene),
+      fragments_(DrawnAt::covered(scene.frame, records)) {}
+
+std::vector<LegalAnswer> LegalWinners::at(int x, int y) const {
+  std::vector<Hit> hits;
+  fragments_.each(x, y, [&](std::size_t i) {
+    const WindowTriangle<double>& triangle = records_.triangles[records_.covered[i].triangle];
+    const auto number = draw_of(ranges_, triangle.primitive);
+    if (!number) return;
+    const Draw& draw = scene_.draws[*number];
+    const DepthLimits limits = depth_limits(scene_, ranges_, static_cast<std::int32_t>(triangle.primitive));
+    const double z = records_.depth[i], error = depth_error(records_, offsets_, i, limits);
+    Hit& hit = hits.emplace_back();
+    hit.primitive = triangle.primitive;
+    hit.depth_func = draw.depth_func;
+    hit.certain = true;
+    hit.z_lo = std::isfinite(error) ? std::max(z - error, 0.0) : 0;
+    hit.z_hi = std::isfinite(error) ? std::min(z + error, 1.0) : 1;
+    hit.depth_mask = draw.merge.depth_mask;
+    if (draw.alpha_test) {
+      const bool told = i < records_.shaded.size();
+      const double alpha = told ? records_.shaded[i].color.a : 0;
+      const Outcomes test = alpha_outcomes(*draw.alpha_test, scene_.frame.color, alpha, alpha);
+      hit.alpha_passes = !told || test.may_pass;
+      hit.alpha_fails = !told || test.may_fail;
+    }
+    if (draw.stencil) hit.stencil = triangle.front ? &draw.stencil->front : &draw.stencil->back;
+  });
+  std::vector<LegalAnswer> out;
+  fold_hits(hits, scene_.frame, out);
+  return out;
+}
+
 namespace {
 
 // Takes the fragments of the wanted triangles out of the planes of coverage.

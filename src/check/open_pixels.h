@@ -4,9 +4,13 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "check/bounds.h"
+#include "check/fragment_bounds.h"
 #include "scene/scene.h"
 #include "stages/capture.h"
+#include "stages/legal.h"
 #include "stages/renderer.h"
 
 namespace plumbline::check {
@@ -24,6 +28,23 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
 /// goes by the major axis (bounds.h), let its depth test come out otherwise: also of one that another hides later.
 /// Needs the candidate's records of stages 5, 6 and 10; without them nothing is open.
 Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate);
+
+/// What may win a pixel, and the stencil value beside it, where each fragment's depth is off by up to the bounds of
+/// compare_depth_planes and what goes by the major axis (bounds.h). By the candidate's fragments, depths and alphas
+/// (records of stages 5, 6 and 9): what it made of them at visibility is not looked at.
+class LegalWinners {
+ public:
+  /// Each fragment has a depth.
+  LegalWinners(const Scene& scene, const Records<double>& records);
+  std::vector<LegalAnswer> at(int x, int y) const;
+
+ private:
+  const Scene& scene_;
+  const Records<double>& records_;
+  std::vector<DrawRange> ranges_;
+  OffsetErrors offsets_;
+  DrawnAt fragments_;
+};
 
 /// Both sides' coverage without the outlines that each draws legally as another face (legal_window.h, turned_outlines),
 /// and the pixels that they cover on either side: 1. Of the candidate's outlines, and of the reference's points and

@@ -52,7 +52,7 @@ bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
 
 void compare_covers(Case& c, const Capture& mine, const Capture& theirs, const std::string& name) {
   if (draws(c.scene, Topology::lines)) {
-    c.add(name, Stage::coverage, compare_covered_lines(mine, theirs, factor("osmesa.lines")), "osmesa.lines");
+    c.add(name, Stage::coverage, compare_covered_lines(c.scene, mine, theirs, factor("osmesa.lines")), "osmesa.lines");
   } else {
     c.add(name, Stage::coverage, compare_coverage(mine.planes, theirs.planes));
   }
@@ -122,9 +122,14 @@ void compare_stage(Case& c, const Capture& theirs, Stage stage, const std::strin
       if (!draws_depth_codes(c.scene, theirs)) {
         return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
       }
-      return c.add(name, stage,
-                   draws_thin(c.scene) ? compare_thin_winners(c.scene, c.candidate, theirs, factor("osmesa.depth"))
-                                       : compare_winners(c.candidate.planes, theirs.planes, c.legal));
+      if (!draws_thin(c.scene)) {
+        return c.add(name, stage, compare_winners(c.candidate.planes, theirs.planes, c.legal));
+      }
+      if (over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      if (mine.depth.size() != mine.covered.size()) {
+        return c.skip(name, stage, Outcome::unsupported, "how deep fragments are is not told");
+      }
+      return c.add(name, stage, compare_thin_winners(c.scene, c.candidate, theirs));
     case Stage::merge: {
       const bool replaced = colors_replace(c.scene);
       if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {

@@ -2,54 +2,22 @@
 #include "check/compare_lines.h"
 
 #include "check/compare_planes.h"
-#include "check_fixtures.h"
+#include "check_lines.h"
 
 namespace plumbline::check {
 namespace {
-
-using Pixels = std::vector<glm::ivec2>;
-
-WindowTriangle<double> line_of(glm::dvec2 a, glm::dvec2 b, std::uint32_t primitive = 0) {
-  WindowTriangle<double> t =
-      triangle_of({glm::dvec3(a, 0.25), glm::dvec3(b, 0.75), glm::dvec3(b, 0.75)}, {1, 1, 1}, primitive);
-  t.v[2].color = t.v[1].color;
-  t.front = true;
-  t.corners = 2;
-  return t;
-}
-
-/// Of lines, and the pixels of each; and `others`, pixels of primitive 9.
-Capture drawn(const std::vector<WindowTriangle<double>>& lines, const std::vector<Pixels>& pixels,
-              const Pixels& others = {}) {
-  Capture c;
-  c.records.triangles = lines;
-  c.planes.count = Plane<std::uint32_t>(16, 12);
-  c.planes.id_sum = Plane<std::uint64_t>(16, 12);
-  c.planes.id = Plane<std::int32_t>(16, 12, kBackground);
-  c.planes.depth = Plane<double>(16, 12, 1);
-  const auto add = [&](glm::ivec2 p, std::uint32_t primitive) {
-    ++c.planes.count(p.x, p.y);
-    c.planes.id_sum(p.x, p.y) += id_weight(primitive);
-    c.planes.id(p.x, p.y) = static_cast<std::int32_t>(primitive);
-  };
-  for (const glm::ivec2 p : others) add(p, 9);
-  for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    for (const glm::ivec2 p : pixels[i]) {
-      c.records.covered.push_back({i, static_cast<std::uint16_t>(p.x), static_cast<std::uint16_t>(p.y)});
-      add(p, lines[i].primitive);
-    }
-  }
-  return c;
-}
 
 const WindowTriangle<double> kFlat = line_of({2.5, 3.5}, {6.5, 4.5}, 1);
 const Pixels kFlatPixels = {{2, 3}, {3, 3}, {4, 4}, {5, 4}};
 
 Measurement compared(const Pixels& theirs) {
-  return compare_covered_lines(drawn({kFlat}, {kFlatPixels}), drawn({kFlat}, {theirs}), 1);
+  return compare_covered_lines({}, drawn({kFlat}, {kFlatPixels}), drawn({kFlat}, {theirs}), 1);
 }
 
-Measurement winners(const Capture& mine, const Capture& theirs) { return compare_thin_winners({}, mine, theirs, 4); }
+Measurement winners(Capture mine, const Capture& theirs) {
+  mine.records.depth.resize(mine.records.covered.size(), 0.5);
+  return compare_thin_winners({}, mine, theirs);
+}
 
 TEST(CheckLines, the_same_pixels_are_equal) {
   const Measurement m = compared(kFlatPixels);
@@ -85,7 +53,7 @@ TEST(CheckLines, steep_lines_have_rows_for_columns) {
   const WindowTriangle<double> steep = line_of({3.5, 2.5}, {4.5, 6.5}, 1);
   const Pixels pixels = {{3, 2}, {3, 3}, {4, 4}, {4, 5}};
   const auto against = [&](const Pixels& theirs) {
-    return compare_covered_lines(drawn({steep}, {pixels}), drawn({steep}, {theirs}), 1);
+    return compare_covered_lines({}, drawn({steep}, {pixels}), drawn({steep}, {theirs}), 1);
   };
   EXPECT_TRUE(passes(against({{3, 3}, {4, 4}, {4, 5}})));
   EXPECT_TRUE(passes(against({{3, 2}, {4, 3}, {4, 4}, {4, 5}})));
@@ -104,7 +72,7 @@ TEST(CheckLines, columns_of_wide_lines_are_whole) {
   };
   const Pixels lowest = {{2, 2}, {3, 2}, {4, 3}, {5, 3}};
   const auto against = [&](const Pixels& theirs) {
-    return compare_covered_lines(drawn({wide}, {widened(lowest)}), drawn({wide}, {theirs}), 1);
+    return compare_covered_lines({}, drawn({wide}, {widened(lowest)}), drawn({wide}, {theirs}), 1);
   };
   EXPECT_EQ(against(widened(lowest)).ambiguous, 0u);
   EXPECT_TRUE(passes(against(widened({{2, 2}, {3, 3}, {4, 3}, {5, 3}}))));  // a column one off
@@ -123,26 +91,42 @@ TEST(CheckLines, columns_of_wide_lines_are_whole) {
     return t;
   }();
   const Pixels two_rows = widened({{2, 0}, {3, 0}, {4, 0}, {5, 0}}, 2), one_row = {{2, 0}, {3, 0}, {4, 0}, {5, 0}};
-  EXPECT_TRUE(passes(compare_covered_lines(drawn({low}, {two_rows}), drawn({low}, {one_row}), 1)));
+  EXPECT_TRUE(passes(compare_covered_lines({}, drawn({low}, {two_rows}), drawn({low}, {one_row}), 1)));
+  // At the scissor box' border too; elsewhere a column is whole on either side.
+  Scene boxed;
+  boxed.meshes.resize(1);
+  boxed.meshes[0].triangles.resize(2);
+  boxed.draws.resize(1);
+  const Pixels narrow = widened({{2, 3}, {3, 3}, {4, 3}, {5, 3}}, 2);
+  const auto both_narrow = [&](std::optional<Scissor> box) {
+    boxed.draws[0].scissor = box;
+    return compare_covered_lines(boxed, drawn({wide}, {narrow}), drawn({wide}, {narrow}), 1);
+  };
+  EXPECT_TRUE(passes(both_narrow(Scissor{0, 0, 16, 5}))) << "rows 3 and 4, the box' last";
+  EXPECT_TRUE(passes(both_narrow(Scissor{0, 3, 16, 9})));
+  EXPECT_TRUE(fails(both_narrow(Scissor{0, 0, 16, 6})));
+  EXPECT_TRUE(fails(both_narrow(Scissor{0, 2, 16, 9})));
+  EXPECT_TRUE(fails(both_narrow(std::nullopt)));
   // The axis that snapping decides: as long in x as in y but for less than a step.
   WindowTriangle<double> diagonal = line_of({2.5, 2.5}, {5.5, 5.501}, 1);
   diagonal.width = 3;
   const Pixels columns = {{2, 1}, {2, 2}, {2, 3}, {3, 2}, {3, 3}, {3, 4}, {4, 3}, {4, 4}, {4, 5}};
   const Pixels rows = {{1, 2}, {2, 2}, {3, 2}, {2, 3}, {3, 3}, {4, 3}, {3, 4}, {4, 4}, {5, 4}};
-  EXPECT_TRUE(passes(compare_covered_lines(drawn({diagonal}, {columns}), drawn({diagonal}, {rows}), 1)));
+  EXPECT_TRUE(passes(compare_covered_lines({}, drawn({diagonal}, {columns}), drawn({diagonal}, {rows}), 1)));
   diagonal = line_of({2.5, 2.5}, {5.5, 5.4}, 1);
   diagonal.width = 3;
-  EXPECT_TRUE(fails(compare_covered_lines(drawn({diagonal}, {columns}), drawn({diagonal}, {rows}), 1)));
+  EXPECT_TRUE(fails(compare_covered_lines({}, drawn({diagonal}, {columns}), drawn({diagonal}, {rows}), 1)));
 }
 
 TEST(CheckLines, edges_of_one_triangle_are_told_apart) {
   const WindowTriangle<double> second = line_of({6.5, 4.5}, {6.5, 8.5}, 1);
   const Pixels upright = {{6, 4}, {6, 5}, {6, 6}, {6, 7}};
   const Capture mine = drawn({kFlat, second}, {kFlatPixels, upright});
-  EXPECT_TRUE(passes(compare_covered_lines(mine, mine, 1)));
-  EXPECT_TRUE(passes(compare_covered_lines(mine, drawn({kFlat, second}, {kFlatPixels, {{6, 5}, {6, 6}, {6, 7}}}), 1)));
-  EXPECT_TRUE(fails(compare_covered_lines(mine, drawn({kFlat, second}, {upright, kFlatPixels}), 1), 2));
-  EXPECT_FALSE(passes(compare_covered_lines(mine, drawn({kFlat}, {kFlatPixels}), 1)));
+  EXPECT_TRUE(passes(compare_covered_lines({}, mine, mine, 1)));
+  EXPECT_TRUE(
+      passes(compare_covered_lines({}, mine, drawn({kFlat, second}, {kFlatPixels, {{6, 5}, {6, 6}, {6, 7}}}), 1)));
+  EXPECT_TRUE(fails(compare_covered_lines({}, mine, drawn({kFlat, second}, {upright, kFlatPixels}), 1), 2));
+  EXPECT_FALSE(passes(compare_covered_lines({}, mine, drawn({kFlat}, {kFlatPixels}), 1)));
 }
 
 TEST(CheckLines, bounds_hold_for_the_place_along_the_major_axis) {
@@ -245,7 +229,7 @@ TEST(CheckLines, where_edges_meet_either_may_have_been_drawn_last) {
 TEST(CheckLines, a_line_of_no_pixel_may_have_one_at_its_end) {
   const WindowTriangle<double> dot = line_of({3.25, 2.5}, {3.5, 2.75}, 1);
   const auto against = [&](const Pixels& theirs) {
-    return compare_covered_lines(drawn({dot}, {{}}), drawn({dot}, {theirs}), 1);
+    return compare_covered_lines({}, drawn({dot}, {{}}), drawn({dot}, {theirs}), 1);
   };
   EXPECT_TRUE(passes(against({{3, 2}})));
   EXPECT_TRUE(passes(against({{4, 2}})));
@@ -255,24 +239,24 @@ TEST(CheckLines, a_line_of_no_pixel_may_have_one_at_its_end) {
 
 TEST(CheckLines, all_else_must_be_the_same) {
   const Capture mine = drawn({kFlat}, {kFlatPixels}, {{3, 3}, {8, 8}});
-  EXPECT_TRUE(passes(compare_covered_lines(mine, mine, 1)));
-  EXPECT_TRUE(fails(compare_covered_lines(mine, drawn({kFlat}, {kFlatPixels}, {{3, 3}}), 1)));
-  EXPECT_TRUE(fails(compare_covered_lines(mine, drawn({kFlat}, {kFlatPixels}, {{3, 3}, {8, 9}}), 1), 2));
+  EXPECT_TRUE(passes(compare_covered_lines({}, mine, mine, 1)));
+  EXPECT_TRUE(fails(compare_covered_lines({}, mine, drawn({kFlat}, {kFlatPixels}, {{3, 3}}), 1)));
+  EXPECT_TRUE(fails(compare_covered_lines({}, mine, drawn({kFlat}, {kFlatPixels}, {{3, 3}, {8, 9}}), 1), 2));
   Capture other = mine;
   other.planes.id_sum(8, 8) = id_weight(10);
-  EXPECT_TRUE(fails(compare_covered_lines(mine, other, 1)));
+  EXPECT_TRUE(fails(compare_covered_lines({}, mine, other, 1)));
   other = mine;
   other.records.covered.pop_back();  // what the records tell of the line is not what the planes show
-  EXPECT_TRUE(fails(compare_covered_lines(mine, other, 1)));
+  EXPECT_TRUE(fails(compare_covered_lines({}, mine, other, 1)));
 }
 
 TEST(CheckLines, a_line_that_one_side_lacks_is_different) {
   const WindowTriangle<double> second = line_of({2.5, 8.5}, {4.5, 8.5}, 2);
   const Capture one = drawn({kFlat}, {kFlatPixels}), two = drawn({kFlat, second}, {kFlatPixels, {{2, 8}, {3, 8}}});
-  EXPECT_TRUE(fails(compare_covered_lines(one, two, 1)));
-  EXPECT_TRUE(fails(compare_covered_lines(two, one, 1)));
+  EXPECT_TRUE(fails(compare_covered_lines({}, one, two, 1)));
+  EXPECT_TRUE(fails(compare_covered_lines({}, two, one, 1)));
   Capture empty;
-  EXPECT_NE(compare_covered_lines(one, empty, 1).mismatch, "");
+  EXPECT_NE(compare_covered_lines({}, one, empty, 1).mismatch, "");
   EXPECT_NE(winners(one, empty).mismatch, "");
 }
 
@@ -288,21 +272,6 @@ TEST(CheckLines, winners_count_where_both_cover_alike) {
   // Primitive 0 weighs nothing: the count tells.
   const WindowTriangle<double> zero = line_of({2.5, 3.5}, {6.5, 4.5}, 0);
   EXPECT_TRUE(passes(winners(drawn({zero}, {kFlatPixels}), drawn({zero}, {{{2, 3}}}))));
-}
-
-TEST(CheckLines, winners_of_nearly_one_depth_are_ambiguous) {
-  // The pixel above the line's middle, whose depth moves by 0.05 where it goes by the major axis.
-  const WindowTriangle<double> line = line_of({2.5, 1.5}, {6.5, 3.5}, 1);
-  const auto with = [&](std::int32_t winner, double z) {
-    Capture c = drawn({line}, {{{4, 3}}}, {{4, 3}});
-    c.planes.id(4, 3) = winner;
-    c.planes.depth(4, 3) = z;
-    return c;
-  };
-  EXPECT_EQ(winners(with(1, 0.55), with(9, 0.5)).ambiguous, 1u);
-  EXPECT_TRUE(passes(winners(with(1, 0.55), with(9, 0.5))));
-  EXPECT_TRUE(passes(winners(with(9, 0.5), with(1, 0.55))));
-  EXPECT_TRUE(fails(winners(with(1, 0.55), with(9, 0.4999))));
 }
 
 TEST(CheckLines, depth_and_color_go_by_the_major_axis_or_by_the_projection) {

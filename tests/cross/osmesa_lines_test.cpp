@@ -30,7 +30,7 @@ TEST(OsmesaLines, keep_to_the_allowances_of_the_specification) {
   add(scene, thin_mesh(Topology::lines, ends));
   const Capture ours = pipeline::make_pipeline()->capture(scene, kRecords);
   const Capture theirs = make_osmesa()->capture(scene, kRecords);
-  const check::Measurement m = check::compare_covered_lines(ours, theirs, 1);
+  const check::Measurement m = check::compare_covered_lines(scene, ours, theirs, 1);
   EXPECT_EQ(m.differing, 0u) << to_string(m.worst.place) << " " << m.max_difference;
   EXPECT_GT(m.ambiguous, 0u);   // some are not the diamond-exit rule's ...
   EXPECT_LT(m.ambiguous, 60u);  // ... 29 of 2,000 when this was written
@@ -120,7 +120,7 @@ TEST(OsmesaLines, wide_lines_keep_to_the_allowances_where_their_width_is_odd) {
     Scene scene = pixel_scene(64, 64);
     add(scene, thin_mesh(Topology::lines, ends)).line_width = width;
     const check::Measurement m =
-        check::compare_covered_lines(ours->capture(scene, kRecords), osmesa->capture(scene, kRecords), 1);
+        check::compare_covered_lines(scene, ours->capture(scene, kRecords), osmesa->capture(scene, kRecords), 1);
     if (width % 2 == 1) {
       EXPECT_EQ(m.differing, 0u) << width << ": " << to_string(m.worst.place) << " " << m.max_difference;
       EXPECT_LT(m.ambiguous, 25u) << width;
