@@ -10,19 +10,13 @@
 
 #include "check/compare_records.h"
 #include "check/compare_words.h"
+#include "check/legal_polygon.h"
 
 namespace plumbline::check {
 
 namespace {
 
 using Vec8 = std::array<double, 8>;  // clip position over the scale, and colour
-
-struct Corners {
-  std::array<Vec4<double>, 3> p_clip, color;
-  double scale;        // the largest coordinate
-  double color_scale;  // the largest channel, at least 1: varyings are of any size
-  std::size_t planes;  // that cut: the sides alone where depth is clamped
-};
 
 Corners corners_of(const Scene& scene, const std::vector<DrawRange>& ranges, std::size_t d, std::uint32_t primitive,
                    const Records<double>& r, bool flat_applies) {
@@ -41,11 +35,6 @@ Corners corners_of(const Scene& scene, const std::vector<DrawRange>& ranges, std
     }
   }
   return out;
-}
-
-// Signed distances, in units of w, to right, left, top, bottom, near, far.
-std::array<double, 6> distances(const Vec4<double>& p) {
-  return {p.w - p.x, p.w + p.x, p.w - p.y, p.w + p.y, p.w + p.z, p.w - p.z};
 }
 
 Vec8 joined(const Vec4<double>& p, const Vec4<double>& color, const Corners& c) {
@@ -94,11 +83,8 @@ double distance_from_edge(const ClipVertex<double>& v, const Corners& c, std::si
   return largest(rest);
 }
 
-bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance) {
-  return std::abs(distances(v.p_clip)[plane]) <= tolerance;
-}
-
-// The planes whose cuts rounding decides about: a corner lies on one, or an edge goes through the meeting of several.
+// The planes whose cuts rounding decides about: a corner lies on one, or an edge goes through the meeting of several,
+// as the reference's polygon has it.
 void open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, double tolerance,
                  std::array<bool, 6>& open) {
   for (std::size_t p = 0; p < c.planes; ++p) {
@@ -119,27 +105,17 @@ std::span<const ClipVertex<double>> vertices_of(const ClipPolygon& polygon, cons
   return {r.polygons.vertices.data() + polygon.first, polygon.count};
 }
 
-// Whether all corners are inside, or all beyond one plane: which is never open, for the sum of two floats has its sign
-// in float too.
-bool uncut(const Corners& c) {
-  const auto all_corners = [&](std::size_t plane, auto are) {
-    return std::ranges::all_of(c.p_clip, [&](const Vec4<double>& corner) { return are(distances(corner)[plane]); });
-  };
-  bool inside = true, outside = false;
-  for (std::size_t p = 0; p < c.planes; ++p) {
-    inside &= all_corners(p, [](double d) { return d >= 0; });
-    outside |= all_corners(p, [](double d) { return d < 0; });
+// Vertices that rounding may make: of the triangle, and nowhere outside.
+template <class At>
+void within_rounding(Meter& meter, std::span<const ClipVertex<double>> polygon, const Corners& corners, double factor,
+                     const At& at) {
+  for (const ClipVertex<double>& v : polygon) {
+    meter.value(distance_from_triangle(v, corners) / u, factor, at("off its triangle"), 0, 0);
+    const auto d = distances(v.p_clip);
+    for (std::size_t p = 0; p < corners.planes; ++p) {
+      meter.value(std::max(-d[p], 0.0) / (u * corners.scale), factor, at("outside a plane"), d[p], 0);
+    }
   }
-  return inside || outside;
-}
-
-// A polygon that lies within rounding of one plane, which cuts it, may be there or not.
-bool may_vanish(std::span<const ClipVertex<double>> polygon, std::size_t planes, double tolerance) {
-  for (std::size_t p = 0; p < planes; ++p) {
-    if (std::all_of(polygon.begin(), polygon.end(), [&](const auto& v) { return on_plane(v, p, tolerance); }))
-      return true;
-  }
-  return false;
 }
 
 // A corner made by a cut that coincides with the next says nothing: where cuts meet, their order decides who makes it.
@@ -179,7 +155,12 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   const auto all_mine = vertices_of(a, candidate), all_theirs = vertices_of(b, reference);
   std::array<bool, 6> open{};
   if (a.count != b.count) {
-    for (const auto polygon : {all_mine, all_theirs}) open_planes(corners, polygon, factor * unit, open);
+    open_planes(corners, all_theirs, factor * unit, open);
+    within_rounding(meter, all_mine, corners, factor, at);
+    // All that no rounding cuts off is there: edges are off by `factor` u in each of four coordinates.
+    for (const ClipVertex<double>& v : clipped(corners, factor * unit)) {
+      meter.value(distance_to_polygon(v.p_clip, all_mine) / unit, 2 * factor, at("cut off"), 0, 0);
+    }
   }
   const auto settled = [&](const ClipVertex<double>& v) {
     for (std::size_t p = 0; p < 6; ++p) {
@@ -207,9 +188,10 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
     std::rotate(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(turn_of(mine, theirs)), mine.end());
   for (std::size_t i = 0; i < mine.size(); ++i) {
     const ClipVertex<double>&v = mine[i], &w = theirs[i];
-    if (v.cut != w.cut && a.count < 3 &&
-        may_vanish(std::span(&v, 1), corners.planes, factor * unit)) {  // a line's end on a plane
+    if (v.cut != w.cut && a.count < 3 && may_end_in(v, corners, i, factor * unit)) {
       meter.ambiguous();
+      within_rounding(meter, std::span(&v, 1), corners, factor, at);
+      meter.value(distance_from_edge(v, corners, 0) / u, factor, at("off its edge"), 0, 0);
       continue;
     }
     meter.value(v.cut == w.cut ? 0 : kInfinite, 0, at("cut"), v.cut, w.cut);
@@ -277,11 +259,18 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
     const Corners corners = corners_of(scene, ranges, d, primitive, candidate, flat_applies);
     if (a != nullptr && b != nullptr) {
       compare_polygon(meter, *a, *b, candidate, reference, corners, factor);
-    } else if (!uncut(corners) && may_vanish(a != nullptr ? vertices_of(*a, candidate) : vertices_of(*b, reference),
-                                             corners.planes, factor * u * corners.scale)) {
-      meter.ambiguous();
     } else {
-      meter.value(kInfinite, 0, {-1, -1, primitive, a == nullptr ? "polygon lacking" : "polygon extra"}, 0, 0);
+      const auto at = [&](const char* field) { return Place{-1, -1, primitive, field}; };
+      const double tolerance = factor * u * corners.scale;
+      const std::vector<ClipVertex<double>> widest =
+          a != nullptr ? clipped(corners, -tolerance) : std::vector<ClipVertex<double>>();
+      if (!uncut(corners) &&
+          may_vanish(a != nullptr ? std::span(widest) : vertices_of(*b, reference), corners.planes, tolerance)) {
+        meter.ambiguous();
+        if (a != nullptr) within_rounding(meter, vertices_of(*a, candidate), corners, factor, at);
+      } else {
+        meter.value(kInfinite, 0, at(a == nullptr ? "polygon lacking" : "polygon extra"), 0, 0);
+      }
     }
     meter.item();
   });
