@@ -62,6 +62,24 @@ std::string code_unit(const FrameFormat& frame) {
   return scale > 0 ? fmt::format("1/{:.0f}", scale) : "u";
 }
 
+// Whether the two sides say that other fragments cover a pixel (lines' may lie beside each other): coverage's matter.
+// Primitive 0 weighs nothing in the sums: the count tells it.
+class OthersCover {
+ public:
+  OthersCover(const Planes& a, const Planes& b) : a_(a), b_(b) {
+    std::string why;
+    told_ = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why) && same_size(a.count, b.count, why) &&
+            same_size(a.count, a.id, why);
+  }
+  bool operator()(int x, int y) const {
+    return told_ && (a_.id_sum(x, y) != b_.id_sum(x, y) || a_.count(x, y) != b_.count(x, y));
+  }
+
+ private:
+  const Planes &a_, &b_;
+  bool told_ = false;
+};
+
 bool reads_frame(const BlendTerm& term) {
   const auto reads = [](BlendFactor f) {
     return f == BlendFactor::destination_color || f == BlendFactor::one_minus_destination_color ||
@@ -188,14 +206,9 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
   const OffsetErrors offsets(scene);
   const std::vector<DrawRange> ranges = draw_ranges(scene);
   const DepthsBeneath beneath(scene, candidate, ranges);
-  std::string why;
-  const bool told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why) &&
-                    same_size(a.count, b.count, why) && same_size(a.count, a.id, why);
-  // Of other fragments (lines' may lie beside each other), one that the winner leaves in place may have left its depth:
-  // coverage's matter.
-  const auto others_left_it = [&](int x, int y) {
-    return told && !depths_replace(scene) && (a.id_sum(x, y) != b.id_sum(x, y) || a.count(x, y) != b.count(x, y));
-  };
+  const OthersCover others_cover(a, b);
+  // Another fragment, which the winner leaves in place, may have left its depth.
+  const auto others_left_it = [&](int x, int y) { return !depths_replace(scene) && others_cover(x, y); };
   return where_winners_agree(a, b, &Planes::depth, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const double z = a.depth(x, y), z_ref = b.depth(x, y);
     const Place place{x, y, id, "z"};
@@ -285,15 +298,12 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
   const FragmentBounds bounds(scene, candidate, reference, factor);
   const DrawnAt drawn(scene.frame, candidate.records);
   const Plane<std::uint8_t> tied = legal.empty() ? open_by_depth(scene, candidate) : Plane<std::uint8_t>();
-  std::string why;
+  const OthersCover others_cover(a, b);
   const std::string unit = code_unit(scene.frame);
-  const bool reads = factors_read_frame(scene),
-             told = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why);
+  const bool reads = factors_read_frame(scene);
   return where_winners_agree(a, b, &Planes::color, unit, [&](Meter& meter, int x, int y, std::int32_t id) {
     const Place place{x, y, id, "color"};
-    // Of other fragments (lines' may lie beside each other): coverage's matter.
-    const bool others = told && a.id_sum(x, y) != b.id_sum(x, y);
-    const bool open = others || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
+    const bool open = others_cover(x, y) || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
                       (!tied.empty() && tied(x, y) != 0);
     int fragments = 0;
     double bound = 0;

@@ -83,6 +83,9 @@ TEST_F(BlendedPairs, OtherFragmentsAreCoveragesMatterAndALinesColourGoesAlongIts
   scene.meshes[0].topology = Topology::lines;
   EXPECT_TRUE(passes(run(blended(), beside)));
   EXPECT_EQ(run(blended(), beside).ambiguous, 1u);
+  const PlaneChange zero_beside = [](Planes& p) { p.count(2, 2) += 1, p.color(2, 2).r += code(40); };
+  EXPECT_TRUE(passes(run(blended(), zero_beside))) << "primitive 0 weighs nothing";
+  EXPECT_EQ(run(blended(), zero_beside).ambiguous, 1u);
   EXPECT_TRUE(
       fails(run(blended(), [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r = static_cast<float>(kNaN); })));
   EXPECT_EQ(most(3, 1), 5);
