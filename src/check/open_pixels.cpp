@@ -58,20 +58,24 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
 
 namespace {
 
-// How far a reference's depth of a fragment may be from the candidate's.
+// How far a reference's depth of a fragment, before it is rounded to the frame's format, may be from the candidate's,
+// which has been: half a step. Where edges of one triangle meet, the reference may hold any of their values.
 double depth_error(const Records<double>& r, const OffsetErrors& offsets, std::size_t fragment,
-                   const DepthLimits& limits) {
+                   const DepthLimits& limits, DepthFormat format) {
   const Covered& c = r.covered[fragment];
   const WindowTriangle<double>& triangle = r.triangles[c.triangle];
   const PlaneBounds bounds = bounds_from_origin(triangle, c.x, c.y, limits);
-  double by_edge = 0;  // where edges of one triangle meet, either may be the fragment's
+  const double z = r.depth[fragment];
+  double apart = std::abs(bounds.along_depth), arithmetic = bounds.depth;
   if (triangle.corners == 2) {
     const auto primitive = static_cast<std::int32_t>(triangle.primitive);
-    const auto edges = edge_values(triangles_of(r, primitive), c.x, c.y, limits);
-    for (const EdgeValue& edge : edges) by_edge = std::max(by_edge, std::abs(edge.depth - edges.front().depth));
+    for (const EdgeValue& edge : edge_values(triangles_of(r, primitive), c.x, c.y, limits)) {
+      apart = std::max(apart, std::abs(edge.depth - z));
+    }
+    arithmetic = primitive_bounds(r, primitive, c.x, c.y, limits).depth;
   }
-  return tolerance("osmesa.depth").factor * kUnitRoundoff * (bounds.depth + offsets.of(triangle)) +
-         std::abs(bounds.along_depth) + by_edge;
+  return tolerance("osmesa.depth").factor * kUnitRoundoff * (arithmetic + offsets.of(triangle)) + apart +
+         depth_step(format, z) / 2;
 }
 
 }  // namespace
@@ -97,9 +101,10 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) 
     const double z = r.depth[i],
                  error = depth_error(
                      r, offsets, i,
-                     depth_limits(scene, ranges, static_cast<std::int32_t>(r.triangles[c.triangle].primitive)));
+                     depth_limits(scene, ranges, static_cast<std::int32_t>(r.triangles[c.triangle].primitive)),
+                     scene.frame.depth);
     const bool compares = draw.depth_func != DepthFunc::always && draw.depth_func != DepthFunc::never;
-    const double apart = std::abs(z - before.z);
+    const double apart = std::abs(z - before.z);  // rounded, two depths are equal only within a step of each other
     if (compares && !(apart > error + before.error + depth_step(scene.frame.depth, z))) open(c.x, c.y) = 1;
     if (r.drawn[i].drawn && draw.merge.depth_mask) before = {z, error};
   }

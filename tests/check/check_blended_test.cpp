@@ -78,6 +78,39 @@ TEST_F(BlendedPairs, AHiddenFragmentWhoseDepthTestIsOpenMayHaveBeenDrawn) {
   EXPECT_EQ(most(3, 1), 7) << "where an oracle has been asked, it decides";
 }
 
+// A fragment's depth half-way between two steps may be rounded to either: the two sides may be a step apart in each.
+TEST_F(BlendedPairs, ADepthTestIsOpenWhereBothDepthsMayBeRoundedOtherwise) {
+  scene.frame.depth = DepthFormat::z16;
+  const double step = depth_step(scene.frame.depth, 0.5);
+  const auto at = [&](double apart) { capture.records.depth = {0.5, 0.5, 0.5 + apart, 0.25}; };
+  at(2 * step);
+  EXPECT_EQ(most(3, 1), 99);
+  at(3 * step);
+  EXPECT_EQ(most(3, 1), 5);
+}
+
+// Three edges pass the pixel at three depths: the reference may hold any of them for the second.
+TEST_F(BlendedPairs, ADepthTestIsOpenAgainstWhatAnyEdgeOfTheTriangleMayHold) {
+  std::vector<WindowTriangle<double>>& triangles = capture.records.triangles;
+  WindowTriangle<double> edge = triangles[0];
+  edge.v[2] = edge.v[1];
+  edge.corners = 2;
+  triangles = {edge, edge, edge, triangles[1]};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (auto& v : triangles[i].v) v.p_win.z = std::array{0.5, 0.625, 0.4375}[i];
+  }
+  capture.records.covered = {{1, 3, 1}, {3, 3, 1}};
+  capture.records.drawn = {{true}, {true}};
+  const auto is_open = [&](double z) {
+    capture.records.depth = {0.625, z};
+    return open_by_depth(scene, capture)(3, 1) != 0;
+  };
+  EXPECT_TRUE(is_open(0.4376));
+  EXPECT_TRUE(is_open(0.8124)) << "as far on the other side";
+  EXPECT_FALSE(is_open(0.4374));
+  EXPECT_FALSE(is_open(0.8126));
+}
+
 TEST_F(BlendedPairs, OtherFragmentsAreCoveragesMatterAndALinesColourGoesAlongItsMajorAxis) {
   const PlaneChange beside = [](Planes& p) { p.id_sum(2, 2) += 1, p.color(2, 2).r += code(40); };
   scene.meshes[0].topology = Topology::lines;
