@@ -126,7 +126,7 @@ std::vector<LegalAnswer> LegalWinners::at(int x, int y) const {
     if (!number) return;
     const Draw& draw = scene_.draws[*number];
     const DepthLimits limits = depth_limits(scene_, ranges_, static_cast<std::int32_t>(triangle.primitive));
-    const double z = records_.depth[i], error = depth_error(records_, offsets_, i, limits);
+    const double z = records_.depth[i], error = depth_error(records_, offsets_, i, limits, scene_.frame.depth);
     Hit& hit = hits.emplace_back();
     hit.primitive = triangle.primitive;
     hit.depth_func = draw.depth_func;
