@@ -83,10 +83,13 @@ vec4 lit(gl_MaterialParameters m, vec3 p, vec3 n, vec4 color, out vec4 secondary
 }
 
 // Mesa 22.3 (ffvertex_prog.c) leaves N.H out where the shininess is 0, and then gives a light that is attenuated or has
-// a cone the specular term (N.L)^(N.L) for 1 (measured: .239 gives .7103).
+// a cone the specular term (N.L)^(N.L) for 1 (measured: .239 gives .7103). Where one side's shininess alone is 0, it
+// takes the power of both, and of an N.H of 0 or less 0^0 for 0 (measured); where both are 0 the same term is 1.
 bool mesa_is_wrong(const Scene& scene, const Draw& draw) {
-  const bool none = draw.material.shininess == 0 || (draw.back_material && draw.back_material->shininess == 0);
-  return none && std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+  const bool front = draw.material.shininess == 0,
+             back = draw.back_material ? draw.back_material->shininess == 0 : front;
+  if (scene.light_model.sides == LightModel::Sides::two && front != back) return true;
+  return (front || back) && std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
            return light.kind == Light::Kind::point && (light.spot || light.attenuation != glm::vec3(1, 0, 0));
          });
 }

@@ -39,6 +39,26 @@ TEST(OsmesaLightCases, MesasSpecularTermOfNoShininess) {
   EXPECT_NEAR(make_osmesa()->capture(scene, request).records.lit.at(0).color.r, of.red, 1e-6);
 }
 
+// Shininess 0 of the front alone, N.L > 0 and N.H < 0: the specular term is 0^0 = 1, as it is where the back has 0 too.
+TEST(OsmesaLightCases, MesasSpecularTermOfNoShininessOnOneSide) {
+  for (const float back : {0.0f, 20.0f}) {
+    test::LightCase of{"", {}, {0, 0, -5}, {0.6, 0, -0.8}, 0.5};
+    of.change = [back](Light& l, LightModel& model, Draw& d) {
+      l.kind = Light::Kind::directional;
+      l.vector = {1, 0, 0};
+      model.sides = LightModel::Sides::two;
+      d.material.diffuse.r = 0;
+      d.material.specular.r = 0.5f;
+      d.back_material = d.material;
+      d.back_material->shininess = back;
+    };
+    const Scene scene = test::scene_of(of);
+    EXPECT_EQ(osmesa::needs_light_program(scene, scene.draws[0]), back > 0);
+    const Request request{{Stage::light}, false, {}, {}};
+    EXPECT_NEAR(make_osmesa()->capture(scene, request).records.lit.at(0).color.r, of.red, 1e-6) << back;
+  }
+}
+
 TEST(OsmesaLightCases, TheProgramIsNotNeededWhereTheFixedFunctionHasTheLight) {
   Scene scene = test::scene_of(test::light_cases()[8]);  // a local viewer
   EXPECT_FALSE(osmesa::needs_light_program(scene, scene.draws[0]));
