@@ -14,11 +14,11 @@ using Real = long double;
 using ThreeReals = std::array<Real, 3>;
 
 /// The legal interval of lambda around a pixel: from the least at its square of two by two, with a logarithm that is
-/// linear between powers of two, to the greatest. Along a row and along a column the derivative of a perspective
-/// mapping has one direction, and its length is monotone: a difference of neighbours lies between theirs. Without
-/// bound where the plane reaches the eye within the square.
-/// Such differences are of coordinates in float, each a quotient of sums that is off by 3 u: by 6 u |st| together, in
-/// proportion to their length; a logarithm in float is off by some u of its own magnitude more.
+/// linear between powers of two, to the greatest, with the bias or Mesa's. Along a row and along a column the
+/// derivative of a perspective mapping has one direction, and its length is monotone: a difference of neighbours lies
+/// between theirs. Without bound where the plane reaches the eye within the square. Such differences are of coordinates
+/// in float, each a quotient of sums that is off by 3 u: by 6 u |st| together, in proportion to their length; a
+/// logarithm in float is off by some u of its own magnitude more.
 void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, double& lo, double& hi) {
   constexpr double kRounding = 1.0 / 16777216.0;
   const TextureLevel& base = t.texture.levels[static_cast<std::size_t>(t.texture.sampler.base_level)];
@@ -38,7 +38,7 @@ void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, dou
     const double least = std::max(1 - error, 0.0), most = 1 + error;
     lo = std::min(lo, ahead ? math::smallest_level_of_detail(t.texture, least * g.d_dx, least * g.d_dy)
                             : static_cast<double>(t.texture.sampler.min_lod));
-    hi = std::max(hi, ahead ? math::level_of_detail(t.texture, most * g.d_dx, most * g.d_dy)
+    hi = std::max(hi, ahead ? math::largest_level_of_detail(t.texture, most * g.d_dx, most * g.d_dy)
                             : static_cast<double>(t.texture.sampler.max_lod));
   }
 }

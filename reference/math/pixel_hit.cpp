@@ -206,9 +206,10 @@ BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const s
     const double lambda = ahead ? level_of_detail(texture, d_dx, d_dy) : static_cast<double>(texture.sampler.max_lod);
     const double least =
         ahead ? smallest_level_of_detail(texture, d_dx, d_dy) : static_cast<double>(texture.sampler.min_lod);
+    const double most = ahead ? largest_level_of_detail(texture, d_dx, d_dy) : lambda;
     if (at == pixel) out.lambda = lambda;
     out.lambda_lo = std::min(out.lambda_lo, least);
-    out.lambda_hi = std::max(out.lambda_hi, lambda);
+    out.lambda_hi = std::max(out.lambda_hi, most);
   }
   return out;
 }

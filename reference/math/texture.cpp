@@ -17,10 +17,18 @@ double squared_rho(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
   return std::max(glm::dot(x, x), glm::dot(y, y));
 }
 
-double limited(const Texture& texture, double lambda) {
-  const Sampler& s = texture.sampler;
-  return std::clamp(lambda + static_cast<double>(s.lod_bias), static_cast<double>(s.min_lod),
-                    static_cast<double>(s.max_lod));
+/// lambda between its limits, from its logarithm and a bias.
+double limited(const Sampler& s, double log2_rho, double bias) {
+  return std::clamp(log2_rho + bias, static_cast<double>(s.min_lod), static_cast<double>(s.max_lod));
+}
+
+double bias_of(const Texture& texture) { return static_cast<double>(texture.sampler.lod_bias); }
+
+double mesas_bias(const Texture& texture) { return std::round(256 * bias_of(texture)) / 256; }
+
+double log2_of_rho(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
+  const double rho2 = squared_rho(texture, d_dx, d_dy);
+  return rho2 > 0 ? 0.5 * std::log2(rho2) : kNoLength;
 }
 
 /// lambda up to which the texture is magnified (3.8.9).
@@ -98,12 +106,15 @@ double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dv
   int exponent = 0;
   const double mantissa = std::frexp(rho2, &exponent);  // [1/2, 1)
   const double piecewise = rho2 > 0 ? 0.5 * (exponent - 1 + 2 * mantissa - 1) : kNoLength;
-  return limited(texture, piecewise);
+  return limited(texture.sampler, piecewise, std::min(bias_of(texture), mesas_bias(texture)));
+}
+
+double largest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
+  return limited(texture.sampler, log2_of_rho(texture, d_dx, d_dy), std::max(bias_of(texture), mesas_bias(texture)));
 }
 
 double level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
-  const double rho2 = squared_rho(texture, d_dx, d_dy);
-  return limited(texture, rho2 > 0 ? 0.5 * std::log2(rho2) : kNoLength);
+  return limited(texture.sampler, log2_of_rho(texture, d_dx, d_dy), bias_of(texture));
 }
 
 glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda) {

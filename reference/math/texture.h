@@ -12,9 +12,12 @@ namespace plumbline::math {
 /// y; of no length, the least that is allowed.
 double level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy);
 
-/// The same with a logarithm that is linear between powers of two, of rho squared, as Mesa's drivers take it: up to
-/// 0.0431 below. (log2(m 2^e) as e + m - 1 is up to 0.0861 below; half of that.)
+/// The least and the greatest lambda of the specification and of Mesa, from the same derivatives.
+/// Mesa's drivers take a logarithm that is linear between powers of two, of rho squared: up to 0.0431 below
+/// (log2(m 2^e) as e + m - 1 is up to 0.0861 below; half of that). Mesa rounds the bias to the nearest 1/256 before its
+/// drivers see it (st_atom_sampler.c; measured in 22.3.6): up to 1/512 below or above.
 double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy);
+double largest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy);
 
 /// The texture source components at (s, t), filtered at lambda.
 glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda);

@@ -124,6 +124,21 @@ TEST(TexelBound, OfLinearFiltersIsOpenByTheTexelsOfTheLevelsThatAreFiltered) {
   EXPECT_TRUE(open(std::numeric_limits<double>::infinity(), 3, 3));
 }
 
+TEST(LambdaInterval, HoldsTheBiasAndMesasOfWhole256ths) {
+  Texture texture = noise(MinFilter::linear_mipmap_linear);
+  const glm::dvec2 d_dx(0.125, 0), d_dy(0, 0.0625);  // rho is 2, where both logarithms are one
+  const auto expect = [&](float bias, double least, double most) {
+    texture.sampler.lod_bias = bias;
+    EXPECT_NEAR(math::smallest_level_of_detail(texture, d_dx, d_dy), 1 + least, 1e-12) << bias;
+    EXPECT_NEAR(math::largest_level_of_detail(texture, d_dx, d_dy), 1 + most, 1e-12) << bias;
+    EXPECT_NEAR(math::level_of_detail(texture, d_dx, d_dy), 1 + static_cast<double>(bias), 1e-12);
+  };
+  expect(0.25f, 0.25, 0.25);
+  expect(1.9f, 486 / 256.0, static_cast<double>(1.9f));  // 486.4
+  expect(0.3f, static_cast<double>(0.3f), 77 / 256.0);   // 76.8
+  expect(-0.6f, -154 / 256.0, static_cast<double>(-0.6f));
+}
+
 TEST(MesasLevel, IsAnotherWhereMagnificationEndsAtTheWrongLambda) {
   Texture texture = noise(MinFilter::nearest_mipmap_linear);
   const auto reason = [&](double lo, double hi) {

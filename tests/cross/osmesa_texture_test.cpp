@@ -73,6 +73,29 @@ TEST(OsmesaTexture, FiltersLinearlyAtLevelsOfALogarithmThatIsLinearBetweenPowers
   }
 }
 
+TEST(OsmesaTexture, RoundsBiasesToTheNearest256th) {
+  const auto osmesa = make_osmesa();
+  const glm::vec2 turns(3, 1);
+  const glm::dvec2 d_dx(3.0 / kSide, 0), d_dy(0, 1.0 / kSide);
+  for (const float bias : {1.9f, 1.898f, 0.3f, 0.25f, 0.2519f, 0.0038f, -0.0001f, -0.3f, -0.6f, -0.5f}) {
+    Sampler sampler;
+    sampler.lod_bias = bias;
+    const Scene scene = textured_square(sampler, TextureFormat::rgba, TexelType::float32, turns);
+    Texture rounded = scene.textures[0];
+    rounded.sampler.lod_bias = std::round(256 * bias) / 256;
+    const double lod = math::smallest_level_of_detail(rounded, d_dx, d_dy);
+    EXPECT_LE(largest_difference(osmesa->capture(scene, {}), scene, turns, lod), kTolerance) << "a bias of " << bias;
+    const double least = math::smallest_level_of_detail(scene.textures[0], d_dx, d_dy),
+                 most = math::largest_level_of_detail(scene.textures[0], d_dx, d_dy),
+                 ours = math::level_of_detail(scene.textures[0], d_dx, d_dy);
+    EXPECT_LE(least, lod) << "a bias of " << bias;
+    EXPECT_LE(ours, most) << "a bias of " << bias;
+    const double piecewise = ours - static_cast<double>(bias) - (lod - static_cast<double>(rounded.sampler.lod_bias));
+    EXPECT_NEAR(most - least, piecewise + std::abs(static_cast<double>(rounded.sampler.lod_bias - bias)), 1e-9)
+        << "no wider than the logarithm and the rounded bias";
+  }
+}
+
 TEST(OsmesaTexture, LevelOfDetailsLeastIsLessThan431HundredThousandthsBelow) {
   const Scene scene = textured_square({}, TextureFormat::rgba, TexelType::float32, {1, 1});
   double largest = 0;
