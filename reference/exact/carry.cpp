@@ -2,11 +2,11 @@
 
 #include "reference/exact/clip.h"
 #include "reference/exact/fragments.h"
+#include "reference/exact/geometry.h"
 #include "reference/exact/input.h"
 #include "reference/exact/window.h"
 #include "reference/math/draw_ranges.h"
 #include "reference/math/light.h"
-#include "reference/math/matrices.h"
 #include "stages/seen_as.h"
 
 namespace plumbline::exact {
@@ -22,7 +22,7 @@ glm::dvec4 at_vertex(Varying varying, const Mesh& mesh, const Vertex<double>& ve
 }  // namespace
 
 void light_varyings(const Scene& scene, const Records<double>& in, Records<double>& out) {
-  const glm::dmat4 view = math::view_matrix(scene);
+  const std::vector<LightSource<double>> lights = lights_of(scene, in);
   const std::vector<DrawRange> ranges = math::ranges_of_draws(scene);
   for (const Varying v : carried(scene)) {
     std::vector<glm::dvec4>& column = out.varyings[v].vertices;
@@ -34,7 +34,7 @@ void light_varyings(const Scene& scene, const Records<double>& in, Records<doubl
       for (std::size_t i = first; i < last; ++i) {
         const Vertex<double>& vertex = in.vertices.at(i);
         column.at(i) = is_lit(v)
-                           ? math::vertex_color(scene, scene.draws[d], view, static_cast<std::uint32_t>(i - first),
+                           ? math::vertex_color(scene, scene.draws[d], lights, static_cast<std::uint32_t>(i - first),
                                                 glm::dvec3(vertex.p_eye), vertex.n_eye, {is_back(v), is_secondary(v)})
                            : at_vertex(v, mesh, vertex, i - first);
       }

@@ -7,7 +7,7 @@
 
 namespace plumbline::exact {
 
-/// Stage 2, from records.vertices: out.varyings' vertices.
+/// Stage 2, from records.vertices and lights_of() (geometry.h): out.varyings' vertices.
 void light_varyings(const Scene& scene, const Records<double>& in, Records<double>& out);
 
 /// Stage 3: their clipped values, beside clip_primitives' vertices.

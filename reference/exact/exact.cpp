@@ -46,10 +46,13 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
   Capture out = empty_capture(scene);
   const Records<double>& records = in.records;
   switch (stage) {
-    case Stage::matrices: out.records.matrices = make_matrices(scene); break;
+    case Stage::matrices:
+      out.records.matrices = make_matrices(scene);
+      out.records.lights = math::light_sources(scene);
+      break;
     case Stage::vertex: out.records.vertices = transform_vertices(scene, records.matrices); break;
     case Stage::light:
-      out.records.lit = light_vertices(scene, records.vertices);
+      out.records.lit = light_vertices(scene, records);
       light_varyings(scene, records, out.records);
       break;
     case Stage::clip:
@@ -126,7 +129,8 @@ Fours fours_at(const Scene& scene, const Draw& draw, const Records<double>& wind
   return out;
 }
 
-/// Stages 5 to 11, triangle by triangle, so that no fragment is kept that nobody asked for.
+/// Stages 5 to 11 of the window's triangles, one by one, under its lights, so that no fragment is kept that nobody
+/// asked for.
 void draw_triangles(const Scene& scene, const Records<double>& window, const Selection& selection, Capture& out) {
   const FrameFormat& frame = scene.frame;
   const DrawOf draw_of(scene);
@@ -164,7 +168,7 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
                                               scene.textures.at(draw.texture->texture), weights};
           texel = texel_at(with_texture, glm::dvec2(fours[texture]), c.x, c.y);
         }
-        shaded = plain ? color : shade(scene, draw, triangle.front, color, fours, texel.color);
+        shaded = plain ? color : shade(scene, draw, window.lights, triangle.front, color, fours, texel.color);
       };
       if (colored) colour();
       const bool visible = buffer.test({c.x, c.y, draw, triangle.front, depth, shaded.a});
@@ -188,14 +192,16 @@ Capture Exact::capture(const Scene& scene, const Request& request) {
   Capture out = empty_capture(scene);
   Records<double>& records = out.records;
   records.matrices = make_matrices(scene);
+  records.lights = math::light_sources(scene);
   records.vertices = transform_vertices(scene, records.matrices);
-  records.lit = light_vertices(scene, records.vertices);
+  records.lit = light_vertices(scene, records);
   records.polygons = clip_primitives(scene, records.vertices, records.lit);
   records.triangles = window_triangles(scene, records.polygons, records.matrices);
   light_varyings(scene, records, records);
   clip_varyings(scene, records, records);
   window_varyings(scene, records, records);
   Records<double> window;
+  window.lights = records.lights;
   window.triangles = records.triangles;
   for (const Varying v : kAllVaryings) window.varyings[v].triangles = records.varyings[v].triangles;
 

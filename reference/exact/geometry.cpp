@@ -34,8 +34,15 @@ std::vector<Vertex<double>> transform_vertices(const Scene& scene, const std::ve
   return vertices;
 }
 
-std::vector<Lit<double>> light_vertices(const Scene& scene, const std::vector<Vertex<double>>& vertices) {
-  const glm::dmat4 view = math::view_matrix(scene);
+std::vector<LightSource<double>> lights_of(const Scene& scene, const Records<double>& records) {
+  if (records.lights.empty()) return math::light_sources(scene);
+  require_size("records.lights", records.lights.size(), scene.lights.size());
+  return records.lights;
+}
+
+std::vector<Lit<double>> light_vertices(const Scene& scene, const Records<double>& records) {
+  const std::vector<LightSource<double>> lights = lights_of(scene, records);
+  const std::vector<Vertex<double>>& vertices = records.vertices;
   const std::vector<DrawRange> ranges = math::ranges_of_draws(scene);
   require_size("records.vertices", vertices.size(),
                ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count);
@@ -43,7 +50,7 @@ std::vector<Lit<double>> light_vertices(const Scene& scene, const std::vector<Ve
   for (std::size_t d = 0; d < scene.draws.size(); ++d)
     for (std::uint32_t i = 0; i < ranges[d].vertex_count; ++i) {
       const Vertex<double>& v = vertices[ranges[d].first_vertex + i];
-      lit.push_back({math::vertex_color(scene, scene.draws[d], view, i, glm::dvec3(v.p_eye), v.n_eye)});
+      lit.push_back({math::vertex_color(scene, scene.draws[d], lights, i, glm::dvec3(v.p_eye), v.n_eye)});
     }
   return lit;
 }

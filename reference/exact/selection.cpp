@@ -55,7 +55,10 @@ void Selection::reserve(std::size_t fragments, Records<double>& out) const {
 
 void Selection::prune(Records<double>& records) const {
   const StageSet& stages = request_.records;
-  if (!stages.has(Stage::matrices)) records.matrices = {};
+  if (!stages.has(Stage::matrices)) {
+    records.matrices = {};
+    records.lights = {};
+  }
   if (!stages.has(Stage::vertex)) records.vertices = {};
   if (!stages.has(Stage::light)) records.lit = {};
   if (!stages.has(Stage::clip)) records.polygons = {};

@@ -1,23 +1,22 @@
 #include "reference/exact/surface.h"
 
+#include "reference/exact/geometry.h"
 #include "reference/exact/input.h"
 #include "reference/math/fog.h"
-#include "reference/math/light.h"
-#include "reference/math/matrices.h"
 #include "reference/math/texture.h"
 
 namespace plumbline::exact {
 
-glm::dvec4 shade(const Scene& scene, const Draw& draw, bool front, const glm::dvec4& color, const Fours& fours,
-                 const glm::dvec4& texel) {
+glm::dvec4 shade(const Scene& scene, const Draw& draw, math::Lights lights, bool front, const glm::dvec4& color,
+                 const Fours& fours, const glm::dvec4& texel) {
   const auto four = [&](Varying v) { return fours[static_cast<std::size_t>(v)]; };
   const LightModel& model = scene.light_model;
   glm::dvec4 out = color, secondary = four(Varying::secondary);
   if (is_lit_per_fragment(draw)) {
     const bool back = !front && model.sides == LightModel::Sides::two;
     const auto part = [&](bool specular) {
-      return math::fragment_light(scene, draw, {back, specular}, math::view_matrix(scene), color,
-                                  glm::dvec3(four(Varying::normal)), glm::dvec3(four(Varying::position)));
+      return math::fragment_light(scene, draw, {back, specular}, lights, color, glm::dvec3(four(Varying::normal)),
+                                  glm::dvec3(four(Varying::position)));
     };
     out = part(false);
     if (model.separate_specular) secondary = part(true);
@@ -44,14 +43,15 @@ std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<do
     return shaded;
   }
   const DrawOf draw_of(scene);
+  const std::vector<LightSource<double>> lights = lights_of(scene, records);
   for (const FragmentRun& run : runs_by_triangle(scene, records)) {
     const WindowTriangle<double>& triangle = records.triangles[run.triangle];
     for (std::size_t i = run.first; i < run.last; ++i) {
       Fours fours{};
       for (const Varying v : varyings) fours[static_cast<std::size_t>(v)] = records.varyings[v].fragments[i];
       const glm::dvec4 texel = records.texels.empty() ? glm::dvec4(0) : records.texels[i].color;
-      shaded.push_back(
-          {shade(scene, draw_of(triangle.primitive), triangle.front, records.attributes[i].color, fours, texel)});
+      shaded.push_back({shade(scene, draw_of(triangle.primitive), lights, triangle.front, records.attributes[i].color,
+                              fours, texel)});
     }
   }
   return shaded;

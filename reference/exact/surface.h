@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "reference/math/light.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -13,11 +14,12 @@ namespace plumbline::exact {
 using Fours = std::array<glm::dvec4, kVaryings>;
 
 /// Texture environment, sum of colours, fog, in this order (OpenGL 2.1 spec, figure 3.1). `front`: its face. `texel`:
-/// the texture source's components, where the draw has a texture.
-glm::dvec4 shade(const Scene& scene, const Draw& draw, bool front, const glm::dvec4& color, const Fours& fours,
-                 const glm::dvec4& texel);
+/// the texture source's components, where the draw has a texture. `lights`: the scene's, in eye space.
+glm::dvec4 shade(const Scene& scene, const Draw& draw, math::Lights lights, bool front, const glm::dvec4& color,
+                 const Fours& fours, const glm::dvec4& texel);
 
-/// Of each of records.covered. Throws std::invalid_argument where the records do not fit the scene or each other.
+/// Of each of records.covered, by lights_of() (geometry.h). Throws std::invalid_argument where the records do not fit
+/// the scene or each other.
 std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<double>& records);
 
 }  // namespace plumbline::exact

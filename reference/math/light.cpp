@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/math/matrices.h"
+
 namespace plumbline::math {
 namespace {
 
@@ -12,20 +14,20 @@ glm::dvec3 unit_of(glm::dvec3 v) {
 }
 
 /// From the point to the light: the specification's VP, not yet of unit length.
-glm::dvec3 towards(const Light& light, const glm::dmat4& view, glm::dvec3 p_eye) {
-  if (light.kind == Light::Kind::directional) return glm::dmat3(view) * light.vector;
-  return glm::dvec3(view * glm::dvec4(light.vector, 1)) - p_eye;
+glm::dvec3 towards(const Light& light, const LightSource<double>& source, glm::dvec3 p_eye) {
+  const glm::dvec3 place(source.p_eye);
+  return light.kind == Light::Kind::directional ? place : place - p_eye;
 }
 
 /// att_i * spot_i.
-double share_at(const Light& light, const glm::dmat4& view, glm::dvec3 vp) {
+double share_at(const Light& light, const LightSource<double>& source, glm::dvec3 vp) {
   if (light.kind == Light::Kind::directional) return 1;
   const double d = glm::length(vp);
   const glm::dvec3 k(light.attenuation);
   // A light at the point itself may have nothing to divide by: the specification says nothing, this stays a number.
   const double attenuation = 1 / std::max(k[0] + k[1] * d + k[2] * d * d, 1e-38);
   if (!light.spot) return attenuation;
-  const glm::dvec3 s = unit_of(glm::dmat3(view) * light.spot->direction);
+  const glm::dvec3 s = unit_of(source.spot_eye);
   const double cosine = glm::dot(-unit_of(vp), s);
   if (cosine < std::cos(glm::radians(light.spot->cutoff_degrees))) return 0;
   return attenuation * std::pow(std::max(0.0, cosine), static_cast<double>(light.spot->exponent));
@@ -46,15 +48,28 @@ double finite_power(double x, double s) { return std::min(std::pow(x, s), 1e300)
 
 }  // namespace
 
-glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, const glm::dmat4& view, glm::dvec3 p_eye,
+std::vector<LightSource<double>> light_sources(const Scene& scene) {
+  const glm::dmat4 view = view_matrix(scene);
+  const glm::dmat3 turned(view);
+  std::vector<LightSource<double>> out;
+  for (const Light& light : scene.lights) {
+    const bool point = light.kind == Light::Kind::point;
+    out.push_back({.p_eye = point ? view * glm::dvec4(light.vector, 1) : glm::dvec4(turned * light.vector, 0),
+                   .spot_eye = point && light.spot ? turned * light.spot->direction : glm::dvec3(0)});
+  }
+  return out;
+}
+
+glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, Lights lights, glm::dvec3 p_eye,
                  glm::dvec3 n_eye) {
   const LightModel& model = scene.light_model;
   const glm::dvec3 ambient(material.ambient), diffuse(material.diffuse), specular(material.specular);
   const glm::dvec3 to_eye = model.local_viewer ? unit_of(-p_eye) : glm::dvec3(0, 0, 1);
   glm::dvec3 rgb = glm::dvec3(material.emission) + ambient * glm::dvec3(model.ambient);
-  for (const Light& source : scene.lights) {
-    const glm::dvec3 vp = towards(source, view, p_eye), to_light = unit_of(vp);
-    const double share = share_at(source, view, vp);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& source = scene.lights[i];
+    const glm::dvec3 vp = towards(source, lights[i], p_eye), to_light = unit_of(vp);
+    const double share = share_at(source, lights[i], vp);
     if (!(share > 0)) continue;
     glm::dvec3 n = n_eye;
     if (model.sides == LightModel::Sides::flip && glm::dot(n, to_eye) < 0) n = -n;
@@ -94,19 +109,19 @@ DoubleMaterial material_at(const Scene& scene, const Draw& draw, LitPart part, s
   return material_of(scene, draw, part, mesh.colors.empty() ? glm::dvec4(0) : glm::dvec4(mesh.colors.at(vertex)));
 }
 
-glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, const glm::dmat4& view,
-                          const glm::dvec4& color, glm::dvec3 n, glm::dvec3 p_eye) {
-  return light(scene, material_of(scene, draw, part, color), view, p_eye, part.back ? -unit_of(n) : unit_of(n));
+glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, Lights lights, const glm::dvec4& color,
+                          glm::dvec3 n, glm::dvec3 p_eye) {
+  return light(scene, material_of(scene, draw, part, color), lights, p_eye, part.back ? -unit_of(n) : unit_of(n));
 }
 
 glm::dvec4 color_sum(const glm::dvec4& primary, const glm::dvec4& secondary) {
   return {glm::clamp(glm::dvec3(primary) + glm::dvec3(secondary), 0.0, 1.0), primary.a};
 }
 
-glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, const glm::dmat4& view, std::uint32_t vertex,
-                        glm::dvec3 p_eye, glm::dvec3 n_eye, LitPart part) {
+glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, Lights lights, std::uint32_t vertex, glm::dvec3 p_eye,
+                        glm::dvec3 n_eye, LitPart part) {
   if (is_lit_per_vertex(draw)) {
-    return light(scene, material_at(scene, draw, part, vertex), view, p_eye, part.back ? -n_eye : n_eye);
+    return light(scene, material_at(scene, draw, part, vertex), lights, p_eye, part.back ? -n_eye : n_eye);
   }
   const Mesh& mesh = scene.meshes.at(draw.mesh);
   const glm::dvec4 color(mesh.colors.empty() ? draw.material.diffuse : mesh.colors.at(vertex));

@@ -3,12 +3,20 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
+#include "stages/stages.h"
 
 namespace plumbline::math {
+
+/// The scene's lights in eye space.
+using Lights = std::span<const LightSource<double>>;
+/// Built by matrices.h, unrounded.
+std::vector<LightSource<double>> light_sources(const Scene& scene);
 
 /// glMaterial in double.
 struct DoubleMaterial {
@@ -21,15 +29,14 @@ DoubleMaterial material_of(const Scene& scene, const Draw& draw, LitPart part, c
 /// At the mesh's vertex number `vertex`.
 DoubleMaterial material_at(const Scene& scene, const Draw& draw, LitPart part, std::uint32_t vertex);
 
-/// The lit colour at a point: rgba, clamped to [0,1]; alpha is the material's diffuse alpha. `view` takes the lights'
-/// vectors from world to eye space. 0^0 is 1, and a vector without a direction (a light at the point itself) has a dot
-/// product of 0 with everything.
-glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, const glm::dmat4& view, glm::dvec3 p_eye,
-                 glm::dvec3 n_eye);
+/// The lit colour at a point: rgba, clamped to [0,1]; alpha is the material's diffuse alpha. `lights`: one for each of
+/// the scene's. 0^0 is 1, and a vector without a direction (a light at the point itself) has a dot product of 0 with
+/// everything.
+glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, Lights lights, glm::dvec3 p_eye, glm::dvec3 n_eye);
 
 /// The colour of a fragment that is lit: at its interpolated vertex colour, normal (of any length) and position.
-glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, const glm::dmat4& view,
-                          const glm::dvec4& color, glm::dvec3 n, glm::dvec3 p_eye);
+glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, Lights lights, const glm::dvec4& color,
+                          glm::dvec3 n, glm::dvec3 p_eye);
 
 /// rgb of the two added up and clamped to [0,1]; the first's alpha (OpenGL 2.1 spec 3.9).
 glm::dvec4 color_sum(const glm::dvec4& primary, const glm::dvec4& secondary);
@@ -37,8 +44,8 @@ glm::dvec4 color_sum(const glm::dvec4& primary, const glm::dvec4& secondary);
 /// The colour of the mesh's vertex number `vertex`: lit, or where the draw's vertices are not, the mesh's colour there,
 /// or where it has none, the material's diffuse colour. rgba, clamped to [0,1]. Of the back, the normal is turned over;
 /// the secondary part has no alpha.
-glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, const glm::dmat4& view, std::uint32_t vertex,
-                        glm::dvec3 p_eye, glm::dvec3 n_eye, LitPart part = {});
+glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, Lights lights, std::uint32_t vertex, glm::dvec3 p_eye,
+                        glm::dvec3 n_eye, LitPart part = {});
 
 /// A normal as the draw has it: `n` by the normal matrix, brought to unit length, rescaled (2.11.3) or neither.
 glm::dvec3 normal_in_eye_space(Normals normals, const glm::dmat3& normal_matrix, glm::dvec3 n);

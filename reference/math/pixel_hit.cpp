@@ -253,7 +253,7 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
       const DoubleMaterial material = material_of(scene, draw, {back, specular}, color.value);
       const double bound =
           known ? light_error(scene, material, projected.view, p_eye, n_eye, follows ? color.bound : 0) : kInfinity;
-      return Bounded{light(scene, material, projected.view, p_eye.v, n_eye.v), bound};
+      return Bounded{light(scene, material, projected.lights, p_eye.v, n_eye.v), bound};
     };
     if (model.separate_specular) secondary = of_fragment(true);
     color = of_fragment(false);

@@ -84,12 +84,12 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.v = {c.x * half.x - out.sample.x * c.w, c.y * half.y - out.sample.y * c.w, c.w};
     corner.z = c.z;
     corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
-    corner.color = vertex_color(scene, draw, view, i, p_eye, n_eye);
+    corner.color = vertex_color(scene, draw, out.lights, i, p_eye, n_eye);
     corner.color_error = color_error(scene, draw, m, view, i);
     corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
     const auto lit_part = [&](LitPart part, glm::dvec4& of_part, double& error) {
       if (!two && !separate) return;
-      of_part = vertex_color(scene, draw, view, i, p_eye, n_eye, part);
+      of_part = vertex_color(scene, draw, out.lights, i, p_eye, n_eye, part);
       error = color_error(scene, draw, m, view, i, part);
     };
     lit_part({true, false}, corner.back_color, corner.back_color_error);
@@ -299,6 +299,7 @@ Projected project(const Scene& scene) {
   out.width = scene.frame.width;
   out.height = scene.frame.height;
   out.view = view_matrix(scene);
+  out.lights = light_sources(scene);
   out.depth_clamp = scene.depth_clamp;
   out.depth = scene.frame.depth;
   out.sample = sample_offset(scene.frame);

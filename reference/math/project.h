@@ -16,6 +16,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
+#include "stages/stages.h"
 
 namespace plumbline::math {
 
@@ -78,6 +79,7 @@ inline double range_scale(const Triangle& t) { return std::abs(double{t.range.fa
 struct Projected {
   int width = 0, height = 0;
   glm::dmat4 view{1};  ///< world to eye space
+  std::vector<LightSource<double>> lights;
   bool perspective = true;
   bool depth_clamp = false;  ///< no near and far plane
   DepthFormat depth = DepthFormat::z24;

@@ -62,8 +62,9 @@ struct LightInputs {
   double p_eye = 0, n_eye = 0, color = 0;
 };
 /// `material`: the draw's at the vertex (scene.h, colored).
+/// `lights`: recorded ones; where there are none, the scene's.
 LightBounds light_bounds(const Scene& scene, const Material& material, const Vertex<double>& vertex,
-                         const LightInputs& errors = {});
+                         const LightInputs& errors = {}, std::span<const LightSource<double>> lights = {});
 
 /// What the triangle's plane of colours comes to at a pixel's centre, perspective-correct, and its slopes per pixel.
 struct PlaneValue {

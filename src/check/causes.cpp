@@ -13,8 +13,10 @@ namespace {
 
 // How many records of the candidate's stage differ from what was made.
 std::uint64_t differing(const Evidence& e, const Capture& made) {
-  if (e.stage == Stage::matrices)
-    return compare_matrices(e.candidate.records, made.records, factor("exact.matrices")).differing;
+  if (e.stage == Stage::matrices) {
+    return compare_matrices(e.candidate.records, made.records, factor("exact.matrices")).differing +
+           compare_lights(e.scene, e.candidate.records, made.records, factor("exact.matrices")).differing;
+  }
   if (e.stage == Stage::resolve) return compare_resolved(e.scene, e.candidate, made, factor("exact.resolve")).differing;
   std::vector<Comparison> rows;
   const Legal none;

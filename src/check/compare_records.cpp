@@ -61,6 +61,29 @@ Measurement compare_matrices(const Records<double>& candidate, const Records<dou
   });
 }
 
+Measurement compare_lights(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor) {
+  const std::size_t recorded = candidate.lights.size();
+  if (recorded == 0) return Meter("half ULP").done();
+  if (recorded != scene.lights.size()) return mismatch("half ULP", "not one record for each light", recorded);
+  return each("lights", "half ULP", recorded, reference.lights.size(), [&](Meter& meter, std::size_t i) {
+    const LightSource<double>&a = candidate.lights[i], &b = reference.lights[i];
+    const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+    const auto compare = [&](const Vec3<double>& x, const Vec3<double>& y, double columns, const Place& place) {
+      Vec3<double> unit;
+      for (int c = 0; c < 3; ++c) unit[c] = 0.5 * ulp(y[c]) + kDoubleError * columns;
+      add(meter, x, y, unit, factor, place);
+    };
+    const Light& light = scene.lights[i];
+    const double v = glm::length(light.vector), t = glm::length(Vec3<double>(b.p_eye)) + v;
+    const bool point = light.kind == Light::Kind::point;
+    compare(Vec3<double>(a.p_eye), Vec3<double>(b.p_eye), 2 * v + (point ? std::max(1.0, t) : 0), at("light p_eye"));
+    meter.value(difference(a.p_eye.w, b.p_eye.w), 0, at("light p_eye"), a.p_eye.w, b.p_eye.w);
+    const double along = light.spot ? glm::length(light.spot->direction) : 0;
+    compare(a.spot_eye, b.spot_eye, 2 * along, at("light spot_eye"));
+  });
+}
+
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double positions, double normals, Inversion inversion) {
   const std::vector<DrawRange> ranges = draw_ranges(scene);
@@ -121,7 +144,8 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
     const glm::vec4* color = mesh.colors.empty() ? nullptr : &mesh.colors[i - ranges[d].first_vertex];
     Vertex<double> vertex = candidate.vertices[i];
     if (part.back) vertex.n_eye = -vertex.n_eye;
-    const LightBounds bounds = light_bounds(scene, lit_material(scene, draw, part, color), vertex);
+    const LightBounds bounds =
+        light_bounds(scene, lit_material(scene, draw, part, color), vertex, {}, candidate.lights);
     const bool both = reference.vertices.size() == candidate.vertices.size();
     const double turned = both ? glm::distance(candidate.vertices[i].n_eye, reference.vertices[i].n_eye) : 0;
     if (bounds.jump != Vec3<double>(0) || !std::isfinite(bounds.magnitude.x)) meter.ambiguous();

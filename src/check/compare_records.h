@@ -17,6 +17,13 @@ Measurement compare_rounded_matrices(const Records<double>& candidate, const Rec
 /// Against unrounded matrices.
 Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
 
+/// The scene's lights in eye space against unrounded ones; nothing to compare where the candidate's records hold none.
+/// A place in eye space is R v + t, a direction R v. Unit: half an ULP, and the error of R's and t's entries before the
+/// rounding, 1e-12 of their column's largest entry, or of 1, as for matrices: 1e-12 |v|_1, and 1e-12 max(1, |t|) of a
+/// place. R is orthonormal: |v|_1 <= 2 |v|, |t| <= |p_eye| + |v|.
+Measurement compare_lights(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor);
+
 /// In what a renderer inverts the model-view for its normals.
 enum class Inversion { in_double, in_float };
 /// p_eye, p_clip: `positions` u of their magnitudes; n_eye: `normals` u of theirs, by how the reference inverts.

@@ -53,7 +53,7 @@ std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, 
       if (is_back(v)) vertex.n_eye = -vertex.n_eye;
       const Material material =
           lit_material(scene, draw, {is_back(v), is_secondary(v)}, colors.empty() ? nullptr : &colors[i]);
-      const LightBounds bounds = light_bounds(scene, material, vertex);
+      const LightBounds bounds = light_bounds(scene, material, vertex, {}, r.lights);
       out[ranges[d].first_vertex + i] = {
           tolerance("osmesa.light").factor * u * bounds.magnitude + bounds.jump + Vec3<double>(bounds.overflows), u};
     }

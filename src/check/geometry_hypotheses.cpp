@@ -249,7 +249,10 @@ constexpr std::array kGeometryHypotheses = {
             });
           }),
     given(S::light, "light.world_space", "lights are not brought to eye space",
-          [](Scene& s, Capture&) { eye_space_is_the_world(s); }),
+          [](Scene& s, Capture& in) {
+            eye_space_is_the_world(s);
+            in.records.lights.clear();
+          }),
     seen(S::light, "light.negative_not_clamped", "negative N.L not clamped: lights behind a surface darken it",
          lit_without_clamp),
     given(S::light, "light.attenuation_left_out", "lights do not fade with distance: attenuation left out",

@@ -92,7 +92,10 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
     } else if (info.legal && of_oracle.has(stage)) {
       ask_oracle(c, theirs.legal, stage, name);
     } else if (exact && stage == Stage::matrices) {
-      c.add(name, stage, compare_matrices(c.candidate.records, theirs.records, factor("exact.matrices")),
+      const Records<double>& mine = c.candidate.records;
+      c.add(name, stage,
+            worse(compare_matrices(mine, theirs.records, factor("exact.matrices")),
+                  compare_lights(c.scene, mine, theirs.records, factor("exact.matrices"))),
             "exact.matrices");
     } else if (exact && stage == Stage::vertex) {
       c.add(name, stage,

@@ -18,9 +18,9 @@ struct Ray {
   double distance, condition;
 };
 
-Ray ray(const Light& light, const glm::dmat4& view, const Vec3<double>& p_eye) {
+Ray ray(const Light& light, const LightSource<double>& source, const Vec3<double>& p_eye) {
   const bool point = light.kind == Light::Kind::point;
-  const Vec3<double> l_eye(view * glm::dvec4(light.vector, point ? 1.0 : 0.0));
+  const Vec3<double> l_eye(source.p_eye);
   const Vec3<double> to_light = point ? l_eye - p_eye : l_eye;
   // A light near the vertex: the difference of two rounded positions.
   const double distance = glm::length(to_light);
@@ -49,7 +49,7 @@ struct Share {
   double value = 1, error = 0, beyond = 0;  ///< beyond: what it would be if the cone ended elsewhere
   double inherited = 0;                     ///< of the point being off by so much
 };
-Share share_of(const Light& light, const glm::dmat4& view, const Ray& r, double off) {
+Share share_of(const Light& light, const LightSource<double>& source, const Ray& r, double off) {
   Share out;
   if (light.kind == Light::Kind::directional) return out;
   if (const Vec3<double> k(light.attenuation); k != Vec3<double>(1, 0, 0)) {
@@ -59,7 +59,7 @@ Share share_of(const Light& light, const glm::dmat4& view, const Ray& r, double 
     out.error = 2 * r.condition * out.value;  // at most the square of the distance
   }
   if (!light.spot) return out;
-  const double cosine = -glm::dot(r.to_light, glm::normalize(glm::dmat3(view) * light.spot->direction));
+  const double cosine = -glm::dot(r.to_light, glm::normalize(source.spot_eye));
   const double edge = std::cos(glm::radians(light.spot->cutoff_degrees)), error = (r.condition + 1) * kError;
   const Power p = power(cosine, light.spot->exponent, error);
   if (std::abs(cosine - edge) <= error + off / r.distance) out.beyond = out.value * p.value;
@@ -84,10 +84,15 @@ Highlight highlight(const LightModel& model, const Vec3<double>& n, const Ray& r
   return {glm::dot(2 * n_dot_l * n - r.to_light, e), 4 * length * length * (r.condition + 1)};
 }
 
+LightSource<double> in_eye_space(const Light& light, const glm::dmat4& view) {
+  const double w = light.kind == Light::Kind::point ? 1.0 : 0.0;
+  return {view * glm::dvec4(light.vector, w), light.spot ? glm::dmat3(view) * light.spot->direction : Vec3<double>(0)};
+}
+
 }  // namespace
 
-LightBounds light_bounds(const Scene& scene, const Material& m, const Vertex<double>& vertex,
-                         const LightInputs& errors) {
+LightBounds light_bounds(const Scene& scene, const Material& m, const Vertex<double>& vertex, const LightInputs& errors,
+                         std::span<const LightSource<double>> lights) {
   const LightModel& model = scene.light_model;
   const bool flips = model.sides == LightModel::Sides::flip;
   const Vec3<double> p_eye(vertex.p_eye);
@@ -105,11 +110,13 @@ LightBounds light_bounds(const Scene& scene, const Material& m, const Vertex<dou
   const double length = std::max(glm::length(n), 1.0);
   out.magnitude = Vec3<double>(m.emission) + Vec3<double>(m.ambient) * Vec3<double>(model.ambient);
   out.inherited = errors.color * (Vec3<double>(1) + Vec3<double>(model.ambient));
-  for (const Light& light : scene.lights) {
-    const Ray r = ray(light, view, p_eye);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    const LightSource<double> source = i < lights.size() ? lights[i] : in_eye_space(light, view);
+    const Ray r = ray(light, source, p_eye);
     const double off = light.kind == Light::Kind::point ? errors.p_eye : 0;
     if (!(r.condition * kError < 1 && r.distance > 2 * off)) return anything();
-    const Share share = share_of(light, view, r, off);
+    const Share share = share_of(light, source, r, off);
     const Highlight h = highlight(model, n, r, e, length);
     const Power p = power(h.cosine, m.shininess, h.error * kError);
     const Vec3<double> ambient(light.ambient * glm::vec3(m.ambient)), diffuse(light.diffuse * glm::vec3(m.diffuse));

@@ -36,7 +36,10 @@ void hand_on(Stage stage, const Capture& from, Capture& to) {
   const Records<double>& r = from.records;
   Records<double>& out = to.records;
   switch (stage) {
-    case Stage::matrices: out.matrices = r.matrices; return;
+    case Stage::matrices:
+      out.matrices = r.matrices;
+      out.lights = r.lights;
+      return;
     case Stage::vertex: out.vertices = r.vertices; return;
     case Stage::light:
       out.lit = r.lit;
@@ -92,6 +95,7 @@ void round_to_formats(const Scene& scene, Stage stage, Capture& capture) {
         m.win_scale = to_float(m.win_scale);
         m.win_translate = to_float(m.win_translate);
       }
+      for (LightSource<double>& l : r.lights) l = {to_float(l.p_eye), to_float(l.spot_eye)};
       return;
     case Stage::vertex:
       for (Vertex<double>& v : r.vertices) v = {to_float(v.p_eye), to_float(v.p_clip), to_float(v.n_eye)};

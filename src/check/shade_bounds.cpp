@@ -45,6 +45,7 @@ FragmentFours fours_of(const Records<double>& records, std::size_t i) {
     if (i < records.varyings[v].fragments.size()) out[v] = records.varyings[v].fragments[i];
   }
   if (i < records.texels.size()) out.texel = records.texels[i].color;
+  out.lights = records.lights;
   return out;
 }
 
@@ -63,8 +64,9 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, con
   const bool colors = !scene.meshes[draw.mesh].colors.empty() && draw.color_material != ColorMaterial::none;
   const double d_color = colors ? glm::length(errors.color) : 0;
   const glm::vec4 color(attributes.color);
-  const LightBounds bounds = light_bounds(scene, lit_material(scene, draw, part, colors ? &color : nullptr), at,
-                                          {length(errors[Varying::position]), dn / n + 4 * u, d_color});
+  const LightBounds bounds =
+      light_bounds(scene, lit_material(scene, draw, part, colors ? &color : nullptr), at,
+                   {length(errors[Varying::position]), dn / n + 4 * u, d_color}, attributes.lights);
   if (!std::isfinite(bounds.magnitude.x) || bounds.jump != Vec3<double>(0)) return anything;
   return Vec4<double>(bounds.inherited + 4 * roundings.count * u * bounds.magnitude, d_color + u);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "check/bounds.h"
 #include "scene/scene.h"
@@ -14,10 +15,11 @@ struct FragmentFours {
   Vec4<double> color{0};
   std::array<Vec4<double>, kVaryings> varyings{};
   Vec4<double> texel{0};
+  std::span<const LightSource<double>> lights{};  ///< recorded ones; none of errors
   Vec4<double>& operator[](Varying v) { return varyings[static_cast<std::size_t>(v)]; }
   const Vec4<double>& operator[](Varying v) const { return varyings[static_cast<std::size_t>(v)]; }
 };
-/// Those of the fragment number `i`.
+/// Those of the fragment number `i`. A span into the records.
 FragmentFours fours_of(const Records<double>& records, std::size_t i);
 
 /// Per channel: what attributes off by `errors` and, in float, the `roundings` of each step come to.

@@ -84,6 +84,14 @@ class Worded {
     out.push_back(in_ulp("window translation", a->win_translate, b->win_translate));
   }
 
+  void light_source(std::size_t i, TextLines& out) const {
+    const auto *a = at(mine_.records.lights, i), *b = at(theirs_.records.lights, i);
+    if (a == nullptr || b == nullptr) return;
+    out.push_back(in_ulp(fmt::format("light {} p_eye", i).c_str(), a->p_eye, b->p_eye));
+    if (b->spot_eye != Vec3<double>(0))
+      out.push_back(in_ulp(fmt::format("light {} spot_eye", i).c_str(), a->spot_eye, b->spot_eye));
+  }
+
   void vertex(std::size_t i, TextLines& out) const {
     const auto *a = at(mine_.records.vertices, i), *b = at(theirs_.records.vertices, i);
     if (a == nullptr || b == nullptr) return;
@@ -339,7 +347,13 @@ std::vector<std::string> worst_record(const Evidence& e, const Measurement& m) {
   const Worded worded(e);
   const auto record = static_cast<std::size_t>(std::max<std::int64_t>(place.record, 0));
   switch (e.stage) {
-    case Stage::matrices: worded.matrices(record, out); break;
+    case Stage::matrices:
+      if (std::string_view(place.field).starts_with("light")) {
+        worded.light_source(record, out);
+      } else {
+        worded.matrices(record, out);
+      }
+      break;
     case Stage::vertex: worded.vertex(record, out); break;
     case Stage::light: worded.light(record, out); break;
     case Stage::clip: worded.polygon(static_cast<std::uint32_t>(record), out); break;

@@ -17,11 +17,11 @@ Vec4<float> of_vertex(Varying varying, const Mesh& mesh, const Vertex<float>& ve
 
 }  // namespace
 
-void carry(const Scene& scene, const Draw& draw, Varying varying, std::span<const Vertex<float>> vertices,
-           std::vector<Vec4<float>>& out) {
+void carry(const Scene& scene, const Draw& draw, Varying varying, Lights lights,
+           std::span<const Vertex<float>> vertices, std::vector<Vec4<float>>& out) {
   if (!carries(scene, draw, varying)) return out.resize(out.size() + vertices.size(), Vec4<float>(0.0f));
   if (is_lit(varying)) {
-    return light_part(scene, draw, {is_back(varying), is_secondary(varying)}, vertices, out);
+    return light_part(scene, draw, {is_back(varying), is_secondary(varying)}, lights, vertices, out);
   }
   const Mesh& mesh = scene.meshes[draw.mesh];
   for (std::size_t i = 0; i < vertices.size(); ++i) out.push_back(of_vertex(varying, mesh, vertices[i], i));

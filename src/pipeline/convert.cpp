@@ -12,6 +12,10 @@ Matrices<To> converted(const Matrices<From>& m) {
           Vec3<To>(m.win_translate)};
 }
 template <class To, class From>
+LightSource<To> converted(const LightSource<From>& l) {
+  return {Vec4<To>(l.p_eye), Vec3<To>(l.spot_eye)};
+}
+template <class To, class From>
 Vertex<To> converted(const Vertex<From>& v) {
   return {Vec4<To>(v.p_eye), Vec4<To>(v.p_clip), Vec3<To>(v.n_eye)};
 }
@@ -56,7 +60,10 @@ void widen_geometry(const Records<float>& from, const Request& request, Records<
     return request.primitives.empty() ||
            std::binary_search(request.primitives.begin(), request.primitives.end(), primitive);
   };
-  if (request.records.has(Stage::matrices)) to.matrices = converted<double>(from.matrices);
+  if (request.records.has(Stage::matrices)) {
+    to.matrices = converted<double>(from.matrices);
+    to.lights = converted<double>(from.lights);
+  }
   if (request.records.has(Stage::vertex)) to.vertices = converted<double>(from.vertices);
   if (request.records.has(Stage::light)) {
     to.lit = converted<double>(from.lit);
@@ -107,10 +114,12 @@ std::size_t widened_bytes(const Records<float>& from, const Request& request) {
 }
 
 WindowTriangle<float> narrow(const WindowTriangle<double>& from) { return converted<float>(from); }
+std::vector<LightSource<float>> narrow(const std::vector<LightSource<double>>& from) { return converted<float>(from); }
 
 Records<float> narrow(const Records<double>& from) {
   Records<float> to;
   to.matrices = converted<float>(from.matrices);
+  to.lights = converted<float>(from.lights);
   to.vertices = converted<float>(from.vertices);
   to.lit = converted<float>(from.lit);
   to.polygons = {converted<float>(from.polygons.vertices), from.polygons.polygons};

@@ -15,6 +15,7 @@ std::size_t widened_bytes(const Records<float>& from, const Request& request);
 /// Stages 0 to 4 (each value was a float before, or is rounded to one now).
 Records<float> narrow(const Records<double>& from);
 WindowTriangle<float> narrow(const WindowTriangle<double>& from);
+std::vector<LightSource<float>> narrow(const std::vector<LightSource<double>>& from);
 
 inline Vec4<double> widen(const Color<float>& c) { return {c.r, c.g, c.b, c.a}; }
 inline Color<float> color_of(const Vec4<double>& c) {

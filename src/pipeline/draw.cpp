@@ -21,6 +21,7 @@ void clear(ClipPolygons<float>& polygons) {
 // Those of the geometry; no others are there.
 void clear(Records<float>& records) {
   records.matrices.clear();
+  records.lights.clear();
   records.vertices.clear();
   records.lit.clear();
   clear(records.polygons);
@@ -55,7 +56,7 @@ void with_varying(const ClipPolygons<float>& from, std::span<const ClipPolygon> 
 
 }  // namespace
 
-GeometryStages geometry_stages() { return {matrices, transform, light, carry, clip, to_window}; }
+GeometryStages geometry_stages() { return {matrices, light_sources, transform, light, carry, clip, to_window}; }
 
 void GeometryRun::begin(const Scene& scene, const GeometryStages& stages) {
   scene_ = &scene;
@@ -72,7 +73,11 @@ std::size_t GeometryRun::bytes() const {
 void GeometryRun::run(std::size_t draw, Stage stage, const Records<float>& in, Records<float>& out) {
   const Draw& d = scene_->draws[draw];
   switch (stage) {
-    case Stage::matrices: return out.matrices.push_back(stages_.matrices(*scene_, d));
+    case Stage::matrices:
+      if (draw == 0) {
+        for (const LightSource<float>& light : stages_.lights(*scene_)) out.lights.push_back(light);
+      }
+      return out.matrices.push_back(stages_.matrices(*scene_, d));
     case Stage::vertex: return stages_.vertex(in.matrices.at(draw), d.normals, scene_->meshes[d.mesh], out.vertices);
     case Stage::light: return light(draw, in, out);
     case Stage::clip: return clip(draw, in, out);
@@ -83,8 +88,10 @@ void GeometryRun::run(std::size_t draw, Stage stage, const Records<float>& in, R
 void GeometryRun::light(std::size_t draw, const Records<float>& in, Records<float>& out) const {
   const Draw& d = scene_->draws[draw];
   const auto vertices = std::span(in.vertices).subspan(ranges_[draw].first_vertex, ranges_[draw].vertex_count);
-  stages_.light(*scene_, d, vertices, out.lit);
-  for (const Varying v : carried_) stages_.carry(*scene_, d, v, vertices, out.varyings[v].vertices);
+  const auto of_scene = in.lights.empty() ? light_sources(*scene_) : Few<LightSource<float>, 8>();
+  const Lights lights = in.lights.empty() ? Lights(of_scene) : Lights(in.lights);
+  stages_.light(*scene_, d, lights, vertices, out.lit);
+  for (const Varying v : carried_) stages_.carry(*scene_, d, v, lights, vertices, out.varyings[v].vertices);
 }
 
 void GeometryRun::clip(std::size_t draw, const Records<float>& in, Records<float>& out) {

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/light_equation.h"
+#include "scene/few.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -14,9 +16,10 @@ struct Assembly;
 /// The functions of stages 0 to 4; each can be called alone, and a test can put another in the place of one.
 struct GeometryStages {
   Matrices<float> (*matrices)(const Scene&, const Draw&);
+  Few<LightSource<float>, 8> (*lights)(const Scene&);
   void (*vertex)(const Matrices<float>&, Normals, const Mesh&, std::vector<Vertex<float>>&);
-  void (*light)(const Scene&, const Draw&, std::span<const Vertex<float>>, std::vector<Lit<float>>&);
-  void (*carry)(const Scene&, const Draw&, Varying, std::span<const Vertex<float>>, std::vector<Vec4<float>>&);
+  void (*light)(const Scene&, const Draw&, Lights, std::span<const Vertex<float>>, std::vector<Lit<float>>&);
+  void (*carry)(const Scene&, const Draw&, Varying, Lights, std::span<const Vertex<float>>, std::vector<Vec4<float>>&);
   void (*clip)(const Assembly&, ClipPolygons<float>&);
   void (*window)(const Matrices<float>&, const Draw&, const ClipPolygons<float>&, std::span<const ClipPolygon>,
                  std::vector<WindowTriangle<float>>&);
@@ -32,7 +35,8 @@ class GeometryRun {
   /// Of the scene from here on, in memory that is kept from one to the next.
   void begin(const Scene& scene, const GeometryStages& stages);
 
-  /// Appends the draw's records of the stage to `out`, from those of the stage before in `in`; both may be one.
+  /// Appends the draw's records of the stage to `out`, from those of the stages before in `in`; both may be one. The
+  /// scene's lights come with the first draw's matrices; where `in` has none, stage 2 takes the scene's.
   void run(std::size_t draw, Stage stage, const Records<float>& in, Records<float>& out);
   std::size_t draws() const { return scene_->draws.size(); }
   std::size_t bytes() const;

@@ -2,8 +2,8 @@
 
 namespace plumbline::pipeline {
 
-FragmentLight fragment_light(const Scene& scene, const Draw& draw) {
-  FragmentLight out{&scene, false, illumination(scene), {}, {}};
+FragmentLight fragment_light(const Scene& scene, const Draw& draw, Lights lights) {
+  FragmentLight out{&scene, false, illumination(scene, lights), {}, {}};
   out.by_color = draw.color_material != ColorMaterial::none && !scene.meshes[draw.mesh].colors.empty();
   for (const bool back : {false, true}) {
     for (const bool secondary : {false, true}) {

@@ -15,7 +15,8 @@ struct FragmentLight {
   ColoredMaterial material[2][2];
   Reflectance<float> reflectance[2][2];  ///< of its own material
 };
-FragmentLight fragment_light(const Scene& scene, const Draw& draw);
+/// `lights`: stage 0's.
+FragmentLight fragment_light(const Scene& scene, const Draw& draw, Lights lights);
 
 /// The light equation at a point of a face, the normal brought to unit length. `color`: the interpolated vertex colour.
 template <class R>

@@ -63,6 +63,9 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   const std::size_t vertices = end.first_vertex + end.vertex_count;
   const std::uint32_t primitives = end.first_primitive + end.primitive_count;
   if (stage == Stage::vertex || stage == Stage::window) require(r.matrices.size() == scene.draws.size(), "matrices");
+  if (stage == Stage::light || stage == Stage::shade) {
+    require(r.lights.empty() || r.lights.size() == scene.lights.size(), "lights");
+  }
   if (stage == Stage::light || stage == Stage::clip) require(r.vertices.size() == vertices, "vertices");
   if (stage == Stage::clip) require(r.lit.size() == vertices, "lit");
   if (stage == Stage::window) {

@@ -1,14 +1,13 @@
 #include "pipeline/light.h"
 
-#include "pipeline/light_equation.h"
-
 namespace plumbline::pipeline {
 
 namespace {
 
-void each_lit(const Scene& scene, const Draw& draw, LitPart part, std::span<const Vertex<float>> vertices, auto add) {
+void each_lit(const Scene& scene, const Draw& draw, LitPart part, Lights in_eye_space,
+              std::span<const Vertex<float>> vertices, auto add) {
   const bool by_color = draw.color_material != ColorMaterial::none && !scene.meshes[draw.mesh].colors.empty();
-  const Illumination lights = illumination(scene);
+  const Illumination lights = illumination(scene, in_eye_space);
   const ColoredMaterial material = colored_material(scene, draw, part);
   Reflectance<float> of_vertex = reflectance(scene, material.own);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -24,7 +23,7 @@ void each_lit(const Scene& scene, const Draw& draw, LitPart part, std::span<cons
 
 }  // namespace
 
-void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
+void light(const Scene& scene, const Draw& draw, Lights lights, std::span<const Vertex<float>> vertices,
            std::vector<Lit<float>>& out) {
   if (!is_lit_per_vertex(draw)) {
     const Mesh& mesh = scene.meshes[draw.mesh];
@@ -33,12 +32,12 @@ void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> 
     }
     return;
   }
-  each_lit(scene, draw, {}, vertices, [&](const Vec4<float>& color) { out.push_back({color}); });
+  each_lit(scene, draw, {}, lights, vertices, [&](const Vec4<float>& color) { out.push_back({color}); });
 }
 
-void light_part(const Scene& scene, const Draw& draw, LitPart part, std::span<const Vertex<float>> vertices,
-                std::vector<Vec4<float>>& out) {
-  each_lit(scene, draw, part, vertices, [&](const Vec4<float>& color) { out.push_back(color); });
+void light_part(const Scene& scene, const Draw& draw, LitPart part, Lights lights,
+                std::span<const Vertex<float>> vertices, std::vector<Vec4<float>>& out) {
+  each_lit(scene, draw, part, lights, vertices, [&](const Vec4<float>& color) { out.push_back(color); });
 }
 
 }  // namespace plumbline::pipeline

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/light_equation.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -12,11 +13,12 @@ namespace plumbline::pipeline {
 /// Appends one colour per vertex of the draw, clamped to [0,1].
 ///
 /// Lit: by light_equation.h, with the draw's material or what of it the mesh's colours stand for (2.14.3). Unlit,
-/// or to be lit per fragment: the mesh's colour, or the material's diffuse.
-void light(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices, std::vector<Lit<float>>& out);
+/// or to be lit per fragment: the mesh's colour, or the material's diffuse. `lights`: stage 0's.
+void light(const Scene& scene, const Draw& draw, Lights lights, std::span<const Vertex<float>> vertices,
+           std::vector<Lit<float>>& out);
 
 /// One part of a lit draw's colours; of the secondary one, alpha is 0.
-void light_part(const Scene& scene, const Draw& draw, LitPart part, std::span<const Vertex<float>> vertices,
-                std::vector<Vec4<float>>& out);
+void light_part(const Scene& scene, const Draw& draw, LitPart part, Lights lights,
+                std::span<const Vertex<float>> vertices, std::vector<Vec4<float>>& out);
 
 }  // namespace plumbline::pipeline

@@ -2,16 +2,13 @@
 
 #include <cmath>
 
-#include "dialect/dialect.h"
-
 namespace plumbline::pipeline {
 
 namespace {
 
-EyeLight eye_light(const Light& light, const glm::dmat4& view) {
+EyeLight eye_light(const Light& light, const LightSource<float>& source) {
   const bool directional = light.kind == Light::Kind::directional;
-  const auto eye = [&](const glm::dvec3& v, double w) { return spread<float>(Vec3<float>(view * glm::dvec4(v, w))); };
-  const Vector<float> vector = eye(light.vector, directional ? 0.0 : 1.0);
+  const Vector<float> vector = spread<float>(Vec3<float>(source.p_eye));
   EyeLight out{directional, vector, {}, false, false, light.attenuation, {}, 0, 0};
   if (directional) {
     out.vector = unit(vector);
@@ -20,7 +17,7 @@ EyeLight eye_light(const Light& light, const glm::dmat4& view) {
   out.attenuates = !directional && light.attenuation != glm::vec3(1, 0, 0);
   if (!directional && light.spot) {
     out.has_cone = true;
-    out.cone = unit(eye(light.spot->direction, 0));
+    out.cone = unit(spread<float>(source.spot_eye));
     out.cos_cutoff = static_cast<float>(std::cos(light.spot->cutoff_degrees * kRadians));
     out.exponent = light.spot->exponent;
   }
@@ -29,10 +26,9 @@ EyeLight eye_light(const Light& light, const glm::dmat4& view) {
 
 }  // namespace
 
-Illumination illumination(const Scene& scene) {
+Illumination illumination(const Scene& scene, Lights lights) {
   Illumination out{scene.light_model, {}};
-  const glm::dmat4 view = view_matrix(scene);
-  for (const Light& light : scene.lights) out.lights.push_back(eye_light(light, view));
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) out.lights.push_back(eye_light(scene.lights[i], lights[i]));
   return out;
 }
 

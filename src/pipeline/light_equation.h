@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <span>
 
 #include "pipeline/attributes.h"
 #include "pipeline/math.h"
@@ -13,7 +14,10 @@
 
 namespace plumbline::pipeline {
 
-/// A light in eye space.
+/// The scene's lights, as stage 0 hands them on.
+using Lights = std::span<const LightSource<float>>;
+
+/// A light in eye space, ready for the equation.
 struct EyeLight {
   bool directional;
   Vector<float> vector;  ///< unit direction towards it, or its place
@@ -29,7 +33,8 @@ struct Illumination {
   LightModel model;
   Few<EyeLight, 8> lights;
 };
-Illumination illumination(const Scene& scene);
+/// `lights`: one for each of the scene's.
+Illumination illumination(const Scene& scene, Lights lights);
 
 /// A material, and what of it a colour stands for (lit_material(), scene.h).
 struct ColoredMaterial {

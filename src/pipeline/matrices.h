@@ -1,6 +1,8 @@
-// Stage 0: a draw's transforms, camera, projection and viewport become matrices. (dialect.h has camera and projection.)
+// Stage 0: a draw's transforms, camera, projection and viewport become matrices; the camera takes lights to eye space.
+// (dialect.h has camera and projection.)
 #pragma once
 
+#include "scene/few.h"
 #include "scene/scene.h"
 #include "stages/stages.h"
 
@@ -8,5 +10,8 @@ namespace plumbline::pipeline {
 
 /// Built in double, rounded once to float (entries below 1e-12 become 0).
 Matrices<float> matrices(const Scene& scene, const Draw& draw);
+
+/// One for each of the scene's lights, built in double, rounded once to float.
+Few<LightSource<float>, 8> light_sources(const Scene& scene);
 
 }  // namespace plumbline::pipeline

@@ -153,7 +153,7 @@ void Painter::Memory::prepare(const Scene& scene) {
 
 // Stages 0, 1, 2 and 4.
 void Painter::Memory::run_vertices(const Scene& scene) {
-  illumination = pipeline::illumination(scene);
+  illumination = pipeline::illumination(scene, light_sources(scene));
   vertex_work.clear();
   shares.clear();
   assembly.clear();

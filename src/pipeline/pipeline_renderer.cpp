@@ -245,7 +245,9 @@ class PipelineRenderer : public Renderer {
   }
 
   void run_shade(const Scene& scene, const Records<double>& in, Capture& out) {
-    const std::vector<Surface> surfaces = surfaces_of(scene, {});
+    Records<float> lights;
+    lights.lights = narrow(in.lights);
+    const std::vector<Surface> surfaces = surfaces_of(scene, lights);
     const DrawOfTriangle draw_of(scene, in.triangles);
     for (std::size_t i = 0; i < in.covered.size(); ++i) {
       const std::uint32_t triangle = in.covered[i].triangle;

@@ -1,5 +1,7 @@
 #include "pipeline/surface.h"
 
+#include "pipeline/matrices.h"
+
 namespace plumbline::pipeline {
 
 Surface surface_of(const Scene& scene, const Draw& draw, const Records<float>& records) {
@@ -11,7 +13,10 @@ Surface surface_of(const Scene& scene, const Draw& draw, const Records<float>& r
     const Texture& texture = scene.textures.at(draw.texture->texture);
     surface.texture = texture_setup(texture, texture.sampler);
   }
-  if (is_lit_per_fragment(draw)) surface.light = fragment_light(scene, draw);
+  if (is_lit_per_fragment(draw)) {
+    surface.light = records.lights.empty() ? fragment_light(scene, draw, light_sources(scene))
+                                           : fragment_light(scene, draw, records.lights);
+  }
   for (const Varying v : kAllVaryings) {
     if (is_back(v) || !carries(scene, draw, v)) continue;
     surface.carried.push_back(v);

@@ -27,7 +27,8 @@ struct Surface {
 
   bool plain() const { return draw == nullptr; }
 };
-/// A draw's. Spans into the records, pointers into the scene.
+/// A draw's. Spans into the records, pointers into the scene. Lit by the records' lights; where these have none, by the
+/// scene's.
 Surface surface_of(const Scene& scene, const Draw& draw, const Records<float>& records);
 /// One per draw.
 std::vector<Surface> surfaces_of(const Scene& scene, const Records<float>& records);

@@ -112,6 +112,8 @@ void visit_capture(CaptureRef& capture, Visitor& visit) {
   visit.group("matrices", records.matrices, Column{"model_view", &M::model_view}, Column{"projection", &M::projection},
               Column{"normal", &M::normal}, Column{"win_scale", &M::win_scale},
               Column{"win_translate", &M::win_translate});
+  using L = LightSource<double>;
+  visit.group("matrices.light", records.lights, Column{"p_eye", &L::p_eye}, Column{"spot_eye", &L::spot_eye});
   using V = Vertex<double>;
   visit.group("vertex", records.vertices, Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
               Column{"n_eye", &V::n_eye});

@@ -67,6 +67,7 @@ std::unique_ptr<Renderer> make_held_renderer(Capture capture, const Scene& scene
     require(is == 0 || is == expected, fmt::format("{} {}, as the scene has", expected, what), std::to_string(is));
   };
   fits("draws' matrices", capture.records.matrices.size(), scene.draws.size());
+  fits("lights", capture.records.lights.size(), scene.lights.size());
   fits("vertices", capture.records.vertices.size(), vertices);
   fits("lit vertices", capture.records.lit.size(), vertices);
   const std::size_t primitives = ranges.empty() ? 0 : ranges.back().first_primitive + ranges.back().primitive_count;

@@ -174,7 +174,10 @@ std::uintmax_t bytes_below(const fs::path& folder) {
 }
 
 void keep_only(Records<double>& records, const StageSet& stages) {
-  if (!stages.has(Stage::matrices)) records.matrices.clear();
+  if (!stages.has(Stage::matrices)) {
+    records.matrices.clear();
+    records.lights.clear();
+  }
   if (!stages.has(Stage::vertex)) records.vertices.clear();
   if (!stages.has(Stage::light)) records.lit.clear();
   if (!stages.has(Stage::clip)) records.polygons = {};

@@ -59,6 +59,12 @@ struct Matrices {
   Vec3<T> win_scale;   ///< p_win = p_ndc * win_scale + win_translate
   Vec3<T> win_translate;
 };
+//    The camera takes the scene's lights to eye space, too: built in double, rounded once to float.
+template <class T>
+struct LightSource {
+  Vec4<T> p_eye;     ///< a point light's place, w = 1; of a directional light the direction towards it, w = 0
+  Vec3<T> spot_eye;  ///< direction in which a spot light shines, as long as the scene's; 0 of any other light
+};
 
 // 1. Each vertex of the mesh is transformed, once.
 template <class T>
@@ -171,6 +177,7 @@ struct Drawn {
 template <class T>
 struct Records {
   std::vector<Matrices<T>> matrices;         ///< per draw
+  std::vector<LightSource<T>> lights;        ///< of the scene, in its order; stage 0 hands them on beside matrices
   std::vector<Vertex<T>> vertices;           ///< all draws' vertices, in draw order (scene.h, DrawRange)
   std::vector<Lit<T>> lit;                   ///< beside vertices
   ClipPolygons<T> polygons;                  ///< of the primitives that are not wholly outside

@@ -314,6 +314,7 @@ TEST_F(VertexRecords, LitColoursAreHeldToTheLights) {
 TEST_F(VertexRecords, AHighlightMayComeOrGoWhereTheLightGrazes) {
   const glm::dvec3 n = records.vertices[5].n_eye;
   scene.camera = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};  // directions are the world's
+  records.lights.clear();                            // the scene's are others from here on
   scene.lights = {{Light::Kind::directional, glm::cross(n, glm::dvec3(0.3, 0.5, -0.7)), {}, {}, glm::vec3(0.5)}};
   scene.draws[0].material.specular = glm::vec4(1);  // shininess 0: the whole 0.5, or nothing
   records.lit[5].color = glm::dvec4(0.25);
@@ -328,6 +329,7 @@ TEST_F(VertexRecords, AHighlightMayComeOrGoWhereTheLightGrazes) {
 
 TEST_F(VertexRecords, ALightAtTheVertexGivesAnyColour) {
   scene.camera = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}};
+  records.lights.clear();
   scene.lights = {{Light::Kind::point, glm::dvec3(records.vertices[5].p_eye) + glm::dvec3(0, 0, 1), {}, {}, {}}};
   const auto becomes = [&](double value) { return lit([=](auto& a) { a.lit[5].color.g = value; }); };
   EXPECT_TRUE(passes(becomes(0)));

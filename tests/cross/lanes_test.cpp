@@ -7,6 +7,7 @@
 
 #include "lanes_kernels.h"
 #include "pipeline/draw_simd.h"
+#include "pipeline/matrices.h"
 #include "scene/texture_images.h"
 
 namespace plumbline::pipeline {
@@ -148,7 +149,7 @@ TEST(SimdLanes, LightAsFloatDoes) {
     scene.light_model.local_viewer = state / 36 % 2 == 1;
     scene.light_model.separate_specular = state / 72 % 2 == 1;
     const LitPart part{state / 144 % 2 == 1, scene.light_model.separate_specular && state % 2 == 1};
-    const FragmentLight lights = fragment_light(scene, draw);
+    const FragmentLight lights = fragment_light(scene, draw, light_sources(scene));
     expect_same(4, in, "state " + std::to_string(state),
                 [&](const Kernels& k, float* out) { k.lit(lights, part, kItems, in.data(), out); });
   }

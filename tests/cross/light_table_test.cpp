@@ -2,6 +2,7 @@
 // (transforms_table_test.cpp). The unit is an ULP of the terms' magnitudes added up: at most 4; in a million inputs 3.4
 // is seen.
 #include "pipeline/light.h"
+#include "pipeline/matrices.h"
 #include "transforms_table.h"
 
 namespace plumbline::test {
@@ -15,7 +16,7 @@ struct Lamps {
   float ours() const {
     const Vertex<float> vertex{{0, 0, -5, 1}, {0, 0, 0, 1}, n};
     std::vector<Lit<float>> lit;
-    pipeline::light(scene, draw, std::span(&vertex, 1), lit);
+    pipeline::light(scene, draw, pipeline::light_sources(scene), std::span(&vertex, 1), lit);
     return lit[0].color.r;
   }
 };

@@ -18,7 +18,8 @@ void hang(const Matrices<float>&, const Draw&, const ClipPolygons<float>&, std::
   while (true) ::pause();
 }
 
-void take_memory(const Scene&, const Draw&, std::span<const Vertex<float>>, std::vector<Lit<float>>& out) {
+void take_memory(const Scene&, const Draw&, pipeline::Lights, std::span<const Vertex<float>>,
+                 std::vector<Lit<float>>& out) {
   while (true) out.resize(2 * out.size() + 1);
 }
 

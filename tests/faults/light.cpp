@@ -9,21 +9,23 @@
 #include "pipeline/carry.h"
 #include "pipeline/light.h"
 #include "pipeline/math.h"
+#include "pipeline/matrices.h"
 
 namespace plumbline::faults {
 
 namespace {
 
+using pipeline::Lights;
 using Vertices = std::span<const Vertex<float>>;
 using LitVertices = std::vector<Lit<float>>;
 
-// The stage under a scene that says something else.
+// The stage under a scene that says something else, and that scene's lights.
 template <auto change>
-void lit_otherwise(const Scene& scene, const Draw& draw, Vertices vertices, LitVertices& out) {
+void lit_otherwise(const Scene& scene, const Draw& draw, Lights, Vertices vertices, LitVertices& out) {
   Scene wrong = scene;
   Draw wrong_draw = draw;
   change(wrong, wrong_draw);
-  pipeline::light(wrong, wrong_draw, vertices, out);
+  pipeline::light(wrong, wrong_draw, pipeline::light_sources(wrong), vertices, out);
 }
 
 constexpr auto kNoAttenuation = [](Scene& scene, Draw&) {
@@ -75,9 +77,9 @@ constexpr auto kWorldSpace = [](Scene& scene, Draw&) {
 };
 
 // Directional lights' highlights where the surface faces away from them.
-void specular_from_behind(const Scene& scene, const Draw& draw, Vertices vertices, LitVertices& out) {
+void specular_from_behind(const Scene& scene, const Draw& draw, Lights lights, Vertices vertices, LitVertices& out) {
   const std::size_t first = out.size();
-  pipeline::light(scene, draw, vertices, out);
+  pipeline::light(scene, draw, lights, vertices, out);
   if (!draw.lit || scene.light_model.specular != LightModel::Specular::half_vector) return;
   for (const Light& light : scene.lights) {
     if (light.kind != Light::Kind::directional) continue;
@@ -93,19 +95,19 @@ void specular_from_behind(const Scene& scene, const Draw& draw, Vertices vertice
   }
 }
 
-void back_color_is_the_fronts(const Scene& scene, const Draw& draw, Varying varying, Vertices vertices,
+void back_color_is_the_fronts(const Scene& scene, const Draw& draw, Varying varying, Lights lights, Vertices vertices,
                               std::vector<Vec4<float>>& out) {
   if (varying != Varying::back_color || !carries(scene, draw, varying)) {
-    return pipeline::carry(scene, draw, varying, vertices, out);
+    return pipeline::carry(scene, draw, varying, lights, vertices, out);
   }
-  pipeline::light_part(scene, draw, {}, vertices, out);
+  pipeline::light_part(scene, draw, {}, lights, vertices, out);
 }
 
 // Of the vertices before their cut: the fog of a primitive that reaches behind the eye grows towards it.
-void positions_by_distance(const Scene& scene, const Draw& draw, Varying varying, Vertices vertices,
+void positions_by_distance(const Scene& scene, const Draw& draw, Varying varying, Lights lights, Vertices vertices,
                            std::vector<Vec4<float>>& out) {
   const std::size_t first = out.size();
-  pipeline::carry(scene, draw, varying, vertices, out);
+  pipeline::carry(scene, draw, varying, lights, vertices, out);
   if (varying != Varying::position) return;
   for (std::size_t i = first; i < out.size(); ++i) out[i].z = std::abs(out[i].z);
 }

@@ -68,25 +68,28 @@ Matrices<float> whole_centres(const Scene& scene, const Draw& draw) {
 
 // N.L below 0 takes light away: what an opposite light of negative colour does. (Of GzRender's lights, which are
 // directional. A scene has 8 lights at most.)
-void no_clamp_of_n_l(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
-                     std::vector<Lit<float>>& out) {
+void no_clamp_of_n_l(const Scene& scene, const Draw& draw, pipeline::Lights lights,
+                     std::span<const Vertex<float>> vertices, std::vector<Lit<float>>& out) {
   Scene wrong = scene;
-  for (const Light& l : scene.lights) {
+  std::vector<LightSource<float>> opposite(lights.begin(), lights.end());
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& l = scene.lights[i];
     if (l.kind == Light::Kind::directional && wrong.lights.size() < 8) {
       wrong.lights.push_back({l.kind, -l.vector, glm::vec3(0), -l.diffuse, glm::vec3(0)});
+      opposite.push_back({-lights[i].p_eye, {}});
     }
   }
-  pipeline::light(wrong, draw, vertices, out);
+  pipeline::light(wrong, draw, opposite, vertices, out);
 }
 
 // N.L and N.E both below 0: N is turned; one of them: no light. As though every N with N.E < 0 were turned.
-void flipped_normals(const Scene& scene, const Draw& draw, std::span<const Vertex<float>> vertices,
-                     std::vector<Lit<float>>& out) {
+void flipped_normals(const Scene& scene, const Draw& draw, pipeline::Lights lights,
+                     std::span<const Vertex<float>> vertices, std::vector<Lit<float>>& out) {
   std::vector<Vertex<float>> facing(vertices.begin(), vertices.end());
   for (Vertex<float>& v : facing) {
     if (v.n_eye.z < 0) v.n_eye = -v.n_eye;
   }
-  pipeline::light(scene, draw, facing, out);
+  pipeline::light(scene, draw, lights, facing, out);
 }
 
 // One corner with Z < 0, which is before the near plane, and the triangle is gone. Where depths are clamped there is no

@@ -61,6 +61,8 @@ Capture make_capture() {
   for (auto& m : r.matrices) {
     f.fill(m.model_view), f.fill(m.projection), f.fill(m.normal), f.fill(m.win_scale), f.fill(m.win_translate);
   }
+  r.lights.resize(3);
+  for (auto& l : r.lights) f.fill(l.p_eye), f.fill(l.spot_eye);
   r.vertices.resize(4);
   for (auto& v : r.vertices) f.fill(v.p_eye), f.fill(v.p_clip), f.fill(v.n_eye);
   r.lit.resize(4);
@@ -210,6 +212,7 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_EQ(b.height, kHeight);
   // Types without padding whole; the others member by member.
   EXPECT_TRUE(same_bits(a.records.matrices, b.records.matrices));
+  EXPECT_TRUE(same_bits(a.records.lights, b.records.lights));
   EXPECT_TRUE(same_bits(a.records.vertices, b.records.vertices));
   EXPECT_TRUE(same_bits(a.records.lit, b.records.lit));
   EXPECT_TRUE(same_bits(a.records.polygons.polygons, b.records.polygons.polygons));
@@ -251,7 +254,7 @@ TEST_F(CaptureFolder, ComesBackBitForBit) {
   EXPECT_EQ(b.planes.count(1, 2), 12u);
 
   write_capture(b, root_ / "b");
-  expect_same_files(root_ / "a", root_ / "b", 1 + 5 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 2 + 1 + 1 + 9 + 4 * kVaryings);
+  expect_same_files(root_ / "a", root_ / "b", 1 + 7 + 3 + 1 + 3 + 3 + 7 + 3 + 1 + 1 + 2 + 1 + 1 + 9 + 4 * kVaryings);
 }
 
 TEST_F(CaptureFolder, LeavesOutWhatWasNotCaptured) {

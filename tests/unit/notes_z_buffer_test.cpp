@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/light.h"
+#include "pipeline/matrices.h"
 #include "pipeline/program.h"
 
 namespace plumbline::pipeline {
@@ -212,7 +213,7 @@ double stage_color(glm::dvec3 n, const std::vector<Lamp>& lamps, double ks, doub
                    static_cast<float>(s)};
   const Vertex<float> vertex{{0, 0, -5, 1}, {0, 0, 0, 1}, Vec3<float>(n)};
   std::vector<Lit<float>> lit;
-  light(scene, draw, std::span(&vertex, 1), lit);
+  light(scene, draw, light_sources(scene), std::span(&vertex, 1), lit);
   return lit[0].color.r;
 }
 

@@ -103,6 +103,8 @@ inline void expect_same(const Records<double>& is, const Records<double>& expect
     return a.model_view == b.model_view && a.projection == b.projection && a.normal == b.normal &&
            a.win_scale == b.win_scale && a.win_translate == b.win_translate;
   });
+  expect_same_records("lights", is.lights, expected.lights,
+                      [](const auto& a, const auto& b) { return a.p_eye == b.p_eye && a.spot_eye == b.spot_eye; });
   expect_same_records("vertex", is.vertices, expected.vertices, [](const auto& a, const auto& b) {
     return a.p_eye == b.p_eye && a.p_clip == b.p_clip && a.n_eye == b.n_eye;
   });

@@ -3,6 +3,7 @@
 
 #include "pipeline/carry.h"
 #include "pipeline/light.h"
+#include "pipeline/matrices.h"
 #include "pipeline/render.h"
 #include "pipeline/shade.h"
 
@@ -37,7 +38,7 @@ Scene backs() {
 std::vector<Vec4<float>> carried_of(const Scene& scene, Varying v) {
   const std::vector<Vertex<float>> vertices(4, {{0, 0, -2, 1}, {}, {0, 0, -1}});
   std::vector<Vec4<float>> out;
-  carry(scene, scene.draws[0], v, vertices, out);
+  carry(scene, scene.draws[0], v, light_sources(scene), vertices, out);
   return out;
 }
 

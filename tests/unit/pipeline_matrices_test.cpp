@@ -67,6 +67,25 @@ TEST(PipelineMatrices, NormalsGoByTheInverseTranspose) {
   EXPECT_NEAR(glm::dot(m.normal * normal, glm::vec3(m.model_view * glm::vec4(in_plane, 0))), 0, 1e-6);
 }
 
+TEST(PipelineMatrices, LightsAreTakenToEyeSpace) {
+  Scene scene;
+  scene.camera = {{5, 0, 0}, {0, 0, 0}, {0, 1, 0}};  // looks down -x: world z is eye space's -x, world x its z
+  EXPECT_EQ(light_sources(scene).size(), 0u);
+  Light lamp;
+  lamp.kind = Light::Kind::point;
+  lamp.vector = {1, 2, 3};
+  lamp.spot = Spot{{0, -2, 1}, 30, 0};
+  Light sun;
+  sun.vector = {4, 2, 0};
+  scene.lights = {sun, lamp};
+  const auto lights = light_sources(scene);
+  ASSERT_EQ(lights.size(), 2u);
+  EXPECT_EQ(lights[0].p_eye, Vec4<float>(0, 2, 4, 0));
+  EXPECT_EQ(lights[0].spot_eye, Vec3<float>(0));
+  EXPECT_EQ(lights[1].p_eye, Vec4<float>(-3, 2, -4, 1));
+  EXPECT_EQ(lights[1].spot_eye, Vec3<float>(-1, -2, 0));
+}
+
 TEST(PipelineMatrices, TheViewActsAfterTheModel) {
   Scene scene;
   scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};

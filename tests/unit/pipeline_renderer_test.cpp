@@ -243,7 +243,7 @@ TEST(PipelineRenderer, SaysWhatItIsAbleToShow) {
 
 TEST(PipelineRenderer, AnotherStageFunctionIsUsedByCaptureAndByRunStage) {
   Stages stages = production_stages();
-  stages.geometry.light = [](const Scene&, const Draw&, std::span<const Vertex<float>> vertices,
+  stages.geometry.light = [](const Scene&, const Draw&, Lights, std::span<const Vertex<float>> vertices,
                              std::vector<Lit<float>>& out) {
     for (std::size_t i = 0; i < vertices.size(); ++i) out.push_back({{0.25f, 0.5f, 0.75f, 1}});
   };

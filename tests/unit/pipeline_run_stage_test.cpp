@@ -19,7 +19,10 @@ Capture of_stage(const Capture& whole, Stage stage) {
   Capture c;
   const Records<double>& r = whole.records;
   switch (stage) {
-    case Stage::matrices: c.records.matrices = r.matrices; break;
+    case Stage::matrices:
+      c.records.matrices = r.matrices;
+      c.records.lights = r.lights;
+      break;
     case Stage::vertex: c.records.vertices = r.vertices; break;
     case Stage::light: c.records.lit = r.lit; break;
     case Stage::clip: c.records.polygons = r.polygons; break;
@@ -61,6 +64,7 @@ TEST(PipelineRenderer, EachStageAloneOnTheRecordsBeforeItIsTheWhole) {
         const Capture one = of_stage(whole, static_cast<Stage>(i));
         const Records<double>& r = one.records;
         if (!r.matrices.empty()) before.records.matrices = r.matrices;
+        if (!r.lights.empty()) before.records.lights = r.lights;
         if (!r.vertices.empty()) before.records.vertices = r.vertices;
         if (!r.lit.empty()) before.records.lit = r.lit;
         if (!r.polygons.polygons.empty()) before.records.polygons = r.polygons;
@@ -79,6 +83,32 @@ TEST(PipelineRenderer, EachStageAloneOnTheRecordsBeforeItIsTheWhole) {
       expect_same(alone.records, expected.records);
       expect_same(alone.planes, expected.planes);
     }
+  }
+}
+
+TEST(PipelineRenderer, LightAndShadeTakeTheRecordedLights) {
+  Scene scene = boxes();
+  for (const Stage stage : {Stage::light, Stage::shade}) {
+    SCOPED_TRACE(name_of(stage));
+    if (stage == Stage::shade) {
+      for (Draw& draw : scene.draws) draw.shading = Shading::phong;
+    }
+    Scene other = scene;
+    other.lights[0].vector = {-3, 1, 2};
+    const auto pipeline = make_pipeline();
+    Capture in = pipeline->capture(scene, everything());
+    Capture none = in;
+    none.records.lights.clear();
+    const Capture as_it_was = pipeline->run_stage(scene, stage, none);
+    const Capture expected = pipeline->run_stage(other, stage, none);
+    in.records.lights = pipeline->capture(other, everything()).records.lights;
+    ASSERT_EQ(in.records.lights.size(), scene.lights.size());
+    const Capture made = pipeline->run_stage(scene, stage, in);
+    expect_same(made.records, expected.records);
+    const auto color = [&](const Capture& c) {
+      return stage == Stage::light ? c.records.lit.at(0).color : c.records.shaded.at(0).color;
+    };
+    EXPECT_NE(color(made), color(as_it_was));
   }
 }
 
@@ -172,6 +202,8 @@ TEST(PipelineRenderer, RecordsThatDoNotFitAreRefused) {
   };
   refused(Stage::vertex, [](auto& r) { r.matrices.pop_back(); });
   refused(Stage::light, [](auto& r) { r.vertices.pop_back(); });
+  refused(Stage::light, [](auto& r) { r.lights.emplace_back(); });
+  refused(Stage::shade, [](auto& r) { r.lights.emplace_back(); });
   refused(Stage::clip, [](auto& r) { r.vertices.clear(); });
   refused(Stage::clip, [](auto& r) { r.lit.pop_back(); });
   refused(Stage::window, [](auto& r) { r.matrices.clear(); });

@@ -29,7 +29,7 @@ struct PassThrough {
       const Mesh& mesh = scene.meshes[draw.mesh];
       const auto first = static_cast<std::uint32_t>(vertices.size());
       transform(matrices(scene, draw), draw.normals, mesh, vertices);
-      geometry_stages().light(scene, draw, std::span(vertices).subspan(first), lit);
+      geometry_stages().light(scene, draw, light_sources(scene), std::span(vertices).subspan(first), lit);
       for (const glm::uvec3& t : mesh.triangles) triangles.push_back(t + first);
     }
   }
