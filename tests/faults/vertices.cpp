@@ -28,6 +28,23 @@ void turn(Draw& draw, double factor) {
 constexpr auto kClockwise = [](Draw& draw) { turn(draw, -1); };
 constexpr auto kDegreesForRadians = [](Draw& draw) { turn(draw, 180 / 3.14159265358979323846); };
 
+// The camera's up points down: the scene, its lights included, is turned about the view's axis.
+Scene with_wrong_view(const Scene& scene) {
+  Scene wrong = scene;
+  wrong.camera.up = -scene.camera.up;
+  return wrong;
+}
+Matrices<float> matrices_of_wrong_view(const Scene& scene, const Draw& draw) {
+  return pipeline::matrices(with_wrong_view(scene), draw);
+}
+Few<LightSource<float>, 8> lights_of_wrong_view(const Scene& scene) {
+  return pipeline::light_sources(with_wrong_view(scene));
+}
+void wrong_view(Table& table) {
+  put<&Geometry::matrices, matrices_of_wrong_view>(table);
+  put<&Geometry::lights, lights_of_wrong_view>(table);
+}
+
 // The stage's matrices changed.
 template <auto change>
 Matrices<float> matrices_changed(const Scene& scene, const Draw& draw) {
@@ -129,6 +146,8 @@ constexpr std::array kVertices = {
     of_matrices<matrices_of_other<kClockwise>>("matrices.rotation_sign", "rotations turn clockwise"),
     of_matrices<matrices_of_other<kDegreesForRadians>>("matrices.degrees_for_radians",
                                                        "a rotation's degrees are taken for radians"),
+    Fault{"matrices.view_upside_down", "the camera's up is taken for down, and lights go by that view too",
+          Stage::matrices, wrong_view},
     of_vertex<normals_by_other<kModelView>>("vertex.normals_by_model_view",
                                             "normals go by the model-view matrix, not its inverse transpose"),
     of_vertex<normals_by_other<kNotTurned>>("vertex.normals_not_turned", "normals are not turned with the model",
