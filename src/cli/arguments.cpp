@@ -37,7 +37,7 @@ void add_against(CLI::App& command, std::vector<std::string>& against) {
       ->delimiter(',');
 }
 
-// Of the processes in which renderers run.
+// Limits of the worker processes in which renderers run.
 void add_limits(CLI::App& command, WorkerLimits& limits) {
   command
       .add_option_function<int>(

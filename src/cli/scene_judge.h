@@ -37,7 +37,7 @@ struct JudgedScene {
   std::optional<report::HtmlReport::Drawing> drawing;
   std::map<std::string, std::string> versions;  ///< by renderer
 };
-/// Of a scene whose comparison, none of the renderers, ended a worker.
+/// One `failed` row: the comparison itself, no renderer, ended a worker on this scene.
 JudgedScene not_compared(const Scene& scene, const CheckRules& rules, const std::string& how);
 
 /// A worker's candidate and references.

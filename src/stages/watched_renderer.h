@@ -16,7 +16,7 @@ namespace plumbline {
 /// How the worker ended, by the step that it was at.
 using EndedSteps = std::map<std::uint32_t, std::string>;
 
-/// What the renderers of one worker share.
+/// State that all renderers of one worker share.
 struct Watch {
   Progress* progress;
   const EndedSteps* ended;

@@ -10,7 +10,7 @@
 namespace plumbline::check {
 namespace {
 
-// The rows that are made in worker processes, one a line; `ends` gets how the workers ended, by step.
+// Rows of a scene judged in worker processes, one a line; `ends` gets how the workers ended, by step.
 struct JudgeWatched : Judge {
   JudgeWatched() {
     candidate.on_info = [](RendererInfo&) {};  // it paints
