@@ -28,7 +28,7 @@ class SceneInGl {
   const std::vector<DrawRange>& ranges() const { return ranges_; }
   const Matrices<double>& matrices(std::size_t draw) const { return matrices_[draw]; }
 
-  // What GL is told. Call within a PassState.
+  // GL state of the scene and its draws. Call within a PassState.
   void clear(const glm::vec4& color) const;   ///< to a colour and the frame's other clear values
   void set_matrices(std::size_t draw) const;  ///< and the depth range
   void set_surface(std::size_t draw) const;   ///< lit or not, material, flat or smooth, fog
