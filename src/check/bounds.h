@@ -127,9 +127,8 @@ struct EdgeValue {
 std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges, int x, int y,
                                    const DepthLimits& limits = {});
 
-/// What a pixel may hold where corners of a triangle that is not filled are drawn over each other: those of the points
-/// there whose depths are no more than `tie` and their errors apart, so that either may hide the other. Empty where
-/// there are none such.
+/// Corners of one triangle, drawn as points over each other, that a pixel may hold: those whose depths are no more than
+/// `tie` and their errors apart, so that either may hide the other. Empty where no two tie.
 std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corners, int x, int y, double tie);
 
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2

@@ -237,7 +237,7 @@ std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<dou
     const auto is_legal = [&](std::span<const WindowTriangle<double>> run) {
       return std::ranges::any_of(answers, [&](const auto& list) { return legal.match(run, list).has_value(); });
     };
-    // Of edges and corners, the reference does not tell the facing.
+    // The reference hands out no facing of edges and corners.
     const auto is_legal_of_any_face = [&](std::span<const WindowTriangle<double>> run) {
       return std::ranges::any_of(answers, [&](const auto& list) {
         std::vector<WindowTriangle<double>> faced(run.begin(), run.end());

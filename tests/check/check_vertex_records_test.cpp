@@ -63,7 +63,7 @@ TEST_F(MatrixRecords, OneUlpOfAnyEntryFails) {
   }
 }
 
-// What is left of entries that cancel, as 3.2e-10 of coordinates near 1: each side's double is rounded to float.
+// Remainders of entries that cancel, such as 3.2e-10 of coordinates near 1: each side rounds its own double to float.
 TEST_F(MatrixRecords, TheRestOfWhatCancelsPassesWithinTwoErrorsOfDouble) {
   for (const double largest : {0.5, 1.0, 100.0}) {
     records.matrices[0].model_view[3] = {largest, 3.16227766e-10, 0, 0};
