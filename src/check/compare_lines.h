@@ -11,7 +11,7 @@ namespace plumbline::check {
 /// pixel at most `factor` off, in x and y, from the one in its column (x-major; else row) or, where there is none, from
 /// the nearest; in number at most `factor` more or fewer; no two in one column. Of wide lines (3.4.2), what replaces a
 /// pixel, a column of so many without a gap, takes its place; the frame, or its draw's scissor box, may cut it off.
-/// Which axis is the minor one is open where snapping decides it. Lines that are not alike are counted as ambiguous.
+/// The minor axis is open where snapping decides it. Lines that are not alike are counted as ambiguous.
 /// All else that covers a pixel must be the same. The fourth rule, of lines that meet, is not looked at.
 Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   double factor);

@@ -27,7 +27,7 @@ bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance);
 /// in float too.
 bool uncut(const Corners& c);
 
-/// What is left of the triangle where all planes are moved inwards by `by`, by Sutherland and Hodgman in double.
+/// Rest of the triangle where all planes are moved inwards by `by`, by Sutherland and Hodgman in double.
 std::vector<ClipVertex<double>> clipped(const Corners& c, double by);
 
 /// Whether a polygon reaches no farther than rounding into the inside of one of the first `planes`: it may be there or

@@ -29,8 +29,8 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
 /// Needs the candidate's records of stages 5, 6 and 10; without them nothing is open.
 Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate);
 
-/// What may win a pixel, and the stencil value beside it, where each fragment's depth is off by up to the bounds of
-/// compare_depth_planes and what goes by the major axis (bounds.h). By the candidate's fragments, depths and alphas
+/// Legal winners of a pixel, and the stencil values beside them, where each fragment's depth is off by up to the bounds
+/// of compare_depth_planes and what goes by the major axis (bounds.h). By the candidate's fragments, depths and alphas
 /// (records of stages 5, 6 and 9): what it made of them at visibility is not looked at.
 class LegalWinners {
  public:

@@ -19,7 +19,7 @@ struct FragmentFours {
   Vec4<double>& operator[](Varying v) { return varyings[static_cast<std::size_t>(v)]; }
   const Vec4<double>& operator[](Varying v) const { return varyings[static_cast<std::size_t>(v)]; }
 };
-/// Those of the fragment number `i`. A span into the records.
+/// Columns of fragment number `i`: a span into the records.
 FragmentFours fours_of(const Records<double>& records, std::size_t i);
 
 /// Per channel: what attributes off by `errors` and, in float, the `roundings` of each step come to.

@@ -53,7 +53,7 @@ TEST_F(LightRecords, OneUlpOfAnyEntryFails) {
   }
 }
 
-// What double leaves of a place is in proportion to the light's and the eye's distances.
+// The error of double in a place is in proportion to the light's and the eye's distances.
 TEST_F(LightRecords, EntriesThatCancelPassWithinTheErrorOfDouble) {
   Records<double> at_0 = reference;
   at_0.lights[1].p_eye = {0, 1, 0, 1};
@@ -102,7 +102,7 @@ TEST_F(LightRecords, AMissingLightFailsAndNoneRecordedPasses) {
   EXPECT_TRUE(fails(compare_lights(scene, mine.records, none, 1), 2));
 }
 
-// Of the rows of each stage judged alone, which do not see matrices.
+// Rows of stages judged alone, which do not see matrices.
 TEST_F(LightRecords, ALightInTheWrongPlaceIsTheFaultOfMatrices) {
   for (const bool phong : {false, true}) {
     SCOPED_TRACE(phong);

@@ -16,7 +16,7 @@ inline WindowTriangle<double> line_of(glm::dvec2 a, glm::dvec2 b, std::uint32_t 
   return t;
 }
 
-/// Of lines, and the pixels of each; and `others`, pixels of primitive 9.
+/// Capture of lines with the pixels of each; and `others`, pixels of primitive 9.
 inline Capture drawn(const std::vector<WindowTriangle<double>>& lines, const std::vector<Pixels>& pixels,
                      const Pixels& others = {}) {
   Capture c;
