@@ -278,11 +278,19 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
 Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture& watched) {
   const Stage stage = scene.frame.antialias.kind == Antialias::Kind::none ? Stage::merge : Stage::resolve;
   try {
-    Request request;
-    request.planes = WantedPlanes::picture;
-    const Capture shipped = candidate.capture(scene, request);
-    return judged(scene.name, std::string(kPicture), stage,
-                  compare_picture(scene.frame, shipped.planes, watched.planes));
+    Comparison row;
+    for (const std::string& painter : candidate.info().painters) {
+      Request request;
+      request.planes = WantedPlanes::picture;
+      request.painter = painter;
+      const Capture shipped = candidate.capture(scene, request);
+      row = judged(scene.name, std::string(kPicture), stage,
+                   compare_picture(scene.frame, shipped.planes, watched.planes));
+      if (row.outcome == Outcome::equal) continue;
+      row.note = fmt::format("painter {}{}{}", painter, row.note.empty() ? "" : ": ", row.note);
+      break;
+    }
+    return row;
   } catch (const std::exception& e) {
     return not_judged(scene.name, std::string(kPicture), stage, Outcome::failed, e.what());
   }
@@ -369,7 +377,7 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
     }
   }
   settle_votes(verdict.comparisons);
-  if (drew && mine_info.paints && mine_info[Stage::merge].shows)
+  if (drew && !mine_info.painters.empty() && mine_info[Stage::merge].shows)
     verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
   verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (drawn != nullptr) {

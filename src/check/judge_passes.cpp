@@ -209,7 +209,7 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
       if (is_exact(info) && mine) {
         const Capture made = renderer.run_stage(scene, Stage::resolve, *mine);
         Measurement m = compare_resolved(scene, *mine, made, tolerance("exact.resolve").factor);
-        if (candidate.info().paints) m = worse(std::move(m), compare_samples(scene, *mine, colors));
+        if (!candidate.info().painters.empty()) m = worse(std::move(m), compare_samples(scene, *mine, colors));
         verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve, std::move(m), "exact.resolve"));
       }
       if (!info[Stage::resolve].shows) skip(name, Outcome::unsupported, info[Stage::resolve].reason);
@@ -231,7 +231,7 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
       skip(name, Outcome::failed, e.what());
     }
   }
-  if (mine && candidate.info().paints) verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
+  if (mine && !candidate.info().painters.empty()) verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
   if (drawn != nullptr) {
     if (mine) drawn->candidate = std::move(*mine);
     drawn->references = std::move(theirs);

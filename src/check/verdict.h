@@ -42,8 +42,8 @@ struct Comparison {
 
 /// The reference of rows that compare a scene with its golden (golden.h): what was drawn before, which judges nothing.
 inline constexpr std::string_view kGolden = "golden";
-/// The reference of rows that compare the frame as it ships (the painter's) with the frame that was watched, bit for
-/// bit.
+/// The reference of rows that compare the frame as it ships with the frame that was watched, bit for bit: each of the
+/// candidate's painters, the first that differs.
 inline constexpr std::string_view kPicture = "picture";
 /// Whether the row's reference judges a stage: goldens and pictures repeat the candidate, and have no vote.
 inline bool votes(const Comparison& row) { return row.reference != kGolden && row.reference != kPicture; }

@@ -6,6 +6,7 @@
 #include "pipeline/clip.h"
 #include "pipeline/convert.h"
 #include "pipeline/input.h"
+#include "pipeline/painter.h"
 #include "scene/draw_of.h"
 
 namespace plumbline::pipeline {
@@ -75,9 +76,10 @@ class PipelineRenderer : public Renderer {
   PipelineRenderer(const Stages& stages, bool paints) : stages_(stages), paints_(paints) {}
 
   RendererInfo info() const override {
-    RendererInfo info{"ours", PLUMBLINE_VERSION, {}, false, false};
+    RendererInfo info{.name = "ours", .version = PLUMBLINE_VERSION, .stages = {}};
     for (Ability& ability : info.stages) ability = {true, true, ""};
-    info.paints = paints_;
+    if (!paints_) return info;
+    for (const SimdTarget& target : simd_targets()) info.painters.emplace_back(target.name);
     return info;
   }
 
@@ -85,7 +87,7 @@ class PipelineRenderer : public Renderer {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     Capture out = empty_capture(scene);
     if (request.planes == WantedPlanes::picture && !request.records.any()) {
-      out.planes = planes_of_frame(picture(scene), formats_of(scene.frame));
+      out.planes = planes_of_frame(picture(scene, request.painter), formats_of(scene.frame));
       return out;
     }
     if (scene.frame.antialias.kind != Antialias::Kind::none) {
@@ -327,7 +329,13 @@ class PipelineRenderer : public Renderer {
     out.planes.color = std::move(color);
   }
 
-  Frame picture(const Scene& scene) const { return paints_ ? render(scene) : render(scene, stages_); }
+  Frame picture(const Scene& scene, std::string_view painter) const {
+    if (!paints_) return render(scene, stages_);
+    const auto targets = simd_targets();
+    const auto target = painter.empty() ? std::prev(targets.end()) : std::ranges::find(targets, painter, &SimdTarget::name);
+    if (target == targets.end()) throw std::invalid_argument(fmt::format("no painter is named {}", painter));
+    return std::move(Painter(1, *target).draw(scene));
+  }
 
   Stages stages_;
   bool paints_;

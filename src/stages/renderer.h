@@ -49,6 +49,7 @@ struct Request {
   std::vector<glm::ivec2> pixels;         ///< only these pixels' fragments (stages 5 to 9); empty: all
   std::size_t memory_budget = std::size_t{512} << 20;  ///< bytes a capture may take
   WantedPlanes planes = WantedPlanes::all;
+  std::string painter = {};  ///< one of info().painters, where planes is `picture`; empty: the one that ships
 };
 
 /// What a renderer is able to show of one stage.
@@ -63,7 +64,9 @@ struct RendererInfo {
   std::string version;
   std::array<Ability, kStageNames.size()> stages;
   bool legal = false;   ///< capture() hands legal answers out
-  bool paints = false;  ///< a picture alone (WantedPlanes::picture) is drawn by other code than the one that is watched
+  /// Names of the codes that draw a picture alone (WantedPlanes::picture), the one that ships last: each draws the bits
+  /// of the watched frame. Empty: a picture is drawn by the code that is watched.
+  std::vector<std::string> painters = {};
   const Ability& operator[](Stage s) const { return stages[static_cast<std::size_t>(s)]; }
   Ability& operator[](Stage s) { return stages[static_cast<std::size_t>(s)]; }
 };

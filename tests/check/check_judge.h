@@ -42,9 +42,9 @@ class Changed : public Renderer {
 
 struct Judge : testing::Test {
   Judge() {
-    candidate.on_info = [](RendererInfo& info) { info.paints = false; };  // check_picture_test.cpp's
+    candidate.on_info = [](RendererInfo& info) { info.painters.clear(); };  // check_picture_test.cpp's
     witness.on_info = [](RendererInfo& info) {
-      info.paints = false;
+      info.painters.clear();
       info.name = "witness";
       for (Ability& a : info.stages) a.runs = false;
       info.legal = false;

@@ -75,6 +75,22 @@ TEST_F(JudgePicture, TheShippedFrameIsHeldToTheWatchedOne) {
   EXPECT_EQ(first_different(verdict)->reference, "picture");
 }
 
+TEST_F(JudgePicture, EveryPainterIsHeldAndTheFirstThatDiffersIsNamed) {
+  candidate.on_info = [](RendererInfo& info) { info.painters = {"float", info.painters.back()}; };
+  std::vector<std::string> asked;
+  candidate.before_capture = [&](const Request& r) {
+    if (r.planes == WantedPlanes::picture) asked.push_back(r.painter);
+  };
+  EXPECT_EQ(run().at({"picture", Stage::merge}).outcome, Outcome::equal);
+  EXPECT_EQ(asked, candidate.info().painters);
+  for (const std::string& wrong : candidate.info().painters) {
+    candidate.on_picture = [&](Capture& c) { c.planes.depth(3, 4) += asked.back() == wrong ? 0x1p-20 : 0; };
+    const Comparison row = run().at({"picture", Stage::merge});
+    EXPECT_EQ(row.outcome, Outcome::different);
+    EXPECT_EQ(row.note, "painter " + wrong);
+  }
+}
+
 TEST_F(JudgePicture, AFrameOfSamplesIsHeldToo) {
   for (const auto kind : {Antialias::Kind::multisample, Antialias::Kind::supersample, Antialias::Kind::taps}) {
     scene.frame.antialias = {kind, kind == Antialias::Kind::supersample ? 2 : 1};
@@ -96,7 +112,7 @@ TEST_F(JudgePicture, APainterThatFailsIsARowAndTheOthersAreJudged) {
 }
 
 TEST_F(JudgePicture, ARendererWithoutAPainterHasNoSuchRow) {
-  candidate.on_info = [](RendererInfo& info) { info.paints = false; };
+  candidate.on_info = [](RendererInfo& info) { info.painters.clear(); };
   EXPECT_FALSE(run().contains({"picture", Stage::merge}));
 }
 
