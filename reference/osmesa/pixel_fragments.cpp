@@ -88,8 +88,6 @@ class OnePixel {
 
   void set_state(std::size_t draw) const {
     set_lights(gl_, scene_.scene());
-    if (scene_.scene().light_model.separate_specular)
-      gl_.ClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_TRUE);  // as planes.cpp
     scene_.set_matrices(draw);
     scene_.set_surface(draw);
     scene_.set_fragments(draw);

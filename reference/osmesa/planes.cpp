@@ -47,8 +47,6 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colo
   target.bind();
   scene.clear(colors == Colors::texels ? glm::vec4(0) : scene.scene().frame.clear_color);
   set_lights(gl, scene.scene());
-  // The sum of colours is clamped (OpenGL 2.1 spec 3.9); into a frame of floats GL leaves it otherwise.
-  if (scene.scene().light_model.separate_specular) gl.ClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_TRUE);
   for (std::size_t i = 0; i < scene.ranges().size(); ++i) {
     scene.set_matrices(i);
     scene.set_surface(i);

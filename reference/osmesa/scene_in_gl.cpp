@@ -205,6 +205,7 @@ void SceneInGl::set_texture_source(std::size_t draw) const {
   textures_.set_source(scene_.draws[draw]);
   gl_.Disable(GL_LIGHTING);
   gl_.Disable(GL_FOG);
+  gl_.ClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_FIXED_ONLY);  // a texel is no sum of colours
   gl_.UseProgram(0);
   gl_.Color4f(0, 0, 0, 1);
 }
@@ -213,6 +214,9 @@ void SceneInGl::set_surface(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
   textures_.set(d);
   set_fog(draw);
+  // The sum of a lit draw's colours is clamped (OpenGL 2.1, section 3.9); into a frame of floats GL leaves it otherwise.
+  const bool clamped = d.lit && scene_.light_model.separate_specular;
+  gl_.ClampColor(GL_CLAMP_FRAGMENT_COLOR, clamped ? GL_TRUE : GL_FIXED_ONLY);
   set_vertex_light(draw);
   if (!is_lit_per_fragment(d)) return;
   set_material(gl_, scene_, d);
