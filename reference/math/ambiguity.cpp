@@ -1,7 +1,8 @@
 // Edges. A pixel is ambiguous where its centre is within delta of an edge that can be seen; centres lie about evenly,
 // so their expected number is the area of those bands: the integral of 2 delta along the visible edges. Each edge is
 // sampled about once per pixel of its length, and a sample counts where its point would be seen beside the winner of
-// the pixel that it falls into. Where two drawn triangles meet, the edge is one, and is counted once.
+// the pixel that it falls into. Where two drawn triangles meet, the edge is one, and is counted once, by the delta of
+// the triangle that may be moved farther.
 // Centres do not lie evenly about edges that run along rows, columns or diagonals of them, as made-up scenes' do: so
 // the centres within the bands are counted too, one per row or column that the edge crosses, and the larger figure is
 // taken. Both know nothing of depth intervals, groups and folding.
@@ -46,6 +47,7 @@ struct Edge {
   std::uint32_t from, to;  // points, from < to
   std::uint32_t j, k;      // corners
   std::uint32_t primitive;
+  std::uint32_t loosest;  // of the primitives that share it, the one of the largest reach
 };
 
 /// Each edge of the drawn triangles once.
@@ -57,14 +59,20 @@ std::vector<Edge> drawn_edges(const Projected& projected) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t j = t.corner[i], k = t.corner[(i + 1) % 3];
       const std::uint32_t from = projected.corners[j].point, to = projected.corners[k].point;
-      edges.push_back({std::min(from, to), std::max(from, to), j, k, primitive});
+      edges.push_back({std::min(from, to), std::max(from, to), j, k, primitive, primitive});
     }
   }
   const auto key = [](const Edge& e) { return std::array{e.from, e.to, e.primitive}; };
   std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return key(a) < key(b); });
-  const auto same = [](const Edge& a, const Edge& b) { return a.from == b.from && a.to == b.to; };
-  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
-  return edges;
+  std::vector<Edge> out;
+  for (const Edge& e : edges) {
+    if (out.empty() || out.back().from != e.from || out.back().to != e.to) {
+      out.push_back(e);
+    } else if (projected.triangles[e.primitive].reach > projected.triangles[out.back().loosest].reach) {
+      out.back().loosest = e.primitive;
+    }
+  }
+  return out;
 }
 
 double z_at(const Triangle& t, glm::dvec3 d) {
@@ -81,6 +89,8 @@ bool seen(const Scene& scene, const Projected& projected, std::uint32_t primitiv
   if (winner != kBackground) {
     const Triangle& w = projected.triangles[static_cast<std::size_t>(winner)];
     if (static_cast<std::uint32_t>(winner) == primitive || w.flat) return true;
+    // What comes after a winner that leaves the depth as it is, is not hidden by it.
+    if (static_cast<std::uint32_t>(winner) < primitive && !scene.draws[w.draw].merge.depth_mask) return true;
     held = z_at(w, d);
     slack += slope_of(w);
   }
@@ -120,7 +130,7 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
     const int y = std::clamp(static_cast<int>(d.y + 0.5 * id.height()), 0, id.height() - 1);
     const double z = std::clamp(to_window(t, z_view), 0.0, 1.0);
     return Sample{bands.all_seen || seen(scene, projected, edge.primitive, id(x, y), d, z), x, y,
-                  displacement(projected, t, d, 1 / inv_w)};
+                  displacement(projected, projected.triangles[edge.loosest], d, 1 / inv_w)};
   };
   const double length = glm::length(along);
   const int samples = 1 + static_cast<int>(std::min(length, 65536.0));
@@ -201,6 +211,7 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   std::vector<Surface> others, never_drawn;
   const PixelDepth cleared{scene.frame.clear_depth, 0, glm::dvec2(0)};
   Surface won{kBackground, DepthFunc::always, cleared, cleared};
+  bool won_writes = true;
   for (const PixelHit& h : hits) {
     const bool never = h.hit.depth_func == DepthFunc::never;
     if ((never && h.hit.stencil == nullptr) || !h.hit.alpha_passes) continue;
@@ -213,6 +224,7 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
     } else if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
       others.push_back(won);
       won = surface;
+      won_writes = h.hit.depth_mask;
     } else {
       others.push_back(surface);
     }
@@ -220,9 +232,12 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   DepthShare share;
   for (const Surface& other : others) share += meeting(scene.frame, won, other);
   const bool counted = std::ranges::any_of(hits, [](const PixelHit& h) { return h.hit.stencil != nullptr; });
-  if (counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; })) {
-    for (std::size_t i = 0; i < others.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) share += meeting(scene.frame, others[i], others[j]);
+  const bool all_count = counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; });
+  // A surface after a winner that leaves the depth as it is, is compared with what the winner hides.
+  const auto after = [&](const Surface& s) { return !won_writes && s.order > won.order; };
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (all_count || after(others[i]) || after(others[j])) share += meeting(scene.frame, others[i], others[j]);
     }
   }
   if (scene.depth_clamp) return share;

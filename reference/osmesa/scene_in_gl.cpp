@@ -214,7 +214,8 @@ void SceneInGl::set_surface(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
   textures_.set(d);
   set_fog(draw);
-  // The sum of a lit draw's colours is clamped (OpenGL 2.1, section 3.9); into a frame of floats GL leaves it otherwise.
+  // The sum of a lit draw's colours is clamped (OpenGL 2.1, section 3.9); into a frame of floats GL leaves it
+  // otherwise.
   const bool clamped = d.lit && scene_.light_model.separate_specular;
   gl_.ClampColor(GL_CLAMP_FRAGMENT_COLOR, clamped ? GL_TRUE : GL_FIXED_ONLY);
   set_vertex_light(draw);

@@ -124,6 +124,7 @@ namespace {
 // By these barycentrics at the pixel.
 PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, int x, int y) {
   constexpr double kFlushed = kFlushedUnderflow / kUnitRoundoff;
+  const Cancelled cancelled = cancelled_in(t);
   const auto& v = t.v;
   double x0 = 0, y0 = 0, from_corner = 0;
   for (const auto& corner : v) {
@@ -131,13 +132,17 @@ PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, in
     y0 = std::max(y0, std::abs(corner.p_win.y));
     from_corner = std::max({from_corner, std::abs(x + 0.5 - corner.p_win.x), std::abs(y + 0.5 - corner.p_win.y)});
   }
+  // A gradient is a difference of two products, of differences over the area: each of these five may be flushed. Its
+  // error is multiplied by the way from the corner to the origin and to the pixel; eight other results are flushed
+  // once.
+  const double flushed = kFlushed * (8 + (3 + 2 * cancelled.longest / cancelled.area) * (x + x0 + y + y0));
   // {value at the pixel, bound} of the plane through the corners' values.
   const auto plane = [&](double f0, double f1, double f2) {
     const Vec3<double> f(f0, f1, f2);
     const double d_dx = std::abs(glm::dot(b.d_dx, f)), d_dy = std::abs(glm::dot(b.d_dy, f));
     const double gradient_error = gradient_bound(t, f0, f1, f2, std::max(d_dx, d_dy));
     return std::pair(glm::dot(b.value, f), std::max({std::abs(f0), std::abs(f1), std::abs(f2)}) + d_dx * (x + x0) +
-                                               d_dy * (y + y0) + gradient_error * from_corner + kFlushed);
+                                               d_dy * (y + y0) + gradient_error * from_corner + flushed);
   };
   PlaneBounds out;
   out.depth = 1 + plane(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z).second;

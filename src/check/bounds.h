@@ -92,8 +92,8 @@ DepthLimits depth_limits(const Scene& scene, const std::vector<DrawRange>& range
 /// |a|max + |da/dx| (x + x0) + |da/dy| (y + y0), x0, y0 the triangle's farthest corner, and the gradients' own error,
 /// by the inverse of the area, times the distance from the corners; for colour the same of c/w and of 1/w, joined by
 /// the division: (E(c/w) + |c| E(1/w)) w. Of a line the larger of both formulas' (PlaneBounds): where 1/w differs much
-/// between its ends, the second errs by another |c/w| over another 1/w. Each of these three results may be flushed to
-/// zero besides.
+/// between its ends, the second errs by another |c/w| over another 1/w. Every result may be flushed to zero
+/// besides, a gradient before it is multiplied.
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y, const DepthLimits& limits = {});
 /// The largest over a primitive's triangles, at least 1.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,

@@ -332,7 +332,8 @@ class PipelineRenderer : public Renderer {
   Frame picture(const Scene& scene, std::string_view painter) const {
     if (!paints_) return render(scene, stages_);
     const auto targets = simd_targets();
-    const auto target = painter.empty() ? std::prev(targets.end()) : std::ranges::find(targets, painter, &SimdTarget::name);
+    const auto target =
+        painter.empty() ? std::prev(targets.end()) : std::ranges::find(targets, painter, &SimdTarget::name);
     if (target == targets.end()) throw std::invalid_argument(fmt::format("no painter is named {}", painter));
     return std::move(Painter(1, *target).draw(scene));
   }

@@ -61,6 +61,27 @@ TEST(AmbiguousByEdges, CountsASideThatTwoTrianglesShareOnce) {
   EXPECT_NEAR(predicted(scene), area, 0.01 * area);
 }
 
+TEST(AmbiguousByEdges, TakesTheLargerDeltaOfTwoTrianglesThatShareASide) {
+  constexpr glm::vec2 kFar(50.25f, 1e5f);
+  const std::array<glm::vec2, 3> far = {kFar, kUpper[1], kUpper[2]};
+  const Scene near = flat_scene({kLower}), both = flat_scene({kLower, far});
+  EXPECT_GT(delta(flat_scene({far})), 2 * delta(near));
+  const double without_the_side = 2 * delta(near) * (40 + 30);
+  EXPECT_NEAR(predicted(both) - predicted(flat_scene({far})), without_the_side, 0.01 * without_the_side);
+}
+
+TEST(AmbiguousByEdges, CountsWhatComesAfterAWinnerThatLeavesTheDepthAsItIs) {
+  Scene scene = flat_scene({{glm::vec2(1.1f, 1.2f), {63.3f, 2.1f}, {2.2f, 59.7f}}}, 0.25f);  // nearer, drawn first
+  const Scene small = flat_scene({kLower});
+  scene.meshes.push_back(small.meshes[0]);
+  scene.draws.push_back(small.draws[0]);
+  scene.draws[1].mesh = 1;
+  const Plane<std::int32_t> won(64, 64, 0);
+  const double hidden = ambiguous_by_edges(scene, project(scene), won);
+  scene.draws[0].merge.depth_mask = false;
+  EXPECT_NEAR(ambiguous_by_edges(scene, project(scene), won), hidden + predicted(small), 0.01 * hidden);
+}
+
 TEST(AmbiguousByEdges, CountsTheCentresThatASideRunsThrough) {
   // A side of 40 along a row of centres, and two through none.
   const Scene scene = flat_scene({{glm::vec2(10.25f, 10.5f), {50.25f, 10.5f}, {10.25f, 40.3f}}});
@@ -118,6 +139,21 @@ TEST(AmbiguousByDepth, OfParallelSurfacesWithinReachIsThePixel) {
   const PixelHit hits[] = {surface(0, 0.5, 1e-4, {0.01, 0}), surface(1, 0.50019, 1e-4, {0.01, 0})};
   EXPECT_EQ(ambiguous_by_depth(scene, hits, 0).area, 1);
   EXPECT_TRUE(ambiguous_by_depth(scene, hits, 0).centre);
+}
+
+TEST(AmbiguousByDepth, OfHiddenSurfacesCountsWhereTheWinnerLeavesTheDepthAsItIs) {
+  const Scene scene = with_24_bits();
+  const auto share = [&](std::uint32_t winner, bool mask) {  // two that are one, and one before both
+    PixelHit hits[] = {surface(0, 0.5, 1e-4, {0.01, 0}), surface(1, 0.5, 1e-4, {0.01, 0}),
+                       surface(2, 0.5, 1e-4, {0.01, 0})};
+    hits[winner] = surface(winner, 0.25, 1e-4, {0.02, 0});
+    hits[winner].hit.depth_mask = mask;
+    return ambiguous_by_depth(scene, hits, static_cast<std::int32_t>(winner)).area;
+  };
+  for (const std::uint32_t winner : {0u, 1u, 2u}) EXPECT_EQ(share(winner, true), 0) << winner;
+  EXPECT_EQ(share(0, false), 1);
+  EXPECT_EQ(share(1, false), 1) << "the last is compared with the first";
+  EXPECT_EQ(share(2, false), 0) << "nothing comes after it";
 }
 
 TEST(AmbiguousByDepth, IsNothingWhereBothAreClampedToOneEnd) {

@@ -95,11 +95,16 @@ Verdict Judge::judge(const fs::path& programs, const FileRule& rule, const std::
   }
   const SceneHashes changed = hashes(programs, {scenes_.string()}, out_ / (name + ".scenes.tsv"));
   std::vector<Affected> scenes = affected(as_it_is_, changed);
-  if (scenes.empty() && !changed.stopped.empty()) {  // scenes that cannot be loaded any more, say
-    for (const auto& [scene, line] : as_it_is_.of) scenes.push_back({scene, false, true});
-  }
   out.affected = scenes.size();
+  const bool unloaded = scenes.empty() && !changed.stopped.empty();  // scenes that cannot be loaded any more, say
+  const bool same = scenes.empty() && !unloaded;
   if (scenes.empty()) {
+    for (const auto& [scene, line] : as_it_is_.of) scenes.push_back({scene, false, unloaded});
+  }
+  if (same) {  // code that the references share may change theirs, and what is recorded is not all hashed
+    find(programs, rule, scenes, name, out);
+    if (out.found()) return out;
+    out = Verdict();
     survive(programs, reason, name, out);
   } else {
     out.scene = scenes[0].scene;
