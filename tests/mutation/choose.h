@@ -15,7 +15,7 @@ namespace plumbline::mutation {
 /// A row of files.tsv.
 struct FileRule {
   std::string prefix;              ///< of the path from the repository's root, "#" and the function
-  std::vector<std::string> names;  ///< stages of which one must be named first; "picture"; "any"; "-": left alone
+  std::vector<std::string> names;  ///< stages of which one must be named first; "picture"; "any"; "data"; "-"
   std::string what;                ///< what stands there, or why it is left alone
 };
 

@@ -111,6 +111,11 @@ Verdict Judge::judge(const fs::path& programs, const FileRule& rule, const std::
     out.outcome = Outcome::goldens;
     find(programs, rule, scenes, name, out);
   }
+  const bool data = rule.names[0] == "data" && !out.found() && out.outcome != Outcome::equivalent;
+  if (data && !run({programs / "data_tests"}, out_ / (name + ".tables.txt"), kMostSeconds).ok()) {
+    out.outcome = Outcome::tables;
+    out.check.first = out.diagnose.first = "none";
+  }
   return out;
 }
 
@@ -120,7 +125,7 @@ void Judge::find(const fs::path& programs, const FileRule& rule, const std::vect
   const bool painter = rule.names[0] == "picture";
   const auto expect = [&](const Affected& a) {
     out.scene = a.scene;
-    if (rule.names[0] == "any") return;
+    if (rule.names[0] == "any" || rule.names[0] == "data") return;
     out.expected = a.picture_alone ? std::vector<std::string>{"picture"} : rule.names;
     if (a.failed && !painter) out.expected.push_back("picture");
   };

@@ -15,11 +15,12 @@ enum class Outcome {
   references,  ///< a row of a reference is `different` or `failed`
   picture,     ///< the row `picture` alone is
   ended,       ///< plumb check ends by a signal, never, or with 2
+  tables,      ///< plumb check ends 0; of data that every renderer is given, its tests fail (unit/, by formulas)
   goldens,     ///< bits of tests/scenes differ, and plumb check ends 0
   survived,    ///< not a bit of tests/scenes differs
   equivalent   ///< and a reason is known: the same program, or a row of equivalent.tsv
 };
-inline constexpr std::size_t kOutcomes = 6;
+inline constexpr std::size_t kOutcomes = 7;
 std::string_view name_of(Outcome outcome);
 
 /// Rows of one scene or of one diagnosis.
@@ -36,7 +37,7 @@ struct Verdict {
   Named check, diagnose;
   std::string note;  ///< one line: how plumb ended, the reason of an equivalent, what random scenes say
 
-  bool found() const { return outcome <= Outcome::ended; }
+  bool found() const { return outcome <= Outcome::tables; }
   /// Whether check and diagnose name what they should.
   bool named_by_check() const;
   bool named_by_diagnose() const;

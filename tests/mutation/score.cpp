@@ -11,7 +11,10 @@ namespace plumbline::mutation {
 
 namespace {
 
-bool names_stages(const Judged& j) { return j.rule->names[0] != "any" && j.rule->names[0] != "picture"; }
+bool names_stages(const Judged& j) {
+  const std::string& name = j.rule->names[0];
+  return name != "any" && name != "data" && name != "picture";
+}
 bool in_painter(const Judged& j) { return j.rule->names[0] == "picture"; }
 bool equivalent(const Judged& j) { return j.verdict.outcome == Outcome::equivalent; }
 bool named(const Judged& j) { return j.verdict.named_by_check() && j.verdict.named_by_diagnose(); }
@@ -82,6 +85,7 @@ Score score_of(const std::vector<Judged>& judged) {
       continue;
     }
     if (j.verdict.found()) ++out.found;
+    if (j.verdict.outcome == Outcome::tables) ++out.by_tables;
     if (names_stages(j)) {
       ++out.in_stages;
       if (named(j)) ++out.named;
@@ -113,10 +117,10 @@ std::string report_of(const std::vector<Judged>& judged) {
   const std::size_t rest = s.changes - s.equivalent;
   out += fmt::format(
       "\n{}\n{} changes; {} equivalent or not run ({:.1f} %, at most 12); of the others {} of {} found "
-      "({:.1f} %, at least 97);\nof those in stages {} of {} named rightly ({:.1f} %, at least 93); of "
+      "({:.1f} %, at least 97; {} of them, in data that every renderer is given, by the data's tests alone);\nof those in stages {} of {} named rightly ({:.1f} %, at least 93); of "
       "the painter's that are found {} of {} by the row picture alone\n",
       table_of(judged), s.changes, s.equivalent, percent(s.equivalent, s.changes), s.found, rest,
-      percent(s.found, rest), s.named, s.in_stages, percent(s.named, s.in_stages), s.picture, s.in_painter);
+      percent(s.found, rest), s.by_tables, s.named, s.in_stages, percent(s.named, s.in_stages), s.picture, s.in_painter);
   return out;
 }
 

@@ -27,6 +27,7 @@ std::string outcome_line(const Judged& judged);
 /// Shares of the changes: what must hold.
 struct Score {
   std::size_t changes = 0, equivalent = 0, found = 0;
+  std::size_t by_tables = 0;  ///< of those found, in data that every renderer is given, by the data's tests alone
   std::size_t in_stages = 0, named = 0;     ///< of those not equivalent in files of stages; named by check and diagnose
   std::size_t in_painter = 0, picture = 0;  ///< of those found in files of the painter; `picture` and nothing else
 };

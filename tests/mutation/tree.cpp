@@ -92,7 +92,7 @@ Tree::Tree(const fs::path& root, const fs::path& out, unsigned workers) : out_(o
 }
 
 bool Tree::compile(const std::string& log) const {
-  return run({"ninja", "-C", build().string(), fmt::format("-j{}", workers_), "plumb", "scene_hashes"}, out_ / log,
+  return run({"ninja", "-C", build().string(), fmt::format("-j{}", workers_), "plumb", "scene_hashes", "data_tests"}, out_ / log,
              6 * kBuildSeconds)
       .ok();
 }
@@ -110,7 +110,7 @@ bool Tree::build_changed(const Change& change, const fs::path& to) {
 
 void Tree::copy_programs(const fs::path& to) const {
   fs::create_directories(to);
-  for (const char* name : {"plumb", "scene_hashes", "plumbline_openimageio.so"}) {
+  for (const char* name : {"plumb", "scene_hashes", "data_tests", "plumbline_openimageio.so"}) {
     fs::copy_file(build() / name, to / name, fs::copy_options::overwrite_existing);
   }
 }

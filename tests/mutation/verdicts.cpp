@@ -45,7 +45,7 @@ bool is_among(const std::string& name, const std::vector<std::string>& expected)
 }  // namespace
 
 std::string_view name_of(Outcome outcome) {
-  static constexpr std::array<std::string_view, kOutcomes> kNames = {"references", "picture",  "ended",
+  static constexpr std::array<std::string_view, kOutcomes> kNames = {"references", "picture",  "ended",    "tables",
                                                                      "goldens",    "survived", "equivalent"};
   return kNames[static_cast<std::size_t>(outcome)];
 }

@@ -145,14 +145,14 @@ void add(std::vector<Judged>& to, const FileRule& rule, std::size_t count, Outco
     Judged j;
     j.rule = &rule;
     j.verdict.outcome = outcome;
-    j.verdict.expected = rule.names[0] == "any" ? std::vector<std::string>{} : rule.names;
+    j.verdict.expected = (rule.names[0] == "any" || rule.names[0] == "data") ? std::vector<std::string>{} : rule.names;
     j.verdict.check.first = j.verdict.diagnose.first = name;
     to.push_back(j);
   }
 }
 
 TEST(SourceChanges, TheScoreHoldsJustWhereItMay) {
-  const FileRule clip{"c", {"clip"}, ""}, painter{"p", {"picture"}, ""}, scene{"s", {"any"}, ""};
+  const FileRule clip{"c", {"clip"}, ""}, painter{"p", {"picture"}, ""}, scene{"s", {"any"}, ""}, data{"d", {"data"}, ""};
   std::vector<Judged> judged;
   add(judged, clip, 93, Outcome::references, "clip");
   add(judged, clip, 4, Outcome::references, "window");
@@ -171,6 +171,8 @@ TEST(SourceChanges, TheScoreHoldsJustWhereItMay) {
   EXPECT_TRUE(fails_with(scene, Outcome::equivalent, "none"));
   EXPECT_TRUE(fails_with(painter, Outcome::references, "merge"));
   EXPECT_FALSE(fails_with(scene, Outcome::references, "light"));
+  EXPECT_FALSE(fails_with(data, Outcome::tables, "none"));
+  EXPECT_TRUE(fails_with(data, Outcome::goldens, "none"));
   EXPECT_FALSE(holds(score_of({})));
 }
 
