@@ -41,6 +41,8 @@ TEST_F(MeshFile, GivesEachMaterialOfAnObjItsPart) {
   EXPECT_EQ(parts[0].material->shininess, 128);
   EXPECT_EQ(parts[1].material->diffuse, glm::vec4(0, 1, 0, 1));
   EXPECT_EQ(parts[1].material->shininess, 7);
+  EXPECT_EQ(parts[1].material->specular, glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(parts[1].material->emission, glm::vec4(0, 0, 0, 1));
   EXPECT_FALSE(load_parts(write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))[0].material);
 }
 
