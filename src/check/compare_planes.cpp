@@ -307,7 +307,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
                       (!tied.empty() && tied(x, y) != 0);
     int fragments = 0;
     double bound = 0;
-    bool combined = false, certain = true;  // by a logic op, of codes that both sides have
+    bool combined = false, certain = true;      // by a logic op, of codes that both sides have
+    glm::bvec4 cleared(true), on_clear(false);  // the clear colour is there still; a logic op has read it
     drawn.each(x, y, [&](std::size_t i) {
       const FragmentBound of = bounds.of_fragment(i);
       ++fragments;
@@ -317,6 +318,10 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
       const Records<double>& r = candidate.records;
       const Merge& merge = bounds.draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
       combined = combined || merge.logic_op;
+      for (int c = 0; c < 4; ++c) {
+        if (merge.logic_op) on_clear[c] = on_clear[c] || cleared[c];
+        if (!merge.logic_op && !merge.blend && merge.color_mask[c]) cleared[c] = false;
+      }
       certain = certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
                 codes_of(r.shaded[i].color - sum, scale) == codes_of(r.shaded[i].color + sum, scale);
     });
@@ -327,7 +332,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
     combined = combined && scale > 0;
     for (int c = 0; c < 4; ++c) {
       const double v = a.color(x, y)[c], w = b.color(x, y)[c];
-      if (open || !std::isfinite(bound) || (combined && !certain)) {
+      const bool unknown = !certain || (on_clear[c] && cleared_codes(scene.frame, c) > 0);
+      if (open || !std::isfinite(bound) || (combined && unknown)) {
         open_value(meter, v, place, w);
       } else if (scale > 0) {
         const double code = std::round(scale * v), code_ref = std::round(scale * w);

@@ -30,7 +30,8 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
 /// at most `codes` per fragment drawn at the pixel (twice the former's more per fragment, where a factor reads the
 /// frame), and what `factor` u of all their colours' bounds comes to; for rgba32f that alone, in u. Where it is open
 /// which fragments made the colour, any number is legal. Codes that a logic op makes are equal where all fragments' own
-/// codes are certain and none was blended; else any is legal: a code's difference of one may turn every bit.
+/// codes, and the clear colour's that it reads, are certain and none was blended; else any is legal: a code's
+/// difference of one may turn every bit.
 Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
                             double codes, double factor);
 

@@ -168,6 +168,17 @@ TEST_F(BlendedPairs, CodesOfALogicOpAreEqualWhereTheFragmentsCodesAreCertainAndO
   EXPECT_TRUE(fails(run(blended(), [](Planes& p) { p.color(3, 1).r = static_cast<float>(kNaN); })));
 }
 
+TEST_F(BlendedPairs, CodesOfALogicOpAreOpenWhereItReadsAClearColourHalfWayBetweenTwo) {
+  scene.draws[0].merge = Merge{};
+  scene.draws[0].merge.logic_op = LogicOp::and_;
+  capture.records.shaded.assign(4, Shaded<double>{Vec4<double>(100.25 / 255)});
+  EXPECT_EQ(most(3, 1), 0);
+  scene.frame.clear_color.g = 100.5f / 255;
+  EXPECT_EQ(most(3, 1), 0) << "another channel";
+  scene.frame.clear_color.r = 100.5f / 255;
+  EXPECT_EQ(most(3, 1), 99) << "either code may be";
+}
+
 // OpenGL lets alpha and its reference be converted with more bits than the frame has (2.1 spec, 2.14.9): 1e-6 is the
 // code 0 of 16 bits, and more than an alpha of 0 in float, where Mesa compares them of all frames but those of 8 bits.
 TEST(SettledAlpha, IsOpenWhereABetterConversionDropsTheFragment) {
