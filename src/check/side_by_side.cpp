@@ -40,10 +40,14 @@ std::string_view no_such_depth(const FrameFormat& frame) {
   return frame.depth == DepthFormat::z8 ? kNo8BitDepth : kNo16BitsBesideStencil;
 }
 
+bool has_depth_format(const FrameFormat& frame) {
+  const bool stencil = frame.stencil != StencilFormat::none;
+  return frame.depth != DepthFormat::z8 && !(stencil && frame.depth == DepthFormat::z16);
+}
+
 // Whether its depths are codes of the scene's format, if that is one that OpenGL lacks.
 bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
-  const bool stencil = scene.frame.stencil != StencilFormat::none;
-  if (scene.frame.depth != DepthFormat::z8 && !(stencil && scene.frame.depth == DepthFormat::z16)) return true;
+  if (has_depth_format(scene.frame)) return true;
   return std::ranges::all_of(theirs.planes.depth.values(), [&](double z) {
     const double code = z * depth_scale(scene.frame.depth);
     return std::abs(code - std::round(code)) < 1e-9;  // a double's rounding; a code of 24 bits is 1e-5 away or more
@@ -190,7 +194,15 @@ bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const st
 }  // namespace
 
 void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+  const std::size_t before = c.out.size();
   if (!compare_beside_turned(c, theirs, stage, name)) compare_stage(c, theirs, stage, name);
+  // The depths that are left may be codes (the clear depth's, say) where those of other fragments were none.
+  const bool by_depth = stage == Stage::visibility || stage == Stage::merge;
+  if (!by_depth || has_depth_format(c.scene.frame) || c.out.size() == before) return;
+  const Outcome outcome = c.out.back().outcome;
+  if (outcome != Outcome::different && outcome != Outcome::dispute) return;
+  c.out.pop_back();
+  c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
 }
 
 }  // namespace plumbline::check

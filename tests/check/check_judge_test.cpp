@@ -106,6 +106,22 @@ TEST_F(Judge, WhatOpenGlHasNotIsUnsupportedAndOthersJudgeIt) {
   EXPECT_TRUE(unjudged_stages(verdict).empty());
 }
 
+TEST_F(Judge, OtherWinnersInADepthFormatThatOpenGlHasNotAreUnsupported) {
+  witness.on_capture = [](Capture& c) {
+    c.planes.depth.values().assign(c.planes.depth.size(), 1);  // a code of any format
+    c.planes.id(3, 4) = c.planes.id(3, 4) == 0 ? 1 : 0;
+  };
+  const auto outcome = [&](DepthFormat format, StencilFormat stencil) {
+    scene.frame.depth = format;
+    scene.frame.stencil = stencil;
+    return run().at({"witness", Stage::visibility}).outcome;
+  };
+  EXPECT_EQ(outcome(DepthFormat::z8, StencilFormat::none), Outcome::unsupported);
+  EXPECT_EQ(outcome(DepthFormat::z16, StencilFormat::s8), Outcome::unsupported);
+  EXPECT_NE(outcome(DepthFormat::z16, StencilFormat::none), Outcome::unsupported);
+  EXPECT_NE(outcome(DepthFormat::z24, StencilFormat::s8), Outcome::unsupported);
+}
+
 TEST_F(Judge, WhatTheCandidateDoesNotShowIsUnsupportedAndNotEqual) {
   candidate.on_info = [](RendererInfo& info) {
     info.name = "theirs";
