@@ -63,7 +63,7 @@ struct Affected {
 };
 std::vector<Affected> affected(const SceneHashes& as_it_is, const SceneHashes& changed);
 
-/// What fails in the JSON of plumb check: of each scene. `painter`: of rows other than `picture`, on any scene, the
+/// What fails in the JSON of plumb check: of each scene, and the stage that it says to be the first. `painter`: of rows other than `picture`, on any scene, the
 /// first is what is named.
 std::map<std::string, Named> named_by_check(const std::string& json);
 /// In that of plumb diagnose.

@@ -38,6 +38,15 @@ struct First {
   }
 };
 
+// The stage that plumb check says to be the first that differs, of its lines on one scene.
+std::string announced(const std::string& failure) {
+  static constexpr std::string_view kBefore = "first different stage: ";
+  const std::size_t at = failure.find(kBefore);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + kBefore.size();
+  return failure.substr(from, failure.find(' ', from) - from);
+}
+
 bool is_among(const std::string& name, const std::vector<std::string>& expected) {
   return expected.empty() || std::ranges::count(expected, name) > 0;
 }
@@ -75,6 +84,12 @@ std::map<std::string, Named> named_by_check(const std::string& json) {
   }
   std::map<std::string, Named> out;
   for (auto& [scene, f] : first) out[scene] = std::move(f.named);
+  for (const Json& scene : run.value("scenes", Json::array())) {
+    const auto named = out.find(scene["scene"]);
+    if (named == out.end() || named->second.first == "picture" || named->second.by.ends_with(")")) continue;
+    const std::string stage = announced(scene.value("failure", ""));
+    if (!stage.empty()) named->second.first = stage;
+  }
   return out;
 }
 
