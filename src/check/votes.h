@@ -11,7 +11,8 @@ namespace plumbline::check {
 /// one stage its row alone differs; exact, from the candidate's own records of the stage before, holds, and so does
 /// another reference that judges the stage. And no row of an earlier stage differs: what is wrong from the input on
 /// would come out of exact's arithmetic as it went in, and be right by two votes that cannot know. (Embree and exact
-/// share the formula of what is legal: of that they are one vote, and the arithmetic on records the other.)
+/// share the formula of what is legal: of that they are one vote, and the arithmetic on records the other. From texture
+/// on they share that, too, and are one vote in all.)
 void settle_votes(std::vector<Comparison>& rows);
 
 /// Who makes the row: exact has rows of two kinds, and one vote.

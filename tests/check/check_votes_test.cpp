@@ -2,6 +2,7 @@
 #include "check/votes.h"
 
 #include <cmath>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -80,6 +81,16 @@ TEST(Votes, ExactHasOneVoteAndIsNeverOutvoted) {
     alone[0].reference = kind;
     alone[2].outcome = kind == std::string("exact from scene") ? Outcome::equal : Outcome::different;
     EXPECT_EQ(settled(alone).outcome, Outcome::different) << kind;
+  }
+}
+
+TEST(Votes, WhoSharesArithmeticIsOneVoice) {
+  for (const Stage stage : {Stage::texture, Stage::shade, Stage::visibility, Stage::merge}) {
+    std::vector<Comparison> all = rows();
+    for (Comparison& c : std::span(all).first(3)) c.stage = stage;
+    EXPECT_EQ(settled(all).outcome, Outcome::different) << name_of(stage) << ": embree and exact share it";
+    all[1].reference = "softpipe";
+    EXPECT_EQ(settled(all).outcome, Outcome::dispute) << name_of(stage);
   }
 }
 
