@@ -6,7 +6,6 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <string>
 #include <vector>
 #include "test_folder.h"
@@ -390,34 +389,6 @@ TEST_F(SceneFile, FindsScenes) {
   EXPECT_THROW(find({root_ / "none"}), SceneError);
   fs::create_directories(root_ / "empty");
   EXPECT_THROW(find({root_ / "empty"}), SceneError);
-}
-
-TEST(Scenes, AllLoadAndEveryStateOccurs) {
-  std::set<std::string> names, states;
-  const std::vector<fs::path> folder{fs::path(PLUMBLINE_SOURCE_DIR) / "tests/scenes"};
-  for (const fs::path& file : find_scenes(folder)) {
-    const Scene s = load_scene(file);
-    EXPECT_TRUE(names.insert(s.name).second) << s.name;
-    const auto seen = [&](const char* what, auto value) {
-      states.insert(what + std::to_string(static_cast<int>(value)));
-    };
-    seen("color ", s.frame.color);
-    seen("depth ", s.frame.depth);
-    seen("projection ", s.projection.index());
-    seen("dialect ", s.dialect);
-    seen("antialias ", s.frame.antialias.kind);
-    for (const Light& light : s.lights) seen("light ", light.kind);
-    for (const Draw& draw : s.draws) {
-      seen("lit ", draw.lit);
-      seen("color_material ", draw.color_material);
-      seen("normals ", draw.normals);
-      seen("shading ", draw.shading);
-      seen("cull ", draw.cull);
-      seen("func ", draw.depth_func);
-      for (const Transform& transform : draw.transforms) seen("transform ", transform.index());
-    }
-  }
-  EXPECT_EQ(states.size(), 4u + 4 + 5 + 4 + 4 + 2 + 2 + 6 + 3 + 3 + 3 + 8 + 3);
 }
 
 }  // namespace
