@@ -156,7 +156,8 @@ PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, in
 
 // A line's by the place on the major axis alone; the share of its second end is value[1].
 Barycentrics along_major(const WindowTriangle<double>& t, const Vec2<double>& e1, int x, int y) {
-  const int major = std::abs(e1.x) >= std::abs(e1.y) ? 0 : 1;
+  const auto in_float = [](double d) { return std::abs(static_cast<float>(d)); };  // x where they are as long
+  const int major = in_float(e1.x) >= in_float(e1.y) ? 0 : 1;
   const double share = ((major == 0 ? x : y) + 0.5 - t.v[0].p_win[major]) / e1[major], slope = 1 / e1[major];
   const Vec3<double> gradient(-slope, slope, 0);
   return {{1 - share, share, 0}, major == 0 ? gradient : Vec3<double>(0), major == 0 ? Vec3<double>(0) : gradient};

@@ -241,7 +241,7 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
     primary = environ_error(format, *draw.texture, primary, errors.color, fours.texel, errors.texel, {1}).color;
   }
   const Vec3<double> sum(primary + fours[Varying::secondary]);
-  const bool clamped = summed && std::max({sum.x, sum.y, sum.z}) > 1;
+  const bool clamped = summed && (std::max({sum.x, sum.y, sum.z}) > 1 || std::min({sum.x, sum.y, sum.z}) < 0);
   if (draw.fog && clamped) out.reason = kClampedLate;
   if (draw.fog && reaches_behind_eye(number, triangle.primitive)) out.reason = kBehindEye;
   return out;
