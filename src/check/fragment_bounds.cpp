@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "check/compare_words.h"
@@ -116,8 +117,8 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
     texel_arithmetic_.push_back(tolerance("osmesa.texture").factor * u * largest_texel(texture));
 }
 
-Vec4<double> FragmentBounds::apart(std::uint32_t primitive, const std::vector<Vec4<double>>& apart,
-                                   bool flat_applies) const {
+Vec4<double> FragmentBounds::largest_of(std::uint32_t primitive, const std::vector<Vec4<double>>& column,
+                                        bool flat_applies) const {
   const auto number = plumbline::draw_of(ranges_, primitive);
   if (!number) return Vec4<double>(0);
   const DrawRange& range = ranges_[*number];
@@ -127,7 +128,7 @@ Vec4<double> FragmentBounds::apart(std::uint32_t primitive, const std::vector<Ve
   Vec4<double> out(0);
   for (int i = flat_applies && draw.shading == Shading::flat ? 2 : 0; i < 3; ++i) {
     const std::size_t vertex = range.first_vertex + corner[i];
-    if (vertex < apart.size()) out = glm::max(out, apart[vertex]);
+    if (vertex < column.size()) out = glm::max(out, glm::abs(column[vertex]));
   }
   return out;
 }
@@ -155,6 +156,16 @@ std::optional<WindowTriangle<double>> FragmentBounds::as_color(std::size_t i, Va
   return out;
 }
 
+Vec4<double> FragmentBounds::cut_error(std::uint32_t primitive, Varying v) const {
+  const auto& [vertices, polygons] = records_.polygons;
+  const auto polygon = std::ranges::lower_bound(polygons, primitive, {}, &ClipPolygon::primitive);
+  if (polygon == polygons.end() || polygon->primitive != primitive) return Vec4<double>(0);
+  const auto corners = std::span(vertices).subspan(polygon->first, polygon->count);
+  if (std::ranges::none_of(corners, [](const ClipVertex<double>& corner) { return corner.cut; }))
+    return Vec4<double>(0);
+  return tolerance("osmesa.clip").factor * u * largest_of(primitive, records_.varyings[v].vertices, false);
+}
+
 Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
   const Covered& c = records_.covered[i];
   const auto triangle = as_color(i, v);
@@ -166,7 +177,7 @@ Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
                                : v == Varying::secondary ? secondary_apart_
                                                          : kNowhere;
   return factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), beside) +
-         apart(triangle->primitive, vertices_apart, is_lit(v));
+         largest_of(triangle->primitive, vertices_apart, is_lit(v)) + cut_error(triangle->primitive, v);
 }
 
 Vec4<double> FragmentBounds::by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const {
@@ -220,7 +231,7 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   FragmentFours errors;
   errors.color = factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), by_other_edges(i, nullptr)) +
-                 apart(triangle.primitive, lit_apart_, true);
+                 largest_of(triangle.primitive, lit_apart_, true);
   for (const Varying v : kAllVaryings) {
     if (!is_back(v) && carries(scene_, draw, v)) errors[v] = varying_error(i, v);
   }
@@ -252,7 +263,7 @@ FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
   const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
   if (!plain_[plumbline::draw_of(ranges_, triangle.primitive).value()]) return surface(i);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
-  return {factor_ * u * plane.color, plane.along_color, apart(triangle.primitive, lit_apart_, true), {}};
+  return {factor_ * u * plane.color, plane.along_color, largest_of(triangle.primitive, lit_apart_, true), {}};
 }
 
 FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
@@ -260,7 +271,7 @@ FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) co
   const auto draw = plumbline::draw_of(ranges_, p);
   if (!draw || plain_[*draw]) {
     const PlaneBounds plane = primitive_bounds(records_, primitive, x, y);
-    return {factor_ * u * plane.color, plane.along_color, apart(p, lit_apart_, true), {}};
+    return {factor_ * u * plane.color, plane.along_color, largest_of(p, lit_apart_, true), {}};
   }
   FragmentBound out{Vec4<double>(std::numeric_limits<double>::infinity()), {}, {}, {}};
   drawn_.each(x, y, [&](std::size_t i) {

@@ -65,13 +65,16 @@ class FragmentBounds {
   FragmentBound of_winner(std::int32_t primitive, int x, int y) const;
 
  private:
-  /// What the two sides' columns of a primitive's vertices differ by.
-  Vec4<double> apart(std::uint32_t primitive, const std::vector<Vec4<double>>& apart, bool flat_applies) const;
+  /// The largest of a column's values at a primitive's vertices, by their absolute values.
+  Vec4<double> largest_of(std::uint32_t primitive, const std::vector<Vec4<double>>& column, bool flat_applies) const;
   bool reaches_behind_eye(std::size_t draw, std::uint32_t primitive) const;
   FragmentBound surface(std::size_t i) const;
   /// The fragment's triangle, a varying's corners for its colours; none: nothing can be said.
   std::optional<WindowTriangle<double>> as_color(std::size_t i, Varying v) const;
   Vec4<double> varying_error(std::size_t i, Varying v) const;
+  /// Where the primitive is cut: what a renderer's cut may be off by, in proportion to the values at both ends (the
+  /// ledger's osmesa.clip). Of a share near 1 of a way of 10^6 that is more than all that comes after.
+  Vec4<double> cut_error(std::uint32_t primitive, Varying v) const;
   /// How far the values of other edges or corners of the fragment's triangle that the pixel may hold (bounds.h,
   /// EdgeValue) are from its own: of the columns' varying, or of the colour.
   Vec4<double> by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const;
