@@ -62,6 +62,14 @@ std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, 
   return out;
 }
 
+// By how much what the corners are apart is enlarged at a pixel's centre: 1 inside the triangle, and the sum of its
+// weights' absolute values where a sample of it is inside and the centre is not.
+double enlarged(WindowTriangle<double> t, int x, int y) {
+  for (int k = 0; k < 3; ++k) t.v[static_cast<std::size_t>(k)].color = {k == 0, k == 1, k == 2, 0};
+  const Vec4<double> weights = glm::abs(color_of_plane(t, x, y).value);
+  return std::max(1.0, weights.x + weights.y + weights.z);
+}
+
 // An empty one is 0.
 std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<Vec4<double>>& b) {
   a.resize(std::max(a.size(), b.size()), Vec4<double>(0));
@@ -177,7 +185,8 @@ Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
                                : v == Varying::secondary ? secondary_apart_
                                                          : kNowhere;
   return factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), beside) +
-         largest_of(triangle->primitive, vertices_apart, is_lit(v)) + cut_error(triangle->primitive, v);
+         enlarged(*triangle, c.x, c.y) * largest_of(triangle->primitive, vertices_apart, is_lit(v)) +
+         cut_error(triangle->primitive, v);
 }
 
 Vec4<double> FragmentBounds::by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const {
@@ -231,7 +240,7 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   FragmentFours errors;
   errors.color = factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), by_other_edges(i, nullptr)) +
-                 largest_of(triangle.primitive, lit_apart_, true);
+                 enlarged(triangle, c.x, c.y) * largest_of(triangle.primitive, lit_apart_, true);
   for (const Varying v : kAllVaryings) {
     if (!is_back(v) && carries(scene_, draw, v)) errors[v] = varying_error(i, v);
   }
@@ -263,7 +272,8 @@ FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
   const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
   if (!plain_[plumbline::draw_of(ranges_, triangle.primitive).value()]) return surface(i);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
-  return {factor_ * u * plane.color, plane.along_color, largest_of(triangle.primitive, lit_apart_, true), {}};
+  const Vec4<double> apart = enlarged(triangle, c.x, c.y) * largest_of(triangle.primitive, lit_apart_, true);
+  return {factor_ * u * plane.color, plane.along_color, apart, {}};
 }
 
 FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
