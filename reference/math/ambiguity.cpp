@@ -89,7 +89,7 @@ bool seen(const Scene& scene, const Projected& projected, std::uint32_t primitiv
   if (winner != kBackground) {
     const Triangle& w = projected.triangles[static_cast<std::size_t>(winner)];
     if (static_cast<std::uint32_t>(winner) == primitive || w.flat) return true;
-    // What comes after a winner that leaves the depth as it is, is not hidden by it.
+    // A winner that leaves the depth as it is hides nothing that is drawn after it.
     if (static_cast<std::uint32_t>(winner) < primitive && !scene.draws[w.draw].merge.depth_mask) return true;
     held = z_at(w, d);
     slack += slope_of(w);

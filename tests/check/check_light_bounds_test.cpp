@@ -1,4 +1,4 @@
-// What rounding may do to a lit colour: every term of the bound, on scenes where it alone counts.
+// The bound of a lit colour's rounding: each of its terms, on scenes where that term alone counts.
 #include "check/bounds.h"
 
 #include <algorithm>

@@ -285,7 +285,8 @@ TEST(CheckLines, depth_and_color_go_by_the_major_axis_or_by_the_projection) {
   EXPECT_TRUE(std::isfinite(b.depth) && std::isfinite(b.color.r));
   t.corners = 1;
   EXPECT_EQ(bounds_from_origin(t, 4, 3).along_depth, 0);
-  // As long in x as in y but for float's rounding: x is the major axis. The pixel's place is 3.1 / 24 along x.
+  // A line as long in x as in y but for float's rounding has x for its major axis. The pixel's place is 3.1 / 24 along
+  // x.
   const auto at = [](float z) { return static_cast<double>(z); };
   const WindowTriangle<double> diagonal = line_of({at(49.599998f), at(9.36f)}, {at(25.599998f), at(33.360001f)});
   EXPECT_GT(std::abs(diagonal.v[1].p_win.y - diagonal.v[0].p_win.y),

@@ -53,7 +53,7 @@ TEST_F(Resolved, IsTheReferencesWhereTheSamplesAre) {
   scene.frame.color = ColorFormat::rgba32f;
   EXPECT_TRUE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 2)));
   EXPECT_FALSE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 2.00001)));
-  // Of samples below the smallest normal number a rounding is absolute, 2^-150.
+  // The rounding of samples below the smallest normal number is absolute, 2^-150.
   const double tiny = 255 * 0x1p-140, step = 255 * 0x1p-149;
   const Capture flushed = of({0, 0, 0, 0}, 0);
   EXPECT_TRUE(side_by_side(of({tiny, tiny, tiny, tiny}, tiny + step), flushed));

@@ -63,8 +63,8 @@ struct Affected {
 };
 std::vector<Affected> affected(const SceneHashes& as_it_is, const SceneHashes& changed);
 
-/// What fails in the JSON of plumb check: of each scene, and the stage that it says to be the first. `painter`: of rows other than `picture`, on any scene, the
-/// first is what is named.
+/// The stage that plumb check announces, of each scene that fails, from its JSON; the first row's where it announces
+/// none (a crash), and `picture` where no other row fails.
 std::map<std::string, Named> named_by_check(const std::string& json);
 /// In that of plumb diagnose.
 Named named_by_diagnose(const std::string& json);

@@ -117,10 +117,12 @@ std::string report_of(const std::vector<Judged>& judged) {
   const std::size_t rest = s.changes - s.equivalent;
   out += fmt::format(
       "\n{}\n{} changes; {} equivalent or not run ({:.1f} %, at most 12); of the others {} of {} found "
-      "({:.1f} %, at least 97; {} of them, in data that every renderer is given, by the data's tests alone);\nof those in stages {} of {} named rightly ({:.1f} %, at least 93); of "
+      "({:.1f} %, at least 97; {} of them, in data that every renderer is given, by the data's tests alone);\nof those "
+      "in stages {} of {} named rightly ({:.1f} %, at least 93); of "
       "the painter's that are found {} of {} by the row picture alone\n",
       table_of(judged), s.changes, s.equivalent, percent(s.equivalent, s.changes), s.found, rest,
-      percent(s.found, rest), s.by_tables, s.named, s.in_stages, percent(s.named, s.in_stages), s.picture, s.in_painter);
+      percent(s.found, rest), s.by_tables, s.named, s.in_stages, percent(s.named, s.in_stages), s.picture,
+      s.in_painter);
   return out;
 }
 

@@ -92,8 +92,8 @@ Tree::Tree(const fs::path& root, const fs::path& out, unsigned workers) : out_(o
 }
 
 bool Tree::compile(const std::string& log) const {
-  return run({"ninja", "-C", build().string(), fmt::format("-j{}", workers_), "plumb", "scene_hashes", "data_tests"}, out_ / log,
-             6 * kBuildSeconds)
+  return run({"ninja", "-C", build().string(), fmt::format("-j{}", workers_), "plumb", "scene_hashes", "data_tests"},
+             out_ / log, 6 * kBuildSeconds)
       .ok();
 }
 

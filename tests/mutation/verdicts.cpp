@@ -27,6 +27,7 @@ bool is_picture(const Json& row) { return row["reference"] == "picture"; }
 struct First {
   Named named{"none", ""};
   std::size_t at = ~std::size_t{0};
+  bool crashed = false;  // the row `failed`
 
   void add(const Json& row) {
     const std::size_t here = is_picture(row) ? kStages.size() + 1 : order_of(row["stage"]);
@@ -34,17 +35,21 @@ struct First {
     at = here;
     named.first = is_picture(row) ? "picture" : row["stage"].get<std::string>();
     named.by = row["reference"].get<std::string>() + ", " + row["stage"].get<std::string>();
-    if (row["outcome"] == "failed") named.by += " (failed: " + row.value("note", "") + ")";
+    crashed = row["outcome"] == "failed";
+    if (crashed) named.by += " (failed: " + row.value("note", "") + ")";
   }
 };
 
-// The stage that plumb check says to be the first that differs, of its lines on one scene.
-std::string announced(const std::string& failure) {
-  static constexpr std::string_view kBefore = "first different stage: ";
-  const std::size_t at = failure.find(kBefore);
-  if (at == std::string::npos) return "";
-  const std::size_t from = at + kBefore.size();
-  return failure.substr(from, failure.find(' ', from) - from);
+// The stage and the reference of "first different stage: STAGE (against REFERENCE)", of plumb check's lines on one
+// scene; no stage where there is no such line.
+Named announced(const std::string& failure) {
+  static constexpr std::string_view kStage = "first different stage: ", kReference = " (against ";
+  const std::size_t at = failure.find(kStage);
+  if (at == std::string::npos) return {};
+  const std::size_t stage = at + kStage.size(), end = failure.find(kReference, stage);
+  const std::size_t reference = end + kReference.size();
+  const std::string name = failure.substr(stage, end - stage);
+  return {name, failure.substr(reference, failure.find(')', reference) - reference) + ", " + name};
 }
 
 bool is_among(const std::string& name, const std::vector<std::string>& expected) {
@@ -54,7 +59,7 @@ bool is_among(const std::string& name, const std::vector<std::string>& expected)
 }  // namespace
 
 std::string_view name_of(Outcome outcome) {
-  static constexpr std::array<std::string_view, kOutcomes> kNames = {"references", "picture",  "ended",    "tables",
+  static constexpr std::array<std::string_view, kOutcomes> kNames = {"references", "picture",  "ended",     "tables",
                                                                      "goldens",    "survived", "equivalent"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
@@ -82,14 +87,14 @@ std::map<std::string, Named> named_by_check(const std::string& json) {
   for (const Json& row : run["comparisons"]) {
     if (fails(row)) first[row["scene"]].add(row);
   }
+  for (const Json& scene : run.value("scenes", Json::array())) {
+    const auto of = first.find(scene["scene"]);
+    if (of == first.end() || of->second.crashed || of->second.named.first == "picture") continue;
+    Named named = announced(scene.value("failure", ""));
+    if (!named.first.empty()) of->second.named = std::move(named);
+  }
   std::map<std::string, Named> out;
   for (auto& [scene, f] : first) out[scene] = std::move(f.named);
-  for (const Json& scene : run.value("scenes", Json::array())) {
-    const auto named = out.find(scene["scene"]);
-    if (named == out.end() || named->second.first == "picture" || named->second.by.ends_with(")")) continue;
-    const std::string stage = announced(scene.value("failure", ""));
-    if (!stage.empty()) named->second.first = stage;
-  }
   return out;
 }
 

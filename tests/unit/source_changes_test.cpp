@@ -126,6 +126,7 @@ TEST(SourceChanges, AScenesFirstStageIsNamed) {
     {"scene": "d", "failure": "different d: first different stage: merge (against exact from its records): 1 of 2"}]})");
   ASSERT_EQ(named.size(), 3u);
   EXPECT_EQ(named.at("d").first, "merge") << "as it says";
+  EXPECT_EQ(named.at("d").by, "exact from its records, merge");
   EXPECT_EQ(named.at("a").first, "depth");
   EXPECT_EQ(named.at("a").by, "embree, depth");
   EXPECT_EQ(named.at("b").first, "picture");
@@ -159,7 +160,8 @@ void add(std::vector<Judged>& to, const FileRule& rule, std::size_t count, Outco
 }
 
 TEST(SourceChanges, TheScoreHoldsJustWhereItMay) {
-  const FileRule clip{"c", {"clip"}, ""}, painter{"p", {"picture"}, ""}, scene{"s", {"any"}, ""}, data{"d", {"data"}, ""};
+  const FileRule clip{"c", {"clip"}, ""}, painter{"p", {"picture"}, ""}, scene{"s", {"any"}, ""},
+      data{"d", {"data"}, ""};
   std::vector<Judged> judged;
   add(judged, clip, 93, Outcome::references, "clip");
   add(judged, clip, 4, Outcome::references, "window");
