@@ -41,10 +41,4 @@ PixelBounds pixel_bounds(const WindowTriangle<float>& triangle) {
   return {up(x_min) - reach, up(y_min) - reach, down(x_max) + 1 + reach, down(y_max) + 1 + reach};
 }
 
-std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size) {
-  std::vector<glm::ivec2> pixels;
-  visit_thin_pixels(line_or_point, origin, size, [&](glm::ivec2 p) { pixels.push_back(p); });
-  return pixels;
-}
-
 }  // namespace plumbline::pipeline

@@ -78,7 +78,6 @@ void visit_thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 or
     }
   });
 }
-std::vector<glm::ivec2> thin_pixels(const WindowTriangle<float>& line_or_point, glm::ivec2 origin, int size);
 
 template <class R>
 Mask<R> coverage(const Edges& e, const Pixels<R>& p) {

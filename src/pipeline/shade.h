@@ -24,25 +24,20 @@ Color<R> color_sum(const Color<R>& primary, const Color<R>& secondary) {
 /// `front`: the face, where light has two sides.
 template <class R>
 Color<R> shade_surface(const Surface& surface, bool front, const SurfaceAttributes<R>& attributes) {
-  Color<R> color = attributes.color;
   const LightModel& model = surface.scene->light_model;
-  const bool sums = surface.draw->lit && model.separate_specular;
-  Color<R> secondary{R(0), R(0), R(0), R(0)};
-  if (sums && !surface.light) secondary = attributes[Varying::secondary];
-  if (surface.light) {
+  const auto lit_part = [&](bool specular) {
     const bool back = !front && model.sides == LightModel::Sides::two;
-    const auto part = [&](bool specular) {
-      return lit_fragment(*surface.light, {back, specular}, attributes.color, attributes[Varying::normal],
-                          attributes[Varying::position]);
-    };
-    color = part(false);
-    if (model.separate_specular) secondary = part(true);
-  }
+    return lit_fragment(*surface.light, {back, specular}, attributes.color, attributes[Varying::normal],
+                        attributes[Varying::position]);
+  };
+  Color<R> color = surface.light ? lit_part(false) : attributes.color;
   if (surface.texture) {
     color =
         apply_environment<R>(surface.texture->texture->format, *surface.draw->texture, color, attributes.texel.color);
   }
-  if (sums) color = color_sum<R>(color, secondary);
+  if (surface.draw->lit && model.separate_specular) {
+    color = color_sum<R>(color, surface.light ? lit_part(true) : attributes[Varying::secondary]);
+  }
   if (surface.draw->fog) color = fogged<R>(*surface.draw->fog, color, attributes[Varying::position].b);
   return color;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "../thin_pixels.h"
 #include "faults/variants.h"
 #include "pipeline/clip.h"
 #include "pipeline/light.h"
@@ -137,11 +138,11 @@ bool box_of_one_vertex_coverage(const Setup& s, const Pixels<float>& p) {
 
 // y = y + k in float for each x, from where the line is exited first, and ROUND(y).
 std::vector<glm::ivec2> incremental_line(const Triangle& t, glm::ivec2 origin, int size) {
-  if (t.corners != 2) return pipeline::thin_pixels(t, origin, size);
+  if (t.corners != 2) return thin_pixels(t, origin, size);
   const glm::ivec2 from = t.v[0].snapped, d = t.v[1].snapped - from;
   const int x = std::abs(d.x) >= std::abs(d.y) ? 0 : 1, y = 1 - x;  // the major axis and the other
   const float k = static_cast<float>(d[y]) / static_cast<float>(std::abs(d[x]));
-  const std::vector<glm::ivec2> line = pipeline::thin_pixels(t, {0, 0}, 16384);  // all of any frame
+  const std::vector<glm::ivec2> line = thin_pixels(t, {0, 0}, 16384);  // all of any frame
   std::vector<glm::ivec2> out;
   float at = 0;
   for (glm::ivec2 p : line) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "../thin_pixels.h"
 #include "faults/lists.h"
 #include "faults/variants.h"
 
@@ -45,16 +46,16 @@ bool scissor_with_its_far_sides(const Scissor& box, const Pixels<float>& p) {
 }
 
 std::vector<glm::ivec2> line_end_drawn(const Triangle& t, glm::ivec2 origin, int size) {
-  std::vector<glm::ivec2> pixels = pipeline::thin_pixels(t, origin, size);
+  std::vector<glm::ivec2> pixels = thin_pixels(t, origin, size);
   WindowTriangle<float> end{{t.v[1], t.v[1], t.v[1]}, t.primitive, true, 1};
-  for (const glm::ivec2 last : pipeline::thin_pixels(end, origin, size)) {
+  for (const glm::ivec2 last : thin_pixels(end, origin, size)) {
     if (std::find(pixels.begin(), pixels.end(), last) == pixels.end()) pixels.push_back(last);
   }
   return pixels;
 }
 
 std::vector<glm::ivec2> steep_lines_torn(const Triangle& t, glm::ivec2 origin, int size) {
-  std::vector<glm::ivec2> pixels = pipeline::thin_pixels(t, origin, size);
+  std::vector<glm::ivec2> pixels = thin_pixels(t, origin, size);
   std::vector<glm::ivec2> one_per_column;
   for (const glm::ivec2 p : pixels) {
     if (one_per_column.empty() || one_per_column.back().x != p.x) one_per_column.push_back(p);
@@ -64,14 +65,14 @@ std::vector<glm::ivec2> steep_lines_torn(const Triangle& t, glm::ivec2 origin, i
 
 // Every pixel of the thin line becomes a row of an x-major line, a column of a y-major one.
 std::vector<glm::ivec2> lines_widened_along(const Triangle& t, glm::ivec2 origin, int size) {
-  if (t.corners != 2 || t.width == 1) return pipeline::thin_pixels(t, origin, size);
+  if (t.corners != 2 || t.width == 1) return thin_pixels(t, origin, size);
   WindowTriangle<float> thin = t;
   thin.width = 1;
   const auto width = static_cast<int>(t.width);
   const glm::ivec2 d = glm::abs(t.v[1].snapped - t.v[0].snapped),
                    along = d.x >= d.y ? glm::ivec2(1, 0) : glm::ivec2(0, 1);
   std::vector<glm::ivec2> pixels;
-  for (const glm::ivec2 p : pipeline::thin_pixels(thin, origin - width, size + 2 * width)) {
+  for (const glm::ivec2 p : thin_pixels(thin, origin - width, size + 2 * width)) {
     for (int k = 0; k < width; ++k) {
       const glm::ivec2 q = p + along * (k - width / 2), in_box = q - origin;
       const bool inside = in_box.x >= 0 && in_box.y >= 0 && in_box.x < size && in_box.y < size;
@@ -84,7 +85,7 @@ std::vector<glm::ivec2> lines_widened_along(const Triangle& t, glm::ivec2 origin
 std::vector<glm::ivec2> points_off_by_half(const Triangle& t, glm::ivec2 origin, int size) {
   WindowTriangle<float> moved = t;
   if (t.corners == 1) moved.v[0].snapped += kSubpixel / 2;
-  return pipeline::thin_pixels(moved, origin, size);
+  return thin_pixels(moved, origin, size);
 }
 
 // Samples mirrored in the pixel's middle row.

@@ -1,5 +1,7 @@
 #include "faults/table.h"
 
+#include "../thin_pixels.h"
+
 namespace plumbline::faults {
 
 namespace {
@@ -90,7 +92,7 @@ Table production() {
   f.places = FragmentStages::places;
   f.bounds = FragmentStages::bounds;
   f.edges = FragmentStages::edges;
-  f.thin_pixels = pipeline::thin_pixels;
+  f.thin_pixels = plumbline::thin_pixels;
   f.coverage = [](const pipeline::TriangleSetup<>& s, const pipeline::Pixels<float>& p) {
     return FragmentStages::coverage<float>(s, p);
   };

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "mutation/kept.h"
 #include "mutation/tree.h"
 
 namespace plumbline::mutation {
@@ -87,17 +88,22 @@ std::vector<Judged> run_campaign(const CampaignOptions& options, const std::vect
   const std::vector<Equivalent> equivalents = read_equivalents(table);
   Tree tree(options.root, options.out, options.workers);
   tree.copy_programs(options.out / "as_it_is");
+  const std::map<ChangeKey, Verdict> known_verdicts =
+      options.keep.empty() ? std::map<ChangeKey, Verdict>{} : read_found(options.keep, sources_hash(options.root));
   const Judge judge(options.out / "as_it_is", tree.source() / "tests/scenes", options.out / "rows");
   Compiled compiled(options.workers + 1);
   std::vector<Judged> done;
   std::mutex mutex;
+  const auto take = [&](Judged j) {
+    const std::lock_guard lock(mutex);
+    took(j);
+    done.push_back(std::move(j));
+  };
   const auto judge_one = [&](Judged j) {
     const fs::path programs = options.out / "programs" / name_of(j);
     j.verdict = judge.judge(programs, *j.rule, reason_of(j, equivalents), name_of(j));
     fs::remove_all(programs);
-    const std::lock_guard lock(mutex);
-    took(j);
-    done.push_back(std::move(j));
+    take(std::move(j));
   };
   std::vector<std::exception_ptr> errors(options.workers);
   std::vector<std::jthread> judges;
@@ -124,6 +130,13 @@ std::vector<Judged> run_campaign(const CampaignOptions& options, const std::vect
         if (count == options.changes || late()) break;
         if (options.only && j.number != *options.only) continue;
         if (!known.emplace(j.change.file, j.lines.before, j.lines.after).second) continue;
+        if (const auto found = known_verdicts.find(key_of(j)); found != known_verdicts.end()) {
+          ++count;
+          Judged kept = j;
+          kept.verdict = found->second;
+          take(std::move(kept));
+          continue;
+        }
         if (!tree.build_changed(j.change, options.out / "programs" / name_of(j))) continue;
         ++count;
         options.workers > 1 ? compiled.put(j) : judge_one(j);

@@ -18,6 +18,7 @@ struct CampaignOptions {
   std::size_t changes = 67;         ///< that compile, of each seed
   std::optional<std::size_t> only;  ///< the number of the one that is wanted
   std::optional<unsigned> minutes;  ///< after which no other change is begun
+  std::filesystem::path keep;       ///< a log of the same sources; the changes that it has found are not judged again
   unsigned workers = 2;  ///< 1: compiled and judged in turns; else one change is compiled while others are judged
 };
 

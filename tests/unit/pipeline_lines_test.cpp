@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../thin_pixels.h"
 #include "pipeline/attributes.h"
 #include "pipeline/clip.h"
 #include "pipeline/coverage.h"

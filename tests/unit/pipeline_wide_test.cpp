@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../thin_pixels.h"
 #include "pipeline/coverage.h"
 #include "pipeline/window.h"
 #include "raster/line_diamond.h"

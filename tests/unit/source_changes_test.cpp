@@ -2,12 +2,15 @@
 #include "mutation/changes.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "mutation/choose.h"
 #include "mutation/judge.h"
+#include "mutation/kept.h"
 #include "mutation/run.h"
 #include "mutation/score.h"
 
@@ -111,6 +114,34 @@ TEST(SourceChanges, EachFileOfTheSourcesHasARule) {
       return rule.names[0] != "-" && rule.prefix.starts_with(shorter) && e.file.starts_with(shorter);
     })) << e.file;
   }
+}
+
+TEST(SourceChanges, WhatWasFoundIsTakenOverFromALogOfTheSameSources) {
+  const auto rules = read_file_rules(kRoot / "tests/mutation/files.tsv");
+  Judged found, survivor;
+  found.seed = survivor.seed = "ab";
+  found.number = 1;
+  survivor.number = 2;
+  found.rule = survivor.rule = rule_of(rules, "src/pipeline/light.cpp", "light");
+  found.change.file = survivor.change.file = "src/pipeline/light.cpp";
+  found.lines = {"a = b;", ";"};
+  survivor.lines = {"a = 1;", "a = 2;"};
+  found.verdict = {Outcome::references, 3, "light/a", {"light", "shade"}, {"light", "osmesa, light"},
+                   {"shade", ""},       ""};
+  survivor.verdict.note = "why";
+  const std::filesystem::path log = std::filesystem::path(testing::TempDir()) / "plumbline_changes.tsv";
+  std::ofstream(log) << log_head("1234") << log_of({found, survivor});
+  const auto kept = read_found(log, "1234");
+  ASSERT_EQ(kept.size(), 1u);
+  const Verdict& v = kept.at(key_of(found));
+  EXPECT_EQ(v.outcome, Outcome::references);
+  EXPECT_EQ(v.expected, found.verdict.expected);
+  EXPECT_TRUE(v.named_by_check() && v.named_by_diagnose());
+  EXPECT_THROW(read_found(log, "1235"), std::runtime_error) << "of other sources";
+  std::ofstream(log, std::ios::app) << "a line of less\n";
+  EXPECT_THROW(read_found(log, "1234"), std::runtime_error);
+  std::filesystem::remove(log);
+  EXPECT_EQ(sources_hash(kRoot), sources_hash(kRoot));
 }
 
 TEST(SourceChanges, AScenesFirstStageIsNamed) {

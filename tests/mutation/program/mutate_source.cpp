@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "mutation/campaign.h"
+#include "mutation/kept.h"
 
 int main(int argc, char** argv) {
   using namespace plumbline::mutation;
@@ -25,6 +26,8 @@ int main(int argc, char** argv) {
   app.add_option("--changes", options.changes, "that compile, of each seed");
   app.add_option("--number", options.only, "only the seed's change of this number");
   app.add_option("--minutes", options.minutes, "after which no other change is begun");
+  app.add_option("--keep", options.keep, "a log of the same sources, of which only what was not found is judged again")
+      ->check(CLI::ExistingFile);
   app.add_option("--workers", options.workers, "threads")->check(CLI::Range(1u, 64u));
   app.add_option("--out", options.out, "the folder in which the changed sources are built");
   app.add_flag("--list", list, "prints the changes, and builds none");
@@ -44,12 +47,13 @@ int main(int argc, char** argv) {
       return 0;
     }
     const auto start = std::chrono::steady_clock::now();
+    const std::string head = log_head(sources_hash(options.root));
     std::vector<Judged> so_far;
     const auto took = [&](const Judged& j) {
       fmt::print("{}\n    {}\n", description(j), outcome_line(j));
       std::fflush(stdout);
       so_far.push_back(j);
-      std::ofstream(options.out / "changes.tsv") << log_of(so_far);
+      std::ofstream(options.out / "changes.tsv") << head << log_of(so_far);
     };
     const std::vector<Judged> judged = run_campaign(options, rules, took);
     fmt::print("{}in {:.0f} min; every change: {}\n", report_of(judged),

@@ -1,0 +1,27 @@
+// What a campaign found out before: so that reasons for equivalent changes can be written, and not all be judged again.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "mutation/score.h"
+
+namespace plumbline::mutation {
+
+/// Seed and number, file, the line before and after.
+using ChangeKey = std::tuple<std::string, std::string, std::string, std::string, std::string>;
+ChangeKey key_of(const Judged& judged);
+
+/// A hash of all that decides what comes of a change: src, reference and tests/scenes below `root`.
+std::string sources_hash(const std::filesystem::path& root);
+
+/// The log's first line, which names the sources that it is of.
+std::string log_head(const std::string& sources);
+
+/// Verdicts of a log (score.h, log_of, after log_head) on changes that were found. Throws std::runtime_error with file
+/// and line where it is no log, and where it is of other sources.
+std::map<ChangeKey, Verdict> read_found(const std::filesystem::path& log, const std::string& sources);
+
+}  // namespace plumbline::mutation
