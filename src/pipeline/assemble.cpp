@@ -55,13 +55,10 @@ class Assembler {
   }
   void add_kept(const AssemblyWork& of, const glm::uvec3& v, const KeptTriangle& kept) {
     const std::uint32_t first = of.first_vertex;
-    if (kept.kept == Kept::far)
-      return add_primitive(*of.draw, Topology::triangles, {first + v[0], first + v[1], first + v[2]});
     triangles_[chunk_.count] = {{first + v[1], first + v[2], first + v[0]}, kept.kept == Kept::front, 3, 1};
     boxes_[chunk_.count] = kept.box;
     chunk_.count += kept.kept != Kept::none;  // without a branch
   }
-  void note_far(bool any_far) { chunk_.any_far |= any_far; }
 
   void add_other(const WindowTriangle<float>& t, std::uint32_t first_corner) {
     add({{first_corner, first_corner + 1, first_corner + 2},
@@ -184,7 +181,7 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const
       KeptTriangle kept[kMost];
       for (std::size_t from = 0; from < corners.size(); from += kMost) {
         const auto some = corners.subspan(from, std::min(kMost, corners.size() - from));
-        to.note_far(cull(to.cull_work(work), some, kept));
+        cull(to.cull_work(work), some, kept);
         each_inside(from, from + some.size(), [&](std::size_t i) { to.add_kept(work, corners[i], kept[i - from]); });
       }
     } else if (work.outside != nullptr) {

@@ -25,15 +25,15 @@ struct CullWork {
   glm::ivec2 least, most;  ///< of the samples' places
   int width, height;       ///< of the frame
 };
-/// What of a triangle is drawn; far: too large to be told in lanes.
-enum class Kept : std::int32_t { none, back, front, far };
+/// Which face of a triangle is drawn.
+enum class Kept : std::int32_t { none, back, front };
 struct KeptTriangle {
   Kept kept;
   TileBox box;
 };
-/// One for each of `corners`, the vertices' numbers in the mesh; returns whether any may have an edge longer than
-/// kLongestEdge (cull_lanes.h).
-using CullTriangles = bool (*)(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to);
+/// One for each of `corners`, the vertices' numbers in the mesh. Triangles with a corner outside the view volume get any
+/// (cull_lanes.h).
+using CullTriangles = void (*)(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to);
 
 /// Window triangles that came another way (draw.h), by primitive: clipped ones, lines, points.
 struct OtherTriangles {

@@ -6,13 +6,11 @@ namespace plumbline::pipeline {
 
 namespace {
 
+// A varying that is not lit: texture, normal or position.
 Vec4<float> of_vertex(Varying varying, const Mesh& mesh, const Vertex<float>& vertex, std::size_t number) {
-  switch (varying) {
-    case Varying::texture: return {mesh.texcoords.at(number), 0.0f, 1.0f};
-    case Varying::normal: return {vertex.n_eye, 0.0f};
-    case Varying::position: return vertex.p_eye;
-    default: return Vec4<float>(0.0f);
-  }
+  if (varying == Varying::texture) return {mesh.texcoords.at(number), 0.0f, 1.0f};
+  if (varying == Varying::normal) return {vertex.n_eye, 0.0f};
+  return vertex.p_eye;
 }
 
 }  // namespace

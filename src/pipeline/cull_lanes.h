@@ -11,13 +11,12 @@
 namespace plumbline::pipeline {
 
 template <class R>
-bool cull_triangles(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to) {
+void cull_triangles(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to) {
   using I = Int<R>;
   constexpr std::size_t kLanes = Lanes<R>::width;
   const std::size_t count = corners.size();
   const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
   const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
-  Mask<R> far_edges = mask_of<R>(0);
   glm::uvec3 last[kLanes];  // lanes that are too many do as the last one
   for (std::size_t i = 0; i < count; i += kLanes) {
     const glm::uvec3* of_lane = corners.data() + i;
@@ -36,8 +35,7 @@ bool cull_triangles(const CullWork& work, std::span<const glm::uvec3> corners, K
       x[k] = as_int(four[0]), y[k] = as_int(four[1]);
     }
     const I x_min = least(x), x_max = most(x), y_min = least(y), y_max = most(y);
-    // Products of differences up to 2^26 are exact in double, and so is their difference.
-    const Mask<R> far = (x_max - x_min > I(1 << 26)) | (y_max - y_min > I(1 << 26));
+    // Products of differences up to 2^22 (16384 pixels) are exact in double, and so is their difference.
     const R area = to_float(to_wide(x[1] - x[0]) * to_wide(y[2] - y[0]) - to_wide(y[1] - y[0]) * to_wide(x[2] - x[0]));
     const Mask<R> front = area > R(0), back = area < R(0);
     // The pixels whose centres the box holds (coverage.h, pixel_bounds).
@@ -49,17 +47,14 @@ bool cull_triangles(const CullWork& work, std::span<const glm::uvec3> corners, K
     I kept(0);
     if (work.cull != Cull::back) kept = select(drawn & back, I(static_cast<int>(Kept::back)), kept);
     if (work.cull != Cull::front) kept = select(drawn & front, I(static_cast<int>(Kept::front)), kept);
-    const Mask<R> far_edge = (x_max - x_min > I(kLongestEdge)) | (y_max - y_min > I(kLongestEdge));
-    far_edges = far_edges | (far_edge & (kept != I(0)));
     alignas(64) std::int32_t kept_of[kLanes], box_of[kLanes];
-    store(select(far, I(static_cast<int>(Kept::far)), kept), kept_of);
+    store(kept, kept_of);
     const I low = shifted_right<6>(x0) | shifted_left<8>(shifted_right<6>(y0));
     store(low | shifted_left<16>(shifted_right<6>(x1)) | shifted_left<24>(shifted_right<6>(y1)), box_of);
     for (std::size_t lane = 0; lane < std::min(kLanes, count - i); ++lane) {
       to[i + lane] = {static_cast<Kept>(kept_of[lane]), std::bit_cast<TileBox>(box_of[lane])};
     }
   }
-  return any(far_edges);
 }
 
 }  // namespace plumbline::pipeline

@@ -18,9 +18,9 @@ std::uint8_t PLUMBLINE_NAME(paint_vertices_, PLUMBLINE_TARGET)(const VertexWork&
   return paint_vertices<PLUMBLINE_TARGET::Simd>(work, from, to);
 }
 
-bool PLUMBLINE_NAME(cull_triangles_, PLUMBLINE_TARGET)(const CullWork& work, std::span<const glm::uvec3> corners,
+void PLUMBLINE_NAME(cull_triangles_, PLUMBLINE_TARGET)(const CullWork& work, std::span<const glm::uvec3> corners,
                                                        KeptTriangle* to) {
-  return cull_triangles<PLUMBLINE_TARGET::Simd>(work, corners, to);
+  cull_triangles<PLUMBLINE_TARGET::Simd>(work, corners, to);
 }
 
 void PLUMBLINE_NAME(paint_tile_, PLUMBLINE_TARGET)(const Painting& painting, int number, TileMemory& memory,

@@ -9,7 +9,7 @@ namespace plumbline::pipeline {
 
 #define PLUMBLINE_KERNELS(target)                                                                            \
   std::uint8_t paint_vertices_##target(const VertexWork& work, std::size_t from, std::size_t to);            \
-  bool cull_triangles_##target(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to); \
+  void cull_triangles_##target(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to); \
   void paint_tile_##target(const Painting& painting, int number, TileMemory& memory, Frame& frame);
 PLUMBLINE_KERNELS(sse4)
 PLUMBLINE_KERNELS(avx2)

@@ -160,14 +160,14 @@ TEST(SimdTargets, PaintRandomTriangles) {
   }
 }
 
-// By the definition's area and bounds (window.h, coverage.h), of triangles of all sizes, some of no area; seen from the
-// centre, and from all samples.
+// By the definition's area and bounds (window.h, coverage.h), of triangles of all sizes that fit a frame, some of no
+// area; seen from the centre, and from all samples.
 TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
   std::mt19937 random(9);
   std::vector<glm::uvec3> corners(501);
   std::vector<WindowVertex<float>> vertices(300);
   const auto any = [&](std::uint32_t of) { return static_cast<std::uint32_t>(random() % of); };
-  for (const float size : {1.0f, 70.0f, 3000.0f, 10000.0f, 100000.0f, 1048500.0f}) {
+  for (const float size : {1.0f, 70.0f, 3000.0f, 8192.0f}) {
     std::uniform_real_distribution<float> place(-size, size);
     for (auto& v : vertices) {
       v.p_win = {64 + place(random), 64 + (any(5) == 0 ? 0.5f : place(random)), 0.5f};
@@ -179,29 +179,22 @@ TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
         const glm::ivec2 least(sampled ? -96 : 0), most(sampled ? 96 : 0);
         for (const SimdTarget& target : simd_targets()) {
           std::vector<KeptTriangle> told(corners.size());
-          const bool far_edges = target.cull({vertices.data(), cull, least, most, 700, 300}, corners, told.data());
-          bool any_far = false;
+          target.cull({vertices.data(), cull, least, most, 700, 300}, corners, told.data());
           for (std::size_t i = 0; i < corners.size(); ++i) {
             const glm::uvec3 c = corners[i];
             WindowTriangle<float> t{{vertices[c[0]], vertices[c[1]], vertices[c[2]]}, 0, false};
             const std::int64_t area = snapped_area(t);
-            const glm::ivec2 p = t.v[0].snapped, q = t.v[1].snapped, r = t.v[2].snapped;
-            const glm::ivec2 extent = glm::max(p, glm::max(q, r)) - glm::min(p, glm::min(q, r));
             const PixelBounds low = pixel_bounds(as_seen_from(t, most)), high = pixel_bounds(as_seen_from(t, least));
             const int x0 = std::max(low.x0, 0), x1 = std::min(high.x1, 700) - 1;
             const int y0 = std::max(low.y0, 0), y1 = std::min(high.y1, 300) - 1;
             const bool drawn = area != 0 && cull != (area > 0 ? Cull::front : Cull::back) && x0 <= x1 && y0 <= y1;
-            const bool far = std::max(extent.x, extent.y) > 1 << 26;
-            const Kept kept = far ? Kept::far : !drawn ? Kept::none : area > 0 ? Kept::front : Kept::back;
+            const Kept kept = !drawn ? Kept::none : area > 0 ? Kept::front : Kept::back;
             ASSERT_EQ(told[i].kept, kept) << target.name << ", " << i << " of " << size;
-            if (!drawn || far) continue;
-            any_far |= std::max(extent.x, extent.y) > kLongestEdge;
+            if (!drawn) continue;
             const TileBox box = told[i].box;
             ASSERT_TRUE(box.x0 == x0 / 64 && box.y0 == y0 / 64 && box.x1 == x1 / 64 && box.y1 == y1 / 64)
                 << target.name;
           }
-          EXPECT_TRUE(far_edges || !any_far) << target.name << ", " << size;
-          EXPECT_FALSE(far_edges && size <= 3000) << target.name;
         }
       }
     }

@@ -45,7 +45,7 @@ ChangeKey key_of(const Judged& j) {
 
 std::string sources_hash(const fs::path& root) {
   std::vector<fs::path> files;
-  for (const char* folder : {"src", "reference", "tests/scenes"}) {
+  for (const char* folder : {"src", "reference"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(root));
     }
@@ -82,7 +82,7 @@ std::map<ChangeKey, Verdict> read_found(const fs::path& log, const std::string& 
     }
     Verdict v{outcome_of(f[5], place), std::stoul(f[6]), f[7], {}, {f[9], f[10]}, {f[11], f[12]}, f[15]};
     if (!f[8].empty()) v.expected = fields_of(f[8], ',');
-    if (v.found()) out[{f[0], f[1], f[2], f[13], f[14]}] = std::move(v);
+    if (v.found() && v.named_by_check() && v.named_by_diagnose()) out[{f[0], f[1], f[2], f[13], f[14]}] = std::move(v);
   }
   return out;
 }

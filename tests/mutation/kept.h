@@ -14,13 +14,13 @@ namespace plumbline::mutation {
 using ChangeKey = std::tuple<std::string, std::string, std::string, std::string, std::string>;
 ChangeKey key_of(const Judged& judged);
 
-/// A hash of all that decides what comes of a change: src, reference and tests/scenes below `root`.
+/// A hash of src and reference below `root`. (Scenes may have been added: they find more, not less.)
 std::string sources_hash(const std::filesystem::path& root);
 
 /// The log's first line, which names the sources that it is of.
 std::string log_head(const std::string& sources);
 
-/// Verdicts of a log (score.h, log_of, after log_head) on changes that were found. Throws std::runtime_error with file
+/// Verdicts of a log (score.h, log_of, after log_head) on changes that were found and rightly named. Throws std::runtime_error with file
 /// and line where it is no log, and where it is of other sources.
 std::map<ChangeKey, Verdict> read_found(const std::filesystem::path& log, const std::string& sources);
 

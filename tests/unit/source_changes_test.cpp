@@ -109,6 +109,13 @@ TEST(SourceChanges, EachFileOfTheSourcesHasARule) {
     EXPECT_TRUE(used.contains(&rule)) << rule.prefix << " is the beginning of no file or function";
   }
   for (const Equivalent& e : read_equivalents(kRoot / "tests/mutation/equivalent.tsv")) {
+    const std::string text = text_of(kRoot / e.file);
+    EXPECT_TRUE(std::ranges::any_of(changes_of(e.file, text),
+                                    [&](const Change& change) {
+                                      const ChangedLines lines = lines_of(text, change);
+                                      return lines.before == e.before && lines.after == e.after;
+                                    }))
+        << e.file << ": no change makes this of it: " << e.after;
     EXPECT_TRUE(std::ranges::any_of(rules, [&](const FileRule& rule) {  // of the file, or of a function of it
       const std::string& shorter = rule.prefix.size() < e.file.size() ? rule.prefix : e.file;
       return rule.names[0] != "-" && rule.prefix.starts_with(shorter) && e.file.starts_with(shorter);
