@@ -120,19 +120,18 @@ void add_fragments(const Projected& projected, std::span<const PixelHit> hits, i
 void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, int x, int y,
                  Legal& legal) {
   FrameColor color(scene.frame);
-  std::vector<LegalAnswer> before, after;
+  LegalFold fold(scene.frame);
   bool certain = true;
-  fold_hits({}, scene.frame, before);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!hits[i].alpha_passes) continue;
-    fold_hits(hits.first(i + 1), scene.frame, after);
-    const bool drawn = after.size() == 1 && after[0].primitive == static_cast<std::int32_t>(hits[i].primitive);
-    const bool hidden = after.size() == 1 && after[0].primitive == before[0].primitive;
-    certain = certain && hits[i].certain && !hits[i].alpha_fails && drawn != hidden &&
-              (!drawn || std::isfinite(hits[i].color_bound));
-    if (!certain) break;
-    if (drawn) color.write(draw_of(scene, projected, hits[i]).merge, around(hits[i].color, hits[i].color_bound));
-    std::swap(before, after);
+  for (const Hit& hit : hits) {
+    if (!hit.alpha_passes) continue;
+    const std::int32_t held = fold.winners().front().primitive;
+    fold.draw(hit, hit.certain);
+    const std::vector<LegalAnswer>& left = fold.winners();
+    const bool drawn = left.size() == 1 && left[0].primitive == static_cast<std::int32_t>(hit.primitive);
+    const bool hidden = left.size() == 1 && left[0].primitive == held;
+    certain = hit.certain && !hit.alpha_fails && drawn != hidden && (!drawn || std::isfinite(hit.color_bound));
+    if (!certain) break;  // so far no hit was of a group, for those are not certain
+    if (drawn) color.write(draw_of(scene, projected, hit).merge, around(hit.color, hit.color_bound));
   }
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   legal.color_lo(x, y) = certain ? low(color.written()) : glm::vec4(-kInfinity);

@@ -12,8 +12,7 @@ namespace plumbline {
 
 namespace {
 
-/// More combinations of "which member of each group is the certain one" than this are not told apart.
-constexpr std::size_t kMostCombinations = 256;
+constexpr std::size_t kMostBranches = 256;
 
 struct Interval {
   double lo, hi;
@@ -78,41 +77,9 @@ void add(const LegalAnswer& answer, std::vector<LegalAnswer>& all) {
   all.push_back(answer);
 }
 
-/// Draws one hit over every winner so far, all of one stencil value that stays. A winner's interval is the hull of the
-/// depths that it may hold.
-void draw_without_stencil(const Hit& hit, bool certain, DepthFormat format, std::vector<LegalAnswer>& winners) {
-  bool may_win = false;
-  Interval won{0, 0};
-  std::size_t kept = 0;
-  const std::uint8_t stencil = winners.empty() ? 0 : winners.front().stencil;
-  for (LegalAnswer& held : winners) {
-    const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
-    const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {held.z_lo, held.z_hi}, step);
-    if (test.may_pass) {
-      const Interval left = hit.depth_mask ? test.passed : test.under;
-      won = may_win ? Interval{std::min(won.lo, left.lo), std::max(won.hi, left.hi)} : left;
-      may_win = true;
-    }
-    if (certain && !test.may_fail) continue;
-    if (certain) {  // it stays only by the hit's failing
-      held.z_lo = test.failed.lo;
-      held.z_hi = test.failed.hi;
-    }
-    winners[kept++] = held;
-  }
-  winners.resize(kept);
-  if (!may_win) return;
-  winners.push_back(answer(hit, won));
-  winners.back().stencil = stencil;
-}
-
-/// The same in general.
-void draw(const Hit& hit, bool certain, const StencilFace* face, DepthFormat format,
-          std::vector<LegalAnswer>& winners) {
-  const auto alike = [&](const LegalAnswer& a) { return a.stencil == winners.front().stencil; };
-  if (face == nullptr && std::ranges::all_of(winners, alike)) {
-    return draw_without_stencil(hit, certain, format, winners);
-  }
+/// Draws one hit over winners of any stencil values.
+std::vector<LegalAnswer> drawn_by_stencil(const Hit& hit, bool certain, const StencilFace* face, DepthFormat format,
+                                          const std::vector<LegalAnswer>& winners) {
   std::vector<LegalAnswer> left, won;
   const auto put = [&](LegalAnswer a, bool nearer, std::uint8_t held, std::vector<LegalAnswer>& to) {
     a.stencil = face == nullptr ? held : stencil_after(*face, nearer, held);
@@ -135,84 +102,191 @@ void draw(const Hit& hit, bool certain, const StencilFace* face, DepthFormat for
     if (!test.may_pass) continue;
     put(answer(hit, hit.depth_mask ? test.passed : test.under), true, held.stencil, won);
   }
-  winners = std::move(left);
-  for (const LegalAnswer& a : won) add(a, winners);
+  for (const LegalAnswer& a : won) add(a, left);
+  return left;
 }
 
-void draw(const Hit& hit, bool certain, DepthFormat format, std::vector<LegalAnswer>& winners) {
-  if (!hit.alpha_passes) return;
-  certain = certain && !hit.alpha_fails;
-  std::vector<LegalAnswer> other = hit.or_stencil == nullptr ? std::vector<LegalAnswer>{} : winners;
-  draw(hit, certain, hit.stencil, format, winners);
-  if (hit.or_stencil == nullptr) return;
-  draw(hit, certain, hit.or_stencil, format, other);
-  for (const LegalAnswer& a : other) add(a, winners);
-}
+using Group = std::vector<std::size_t>;  // indices of its hits
 
-/// `chosen`: per hit, whether it counts as certain besides those that are.
-void fold(std::span<const Hit> hits, const std::vector<bool>& chosen, const FrameFormat& frame,
-          std::vector<LegalAnswer>& winners) {
-  winners.assign(1, background(frame));
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    draw(hits[i], hits[i].certain || (!chosen.empty() && chosen[i]), frame.depth, winners);
-    if (hits[i].twice && hits[i].stencil != nullptr) draw(hits[i], false, frame.depth, winners);
-  }
-}
-
-/// The members of each group, as indices into `hits`.
-std::vector<std::vector<std::size_t>> groups_of(std::span<const Hit> hits) {
-  std::vector<std::vector<std::size_t>> groups;
+/// The hits of each group, by its number.
+std::vector<Group> groups_of(std::span<const Hit> hits) {
+  std::vector<Group> groups;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].group < 0) continue;
-    const auto same = [&](const std::vector<std::size_t>& g) { return hits[g.front()].group == hits[i].group; };
-    const auto found = std::find_if(groups.begin(), groups.end(), same);
-    if (found == groups.end()) {
-      groups.push_back({i});
-    } else {
-      found->push_back(i);
-    }
+    const auto number = static_cast<std::size_t>(hits[i].group);
+    if (number >= groups.size()) groups.resize(number + 1);
+    groups[number].push_back(i);
   }
   return groups;
 }
 
-void unite(const std::vector<LegalAnswer>& more, std::vector<LegalAnswer>& all) {
-  for (const LegalAnswer& a : more) {
-    const auto key = [](const LegalAnswer& l) { return std::pair(l.primitive, l.stencil); };
-    const auto at = std::ranges::lower_bound(all, key(a), {}, key);
-    if (at == all.end() || key(*at) != key(a)) {
-      all.insert(at, a);
+/// The union of two sets of winners, in draw order; of one winner, the hull of its depths.
+std::vector<LegalAnswer> united(const std::vector<LegalAnswer>& a, const std::vector<LegalAnswer>& b) {
+  const auto key = [](const LegalAnswer& l) { return std::pair(l.primitive, l.stencil); };
+  std::vector<LegalAnswer> out = a;
+  out.insert(out.end(), b.begin(), b.end());
+  std::ranges::stable_sort(out, {}, key);
+  std::size_t kept = 0;
+  for (const LegalAnswer& l : out) {
+    if (kept > 0 && key(out[kept - 1]) == key(l)) {
+      out[kept - 1].z_lo = std::min(out[kept - 1].z_lo, l.z_lo);
+      out[kept - 1].z_hi = std::max(out[kept - 1].z_hi, l.z_hi);
     } else {
-      at->z_lo = std::min(at->z_lo, a.z_lo);
-      at->z_hi = std::max(at->z_hi, a.z_hi);
+      out[kept++] = l;
     }
   }
+  out.resize(kept);
+  return out;
 }
+
+/// Folds where it is open which hit of each group is the certain one: from a group's first hit to its last, a branch
+/// for each. Groups that overlap multiply their branches; beyond kMostBranches the hits of a group are merely possible.
+class BranchedFold {
+ public:
+  explicit BranchedFold(const FrameFormat& frame) : branches_{{{}, LegalFold(frame)}} {}
+
+  void open(const Group& group) {
+    if (branches_.size() * group.size() > kMostBranches) return;
+    open_.push_back(&group);
+    std::vector<Branch> more;
+    for (const Branch& branch : branches_) {
+      for (const std::size_t member : group) {
+        more.push_back(branch);
+        more.back().chosen.push_back(member);
+      }
+    }
+    branches_ = std::move(more);
+  }
+  void draw(const Hit& hit, std::size_t index) {
+    for (Branch& branch : branches_) {
+      branch.fold.draw(hit, hit.certain || std::ranges::find(branch.chosen, index) != branch.chosen.end());
+    }
+  }
+  void close(const Group& group) {
+    const auto at = std::ranges::find(open_, &group);
+    if (at == open_.end()) return;
+    const auto place = at - open_.begin();
+    open_.erase(at);
+    std::vector<Branch> fewer;
+    for (Branch& branch : branches_) {
+      branch.chosen.erase(branch.chosen.begin() + place);
+      const auto same = std::ranges::find(fewer, branch.chosen, &Branch::chosen);
+      if (same == fewer.end()) {
+        fewer.push_back(std::move(branch));
+      } else {
+        same->fold.set(united(same->fold.winners(), branch.fold.winners()));
+      }
+    }
+    branches_ = std::move(fewer);
+  }
+  /// After the last group was closed.
+  const std::vector<LegalAnswer>& winners() const { return branches_.front().fold.winners(); }
+
+ private:
+  struct Branch {
+    std::vector<std::size_t> chosen;  ///< of each open group
+    LegalFold fold;
+  };
+  std::vector<const Group*> open_;
+  std::vector<Branch> branches_;
+};
 
 }  // namespace
 
-void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out) {
-  out.clear();
-  const bool grouped = std::any_of(hits.begin(), hits.end(), [](const Hit& hit) { return hit.group >= 0; });
-  if (!grouped) return fold(hits, {}, frame, out);
+LegalFold::LegalFold(const FrameFormat& frame) : format_(frame.depth), background_(background(frame)) { clear(); }
 
-  std::vector<std::vector<std::size_t>> groups = groups_of(hits);
-  std::size_t combinations = 1, told_apart = 0;
-  while (told_apart < groups.size() && combinations * groups[told_apart].size() <= kMostCombinations) {
-    combinations *= groups[told_apart++].size();
+void LegalFold::clear() {
+  winners_.clear();
+  runs_.clear();
+  one_stencil_ = true;
+  add(background_);
+}
+
+void LegalFold::add(const LegalAnswer& winner) {
+  if (runs_.empty() || runs_.back().z_lo != winner.z_lo || runs_.back().z_hi != winner.z_hi) {
+    runs_.push_back({winners_.size(), winner.z_lo, winner.z_hi});
   }
-  groups.resize(told_apart);  // the members of the others are merely possible
-  std::vector<LegalAnswer> winners;
-  std::vector<bool> chosen(hits.size());
-  for (std::size_t combination = 0; combination < combinations; ++combination) {
-    chosen.assign(hits.size(), false);
-    std::size_t rest = combination;
-    for (const std::vector<std::size_t>& group : groups) {
-      chosen[group[rest % group.size()]] = true;
-      rest /= group.size();
+  winners_.push_back(winner);
+}
+
+void LegalFold::set(const std::vector<LegalAnswer>& winners) {
+  winners_.clear();
+  runs_.clear();
+  for (const LegalAnswer& a : winners) add(a);
+  one_stencil_ = std::ranges::all_of(winners_, [&](const LegalAnswer& a) { return a.stencil == winners_[0].stencil; });
+}
+
+void LegalFold::draw_in_runs(const Hit& hit, bool certain) {
+  bool may_win = false;
+  Interval won{0, 0};
+  const std::uint8_t stencil = winners_.empty() ? 0 : winners_.front().stencil;
+  std::size_t kept = 0, kept_runs = 0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    Run run = runs_[r];
+    const std::size_t first = run.first, last = r + 1 < runs_.size() ? runs_[r + 1].first : winners_.size();
+    const double step = depth_step(format_, std::max(hit.z_hi, run.z_hi));
+    const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {run.z_lo, run.z_hi}, step);
+    if (test.may_pass) {
+      const Interval left = hit.depth_mask ? test.passed : test.under;
+      won = may_win ? Interval{std::min(won.lo, left.lo), std::max(won.hi, left.hi)} : left;
+      may_win = true;
     }
-    fold(hits, chosen, frame, winners);
-    unite(winners, out);
+    if (certain && !test.may_fail) continue;
+    const bool narrower = certain && (test.failed.lo != run.z_lo || test.failed.hi != run.z_hi);
+    run.first = kept;
+    if (certain) {  // they stay only by the hit's failing
+      run.z_lo = test.failed.lo;
+      run.z_hi = test.failed.hi;
+    }
+    if (narrower || kept != first) {
+      for (std::size_t i = first; i < last; ++i) {
+        winners_[kept + i - first] = winners_[i];
+        winners_[kept + i - first].z_lo = run.z_lo;
+        winners_[kept + i - first].z_hi = run.z_hi;
+      }
+    }
+    kept += last - first;
+    runs_[kept_runs++] = run;
   }
+  winners_.resize(kept);
+  runs_.resize(kept_runs);
+  if (!may_win) return;
+  LegalAnswer winner = answer(hit, won);
+  winner.stencil = stencil;
+  add(winner);
+}
+
+void LegalFold::draw(const Hit& hit, bool certain, const StencilFace* face) {
+  if (face == nullptr && one_stencil_) return draw_in_runs(hit, certain);
+  set(drawn_by_stencil(hit, certain, face, format_, winners_));
+}
+
+void LegalFold::draw_either_side(const Hit& hit, bool certain) {
+  if (hit.or_stencil == nullptr) return draw(hit, certain, hit.stencil);
+  std::vector<LegalAnswer> other = drawn_by_stencil(hit, certain, hit.or_stencil, format_, winners_);
+  draw(hit, certain, hit.stencil);
+  std::vector<LegalAnswer> both = winners_;
+  for (const LegalAnswer& a : other) plumbline::add(a, both);
+  set(both);
+}
+
+void LegalFold::draw(const Hit& hit, bool certain) {
+  if (!hit.alpha_passes) return;
+  certain = certain && !hit.alpha_fails;
+  draw_either_side(hit, certain);
+  if (hit.twice && hit.stencil != nullptr) draw_either_side(hit, false);
+}
+
+void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out) {
+  const std::vector<Group> groups = groups_of(hits);
+  BranchedFold fold(frame);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Group* group = hits[i].group < 0 ? nullptr : &groups[static_cast<std::size_t>(hits[i].group)];
+    if (group != nullptr && group->front() == i) fold.open(*group);
+    fold.draw(hits[i], i);
+    if (group != nullptr && group->back() == i) fold.close(*group);
+  }
+  out = fold.winners();
 }
 
 }  // namespace plumbline

@@ -45,9 +45,42 @@ struct LegalAnswer {
   std::uint8_t stencil = 0;
 };
 
+/// The legal winners of one pixel while its hits are drawn, in draw order. Time per hit: the number of different depth
+/// intervals among the winners; with stencil values, the square of the number of winners.
+class LegalFold {
+ public:
+  explicit LegalFold(const FrameFormat& frame);
+  /// The cleared frame again. Memory is kept.
+  void clear();
+  /// Draws a hit that counts as certain only if `certain`.
+  void draw(const Hit& hit, bool certain);
+  /// Goes on from these winners.
+  void set(const std::vector<LegalAnswer>& winners);
+  /// In draw order, the background first; one for each stencil value that may go with it.
+  const std::vector<LegalAnswer>& winners() const { return winners_; }
+
+ private:
+  /// Winners of equal depth intervals, one after another: the depth test treats them alike.
+  struct Run {
+    std::size_t first;
+    double z_lo, z_hi;
+  };
+
+  void draw_either_side(const Hit& hit, bool certain);
+  void draw(const Hit& hit, bool certain, const StencilFace* face);
+  void draw_in_runs(const Hit& hit, bool certain);
+  void add(const LegalAnswer& winner);
+
+  DepthFormat format_;
+  LegalAnswer background_;
+  std::vector<LegalAnswer> winners_;
+  std::vector<Run> runs_;    ///< of winners_
+  bool one_stencil_ = true;  ///< all winners stand beside one stencil value
+};
+
 /// All legal winners of a pixel, in draw order, the background first; one for each stencil value that may go with it.
-/// `hits` in draw order (ascending primitive). A depth within `step` of another may compare either way. `out` is
-/// emptied first.
+/// `hits` in draw order (ascending primitive), groups numbered from 0 on. A depth within `step` of another may compare
+/// either way. `out` is emptied first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
 /// What a fragment's texel may be where its level of detail is taken for four pixels at a time, by a logarithm that is
