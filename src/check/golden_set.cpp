@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "base/supervise.h"
 #include "stages/atomic_path.h"
 #include "stages/image_file.h"
 
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kManifest = "manifest.json";
 constexpr const char* kTolerances = "tolerances.json";  // beside the goldens of the suite
+constexpr const char* kReadme = "README.md";            // likewise
 
 // "color.0123456789abcdef.png", and what AtomicPath writes before it has a name.
 bool is_ours(const fs::path& file) {
@@ -50,7 +52,7 @@ std::string bytes_of(const fs::path& file) {
 void require_empty(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name == kTolerances || name.starts_with(".plumb-")) continue;
+    if (name == kTolerances || name == kReadme || name.starts_with(".plumb-")) continue;
     throw GoldenError(fmt::format("{}: expected goldens, or an empty folder; there is {}, and no {}", folder.string(),
                                   name, kManifest));
   }
@@ -116,7 +118,7 @@ Fingerprint GoldenSet::load(const std::string& scene, const FrameFormat& frame) 
 }
 
 GoldenSet::Strays GoldenSet::strays() const {
-  std::set<std::string> named = {kManifest, kTolerances};
+  std::set<std::string> named = {kManifest, kTolerances, kReadme};
   for (const auto& [name, golden] : manifest_.scenes) {
     for (const auto& [kind, file] : golden.files) named.insert(file.file);
   }
@@ -137,6 +139,7 @@ GoldenSet::Strays GoldenSet::strays() const {
 
 void GoldenSet::write(GoldenManifest next, const std::map<std::string, std::string>& files) {
   const std::string text = manifest_text(next);
+  const EndsLater whole;
   // A new set is one of nothing before it is one of files: should this be killed, they are known for its leftovers.
   if (!fs::exists(folder_ / kManifest)) write_file(folder_ / kManifest, manifest_text({}));
   for (const auto& [name, bytes] : files) {

@@ -4,7 +4,6 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/signalfd.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -139,31 +138,6 @@ std::string how_ended(int status, bool hung, milliseconds limit) {
   return fmt::format("ended its process with status {}", WEXITSTATUS(status));
 }
 
-// The signals that end a process wait, so that its workers are ended first.
-class EndSignals {
- public:
-  EndSignals() {
-    ::sigemptyset(&held_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&held_, signal);
-    ::pthread_sigmask(SIG_BLOCK, &held_, &before_);
-    file_ = ::signalfd(-1, &held_, SFD_CLOEXEC | SFD_NONBLOCK);
-  }
-  ~EndSignals() {
-    ::close(file_);
-    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);  // one that came ends this process here
-  }
-  EndSignals(const EndSignals&) = delete;
-  EndSignals& operator=(const EndSignals&) = delete;
-  int file() const { return file_; }
-  const sigset_t& before() const { return before_; }
-
- private:
-  sigset_t held_{}, before_{};
-  int file_ = -1;
-};
-
-struct Interrupted {};
-
 }  // namespace
 
 struct Workers::Worker {
@@ -180,7 +154,7 @@ struct Workers::Run {
   WorkerLimits limits;
   std::function<Answer(Progress&)> make;
 
-  void start(Worker& worker, const sigset_t& mask) {
+  void start(Worker& worker) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
       throw std::runtime_error(fmt::format("no socket for a worker process: {}", std::strerror(errno)));
@@ -192,13 +166,12 @@ struct Workers::Run {
     std::fflush(nullptr);
     worker.pid = ::fork();
     if (worker.pid == 0) {
-      ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (::getppid() != parent) _exit(0);
       for (const Worker& other : workers) {
         if (other.socket >= 0) ::close(other.socket);
       }
       ::close(ends[0]);
-      ::pthread_sigmask(SIG_SETMASK, &mask, nullptr);
       be_worker(ends[1], limits, worker.progress, make);
     }
     ::close(ends[1]);
@@ -219,19 +192,18 @@ struct Workers::Run {
     return status;
   }
 
-  void end_all(int signal) {
+  ~Run() {
     for (Worker& worker : workers) {
-      if (worker.pid > 0) ::kill(worker.pid, signal);
+      if (worker.pid > 0) ::kill(worker.pid, SIGKILL);
     }
     for (Worker& worker : workers) {
       if (worker.pid > 0) reap(worker);
     }
   }
-  ~Run() { end_all(SIGKILL); }
 
   // Until one of the workers has something to say, or takes too long.
-  void wait(int signals) {
-    std::vector<pollfd> files = {{signals, POLLIN, 0}};
+  void wait() {
+    std::vector<pollfd> files;
     milliseconds most{60'000};
     for (const Worker& worker : workers) {
       files.push_back({worker.job ? worker.socket : -1, POLLIN, 0});
@@ -242,23 +214,22 @@ struct Workers::Run {
     if (::poll(files.data(), files.size(), static_cast<int>(pause)) < 0 && errno != EINTR) {
       throw std::runtime_error(fmt::format("worker processes: {}", std::strerror(errno)));
     }
-    if ((files[0].revents & POLLIN) != 0) throw Interrupted{};
     for (std::size_t i = 0; i < workers.size(); ++i) {
       Worker& worker = workers[i];
-      readable_[i] = worker.job && files[i + 1].revents != 0;
+      readable_[i] = worker.job && files[i].revents != 0;
       if (!worker.job || readable_[i] || worker.hung || worker.progress.left() >= milliseconds(0)) continue;
       worker.hung = true;
       ::kill(worker.pid, SIGKILL);
     }
   }
 
-  void run(const WorkerJobs& jobs, const EndSignals& signals);
+  void run(const WorkerJobs& jobs);
 
  private:
   std::vector<char> readable_;
 };
 
-void Workers::Run::run(const WorkerJobs& jobs, const EndSignals& signals) {
+void Workers::Run::run(const WorkerJobs& jobs) {
   struct Job {
     std::string request;
     std::optional<std::string> answer;
@@ -284,11 +255,11 @@ void Workers::Run::run(const WorkerJobs& jobs, const EndSignals& signals) {
   while (taken < n) {
     for (Worker& worker : workers) {
       if (worker.job || !(worker.job = next_job())) continue;
-      if (worker.pid < 0) start(worker, signals.before());
+      if (worker.pid < 0) start(worker);
       worker.progress.end(limits.step);
       send_message(worker.socket, all[*worker.job].request);  // one that is gone is seen below
     }
-    wait(signals.file());
+    wait();
     for (std::size_t i = 0; i < workers.size(); ++i) {
       if (!readable_[i]) continue;
       Worker& worker = workers[i];
@@ -323,13 +294,6 @@ Workers::Workers(std::size_t count, const WorkerLimits& limits, std::function<An
 }
 Workers::~Workers() = default;
 
-void Workers::run(const WorkerJobs& jobs) {
-  const EndSignals signals;
-  try {
-    run_->run(jobs, signals);
-  } catch (const Interrupted&) {
-    run_->end_all(SIGTERM);
-  }
-}
+void Workers::run(const WorkerJobs& jobs) { run_->run(jobs); }
 
 }  // namespace plumbline

@@ -53,8 +53,8 @@ struct WorkerJobs {
   std::function<std::string(std::size_t, const WorkerEnd&)> ask_again;  ///< the request for the next worker
 };
 
-/// Workers are copies (fork) of a parent that must have no threads. The parent's own ends, and what it prints, are not
-/// theirs. SIGINT, SIGTERM and SIGHUP end the workers before the parent.
+/// Workers are copies (fork) of a parent that must have no threads. The kernel kills them when the parent ends, however
+/// it ends.
 class Workers {
  public:
   using Answer = std::function<std::string(const std::string& request)>;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <memory>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,33 +18,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that no other thread or call uses, short whatever the target's.
-fs::path beside(const fs::path& target) {
-  const auto ticks = std::chrono::steady_clock::now().time_since_epoch().count();
-  return target.parent_path() / fmt::format(".plumb-{}-{}", ::gettid(), ticks);
-}
+constexpr std::string_view kPrefix = ".plumb-";
 
 /// Turns the errors of <filesystem>, which name other paths than the user did, into ours.
 template <class Act>
 auto reported(const fs::path& named, Act act) {
   try {
     return act();
-  } catch (const fs::filesystem_error& error) {
+  } catch (const std::system_error& error) {  // a filesystem_error too
     throw OutputError(named, error.code().message());
+  }
+}
+
+void write_all(int file, const fs::path& named, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written >= 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (written < 0 && errno != EINTR) throw OutputError(named, std::strerror(errno));
   }
 }
 
 void make_file(const fs::path& path, const fs::path& named, std::string_view bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0) throw OutputError(named, std::strerror(errno));
-  int error = 0;
-  while (!bytes.empty() && error == 0) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written >= 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-    if (written < 0 && errno != EINTR) error = errno;
+  try {
+    write_all(file, named, bytes);
+  } catch (...) {
+    ::close(file);
+    throw;
   }
-  if (::close(file) != 0 && error == 0) error = errno;
-  if (error != 0) throw OutputError(named, std::strerror(error));
+  if (::close(file) != 0) throw OutputError(named, std::strerror(errno));
 }
 
 }  // namespace
@@ -65,13 +70,13 @@ fs::path resolved(const fs::path& path) {
   });
 }
 
-AtomicPath::AtomicPath(const fs::path& target) : named_(target), target_(resolved(target)), path_(beside(target_)) {}
+AtomicPath::AtomicPath(const fs::path& target) : named_(target), target_(resolved(target)) {}
 
 AtomicPath::~AtomicPath() {
+  temporary_.reset();
   std::error_code ignored;
-  fs::remove_all(path_, ignored);
   while (!made_.empty()) {  // those that stayed empty
-    fs::remove(made_.back(), ignored);
+    fs::remove(made_.back().path, ignored);
     made_.pop_back();
   }
 }
@@ -89,16 +94,17 @@ void AtomicPath::require_folder() const {
 }
 
 void AtomicPath::write(std::string_view bytes) {
-  reported(named_, [&] { require_file(); });
-  make_file(path_, named_, bytes);
   reported(named_, [&] {
+    require_file();
+    temporary_.emplace(target_.parent_path(), kPrefix, TemporaryPath::Kind::file);
+    write_all(temporary_->descriptor(), named_, bytes);
     const fs::file_status old = fs::status(target_);
-    if (fs::exists(old)) fs::permissions(path_, old.permissions());  // what is private stays so
+    if (fs::exists(old)) fs::permissions(temporary_->path(), old.permissions());  // what is private stays so
   });
 }
 
 void AtomicPath::write_inside(const fs::path& name, std::string_view bytes) {
-  const fs::path file = path_ / name;
+  const fs::path file = temporary_->path() / name;
   reported(named_ / name, [&] { fs::create_directories(file.parent_path()); });
   make_file(file, named_ / name, bytes);
 }
@@ -108,34 +114,43 @@ void AtomicPath::make_folder() {
   reported(named_, [&] {
     require_folder();
     std::vector<fs::path> missing;
-    for (fs::path above = path_.parent_path(); !fs::exists(above); above = above.parent_path())
+    for (fs::path above = target_.parent_path(); !fs::exists(above); above = above.parent_path())
       missing.push_back(above);
     std::reverse(missing.begin(), missing.end());
     for (const fs::path& folder : missing) {
-      if (fs::create_directory(folder)) made_.push_back(folder);
+      RemovedAtEnd removed(folder, RemovedAtEnd::What::empty_folder);  // before it is there
+      if (fs::create_directory(folder)) made_.push_back({folder, std::move(removed)});
     }
-    fs::create_directory(path_);
+    temporary_.emplace(target_.parent_path(), kPrefix, TemporaryPath::Kind::folder);
   });
+}
+
+/// The old folder takes the temporary one's name in the same moment, and is removed with it.
+void AtomicPath::replace_folder() {
+  const fs::path& path = temporary_->path();
+  if (::renameat2(AT_FDCWD, path.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) throw std::system_error(errno, std::generic_category());
+  const EndsLater whole;  // a file system that cannot exchange: two renames
+  const TemporaryPath old(target_.parent_path(), kPrefix, TemporaryPath::Kind::folder);
+  fs::rename(target_, old.path());
+  try {
+    fs::rename(path, target_);
+  } catch (...) {
+    fs::rename(old.path(), target_);
+    throw;
+  }
 }
 
 void AtomicPath::commit() {
   reported(named_, [&] {
     is_folder_ ? require_folder() : require_file();
-    if (!is_folder_ || !fs::exists(target_)) {
-      fs::rename(path_, target_);
+    if (is_folder_ && fs::exists(target_)) {
+      replace_folder();
     } else {
-      const fs::path old = beside(target_);
-      fs::rename(target_, old);
-      try {
-        fs::rename(path_, target_);
-      } catch (...) {
-        fs::rename(old, target_);
-        throw;
-      }
-      std::error_code ignored;
-      fs::remove_all(old, ignored);
+      fs::rename(temporary_->path(), target_);
     }
     made_.clear();
+    temporary_.reset();
   });
 }
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <span>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
+
+#include "base/temporary_path.h"
 
 namespace plumbline {
 
@@ -19,8 +22,9 @@ struct OutputError : std::runtime_error {
 /// Throws OutputError, as all below do.
 std::filesystem::path resolved(const std::filesystem::path& path);
 
-/// A file or folder under a hidden name beside the target; commit() renames it to the target. Without a commit whatever
-/// was written is removed. A link as the target stays, what it points to is replaced.
+/// A file or folder under a hidden name beside the target; commit() renames it to the target. Without a commit, whatever
+/// was written is removed, also where the program is killed (base/temporary_path.h). A link as the target stays, what it
+/// points to is replaced.
 class AtomicPath {
  public:
   explicit AtomicPath(const std::filesystem::path& target);
@@ -39,11 +43,19 @@ class AtomicPath {
   void commit();
 
  private:
+  /// A folder above the target that was not there before.
+  struct MadeFolder {
+    std::filesystem::path path;
+    RemovedAtEnd removed;
+  };
+
   void require_file() const;
   void require_folder() const;
+  void replace_folder();
 
-  std::filesystem::path named_, target_, path_;
-  std::vector<std::filesystem::path> made_;  // folders above the target, the outermost first
+  std::filesystem::path named_, target_;
+  std::vector<MadeFolder> made_;  ///< the outermost first
+  std::optional<TemporaryPath> temporary_;
   bool is_folder_ = false;
 };
 

@@ -1,8 +1,5 @@
 #include "stages/process_renderer.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,12 +10,14 @@
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
-#include <thread>
+#include <system_error>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/program.h"
+#include "base/temporary_path.h"
 #include "stages/capture_folder.h"
 
 namespace plumbline {
@@ -26,64 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A fresh folder, removed in the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "plumbline-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw RendererFailed(fmt::format("{}: cannot be made: {}", name, std::strerror(errno)));
-    }
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-/// SIGINT, SIGTERM and SIGHUP wait until this thread has cleaned up: the process and its folder are gone before we are.
-class HeldSignals {
- public:
-  HeldSignals() {
-    ::sigemptyset(&held_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&held_, signal);
-    ::pthread_sigmask(SIG_BLOCK, &held_, &before_);
-  }
-  ~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  HeldSignals(const HeldSignals&) = delete;
-  HeldSignals& operator=(const HeldSignals&) = delete;
-  const sigset_t& before() const { return before_; }
-  bool any_came() const {
-    sigset_t pending;
-    if (::sigpending(&pending) != 0) return false;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-      if (::sigismember(&pending, signal) == 1 && ::sigismember(&before_, signal) == 0) return true;
-    }
-    return false;
-  }
-
- private:
-  sigset_t held_{}, before_{};
-};
-
 std::string replaced(std::string text, std::string_view what, std::string_view by) {
   for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += by.size()) text.replace(at, what.size(), by);
   return text;
-}
-
-/// The strings as execve wants them.
-std::vector<char*> pointers(std::vector<std::string>& strings) {
-  std::vector<char*> out;
-  for (std::string& s : strings) out.push_back(s.data());
-  out.push_back(nullptr);
-  return out;
 }
 
 std::vector<std::string> merged_environment(const std::map<std::string, std::string>& extra) {
@@ -96,58 +40,30 @@ std::vector<std::string> merged_environment(const std::map<std::string, std::str
   return all;
 }
 
-/// Starts a process as the head of a group of its own: nothing to read, stdout thrown away, stderr into `log`, signals
-/// as they were before we held them. Returns 0 or an errno.
-int spawn(std::vector<std::string> argv, std::vector<std::string> environment, const fs::path& log,
-          const HeldSignals& signals, pid_t& pid) {
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawnattr_init(&attributes);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
-  posix_spawnattr_setsigmask(&attributes, &signals.before());
-  posix_spawnattr_setpgroup(&attributes, 0);
-  const int error =
-      ::posix_spawnp(&pid, argv[0].c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
-}
-
 /// How a process ended: its exit status, or in words what else came. Of another status than 0, in words as well.
 struct Ending {
   std::string words;
   int status = 0;
 };
 
-/// Waits for a process' end. Its whole group is gone afterwards.
-Ending wait_for(pid_t pid, std::chrono::milliseconds timeout, const HeldSignals& signals) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point deadline = Clock::now() + timeout;
-  std::chrono::milliseconds pause{1};
-  siginfo_t info{};
-  // WNOWAIT: it stays a zombie, and its number its own, until its group is killed.
-  while (::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) == 0 || errno == EINTR) {
-    if (info.si_pid != 0 || Clock::now() >= deadline || signals.any_came()) break;
-    std::this_thread::sleep_for(pause);
-    pause = std::min(pause * 2, std::chrono::milliseconds{20});
+Ending ending_of(const ProgramEnd& end, std::chrono::milliseconds limit) {
+  if (end.start_error != 0) return {fmt::format("cannot be started: {}", std::strerror(end.start_error))};
+  if (end.hung) return {fmt::format("took longer than {} and was killed", limit)};
+  if (WIFSIGNALED(end.status)) {
+    return {fmt::format("was killed by signal {} ({})", WTERMSIG(end.status), ::strsignal(WTERMSIG(end.status)))};
   }
-  const bool hung = info.si_pid == 0;
-  ::kill(-pid, SIGKILL);
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0) {
-    if (errno != EINTR) return {fmt::format("could not be waited for: {}", std::strerror(errno))};
+  if (WEXITSTATUS(end.status) == 0) return {};
+  return {fmt::format("exited with status {}", WEXITSTATUS(end.status)), WEXITSTATUS(end.status)};
+}
+
+/// A folder for one run, which other users cannot read.
+std::unique_ptr<TemporaryPath> temporary_folder() {
+  try {
+    return std::make_unique<TemporaryPath>(fs::temp_directory_path(), "plumbline-",
+                                           TemporaryPath::Kind::private_folder);
+  } catch (const std::system_error& error) {
+    throw RendererFailed(fmt::format("no temporary folder: {}", error.code().message()));
   }
-  if (hung && signals.any_came()) return {"was killed, for we were told to end"};
-  if (hung) return {fmt::format("took longer than {} and was killed", timeout)};
-  if (WIFSIGNALED(status)) {
-    return {fmt::format("was killed by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))};
-  }
-  if (WEXITSTATUS(status) == 0) return {};
-  return {fmt::format("exited with status {}", WEXITSTATUS(status)), WEXITSTATUS(status)};
 }
 
 /// The last lines of a file, of which not more than the last few KiB are read.
@@ -213,9 +129,8 @@ class ProcessRenderer : public Renderer {
       throw Unsupported(fmt::format("{}: the passes of an antialiased scene stand in no file", spec_.name));
     }
     require_budget(scene, plane_bytes(scene), request.memory_budget);
-    const HeldSignals signals;
-    const TemporaryFolder temporary;
-    const fs::path folder = temporary.path() / "capture", log = temporary.path() / "stderr.txt";
+    const std::unique_ptr<TemporaryPath> temporary = temporary_folder();
+    const fs::path folder = temporary->path() / "capture", log = temporary->path() / "stderr.txt";
     fs::create_directory(folder);
 
     std::vector<std::string> argv = spec_.argv;
@@ -223,11 +138,8 @@ class ProcessRenderer : public Renderer {
       argument =
           replaced(replaced(argument, "{folder}", folder.string()), "{scene}", fs::absolute(scene.path).string());
     }
-    pid_t pid = 0;
-    if (const int error = spawn(argv, merged_environment(spec_.environment), log, signals, pid); error != 0) {
-      fail(argv, fmt::format("cannot be started: {}", std::strerror(error)), log);
-    }
-    const Ending ending = wait_for(pid, spec_.timeout, signals);
+    const Ending ending =
+        ending_of(run_program({argv, merged_environment(spec_.environment), log, spec_.timeout}), spec_.timeout);
     if (ending.status == kUnsupportedStatus) {
       const std::string reason = last_lines(log, 1);
       throw Unsupported(reason.empty() ? fmt::format("{}: {}, and gave no reason", spec_.name, ending.words) : reason);

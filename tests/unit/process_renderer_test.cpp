@@ -11,6 +11,7 @@
 #include <fstream>
 #include <thread>
 
+#include "base/supervise.h"
 #include "stages/capture_folder.h"
 #include "test_folder.h"
 
@@ -161,12 +162,65 @@ TEST_F(Process, KillsAHangingProgramAndAllThatItStarted) {
   EXPECT_TRUE(dies(child));
 }
 
+// A process in a session of its own, which has left the program's process group.
+TEST_F(Process, KillsWhatLeftTheProgramsSession) {
+  const fs::path pid_file = root_ / "pid";
+  const auto renderer = [&](const std::string& last) {
+    return make_process_renderer(
+        {.name = "outside",
+         .version = "",
+         .argv = {"sh", "-c", "setsid sh -c 'echo $$ > \"" + pid_file.string() + "\"; exec sleep 60' & " + last},
+         .environment = {},
+         .timeout = std::chrono::milliseconds{2000},
+         .shows = {}});
+  };
+  for (const std::string& last :
+       std::vector<std::string>{"sleep 60", "while [ ! -s '" + pid_file.string() + "' ]; do :; done; exit 1"}) {
+    fs::remove(pid_file);
+    failure(renderer(last));
+    pid_t child = 0;
+    std::ifstream(pid_file) >> child;
+    ASSERT_GT(child, 1) << last;
+    EXPECT_TRUE(dies(child)) << last;
+  }
+}
+
+TEST_F(Process, KilledItTakesTheProgramAlong) {
+  const fs::path pid_file = root_ / "pid";
+  const pid_t self = ::fork();
+  ASSERT_GE(self, 0);
+  if (self == 0) {
+    supervise();
+    try {
+      make_process_renderer(
+          {.name = "outside",
+           .version = "",
+           .argv = {"sh", "-c", "setsid sh -c 'echo $$ > \"" + pid_file.string() + "\"; exec sleep 60' & sleep 60"},
+           .environment = {},
+           .shows = {}})
+          ->capture(scene_, {});
+    } catch (...) {
+    }
+    ::_exit(0);  // not reached
+  }
+  pid_t program = 0;
+  for (int i = 0; i < 500 && program == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    std::ifstream(pid_file) >> program;
+  }
+  ASSERT_GT(program, 1);
+  ASSERT_EQ(::kill(self, SIGKILL), 0);
+  ASSERT_EQ(::waitpid(self, nullptr, 0), self);
+  EXPECT_TRUE(dies(program));
+}
+
 TEST_F(Process, AnEndFromOutsideLeavesNeitherProgramNorFolder) {
   const fs::path pid_file = root_ / "pid", temporary = root_ / "temporary";
   fs::create_directory(temporary);
   const pid_t self = ::fork();
   ASSERT_GE(self, 0);
   if (self == 0) {
+    supervise();  // as the program does
     ::setenv("TMPDIR", temporary.c_str(), 1);
     try {
       make_process_renderer({.name = "outside",
@@ -177,7 +231,7 @@ TEST_F(Process, AnEndFromOutsideLeavesNeitherProgramNorFolder) {
           ->capture(scene_, {});
     } catch (...) {
     }
-    ::_exit(0);  // not reached: the signal comes once the folder is gone
+    ::_exit(0);  // not reached
   }
   pid_t program = 0;
   for (int i = 0; i < 500 && program == 0; ++i) {

@@ -1,0 +1,136 @@
+#include "base/program.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <ctime>
+#include <system_error>
+
+#include "base/supervise.h"
+
+namespace plumbline {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The strings as execve wants them.
+std::vector<char*> pointers(std::vector<std::string>& strings) {
+  std::vector<char*> out;
+  for (std::string& s : strings) out.push_back(s.data());
+  out.push_back(nullptr);
+  return out;
+}
+
+void open_as(int descriptor, const char* path, int flags) {
+  const int file = ::open(path, flags, 0600);
+  if (file < 0) return;
+  ::dup2(file, descriptor);
+  if (file != descriptor) ::close(file);
+}
+
+/// Becomes the program. Returns errno where there is none.
+int become(const ProgramCall& call, char** argv, char** environment, pid_t guardian) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != guardian) ::_exit(1);
+  for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  open_as(STDIN_FILENO, "/dev/null", O_RDONLY);
+  open_as(STDOUT_FILENO, "/dev/null", O_WRONLY);
+  open_as(STDERR_FILENO, call.error_log.c_str(), O_WRONLY | O_CREAT | O_APPEND);
+  ::execvpe(argv[0], argv, environment);
+  return errno;
+}
+
+timespec until(Clock::time_point deadline) {
+  const auto left = std::max(Clock::duration::zero(), deadline - Clock::now());
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
+  return {static_cast<time_t>(seconds.count()), static_cast<long>(std::chrono::nanoseconds(left - seconds).count())};
+}
+
+/// Waits for the program's end, its time's, or SIGTERM: our parent's.
+ProgramEnd wait_for(pid_t program, Clock::time_point deadline, const sigset_t& waited) {
+  ProgramEnd end;
+  while (true) {
+    pid_t ended;
+    int status = 0;
+    while ((ended = ::waitpid(-1, &status, WNOHANG)) > 0) {
+      if (ended != program) continue;
+      end.status = status;
+      return end;
+    }
+    const timespec left = until(deadline);
+    const int signal = ::sigtimedwait(&waited, nullptr, &left);
+    if (signal == SIGCHLD || (signal < 0 && errno == EINTR)) continue;
+    end.hung = true;
+    return end;
+  }
+}
+
+/// A process of its own between us and the program, to which all the program's orphans come.
+[[noreturn]] void guard(const ProgramCall& call, char** argv, char** environment, pid_t parent, int answer) {
+  const Clock::time_point deadline = Clock::now() + call.time_limit;
+  sigset_t waited;
+  ::sigemptyset(&waited);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGCHLD}) ::sigaddset(&waited, signal);
+  ::sigprocmask(SIG_BLOCK, &waited, nullptr);
+  ::signal(SIGCHLD, SIG_DFL);
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(1);
+  ProgramEnd end;
+  int failure[2];
+  if (::pipe2(failure, O_CLOEXEC) != 0) {
+    end.start_error = errno;
+  } else {
+    const pid_t self = ::getpid(), program = ::fork();
+    if (program == 0) {
+      const int error = become(call, argv, environment, self);
+      [[maybe_unused]] const ssize_t told = ::write(failure[1], &error, sizeof error);
+      ::_exit(127);
+    }
+    if (program < 0) end.start_error = errno;
+    ::close(failure[1]);
+    int error = 0;
+    if (program > 0 && ::read(failure[0], &error, sizeof error) == sizeof error) end.start_error = error;
+    if (end.start_error == 0) end = wait_for(program, deadline, waited);
+    kill_children();
+  }
+  [[maybe_unused]] const ssize_t told = ::write(answer, &end, sizeof end);
+  ::_exit(0);
+}
+
+}  // namespace
+
+ProgramEnd run_program(ProgramCall call) {
+  std::vector<char*> argv = pointers(call.argv), environment = pointers(call.environment);
+  int answer[2];
+  if (::pipe2(answer, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  const pid_t parent = ::getpid(), guardian = ::fork();
+  if (guardian == 0) guard(call, argv.data(), environment.data(), parent, answer[1]);
+  const int fork_error = errno;
+  ::close(answer[1]);
+  ProgramEnd end;
+  ssize_t got = -1;
+  if (guardian > 0) {
+    while ((got = ::read(answer[0], &end, sizeof end)) < 0 && errno == EINTR) {
+    }
+    while (::waitpid(guardian, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  ::close(answer[0]);
+  if (guardian < 0) throw std::system_error(fork_error, std::generic_category(), "fork");
+  if (got != sizeof end) throw std::system_error(ECHILD, std::generic_category(), "a program's guardian");
+  return end;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,201 @@
+#include "base/supervise.h"
+
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <new>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSlots = 1024;
+constexpr std::size_t kLongestPath = 4096;  // PATH_MAX
+constexpr int kHoldMs = 60'000;
+
+enum class SlotState : int { free, filling, tree, empty_folder };
+
+/// Memory that the supervisor shares with the program and all its forks.
+struct Shared {
+  struct Slot {
+    std::atomic<SlotState> state{SlotState::free};
+    char path[kLongestPath];
+  };
+  std::array<Slot, kSlots> slots;
+  std::atomic<int> held{0};  ///< EndsLater objects
+};
+
+/// Null where nobody supervises.
+Shared*& shared() {
+  static Shared* memory = nullptr;
+  return memory;
+}
+
+/// The parent's number in /proc/PID/stat, or 0.
+pid_t parent_of(const fs::path& process) {
+  std::string stat;
+  std::getline(std::ifstream(process / "stat"), stat);
+  const std::size_t name_end = stat.rfind(')');  // the name before it may hold anything
+  if (name_end == stat.npos || name_end + 4 >= stat.size()) return 0;
+  pid_t parent = 0;
+  std::from_chars(stat.data() + name_end + 4, stat.data() + stat.size(), parent);
+  return parent;
+}
+
+std::vector<pid_t> children() {
+  std::vector<pid_t> out;
+  std::error_code error;
+  for (fs::directory_iterator entry("/proc", error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    pid_t pid = 0;
+    if (std::from_chars(name.data(), name.data() + name.size(), pid).ptr != name.data() + name.size()) continue;
+    if (parent_of(entry->path()) == ::getpid()) out.push_back(pid);
+  }
+  return out;
+}
+
+void remove_registered(Shared& memory) {
+  std::error_code ignored;
+  for (Shared::Slot& slot : memory.slots) {
+    if (slot.state == SlotState::tree) fs::remove_all(slot.path, ignored);
+  }
+  for (auto slot = memory.slots.rbegin(); slot != memory.slots.rend(); ++slot) {  // the innermost first
+    if (slot->state == SlotState::empty_folder) ::rmdir(slot->path);
+  }
+}
+
+void sleep_ms(int ms) {
+  const timespec pause{0, ms * 1'000'000L};
+  ::nanosleep(&pause, nullptr);
+}
+
+/// Waits for the program's end. Returns its wait status, and the signal by which the supervisor was told to end, or 0.
+std::pair<int, int> wait_for_program(pid_t program, const sigset_t& waited, const Shared& memory) {
+  int told = 0, status = 0;
+  while (true) {
+    const int signal = ::sigwaitinfo(&waited, nullptr);
+    if (signal > 0 && signal != SIGCHLD && told == 0) {
+      told = signal;
+      for (int ms = 0; memory.held > 0 && ms < kHoldMs; ms += 2) sleep_ms(2);
+      ::kill(program, SIGKILL);
+    }
+    pid_t ended;
+    while ((ended = ::waitpid(-1, &status, WNOHANG)) > 0) {
+      if (ended == program) return {status, told};
+    }
+    if (ended < 0 && errno == ECHILD) return {status, told};  // cannot be, for the program is a child
+  }
+}
+
+[[noreturn]] void end_by(int signal) {
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  ::signal(signal, SIG_DFL);
+  sigset_t one;
+  ::sigemptyset(&one);
+  ::sigaddset(&one, signal);
+  ::sigprocmask(SIG_UNBLOCK, &one, nullptr);
+  ::raise(signal);
+  ::_exit(128 + signal);
+}
+
+}  // namespace
+
+void kill_children() {
+  // The children of what is killed become ours, so that each round finds the next generation.
+  for (int unseen = 0; unseen < 1000 && ::waitpid(-1, nullptr, WNOHANG) >= 0;) {
+    const std::vector<pid_t> all = children();
+    for (const pid_t child : all) ::kill(child, SIGKILL);
+    if (!all.empty()) {
+      ::waitpid(-1, nullptr, 0);
+    } else {  // not in /proc yet, or there is no /proc
+      ++unseen;
+      sleep_ms(1);
+    }
+  }
+}
+
+void supervise() {
+  void* pages =
+      ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (pages == MAP_FAILED) return;
+  Shared* memory = new (pages) Shared;
+  sigset_t ends, waited, before;
+  ::sigemptyset(&ends);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::sigaddset(&ends, signal);
+  }
+  waited = ends;
+  ::sigaddset(&waited, SIGCHLD);
+  ::sigprocmask(SIG_BLOCK, &waited, &before);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  std::fflush(nullptr);
+  const pid_t parent = ::getpid(), program = ::fork();
+  if (program < 0) {
+    ::sigprocmask(SIG_SETMASK, &before, nullptr);
+    ::munmap(pages, sizeof(Shared));
+    return;
+  }
+  if (program == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(1);
+    ::sigprocmask(SIG_SETMASK, &before, nullptr);
+    ::sigprocmask(SIG_BLOCK, &ends, nullptr);  // the supervisor hears them
+    shared() = memory;
+    return;
+  }
+  const auto [status, told] = wait_for_program(program, waited, *memory);
+  kill_children();
+  remove_registered(*memory);
+  if (told != 0) end_by(told);
+  if (WIFSIGNALED(status)) end_by(WTERMSIG(status));
+  ::_exit(WEXITSTATUS(status));
+}
+
+RemovedAtEnd::RemovedAtEnd(const fs::path& path, What what) : slot_(-1) {
+  Shared* memory = shared();
+  const std::string& name = path.native();
+  if (memory == nullptr || name.size() >= kLongestPath) return;
+  for (int i = 0; i < kSlots; ++i) {
+    Shared::Slot& slot = memory->slots[static_cast<std::size_t>(i)];
+    SlotState expected = SlotState::free;
+    if (!slot.state.compare_exchange_strong(expected, SlotState::filling)) continue;
+    std::memcpy(slot.path, name.c_str(), name.size() + 1);
+    slot.state = what == What::tree ? SlotState::tree : SlotState::empty_folder;
+    slot_ = i;
+    return;
+  }
+}
+
+RemovedAtEnd::~RemovedAtEnd() {
+  if (slot_ >= 0) shared()->slots[static_cast<std::size_t>(slot_)].state = SlotState::free;
+}
+
+RemovedAtEnd::RemovedAtEnd(RemovedAtEnd&& other) noexcept : slot_(std::exchange(other.slot_, -1)) {}
+
+EndsLater::EndsLater() {
+  if (shared() != nullptr) ++shared()->held;
+}
+EndsLater::~EndsLater() {
+  if (shared() != nullptr) --shared()->held;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,145 @@
+// A run that a signal ends: nothing is lost, and nothing is left behind.
+#include <signal.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <random>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Processes whose environment holds PLUMBLINE_KILLED_RUN=`mark`: all that the run started, whatever its parent is now.
+std::vector<pid_t> processes_of(const std::string& mark) {
+  std::vector<pid_t> out;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const pid_t pid = std::atoi(entry.path().filename().c_str());
+    if (pid > 0 && read(entry.path() / "environ").find("PLUMBLINE_KILLED_RUN=" + mark) != std::string::npos) {
+      out.push_back(pid);
+    }
+  }
+  return out;
+}
+
+class KilledRuns : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    fs::create_directories(folder_ / "tmp");
+    fs::create_directories(folder_ / "out");
+    fs::copy(kSharedEdges, folder_ / "scene.json");
+  }
+
+  // plumb with TMPDIR in the test's folder. Returns its process.
+  pid_t begin(const std::string& arguments) {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    const std::string line = fmt::format("exec env TMPDIR={} PLUMBLINE_KILLED_RUN={} {} {} >/dev/null 2>&1", at("tmp"),
+                                         folder_.string(), PLUMBLINE_PLUMB, arguments);
+    ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    ::_exit(127);
+  }
+  static int end_of(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return status;
+  }
+
+  // Hidden files and folders, and what is left in TMPDIR.
+  std::set<std::string> leftovers() const {
+    std::set<std::string> out;
+    for (const std::string& name : entries()) {
+      if (name.find("/.plumb-") != std::string::npos || name.starts_with("tmp/")) out.insert(name);
+      const bool is_golden = name.starts_with("golden/") && fs::is_regular_file(folder_ / name);
+      if (is_golden && !name.ends_with(".json") &&
+          read(folder_ / "golden/manifest.json").find(name.substr(7)) == std::string::npos)
+        out.insert(name);
+    }
+    return out;
+  }
+
+  // Runs it whole once, then kills it at moments spread over that time. `holds`: whether what it writes is whole.
+  void kill_at_all_moments(const std::string& arguments, const std::function<bool()>& holds) {
+    const char* said = std::getenv("PLUMBLINE_KILLS");
+    const int kills = said != nullptr ? std::atoi(said) : 3;
+    const auto start = Clock::now();
+    const int whole = end_of(begin(arguments));
+    ASSERT_TRUE(WIFEXITED(whole) && WEXITSTATUS(whole) < 2) << whole;
+    const auto duration = Clock::now() - start;
+    ASSERT_TRUE(holds());
+    std::mt19937 random(7);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGKILL}) {
+      int killed = 0;
+      for (int i = 0; i < kills; ++i) {
+        SCOPED_TRACE(fmt::format("{}: {} {}", arguments, strsignal(signal), i));
+        const pid_t child = begin(arguments);
+        const double share = (i + static_cast<double>(random()) / std::mt19937::max()) / kills;
+        std::this_thread::sleep_for(std::chrono::duration_cast<Clock::duration>(1.1 * share * duration));
+        ::kill(child, signal);
+        const int status = end_of(child);
+        if (WIFSIGNALED(status)) ++killed;
+        EXPECT_TRUE(WIFSIGNALED(status) ? WTERMSIG(status) == signal : WEXITSTATUS(status) < 2) << status;
+        if (signal == SIGKILL) {  // the kernel ends the others in a moment
+          for (int j = 0; j < 1000 && !processes_of(folder_.string()).empty(); ++j) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          }
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));  // files are closed after the environment is gone
+        }
+        EXPECT_EQ(processes_of(folder_.string()), std::vector<pid_t>{});
+        EXPECT_TRUE(holds());
+        if (signal == SIGKILL) end_of(begin(arguments));  // the next run cleans up
+        ASSERT_EQ(leftovers(), std::set<std::string>{});
+      }
+      EXPECT_GT(killed, 0) << arguments << ": none was killed by " << strsignal(signal);
+    }
+  }
+};
+
+TEST_F(KilledRuns, CheckWithAReport) {
+  kill_at_all_moments(fmt::format("check {} --report {} --json {}", at("scene.json"), at("out/report"), at("out/j")),
+                      [&] { return read(folder_ / "out/report/index.html").find("</html>") != std::string::npos; });
+}
+
+TEST_F(KilledRuns, Capture) {
+  kill_at_all_moments(fmt::format("capture {} {}", at("scene.json"), at("out/capture")),
+                      [&] { return plumb(fmt::format("compare {0} {0}", at("out/capture"))).code == 0; });
+}
+
+TEST_F(KilledRuns, DiagnoseOfAProgram) {
+  const std::string program = fmt::format(
+      "sh -c '\\''setsid sleep 60 & {} capture \"$0\" \"$1\"; sleep 0.3'\\'' {{scene}} {{folder}}", PLUMBLINE_PLUMB);
+  kill_at_all_moments(fmt::format("diagnose {} --program '{}'", at("scene.json"), program), [] { return true; });
+}
+
+TEST_F(KilledRuns, GoldenUpdate) {
+  fs::create_directories(folder_ / "suite/coverage");
+  fs::create_directories(folder_ / "golden");
+  const fs::path scene = folder_ / "suite/coverage/scene.json";
+  fs::copy(kSharedEdges, scene);
+  bool changed = false;
+  kill_at_all_moments(fmt::format("golden update --suite {} --golden {}", at("suite"), at("golden")), [&] {
+    const std::string manifest = read(folder_ / "golden/manifest.json");
+    for (const std::string kind : {"color", "depth", "stages"}) {  // the old set or the new one: whole
+      const std::size_t from = manifest.find("coverage/scene/" + kind);
+      if (from == manifest.npos) continue;
+      if (!fs::exists(folder_ / "golden" / manifest.substr(from, manifest.find('"', from) - from))) return false;
+    }
+    std::string text = read(scene);  // so that the next run has what to write
+    changed = !changed;
+    const std::string words[] = {"\"description\": \"", "\"description\": \"Changed. "};
+    const std::string& old = words[!changed];
+    text.replace(text.find(old), old.size(), words[changed]);
+    write(scene, text);
+    return true;
+  });
+}
+
+}  // namespace
+}  // namespace plumbline
