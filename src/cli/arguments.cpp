@@ -9,7 +9,9 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include "base/did_you_mean.h"
 #include "cli/commands.h"
+#include "cli/say.h"
 #include "notes/notes.h"
 
 namespace plumbline::cli {
@@ -222,6 +224,32 @@ std::vector<std::string> names_of(const CLI::App& app) {
   return names;
 }
 
+// The command whose arguments are read: the innermost that was named.
+CLI::App& innermost(CLI::App& app) {
+  CLI::App* at = &app;
+  while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
+  return *at;
+}
+
+// What a command line that has a word too many says of it.
+std::string unexpected(CLI::App& app, const std::string& word) {
+  const CLI::App& command = innermost(app);
+  std::vector<std::string> names = names_of(command);
+  const bool is_option = word.starts_with("-"), is_command = !is_option && !names.empty();
+  if (is_option) {
+    names.clear();
+    for (const CLI::Option* option : command.get_options()) {
+      if (option->nonpositional()) names.push_back(option->get_name());
+    }
+  }
+  const std::string hint =
+      did_you_mean(word.substr(0, word.find('=')), std::vector<std::string_view>(names.begin(), names.end()));
+  const std::string where = &command == &app ? "plumb" : "plumb " + command.get_display_name();
+  if (is_command)
+    return fmt::format("{}: expected a command: {}; found {}{}", where, fmt::join(names, ", "), word, hint);
+  return fmt::format("{}: unexpected {} {}{}", where, is_option ? "option" : "argument", word, hint);
+}
+
 // CLI11 takes the next word where a value is empty, even if it is an option: an unset variable would write anywhere.
 void require_values(int argc, char** argv) {
   for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
@@ -274,7 +302,15 @@ Parsed parse(int argc, char** argv) {
     if (!out.command) throw CLI::RequiredError(fmt::format("A command: {}", fmt::join(names_of(app), ", ")));
   } catch (const CLI::ParseError& e) {
     out.command = nullptr;
-    out.exit = app.exit(e) == 0 ? kHolds : kBadInput;
+    const std::vector<std::string> extras = app.remaining(true);
+    const bool is_misspelt =
+        dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr || dynamic_cast<const CLI::RequiredError*>(&e) != nullptr;
+    if (is_misspelt && !extras.empty()) {
+      say(unexpected(app, extras.front()));
+      out.exit = kBadInput;
+    } else {
+      out.exit = app.exit(e) == 0 ? kHolds : kBadInput;
+    }
   }
   return out;
 }

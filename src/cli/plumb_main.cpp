@@ -11,6 +11,7 @@
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/say.h"
 
 namespace plumbline::cli {
 
@@ -23,9 +24,9 @@ int plumb_main(int argc, char** argv) {
     }
     return code;
   } catch (const std::filesystem::filesystem_error& e) {
-    fmt::print(stderr, "plumb: {}: {}\n", e.path1().string(), e.code().message());
+    say(fmt::format("{}: {}", e.path1().string(), e.code().message()));
   } catch (const std::exception& e) {
-    fmt::print(stderr, "plumb: {}\n", e.what());
+    say(e.what());
   }
   return kBadInput;
 }

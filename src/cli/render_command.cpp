@@ -77,9 +77,9 @@ int capture(const CaptureOptions& o) {
     write_capture(renderer->capture(scene, {StageSet::all(), false, {}, {}}), o.folder);
     return kHolds;
   } catch (const Unsupported& e) {
-    fmt::print(stderr, "{}\n", e.what());
+    std::fputs((std::string(e.what()) + "\n").c_str(), stderr);
   } catch (const OverBudget& e) {
-    fmt::print(stderr, "{}\n", e.what());
+    std::fputs((std::string(e.what()) + "\n").c_str(), stderr);
   }
   return kUnsupportedStatus;
 }

@@ -1,9 +1,8 @@
 #include "cli/scene_arguments.h"
 
-#include <cstdio>
-
 #include <fmt/format.h>
 
+#include "cli/say.h"
 #include "scene/scene_file.h"
 
 namespace plumbline::cli {
@@ -12,7 +11,7 @@ Scene SceneArguments::load(const std::filesystem::path& file) const {
   SceneFileOptions options;
   options.asset_folders.insert(options.asset_folders.begin(), assets.begin(), assets.end());
   Scene scene = load_scene(file, options);
-  for (const std::string& note : scene.notes) fmt::print(stderr, "plumb: note: {}: {}\n", file.string(), note);
+  for (const std::string& note : scene.notes) say(fmt::format("note: {}: {}", file.string(), note));
   return scene;
 }
 

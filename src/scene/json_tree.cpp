@@ -1,11 +1,12 @@
 #include "scene/json_tree.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "base/did_you_mean.h"
 
 namespace plumbline {
 namespace {
@@ -39,32 +40,6 @@ std::string describe(const JsonValue& value) {
     case Kind::object: return fmt::format("an object of {} keys", value.members.size());
   }
   return "nothing";
-}
-
-/// Levenshtein's distance: letters put in, left out or replaced.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0u);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t before = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = before + (a[i] != b[j]);
-      before = row[j + 1];
-      row[j + 1] = std::min({replaced, before + 1, row[j] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// The name that was probably meant, as a question; empty if none is near.
-std::string did_you_mean(std::string_view word, std::span<const std::string_view> names) {
-  constexpr std::size_t kLongest = 40;
-  if (word.size() > kLongest || names.empty()) return "";
-  const auto nearest = std::min_element(names.begin(), names.end(), [&](std::string_view a, std::string_view b) {
-    return distance(word, a) < distance(word, b);
-  });
-  const std::size_t far = distance(word, *nearest);
-  return far <= 3 && 2 * far <= nearest->size() ? fmt::format(" (did you mean \"{}\"?)", *nearest) : "";
 }
 
 }  // namespace

@@ -23,6 +23,32 @@ TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
   }
 }
 
+TEST_F(Cli, a_misspelt_command_or_option_says_what_was_meant) {
+  const auto says = [](const std::string& arguments, const std::string& text) {
+    const Outcome run = plumb(arguments);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_TRUE(run.says(text)) << run.text;
+  };
+  says("chek " + kSharedEdges, "found chek (did you mean \"check\"?)");
+  says("golden updat", "found updat (did you mean \"update\"?)");
+  says("check " + kSharedEdges + " --reprot page", "unexpected option --reprot (did you mean \"--report\"?)");
+  says("xyzzy", "expected a command: render, check, diagnose");
+  EXPECT_FALSE(plumb("xyzzy").says("did you mean"));
+}
+
+TEST_F(Cli, a_message_that_nobody_hears_is_no_crash) {
+  EXPECT_EQ(shell(PLUMBLINE_PLUMB " check /nowhere 2>&-").code, 2);
+  EXPECT_EQ(shell(PLUMBLINE_PLUMB " xyzzy 2>&-").code, 2);
+  EXPECT_EQ(shell(PLUMBLINE_PLUMB " list stages >&- 2>&-").code, 2);
+}
+
+TEST_F(Cli, a_limit_of_file_sizes_is_an_error_with_a_message) {
+  const Outcome run = shell("ulimit -f 1; " PLUMBLINE_PLUMB " render " + kSharedEdges + " -o " + at("x.exr"));
+  EXPECT_EQ(run.code, 2);
+  EXPECT_TRUE(run.says("x.exr: cannot be written: File too large")) << run.text;
+  EXPECT_EQ(entries(), std::set<std::string>{});
+}
+
 TEST_F(Cli, check_holds_and_prints_a_row_for_each_reference_and_stage) {
   const Outcome run = plumb("check " + kScenes + "cull/both_windings.json --against exact");
   EXPECT_EQ(run.code, 0) << run.text;
@@ -77,7 +103,8 @@ TEST_F(Cli, the_command_that_repeats_takes_no_file_for_an_option) {
 TEST_F(Cli, a_note_tells_once_what_of_a_mesh_file_is_left_out) {
   write(folder_ / "mesh.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
   const fs::path scene = folder_ / "scene.json";
-  write(scene, R"({"description": "two draws", "draws": [{"mesh": {"file": "mesh.obj"}}, {"mesh": {"file": "mesh.obj"}}]})");
+  write(scene,
+        R"({"description": "two draws", "draws": [{"mesh": {"file": "mesh.obj"}}, {"mesh": {"file": "mesh.obj"}}]})");
   const Outcome run = plumb("check --against exact " + scene.string());
   EXPECT_EQ(run.code, 0) << run.text;
   const std::string note =
