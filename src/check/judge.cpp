@@ -308,6 +308,8 @@ SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Refe
   std::string failure;
   try {
     mine = capture_all(scene, candidate, most_fragments);
+  } catch (const OverBudget&) {
+    throw;  // nobody else draws what is too large to be judged
   } catch (const std::exception& e) {
     failure = e.what();
   }

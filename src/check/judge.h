@@ -30,6 +30,7 @@ struct Drawn {
 ///
 /// Where the candidate's planes count more than `most_fragments`, or its fragments do not fit the memory budget, their
 /// records are not asked for; with the first, an oracle's answers are where another winner is seen, and nowhere else.
+/// Throws OverBudget where even then the candidate's capture does not fit; no reference draws the scene.
 SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                    Drawn* drawn = nullptr, std::uint64_t most_fragments = ~std::uint64_t{0});
 

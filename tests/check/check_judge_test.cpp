@@ -210,11 +210,12 @@ TEST_F(Judge, OfMoreFragmentsThanGivenNoneIsRecordedAndNoFrameOfLegalAnswersAske
   EXPECT_EQ(judged_up_to(fragments - 1), std::pair(std::size_t{0}, std::size_t{0}));
 }
 
-TEST_F(Judge, ACandidateBeyondEveryBudgetHasFailed) {
+TEST_F(Judge, ACandidateBeyondEveryBudgetEndsTheSceneBeforeAReferenceDrawsIt) {
+  bool asked = false;
   candidate.before_capture = [](auto&) { throw OverBudget("too large"); };
-  const Results results = run({{"witness", &witness}});
-  EXPECT_EQ(count(results, Outcome::failed), 1u);
-  EXPECT_EQ(results.at({"ours", Stage::merge}).note, "too large");
+  witness.before_capture = [&](auto&) { asked = true; };
+  EXPECT_THROW(run({{"witness", &witness}}), OverBudget);
+  EXPECT_FALSE(asked);
 }
 
 TEST_F(Judge, FragmentsThatDoNotFitEachOtherAreDifferentNotOverBudget) {
