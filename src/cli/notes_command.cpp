@@ -24,7 +24,6 @@ void print(const notes::Note& note) {
     print_places("shown by:", t.shown_by);
     if (!t.mistake.empty()) fmt::print("    mistake:  {}\n", t.mistake);
     print_places("seen in:", t.mistake_shown_by);
-    if (!t.not_yet.empty()) fmt::print("    not yet:  {}\n", t.not_yet);
   }
   fmt::print("\n");
 }

@@ -11,8 +11,7 @@ Note gzrender() {
            .teaches = "a renderer: triangles, transformations, shading, texture",
            .where = {function("pipeline/render.h", "render"), function("dialect/dialect.cpp", "gzrender_projection")},
            .shown_by = {scene("notes/gzrender_solids"), scene("notes/gzrender_meeting"),
-                        test("unit/dialect", "Dialects.GzRenderByHand")},
-           .not_yet = "texture"},
+                        scene("texture/dialect_gzrender"), test("unit/dialect", "Dialects.GzRenderByHand")}},
           {.section = "Rasterization",
            .teaches = "inside is where the barycentric coordinates alpha, beta, gamma are positive",
            .where = {function("raster/triangle_barycentric.cpp", "cover_by_barycentric")},
@@ -158,7 +157,10 @@ Note gzrender() {
            .shown_by = {scene("light/sphere_gouraud"), scene("notes/gzrender_twelve_bits"),
                         test("unit/program_scenes",
                              "ProgramScenes.TheNotesGouraudShaderIsTheFixedFunctionsDiffuseLight")}},
-          {.section = "Texture", .teaches = "images on triangles (a picture, no text)", .not_yet = "textures"},
+          {.section = "Texture",
+           .teaches = "images on triangles (a picture, no text)",
+           .where = {function("pipeline/texture.h", "sample_levels")},
+           .shown_by = {scene("texture/dialect_gzrender")}},
       }};
 }
 

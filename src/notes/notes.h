@@ -19,11 +19,10 @@ struct Place {
 struct Teaching {
   std::string_view section;  ///< as it is titled there
   std::string_view teaches;
-  std::vector<Place> where = {};             ///< empty only of what is not built yet
-  std::vector<Place> shown_by = {};          ///< likewise
+  std::vector<Place> where = {};             ///< functions that do it
+  std::vector<Place> shown_by = {};          ///< scenes and tests
   std::string_view mistake = {};             ///< what the note has wrong or leaves open; empty: nothing
   std::vector<Place> mistake_shown_by = {};  ///< tests and faults; one at least, if there is a mistake
-  std::string_view not_yet = {};             ///< what is not built; empty: all is
 };
 
 struct Note {

@@ -22,7 +22,6 @@ TEST_F(Cli, notes_prints_every_row_of_one_note_or_of_all) {
     for (const Teaching& t : note.teachings) {
       EXPECT_TRUE(one.says(fmt::format("  {} | {}\n", t.section, t.teaches))) << one.text;
       EXPECT_TRUE(t.mistake.empty() || one.says(fmt::format("    mistake:  {}\n", t.mistake)));
-      EXPECT_TRUE(t.not_yet.empty() || one.says(fmt::format("    not yet:  {}\n", t.not_yet)));
       for (const auto& places : {t.where, t.shown_by, t.mistake_shown_by}) {
         for (const auto& [file, name] : places) {
           EXPECT_TRUE(one.says(name.empty() ? file + "\n" : file + ": " + name + "\n")) << file << name;

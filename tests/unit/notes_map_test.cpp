@@ -81,7 +81,7 @@ std::string wrong(const Teaching& t) {
     if (!what.empty()) out += fmt::format("{} | {}: {}\n", t.section, t.teaches, what);
   };
   if (t.section.empty() || t.teaches.empty()) say("it says nothing");
-  if (t.where.empty() && t.not_yet.empty()) say("it names no function, and is not said to be open");
+  if (t.where.empty()) say("it names no function");
   if (t.where.empty() != t.shown_by.empty()) say("there is a function without a test or scene, or one without it");
   if (t.mistake.empty() != t.mistake_shown_by.empty()) say("there is a mistake without a test, or one without it");
   for (const Place& place : t.where) {
@@ -176,7 +176,6 @@ TEST(NotesMap, ARowWithNothingInItIsSeen) {
   EXPECT_NE(with([](Teaching& t) { t.where.clear(); }), "");
   EXPECT_NE(with([](Teaching& t) { t.shown_by.clear(); }), "");
   EXPECT_NE(with([](Teaching& t) { t.where.clear(), t.shown_by.clear(); }), "");
-  EXPECT_EQ(with([](Teaching& t) { t.where.clear(), t.shown_by.clear(), t.not_yet = "it"; }), "");
   EXPECT_NE(with([](Teaching& t) { t.mistake = "m"; }), "") << "where is it seen?";
   EXPECT_NE(with([&](Teaching& t) { t.mistake_shown_by = {scene}; }), "") << "which?";
   EXPECT_NE(with([&](Teaching& t) { t.where = {scene}; }), "");
