@@ -31,10 +31,9 @@ struct SceneFileOptions {
 ///                  "z24", "z32f"; clear_color: [r, g, b, a]; clear_depth; stencil: "none", "s8"; clear_stencil;
 ///                  antialias: {"samples": 4}, {"supersample": 1 to 8} or {"taps": "gzrender"} (antialias.h)
 ///   camera         eye, center, up: [x, y, z]
-///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *, right
-///   *,
-///                                bottom *, top *, near *, far *}} or {"frustum": {the same six, the sides on the near
-///                                plane}}
+///   projection     gl            {"perspective": {fov_y *: degrees, near *, far *}}, {"orthographic": {left *,
+///                                right *, bottom *, top *, near *, far *}} or {"frustum": {the same six, the sides
+///                                on the near plane}}
 ///                  games101      perspective or orthographic, near and far being z coordinates: far < near < 0
 ///                  gzrender      {"x_pi": {fov *: degrees}}
 ///                  tinyrenderer  {"pinhole": {c: the distance of eye and center where it is not given}}
@@ -55,8 +54,9 @@ struct SceneFileOptions {
 ///     texels       "unorm8", "float32"
 ///     min, mag     OpenGL's filters, wrap_s and wrap_t its wraps: names of MinFilter, MagFilter, Wrap
 ///     border       [r, g, b, a]
-///   defaults       of all draws: any of a draw's keys but mesh. A draw's own count before them, of a material one by
-///   one draws *        1 to 4096 of
+///   defaults       of all draws: any of a draw's keys but mesh. A draw's own count before them, of a material key by
+///                  key
+///   draws *        1 to 4096 of
 ///     mesh *       one of  "file": "bunny.obj", an OBJ, 3DS, PLY, glTF or GLB file (mesh_file.h)
 ///                          "triangle": {positions *: [[x, y, z] x 3], colors: [[r, g, b, a] x 3],
 ///                          texcoords: [[s, t] x 3]}
@@ -82,6 +82,8 @@ struct SceneFileOptions {
 ///                  material is the mesh's colours, where it has some
 ///     normals      "normalize", "rescale", "as_they_are"
 ///     shading      "flat", "gouraud", "phong"
+///     fog          {"linear": {color: [r, g, b], start *, end *}}, or "exp" or "exp2": {color, density *}: of eye
+///                  distances
 ///     cull         "none", "back", "front"
 ///     depth_func   "never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always". Where
 ///                  nothing is said: what is nearer, which in games101 and tinyrenderer is "greater"; and clear_depth
@@ -90,16 +92,14 @@ struct SceneFileOptions {
 ///     polygon_offset  {factor, units}
 ///     alpha_test   {func *: one of depth_func's, reference: [0, 1]}
 ///     stencil      {func, reference, mask, fail, depth_fail, pass, write_mask, back: {the same, of back faces}}:
-///     numbers
-///                  from 0 to 255, and OpenGL's ops (all names: StencilOp); the frame needs stencil "s8"
+///                  numbers from 0 to 255, and OpenGL's ops (all names: StencilOp); the frame needs stencil "s8"
 ///     front_mode, back_mode  "fill", "line", "point": what is drawn of front and back faces
 ///     line_width   pixels, an integer from 1 to 16
 ///     point_size   pixels a side, an integer from 1 to 64
 ///     scissor      [x, y, width, height]: the pixels that may be covered; 0 to 16384 each
 ///     depth_mask   true, false: whether depth is written
 ///     blend        {source, destination, equation, alpha: {source, destination, equation}, color: [r, g, b, a]}:
-///     OpenGL's
-///                  factors ("one" and "zero" where they are left out) and equations ("add", "subtract",
+///                  OpenGL's factors ("one" and "zero" where they are left out) and equations ("add", "subtract",
 ///                  "reverse_subtract", "min", "max"), alpha's as rgb's where it has none. All names: BlendFactor
 ///     logic_op     one of OpenGL's 16 (LogicOp; "and", "xor" ...)
 ///     color_mask   [r, g, b, a], each true or false: whether it is written

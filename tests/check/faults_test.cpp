@@ -38,7 +38,7 @@ TEST(Faults, there_are_five_in_each_stage_and_twenty_that_others_report) {
 
 TEST(Faults, are_as_many_as_the_readme_says) {
   std::ostringstream text;
-  text << std::ifstream(PLUMBLINE_SOURCE_DIR "/README.md").rdbuf();
+  text << std::ifstream(PLUMBLINE_SOURCE_DIR "/tests/README.md").rdbuf();
   const auto reported = std::ranges::count_if(faults::of_stages(), [](const auto& f) { return !f.report.empty(); });
   const std::size_t all = faults::all().size(), of_stages = faults::of_stages().size();
   for (const std::string& part : {fmt::format("{} bugs ({} of them from public bug reports", of_stages, reported),

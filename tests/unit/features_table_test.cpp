@@ -1,4 +1,4 @@
-// The README's table of features names every folder of scenes, with the number of scenes that are in it.
+// The table of features in src/pipeline/README.md names every folder of scenes, with the number of scenes that are in it.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -13,7 +13,7 @@ namespace plumbline {
 namespace {
 
 TEST(FeaturesTable, NamesEveryFolderOfScenes) {
-  std::ifstream in(PLUMBLINE_SOURCE_DIR "/README.md");
+  std::ifstream in(PLUMBLINE_SOURCE_DIR "/src/pipeline/README.md");
   std::stringstream text;
   text << in.rdbuf();
   const std::string readme = text.str();
