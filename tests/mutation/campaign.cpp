@@ -130,7 +130,9 @@ std::vector<Judged> run_campaign(const CampaignOptions& options, const std::vect
         if (count == options.changes || late()) break;
         if (options.only && j.number != *options.only) continue;
         if (!known.emplace(j.change.file, j.lines.before, j.lines.after).second) continue;
-        if (const auto found = known_verdicts.find(key_of(j)); found != known_verdicts.end()) {
+        const auto found = known_verdicts.find(key_of(j));
+        const auto is_settled = [&](const Verdict& v) { return v.found() || v.note == reason_of(j, equivalents); };
+        if (found != known_verdicts.end() && is_settled(found->second)) {
           ++count;
           Judged kept = j;
           kept.verdict = found->second;

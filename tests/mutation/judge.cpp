@@ -25,7 +25,7 @@ std::string ending(const Ended& ended) {
 
 // A renderer that never ends is a row `failed` of its stage after that time; the slowest of the scenes takes 5 s.
 // Memory: below what run() allows, so that the renderer fails and not plumb.
-constexpr unsigned kRendererSeconds = 20;
+constexpr unsigned kRendererSeconds = 60;
 const std::vector<std::string> kLimits = {"--time-limit", std::to_string(kRendererSeconds), "--memory-limit", "4096"};
 
 // Seconds for the judgement of so many scenes, in each of which the capture and the painter may never end.

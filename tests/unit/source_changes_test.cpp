@@ -125,11 +125,14 @@ TEST(SourceChanges, EachFileOfTheSourcesHasARule) {
 
 TEST(SourceChanges, WhatWasFoundIsTakenOverFromALogOfTheSameSources) {
   const auto rules = read_file_rules(kRoot / "tests/mutation/files.tsv");
-  Judged found, survivor;
-  found.seed = survivor.seed = "ab";
+  Judged found, survivor, equivalent;
+  found.seed = survivor.seed = equivalent.seed = "ab";
   found.number = 1;
   survivor.number = 2;
-  found.rule = survivor.rule = rule_of(rules, "src/pipeline/light.cpp", "light");
+  equivalent.number = 3;
+  equivalent.verdict.outcome = Outcome::equivalent;
+  equivalent.verdict.note = "the same";
+  found.rule = survivor.rule = equivalent.rule = rule_of(rules, "src/pipeline/light.cpp", "light");
   found.change.file = survivor.change.file = "src/pipeline/light.cpp";
   found.lines = {"a = b;", ";"};
   survivor.lines = {"a = 1;", "a = 2;"};
@@ -137,9 +140,10 @@ TEST(SourceChanges, WhatWasFoundIsTakenOverFromALogOfTheSameSources) {
                    {"shade", ""},       ""};
   survivor.verdict.note = "why";
   const std::filesystem::path log = std::filesystem::path(testing::TempDir()) / "plumbline_changes.tsv";
-  std::ofstream(log) << log_head("1234") << log_of({found, survivor});
+  std::ofstream(log) << log_head("1234") << log_of({found, survivor, equivalent});
   const auto kept = read_found(log, "1234");
-  ASSERT_EQ(kept.size(), 1u);
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept.at(key_of(equivalent)).note, "the same");
   const Verdict& v = kept.at(key_of(found));
   EXPECT_EQ(v.outcome, Outcome::references);
   EXPECT_EQ(v.expected, found.verdict.expected);
