@@ -32,7 +32,7 @@ Capture drawn(const Scene& scene) {
   return pipeline::make_pipeline()->capture(scene, request);
 }
 
-const Layer& named(const std::vector<Layer>& layers, const std::string& name) {
+const Layer& named(const std::vector<Layer>& layers, const char* name) {
   const auto found = std::ranges::find(layers, name, &Layer::name);
   EXPECT_NE(found, layers.end()) << name;
   return *found;
