@@ -68,6 +68,18 @@ TEST_F(OpenPolygons, AnExtraPolygonIsThereByItsCornersAlone) {
   EXPECT_TRUE(fails(with_extra(0.125, {1, 1, 0, 1}))) << "on two planes, which the triangle does not meet";
 }
 
+// A triangle that reaches far into the view, of which the reference has nothing: that the candidate has no more than a
+// point of it, on a plane, opens nothing.
+TEST_F(OpenPolygons, AnExtraPolygonOnAPlaneDoesNotExcuseItself) {
+  set({{{-0.5, 0, 0, 1}, {1.5, 0, 0, 1}, {0, 0.5, 0, 1}}});
+  const glm::dvec4 color = glm::mix(records.lit[0].color, records.lit[1].color, 0.75);
+  const auto point = [&](auto& r) {
+    r.polygons.vertices.assign(3, {glm::dvec4(1, 0, 0, 1), color, true});
+    r.polygons.polygons = {{0, 0, 3}};
+  };
+  EXPECT_TRUE(fails(compare(point, [](auto& r) { r.polygons = {}; })));
+}
+
 TEST_F(OpenPolygons, ALineEndsOnAPlaneByItsCornerAlone) {
   set_line({0, 0, 0, 1}, {0.5, 0.25, 0, 1});
   ASSERT_FALSE(at(records, 0, 1).cut);
