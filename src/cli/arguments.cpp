@@ -231,7 +231,7 @@ CLI::App& innermost(CLI::App& app) {
   return *at;
 }
 
-// What a command line that has a word too many says of it.
+// Message about a surplus word of a command line, with the name that was probably meant.
 std::string unexpected(CLI::App& app, const std::string& word) {
   const CLI::App& command = innermost(app);
   std::vector<std::string> names = names_of(command);

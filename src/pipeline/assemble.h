@@ -25,7 +25,7 @@ struct CullWork {
   glm::ivec2 least, most;  ///< of the samples' places
   int width, height;       ///< of the frame
 };
-/// Which face of a triangle is drawn.
+/// Drawn face of a triangle.
 enum class Kept : std::int32_t { none, back, front };
 struct KeptTriangle {
   Kept kept;

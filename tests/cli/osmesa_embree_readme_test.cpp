@@ -1,4 +1,4 @@
-// What README files show of plumb is what plumb prints; what they name is there.
+// README files: their commands print what is shown, their links and scripts are there.
 #include <fstream>
 #include <regex>
 #include <set>

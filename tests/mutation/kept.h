@@ -1,4 +1,4 @@
-// What a campaign found out before: so that reasons for equivalent changes can be written, and not all be judged again.
+// Verdicts of an earlier campaign: after reasons for equivalent changes are written, only the rest is judged again.
 #pragma once
 
 #include <filesystem>
