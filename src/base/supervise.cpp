@@ -140,7 +140,7 @@ void supervise() {
   sigset_t ends, waited, before;
   ::sigemptyset(&ends);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction action {};
+    struct sigaction action;
     if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::sigaddset(&ends, signal);
   }
   waited = ends;

@@ -22,8 +22,7 @@ namespace fs = std::filesystem;
 
 /// Whether the path still leads to what is open: another process may have removed it before it was locked.
 bool leads_to(const fs::path& path, int descriptor) {
-  struct stat at {
-  }, open{};
+  struct stat at, open;
   return ::lstat(path.c_str(), &at) == 0 && ::fstat(descriptor, &open) == 0 && at.st_ino == open.st_ino &&
          at.st_dev == open.st_dev;
 }
@@ -44,7 +43,7 @@ void remove_abandoned(const fs::path& folder, std::string_view prefix) {
     if (!is_temporary(entry->path().filename().string(), prefix)) continue;
     const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) continue;
-    struct stat status {};
+    struct stat status;
     const bool is_own = ::fstat(descriptor, &status) == 0 && status.st_uid == ::geteuid() &&
                         (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode));
     if (is_own && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && leads_to(entry->path(), descriptor)) {

@@ -24,11 +24,9 @@ void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Ve
   }
 }
 
-// Pixel by pixel what visit(meter, x, y, winner) gives of a plane where both sides' winners are the same: where they
-// are not, it is visibility's matter.
-template <class T, class Visit>
-Measurement where_winners_agree(const Planes& a, const Planes& b, Plane<T> Planes::*plane, const std::string& unit,
-                                Visit visit) {
+// Pixel by pixel what visit(meter, x, y, winner) gives of a plane (&Planes::color) where both sides' winners are the
+// same: where they are not, it is visibility's matter.
+Measurement where_winners_agree(const Planes& a, const Planes& b, auto plane, const std::string& unit, auto visit) {
   std::string why;
   if (!same_size(a.id, b.id, why) || !same_size(a.id, a.*plane, why)) return mismatch(unit, why, a.id.size());
   return compare_planes(a.*plane, b.*plane, unit, [&](Meter& meter, int x, int y) {

@@ -98,8 +98,8 @@ class RunComparison {
     for (std::size_t k = 0; k < 3; ++k) {
       const WindowVertex<double>&v = a.v[k], &w = b.v[k];
       add(meter_, v.p_win, w.p_win, error_of(b, k) / factor_, factor_, at(number, "p_win"));
-      meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_, at(number, "inv_w"),
-                   v.inv_w, w.inv_w);
+      meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_,
+                   at(number, "inv_w"), v.inv_w, w.inv_w);
       for (int c = 0; c < 2; ++c) {
         const double own = std::nearbyint((v.p_win[c] - 0.5) * kSubpixel);
         meter_.value(difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);

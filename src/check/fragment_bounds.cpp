@@ -22,10 +22,10 @@ constexpr std::string_view kBehindEye =
 const Records<double> kNone;
 const std::vector<Vec4<double>> kNowhere;
 
-// Per vertex, or what the tolerance named grants where the reference shows none.
+// Of a member (&Lit<double>::color) per vertex, or what the tolerance named grants where the reference shows none.
 template <class Record>
-std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std::vector<Record>& b,
-                                        Vec4<double> Record::*member, double granted) {
+std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std::vector<Record>& b, auto member,
+                                        double granted) {
   std::vector<Vec4<double>> out(a.size(), Vec4<double>(granted));
   if (b.size() != a.size()) return out;
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = glm::abs(a[i].*member - b[i].*member);

@@ -223,7 +223,8 @@ constexpr std::array kGeometryHypotheses = {
           }),
     given(S::matrices, "matrices.camera_ignored", "the camera is left out of the model-view",
           [](Scene& s, Capture&) {
-            s.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+            const glm::dvec3 origin(0), ahead(0, 0, -1), up(0, 1, 0);
+            s.camera = {origin, ahead, up};
           }),
     made(S::matrices, "matrices.normal_by_model_view",
          "the normal matrix is the model-view's, not its inverse transpose",
@@ -256,9 +257,7 @@ constexpr std::array kGeometryHypotheses = {
     seen(S::light, "light.negative_not_clamped", "negative N.L not clamped: lights behind a surface darken it",
          lit_without_clamp),
     given(S::light, "light.attenuation_left_out", "lights do not fade with distance: attenuation left out",
-          [](Scene& s, Capture&) { each_light(s, [](Light& l) {
-                                     l.attenuation = {1, 0, 0};
-                                   }); }),
+          [](Scene& s, Capture&) { each_light(s, [](Light& l) { l.attenuation = glm::vec3(1, 0, 0); }); }),
     given(S::light, "light.ambient_left_out", "the light model's ambient light is left out",
           [](Scene& s, Capture&) { s.light_model.ambient = glm::vec3(0); }),
     given(S::light, "light.ambient_per_light", "the light model's ambient light is added once for each light",

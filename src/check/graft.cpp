@@ -62,7 +62,8 @@ void judge_made(Case& c, const Capture& made, Stage stage, const std::string& na
     case Stage::clip:
       return c.add(name, stage, varyings(compare_polygons(c.scene, mine, theirs, factor("exact.clip"))), "exact.clip");
     case Stage::window:
-      return c.add(name, stage, varyings(compare_window(c.scene, mine, theirs, factor("exact.window"))), "exact.window");
+      return c.add(name, stage, varyings(compare_window(c.scene, mine, theirs, factor("exact.window"))),
+                   "exact.window");
     case Stage::coverage: {
       Measurement planes = compare_coverage(c.candidate.planes, made.planes);
       if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), "", std::string(kOverBudget));

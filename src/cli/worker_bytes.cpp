@@ -92,9 +92,12 @@ template <class Archive, class... Fields>
 void all(Archive& archive, Fields&... fields) {
   (visit(archive, fields), ...);
 }
-template <class Archive, class T>
-requires Plain<T> || std::same_as<T, std::string>
-void visit(Archive& archive, T& value) { archive(value); }
+template <class T>
+concept PlainOrText = Plain<T> || std::same_as<T, std::string>;
+template <class Archive, PlainOrText T>
+void visit(Archive& archive, T& value) {
+  archive(value);
+}
 template <class Archive, class T>
 void visit(Archive& archive, std::vector<T>& items) {
   items.resize(archive.count(items));

@@ -62,7 +62,7 @@ PlaneCorners<Wide<R>> plane_corners(const R (&x_win)[3], const R (&y_win)[3], co
   const W snapped_corner_x[3] = {place(snapped_x[0]), place(snapped_x[1]), place(snapped_x[2])};
   const W snapped_corner_y[3] = {place(snapped_y[0]), place(snapped_y[1]), place(snapped_y[2])};
   const PlaneCorners<W> other = plane_corners<W>(snapped_corner_x, snapped_corner_y);
-  const auto of = [&](W PlaneCorners<W>::*member) { out.*member = select(usable, out.*member, other.*member); };
+  const auto of = [&](auto member) { out.*member = select(usable, out.*member, other.*member); };
   of(&PlaneCorners<W>::p0_x), of(&PlaneCorners<W>::p0_y);
   of(&PlaneCorners<W>::d1_x), of(&PlaneCorners<W>::d1_y);
   of(&PlaneCorners<W>::d2_x), of(&PlaneCorners<W>::d2_y);

@@ -35,7 +35,7 @@ Illumination illumination(const Scene& scene, Lights lights) {
 ColoredMaterial colored_material(const Scene& scene, const Draw& draw, LitPart part) {
   const glm::vec4 zero(0), one(1);
   const Material with_zero = lit_material(scene, draw, part, &zero), with_one = lit_material(scene, draw, part, &one);
-  const auto follows = [&](glm::vec4 Material::*of) { return with_zero.*of != with_one.*of; };
+  const auto follows = [&](auto of) { return with_zero.*of != with_one.*of; };
   return {lit_material(scene, draw, part, nullptr), follows(&Material::emission), follows(&Material::ambient),
           follows(&Material::diffuse), follows(&Material::specular)};
 }

@@ -44,8 +44,8 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
                           covered[0][part], block_offset(x, y) + i, painting.formats.color_scale, tile, tap);
       }
     };
-    visit_covered<R, 1>(
-        setup, [](int) { return ~0u; }, block);
+    const auto all_pixels = [](int) { return ~0u; };
+    visit_covered<R, 1>(setup, all_pixels, block);
   };
   const auto paint = [&](const PaintTriangle& t, const auto& lanes, int lane) {
     LaneSetup<> s = lanes.of(lane, t.front, tile.x0, tile.y0);

@@ -25,18 +25,25 @@ namespace plumbline::pipeline {
 
 /// Varyings: a struct of floats and of vectors and matrices of floats, nothing else; it may be empty.
 template <class V>
-concept VaryingStruct = std::is_trivially_copyable_v<V> &&(std::is_empty_v<V> || alignof(V) == alignof(float));
+concept VaryingStruct = (std::is_empty_v<V> || alignof(V) == alignof(float)) && std::is_trivially_copyable_v<V>;
 
-/// vertex() is called once for each corner (0, 1, 2) of each triangle, in order; p_clip may be anything that a matrix
-/// makes (triangles with coordinates that are not finite are dropped). fragment() is called for each fragment that
-/// passes the depth test, with perspective-correct varyings; the colour is clamped and rounded to the frame's format.
-/// A discarded fragment leaves colour and depth as they are.
+/// vertex(triangle, corner, out) returns p_clip. It is called once for each corner (0, 1, 2) of each triangle, in order.
+/// A triangle with a p_clip that is not finite is dropped.
 template <class P>
-concept Program = VaryingStruct<typename P::Varyings> &&
-    requires(const P& program, typename P::Varyings out, const typename P::Varyings& in, glm::vec4 color) {
+concept VertexProgram = requires(const P& program, typename P::Varyings out) {
   { program.vertex(std::size_t{0}, 0, out) } -> std::same_as<glm::vec4>;
+};
+
+/// fragment(in, color) is called for each fragment that passes the depth test, with perspective-correct varyings. The
+/// colour is clamped and rounded to the frame's format. Where it returns true, the fragment is discarded: colour and depth
+/// stay as they are.
+template <class P>
+concept FragmentProgram = requires(const P& program, const typename P::Varyings& in, glm::vec4 color) {
   { program.fragment(in, color) } -> std::same_as<bool>;
 };
+
+template <class P>
+concept Program = VaryingStruct<typename P::Varyings> && VertexProgram<P> && FragmentProgram<P>;
 
 /// The fixed state under which a program draws (scene.h, Draw).
 struct ProgramState {

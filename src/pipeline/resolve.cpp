@@ -9,11 +9,10 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// `plane`: that of one colour format, in a frame.
-template <class T>
-void resolve_colors(Resolve channel, const FrameFormat& format, std::span<const Frame> passes, Plane<T> Frame::*plane,
+// `plane`: a frame's of one colour format (&Frame::rgba8).
+void resolve_colors(Resolve channel, const FrameFormat& format, std::span<const Frame> passes, auto plane,
                     Frame& frame) {
-  Plane<T>& to = frame.*plane;
+  auto& to = frame.*plane;
   if (to.empty()) return;
   const PixelSamples samples = samples_of(format.antialias);
   const auto scale = static_cast<float>(color_scale(format.color));
@@ -26,15 +25,15 @@ void resolve_colors(Resolve channel, const FrameFormat& format, std::span<const 
           const glm::ivec2 at = glm::ivec2(x, y) * format.antialias.factor + samples[i].offset;
           values[i] = static_cast<float>((passes[samples[i].pass].*plane)(at.x, at.y)[c]);
         }
-        to(x, y)[c] = static_cast<typename T::value_type>(channel(values, samples, scale));
+        auto& value = to(x, y)[c];
+        value = static_cast<std::remove_reference_t<decltype(value)>>(channel(values, samples, scale));
       }
     }
   }
 }
 
-template <class T>
-void take_first_depths(int factor, const Frame& first, Plane<T> Frame::*plane, Frame& frame) {
-  Plane<T>& to = frame.*plane;
+void take_first_depths(int factor, const Frame& first, auto plane, Frame& frame) {
+  auto& to = frame.*plane;
   for (int y = 0; y < to.height(); ++y) {
     for (int x = 0; x < to.width(); ++x) to(x, y) = (first.*plane)(x * factor, y * factor);
   }

@@ -135,13 +135,13 @@ template <class R>
 }
 template <class R>
 [[gnu::always_inline]] inline CornerLanes<R> load_corners(const CornersOfLanes<R>& corner) {
+  const auto p_win = [](const WindowVertex<float>* v) { return &v->p_win.x; };
+  const auto snapped = [](const WindowVertex<float>* v) { return reinterpret_cast<const float*>(&v->snapped); };
   CornerLanes<R> out;
   for (int k = 0; k < 3; ++k) {
-    load_corner<R>(
-        corner[k], [](const WindowVertex<float>* v) { return &v->p_win.x; }, out.p_win[k]);
+    load_corner<R>(corner[k], p_win, out.p_win[k]);
     R four[4];
-    load_corner<R>(
-        corner[k], [](const WindowVertex<float>* v) { return reinterpret_cast<const float*>(&v->snapped); }, four);
+    load_corner<R>(corner[k], snapped, four);
     out.snapped_x[k] = as_int(four[0]), out.snapped_y[k] = as_int(four[1]);
   }
   return out;
@@ -150,10 +150,9 @@ template <class R>
 /// Colours into `out`; returns which lanes' corners all have the same alpha.
 template <class R>
 [[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat, CommonLanes<R>& out) {
+  const auto color_of = [](const WindowVertex<float>* v) { return &v->color.r; };
   R color[3][4];
-  for (int k = 0; k < 3; ++k)
-    load_corner<R>(
-        corner[flat ? 1 : k], [](const WindowVertex<float>* v) { return &v->color.r; }, color[k]);
+  for (int k = 0; k < 3; ++k) load_corner<R>(corner[flat ? 1 : k], color_of, color[k]);
   Mask<R> constant = mask_of<R>(~0u);
   for (int c = 0; c < 4; ++c) {
     const R d1 = color[1][c] - color[0][c], d2 = color[2][c] - color[0][c];

@@ -53,7 +53,7 @@ struct SurfaceAttributes {
 
 /// The triangle with a varying in the place of its colour.
 inline WindowTriangle<float> with_varying(WindowTriangle<float> triangle, const std::array<Vec4<float>, 3>& corners) {
-  for (auto corner = corners.begin(); WindowVertex<float>& v : triangle.v) v.color = *corner++;
+  for (auto corner = corners.begin(); auto& v : triangle.v) v.color = *corner++;
   return triangle;
 }
 

@@ -68,19 +68,19 @@ struct Element<glm::mat<C, R, T>> {
 };
 
 /// One member of a group's records. A column's at() is a reference to its value in a record (at a corner).
-template <class Record, class T>
+template <class Member>
 struct Column {
   static constexpr std::size_t kCorners = 0;
   std::string_view name;
-  T Record::*member;
+  Member member;
   auto& at(auto& record, std::size_t) const { return record.*member; }
 };
 /// One member of each of a triangle's three corners.
-template <class Vertex, class T>
+template <class Member>
 struct CornerColumn {
   static constexpr std::size_t kCorners = 3;
   std::string_view name;
-  T Vertex::*member;
+  Member member;
   auto& at(auto& triangle, std::size_t corner) const { return triangle.v[corner].*member; }
 };
 /// The records are plain numbers.
@@ -95,10 +95,10 @@ struct CornerItselfColumn {
   std::string_view name;
   auto& at(auto& corners, std::size_t corner) const { return corners[corner]; }
 };
-template <class Record, class T>
-Column(std::string_view, T Record::*) -> Column<Record, T>;
-template <class Vertex, class T>
-CornerColumn(std::string_view, T Vertex::*) -> CornerColumn<Vertex, T>;
+template <class Member>
+Column(std::string_view, Member) -> Column<Member>;
+template <class Member>
+CornerColumn(std::string_view, Member) -> CornerColumn<Member>;
 
 template <class C, class Record>
 using ColumnType = std::remove_cvref_t<decltype(std::declval<C>().at(std::declval<Record&>(), 0))>;

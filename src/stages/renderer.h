@@ -63,7 +63,7 @@ struct RendererInfo {
   std::string name;
   std::string version;
   std::array<Ability, kStageNames.size()> stages;
-  bool legal = false;   ///< capture() hands legal answers out
+  bool legal = false;  ///< capture() hands legal answers out
   /// Names of the codes that draw a picture alone (WantedPlanes::picture), the one that ships last: each draws the bits
   /// of the watched frame. Empty: a picture is drawn by the code that is watched.
   std::vector<std::string> painters = {};

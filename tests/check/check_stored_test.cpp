@@ -19,15 +19,9 @@ std::map<std::string, Outcome> outcomes(const std::vector<StoredComparison>& row
 }
 
 void bump(bool& v) { v = !v; }
-template <class T>
-requires std::is_integral_v<T>
-void bump(T& v) { ++v; }
-template <class T>
-requires std::is_floating_point_v<T>
-void bump(T& v) { v += T(0.5); }
-template <class T>
-requires requires { T::length(); }
-void bump(T& v) { bump(v[T::length() - 1]); }
+void bump(std::integral auto& v) { ++v; }
+void bump(std::floating_point auto& v) { v += 0.5f; }
+void bump(auto& v) { bump(v[v.length() - 1]); }  // of a vector or a matrix
 
 // Changes the last element of one array of a capture.
 struct Harm {

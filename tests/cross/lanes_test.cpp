@@ -58,9 +58,7 @@ class Source {
 std::vector<std::pair<std::string, Kernels>> kernels_of_targets() {
   std::vector<std::pair<std::string, Kernels>> out;
   for (const SimdTarget& target : simd_targets().subspan(1)) {
-    const auto kernels = target.name == "sse4"   ? kernels_sse4
-                         : target.name == "avx2" ? kernels_avx2
-                                                 : kernels_avx512;
+    const auto kernels = target.name == "sse4" ? kernels_sse4 : target.name == "avx2" ? kernels_avx2 : kernels_avx512;
     out.emplace_back(target.name, kernels());
   }
   return out;

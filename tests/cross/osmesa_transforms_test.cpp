@@ -199,12 +199,11 @@ std::vector<Row> gl_projection_rows() {
                                            Frustum{-1, 1, -1, 1, d, 2 * d}, upside_down(), Translate{{0, 0, d}}};
   };
   return {
-      float_row(
-          "glFrustum", "gl::frustum", "glFrustum", kQuotient,
-          [](Inputs& r) {
-            const FrustumSides v = frustum_sides(r);
-            return by_entry(tf::gl::frustum(v.l, v.r, v.b, v.t, v.n, v.f), gl({Frustum{v.l, v.r, v.b, v.t, v.n, v.f}}));
-          }),
+      float_row("glFrustum", "gl::frustum", "glFrustum", kQuotient,
+                [](Inputs& r) {
+                  const auto [l, r_side, b, t, n, f] = frustum_sides(r);
+                  return by_entry(tf::gl::frustum(l, r_side, b, t, n, f), gl({Frustum{l, r_side, b, t, n, f}}));
+                }),
       float_row("glOrtho", "gl::orthographic", "glOrtho", kQuotient,
                 [](Inputs& r) {
                   const FrustumSides v = frustum_sides(r);
@@ -263,12 +262,12 @@ std::vector<Row> gl_window_rows() {
                   return by_entry(tf::gzrender::inverse_x_sp(xs, ys, kMaxInt),
                                   gl({Scale{{2 / xs, -2 / ys, 1 / kMaxInt}}, Translate{{-xs / 2, -ys / 2, 0}}}));
                 }),
-      float_row(
-          "M_viewport (001)", "games101::viewport", "glTranslate glScale", 0,
-          [](Inputs& r) {
-            const double w = pixels(r), h = pixels(r);
-            return by_entry(tf::games101::viewport(w, h), gl({Translate{{w / 2, h / 2, 0}}, Scale{{w / 2, h / 2, 1}}}));
-          }),
+      float_row("M_viewport (001)", "games101::viewport", "glTranslate glScale", 0,
+                [](Inputs& r) {
+                  const double w = pixels(r), h = pixels(r);
+                  const osmesa::MatrixCall half = Translate{{w / 2, h / 2, 0}}, scale = Scale{{w / 2, h / 2, 1}};
+                  return by_entry(tf::games101::viewport(w, h), gl({half, scale}));
+                }),
       float_row("viewport (002)", "tinyrenderer::viewport", "glTranslate glScale glTranslate", 0,
                 [](Inputs& r) {
                   const double x = pixels(r), y = pixels(r), w = pixels(r), h = pixels(r);

@@ -75,11 +75,13 @@ const std::vector<TriangleKind>& triangle_kinds() {
   static const std::vector<TriangleKind> kAll = {
       {"anywhere",
        [](Random& r) {
-         return Corners{kNear(r), kNear(r), kNear(r)};
+         const glm::ivec2 a = kNear(r), b = kNear(r), c = kNear(r);
+         return Corners{a, b, c};
        }},
       {"on centres",
        [](Random& r) {
-         return Corners{kCentre(r), kCentre(r), kCentre(r)};
+         const glm::ivec2 a = kCentre(r), b = kCentre(r), c = kCentre(r);
+         return Corners{a, b, c};
        }},
       {"sub-pixel",
        [](Random& r) {

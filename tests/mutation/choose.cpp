@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "mutation/fields.h"
+
 namespace plumbline::mutation {
 
 namespace {
-
-std::vector<std::string> split(const std::string& text, char by) {
-  std::vector<std::string> out;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, by);) out.push_back(part);
-  return out;
-}
 
 std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& table, std::size_t fields) {
   std::ifstream in(table);
@@ -26,7 +20,7 @@ std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& table
   for (std::string line; std::getline(in, line);) {
     ++number;
     if (line.empty() || line[0] == '#') continue;
-    out.push_back(split(line, '\t'));
+    out.push_back(fields_of(line, '\t'));
     if (out.back().size() != fields || std::ranges::count(out.back(), std::string()) > 0) {
       throw std::runtime_error(fmt::format("{}:{}: expected {} fields apart by tabs", table.string(), number, fields));
     }
@@ -38,7 +32,7 @@ std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& table
 
 std::vector<FileRule> read_file_rules(const std::filesystem::path& table) {
   std::vector<FileRule> out;
-  for (auto& row : rows_of(table, 3)) out.push_back({row[0], split(row[1], ','), row[2]});
+  for (auto& row : rows_of(table, 3)) out.push_back({row[0], fields_of(row[1], ','), row[2]});
   return out;
 }
 

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
+#include "mutation/fields.h"
 #include "mutation/run.h"
 
 namespace plumbline::mutation {
@@ -17,18 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kFields = 16;  // of log_of
-
-std::vector<std::string> fields_of(const std::string& text, char by) {
-  std::vector<std::string> out(1);
-  for (const char c : text) {
-    if (c == by) {
-      out.emplace_back();
-    } else {
-      out.back().push_back(c);
-    }
-  }
-  return out;
-}
 
 Outcome outcome_of(const std::string& name, const std::string& place) {
   for (std::size_t i = 0; i < kOutcomes; ++i) {
@@ -51,15 +41,12 @@ std::string sources_hash(const fs::path& root) {
     }
   }
   std::ranges::sort(files);
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  const auto add = [&](const std::string& text) {
-    for (const char c : text + '\0') hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  };
+  std::string hashes;
   for (const fs::path& file : files) {
-    add(file.string());
-    add(text_of(root / file));
+    const std::string text = text_of(root / file);
+    hashes += fmt::format("{} {:016x}\n", file.string(), XXH3_64bits(text.data(), text.size()));
   }
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", XXH3_64bits(hashes.data(), hashes.size()));
 }
 
 std::string log_head(const std::string& sources) { return fmt::format("# sources {}\n", sources); }

@@ -262,8 +262,8 @@ TEST(Hierarchy, LeavesOutNothingThatARayCrosses) {
               ++visits;
               note(found, 1, 1e9)(i);
             });
-        hierarchy.walk(
-            ray, 10, [](double along) { return along > 40; }, note(near_found, 10, 40));
+        const auto beyond = [](double along) { return along > 40; };
+        hierarchy.walk(ray, 10, beyond, note(near_found, 10, 40));
         EXPECT_EQ(found, all);
         EXPECT_EQ(near_found, near_all);
         crossings += static_cast<long>(all.size());
@@ -272,8 +272,8 @@ TEST(Hierarchy, LeavesOutNothingThatARayCrosses) {
   }
   EXPECT_GT(crossings, 1000);
   EXPECT_LT(visits, 2L * kRaysAcross * kHeight * 300 / 3);  // else it is no help
-  Hierarchy({}).walk(
-      View(scene).ray(0, 0), 1, [](double) { return false; }, [](std::uint32_t) { FAIL(); });
+  const auto never = [](double) { return false; };
+  Hierarchy({}).walk(View(scene).ray(0, 0), 1, never, [](std::uint32_t) { FAIL(); });
 }
 
 }  // namespace

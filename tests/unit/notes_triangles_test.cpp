@@ -217,8 +217,8 @@ TEST(NotesTriangles, Note000LoopsLeaveTheFrame) {
   const PlaneTriangle at_the_border{Point(0, 0), Point(xs_of(1), 0), Point(xs_of(1), kXs - 1)};
   EXPECT_EQ(at_the_border[1].x, kXs);
   int visited = 0;
-  draw(
-      at_the_border, [](const PlaneTriangle&, double x, double) { return x == kXs; }, [&](int, int) { ++visited; });
+  const auto at_the_end = [](const PlaneTriangle&, double x, double) { return x == kXs; };
+  draw(at_the_border, at_the_end, [&](int, int) { ++visited; });
   EXPECT_EQ(visited, kXs);
   EXPECT_EQ(beyond(at_the_border, inside_000), 0) << "saved by what leaves the gaps";
   EXPECT_EQ(beyond(at_the_border, inside_004), kXs - 1);

@@ -73,7 +73,8 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
           const float incoming = FragmentStages::depth<float>(setups[n], p);
           if (!compares<float>(draws[d].depth_func, incoming, z)) continue;
           z = incoming;
-          color = merge<float>(FragmentStages::attributes<float>(setups[n], setups[n].attributes, p), formats.color_scale);
+          color =
+              merge<float>(FragmentStages::attributes<float>(setups[n], setups[n].attributes, p), formats.color_scale);
         }
       }
       if (f.color == ColorFormat::rgba8) {

@@ -60,6 +60,34 @@ class Process : public TestFolder {
     return root_ / "good";
   }
 
+  struct Run {
+    pid_t self, program;  ///< program: what its shell writes into the file `pid`; 0: nothing within 10 s
+  };
+  /// A process as plumb is: supervised, in the test's folder, with TMPDIR `temporary` there. It runs the script as its
+  /// renderer.
+  Run supervised_run(const std::string& script) const {
+    fs::create_directory(root_ / "temporary");
+    const pid_t self = ::fork();
+    if (self == 0) {
+      supervise();
+      try {
+        fs::current_path(root_);
+        ::setenv("TMPDIR", (root_ / "temporary").c_str(), 1);
+        make_process_renderer(
+            {.name = "outside", .version = "", .argv = {"sh", "-c", script}, .environment = {}, .shows = {}})
+            ->capture(scene_, {});
+      } catch (...) {
+      }
+      ::_exit(0);  // not reached
+    }
+    pid_t program = 0;
+    for (int i = 0; i < 500 && program == 0; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds{20});
+      std::ifstream(root_ / "pid") >> program;
+    }
+    return {self, program};
+  }
+
   /// An orphan is reaped by init, or stays a zombie where init does not: dead either way.
   static bool dies(pid_t process) {
     const auto dead = [&] {
@@ -186,28 +214,7 @@ TEST_F(Process, KillsWhatLeftTheProgramsSession) {
 }
 
 TEST_F(Process, KilledItTakesTheProgramAlong) {
-  const fs::path pid_file = root_ / "pid";
-  const pid_t self = ::fork();
-  ASSERT_GE(self, 0);
-  if (self == 0) {
-    supervise();
-    try {
-      make_process_renderer(
-          {.name = "outside",
-           .version = "",
-           .argv = {"sh", "-c", "setsid sh -c 'echo $$ > \"" + pid_file.string() + "\"; exec sleep 60' & sleep 60"},
-           .environment = {},
-           .shows = {}})
-          ->capture(scene_, {});
-    } catch (...) {
-    }
-    ::_exit(0);  // not reached
-  }
-  pid_t program = 0;
-  for (int i = 0; i < 500 && program == 0; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds{20});
-    std::ifstream(pid_file) >> program;
-  }
+  const auto [self, program] = supervised_run("setsid sh -c 'echo $$ > pid; exec sleep 60' & sleep 60");
   ASSERT_GT(program, 1);
   ASSERT_EQ(::kill(self, SIGKILL), 0);
   ASSERT_EQ(::waitpid(self, nullptr, 0), self);
@@ -215,29 +222,8 @@ TEST_F(Process, KilledItTakesTheProgramAlong) {
 }
 
 TEST_F(Process, AnEndFromOutsideLeavesNeitherProgramNorFolder) {
-  const fs::path pid_file = root_ / "pid", temporary = root_ / "temporary";
-  fs::create_directory(temporary);
-  const pid_t self = ::fork();
-  ASSERT_GE(self, 0);
-  if (self == 0) {
-    supervise();  // as the program does
-    ::setenv("TMPDIR", temporary.c_str(), 1);
-    try {
-      make_process_renderer({.name = "outside",
-                             .version = "",
-                             .argv = {"sh", "-c", "echo $$ > '" + pid_file.string() + "'; exec sleep 60"},
-                             .environment = {},
-                             .shows = {}})
-          ->capture(scene_, {});
-    } catch (...) {
-    }
-    ::_exit(0);  // not reached
-  }
-  pid_t program = 0;
-  for (int i = 0; i < 500 && program == 0; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds{20});
-    std::ifstream(pid_file) >> program;
-  }
+  const auto [self, program] = supervised_run("echo $$ > pid; exec sleep 60");
+  const fs::path temporary = root_ / "temporary";
   ASSERT_GT(program, 1);
   ASSERT_FALSE(fs::is_empty(temporary));
   ASSERT_EQ(::kill(self, SIGTERM), 0);

@@ -126,7 +126,8 @@ TEST_F(SceneFile, ReadsEveryKey) {
 TEST_F(SceneFile, TakesTrianglesNormalsOfUnitLengthAsTheyAre) {
   const auto mesh = [](const std::string& normal) {
     return R"({"description": "d", "draws": [{"mesh": {"triangles": {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
-               "indices": [[0, 1, 2]], "normals": [[0, 0, 1], [0.577, 0.577, 0.577], )" + normal + "]}}}]}";
+               "indices": [[0, 1, 2]], "normals": [[0, 0, 1], [0.577, 0.577, 0.577], )" +
+           normal + "]}}}]}";
   };
   const Scene s = load(mesh("[0.8, 0, -0.6]"));
   EXPECT_EQ(s.meshes[0].normals, (std::vector<glm::vec3>{{0, 0, 1}, glm::vec3(0.577f), {0.8f, 0, -0.6f}}));
