@@ -32,6 +32,7 @@ class OpenGlRenderer final : public Renderer {
  public:
   OpenGlRenderer(std::string name, MesaDriver driver, std::unique_ptr<Context> context)
       : name_(std::move(name)),
+        driver_(driver),
         context_(std::move(context)),
         gl_(current_gl(*context_)),
         vertex_program_(gl_),
@@ -40,7 +41,8 @@ class OpenGlRenderer final : public Renderer {
     if (!renderer.starts_with(name_of(driver))) {
       throw RendererFailed(fmt::format("OpenGL: asked for {}, got the driver \"{}\"", name_of(driver), renderer));
     }
-    version_ = renderer + ", OpenGL " + text(gl_, GL_VERSION);
+    gl_version_ = text(gl_, GL_VERSION);
+    version_ = renderer + ", OpenGL " + gl_version_;
   }
   ~OpenGlRenderer() override {
     try {
@@ -104,6 +106,12 @@ class OpenGlRenderer final : public Renderer {
     if (!request.pixels.empty() && !request.records.has(Stage::window)) {
       return read_pixel_fragments(gl_, scene, request, records);
     }
+    const bool polygons = request.records.has(Stage::clip) || request.records.has(Stage::window);
+    if (polygons && crashes_in_feedback(scene.scene(), driver_, gl_version_)) {
+      throw Unsupported(
+          "Mesa 25.0 and later crash in feedback mode where a vertex program lights two sides: its records of clip and "
+          "window cannot be read");
+    }
     FrameFormat frame = scene.scene().frame;
     frame.pass.sample.reset();  // vertices have no samples
     const Target target(gl_, frame, ColorFormat::rgba8);
@@ -111,7 +119,6 @@ class OpenGlRenderer final : public Renderer {
     target.bind();
     if (request.records.has(Stage::matrices)) records.matrices = read_matrices(gl_, scene);
     if (request.records.has(Stage::vertex)) records.vertices = vertex_program_.run(scene);
-    const bool polygons = request.records.has(Stage::clip) || request.records.has(Stage::window);
     std::vector<Lit<double>> lit;
     if (polygons || request.records.has(Stage::light)) lit = vertex_colors_.read(scene);
     target.bind();
@@ -122,7 +129,8 @@ class OpenGlRenderer final : public Renderer {
     }
   }
 
-  std::string name_, version_;
+  std::string name_, version_, gl_version_;
+  MesaDriver driver_;
   std::unique_ptr<Context> context_;
   Gl gl_;
   VertexProgram vertex_program_;

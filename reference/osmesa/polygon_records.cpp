@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -10,6 +11,7 @@
 
 #include "reference/osmesa/default_state.h"
 #include "reference/osmesa/feedback.h"
+#include "reference/osmesa/light_program.h"
 #include "reference/osmesa/light_state.h"
 
 namespace plumbline::osmesa {
@@ -213,7 +215,30 @@ void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std
   }
 }
 
+// Lit in feedback mode itself, for the back faces' colours.
+bool feeds_two_sides(const Scene& scene, const Draw& draw) {
+  return is_lit_per_vertex(draw) && scene.light_model.sides == LightModel::Sides::two;
+}
+
+// The number before the first point of "4.5 (Compatibility Profile) Mesa 25.0.7-2+deb13u1"; 0: no Mesa.
+int major_version_of_mesa(std::string_view gl_version) {
+  constexpr std::string_view kMesa = "Mesa ";
+  const std::size_t at = gl_version.find(kMesa);
+  int version = 0;
+  if (at != gl_version.npos)
+    std::from_chars(gl_version.data() + at + kMesa.size(), gl_version.data() + gl_version.size(), version);
+  return version;
+}
+
 }  // namespace
+
+bool crashes_in_feedback(const Scene& scene, MesaDriver driver, std::string_view gl_version) {
+  constexpr int kFirstThatCrashes = 25;
+  if (driver != MesaDriver::llvmpipe || major_version_of_mesa(gl_version) < kFirstThatCrashes) return false;
+  return std::ranges::any_of(scene.draws, [&](const Draw& draw) {
+    return feeds_two_sides(scene, draw) && needs_light_program(scene, draw) && !scene.lights.empty();
+  });
+}
 
 void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<double>> lit, const Request& request,
                    Records<double>& records) {
@@ -227,8 +252,8 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<dou
     const Mesh& mesh = scene.scene().meshes[draw.mesh];
     const std::vector<std::uint32_t> wanted = wanted_primitives(range, request.primitives);
     scene.set_matrices(i);
-    // Lit again, the vertices would cost a shader of their own. But that has the back faces' colours, too.
-    const bool two_sided = is_lit_per_vertex(draw) && scene.scene().light_model.sides == LightModel::Sides::two;
+    // Lit again, the vertices would cost a shader of their own.
+    const bool two_sided = feeds_two_sides(scene.scene(), draw);
     if (two_sided) {
       scene.set_vertex_light(i);
     } else {
