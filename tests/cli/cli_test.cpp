@@ -19,7 +19,7 @@ TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
   for (const char* jobs : {"0", "257", "-1", "1.5", "2x", "two", "''"}) {
     const Outcome run = plumb("check " + kScenes + "cull --jobs " + jobs);
     EXPECT_EQ(run.code, 2) << jobs;
-    EXPECT_TRUE(run.says("--jobs: Value ") && run.says(" not in range 1 to 256")) << run.text;
+    EXPECT_TRUE(run.says("--jobs: Value ") && run.says(" not in range ") && run.says("256")) << run.text;
   }
 }
 

@@ -36,7 +36,8 @@ TEST(OsmesaLines, keep_to_the_allowances_of_the_specification) {
   EXPECT_LT(m.ambiguous, 60u);  // ... 29 of 2,000 when this was written
 }
 
-TEST(OsmesaLines, lose_the_first_pixel_of_steep_lines_that_run_downwards) {
+// Measured: Mesa 22.3.6 loses them, 25.0.7 does not.
+TEST(OsmesaLines, lose_no_pixel_but_the_first_of_steep_lines_that_run_downwards) {
   std::vector<glm::vec3> ends;
   for (int dx = -6; dx <= 6; ++dx)
     for (int dy = -6; dy <= 6; ++dy) {
@@ -63,8 +64,8 @@ TEST(OsmesaLines, lose_the_first_pixel_of_steep_lines_that_run_downwards) {
       ties += ours[i] != theirs[i];
     }
   }
-  EXPECT_EQ(lost, 36);  // all of the octants
-  EXPECT_EQ(ties, 6);   // slopes of 1/2 and the like
+  EXPECT_TRUE(lost == 36 || lost == 0) << lost;  // all of the octants, or none
+  EXPECT_EQ(ties, lost == 0 ? 4 : 6);            // slopes of 1/2 and the like
 }
 
 TEST(OsmesaLines, points_are_the_same_exactly) {

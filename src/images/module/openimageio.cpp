@@ -2,6 +2,9 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "images/image_codec.h"
 
 namespace plumbline {
@@ -79,6 +82,24 @@ std::unique_ptr<OpenImage> open(const std::string& name, std::string& error) {
 // Pictures are small: threads of the libraries' own cost more than they save, and a process that has them cannot fork.
 [[maybe_unused]] const bool kNoThreads = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
 
+// Of a PNG file: without the eXIf chunk (length, type, data, CRC), which OpenImageIO 3.0 writes empty and 2.4 does not.
+// The same picture is the same bytes by both; a golden's name is the hash of its bytes.
+void remove_exif(std::vector<unsigned char>& bytes) {
+  constexpr std::size_t kSignature = 8, kFrame = 12;
+  if (bytes.size() < kSignature || bytes[1] != 'P' || bytes[2] != 'N' || bytes[3] != 'G') return;
+  for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
+    std::size_t size = kFrame;
+    for (std::size_t i = 0; i < 4; ++i) size += std::size_t{bytes[at + i]} << (8 * (3 - i));
+    if (size > bytes.size() - at) return;
+    const auto chunk = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    if (std::equal(chunk + 4, chunk + 8, "eXIf")) {
+      bytes.erase(chunk, chunk + static_cast<std::ptrdiff_t>(size));
+    } else {
+      at += size;
+    }
+  }
+}
+
 std::string encode(const ImageToEncode& image, std::string& error) {
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), type_of(image.type));
   spec.attribute("oiio:UnassociatedAlpha", 1);
@@ -100,6 +121,7 @@ std::string encode(const ImageToEncode& image, std::string& error) {
     error = out->geterror();
     return {};
   }
+  remove_exif(bytes);
   return {bytes.begin(), bytes.end()};
 }
 
