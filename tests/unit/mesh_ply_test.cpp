@@ -26,6 +26,13 @@ std::string ply(const std::string& vertices, const std::string& faces, int verte
 
 const std::string kPlyVertices = "0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 51\n";
 
+std::string bytes_of(auto number, bool big_endian) {
+  std::string out(sizeof number, '\0');
+  std::memcpy(out.data(), &number, sizeof number);
+  if (big_endian) std::reverse(out.begin(), out.end());
+  return out;
+}
+
 TEST_F(MeshFile, ReadsPlyWithColours) {
   const Mesh mesh = load_one(write(ply(kPlyVertices, "3 0 1 2\n"), "mesh.ply"));
   EXPECT_EQ(mesh.triangles.size(), 1u);
@@ -41,12 +48,7 @@ TEST_F(MeshFile, ReadsPlyWithColours) {
 TEST_F(MeshFile, ReadsBinaryPlyOfBothByteOrders) {
   for (const bool big : {false, true}) {
     std::string body;
-    const auto put = [&](auto value) {
-      std::string bytes(sizeof value, '\0');
-      std::memcpy(bytes.data(), &value, sizeof value);
-      if (big) std::reverse(bytes.begin(), bytes.end());
-      body += bytes;
-    };
+    const auto put = [&](auto value) { body += bytes_of(value, big); };
     for (const int x : {0, 0, 0, 1, 0, 0, 0, 1, 0}) put(static_cast<float>(x));
     put(std::uint8_t{3});
     for (const std::int32_t i : {0, 1, 2}) put(i);
@@ -122,12 +124,7 @@ TEST_F(MeshFile, ReadsPlyStripsAsTriangles) {
 TEST_F(MeshFile, ReadsBinaryPlyStripsOfBothByteOrders) {
   for (const bool big : {false, true}) {
     std::string body;
-    const auto put = [&](auto value) {
-      std::string bytes(sizeof value, '\0');
-      std::memcpy(bytes.data(), &value, sizeof value);
-      if (big) std::reverse(bytes.begin(), bytes.end());
-      body += bytes;
-    };
+    const auto put = [&](auto value) { body += bytes_of(value, big); };
     for (const int i : {0, 1, 2, 3, 4, 5}) {
       put(static_cast<float>(i % 2));
       put(static_cast<float>(i / 2));
