@@ -309,6 +309,16 @@ PlaneValue color_of_plane(const WindowTriangle<double>& t, int x, int y) {
   return {value, sum(b.d_dx, value), sum(b.d_dy, value)};
 }
 
+double depth_rounding(const WindowTriangle<double>& t) {
+  constexpr double kTerms = 6 * 0x1p-53, kPixels = 128;
+  const auto& v = t.v;
+  const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
+  const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
+  const double slopes = std::abs(glm::dot(b.d_dx, z)) + std::abs(glm::dot(b.d_dy, z));
+  const double out = kTerms * (std::max({std::abs(z.x), std::abs(z.y), std::abs(z.z)}) + kPixels * slopes);
+  return std::isfinite(out) ? out : 0;
+}
+
 Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
   const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
   const Vec3<double> q = b.value * Vec3<double>(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);

@@ -131,6 +131,11 @@ std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges
 /// `tie` and their errors apart, so that either may hide the other. Empty where no two tie.
 std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corners, int x, int y, double tie);
 
+/// What double leaves of a triangle's depth at a pixel [window z]: the plane is evaluated a tile (64 pixels) away at most
+/// and brought to the pixel, so its terms are the corners' depths and 128 pixels' worth of both slopes; six roundings.
+/// Slopes of 1 a pixel leave 1e-13, and those of slivers with a corner beside the eye, 10^7, a step of z24.
+double depth_rounding(const WindowTriangle<double>& triangle);
+
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
 /// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
 /// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|), and what double arithmetic leaves of a

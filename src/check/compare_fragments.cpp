@@ -43,12 +43,15 @@ Measurement each_fragment(const char* what, const std::string& unit, const Recor
 
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor) {
-  return each_fragment(
-      "depths", "step", candidate, candidate.depth.size(), reference.depth.size(), [&](Meter& meter, std::size_t i) {
-        const double a = candidate.depth[i], b = reference.depth[i];
-        const Covered& c = candidate.covered[i];
-        meter.value(difference(a, b) / depth_step(scene.frame.depth, b), factor, {c.x, c.y, c.triangle, "z"}, a, b);
-      });
+  return each_fragment("depths", "step", candidate, candidate.depth.size(), reference.depth.size(),
+                       [&](Meter& meter, std::size_t i) {
+                         const double a = candidate.depth[i], b = reference.depth[i];
+                         const Covered& c = candidate.covered[i];
+                         const double step = depth_step(scene.frame.depth, b), apart = difference(a, b) / step;
+                         const bool needed = apart > factor && c.triangle < candidate.triangles.size();
+                         const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
+                         meter.value(apart, factor + rounding, {c.x, c.y, c.triangle, "z"}, a, b);
+                       });
 }
 
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor) {

@@ -55,9 +55,11 @@ constexpr std::array kLedger = {
               "|p_clip| + w, undone in double. The cuts themselves follow one recipe."},
     Tolerance{"exact.window", 4, "u", "1/w, product, and a fused or separate scale and translate: 4 roundings."},
     Tolerance{"osmesa.window", 1, "ULP", "1/w: feedback hands out w, the reciprocal of the reciprocal; p_win: 0."},
-    Tolerance{"exact.depth", 0.501, "step",
-              "Rounding to the nearest code is half a step. The plane is evaluated in double: 2^-53 of its terms, "
-              "which slivers make large; 0.001 steps are kept for them. (Within one step would let truncation pass.)"},
+    Tolerance{
+        "exact.depth", 0.501, "step",
+        "Rounding to the nearest code is half a step. The plane is evaluated in double; 0.001 steps are kept "
+        "for it, and for slivers six roundings of its terms, which only there are more (bounds.h, depth_rounding). "
+        "(Within one step would let truncation pass.)"},
     Tolerance{
         "osmesa.lines", 1, "pixel",
         "Lines of width 1 may be drawn by another rule than the diamond-exit rule (OpenGL 2.1, section 3.4.1): each "

@@ -105,6 +105,24 @@ TEST_F(Fragments, DepthInStepsOfEachFormat) {
   EXPECT_EQ(depth_step(DepthFormat::z32f, 1), 0x1p-23);
 }
 
+TEST_F(Fragments, DepthsOfSliversAreHeldToTheRoundingOfTheirPlane) {
+  auto& v = records.triangles[1].v;
+  v[2].p_win = Vec3<double>(2, 2 + 1.0 / 1024, 4096);  // a slope of 4 10^6 by y
+  const double rounding = depth_rounding(records.triangles[1]), step = depth_step(scene.frame.depth, 0.25);
+  const double slope = (4096 - 0.25) * 1024;
+  EXPECT_GT(rounding, 6 * 0x1p-53 * 128 * slope * 0.9);
+  EXPECT_LT(rounding, 6 * 0x1p-53 * 128 * slope * 1.1);
+  const auto moved = [&](double by) { return [=](auto& r) { r.depth[4] += 0.501 * step + by * rounding; }; };
+  for (double by : {0.05, 0.99}) EXPECT_TRUE(passes(run(depth(), moved(by)))) << by;
+  EXPECT_TRUE(fails(run(depth(), moved(1.01))));
+  const Change of_plain = [&](auto& r) { r.depth[0] += 0.501 * step + 0.01 * rounding; };
+  EXPECT_TRUE(fails(run(depth(), of_plain))) << "the other triangle is no sliver";
+  records.covered[4].triangle = 7;
+  EXPECT_TRUE(fails(run(depth(), moved(0.5)))) << "of no triangle";
+  v[1].p_win = v[0].p_win, v[1].snapped = v[0].snapped;
+  EXPECT_EQ(depth_rounding(records.triangles[1]), 0) << "no plane";
+}
+
 TEST_F(Fragments, AttributesAreHeldToTheirBound) {
   const Vec4<double> bound = bounds_of_mean(records.triangles[1], 3, 3);
   for (int c = 0; c < 4; ++c) {
