@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -76,7 +78,15 @@ GoldenSet::GoldenSet(const fs::path& folder, Access access) : folder_(folder) {
   if (lock_ < 0)
     throw GoldenError(
         fmt::format("{}: expected the goldens' folder, found: {}", folder.string(), std::strerror(errno)));
-  if (::flock(lock_, (update ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
+  // A run that was killed holds the lock until the last of its processes has ended: a moment.
+  constexpr int kAttempts = 100;
+  const auto is_locked = [&] { return ::flock(lock_, (update ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0; };
+  bool locked = is_locked();
+  for (int i = 0; i < kAttempts && !locked; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    locked = is_locked();
+  }
+  if (!locked) {
     ::close(lock_);
     throw GoldenError(fmt::format("{}: another run {} these goldens: try again when it has ended", folder.string(),
                                   update ? "reads or updates" : "updates"));

@@ -244,10 +244,12 @@ std::string unexpected(CLI::App& app, const std::string& word) {
   }
   const std::string hint =
       did_you_mean(word.substr(0, word.find('=')), std::vector<std::string_view>(names.begin(), names.end()));
-  const std::string where = &command == &app ? "plumb" : "plumb " + command.get_display_name();
-  if (is_command)
-    return fmt::format("{}: expected a command: {}; found {}{}", where, fmt::join(names, ", "), word, hint);
-  return fmt::format("{}: unexpected {} {}{}", where, is_option ? "option" : "argument", word, hint);
+  std::string path;  // "report merge: ", of what stands before the word
+  for (const CLI::App* at = &command; at != &app; at = at->get_parent()) path = at->get_display_name() + " " + path;
+  if (!path.empty()) path.back() = ':';
+  const std::string where = path.empty() ? "" : path + " ";
+  if (is_command) return fmt::format("{}expected a command: {}; found {}{}", where, fmt::join(names, ", "), word, hint);
+  return fmt::format("{}unexpected {} {}{}", where, is_option ? "option" : "argument", word, hint);
 }
 
 // CLI11 takes the next word where a value is empty, even if it is an option: an unset variable would write anywhere.

@@ -56,6 +56,9 @@ bool is_whole(const CheckOptions& o, std::span<const check::SceneVerdict> verdic
 void require_folders(const CheckOptions& o, std::span<const Scene> scenes) {
   require_folder({"--rows", o.rows});
   require_folder({"--failures", o.failures});
+  for (const Output& folder : {Output{"--rows", o.rows}, Output{"--failures", o.failures}}) {
+    require_outside(folder, {"--report", o.report});
+  }
   if (o.rows.empty() && o.failures.empty()) return;
   std::map<std::string, const Scene*> by_name;
   for (const Scene& scene : scenes) {

@@ -51,6 +51,11 @@ void require_outputs(std::span<const Output> files, const Output& folder, std::s
   }
 }
 
+void require_outside(const Output& folder, const Output& replaced) {
+  if (folder.path.empty() || replaced.path.empty() || !lies_in(folder.path, replaced.path)) return;
+  refuse(folder, fmt::format("lies in the folder of {}, which is replaced", replaced.option));
+}
+
 void require_folder(const Output& folder) {
   if (folder.path.empty()) return;
   fs::path there = resolved(folder.path);

@@ -18,6 +18,9 @@ struct Output {
 void require_outputs(std::span<const Output> files, const Output& folder,
                      std::span<const std::filesystem::path> inputs);
 
+/// Refuses a folder that lies in another, which will be replaced. Throws std::runtime_error as above.
+void require_outside(const Output& folder, const Output& replaced);
+
 /// Refuses a folder in which nothing can be made. Throws std::runtime_error as above.
 void require_folder(const Output& folder);
 

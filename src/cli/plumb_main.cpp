@@ -6,6 +6,8 @@
 #include <exception>
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -25,6 +27,9 @@ int plumb_main(int argc, char** argv) {
     return code;
   } catch (const std::filesystem::filesystem_error& e) {
     say(fmt::format("{}: {}", e.path1().string(), e.code().message()));
+  } catch (const std::system_error& e) {  // of fmt::print: "cannot write to file"
+    const bool of_print = std::string_view(e.what()).starts_with("cannot write to file");
+    say(of_print ? fmt::format("standard output: cannot be written: {}", e.code().message()) : e.what());
   } catch (const std::exception& e) {
     say(e.what());
   }

@@ -18,12 +18,14 @@ References make_references(const std::vector<std::string>& names, const std::vec
 
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
                            const Watch& watch) {
-  References out = make_references(names, assets);
-  for (std::size_t i = 0; i < out.owned.size(); ++i) {
+  References out;
+  std::uint32_t number = 0;
+  for (const std::string& name : names) {
     Watch own = watch;
-    if (in_own_process(names[i])) own.limit += kOwnProcessLimit;  // which ends it before
-    out.owned[i] = make_watched(std::move(out.owned[i]), static_cast<std::uint32_t>(i + 1), own);
-    out.list[i].renderer = out.owned[i].get();
+    if (in_own_process(name)) own.limit += kOwnProcessLimit;  // which ends it before
+    const auto make = [&] { return make_reference(name, assets); };
+    out.owned.push_back(make_watched(name, make, ++number, own));
+    out.list.push_back({name, out.owned.back().get()});
   }
   return out;
 }

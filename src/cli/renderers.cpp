@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/did_you_mean.h"
 #include "image_order/image_order.h"
 #include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
@@ -143,7 +144,10 @@ std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
   for (const faults::Fault& f : faults::endings()) {
     if (f.name == fault) return pipeline::make_pipeline(f.stages());
   }
-  throw std::invalid_argument(fmt::format("no fault '{}': plumb list faults shows all", fault));
+  std::vector<std::string_view> names;
+  for (const faults::Fault& f : faults::all()) names.push_back(f.name);
+  throw std::invalid_argument(
+      fmt::format("no fault '{}'{}: plumb list faults shows all", fault, did_you_mean(fault, names)));
 }
 #else
 std::vector<FaultInfo> fault_infos() { return {}; }

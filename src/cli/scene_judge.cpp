@@ -10,16 +10,16 @@
 
 namespace plumbline::cli {
 
-SceneJudge::SceneJudge(const CheckRules& rules, Progress& progress) : rules_(&rules) {
-  const CheckOptions& o = rules.options;
-  const Watch watch{&progress, &ended_, o.limits.step};
-  candidate_ = make_watched(make_candidate(o.fault), 0, watch);
-  references_ = make_references(o.against, o.scene_arguments.assets, watch);
-}
+SceneJudge::SceneJudge(const CheckRules& rules, Progress& progress) : rules_(&rules), progress_(&progress) {}
 
 JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   const CheckOptions& o = rules_->options;
   ended_ = std::move(ended);
+  if (!candidate_) {  // here, since what is made may have ended a worker before
+    const Watch watch{progress_, &ended_, o.limits.step};
+    candidate_ = make_watched(make_candidate(o.fault), 0, watch);
+    references_ = make_references(o.against, o.scene_arguments.assets, watch);
+  }
   JudgedScene out;
   check::Drawn drawn;
   out.verdict = check::judge(scene, *candidate_, references_.list, rules_->page ? &drawn : nullptr);

@@ -52,6 +52,7 @@ class SceneJudge {
 
  private:
   const CheckRules* rules_;
+  Progress* progress_;
   EndedSteps ended_;
   std::unique_ptr<Renderer> candidate_;
   References references_;

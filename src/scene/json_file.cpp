@@ -1,5 +1,6 @@
 #include "scene/json_file.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -105,6 +106,11 @@ JsonValue read_json_file(const std::filesystem::path& path, const std::string& n
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!in) refuse("a JSON file", "one that cannot be read");
   if (text.size() > most_bytes) refuse(fmt::format("JSON of at most {} bytes", most_bytes), "more");
+  // The parser would end there.
+  if (const std::size_t at = text.find('\0'); at != text.npos) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    refuse("JSON", fmt::format("a NUL byte in line {}", line));
+  }
   // The parser would skip it; other readers of the same file would not.
   if (text.starts_with("\xef\xbb\xbf")) refuse("JSON in UTF-8 without a byte order mark", "the mark");
 

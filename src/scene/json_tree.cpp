@@ -46,7 +46,8 @@ std::string describe(const JsonValue& value) {
 
 JsonError::JsonError(const std::string& file, const std::string& pointer, std::string_view expected,
                      std::string_view found)
-    : std::runtime_error(fmt::format("{}: at \"{}\": expected {}, found {}", file, printable(pointer),
+    : std::runtime_error(fmt::format("{}: {}expected {}, found {}", file,
+                                     pointer.empty() ? "" : fmt::format("at \"{}\": ", printable(pointer)),
                                      printable(expected), printable(found))) {}
 
 bool JsonValue::operator==(const JsonValue& other) const {

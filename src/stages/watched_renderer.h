@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -22,6 +23,13 @@ struct Watch {
   const EndedSteps* ended;
   std::chrono::milliseconds limit;  ///< of a step
 };
+
+/// What make() makes, watched: making it is a step, too. Where that fails for lack of memory, or with a
+/// std::runtime_error, or has ended a worker before, a renderer `name` that shows nothing and throws RendererFailed with
+/// the words. Null stays
+/// null.
+std::unique_ptr<Renderer> make_watched(const std::string& name, const std::function<std::unique_ptr<Renderer>()>& make,
+                                       std::uint32_t number, const Watch& watch);
 
 /// The inner renderer, number `number` of its worker. Each call is a step: drawing watched, drawing a picture alone,
 /// and each stage run alone. capture() and run_stage() throw RendererFailed with the words of `ended` where their step

@@ -30,7 +30,11 @@ struct JudgeWatched : Judge {
         auto ours = changed(pipeline::make_pipeline(), candidate), other = changed(pipeline::make_pipeline(), witness),
              judge_of_stages = changed(exact::make_exact(), referee);
         harm(*ours, *other, *judge_of_stages);
-        const auto a = make_watched(std::move(ours), 0, watch), b = make_watched(std::move(other), 1, watch),
+        const auto make_other = [&]() -> std::unique_ptr<Renderer> {
+          before_made();
+          return std::move(other);
+        };
+        const auto a = make_watched(std::move(ours), 0, watch), b = make_watched("witness", make_other, 1, watch),
                    c = make_watched(std::move(judge_of_stages), 2, watch);
         const Reference references[] = {{"witness", b.get()}, {"exact", c.get()}};
         std::string text;
@@ -50,6 +54,8 @@ struct JudgeWatched : Judge {
               }});
     return out;
   }
+  std::function<void()> before_made = [] {};  // the witness
+
   std::string rows(const std::function<void(Changed&, Changed&, Changed&)>& harm) {
     std::map<std::uint32_t, std::string> ends;
     return rows(harm, ends);
@@ -71,6 +77,21 @@ TEST_F(JudgeWatched, AReferenceThatCrashesIsARowAndTheOthersAreJudged) {
   EXPECT_TRUE(has(all, "witness merge failed was killed by signal 8 (Floating point exception)")) << all;
   EXPECT_TRUE(has(all, "exact from its records merge ")) << all;
   EXPECT_TRUE(has(all, "picture merge equal")) << all;
+}
+
+TEST_F(JudgeWatched, AReferenceThatCannotBeMadeIsARowAndTheOthersAreJudged) {
+  const std::pair<std::function<void()>, const char*> endings[] = {
+      {[] { raise(SIGSEGV); }, "was killed by signal 11 (Segmentation fault)"},
+      {[] { throw std::bad_alloc(); }, "took more memory than a worker may have"},
+      {[] { throw RendererFailed("no device"); }, "no device"},
+      {[] { throw Unsupported("no such processor"); }, "no such processor"}};
+  for (const auto& [end, how] : endings) {
+    before_made = end;
+    const std::string all = rows([](Changed&, Changed&, Changed&) {});
+    EXPECT_TRUE(has(all, fmt::format("witness merge failed {}: while it was made\n", how))) << all;
+    EXPECT_TRUE(has(all, "exact from its records merge ")) << all;
+    EXPECT_TRUE(has(all, "picture merge equal")) << all;
+  }
 }
 
 TEST_F(JudgeWatched, AStageOfExactsThatCrashesIsThatStagesRow) {

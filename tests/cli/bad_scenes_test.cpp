@@ -136,13 +136,14 @@ TEST_F(BadScenes, OddBytesAreRefused) {
   const auto refused = [&](const std::string& text, const std::string& expected) {
     EXPECT_EQ(message_of(text).substr(0, expected.size()), expected);
   };
-  const std::string at_top = "@group/scene.json: at \"\": expected ";
+  const std::string at_top = "@group/scene.json: expected ";
   refused("\xef\xbb\xbf{}", at_top + "JSON in UTF-8 without a byte order mark, found the mark");
   refused(std::string("\xff\xfe{\0}\0", 6), at_top + "JSON, found");
   refused("\"\xff\"", at_top + "JSON, found");
   refused("{\"description\": \"\xc0\x80\"}", "@group/scene.json: at \"/description\": expected JSON, found");
   refused("{\"description\": \"\xed\xa0\x80\"}", "@group/scene.json: at \"/description\": expected JSON, found");
-  refused(std::string("{\0}", 3), at_top + "JSON, found");
+  refused(std::string("{\0}", 3), at_top + "JSON, found a NUL byte in line 1");
+  refused(std::string("{\n}\0 {{{", 8), at_top + "JSON, found a NUL byte in line 2");
   refused(top("\"\\u001b[2J\": 1"), "@group/scene.json: at \"/\\u001b[2J\": expected a key among $schema");
   write("group/steers.obj", kTriangle + "\x1b[2J 1 2 3\n");
   EXPECT_NE(message_of(mesh(R"({"file": "steers.obj"})")).find("found \"\\u001b[2J\" in line 4"), std::string::npos);
@@ -158,7 +159,7 @@ TEST_F(BadScenes, OddBytesAreRefused) {
 
 TEST_F(BadScenes, WhatIsNoFileIsRefused) {
   const auto refused = [&](const fs::path& file, const std::string& found) {
-    EXPECT_EQ(message(file), shortened(file.string()) + ": at \"\": expected a JSON file, found " + found);
+    EXPECT_EQ(message(file), shortened(file.string()) + ": expected a JSON file, found " + found);
   };
   refused(root_ / "none.json", "nothing: there is no such file");
   refused(root_ / "group", "something that is not a file");
@@ -187,7 +188,7 @@ TEST_F(BadScenes, EndTheProgramWith2AndNothingWritten) {
     const Outcome run = plumb(command + " --assets " + (root_ / "assets").string());
     const std::string& said = run.text;
     EXPECT_EQ(run.code, 2) << command << "\n" << kBadScenes[i].text;
-    EXPECT_NE(said.find(": at \""), said.npos) << said;
+    EXPECT_NE(said.find(": expected "), said.npos) << said;
     EXPECT_TRUE(fs::is_empty(out)) << command << "\n" << kBadScenes[i].text;
   }
 }

@@ -32,8 +32,21 @@ TEST_F(Cli, a_misspelt_command_or_option_says_what_was_meant) {
   says("chek " + kSharedEdges, "found chek (did you mean \"check\"?)");
   says("golden updat", "found updat (did you mean \"update\"?)");
   says("check " + kSharedEdges + " --reprot page", "unexpected option --reprot (did you mean \"--report\"?)");
+  says("report merge --json x", "plumb: report merge: unexpected option --json");
+  says("check " + kSharedEdges + " --fault window.y_fliped", "(did you mean \"window.y_flipped\"?)");
+  says("check " + kSharedEdges + " --report " + at("q") + " --failures " + at("q/r"), "lies in the folder of --report");
   says("xyzzy", "expected a command: render, check, diagnose");
   EXPECT_FALSE(plumb("xyzzy").says("did you mean"));
+}
+
+TEST_F(Cli, a_closed_standard_output_is_an_error) {
+  for (const std::string& arguments : {"check " + kSharedEdges, std::string("list"), "diagnose " + kSharedEdges}) {
+    for (const char* output : {">&-", ">/dev/full"}) {
+      const Outcome run = shell(fmt::format("{} {} 2>&1 {}", PLUMBLINE_PLUMB, arguments, output));
+      EXPECT_EQ(run.code, 2) << run.text;
+      EXPECT_TRUE(run.says("plumb: standard output: cannot be written")) << run.text;
+    }
+  }
 }
 
 TEST_F(Cli, a_message_that_nobody_hears_is_no_crash) {

@@ -29,6 +29,18 @@ TEST_F(FailingRenderers, are_rows_with_the_stage_that_was_running) {
   }
 }
 
+// A reference that cannot be made is its own row; the others judge.
+TEST_F(FailingRenderers, may_lack_memory_from_their_start_on) {
+  const std::string two = kWindings + " " + kScenes + "scissor/windows.json";
+  const Outcome run = shell(PLUMBLINE_PLUMB " check " + two + " --memory-limit 64");  // libLLVM alone is larger
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("failed cull/both_windings: osmesa, merge: ")) << run.text;
+  EXPECT_TRUE(run.says("failed scissor/windows: osmesa, merge: ")) << run.text;
+  EXPECT_TRUE(run.says(": while it was made")) << run.text;
+  EXPECT_TRUE(run.says("exact from its records   matrices   ") || run.says("exact from its records   window     "))
+      << run.text;
+}
+
 TEST_F(FailingRenderers, are_judged_up_to_the_stage_that_fails) {
   const Outcome run = plumb("check " + kWindings + " --against exact --fault endings.crash");
   EXPECT_TRUE(run.says("exact from its records   light      equal")) << run.text;
