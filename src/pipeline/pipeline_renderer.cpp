@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "pipeline/clip.h"
 #include "pipeline/convert.h"
 #include "pipeline/input.h"
