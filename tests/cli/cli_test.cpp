@@ -1,4 +1,6 @@
 // The program as a user meets it: arguments in, exit code, text and files out.
+#include <fmt/format.h>
+
 #include "run_plumb.h"
 #include "stages/capture_folder.h"
 #include "stages/image_file.h"
