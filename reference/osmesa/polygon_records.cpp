@@ -215,7 +215,7 @@ void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std
   }
 }
 
-// Lit in feedback mode itself, for the back faces' colours.
+// Draws that feedback mode lights itself: `lit` holds the front faces' colours alone.
 bool feeds_two_sides(const Scene& scene, const Draw& draw) {
   return is_lit_per_vertex(draw) && scene.light_model.sides == LightModel::Sides::two;
 }
@@ -252,7 +252,7 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<dou
     const Mesh& mesh = scene.scene().meshes[draw.mesh];
     const std::vector<std::uint32_t> wanted = wanted_primitives(range, request.primitives);
     scene.set_matrices(i);
-    // Lit again, the vertices would cost a shader of their own.
+    // Other draws pass their colours through: lit again, they would cost a shader of their own.
     const bool two_sided = feeds_two_sides(scene.scene(), draw);
     if (two_sided) {
       scene.set_vertex_light(i);

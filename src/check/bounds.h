@@ -131,9 +131,9 @@ std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges
 /// `tie` and their errors apart, so that either may hide the other. Empty where no two tie.
 std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corners, int x, int y, double tie);
 
-/// What double leaves of a triangle's depth at a pixel [window z]: the plane is evaluated a tile (64 pixels) away at most
-/// and brought to the pixel, so its terms are the corners' depths and 128 pixels' worth of both slopes; six roundings.
-/// Slopes of 1 a pixel leave 1e-13, and those of slivers with a corner beside the eye, 10^7, a step of z24.
+/// Rounding error of a triangle's depth in double [window z]. The plane is evaluated at an anchor at most a tile (64
+/// pixels) away and brought to the pixel, so its terms are the corners' depths and both slopes over 128 pixels; six
+/// roundings of 2^-53. With slopes of 1 a pixel 1e-13; with slopes of 10^7 (slivers beside the eye) a step of z24.
 double depth_rounding(const WindowTriangle<double>& triangle);
 
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2

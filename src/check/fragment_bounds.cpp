@@ -22,7 +22,7 @@ constexpr std::string_view kBehindEye =
 const Records<double> kNone;
 const std::vector<Vec4<double>> kNowhere;
 
-// Of a member (&Lit<double>::color) per vertex, or what the tolerance named grants where the reference shows none.
+// Difference of a member (&Lit<double>::color) per vertex; `granted` where the reference shows none.
 template <class Record>
 std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std::vector<Record>& b, auto member,
                                         double granted) {

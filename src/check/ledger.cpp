@@ -66,9 +66,8 @@ constexpr std::array kLedger = {
         "pixel at most one off, one more or fewer in number, one to a column. Mesa's end points are moved so that "
         "some lines of ends off the pixels' centres begin or end a pixel elsewhere, and in a frame buffer object "
         "Mesa 22.3 loses the first pixel of steep lines that run downwards (25.0 does not). Of a wide line that goes "
-        "for the line that is "
-        "widened (3.4.2): its columns are whole. An even width moves it by half a pixel, and Mesa looks at its ends "
-        "before: together that may be two in number, a dispute."},
+        "for the line that is widened (3.4.2): its columns are whole. An even width moves it by half a pixel, and Mesa "
+        "looks at its ends before: together that may be two in number, a dispute."},
     Tolerance{
         "osmesa.depth", 4, "u",
         "llvmpipe evaluates z0 + dz/dx x + dz/dy y in float from the window's origin: each term is a product and a "

@@ -24,10 +24,9 @@ struct Watch {
   std::chrono::milliseconds limit;  ///< of a step
 };
 
-/// What make() makes, watched: making it is a step, too. Where that fails for lack of memory, or with a
-/// std::runtime_error, or has ended a worker before, a renderer `name` that shows nothing and throws RendererFailed with
-/// the words. Null stays
-/// null.
+/// Watched renderer that make() makes, in a step of its own. Where making throws std::runtime_error or std::bad_alloc,
+/// or has ended a worker before: a renderer `name` that shows nothing, and whose calls throw RendererFailed with the
+/// reason. Null stays null. Other exceptions of make() are passed on.
 std::unique_ptr<Renderer> make_watched(const std::string& name, const std::function<std::unique_ptr<Renderer>()>& make,
                                        std::uint32_t number, const Watch& watch);
 

@@ -82,8 +82,8 @@ std::unique_ptr<OpenImage> open(const std::string& name, std::string& error) {
 // Pictures are small: threads of the libraries' own cost more than they save, and a process that has them cannot fork.
 [[maybe_unused]] const bool kNoThreads = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
 
-// Of a PNG file: without the eXIf chunk (length, type, data, CRC), which OpenImageIO 3.0 writes empty and 2.4 does not.
-// The same picture is the same bytes by both; a golden's name is the hash of its bytes.
+// Removes the eXIf chunk (length, type, data, CRC) of a PNG file: OpenImageIO 3.0 writes an empty one, 2.4 none, and a
+// golden's name is the hash of its bytes.
 void remove_exif(std::vector<unsigned char>& bytes) {
   constexpr std::size_t kSignature = 8, kFrame = 12;
   if (bytes.size() < kSignature || bytes[1] != 'P' || bytes[2] != 'N' || bytes[3] != 'G') return;
