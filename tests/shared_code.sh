@@ -10,18 +10,18 @@ trap 'rm -rf "$work"' EXIT
 
 names() { sed -E 's/^plumbline:://; s/\(.*//; s/\[abi:[a-z0-9]*\]//g' | sort -u; }
 
-for library in scene stages dialect transforms; do
+for library in scene scene_json scene_texture scene_mesh scene_file capture capture_files dialect transforms; do
   "$nm" -C -g --defined-only "$build/src/libplumbline_$library.a"
 done 2>/dev/null | sed -nE 's/^[0-9a-f]+ [TRDB] (plumbline::.*)$/\1/p' | sort -u >"$work/defined"
-for library in "$build"/reference/libplumbline_*.a "$build/src/libplumbline_check.a"; do
+for library in "$build"/reference/libplumbline_*.a "$build"/src/libplumbline_check_*.a; do
   "$nm" -C --undefined-only "$library"
 done 2>/dev/null | sed -nE 's/^ +U (plumbline::.*)$/\1/p' | sort -u >"$work/used"
 comm -12 "$work/defined" "$work/used" | names >"$work/symbols"
 
 cd "$source"
-cat src/scene/*.h src/stages/*.h src/dialect/*.h src/transforms/*.h |
+cat src/scene/*.h src/scene/*/*.h src/capture/*.h src/capture/files/*.h src/dialect/*.h src/transforms/*.h |
   sed -nE -e 's/^(inline |constexpr )+[^=(]*[ &*>]([A-Za-z_]+)[ ]?(\(|=|\{).*/\2/p' | sort -u >"$work/inline"
-cat reference/*/*.cpp reference/*/*.h src/check/*.cpp src/check/*.h | sed -E 's,//.*,,; s/"([^"\\]|\\.)*"//g' |
+find reference src/check -name "*.cpp" -o -name "*.h" | xargs cat | sed -E 's,//.*,,; s/"([^"\\]|\\.)*"//g' |
   grep -oE '[A-Za-z_]+' | sort -u >"$work/words"
 comm -12 "$work/inline" "$work/words" >"$work/headers"
 

@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "reference/arithmetic/resolve.h"
 #include "reference/embree/rays.h"
-#include "reference/math/oracle.h"
-#include "reference/math/resolve.h"
+#include "reference/oracle/oracle.h"
 
 namespace plumbline::embree {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "stages/renderer.h"
+#include "capture/renderer.h"
 
 namespace plumbline::embree {
 

@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "capture/renderer.h"
 #include "reference/embree/compatibility.h"
-#include "stages/renderer.h"
 
 namespace plumbline::embree {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "reference/math/candidates.h"
-#include "reference/math/project.h"
+#include "reference/arithmetic/project.h"
+#include "reference/oracle/candidates.h"
 
 namespace plumbline::embree {
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "capture/stages.h"
 #include "reference/exact/wide.h"
-#include "stages/stages.h"
 
 namespace plumbline::exact {
 

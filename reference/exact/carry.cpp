@@ -1,13 +1,13 @@
 #include "reference/exact/carry.h"
 
+#include "capture/seen_as.h"
+#include "reference/arithmetic/draw_ranges.h"
+#include "reference/arithmetic/light.h"
 #include "reference/exact/clip.h"
 #include "reference/exact/fragments.h"
 #include "reference/exact/geometry.h"
 #include "reference/exact/input.h"
 #include "reference/exact/window.h"
-#include "reference/math/draw_ranges.h"
-#include "reference/math/light.h"
-#include "stages/seen_as.h"
 
 namespace plumbline::exact {
 namespace {

@@ -2,8 +2,8 @@
 // records do not fit the scene or each other.
 #pragma once
 
+#include "capture/stages.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::exact {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/arithmetic/draw_ranges.h"
 #include "reference/exact/input.h"
-#include "reference/math/draw_ranges.h"
 
 namespace plumbline::exact {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/renderer.h"
+#include "reference/arithmetic/passes.h"
 #include "reference/exact/input.h"
 #include "reference/exact/line_coverage.h"
 #include "reference/exact/window.h"
-#include "reference/math/passes.h"
-#include "stages/renderer.h"
 
 namespace plumbline::exact {
 namespace {

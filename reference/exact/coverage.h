@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "capture/capture.h"
 #include "reference/exact/wide.h"
 #include "scene/scene.h"
-#include "stages/capture.h"
 
 namespace plumbline::exact {
 

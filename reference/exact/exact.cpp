@@ -1,5 +1,6 @@
 #include "reference/exact/exact.h"
 
+#include "reference/arithmetic/resolve.h"
 #include "reference/exact/carry.h"
 #include "reference/exact/clip.h"
 #include "reference/exact/coverage.h"
@@ -11,8 +12,7 @@
 #include "reference/exact/surface.h"
 #include "reference/exact/texels.h"
 #include "reference/exact/window.h"
-#include "reference/math/oracle.h"
-#include "reference/math/resolve.h"
+#include "reference/oracle/oracle.h"
 
 namespace plumbline::exact {
 namespace {

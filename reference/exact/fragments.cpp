@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/arithmetic/passes.h"
 #include "reference/exact/input.h"
-#include "reference/math/passes.h"
 
 namespace plumbline::exact {
 namespace {

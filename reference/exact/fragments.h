@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "capture/stages.h"
 #include "reference/exact/barycentric.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::exact {
 

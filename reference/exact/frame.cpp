@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/arithmetic/depth_format.h"
 #include "reference/exact/input.h"
-#include "reference/math/depth_format.h"
 
 namespace plumbline::exact {
 

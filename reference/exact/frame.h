@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "reference/math/frame_color.h"
+#include "capture/capture.h"
+#include "reference/arithmetic/frame_color.h"
 #include "scene/scene.h"
-#include "stages/capture.h"
 
 namespace plumbline::exact {
 

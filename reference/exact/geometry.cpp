@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "reference/arithmetic/draw_ranges.h"
+#include "reference/arithmetic/light.h"
+#include "reference/arithmetic/matrices.h"
 #include "reference/exact/input.h"
-#include "reference/math/draw_ranges.h"
-#include "reference/math/light.h"
-#include "reference/math/matrices.h"
 
 namespace plumbline::exact {
 

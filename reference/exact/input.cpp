@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "reference/math/draw_ranges.h"
+#include "reference/arithmetic/draw_ranges.h"
 
 namespace plumbline::exact {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "capture/stages.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::exact {
 

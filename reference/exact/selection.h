@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "capture/renderer.h"
 #include "reference/exact/surface.h"
-#include "stages/renderer.h"
 
 namespace plumbline::exact {
 

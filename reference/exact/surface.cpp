@@ -1,9 +1,9 @@
 #include "reference/exact/surface.h"
 
+#include "reference/arithmetic/fog.h"
+#include "reference/arithmetic/texture.h"
 #include "reference/exact/geometry.h"
 #include "reference/exact/input.h"
-#include "reference/math/fog.h"
-#include "reference/math/texture.h"
 
 namespace plumbline::exact {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "reference/math/light.h"
+#include "capture/stages.h"
+#include "reference/arithmetic/light.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::exact {
 

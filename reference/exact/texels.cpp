@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/arithmetic/texture.h"
 #include "reference/exact/input.h"
-#include "reference/math/texture.h"
 
 namespace plumbline::exact {
 namespace {

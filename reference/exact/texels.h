@@ -1,11 +1,11 @@
-// Stage 8: a fragment's texel, on real numbers (reference/math/texture.h filters).
+// Stage 8: a fragment's texel, on real numbers (reference/arithmetic/texture.h filters).
 #pragma once
 
 #include <vector>
 
+#include "capture/capture.h"
 #include "reference/exact/barycentric.h"
 #include "scene/scene.h"
-#include "stages/capture.h"
 
 namespace plumbline::exact {
 

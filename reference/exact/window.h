@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "capture/stages.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::exact {
 

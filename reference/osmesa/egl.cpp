@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "reference/osmesa/gl.h"
+#include "capture/renderer.h"
+#include "reference/osmesa/gl/gl.h"
 #include "reference/osmesa/opengl_renderer.h"
 #include "reference/osmesa/osmesa.h"
-#include "stages/renderer.h"
 
 #define EGL_NO_PLATFORM_SPECIFIC_TYPES  // no X11
 #include <EGL/egl.h>

@@ -4,16 +4,16 @@
 
 #include <fmt/format.h>
 
-#include "reference/math/resolve.h"
-#include "reference/osmesa/default_state.h"
-#include "reference/osmesa/gl.h"
-#include "reference/osmesa/line_records.h"
-#include "reference/osmesa/pixel_fragments.h"
-#include "reference/osmesa/planes.h"
-#include "reference/osmesa/polygon_records.h"
-#include "reference/osmesa/scene_in_gl.h"
-#include "reference/osmesa/target.h"
-#include "reference/osmesa/vertex_records.h"
+#include "reference/arithmetic/resolve.h"
+#include "reference/osmesa/gl/gl.h"
+#include "reference/osmesa/readback/line_records.h"
+#include "reference/osmesa/readback/pixel_fragments.h"
+#include "reference/osmesa/readback/planes.h"
+#include "reference/osmesa/readback/polygon_records.h"
+#include "reference/osmesa/readback/vertex_records.h"
+#include "reference/osmesa/scene/default_state.h"
+#include "reference/osmesa/scene/scene_in_gl.h"
+#include "reference/osmesa/scene/target.h"
 
 namespace plumbline::osmesa {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "reference/osmesa/context.h"
-#include "stages/renderer.h"
+#include "capture/renderer.h"
+#include "reference/osmesa/gl/context.h"
 
 namespace plumbline::osmesa {
 

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "reference/osmesa/gl.h"
+#include "capture/renderer.h"
+#include "reference/osmesa/gl/gl.h"
 #include "reference/osmesa/opengl_renderer.h"
-#include "stages/renderer.h"
 
 // After gl.h, which asks <GL/gl.h> for all prototypes.
 #include <GL/osmesa.h>

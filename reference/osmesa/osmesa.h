@@ -4,12 +4,10 @@
 
 #include <memory>
 
-#include "stages/renderer.h"
+#include "capture/renderer.h"
+#include "reference/osmesa/gl/mesa_driver.h"
 
 namespace plumbline {
-
-/// Mesa's software drivers. A process can use one of them, by one of the libraries.
-enum class MesaDriver { llvmpipe, softpipe };
 
 /// Make the context. The renderer, named after the library or, with it, `softpipe`, shows
 ///   matrices   as GL's matrix stacks and viewport hold them, the normal matrix as the inverse transpose of that

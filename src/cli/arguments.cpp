@@ -11,7 +11,7 @@
 
 #include "base/did_you_mean.h"
 #include "cli/commands.h"
-#include "cli/say.h"
+#include "cli/options/say.h"
 #include "notes/notes.h"
 
 namespace plumbline::cli {

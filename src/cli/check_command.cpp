@@ -15,24 +15,24 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "check/expectations.h"
-#include "check/golden_set.h"
+#include "base/atomic_path.h"
+#include "check/golden/golden_set.h"
+#include "check/verdict/expectations.h"
 #include "cli/check_failures.h"
 #include "cli/commands.h"
-#include "cli/outputs.h"
-#include "cli/references.h"
-#include "cli/renderers.h"
+#include "cli/options/outputs.h"
+#include "cli/options/references.h"
+#include "cli/options/renderers.h"
+#include "cli/options/shard_argument.h"
 #include "cli/scene_judge.h"
-#include "cli/shard_argument.h"
 #include "cli/worker_bytes.h"
-#include "report/html_report.h"
-#include "report/json_report.h"
-#include "report/junit.h"
-#include "report/markdown.h"
-#include "report/run_file.h"
-#include "report/table.h"
-#include "scene/scene_file.h"
-#include "stages/atomic_path.h"
+#include "report/page/html_report.h"
+#include "report/runs/json_report.h"
+#include "report/runs/junit.h"
+#include "report/runs/run_file.h"
+#include "report/text/markdown.h"
+#include "report/text/table.h"
+#include "scene/file/scene_file.h"
 
 namespace plumbline::cli {
 

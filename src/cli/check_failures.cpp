@@ -7,12 +7,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/references.h"
-#include "report/html_report.h"
-#include "report/page.h"
-#include "report/table.h"
-#include "stages/atomic_path.h"
-#include "stages/image_file.h"
+#include "base/atomic_path.h"
+#include "capture/files/image_file.h"
+#include "cli/options/references.h"
+#include "report/page/html_report.h"
+#include "report/page/page.h"
+#include "report/text/safe_text.h"
+#include "report/text/table.h"
 
 namespace plumbline::cli {
 
@@ -86,7 +87,7 @@ std::string leave_report(const std::string& folder, const Scene& scene, const ch
                          Renderer& candidate, std::span<const check::Reference> references) {
   const std::filesystem::path to = std::filesystem::path(folder) / report::file_name(verdict.scene);
   report::HtmlReport page(to);
-  check::Drawn drawn;
+  check::BothCaptures drawn;
   check::judge(scene, candidate, references, &drawn);
   page.add(verdict, references, drawn, scene, verdict.failure, verdict.repeat);
   page.write(verdict.failure);

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "check/expectations.h"
-#include "check/judge.h"
+#include "capture/renderer.h"
+#include "check/judge/judge.h"
+#include "check/verdict/expectations.h"
 #include "cli/commands.h"
 #include "scene/scene.h"
-#include "stages/renderer.h"
 
 namespace plumbline::cli {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "check/diagnose.h"
-#include "cli/renderers.h"
-#include "cli/scene_arguments.h"
-#include "scene/workers.h"
+#include "base/workers.h"
+#include "check/diagnose/diagnose.h"
+#include "cli/options/renderers.h"
+#include "cli/options/scene_arguments.h"
 
 namespace plumbline::cli {
 

@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "check/compare_stored.h"
+#include "capture/files/capture_folder.h"
+#include "capture/files/image_file.h"
+#include "check/compare/compare_stored.h"
 #include "cli/commands.h"
-#include "cli/outputs.h"
-#include "report/json_report.h"
-#include "report/table.h"
-#include "stages/capture_folder.h"
-#include "stages/image_file.h"
+#include "cli/options/outputs.h"
+#include "report/runs/json_report.h"
+#include "report/text/table.h"
 
 namespace plumbline::cli {
 

@@ -6,21 +6,21 @@
 
 #include <fmt/format.h>
 
-#include "check/diagnose.h"
-#include "check/history.h"
+#include "capture/files/capture_folder.h"
+#include "capture/renderers/process_renderer.h"
+#include "capture/renderers/replayed_renderer.h"
+#include "check/diagnose/diagnose.h"
+#include "check/diagnose/history.h"
 #include "cli/commands.h"
-#include "cli/outputs.h"
-#include "cli/pixel_argument.h"
-#include "cli/references.h"
+#include "cli/options/outputs.h"
+#include "cli/options/pixel_argument.h"
+#include "cli/options/references.h"
 #include "cli/worker_bytes.h"
-#include "report/diagnosis_page.h"
-#include "report/diagnosis_text.h"
-#include "report/history_text.h"
-#include "report/json_report.h"
+#include "report/page/diagnosis_page.h"
+#include "report/runs/json_report.h"
+#include "report/text/diagnosis_text.h"
+#include "report/text/history_text.h"
 #include "scene/antialias.h"
-#include "stages/capture_folder.h"
-#include "stages/held_renderer.h"
-#include "stages/process_renderer.h"
 
 namespace plumbline::cli {
 
@@ -28,7 +28,7 @@ namespace {
 
 // Of another renderer: what it left, which is all that is known of it.
 std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scene& scene) {
-  if (!o.folder.empty()) return make_held_renderer(read_capture(o.folder), scene, o.folder);
+  if (!o.folder.empty()) return make_replayed_renderer(read_capture(o.folder), scene, o.folder);
   std::string line = "exec " + o.command;  // a shell splits it into words
   for (const auto& [word, parameter] : {std::pair("{scene}", "\"$1\""), std::pair("{folder}", "\"$2\"")}) {
     for (std::size_t at = 0; (at = line.find(word, at)) != std::string::npos;)
@@ -37,8 +37,8 @@ std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scen
   ProcessSpec spec;
   spec.name = "program";
   spec.argv = {"sh", "-c", line, "sh", "{scene}", "{folder}"};
-  return make_held_renderer(make_process_renderer(spec)->capture(scene, {StageSet::all(), false, {}, {}}), scene,
-                            "--program");
+  return make_replayed_renderer(make_process_renderer(spec)->capture(scene, {StageSet::all(), false, {}, {}}), scene,
+                                "--program");
 }
 
 // Of an antialiased scene its frame, and the stages of its first pass; else the stages of the frame.

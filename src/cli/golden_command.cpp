@@ -8,16 +8,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "check/diagnose.h"
-#include "check/golden.h"
+#include "base/atomic_path.h"
+#include "capture/files/image_file.h"
+#include "check/diagnose/diagnose.h"
+#include "check/golden/golden.h"
 #include "cli/commands.h"
-#include "cli/outputs.h"
-#include "cli/references.h"
-#include "report/diagnosis_text.h"
-#include "report/golden_page.h"
-#include "scene/scene_file.h"
-#include "stages/atomic_path.h"
-#include "stages/image_file.h"
+#include "cli/options/outputs.h"
+#include "cli/options/references.h"
+#include "report/page/golden_page.h"
+#include "report/text/diagnosis_text.h"
+#include "scene/file/scene_file.h"
 
 namespace plumbline::cli {
 
@@ -151,7 +151,7 @@ struct Asked {
 Asked ask(const Scene& scene, Renderer& candidate, const References& references, const std::string& fault,
           check::GoldenDifference difference) {
   const std::string ours = candidate.info().name;
-  check::Drawn drawn;
+  check::BothCaptures drawn;
   const check::SceneVerdict verdict = check::judge(scene, candidate, references.list, &drawn);
   check::Vouch vouch = check::vouch(verdict, ours, reference_names());
   if (!fault.empty()) vouch.refusals.push_back(fmt::format("drawn with the fault {}: never blessed", fault));

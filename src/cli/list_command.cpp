@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "scene/file/scene_file.h"
 #include "scene/frame_buffer.h"
-#include "scene/scene_file.h"
 
 namespace plumbline::cli {
 

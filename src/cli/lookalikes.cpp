@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "capture/files/image_file.h"
 #include "cli/commands.h"
-#include "cli/renderers.h"
-#include "stages/image_file.h"
+#include "cli/options/renderers.h"
 
 namespace plumbline::cli {
 

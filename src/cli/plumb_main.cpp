@@ -13,7 +13,7 @@
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
-#include "cli/say.h"
+#include "cli/options/say.h"
 
 namespace plumbline::cli {
 

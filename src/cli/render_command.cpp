@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "base/atomic_path.h"
+#include "capture/files/capture_folder.h"
+#include "capture/files/image_file.h"
+#include "capture/renderers/process_renderer.h"
 #include "cli/commands.h"
-#include "cli/outputs.h"
-#include "stages/atomic_path.h"
-#include "stages/capture_folder.h"
-#include "stages/image_file.h"
-#include "stages/process_renderer.h"
+#include "cli/options/outputs.h"
 
 namespace plumbline::cli {
 

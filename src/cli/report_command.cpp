@@ -7,19 +7,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "check/expectations.h"
+#include "base/atomic_path.h"
+#include "check/verdict/expectations.h"
 #include "cli/commands.h"
-#include "cli/outputs.h"
-#include "cli/references.h"
-#include "report/json_report.h"
-#include "report/junit.h"
-#include "report/markdown.h"
-#include "report/run_diff.h"
-#include "report/run_file.h"
-#include "report/run_merge.h"
-#include "report/table.h"
-#include "scene/scene_file.h"
-#include "stages/atomic_path.h"
+#include "cli/options/outputs.h"
+#include "cli/options/references.h"
+#include "report/runs/json_report.h"
+#include "report/runs/junit.h"
+#include "report/runs/run_diff.h"
+#include "report/runs/run_file.h"
+#include "report/runs/run_merge.h"
+#include "report/text/markdown.h"
+#include "report/text/table.h"
+#include "scene/file/scene_file.h"
 
 namespace plumbline::cli {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <iterator>
 
-#include "check/golden.h"
-#include "check/judge.h"
+#include "check/golden/golden.h"
+#include "check/judge/judge.h"
 #include "cli/check_failures.h"
-#include "cli/renderers.h"
+#include "cli/options/renderers.h"
 
 namespace plumbline::cli {
 
@@ -21,7 +21,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
     references_ = make_references(o.against, o.scene_arguments.assets, watch);
   }
   JudgedScene out;
-  check::Drawn drawn;
+  check::BothCaptures drawn;
   out.verdict = check::judge(scene, *candidate_, references_.list, rules_->page ? &drawn : nullptr);
   check::SceneVerdict& verdict = out.verdict;
   if (rules_->goldens)

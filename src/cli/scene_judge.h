@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "check/expectations.h"
-#include "check/golden_set.h"
-#include "check/verdict.h"
+#include "capture/renderer.h"
+#include "check/golden/golden_set.h"
+#include "check/verdict/expectations.h"
+#include "check/verdict/verdict.h"
 #include "cli/commands.h"
-#include "cli/references.h"
-#include "report/html_report.h"
+#include "cli/options/references.h"
+#include "report/page/html_report.h"
 #include "scene/scene.h"
-#include "stages/renderer.h"
 
 namespace plumbline::cli {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "stages/renderer.h"
+#include "capture/renderer.h"
 
 namespace plumbline::image_order {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "capture/stages.h"
 #include "scene/antialias.h"
-#include "stages/stages.h"
 
 namespace plumbline::image_order {
 

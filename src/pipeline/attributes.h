@@ -8,9 +8,9 @@
 #include <array>
 #include <type_traits>
 
+#include "capture/stages.h"
 #include "pipeline/depth.h"
 #include "pipeline/lanes.h"
-#include "stages/stages.h"
 
 namespace plumbline::pipeline {
 

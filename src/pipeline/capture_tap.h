@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "capture/renderer.h"
 #include "pipeline/fragment.h"
-#include "stages/renderer.h"
 
 namespace plumbline::pipeline {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "capture/stages.h"
 #include "pipeline/light_equation.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::pipeline {
 

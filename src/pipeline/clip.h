@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "capture/stages.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::pipeline {
 

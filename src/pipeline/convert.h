@@ -1,8 +1,8 @@
 // Between the pipeline's floats and the doubles of a capture.
 #pragma once
 
+#include "capture/renderer.h"
 #include "pipeline/attributes.h"
-#include "stages/renderer.h"
 
 namespace plumbline::pipeline {
 

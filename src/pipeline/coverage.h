@@ -14,10 +14,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "capture/stages.h"
+#include "kernels/line_diamond.h"
 #include "pipeline/lanes.h"
-#include "raster/line_diamond.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::pipeline {
 

@@ -6,9 +6,9 @@
 // a depth may be wrong.
 #pragma once
 
+#include "capture/stages.h"
 #include "pipeline/lanes.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::pipeline {
 

@@ -88,7 +88,7 @@ void GeometryRun::run(std::size_t draw, Stage stage, const Records<float>& in, R
 void GeometryRun::light(std::size_t draw, const Records<float>& in, Records<float>& out) const {
   const Draw& d = scene_->draws[draw];
   const auto vertices = std::span(in.vertices).subspan(ranges_[draw].first_vertex, ranges_[draw].vertex_count);
-  const auto of_scene = in.lights.empty() ? light_sources(*scene_) : Few<LightSource<float>, 8>();
+  const auto of_scene = in.lights.empty() ? light_sources(*scene_) : FixedVector<LightSource<float>, 8>();
   const Lights lights = in.lights.empty() ? Lights(of_scene) : Lights(in.lights);
   stages_.light(*scene_, d, lights, vertices, out.lit);
   for (const Varying v : carried_) stages_.carry(*scene_, d, v, lights, vertices, out.varyings[v].vertices);

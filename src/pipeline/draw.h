@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "base/fixed_vector.h"
+#include "capture/stages.h"
 #include "pipeline/light_equation.h"
-#include "scene/few.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::pipeline {
 
@@ -16,7 +16,7 @@ struct Assembly;
 /// The functions of stages 0 to 4; each can be called alone, and a test can put another in the place of one.
 struct GeometryStages {
   Matrices<float> (*matrices)(const Scene&, const Draw&);
-  Few<LightSource<float>, 8> (*lights)(const Scene&);
+  FixedVector<LightSource<float>, 8> (*lights)(const Scene&);
   void (*vertex)(const Matrices<float>&, Normals, const Mesh&, std::vector<Vertex<float>>&);
   void (*light)(const Scene&, const Draw&, Lights, std::span<const Vertex<float>>, std::vector<Lit<float>>&);
   void (*carry)(const Scene&, const Draw&, Varying, Lights, std::span<const Vertex<float>>, std::vector<Vec4<float>>&);

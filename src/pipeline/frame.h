@@ -5,8 +5,8 @@
 
 #include <glm/glm.hpp>
 
+#include "capture/plane.h"
 #include "scene/scene.h"
-#include "stages/plane.h"
 
 namespace plumbline::pipeline {
 

@@ -1,7 +1,7 @@
 // Whether records from outside fit a scene and each other, so that a stage can be run on them.
 #pragma once
 
-#include "stages/capture.h"
+#include "capture/capture.h"
 
 namespace plumbline::pipeline {
 

@@ -5,12 +5,12 @@
 #include <limits>
 #include <span>
 
+#include "base/fixed_vector.h"
+#include "capture/stages.h"
 #include "pipeline/attributes.h"
 #include "pipeline/math.h"
 #include "pipeline/vector.h"
-#include "scene/few.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::pipeline {
 
@@ -31,7 +31,7 @@ struct EyeLight {
 /// What does not change within a draw.
 struct Illumination {
   LightModel model;
-  Few<EyeLight, 8> lights;
+  FixedVector<EyeLight, 8> lights;
 };
 /// `lights`: one for each of the scene's.
 Illumination illumination(const Scene& scene, Lights lights);

@@ -46,10 +46,10 @@ Matrices<float> matrices(const Scene& scene, const Draw& draw) {
   return out;
 }
 
-Few<LightSource<float>, 8> light_sources(const Scene& scene) {
+FixedVector<LightSource<float>, 8> light_sources(const Scene& scene) {
   const glm::dmat4 view = view_matrix(scene);
   const auto eye = [&](const glm::dvec3& v, double w) { return Vec3<float>(view * glm::dvec4(v, w)); };
-  Few<LightSource<float>, 8> out;
+  FixedVector<LightSource<float>, 8> out;
   for (const Light& light : scene.lights) {
     const bool point = light.kind == Light::Kind::point;
     const Vec4<float> p_eye(eye(light.vector, point ? 1.0 : 0.0), point ? 1.0f : 0.0f);

@@ -2,9 +2,9 @@
 // (dialect.h has camera and projection.)
 #pragma once
 
-#include "scene/few.h"
+#include "base/fixed_vector.h"
+#include "capture/stages.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::pipeline {
 
@@ -12,6 +12,6 @@ namespace plumbline::pipeline {
 Matrices<float> matrices(const Scene& scene, const Draw& draw);
 
 /// One for each of the scene's lights, built in double, rounded once to float.
-Few<LightSource<float>, 8> light_sources(const Scene& scene);
+FixedVector<LightSource<float>, 8> light_sources(const Scene& scene);
 
 }  // namespace plumbline::pipeline

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "kernels/line_diamond.h"
 #include "pipeline/paint_pixels.h"
-#include "raster/line_diamond.h"
 
 namespace plumbline::pipeline {
 

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "capture/renderer.h"
 #include "pipeline/render.h"
-#include "stages/renderer.h"
 
 namespace plumbline::pipeline {
 

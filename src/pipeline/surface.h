@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "base/fixed_vector.h"
+#include "capture/stages.h"
 #include "pipeline/attributes.h"
 #include "pipeline/fragment_light.h"
 #include "pipeline/texture.h"
-#include "scene/few.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::pipeline {
 
@@ -20,7 +20,7 @@ struct Surface {
   const Scene* scene = nullptr;
   const Draw* draw = nullptr;          ///< null: plain, nothing of this is asked
   std::optional<FragmentLight> light;  ///< none: lit at the vertices, or not at all
-  Few<Varying, kVaryings> carried;
+  FixedVector<Varying, kVaryings> carried;
   std::array<std::span<const std::array<Vec4<float>, 3>>, kVaryings> columns;  ///< of the scene's window triangles
 
   std::optional<TextureSetup> texture;

@@ -12,7 +12,7 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/few.h"
+#include "base/fixed_vector.h"
 #include "scene/scene.h"
 
 namespace plumbline {
@@ -44,7 +44,7 @@ struct PixelSample {
   glm::ivec2 offset;
   int weight;
 };
-using PixelSamples = Few<PixelSample, 64>;
+using PixelSamples = FixedVector<PixelSample, 64>;
 /// All of them, by pass, then row. The frame's depth is that of the first: depths are not averaged, and Mesa's
 /// glBlitFramebuffer too takes sample 0's.
 PixelSamples samples_of(const Antialias& antialias);

@@ -17,7 +17,7 @@
 #include "bench/scenes/bench_scenes.h"
 #include "pipeline/painter.h"
 #include "pipeline/pipeline_renderer.h"
-#include "reference/osmesa/frame_loop.h"
+#include "reference/osmesa/readback/frame_loop.h"
 
 namespace plumbline::bench {
 namespace {

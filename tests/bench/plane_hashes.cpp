@@ -13,7 +13,7 @@
 
 #include "pipeline/painter.h"
 #include "pipeline/render.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace plumbline::pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace plumbline {
 

@@ -1,5 +1,5 @@
 // Bad input: refused where it is bad, in words that say what was expected, before anything is written.
-#include "bad_scenes.h"
+#include "tests/cli/bad_scenes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <fstream>
 #include <map>
 
-#include "run_plumb.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -1,5 +1,5 @@
 // plumb check and plumb report as CI calls them.
-#include "run_plumb.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

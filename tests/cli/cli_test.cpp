@@ -1,9 +1,9 @@
 // The program as a user meets it: arguments in, exit code, text and files out.
 #include <fmt/format.h>
 
-#include "run_plumb.h"
-#include "stages/capture_folder.h"
-#include "stages/image_file.h"
+#include "capture/files/capture_folder.h"
+#include "capture/files/image_file.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -1,10 +1,10 @@
 // plumb compare as a user meets it; what it finds is tested in tests/check.
 #include <nlohmann/json.hpp>
 
-#include "run_plumb.h"
-#include "stages/atomic_path.h"
-#include "stages/capture_folder.h"
-#include "stages/image_file.h"
+#include "base/atomic_path.h"
+#include "capture/files/capture_folder.h"
+#include "capture/files/image_file.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

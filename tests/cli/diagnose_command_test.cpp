@@ -1,5 +1,5 @@
 // plumb diagnose: ours, a fault, what another renderer left, and a program.
-#include "run_plumb.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -1,5 +1,5 @@
 // plumb diagnose --pixel.
-#include "run_plumb.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -1,5 +1,5 @@
 // Renderers that crash, hang, take all memory or throw: a row each, and everything else is judged.
-#include "run_plumb.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

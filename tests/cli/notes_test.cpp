@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "run_plumb.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -1,11 +1,11 @@
 // softpipe, Mesa's other driver, in a process of its own, known by its capture folder alone: a second OpenGL opinion.
 #include <gtest/gtest.h>
 
-#include "check/compare_planes.h"
+#include "capture/renderers/process_renderer.h"
+#include "check/compare/compare_planes.h"
 #include "pipeline/pipeline_renderer.h"
-#include "run_plumb.h"
-#include "scene/scene_file.h"
-#include "stages/process_renderer.h"
+#include "scene/file/scene_file.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -1,5 +1,5 @@
 // Both of Mesa's libraries in one run of the program: the one that is not the default is in a process of its own.
-#include "run_plumb.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "run_plumb.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "run_plumb.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "run_plumb.h"
-#include "stages/capture_folder.h"
-#include "stages/image_file.h"
+#include "capture/files/capture_folder.h"
+#include "capture/files/image_file.h"
+#include "tests/cli/run_plumb.h"
 
 namespace plumbline {
 namespace {

@@ -1,4 +1,4 @@
-#include "run_plumb.h"
+#include "tests/cli/run_plumb.h"
 
 #include <wordexp.h>
 

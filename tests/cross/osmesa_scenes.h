@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "scene/mesh_shapes.h"
+#include "capture/plane.h"
+#include "scene/mesh/mesh_shapes.h"
 #include "scene/scene.h"
-#include "stages/plane.h"
 
 namespace plumbline::test {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh_shapes.h"
+#include "scene/mesh/mesh_shapes.h"
 #include "scene/scene.h"
 
 namespace plumbline {

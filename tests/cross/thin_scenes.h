@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "osmesa_scenes.h"
+#include "tests/cross/osmesa_scenes.h"
 
 namespace plumbline::test {
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "faults/faults.h"
+#include "faults/fault.h"
 
 namespace plumbline::faults {
 

@@ -17,12 +17,6 @@ std::vector<Fault> of_all_stages() {
 
 }  // namespace
 
-pipeline::Stages Fault::stages() const {
-  Table table = production();
-  apply(table);
-  return stages_of(table);
-}
-
 std::span<const Fault> of_stages() {
   static const std::vector<Fault> kAll = of_all_stages();
   return kAll;

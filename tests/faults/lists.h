@@ -1,9 +1,9 @@
-// The lists that faults.h's is made of, each in the file of its name.
+// The lists of faults (faults.h), each in the file of its name.
 #pragma once
 
 #include <span>
 
-#include "faults/faults.h"
+#include "faults/fault.h"
 
 namespace plumbline::faults {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "../thin_pixels.h"
 #include "faults/variants.h"
 #include "pipeline/clip.h"
 #include "pipeline/light.h"
 #include "pipeline/matrices.h"
+#include "tests/thin_pixels.h"
 #include "transforms/projection.h"
 
 namespace plumbline::faults {

@@ -8,7 +8,7 @@
 
 #include <span>
 
-#include "faults/faults.h"
+#include "faults/fault.h"
 
 namespace plumbline::faults {
 

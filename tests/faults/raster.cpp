@@ -2,9 +2,9 @@
 #include <array>
 #include <vector>
 
-#include "../thin_pixels.h"
 #include "faults/lists.h"
 #include "faults/variants.h"
+#include "tests/thin_pixels.h"
 
 namespace plumbline::faults {
 

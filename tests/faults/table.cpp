@@ -1,6 +1,6 @@
 #include "faults/table.h"
 
-#include "../thin_pixels.h"
+#include "tests/thin_pixels.h"
 
 namespace plumbline::faults {
 

@@ -37,7 +37,7 @@ Scene with_wrong_view(const Scene& scene) {
 Matrices<float> matrices_of_wrong_view(const Scene& scene, const Draw& draw) {
   return pipeline::matrices(with_wrong_view(scene), draw);
 }
-Few<LightSource<float>, 8> lights_of_wrong_view(const Scene& scene) {
+FixedVector<LightSource<float>, 8> lights_of_wrong_view(const Scene& scene) {
   return pipeline::light_sources(with_wrong_view(scene));
 }
 void wrong_view(Table& table) {

@@ -1,6 +1,6 @@
 // Any text as the manifest of a capture folder whose arrays are a few bytes long, and any bytes as those.
-#include "fuzz_folder.h"
-#include "stages/capture_folder.h"
+#include "capture/files/capture_folder.h"
+#include "tests/fuzz/fuzz_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace plumbline;

@@ -1,6 +1,6 @@
 // Any bytes as an image file of each format that we write (the first byte chooses).
-#include "fuzz_folder.h"
-#include "stages/image_file.h"
+#include "capture/files/image_file.h"
+#include "tests/fuzz/fuzz_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace plumbline;

@@ -1,6 +1,6 @@
 // Any bytes as a mesh file of each format (the first byte chooses), read in this process, not in a child.
-#include "fuzz_folder.h"
-#include "scene/mesh_import.h"
+#include "scene/mesh/mesh_import.h"
+#include "tests/fuzz/fuzz_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace plumbline;

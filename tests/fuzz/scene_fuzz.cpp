@@ -1,7 +1,7 @@
 // Any text as a scene file: it is a scene, which then draws, or it is refused.
-#include "fuzz_folder.h"
 #include "pipeline/pipeline_renderer.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
+#include "tests/fuzz/fuzz_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace plumbline;

@@ -10,12 +10,12 @@
 
 #include <fmt/format.h>
 
+#include "capture/files/capture_columns.h"
 #include "matrix/matrix.h"
 #include "matrix/parallel.h"
 #include "pipeline/convert.h"
 #include "pipeline/render.h"
 #include "scene/antialias.h"
-#include "stages/capture_columns.h"
 
 namespace plumbline::matrix {
 

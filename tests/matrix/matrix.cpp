@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "check/diagnose.h"
+#include "check/diagnose/diagnose.h"
 #include "matrix/parallel.h"
 #include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "capture/stages.h"
 #include "faults/table.h"
 #include "scene/scene.h"
-#include "stages/stages.h"
 
 namespace plumbline::matrix {
 

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "stages/atomic_path.h"
+#include "base/atomic_path.h"
 
 namespace plumbline::matrix {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include "../extent.h"
 #include "pipeline/pipeline_renderer.h"
 #include "pipeline/render.h"
 #include "scene/antialias.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
+#include "tests/extent.h"
 
 namespace plumbline {
 namespace {

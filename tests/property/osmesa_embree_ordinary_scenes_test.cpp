@@ -5,9 +5,9 @@
 
 #include <unistd.h>
 
-#include "../extent.h"
 #include "ordinary/ordinary_scene.h"
-#include "scene_trial.h"
+#include "tests/extent.h"
+#include "tests/property/scene_trial.h"
 
 namespace plumbline {
 namespace {

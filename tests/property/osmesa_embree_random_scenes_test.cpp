@@ -5,10 +5,10 @@
 #include <rapidcheck/gtest.h>
 #include <unistd.h>
 
-#include "../extent.h"
-#include "random_scene.h"
-#include "scene_text.h"
-#include "scene_trial.h"
+#include "tests/extent.h"
+#include "tests/property/random_scene.h"
+#include "tests/property/scene_text.h"
+#include "tests/property/scene_trial.h"
 
 namespace plumbline {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <rapidcheck.h>
 
-#include "random_state.h"
 #include "scene/scene.h"
+#include "tests/property/random_state.h"
 
 namespace plumbline::test {
 

@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "fragments.h"
+#include "capture/plane.h"
 #include "pipeline/draw.h"
-#include "random_scene.h"
-#include "scene/mesh_shapes.h"
-#include "scene/mesh_solids.h"
-#include "stages/plane.h"
+#include "scene/mesh/mesh_shapes.h"
+#include "scene/mesh/mesh_solids.h"
+#include "tests/property/fragments.h"
+#include "tests/property/random_scene.h"
 
 namespace plumbline {
 namespace {

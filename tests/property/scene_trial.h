@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "check/judge.h"
+#include "check/judge/judge.h"
 #include "pipeline/pipeline_renderer.h"
 #include "reference/embree/embree.h"
 #include "reference/exact/exact.h"
 #include "reference/osmesa/osmesa.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace plumbline::test {
 

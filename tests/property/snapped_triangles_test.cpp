@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "fragments.h"
 #include "pipeline/render.h"
 #include "pipeline/window.h"
-#include "random_scene.h"
-#include "scene/mesh_shapes.h"
+#include "scene/mesh/mesh_shapes.h"
+#include "tests/property/fragments.h"
+#include "tests/property/random_scene.h"
 
 namespace plumbline {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "random_scene.h"
+#include "tests/property/random_scene.h"
 #include "transforms/look_at.h"
 #include "transforms/normal.h"
 #include "transforms/projection.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/asset_folders.h"
-#include "scene/mesh_file.h"
-#include "scene/mesh_shapes.h"
+#include "scene/json/asset_folders.h"
+#include "scene/mesh/mesh_file.h"
+#include "scene/mesh/mesh_shapes.h"
 
 namespace plumbline::bench {
 

@@ -1,6 +1,6 @@
-#include "random_scenes.h"
+#include "mutation/program/random_scenes.h"
 
-#include "../../property/random_scene.h"
+#include "tests/property/random_scene.h"
 
 namespace plumbline::mutation {
 

@@ -10,12 +10,12 @@
 
 #include <fmt/format.h>
 
-#include "check/golden_hash.h"
+#include "base/child_process.h"
+#include "check/golden/golden_hash.h"
+#include "mutation/program/random_scenes.h"
 #include "pipeline/pipeline_renderer.h"
-#include "random_scenes.h"
 #include "scene/antialias.h"
-#include "scene/child_process.h"
-#include "scene/scene_file.h"
+#include "scene/file/scene_file.h"
 
 namespace plumbline::mutation {
 namespace {

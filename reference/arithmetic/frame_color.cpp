@@ -1,0 +1,174 @@
+#include "reference/arithmetic/frame_color.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::math {
+
+namespace {
+
+Interval operator+(Interval a, Interval b) { return {a.lo + b.lo, a.hi + b.hi}; }
+Interval operator-(Interval a, Interval b) { return {a.lo - b.hi, a.hi - b.lo}; }
+Interval operator*(Interval a, Interval b) {
+  const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+  return {lo, hi};
+}
+Interval operator/(Interval a, double b) { return {a.lo / b, a.hi / b}; }
+Interval lesser(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }
+Interval greater(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+
+/// Colours and factors times the largest code, so that those of the frame are whole numbers.
+struct Blender {
+  const ColorInterval &source, &destination;
+  glm::dvec4 constant;
+  double one;
+
+  Interval factor(BlendFactor f, std::size_t channel) const {
+    const Interval all{one, one}, fixed{constant[static_cast<int>(channel)], constant[static_cast<int>(channel)]};
+    const Interval fixed_alpha{constant.a, constant.a};
+    switch (f) {
+      case BlendFactor::zero: return {0, 0};
+      case BlendFactor::one: return all;
+      case BlendFactor::source_color: return source[channel];
+      case BlendFactor::one_minus_source_color: return all - source[channel];
+      case BlendFactor::destination_color: return destination[channel];
+      case BlendFactor::one_minus_destination_color: return all - destination[channel];
+      case BlendFactor::source_alpha: return source[3];
+      case BlendFactor::one_minus_source_alpha: return all - source[3];
+      case BlendFactor::destination_alpha: return destination[3];
+      case BlendFactor::one_minus_destination_alpha: return all - destination[3];
+      case BlendFactor::constant_color: return fixed;
+      case BlendFactor::one_minus_constant_color: return all - fixed;
+      case BlendFactor::constant_alpha: return fixed_alpha;
+      case BlendFactor::one_minus_constant_alpha: return all - fixed_alpha;
+      case BlendFactor::source_alpha_saturate: return channel == 3 ? all : lesser(source[3], all - destination[3]);
+    }
+    return all;
+  }
+
+  Interval operator()(const BlendTerm& term, std::size_t c) const {
+    const Interval s = source[c] * factor(term.source, c) / one, d = destination[c] * factor(term.destination, c) / one;
+    switch (term.equation) {
+      case BlendEquation::add: return s + d;
+      case BlendEquation::subtract: return s - d;
+      case BlendEquation::reverse_subtract: return d - s;
+      case BlendEquation::min: return lesser(source[c], destination[c]);
+      case BlendEquation::max: return greater(source[c], destination[c]);
+    }
+    return s;
+  }
+};
+
+/// OpenGL 2.1 spec, table 4.2.
+unsigned logic(LogicOp op, unsigned s, unsigned d, unsigned all) {
+  const auto value = [&]() -> unsigned {
+    switch (op) {
+      case LogicOp::clear: return 0;
+      case LogicOp::and_: return s & d;
+      case LogicOp::and_reverse: return s & ~d;
+      case LogicOp::copy: return s;
+      case LogicOp::and_inverted: return ~s & d;
+      case LogicOp::noop: return d;
+      case LogicOp::xor_: return s ^ d;
+      case LogicOp::or_: return s | d;
+      case LogicOp::nor: return ~(s | d);
+      case LogicOp::equivalent: return ~(s ^ d);
+      case LogicOp::invert: return ~d;
+      case LogicOp::or_reverse: return s | ~d;
+      case LogicOp::copy_inverted: return ~s;
+      case LogicOp::or_inverted: return ~s | d;
+      case LogicOp::nand: return ~(s & d);
+      case LogicOp::set: return all;
+    }
+    return 0;
+  };
+  return value() & all;
+}
+
+/// Of all codes that the two may be; where those are many, any code.
+Interval logic(LogicOp op, Interval source, Interval stored, double largest) {
+  constexpr double kMost = 64;
+  if ((source.hi - source.lo + 1) * (stored.hi - stored.lo + 1) > kMost) return {0, largest};
+  Interval out{largest, 0};
+  for (double s = source.lo; s <= source.hi; ++s) {
+    for (double d = stored.lo; d <= stored.hi; ++d) {
+      const double code = logic(op, static_cast<unsigned>(s), static_cast<unsigned>(d), static_cast<unsigned>(largest));
+      out = {std::min(out.lo, code), std::max(out.hi, code)};
+    }
+  }
+  return out;
+}
+
+/// Rounded to float. Not two at a time: GCC 12 leaves the rounding out where it makes one vector of them (-O2).
+double in_float(double v) {
+  const volatile float rounded = static_cast<float>(v);
+  return static_cast<double>(rounded);
+}
+
+}  // namespace
+
+ColorInterval around(const glm::dvec4& color, double bound) {
+  ColorInterval out;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const double v = color[static_cast<int>(c)];
+    out[c] = {v - bound, v + bound};
+  }
+  return out;
+}
+
+glm::vec4 low(const ColorInterval& color) { return {color[0].lo, color[1].lo, color[2].lo, color[3].lo}; }
+glm::vec4 high(const ColorInterval& color) { return {color[0].hi, color[1].hi, color[2].hi, color[3].hi}; }
+glm::dvec4 middle(const ColorInterval& c) {
+  return {(c[0].lo + c[0].hi) / 2, (c[1].lo + c[1].hi) / 2, (c[2].lo + c[2].hi) / 2, (c[3].lo + c[3].hi) / 2};
+}
+
+FrameColor::FrameColor(const FrameFormat& frame)
+    : unit_(frame.color == ColorFormat::rgba32f ? 1 : color_scale(frame.color)),
+      codes_(frame.color != ColorFormat::rgba32f),
+      written_{},
+      stored_{} {
+  write({}, around(glm::dvec4(frame.clear_color), 0));
+}
+
+void FrameColor::write(const Merge& state, const ColorInterval& color) {
+  const Interval lowest{0, 0}, highest{unit_, unit_};
+  const auto clamped = [&](Interval v) { return codes_ ? lesser(greater(v, lowest), highest) : v; };
+  ColorInterval source, result;
+  for (std::size_t c = 0; c < 4; ++c) source[c] = clamped({color[c].lo * unit_, color[c].hi * unit_});
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (!state.blend || state.logic_op) {
+      result[c] = source[c];
+      continue;
+    }
+    const Blender blender{source, stored_, glm::dvec4(state.blend->color) * unit_, unit_};
+    result[c] = clamped(blender(c < 3 ? state.blend->rgb : state.blend->alpha, c));
+  }
+  // A colour in float, as it comes, may be a rounding off when it is brought to codes; what is blended in double a few
+  // of 2^-53 of some products of codes.
+  const bool blends = state.blend && !state.logic_op;
+  const double either_way = blends ? 0x1p-36 : unit_ * 0x1p-23;
+  const auto codes = [&](Interval v) -> Interval {
+    return {std::nearbyint(std::max(v.lo - either_way, 0.0)), std::nearbyint(std::min(v.hi + either_way, unit_))};
+  };
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (!state.color_mask[static_cast<int>(c)]) continue;
+    const auto [lo, hi] = result[c];
+    if (codes_ && state.logic_op) {
+      written_[c] = stored_[c] = logic(*state.logic_op, codes(result[c]), stored_[c], unit_);
+    } else if (codes_) {
+      written_[c] = result[c];
+      stored_[c] = codes(result[c]);
+    } else {
+      const double off = blends ? 0x1p-48 : 0;
+      written_[c] = stored_[c] = {in_float(lo - off * std::abs(lo)), in_float(hi + off * std::abs(hi))};
+    }
+  }
+}
+
+ColorInterval FrameColor::written() const {
+  ColorInterval out;
+  for (std::size_t c = 0; c < 4; ++c) out[c] = written_[c] / unit_;
+  return out;
+}
+
+}  // namespace plumbline::math

@@ -1,0 +1,58 @@
+// The slope g of a plane through corners p_i of depth z_i obeys g . (p_i - p_j) = z_i - z_j. Corners that are moved by
+// up to d, with depths up to e off, change it by some dg with |dg . (p_i - p_j)| <= 2 (e + |g| d) along every side; a
+// linear function that varies by no more than that over the triangle has no larger slope than that over its smallest
+// altitude.
+#include "reference/arithmetic/polygon_offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::math {
+
+namespace {
+
+/// r of OpenGL 4.5, section 14.6.5: of float depths the distance from the last float at or below z to the next one; of
+/// codes two steps, as Mesa has it where OpenGL leaves it open.
+double step_at(DepthFormat format, double z) {
+  switch (format) {
+    case DepthFormat::z8: return 2.0 / 0xff;
+    case DepthFormat::z16: return 2.0 / 0xffff;
+    case DepthFormat::z24: return 2.0 / 0xffffff;
+    case DepthFormat::z32f: break;
+  }
+  float below = static_cast<float>(std::max(z, 0.0));
+  if (below > 0 && static_cast<double>(below) > z) below = std::nextafter(below, 0.0f);
+  return static_cast<double>(std::nextafter(below, std::numeric_limits<float>::infinity())) -
+         static_cast<double>(below);
+}
+
+}  // namespace
+
+OffsetBounds polygon_offset(const Triangle& t, const PolygonOffset& offset, DepthFormat format) {
+  if (offset == PolygonOffset{}) return {};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (t.flat) return {0, kInfinity};
+  const double scale = range_scale(t), factor = offset.factor, units = offset.units;
+  const double corner_error =
+      kFloatRounding * (scale * t.roundings * (t.size.z + t.size.w) / (2 * t.w_min) + 3);  // as pixel_hit.cpp's
+  // r goes by the largest depth of a piece's corners, which are those of the triangle, or cuts.
+  const double near = t.range.near, far = t.range.far;
+  double least = std::min(near, far), largest = std::max(near, far);
+  if (t.ahead) {
+    const double a = near + (far - near) * t.z_min, b = near + (far - near) * t.z_max;
+    largest = std::min(largest, std::max(a, b) + corner_error);
+    if (!t.cut) least = std::max(a, b) - corner_error;
+  }
+  const double r_lo = step_at(format, least), r_hi = step_at(format, largest);
+  OffsetBounds out{0.5 * units * (r_lo + r_hi), 0.5 * std::abs(units) * (r_hi - r_lo)};
+  if (factor == 0) return out;
+  const double m = scale * std::max(std::abs(t.z_plane.x), std::abs(t.z_plane.y));
+  const double slope = scale * std::hypot(t.z_plane.x, t.z_plane.y);
+  const double altitude = t.altitude - 2 * t.reach;
+  out.middle += factor * m;
+  out.half += altitude > 0 ? std::abs(factor) * 2 * (corner_error + slope * t.reach) / altitude : kInfinity;
+  return out;
+}
+
+}  // namespace plumbline::math

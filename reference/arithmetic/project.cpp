@@ -1,0 +1,325 @@
+#include "reference/arithmetic/project.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <unordered_map>
+
+#include "capture/stages.h"
+#include "reference/arithmetic/color_error.h"
+#include "reference/arithmetic/draw_ranges.h"
+#include "reference/arithmetic/light.h"
+#include "reference/arithmetic/matrices.h"
+#include "reference/arithmetic/passes.h"
+#include "reference/arithmetic/polygon_offset.h"
+
+namespace plumbline::math {
+
+namespace {
+
+// How far float arithmetic may be from double. u = 2^-24; A = |P| |M| |p|, component by component.
+//   rounding M's and P's entries to float: 1 + 1; the product P M, four products and three sums: 4 (of its terms'
+//   sizes); times p: 4.  So a clip coordinate in float is within 10 u A of the one in double (P (M p) comes to the
+//   same count), and dividing by w and multiplying by the scale adds 2 u |X/W| <= 2 u A_X / W. With 2 spare: 14.
+//   A cut vertex a + t (b - a) adds 3 u of its terms per cut, and no edge is cut by more than three planes in a row
+//   between two of its mesh vertices: 9, so 24. A convex combination of vertices, each within k u A of its place, is
+//   within k u max A of its place, and an error of t moves it along the edge: so cut edges obey the same bound.
+// A point (X, Y, W) = w d that moves by (eX, eY, eW) moves in the window by (eX - x eW) / w, to first order.
+constexpr double kRoundings = 14;
+constexpr double kRoundingsCut = 24;
+/// Scaling and translating to the window: rounded twice, window coordinates are at most the window's size; and 2 spare.
+constexpr double kWindowRoundings = 4;
+/// An entry below this is 0 in float: an error of its whole size, 2^24 roundings.
+constexpr double kZeroEntry = 1e-12;
+
+glm::dmat4 sizes(const glm::dmat4& m) {
+  glm::dmat4 out;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      const double size = std::abs(m[column][row]);
+      out[column][row] = size < kZeroEntry ? size / kFloatRounding : size;
+    }
+  }
+  return out;
+}
+
+/// One number per distinct position: the index of its first vertex.
+std::vector<std::uint32_t> weld(const Mesh& mesh) {
+  struct Bits {
+    std::uint32_t x, y, z;
+    bool operator==(const Bits&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Bits& b) const {
+      return (b.x * std::size_t{0x9e3779b97f4a7c15}) ^ (b.y * std::size_t{0xc2b2ae3d27d4eb4f}) ^
+             (b.z * std::size_t{0x165667b19e3779f9});
+    }
+  };
+  std::unordered_map<Bits, std::uint32_t, Hash> first;
+  first.reserve(mesh.positions.size());
+  std::vector<std::uint32_t> point;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    Bits bits;
+    std::memcpy(&bits, &mesh.positions[i], sizeof bits);
+    point.push_back(first.emplace(bits, static_cast<std::uint32_t>(i)).first->second);
+  }
+  return point;
+}
+
+void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
+  const Mesh& mesh = scene.meshes[draw.mesh];
+  const Matrices<double> m = double_matrices(scene, draw);
+  const glm::dmat4 view = view_matrix(scene), clip = m.projection * m.model_view;
+  const glm::dmat4 clip_size = sizes(m.projection) * sizes(m.model_view);
+  const glm::dvec2 half(0.5 * scene.frame.width, 0.5 * scene.frame.height);
+  const std::vector<std::uint32_t> point = weld(mesh);
+  const bool two = scene.light_model.sides == LightModel::Sides::two, separate = scene.light_model.separate_specular;
+  const auto first = static_cast<std::uint32_t>(out.corners.size());
+  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+    const glm::dvec4 p(mesh.positions[i], 1);
+    const glm::dvec3 p_eye(m.model_view * p), n_eye = normal_in_eye_space(draw.normals, m.normal, mesh.normals[i]);
+    const glm::dvec4 c = clip * p, size = clip_size * glm::abs(p);
+    Corner corner;
+    corner.v = {c.x * half.x - out.sample.x * c.w, c.y * half.y - out.sample.y * c.w, c.w};
+    corner.z = c.z;
+    corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
+    corner.color = vertex_color(scene, draw, out.lights, i, p_eye, n_eye);
+    corner.color_error = color_error(scene, draw, m, view, i);
+    corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
+    const auto lit_part = [&](LitPart part, glm::dvec4& of_part, double& error) {
+      if (!two && !separate) return;
+      of_part = vertex_color(scene, draw, out.lights, i, p_eye, n_eye, part);
+      error = color_error(scene, draw, m, view, i, part);
+    };
+    lit_part({true, false}, corner.back_color, corner.back_color_error);
+    lit_part({false, true}, corner.secondary, corner.secondary_error);
+    lit_part({true, true}, corner.back_secondary, corner.back_secondary_error);
+    corner.z_eye = p_eye.z;
+    corner.z_eye_error = 6 * kFloatRounding * (sizes(m.model_view) * glm::abs(p)).z;  // entries, products, sums
+    const Known place = eye_position(mesh, m, i), normal = eye_normal(draw, mesh, m, i);
+    corner.p_eye = place.v;
+    corner.p_eye_error = place.error;
+    corner.n_eye = normal.v;
+    corner.n_eye_error = normal.error;
+    corner.point = first + point[i];
+    out.corners.push_back(corner);
+  }
+}
+
+/// What float arithmetic may add to the distances below, of a corner of that size.
+std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& size, double margin) {
+  const glm::dvec4 error = kRoundingsCut * kFloatRounding * size;
+  const double x = error.x + (0.5 * scene.width + margin) * error.w;
+  const double y = error.y + (0.5 * scene.height + margin) * error.w;
+  const double z = error.z + error.w;
+  return {z, z, x, x, y, y};
+}
+
+/// Distances inside the view volume's planes, each plus what float arithmetic may add; near and far first.
+std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin) {
+  const glm::dvec2 reach(0.5 * scene.width + margin, 0.5 * scene.height + margin);
+  const glm::dvec2 at = glm::dvec2(c.v) + scene.sample * c.v.z;  // the frame itself is not moved
+  std::array<double, 6> inside{
+      c.v.z + c.z,           c.v.z - c.z, reach.x * c.v.z - at.x, reach.x * c.v.z + at.x, reach.y * c.v.z - at.y,
+      reach.y * c.v.z + at.y};
+  const std::array<double, 6> error = plane_errors(scene, c.size, margin);
+  for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
+  if (scene.depth_clamp) {  // the sides meet at the eye: nothing is behind it
+    inside[0] = c.v.z + kRoundingsCut * kFloatRounding * c.size.w;
+    inside[1] = 1;  // everything, and at the cuts between as well
+  }
+  return inside;
+}
+
+/// Of a triangle cut by six planes: 9 corners, but where rounding makes a polygon of huge coordinates cross a plane
+/// many times, each plane may leave half as many again: 3, 4, 6, 9, 13, 19, 28.
+constexpr std::size_t kMostCorners = 28;
+
+struct Polygon {
+  std::array<glm::dvec3, kMostCorners> v;
+  std::size_t count = 0;
+};
+
+/// The triangle's part inside the view volume, in double.
+Polygon visible_part(const Projected& scene, const std::array<const Corner*, 3>& corners, bool& cut) {
+  struct Vertex {
+    glm::dvec3 v;
+    std::array<double, 6> inside;
+  };
+  std::array<Vertex, kMostCorners> in, out;
+  std::size_t count = 3;
+  for (std::size_t i = 0; i < 3; ++i) in[i] = {corners[i]->v, inside_planes(scene, *corners[i], 0)};
+  for (std::size_t plane = 0; plane < 6; ++plane) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vertex &a = in[i], &b = in[(i + 1) % count];
+      if (a.inside[plane] >= 0) out[kept++] = a;
+      if ((a.inside[plane] >= 0) == (b.inside[plane] >= 0)) continue;
+      const double t = a.inside[plane] / (a.inside[plane] - b.inside[plane]);
+      Vertex at{a.v + t * (b.v - a.v), {}};
+      for (std::size_t p = 0; p < 6; ++p) at.inside[p] = a.inside[p] + t * (b.inside[p] - a.inside[p]);
+      at.inside[plane] = 0;
+      out[kept++] = at;
+      cut = true;
+    }
+    std::copy_n(out.begin(), kept, in.begin());
+    count = kept;
+  }
+  Polygon polygon;
+  polygon.count = count;
+  for (std::size_t i = 0; i < count; ++i) polygon.v[i] = in[i].v;
+  return polygon;
+}
+
+double altitude(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+  const double area = std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  return longest > 0 ? area / longest : 0;
+}
+
+struct Widths {
+  double whole;   ///< the polygon's width: its smallest extent across any direction
+  double pieces;  ///< the smallest altitude of any triangle of its corners
+  double fat;     ///< and of those above `thin`
+};
+Widths widths(const std::array<glm::dvec2, kMostCorners>& p, std::size_t count, double thin) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Widths out{kNone, kNone, kNone};
+  for (std::size_t a = 0; a < count; ++a) {
+    const glm::dvec2 along = p[(a + 1) % count] - p[a];
+    if (const double length = glm::length(along); length > 0) {
+      double extent = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        extent = std::max(extent, std::abs(along.x * (p[i].y - p[a].y) - along.y * (p[i].x - p[a].x)) / length);
+      }
+      out.whole = std::min(out.whole, extent);
+    }
+    for (std::size_t b = a + 1; b < count; ++b) {
+      for (std::size_t c = b + 1; c < count; ++c) {
+        const double height = altitude(p[a], p[b], p[c]);
+        out.pieces = std::min(out.pieces, height);
+        if (height > thin) out.fat = std::min(out.fat, height);
+      }
+    }
+  }
+  if (!std::isfinite(out.whole)) out.whole = 0;
+  return out;
+}
+
+void set_planes(const std::array<const Corner*, 3>& c, Triangle& t) {
+  glm::dvec3 z_sum(0), w_sum(0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    t.n[i] = glm::cross(c[(i + 1) % 3]->v, c[(i + 2) % 3]->v);
+    const double slope = std::hypot(t.n[i].x, t.n[i].y);
+    t.per_pixel[i] = slope > 0 ? 1 / slope : 0;
+    z_sum += c[i]->z * t.n[i];
+    w_sum += t.n[i];
+    t.size = i == 0 ? c[i]->size : glm::max(t.size, c[i]->size);
+  }
+  const double det = glm::dot(c[0]->v, t.n[0]);
+  t.sign = det > 0 ? 1 : det < 0 ? -1 : 0;
+  t.z_plane = 0.5 / det * z_sum;
+  t.w_plane = 1 / det * w_sum;
+  // Below 2^-40 of its terms, double's own rounding has eaten the determinant.
+  const double terms = glm::dot(glm::abs(c[0]->v), glm::abs(t.n[0]));
+  t.flat = !(std::abs(det) > 1e-12 * terms) || !std::isfinite(t.z_plane.z) || !std::isfinite(t.w_plane.z);
+}
+
+void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
+  const std::array<const Corner*, 3> c{&scene.corners[t.corner[0]], &scene.corners[t.corner[1]],
+                                       &scene.corners[t.corner[2]]};
+  // Two corners at one place: zero area in every renderer.
+  if (c[0]->point == c[1]->point || c[1]->point == c[2]->point || c[2]->point == c[0]->point) return;
+  const Polygon part = visible_part(scene, c, t.cut);
+  if (part.count < 3) return;
+  set_planes(c, t);
+  for (const Corner* corner : c) {  // a corner on a plane of the view volume may or may not be cut
+    const auto inside = inside_planes(scene, *corner, 0);
+    const auto error = plane_errors(scene, corner->size, 0);
+    for (std::size_t p = 0; p < 6; ++p) t.cut |= inside[p] < 4 * error[p];
+  }
+  t.roundings = t.cut ? kRoundingsCut : kRoundings;
+  t.ahead = true;
+  t.z_min = std::numeric_limits<double>::infinity();
+  t.z_max = -t.z_min;
+  for (const Corner* corner : c) {
+    t.ahead &= corner->v.z > 0;
+    t.z_min = std::min(t.z_min, 0.5 + 0.5 * corner->z / corner->v.z);
+    t.z_max = std::max(t.z_max, 0.5 + 0.5 * corner->z / corner->v.z);
+  }
+  std::array<glm::dvec2, kMostCorners> p_window;
+  t.w_min = std::numeric_limits<double>::infinity();
+  glm::dvec3 farthest(0, 0, 1);
+  for (std::size_t i = 0; i < part.count; ++i) {
+    // A near plane closer to the eye than w is certain lets w reach 0: then the triangle may be anywhere.
+    const double w = std::max(part.v[i].z, kFloatRounding * t.size.w);
+    t.w_min = std::min(t.w_min, w);
+    t.w_max = std::max(t.w_max, w);
+    p_window[i] = glm::dvec2(part.v[i]) / w;
+    farthest = glm::max(farthest, glm::abs(part.v[i] / w));
+  }
+  t.reach = displacement(scene, t, farthest, t.w_min);
+  const Widths width = widths(p_window, part.count, 2 * t.reach);
+  t.altitude = t.cut ? width.pieces : width.whole;
+  t.fat_altitude = t.cut ? width.fat : width.whole;
+  t.offset = polygon_offset(t, draw.polygon_offset, scene.depth).middle;
+  t.thin = t.flat || width.whole <= 2 * t.reach;
+  const bool front = t.sign > 0;
+  t.facing_kept = draw.cull == Cull::none || front == (draw.cull == Cull::back);
+  t.drawn = t.facing_kept || t.thin;
+}
+
+}  // namespace
+
+glm::dvec2 float_displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
+  const glm::dvec2 from_middle = glm::abs(glm::dvec2(d)) + glm::abs(scene.sample);
+  const glm::dvec2 in_clip = (glm::dvec2(t.size) + from_middle * t.size.w) * (t.roundings / w);
+  return kFloatRounding * (in_clip + kWindowRoundings * glm::dvec2(scene.width, scene.height));
+}
+
+double displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
+  return kSnap + glm::length(float_displacement(scene, t, d, w));
+}
+
+Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, double margin) {
+  const auto a = inside_planes(scene, j, margin), b = inside_planes(scene, k, margin);
+  Piece piece;
+  for (std::size_t p = 0; p < 6; ++p) {
+    if (a[p] < 0 && b[p] < 0) return {1, 0};
+    const double t = a[p] / (a[p] - b[p]);
+    if (a[p] < 0) piece.from = std::max(piece.from, t);
+    if (b[p] < 0) piece.to = std::min(piece.to, t);
+  }
+  return piece;
+}
+
+Projected project(const Scene& scene) {
+  Projected out;
+  out.width = scene.frame.width;
+  out.height = scene.frame.height;
+  out.view = view_matrix(scene);
+  out.lights = light_sources(scene);
+  out.depth_clamp = scene.depth_clamp;
+  out.depth = scene.frame.depth;
+  out.sample = sample_offset(scene.frame);
+  out.perspective = !std::holds_alternative<Orthographic>(scene.projection);
+  const std::vector<DrawRange> ranges = ranges_of_draws(scene);
+  for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {
+    const Draw& draw = scene.draws[d];
+    add_corners(scene, draw, out);
+    for (const glm::uvec3& indices : scene.meshes[draw.mesh].triangles) {
+      Triangle t{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        t.corner[i] = ranges[d].first_vertex + indices[static_cast<glm::length_t>(i)];
+      }
+      t.draw = d;
+      t.range = draw.depth_range;
+      set_up(out, draw, t);
+      out.triangles.push_back(t);
+    }
+  }
+  return out;
+}
+
+}  // namespace plumbline::math

@@ -1,0 +1,27 @@
+// A scene into homogeneous window coordinates, and how far float arithmetic may move what is drawn there.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "reference/arithmetic/projected.h"
+#include "scene/scene.h"
+
+namespace plumbline::math {
+
+Projected project(const Scene& scene);
+
+/// How far float arithmetic may move the triangle's outline near the window point d, per axis in pixels; `w` is its
+/// w there. (Derived in project.cpp.)
+glm::dvec2 float_displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
+/// As a distance, and with snapping: delta.
+double displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
+
+/// A piece [from, to] of a segment a + t (b - a), t in [0,1]; empty if from > to.
+struct Piece {
+  double from = 0, to = 1;
+};
+/// The part of the edge from corner j to corner k that lies between the near and far planes, with what float arithmetic
+/// may add to it, and within `margin` pixels of the window.
+Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, double margin);
+
+}  // namespace plumbline::math

@@ -1,0 +1,98 @@
+// A scene's triangles in homogeneous window coordinates, in double, with what float arithmetic may make of them.
+//
+// A vertex is v = (X, Y, W) = (x_clip width/2, y_clip height/2, w_clip), and the point (x, y) of the window, counted in
+// pixels from its *middle*, is the ray d = (x, y, 1) from the origin: the triangle v0 v1 v2 is at the point where
+// d w = b0 v0 + b1 v1 + b2 v2 with b_i >= 0, sum b_i = 1 (Olano and Greer, "Triangle Scan Conversion using 2D
+// Homogeneous Coordinates", 1997). No division by w, so that triangles across the eye's plane need no cutting:
+//   n_i = v_j x v_k (i, j, k cyclic)   e_i = n_i . d   det = v0 . n0   b_i = e_i / sum e   1/w = sum e / det
+//   z_ndc = sum z_i e_i / det, affine in (x, y);  det > 0 iff counter-clockwise in the window, y up.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "capture/stages.h"
+#include "scene/scene.h"
+
+namespace plumbline::math {
+
+inline constexpr double kFloatRounding = 1.0 / (1 << 24);  ///< u: half an ULP of 1
+inline constexpr double kHalfStep = 1.0 / 512;             ///< h: half a snapping step, in pixels
+inline constexpr double kSnap = 1.4142135623730951 / 512;  ///< the farthest that snapping moves a vertex, in pixels
+
+/// A vertex of a draw.
+struct Corner {
+  glm::dvec3 v;        ///< (X, Y, W)
+  double z;            ///< z_clip
+  glm::dvec4 size;     ///< of (X, Y, z_clip, W): the sums' terms by their absolute values
+  glm::dvec4 color;    ///< lit, clamped to [0,1]
+  double color_error;  ///< how far a float evaluation of `color` may be from it
+  glm::dvec4 back_color{0}, secondary{0}, back_secondary{0};  ///< where the light model has them
+  double back_color_error = 0, secondary_error = 0, back_secondary_error = 0;
+  glm::dvec2 texcoord;      ///< 0 where the mesh has none
+  double z_eye;             ///< before the projection
+  double z_eye_error;       ///< how far a float evaluation of it may be
+  glm::dvec3 p_eye, n_eye;  ///< likewise, for light per fragment
+  double p_eye_error, n_eye_error;
+  std::uint32_t point;  ///< equal for vertices of one draw whose positions are bit-equal
+};
+
+/// A triangle that some legal renderer may draw.
+struct Triangle {
+  std::array<std::uint32_t, 3> corner;  ///< indices into Projected::corners
+  std::uint32_t draw = 0;
+  bool drawn = false;        ///< false: no legal renderer draws any of it; nothing below is set
+  bool facing_kept = false;  ///< its facing in double is not culled
+  bool thin = false;         ///< snapping may turn it over, or make its area 0
+  bool flat = false;         ///< without area in double: it has no plane
+  bool cut = false;          ///< some renderer may cut it at the view volume
+  bool ahead = false;        ///< all w > 0
+  double sign = 0;           ///< of det
+  std::array<glm::dvec3, 3> n;
+  std::array<double, 3> per_pixel;  ///< 1 / |(n_i.x, n_i.y)|: e_i times it is the distance to the edge's line
+  glm::dvec3 z_plane;               ///< z_view = 1/2 + z_plane . d: 0 on the near plane, 1 on the far one
+  glm::dvec3 w_plane;               ///< 1/w = w_plane . d
+  glm::dvec4 size;                  ///< the corners' largest
+  double roundings = 0;             ///< k: a clip coordinate in float is within k u size of the one in double
+  double w_min = 0, w_max = 0;      ///< over its visible part
+  DepthRange range;                 ///< z_win = near + (far - near) z_view + offset
+  double offset = 0;                ///< the polygon offset
+  double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
+  double altitude = 0;              ///< pixels: the smallest one of all planes a renderer may set up for it
+  double fat_altitude = 0;  ///< of those that are thicker than snapping may turn; thinner ones lie along its border
+  double reach = 0;         ///< pixels: the largest vertex displacement over its visible part
+};
+
+/// z_win of a triangle's z_view.
+inline double to_window(const Triangle& t, double z_view) {
+  const double near = t.range.near, far = t.range.far;
+  return near + (far - near) * z_view + t.offset;
+}
+/// What a difference of z_view comes to in the window.
+inline double range_scale(const Triangle& t) { return std::abs(double{t.range.far} - double{t.range.near}); }
+
+/// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange).
+struct Projected {
+  int width = 0, height = 0;
+  glm::dmat4 view{1};  ///< world to eye space
+  std::vector<LightSource<double>> lights;
+  bool perspective = true;
+  bool depth_clamp = false;  ///< no near and far plane
+  DepthFormat depth = DepthFormat::z24;
+  /// From a pixel's centre to where it is covered, in pixels (scene/antialias.h). The window is moved by as much the
+  /// other way, so that all that is said of pixels' centres is true of these places. Colours are the centre's still.
+  glm::dvec2 sample{0};
+  std::vector<Corner> corners;
+  std::vector<Triangle> triangles;
+
+  /// The ray of a pixel's centre, or sample.
+  glm::dvec3 ray(int px, int py) const { return {px + 0.5 - 0.5 * width, py + 0.5 - 0.5 * height, 1}; }
+  /// The ray of the centre, of that of the sample.
+  glm::dvec3 to_centre(glm::dvec3 d) const { return d - glm::dvec3(sample, 0); }
+};
+
+}  // namespace plumbline::math

@@ -1,0 +1,256 @@
+// Edges. A pixel is ambiguous where its centre is within delta of an edge that can be seen; centres lie about evenly,
+// so their expected number is the area of those bands: the integral of 2 delta along the visible edges. Each edge is
+// sampled about once per pixel of its length, and a sample counts where its point would be seen beside the winner of
+// the pixel that it falls into. Where two drawn triangles meet, the edge is one, and is counted once, by the delta of
+// the triangle that may be moved farther.
+// Centres do not lie evenly about edges that run along rows, columns or diagonals of them, as made-up scenes' do: so
+// the centres within the bands are counted too, one per row or column that the edge crosses, and the larger figure is
+// taken. Both know nothing of depth intervals, groups and folding.
+//
+// Surfaces that meet. Two depths cannot be told apart where |z1 - z2| <= w, w the half intervals' sum and a step; with
+// s the slope of z1 - z2 that is a band of half width w/s along the line where the surfaces meet. That line passes at
+// |z1 - z2|/s from the centre. A pixel whose centre is within r = max(1, w/s) pixels of it stands for a share of the
+// band as large as (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such
+// line; within w of each other, they are ambiguous everywhere, but not where both are clamped to the same end: that is
+// a tie, which the order of drawing settles. The near and far planes are met likewise, w the half interval, by the
+// winner, by whatever would win were it not cut off, and by all that stencil values count, though its depth test never
+// passes. Where a triangle has no plane to rely on, the pixel is
+// ambiguous whatever else is there. Such a line too may run through a row of centres, and again the larger of the area
+// and the number of centres in the bands is taken.
+#include "reference/oracle/ambiguity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "capture/capture.h"
+#include "reference/arithmetic/depth_format.h"
+
+namespace plumbline::math {
+
+namespace {
+
+// A stencil value tells of hidden surfaces too, so that where there are stencil tests all edges and meetings count.
+/// Whether all of them look for the nearest surface, or all for the farthest: then only what meets the winner matters.
+/// Else what one function keeps decides what the next compares with, and hidden surfaces matter too.
+template <class Range, class FuncOf>
+bool one_sense(const Range& range, FuncOf func_of) {
+  const auto all = [&](DepthFunc func, DepthFunc or_equal) {
+    return std::all_of(range.begin(), range.end(),
+                       [&](const auto& item) { return func_of(item) == func || func_of(item) == or_equal; });
+  };
+  return all(DepthFunc::less, DepthFunc::less_equal) || all(DepthFunc::greater, DepthFunc::greater_equal);
+}
+
+struct Edge {
+  std::uint32_t from, to;  // points, from < to
+  std::uint32_t j, k;      // corners
+  std::uint32_t primitive;
+  std::uint32_t loosest;  // of the primitives that share it, the one of the largest reach
+};
+
+/// Each edge of the drawn triangles once.
+std::vector<Edge> drawn_edges(const Projected& projected) {
+  std::vector<Edge> edges;
+  for (std::uint32_t primitive = 0; primitive < projected.triangles.size(); ++primitive) {
+    const Triangle& t = projected.triangles[primitive];
+    if (!t.drawn) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t j = t.corner[i], k = t.corner[(i + 1) % 3];
+      const std::uint32_t from = projected.corners[j].point, to = projected.corners[k].point;
+      edges.push_back({std::min(from, to), std::max(from, to), j, k, primitive, primitive});
+    }
+  }
+  const auto key = [](const Edge& e) { return std::array{e.from, e.to, e.primitive}; };
+  std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return key(a) < key(b); });
+  std::vector<Edge> out;
+  for (const Edge& e : edges) {
+    if (out.empty() || out.back().from != e.from || out.back().to != e.to) {
+      out.push_back(e);
+    } else if (projected.triangles[e.primitive].reach > projected.triangles[out.back().loosest].reach) {
+      out.back().loosest = e.primitive;
+    }
+  }
+  return out;
+}
+
+double z_at(const Triangle& t, glm::dvec3 d) {
+  return std::clamp(to_window(t, 0.5 + glm::dot(t.z_plane, d)), 0.0, 1.0);
+}
+double slope_of(const Triangle& t) { return range_scale(t) * (std::abs(t.z_plane.x) + std::abs(t.z_plane.y)); }
+
+/// Whether a point of depth z of `primitive` is seen in the pixel's neighbourhood, whose winner is `winner`. Surfaces
+/// may fall away within the pixel, as the winner's own neighbours do: depths within a pixel's slope count as equal.
+bool seen(const Scene& scene, const Projected& projected, std::uint32_t primitive, std::int32_t winner, glm::dvec3 d,
+          double z) {
+  const Triangle& t = projected.triangles[primitive];
+  double held = scene.frame.clear_depth, slack = t.flat ? 0 : slope_of(t);
+  if (winner != kBackground) {
+    const Triangle& w = projected.triangles[static_cast<std::size_t>(winner)];
+    if (static_cast<std::uint32_t>(winner) == primitive || w.flat) return true;
+    // A winner that leaves the depth as it is hides nothing that is drawn after it.
+    if (static_cast<std::uint32_t>(winner) < primitive && !scene.draws[w.draw].merge.depth_mask) return true;
+    held = z_at(w, d);
+    slack += slope_of(w);
+  }
+  const DepthFunc func = scene.draws[t.draw].depth_func;
+  const bool nearest = func == DepthFunc::less || func == DepthFunc::less_equal;
+  return nearest ? z <= held + slack : z >= held - slack;
+}
+
+/// The bands along the edges: their area, and the pixels whose centres they hold.
+struct Bands {
+  bool all_seen = false;  ///< hidden edges count as well
+  double area = 0;
+  Plane<char> near;
+};
+
+void add_band(const Scene& scene, const Projected& projected, const Edge& edge, const Plane<std::int32_t>& id,
+              Bands& bands) {
+  const Triangle& t = projected.triangles[edge.primitive];
+  const Corner &j = projected.corners[edge.j], &k = projected.corners[edge.k];
+  const Piece piece = visible_piece(projected, j, k, 0);
+  if (piece.from > piece.to) return;
+  const auto homogeneous = [&](double at) { return glm::dvec4(j.v, j.z) + at * glm::dvec4(k.v - j.v, k.z - j.z); };
+  const glm::dvec4 a = homogeneous(piece.from), b = homogeneous(piece.to);
+  if (!(a.z > 0 && b.z > 0)) return;
+  const glm::dvec3 from(a.x / a.z, a.y / a.z, 1), to(b.x / b.z, b.y / b.z, 1);
+  const glm::dvec3 along = to - from;
+  // The point at from + s along: whether it is seen there, the pixel that it is in, and delta.
+  struct Sample {
+    bool seen;
+    int x, y;
+    double delta;
+  };
+  const auto sample = [&](double s) {
+    const glm::dvec3 d = from + s * along;
+    const double inv_w = (1 - s) / a.z + s / b.z, z_view = 0.5 + 0.5 * ((1 - s) * a.w / a.z + s * b.w / b.z);
+    const int x = std::clamp(static_cast<int>(d.x + 0.5 * id.width()), 0, id.width() - 1);
+    const int y = std::clamp(static_cast<int>(d.y + 0.5 * id.height()), 0, id.height() - 1);
+    const double z = std::clamp(to_window(t, z_view), 0.0, 1.0);
+    return Sample{bands.all_seen || seen(scene, projected, edge.primitive, id(x, y), d, z), x, y,
+                  displacement(projected, projected.triangles[edge.loosest], d, 1 / inv_w)};
+  };
+  const double length = glm::length(along);
+  const int samples = 1 + static_cast<int>(std::min(length, 65536.0));
+  for (int i = 0; i < samples; ++i) {
+    const Sample at = sample((i + 0.5) / samples);
+    if (at.seen) bands.area += length / samples * 2 * at.delta;
+  }
+  if (!(length > 0)) return;
+  const int major = std::abs(along.x) >= std::abs(along.y) ? 0 : 1, minor = 1 - major;
+  const glm::dvec2 half(0.5 * id.width(), 0.5 * id.height());
+  const double cosine = std::abs(along[major]) / length;
+  // The piece is within the window but for rounding, which may be large.
+  const auto in_window = [&](double at) { return std::clamp(at + half[major], 0.0, 2 * half[major]); };
+  const double lo = in_window(std::min(from[major], to[major])), hi = in_window(std::max(from[major], to[major]));
+  for (double centre = std::ceil(lo - 0.5) + 0.5; centre <= hi; centre += 1) {
+    const double s = (centre - half[major] - from[major]) / along[major];
+    const double across = from[minor] + s * along[minor] + half[minor];
+    const double off = std::abs(across - std::floor(across) - 0.5) * cosine;
+    const Sample at = sample(std::clamp(s, 0.0, 1.0));
+    if (at.seen && off <= at.delta) bands.near(at.x, at.y) = 1;
+  }
+}
+
+}  // namespace
+
+double ambiguous_by_edges(const Scene& scene, const Projected& projected, const Plane<std::int32_t>& id) {
+  const bool counted = std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.stencil.has_value(); });
+  const bool all_seen = counted || !one_sense(scene.draws, [](const Draw& draw) { return draw.depth_func; });
+  Bands bands{all_seen, 0, {id.width(), id.height(), 0}};
+  for (const Edge& edge : drawn_edges(projected)) add_band(scene, projected, edge, id, bands);
+  const auto centres = std::count(bands.near.values().begin(), bands.near.values().end(), char{1});
+  return std::max(std::min(bands.area, static_cast<double>(id.size())), static_cast<double>(centres));
+}
+
+namespace {
+
+constexpr double kStandsFor = 1;  // r, in pixels
+
+void operator+=(DepthShare& a, const DepthShare& b) {
+  a.area = std::min(1.0, a.area + b.area);
+  a.centre = a.centre || b.centre;
+}
+
+/// A surface at a pixel, or the cleared depth buffer.
+struct Surface {
+  std::int64_t order;
+  DepthFunc func;
+  PixelDepth win, view;
+};
+
+/// The share of the band where the two meet, that this pixel stands for.
+DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
+  const DepthFunc later = a.order > b.order ? a.func : b.func;  // compares the two, or does not care
+  if (later == DepthFunc::always || later == DepthFunc::never) return {};
+  const double step = depth_step(frame.depth, std::clamp(std::max(a.win.z, b.win.z), 0.0, 1.0));
+  const double width = a.win.half + b.win.half + step;
+  const double apart = std::abs(a.win.z - b.win.z), slope = glm::length(a.win.slope - b.win.slope);
+  const bool clamped = a.win.half == 0 && b.win.half == 0 && (a.win.z == 0 || a.win.z == 1);
+  if (clamped && apart == 0) return {};
+  const bool within = apart <= width;
+  if (slope * kStandsFor <= width) return {within ? 1.0 : 0.0, within};
+  return {apart <= kStandsFor * slope ? width / slope / kStandsFor : 0, within};
+}
+
+/// The share of the band along the line where the near or far plane, at depth `plane`, cuts the surface. Only
+/// pixels on the visible side have the surface as a hit, so each stands for the other side as well.
+DepthShare cut(const PixelDepth& surface, double plane) {
+  const double apart = std::abs(surface.z - plane), slope = glm::length(surface.slope);
+  const bool within = apart <= surface.half;
+  if (slope * kStandsFor <= surface.half) return {within ? 1.0 : 0.0, within};
+  const bool visible = surface.z >= 0 && surface.z <= 1;
+  return {visible && apart <= kStandsFor * slope ? 2 * surface.half / slope / kStandsFor : 0, within};
+}
+
+}  // namespace
+
+DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner) {
+  std::vector<Surface> others, never_drawn;
+  const PixelDepth cleared{scene.frame.clear_depth, 0, glm::dvec2(0)};
+  Surface won{kBackground, DepthFunc::always, cleared, cleared};
+  bool won_writes = true;
+  for (const PixelHit& h : hits) {
+    const bool never = h.hit.depth_func == DepthFunc::never;
+    if ((never && h.hit.stencil == nullptr) || !h.hit.alpha_passes) continue;
+    if (!std::isfinite(h.win.half) || h.hit.alpha_fails) return {1, true};
+    const bool clamped = h.hit.z_lo == h.hit.z_hi;  // whatever its rounding
+    const PixelDepth win = clamped ? PixelDepth{h.hit.z_lo, 0, glm::dvec2(0)} : h.win;
+    const Surface surface{h.hit.primitive, h.hit.depth_func, win, h.view};
+    if (never) {
+      never_drawn.push_back(surface);
+    } else if (static_cast<std::int32_t>(h.hit.primitive) == winner) {
+      others.push_back(won);
+      won = surface;
+      won_writes = h.hit.depth_mask;
+    } else {
+      others.push_back(surface);
+    }
+  }
+  DepthShare share;
+  for (const Surface& other : others) share += meeting(scene.frame, won, other);
+  const bool counted = std::ranges::any_of(hits, [](const PixelHit& h) { return h.hit.stencil != nullptr; });
+  const bool all_count = counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; });
+  // A surface after a winner that leaves the depth as it is, is compared with what the winner hides.
+  const auto after = [&](const Surface& s) { return !won_writes && s.order > won.order; };
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (all_count || after(others[i]) || after(others[j])) share += meeting(scene.frame, others[i], others[j]);
+    }
+  }
+  if (scene.depth_clamp) return share;
+  const auto add_cuts = [&](const Surface& of) {
+    share += cut(of.view, 0);
+    share += cut(of.view, 1);
+  };
+  for (const Surface& other : others) {
+    if (other.order != kBackground && (counted || passes(other.func, other.win.z, won.win.z))) add_cuts(other);
+  }
+  for (const Surface& of : never_drawn) add_cuts(of);
+  if (won.order != kBackground) add_cuts(won);
+  return share;
+}
+
+}  // namespace plumbline::math

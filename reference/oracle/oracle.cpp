@@ -1,0 +1,216 @@
+#include "reference/oracle/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "capture/fragment_outcomes.h"
+#include "reference/arithmetic/depth_format.h"
+#include "reference/arithmetic/frame_color.h"
+#include "reference/oracle/ambiguity.h"
+#include "reference/oracle/pixel_hit.h"
+
+namespace plumbline::math {
+
+namespace {
+
+glm::vec4 to_format(ColorFormat format, glm::vec4 color) {
+  if (format == ColorFormat::rgba32f) return color;
+  const auto scale = static_cast<float>(color_scale(format));
+  return glm::round(glm::clamp(color, 0.0f, 1.0f) * scale) / scale;
+}
+
+/// The candidates' primitives by pixel, each pixel's ascending and without duplicates.
+class ByPixel {
+ public:
+  ByPixel(const Candidates& candidates, std::size_t pixels) : first_(pixels + 1, 0) {
+    for (const Candidate& c : candidates.all()) ++first_[c.pixel + 1];
+    for (std::size_t i = 0; i < pixels; ++i) first_[i + 1] += first_[i];
+    primitives_.resize(candidates.all().size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (const Candidate& c : candidates.all()) primitives_[next[c.pixel]++] = c.primitive;
+  }
+  std::span<const std::uint32_t> at(std::size_t pixel) {
+    const auto begin = primitives_.begin() + first_[pixel], end = primitives_.begin() + first_[pixel + 1];
+    std::sort(begin, end);
+    return {begin, std::unique(begin, end)};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> primitives_;
+};
+
+Planes empty_planes(const FrameFormat& frame) {
+  Planes planes;
+  planes.count = {frame.width, frame.height, 0};
+  planes.id_sum = {frame.width, frame.height, 0};
+  planes.id = {frame.width, frame.height, kBackground};
+  planes.shaded = {frame.width, frame.height, frame.clear_color};
+  planes.color = {frame.width, frame.height, to_format(frame.color, frame.clear_color)};
+  planes.depth = {frame.width, frame.height, in_format(frame.depth, frame.clear_depth)};
+  if (frame.stencil != StencilFormat::none) planes.stencil = {frame.width, frame.height, frame.clear_stencil};
+  return planes;
+}
+
+/// A cut triangle is drawn as a fan. One of its pieces may be so thin that snapping turns it over: along the border it
+/// then lies on its neighbour, and both cover the pixel.
+std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits) {
+  std::uint32_t most = 0;
+  for (const PixelHit& h : hits) most += !h.hit.certain && projected.triangles[h.hit.primitive].cut ? 2 : 1;
+  return most;
+}
+
+const Draw& draw_of(const Scene& scene, const Projected& projected, const Hit& hit) {
+  return scene.draws[projected.triangles[hit.primitive].draw];
+}
+
+/// The stencil and the depth test, which change the stencil plane.
+bool tested(const PixelHit& h, double z, Planes& planes, int x, int y) {
+  const bool nearer = passes(h.hit.depth_func, z, planes.depth(x, y));
+  if (h.hit.stencil == nullptr) return nearer;
+  std::uint8_t& held = planes.stencil(x, y);
+  const bool passed = stencil_passes(*h.hit.stencil, held);
+  held = stencil_after(*h.hit.stencil, nearer, held);
+  return passed && nearer;
+}
+
+/// Double's own picture of a pixel.
+void draw_inside(const Scene& scene, const Projected& projected, std::span<PixelHit> hits, int x, int y,
+                 Planes& planes) {
+  const FrameFormat& frame = scene.frame;
+  FrameColor color(frame);
+  for (PixelHit& h : hits) {
+    if (!h.inside) continue;
+    ++planes.count(x, y);
+    planes.id_sum(x, y) += id_weight(h.hit.primitive);
+    const double z = in_format(frame.depth, std::clamp(h.win.z, 0.0, 1.0));
+    if (!h.hit.alpha_passes || !tested(h, z, planes, x, y)) continue;
+    h.drawn = true;
+    planes.id(x, y) = static_cast<std::int32_t>(h.hit.primitive);
+    if (h.hit.depth_mask) planes.depth(x, y) = z;
+    planes.shaded(x, y) = glm::vec4(h.hit.color);
+    color.write(draw_of(scene, projected, h.hit).merge, around(h.hit.color, 0));
+  }
+  planes.color(x, y) = to_format(frame.color, glm::vec4(middle(color.written())));
+}
+
+void add_fragments(const Projected& projected, std::span<const PixelHit> hits, int x, int y, StageSet wanted,
+                   Records<double>& out) {
+  for (const PixelHit& h : hits) {
+    if (!h.inside) continue;
+    WindowTriangle<double> triangle{};
+    triangle.primitive = h.hit.primitive;
+    triangle.front = projected.triangles[h.hit.primitive].sign > 0;
+    triangle.corners = 0;
+    if (wanted.has(Stage::coverage)) {
+      out.covered.push_back({static_cast<std::uint32_t>(out.triangles.size()), static_cast<std::uint16_t>(x),
+                             static_cast<std::uint16_t>(y)});
+      out.triangles.push_back(triangle);
+    }
+    if (wanted.has(Stage::depth)) out.depth.push_back(std::clamp(h.win.z, 0.0, 1.0));
+    if (wanted.has(Stage::shade)) out.shaded.push_back({h.hit.color});
+    if (wanted.has(Stage::visibility)) out.drawn.push_back({h.drawn});
+  }
+}
+
+/// The frame's colour at a pixel, where it is certain which fragments make it; else anything.
+void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, int x, int y,
+                 Legal& legal) {
+  FrameColor color(scene.frame);
+  LegalFold fold(scene.frame);
+  bool certain = true;
+  for (const Hit& hit : hits) {
+    if (!hit.alpha_passes) continue;
+    const std::int32_t held = fold.winners().front().primitive;
+    fold.draw(hit, hit.certain);
+    const std::vector<LegalAnswer>& left = fold.winners();
+    const bool drawn = left.size() == 1 && left[0].primitive == static_cast<std::int32_t>(hit.primitive);
+    const bool hidden = left.size() == 1 && left[0].primitive == held;
+    certain = hit.certain && !hit.alpha_fails && drawn != hidden && (!drawn || std::isfinite(hit.color_bound));
+    if (!certain) break;  // so far no hit was of a group, for those are not certain
+    if (drawn) color.write(draw_of(scene, projected, hit).merge, around(hit.color, hit.color_bound));
+  }
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  legal.color_lo(x, y) = certain ? low(color.written()) : glm::vec4(-kInfinity);
+  legal.color_hi(x, y) = certain ? high(color.written()) : glm::vec4(kInfinity);
+}
+
+}  // namespace
+
+Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates, const Request& request) {
+  const FrameFormat& frame = scene.frame;
+  Oracle out{{}, empty_planes(frame), {}};
+  Legal& legal = out.legal;
+  legal.certain = {frame.width, frame.height, 0};
+  legal.possible = {frame.width, frame.height, 0};
+  if (!colors_replace(scene)) legal.color_lo = legal.color_hi = {frame.width, frame.height};
+  legal.first.reserve(legal.certain.size() + 1);
+  legal.answers.reserve(legal.certain.size());
+  legal.first.push_back(0);
+
+  ByPixel by_pixel(candidates, legal.certain.size());
+  std::vector<PixelHit> hits;
+  std::vector<Hit> to_fold;
+  std::vector<LegalAnswer> answers;
+  double by_depth = 0, centres = 0;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      hits.clear();
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
+      for (const std::uint32_t primitive : by_pixel.at(pixel)) {
+        if (const auto hit = pixel_hit(scene, projected, primitive, x, y)) hits.push_back(*hit);
+      }
+      std::uint32_t certain = static_cast<std::uint32_t>(form_groups(projected, hits, x, y));
+      to_fold.clear();
+      for (const PixelHit& h : hits) {
+        certain += h.hit.certain ? 1 : 0;
+        to_fold.push_back(h.hit);
+      }
+      legal.certain(x, y) = certain;
+      legal.possible(x, y) = most_fragments(projected, hits);
+      fold_hits(to_fold, frame, answers);
+      legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
+      legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
+      draw_inside(scene, projected, hits, x, y, out.planes);
+      if (std::ranges::find(request.pixels, glm::ivec2(x, y)) != request.pixels.end()) {
+        add_fragments(projected, hits, x, y, request.records, out.records);
+      }
+      if (!legal.color_lo.empty()) fold_colors(scene, projected, to_fold, x, y, legal);
+      const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
+      by_depth += share.area;
+      centres += share.centre ? 1 : 0;
+    }
+  }
+  legal.predicted_ambiguous = std::max(by_depth, centres) + ambiguous_by_edges(scene, projected, out.planes.id);
+  return out;
+}
+
+std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget) {
+  const std::size_t pixels = static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height);
+  // Two planes, the answers' index, two answers a pixel (most have one), and a candidate's list by pixel.
+  const std::size_t fixed = plane_bytes(scene) + pixels * (4 * sizeof(std::uint32_t) + 2 * sizeof(LegalAnswer));
+  require_budget(scene, fixed, memory_budget);
+  return (memory_budget - fixed) / (sizeof(Candidate) + sizeof(std::uint32_t));
+}
+
+Legal legal_by_boxes(const Scene& scene, const Request& request) {
+  const FrameFormat& frame = scene.frame;
+  std::vector<bool> wanted;
+  for (const glm::ivec2 p : request.pixels) {
+    wanted.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+    if (p.x >= 0 && p.y >= 0 && p.x < frame.width && p.y < frame.height)
+      wanted[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(p.x)] =
+          true;
+  }
+  Candidates candidates(candidate_budget(scene, request.memory_budget), std::move(wanted));
+  const Projected projected = project(scene);
+  add_by_boxes(projected, candidates);
+  add_by_edges(projected, candidates);
+  return consult(scene, projected, candidates, {}).legal;
+}
+
+}  // namespace plumbline::math

@@ -1,0 +1,37 @@
+// The oracle: from a scene and the triangles found near each pixel to the frame's legal answers and double's own
+// planes.
+#pragma once
+
+#include <cstddef>
+
+#include "capture/capture.h"
+#include "capture/renderer.h"
+#include "reference/arithmetic/project.h"
+#include "reference/oracle/candidates.h"
+
+namespace plumbline::math {
+
+/// What the oracle says of a frame. In the planes a triangle covers a pixel where the pixel's centre is inside it in
+/// double (on an edge, by TieRule::small_sides_in), no vertex snapped and no coordinate rounded; depth and colour are
+/// rounded to the frame's formats, nothing else.
+struct Oracle {
+  Legal legal;
+  Planes planes;
+  /// Where the request names pixels: all that these planes have there, pixel by pixel, each in draw order: triangles
+  /// (of no corners: primitive and front are all that is known of them), covered, depth, shaded, drawn, as asked for.
+  Records<double> records;
+};
+
+/// Each candidate confirmed in double, and the pixels' answers. Every triangle that a legal renderer may cover a pixel
+/// with must be among the candidates; their order does not matter. Of the request,
+/// pixels and records count.
+Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates, const Request& request);
+
+/// Throws OverBudget where planes and legal answers would not fit; else how many candidates the rest holds.
+std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget);
+
+/// The legal answers of a scene with no rays cast: triangles found by boxes and by edges. Where the request names
+/// pixels, of these; elsewhere the background is the only answer. Throws OverBudget.
+Legal legal_by_boxes(const Scene& scene, const Request& request);
+
+}  // namespace plumbline::math

@@ -1,0 +1,45 @@
+#include "reference/osmesa/gl/context.h"
+
+#include <cstdlib>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "capture/renderer.h"
+#include "reference/osmesa/gl/gl.h"
+
+namespace plumbline::osmesa {
+
+Gl load(const Context& context) {
+  Gl gl;
+#define PLUMBLINE_GL_LOAD(name)                                                \
+  gl.name = reinterpret_cast<decltype(gl.name)>(context.function("gl" #name)); \
+  if (gl.name == nullptr) throw RendererFailed("OpenGL: this library has no gl" #name);
+  PLUMBLINE_GL_FUNCTIONS(PLUMBLINE_GL_LOAD)
+#undef PLUMBLINE_GL_LOAD
+  return gl;
+}
+
+const char* name_of(MesaDriver driver) { return driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe"; }
+
+void claim_process(std::string_view library, MesaDriver driver, ShaderCode code) {
+  const bool optimised = code == ShaderCode::quick_to_run;
+  const std::string wanted = fmt::format("{} with {}{}", library, name_of(driver), optimised ? ", optimised" : "");
+  static const std::string claimed = [&] {
+    setenv("GALLIUM_DRIVER", name_of(driver), 1);
+    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);  // EGL would look for a graphics card
+    // Else bilinear weights have 8 bits, and levels of detail are those of four pixels, approximate and stretched.
+    // Shaders that are not optimised draw the same bits, and compile three times as fast.
+    setenv("GALLIVM_PERF", optimised ? "no_aos_sampling,no_filter_hacks" : "no_aos_sampling,no_filter_hacks,nopt", 1);
+    if (driver == MesaDriver::softpipe) setenv("DRAW_USE_LLVM", "0", 1);  // else feedback with lighting is wrong
+    unsetenv("LP_NATIVE_VECTOR_WIDTH");
+    unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");
+    return wanted;
+  }();
+  if (claimed != wanted) {
+    throw RendererFailed(
+        fmt::format("OpenGL: this process already uses {}; {} needs a process of its own", claimed, wanted));
+  }
+}
+
+}  // namespace plumbline::osmesa

@@ -1,0 +1,31 @@
+// A GLSL program of GL's.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+
+#include "reference/osmesa/gl/gl.h"
+
+namespace plumbline::osmesa {
+
+class Program {
+ public:
+  /// `fragment` may be empty: fragments are then the fixed function's. `captured`: what transform feedback writes, one
+  /// after the other. Throws RendererFailed, with GL's words, where it does not link.
+  Program(const Gl& gl, const std::string& vertex, const std::string& fragment,
+          std::span<const GLchar* const> captured = {});
+  ~Program() {
+    if (name_ != 0) gl_->DeleteProgram(name_);
+  }
+  Program(Program&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+  Program& operator=(Program&&) = delete;
+
+  GLuint name() const { return name_; }
+
+ private:
+  const Gl* gl_;
+  GLuint name_;
+};
+
+}  // namespace plumbline::osmesa

@@ -1,0 +1,56 @@
+// What one renderer handed out for one scene: records of stages, and planes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "capture/legal.h"
+#include "capture/plane.h"
+#include "capture/stages.h"
+
+namespace plumbline {
+
+/// Planes of the frame's size, or empty: not asked for, or not shown.
+struct Planes {
+  Plane<std::uint32_t> count;   ///< coverage: fragments of all primitives at the pixel, before any depth test
+  Plane<std::uint64_t> id_sum;  ///< coverage: sum of id_weight(primitive) over those fragments
+  Plane<std::int32_t> id;       ///< visibility: the winning primitive, or kBackground
+  Plane<glm::vec4> texel;       ///< texture: the winner's texel, (0, 0, 0, 1) without a texture, 0 in the background;
+                                ///< empty where no draw has one
+  Plane<glm::vec4> shaded;      ///< attributes, shade: the winner's colour in float, the clear colour elsewhere
+  Plane<glm::vec4> color;       ///< merge: the frame's colour; n-bit codes as code / (2^n - 1)
+  Plane<std::uint8_t> stencil;  ///< visibility: the stencil values that the tests leave, where the frame has any
+  Plane<double> depth;          ///< merge: the frame's depth as window z; n-bit codes as code / (2^n - 1)
+};
+
+/// A weight per primitive, of three 12-bit parts (so that sums of up to 4096 of each part stay below 2^24 and are exact
+/// in an RGBA32F target). Part 0 is the number's low 12 bits, part 1 the next 12, part 2 a mix of all its bits, so that
+/// pairs of numbers with the same sum are told apart.
+constexpr std::uint32_t id_weight_part(std::uint32_t primitive, int part) {
+  if (part == 0) return primitive & 0xfffu;
+  if (part == 1) return (primitive >> 12) & 0xfffu;
+  std::uint32_t h = (primitive ^ (primitive >> 15)) * 0x2c1b3c6du;
+  h = (h ^ (h >> 12)) * 0x297a2d39u;
+  return (h >> 15) & 0xfffu;
+}
+/// The parts as one integer, 20 bits apart, so that no sum of 255 or fewer carries over and any carry is the same sum.
+constexpr std::uint64_t id_weight(std::uint32_t primitive) {
+  return static_cast<std::uint64_t>(id_weight_part(primitive, 0)) |
+         static_cast<std::uint64_t>(id_weight_part(primitive, 1)) << 20 |
+         static_cast<std::uint64_t>(id_weight_part(primitive, 2)) << 40;
+}
+
+struct Capture {
+  std::string renderer;  ///< its name
+  std::string version;   ///< and what it was made by
+  int width = 0;
+  int height = 0;
+  Records<double> records;
+  Planes planes;
+  /// Of an antialiased scene: each pass' frame colours. Its records, and the other planes, are those of the passes
+  /// alone.
+  std::vector<Plane<glm::vec4>> samples;
+  Legal legal;  ///< an oracle's answer: what may be at each pixel
+};
+
+}  // namespace plumbline

@@ -1,0 +1,373 @@
+#include "capture/files/capture_folder.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_path.h"
+#include "capture/files/capture_columns.h"
+#include "scene/json/json_file.h"
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kFormat = "plumbline capture";
+constexpr int kVersion = 1;
+constexpr int kLargestFrame = 16384;
+
+template <class C>
+constexpr std::size_t kPerRecord = C::kCorners == 0 ? 1 : C::kCorners;
+
+using Shape = std::vector<std::size_t>;
+
+/// The extents of `count` records' array.
+template <class C, class Record>
+Shape record_shape(std::size_t count) {
+  Shape shape{count};
+  if (C::kCorners != 0) shape.push_back(C::kCorners);
+  for (const std::size_t extent : Element<ColumnType<C, Record>>::extents) shape.push_back(extent);
+  return shape;
+}
+
+template <class T>
+Shape plane_shape(int width, int height) {
+  Shape shape{static_cast<std::size_t>(height), static_cast<std::size_t>(width)};
+  for (const std::size_t extent : Element<T>::extents) shape.push_back(extent);
+  return shape;
+}
+
+// ---- writing
+
+class Writer {
+ public:
+  Writer(const Capture& capture, AtomicPath& folder) : folder_(folder) {
+    manifest_["format"] = kFormat;
+    manifest_["version"] = kVersion;
+    manifest_["renderer"] = capture.renderer;
+    manifest_["renderer_version"] = capture.version;
+    manifest_["width"] = capture.width;
+    manifest_["height"] = capture.height;
+    manifest_["byte_order"] = "little";
+    manifest_["arrays"] = nlohmann::ordered_json::array();
+  }
+
+  template <class Record, class... Columns>
+  void group(std::string_view name, const std::vector<Record>& records, const Columns&... columns) {
+    if (!records.empty()) (column(name, records, columns), ...);
+  }
+
+  template <class T>
+  void plane(std::string_view name, const Plane<T>& plane) {
+    if (plane.empty()) return;
+    array(name, Element<T>::dtype, plane_shape<T>(plane.width(), plane.height()), plane.values().data(),
+          plane.size() * sizeof(T));
+  }
+
+  void finish() {
+    const std::string text = manifest_.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+    write("manifest.json", text.data(), text.size());
+  }
+
+ private:
+  template <class Record, class C>
+  void column(std::string_view group, const std::vector<Record>& records, const C& column) {
+    using T = ColumnType<C, const Record>;
+    std::vector<char> bytes(records.size() * kPerRecord<C> * sizeof(T));
+    char* to = bytes.data();
+    for (const Record& record : records) {
+      for (std::size_t k = 0; k < kPerRecord<C>; ++k, to += sizeof(T))
+        std::memcpy(to, &column.at(record, k), sizeof(T));
+    }
+    array(fmt::format("{}.{}", group, column.name), Element<T>::dtype, record_shape<C, const Record>(records.size()),
+          bytes.data(), bytes.size());
+  }
+
+  void array(std::string_view name, std::string_view dtype, const Shape& shape, const void* bytes, std::size_t size) {
+    const std::string file = fmt::format("{}.bin", name);
+    manifest_["arrays"].push_back({{"name", name}, {"dtype", dtype}, {"shape", shape}, {"file", file}});
+    write(file, bytes, size);
+  }
+
+  void write(const std::string& file, const void* bytes, std::size_t size) {
+    folder_.write_inside(file, {static_cast<const char*>(bytes), size});
+  }
+
+  AtomicPath& folder_;
+  nlohmann::ordered_json manifest_;
+};
+
+// ---- reading
+
+class Reader {
+ public:
+  Reader(const fs::path& folder, Capture& capture)
+      : folder_(folder), manifest_(folder / "manifest.json"), capture_(capture) {
+    const JsonNode root = manifest_.root();
+    root.only({"format", "version", "renderer", "renderer_version", "width", "height", "byte_order", "arrays"});
+    require(root["format"], kFormat);
+    root["version"].integer(kVersion, kVersion);
+    require(root["byte_order"], "little");
+    capture.renderer = root["renderer"].text();
+    if (const auto version = root.find("renderer_version")) {
+      if (version->value().kind != JsonValue::Kind::text) version->refuse("a string");
+      capture.version = version->value().text;
+    }
+    capture.width = static_cast<int>(root["width"].integer(1, kLargestFrame));
+    capture.height = static_cast<int>(root["height"].integer(1, kLargestFrame));
+    for (const JsonNode& array : root["arrays"].elements(0, SIZE_MAX)) {
+      array.only({"name", "dtype", "shape", "file"});
+      if (!arrays_.emplace(array["name"].text(), array).second) array["name"].refuse("each name once");
+    }
+  }
+
+  template <class Record, class... Columns>
+  void group(std::string_view name, std::vector<Record>& records, const Columns&... columns) {
+    std::optional<std::size_t> count;  // before any memory is taken, every file is known to be of its right size
+    const std::size_t present = (std::size_t{0} + ... + std::size_t{check<Record>(name, columns, count)});
+    if (present == 0) return;
+    if (present != sizeof...(columns)) {
+      throw CaptureError(fmt::format("{}: expected all arrays {}.*, found {} of {}", folder_.string(), name, present,
+                                     sizeof...(columns)));
+    }
+    records.resize(*count);
+    (read(name, records, columns), ...);
+  }
+
+  template <class T>
+  void plane(std::string_view name, Plane<T>& plane) {
+    const auto array = take(name);
+    if (!array) return;
+    const Shape shape = plane_shape<T>(capture_.width, capture_.height);
+    check_type<T>(*array);
+    if (read_shape(*array) != shape) (*array)["shape"].refuse(fmt::format("[{}] of {}", fmt::join(shape, ", "), name));
+    const auto pixels = static_cast<std::size_t>(capture_.width) * static_cast<std::size_t>(capture_.height);
+    check_size(*array, pixels, sizeof(T));
+    plane = Plane<T>(capture_.width, capture_.height);
+    read_bytes(*array, plane.values().data(), pixels * sizeof(T));
+  }
+
+  /// Of the manifest, itself included, before anything else is read.
+  std::set<fs::path> files() const {
+    std::set<fs::path> names{"manifest.json"};
+    for (const auto& [name, array] : arrays_) names.insert(array["file"].text());
+    return names;
+  }
+
+  /// After all groups and planes: refuses an array that none of them is.
+  void finish() const {
+    for (const auto& [name, array] : arrays_) {
+      array["name"].refuse("the name of an array of this format's version", fmt::format("\"{}\"", name));
+    }
+  }
+
+ private:
+  static void require(const JsonNode& node, std::string_view text) {
+    if (node.text() != text) node.refuse(fmt::format("\"{}\"", text));
+  }
+
+  /// The array of this name, once.
+  std::optional<JsonNode> take(std::string_view name) {
+    const auto found = arrays_.extract(std::string(name));
+    if (found.empty()) return std::nullopt;
+    return found.mapped();
+  }
+
+  Shape read_shape(const JsonNode& array) const {
+    constexpr std::size_t kMostExtents = 4;
+    Shape shape;
+    for (const JsonNode& extent : array["shape"].elements(1, kMostExtents)) {
+      shape.push_back(static_cast<std::size_t>(extent.integer(0, INT64_MAX)));
+    }
+    return shape;
+  }
+
+  template <class T>
+  void check_type(const JsonNode& array) const {
+    if (array["dtype"].text() == Element<T>::dtype) return;
+    array["dtype"].refuse(fmt::format("\"{}\" of {}", Element<T>::dtype, array["name"].text()));
+  }
+
+  /// The array's file, known to hold `count` elements of `bytes` bytes.
+  void check_size(const JsonNode& array, std::size_t count, std::size_t bytes) const {
+    const fs::path file = file_of(array);
+    if (!fs::is_regular_file(file)) fail(array, "expected a file, found none");
+    const std::uintmax_t size = fs::file_size(file);
+    if (size % bytes == 0 && size / bytes == count) return;
+    fail(array, fmt::format("expected {} times {} bytes, found {} bytes", count, bytes, size));
+  }
+
+  /// Checks a column's entry and file; false: it is not there.
+  template <class Record, class C>
+  bool check(std::string_view group, const C& column, std::optional<std::size_t>& count) {
+    using T = ColumnType<C, Record>;
+    const auto found = arrays_.find(fmt::format("{}.{}", group, column.name));
+    if (found == arrays_.end()) return false;
+    const JsonNode& array = found->second;
+    check_type<T>(array);
+    const Shape shape = read_shape(array), expected = record_shape<C, Record>(shape[0]);
+    if (shape != expected) {
+      array["shape"].refuse(fmt::format("[{}] of {}", fmt::join(expected, ", "), found->first),
+                            fmt::format("[{}]", fmt::join(shape, ", ")));
+    }
+    if (count && *count != shape[0]) {
+      array["shape"].refuse(
+          fmt::format("as many records in {} as in the other arrays {}.*, {}", found->first, group, *count),
+          fmt::format("{}", shape[0]));
+    }
+    count = shape[0];
+    check_size(array, shape[0], kPerRecord<C> * sizeof(T));
+    return true;
+  }
+
+  template <class Record, class C>
+  void read(std::string_view group, std::vector<Record>& records, const C& column) {
+    using T = ColumnType<C, Record>;
+    const JsonNode array = *take(fmt::format("{}.{}", group, column.name));
+    std::vector<char> bytes(records.size() * kPerRecord<C> * sizeof(T));
+    read_bytes(array, bytes.data(), bytes.size());
+    if constexpr (std::is_same_v<T, bool>) {
+      const auto odd = std::find_if(bytes.begin(), bytes.end(), [](char b) { return b != 0 && b != 1; });
+      if (odd != bytes.end()) fail(array, fmt::format("expected 0 or 1, found {}", static_cast<unsigned char>(*odd)));
+    }
+    const char* from = bytes.data();
+    for (Record& record : records) {
+      for (std::size_t k = 0; k < kPerRecord<C>; ++k, from += sizeof(T)) {
+        std::memcpy(&column.at(record, k), from, sizeof(T));
+      }
+    }
+  }
+
+  void read_bytes(const JsonNode& array, void* to, std::size_t size) const {
+    std::ifstream in(file_of(array), std::ios::binary);
+    in.read(static_cast<char*>(to), static_cast<std::streamsize>(size));
+    if (!in) fail(array, "cannot be read");
+  }
+
+  fs::path file_of(const JsonNode& array) const {
+    const fs::path name = array["file"].text();
+    if (name != name.filename() || name == "." || name == "..") array["file"].refuse("a file name without a folder");
+    return folder_ / name;
+  }
+
+  [[noreturn]] void fail(const JsonNode& array, std::string_view what) const {
+    throw CaptureError(fmt::format("{}: array {}: {}", file_of(array).string(), array["name"].text(), what));
+  }
+
+  fs::path folder_;
+  JsonFile manifest_;
+  Capture& capture_;
+  std::map<std::string, JsonNode> arrays_;  ///< by name, those not yet read
+};
+
+/// Refuses what points outside.
+void check_indices(const Capture& capture, const fs::path& folder) {
+  const auto fail = [&](std::string_view array, std::size_t i, std::string_view what) {
+    throw CaptureError(fmt::format("{}: array {}: element {}: {}", folder.string(), array, i, what));
+  };
+  const Records<double>& records = capture.records;
+
+  const ClipPolygons<double>& clip = records.polygons;
+  for (std::size_t i = 0; i < clip.polygons.size(); ++i) {
+    const ClipPolygon& polygon = clip.polygons[i];
+    if (polygon.count < 1 || polygon.count > 9) {
+      fail("clip.polygon.count", i, fmt::format("expected 1 to 9 vertices, found {}", polygon.count));
+    }
+    if (std::uint64_t{polygon.first} + polygon.count > clip.vertices.size()) {
+      fail("clip.polygon.first", i,
+           fmt::format("expected vertices below {}, found {} from {}", clip.vertices.size(), polygon.count,
+                       polygon.first));
+    }
+  }
+
+  for (std::size_t i = 0; i < records.triangles.size(); ++i) {
+    const std::uint32_t corners = records.triangles[i].corners;
+    if (corners < 1 || corners > 3) fail("window.corners", i, fmt::format("expected 1 to 3, found {}", corners));
+  }
+
+  const std::size_t fragments = records.covered.size();
+  for (std::size_t i = 0; i < fragments; ++i) {
+    const Covered& covered = records.covered[i];
+    if (!records.triangles.empty() && covered.triangle >= records.triangles.size()) {
+      fail("coverage.triangle", i,
+           fmt::format("expected a triangle below {}, found {}", records.triangles.size(), covered.triangle));
+    }
+    if (covered.x >= capture.width) {
+      fail("coverage.x", i, fmt::format("expected x below {}, found {}", capture.width, covered.x));
+    }
+    if (covered.y >= capture.height) {
+      fail("coverage.y", i, fmt::format("expected y below {}, found {}", capture.height, covered.y));
+    }
+  }
+
+  const auto beside = [&](std::string_view array, std::size_t size, std::string_view other, std::size_t expected) {
+    if (size == 0 || expected == 0 || size == expected) return;
+    throw CaptureError(fmt::format("{}: array {}: expected as many as in {}, {}, found {}", folder.string(), array,
+                                   other, expected, size));
+  };
+  beside("light.color", records.lit.size(), "vertex.*", records.vertices.size());
+  beside("depth.value", records.depth.size(), "coverage.*", fragments);
+  beside("attributes.color", records.attributes.size(), "coverage.*", fragments);
+  beside("texture.color", records.texels.size(), "coverage.*", fragments);
+  beside("shade.color", records.shaded.size(), "coverage.*", fragments);
+  beside("visibility.drawn", records.drawn.size(), "coverage.*", fragments);
+  for (const Varying v : kAllVaryings) {
+    const VaryingColumns<double>& columns = records.varyings[v];
+    const auto column = [&](std::string_view which) { return fmt::format("varyings.{}.{}", name_of(v), which); };
+    beside(column("vertices"), columns.vertices.size(), "vertex.*", records.vertices.size());
+    beside(column("clipped"), columns.clipped.size(), "clip.*", clip.vertices.size());
+    beside(column("window"), columns.triangles.size(), "window.*", records.triangles.size());
+    beside(column("fragments"), columns.fragments.size(), "coverage.*", fragments);
+  }
+}
+
+}  // namespace
+
+void require_writable_capture(const fs::path& folder) {
+  std::set<fs::path> files;
+  std::error_code none;
+  if (fs::exists(folder / "manifest.json", none)) {
+    try {
+      Capture header;
+      files = Reader(folder, header).files();
+    } catch (const std::exception& error) {
+      throw OutputError(folder, fmt::format("the folder holds no capture ({}); it is left alone", error.what()));
+    }
+  }
+  require_writable_folder(folder, files);
+}
+
+void write_capture(const Capture& capture, const fs::path& folder) {
+  require_writable_capture(folder);
+  AtomicPath atomic(folder);
+  atomic.make_folder();
+  Writer writer(capture, atomic);
+  visit_capture(capture, writer);
+  writer.finish();
+  atomic.commit();
+}
+
+Capture read_capture(const fs::path& folder) {
+  try {
+    Capture capture;
+    Reader reader(folder, capture);
+    visit_capture(capture, reader);
+    reader.finish();
+    check_indices(capture, folder);
+    return capture;
+  } catch (const JsonError& error) {
+    throw CaptureError(error.what());
+  } catch (const fs::filesystem_error& error) {
+    throw CaptureError(fmt::format("{}: cannot be read: {}", folder.string(), error.what()));
+  }
+}
+
+}  // namespace plumbline

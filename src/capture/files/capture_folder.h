@@ -1,0 +1,39 @@
+// A capture as a folder: manifest.json and one little-endian .bin file per array. A renderer in another process, in any
+// language, needs nothing but this.
+//
+//   {"format": "plumbline capture", "version": 1, "renderer": "...", "renderer_version": "...",
+//    "width": 97, "height": 61, "byte_order": "little",
+//    "arrays": [{"name": "window.p_win", "dtype": "f64", "shape": [1234, 3, 3], "file": "window.p_win.bin"}, ...]}
+//
+// dtype is one of f32 f64 u8 u16 u32 u64 i32. The first extent of a record's array is the number of records (of
+// window.* the next is the corner), of a plane's the row, from the bottom; the last is the component; matrices are
+// column by column. A file is its array's elements, the last index running fastest, and nothing else. The names, and
+// what belongs to each, are listed in capture_columns.h; values mean what stages.h and capture.h say. What was not
+// captured is left out: a plane, or all arrays of a record.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "capture/capture.h"
+
+namespace plumbline {
+
+/// The message names the file and, where there is one, the array.
+struct CaptureError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes all of a capture but its legal answers. A folder that holds a capture and nothing else, or nothing, is
+/// replaced, in one moment; its parents are made. Throws OutputError (atomic_path.h).
+void write_capture(const Capture& capture, const std::filesystem::path& folder);
+
+/// What write_capture would throw of the folder, before there is a capture; leaves nothing behind.
+void require_writable_capture(const std::filesystem::path& folder);
+
+/// Reads a capture back, bit for bit; values may be anything, NaN included. Throws CaptureError on what is missing, of
+/// another size, type or shape than the manifest or the format says, of a version or name not known, or points outside
+/// (polygons into their vertices, fragments into the window's triangles, where those are there, and into the frame).
+Capture read_capture(const std::filesystem::path& folder);
+
+}  // namespace plumbline

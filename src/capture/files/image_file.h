@@ -1,0 +1,86 @@
+// Planes as image files. A plane's row 0 is its bottom, a file's first row its top: rows are flipped on the way. Alpha
+// stays straight, colours are numbers: nothing is multiplied, no colour space converted.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "capture/plane.h"
+#include "scene/scene.h"
+
+namespace plumbline {
+
+/// The message names the file.
+struct ImageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+using Bytes = std::string;
+
+/// Each encodes a plane as the bytes of a file whose name it is given. All throw ImageError: for an empty plane, an
+/// ending that is not theirs, or a format that the file cannot hold. Where a file holds codes, values are clamped to
+/// [0,1] (NaN: 0) and rounded to nearest: value * 255, of an rgba12 frame value * 4095, of rgba16 value * 65535.
+///
+/// .png: 8-bit RGBA; of an rgba16 frame 16-bit; of rgba12, too, each code c as c * 65535 / 4095 rounded, so that none
+/// is lost.
+Bytes encode_png(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
+                 ColorFormat format = ColorFormat::rgba8);
+/// .tga: 8-bit RGBA; of an rgba12 or rgba16 frame none.
+Bytes encode_tga(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
+                 ColorFormat format = ColorFormat::rgba8);
+/// .ppm: binary, the codes themselves of red, green and blue, of at most 255, 4095 or 65535. No alpha.
+Bytes encode_ppm(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
+                 ColorFormat format = ColorFormat::rgba8);
+/// .exr: 32-bit float RGBA, bit for bit, lossless compression; the same bytes whenever it is written.
+Bytes encode_exr(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
+/// .exr, one channel "Z": window z rounded to 32-bit float.
+Bytes encode_depth_exr(const std::filesystem::path& file, const Plane<double>& plane);
+/// .exr, one channel "Z": the codes of the depth format as numbers, which 32-bit float holds without loss up to 24
+/// bits; of z32f window z itself. (Window z of 24 bits, a quotient, would be rounded.)
+Bytes encode_depth_codes(const std::filesystem::path& file, const Plane<double>& plane, DepthFormat format);
+/// One of them, by the ending; `format`: of the frame that the plane is of.
+Bytes encode_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
+                   ColorFormat format = ColorFormat::rgba8);
+
+/// Throw what encode_image and encode_depth_exr would of the name, before there is a plane.
+void require_image_name(const std::filesystem::path& file, ColorFormat format = ColorFormat::rgba8);
+void require_depth_name(const std::filesystem::path& file);
+
+/// Encodes and writes; the file appears whole or not at all. Throws OutputError (atomic_path.h) as well.
+void write_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
+
+/// An image as it is stored: no alpha multiplied or divided, no colour converted, no tag obeyed.
+struct StoredImage {
+  struct Channel {
+    std::string name;      ///< such as "R", "A", "Z"
+    double scale = 1;      ///< a value is values / scale: 2^n - 1 for n-bit codes, 1 for floats
+    Plane<double> values;  ///< all of one size; floats of any kind, NaN and infinities included
+  };
+  struct Window {
+    int x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Window&) const = default;
+  };
+  std::vector<Channel> channels;  ///< at least one
+  Window data, display;  ///< what is stored, and the frame that it is a part of; y from the top, as in the file
+};
+
+/// Any one image that OpenImageIO knows, of up to 16384 x 16384 pixels and 2^28 values. Refused: parts, MIP levels,
+/// deep pixels, volumes.
+StoredImage read_stored(const std::filesystem::path& file);
+
+/// Frames from such images, bit for bit as the frame holds them: of one that encode_image wrote, of encode_depth_codes.
+/// Throw ImageError, naming `file`, where the image is not of their channels and numbers.
+Plane<glm::vec4> frame_color(const std::filesystem::path& file, const StoredImage& image, ColorFormat format);
+Plane<double> frame_depth(const std::filesystem::path& file, const StoredImage& image, DepthFormat format);
+
+/// The same of 1 to 4 channels, in float. One channel comes as red, green and blue, a missing alpha as 1.
+Plane<glm::vec4> read_image(const std::filesystem::path& file);
+
+/// Of OpenImageIO, which reads and writes them.
+std::string image_library_version();
+
+}  // namespace plumbline

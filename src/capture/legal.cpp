@@ -1,0 +1,291 @@
+#include "capture/legal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "capture/fragment_outcomes.h"
+
+namespace plumbline {
+
+namespace {
+
+constexpr std::size_t kMostBranches = 256;
+
+struct Interval {
+  double lo, hi;
+};
+
+/// What a depth test may come to, over all depths that the intervals allow.
+struct Test {
+  bool may_pass, may_fail;
+  Interval passed;  ///< the hit's depths under which it passes
+  Interval failed;  ///< the held depths under which the hit fails
+  Interval under;   ///< the held depths under which it passes
+};
+
+/// Depths that are clamped to one end are one number in every arithmetic and format: a tie, which is not open.
+bool tie_of_clamped(Interval a, Interval b) {
+  return (a.lo == 0 || a.lo == 1) && a.lo == a.hi && a.lo == b.lo && a.lo == b.hi;
+}
+
+/// `hit` against the depth that the frame holds; depths no more than `step` apart may compare either way, so that
+/// "less" and "less or equal" allow the same.
+Test depth_test(DepthFunc func, Interval hit, Interval held, double step) {
+  if (tie_of_clamped(hit, held)) {
+    const Outcomes tie = outcomes(func, hit.lo, hit.lo, held.lo);
+    return {tie.may_pass, tie.may_fail, hit, held, held};
+  }
+  const bool may_be_less = hit.lo <= held.hi + step, may_be_greater = hit.hi >= held.lo - step;
+  const Interval hit_if_less{hit.lo, std::min(hit.hi, held.hi + step)};
+  const Interval hit_if_greater{std::max(hit.lo, held.lo - step), hit.hi};
+  const Interval held_if_less{std::max(held.lo, hit.lo - step), held.hi};  // the hit is less: what is held is greater
+  const Interval held_if_greater{held.lo, std::min(held.hi, hit.hi + step)};
+  switch (func) {
+    case DepthFunc::never: return {false, true, hit, held, held};
+    case DepthFunc::always: return {true, false, hit, held, held};
+    case DepthFunc::less:
+    case DepthFunc::less_equal: return {may_be_less, may_be_greater, hit_if_less, held_if_greater, held_if_less};
+    case DepthFunc::greater:
+    case DepthFunc::greater_equal: return {may_be_greater, may_be_less, hit_if_greater, held_if_less, held_if_greater};
+    case DepthFunc::equal:
+      return {may_be_less && may_be_greater, true, {hit_if_greater.lo, hit_if_less.hi}, held, held};
+    case DepthFunc::not_equal:
+      return {true, may_be_less && may_be_greater, hit, {held_if_less.lo, held_if_greater.hi}, held};
+  }
+  return {true, true, hit, held, held};
+}
+
+LegalAnswer background(const FrameFormat& frame) {
+  const double z = depth_in_format(frame.depth, frame.clear_depth);
+  return {kBackground, 0, z, z, frame.clear_color, frame.clear_stencil};
+}
+
+LegalAnswer answer(const Hit& hit, Interval z) {
+  return {static_cast<std::int32_t>(hit.primitive), static_cast<float>(hit.color_bound), z.lo, z.hi, hit.color};
+}
+
+void add(const LegalAnswer& answer, std::vector<LegalAnswer>& all) {
+  for (LegalAnswer& a : all) {
+    if (a.primitive != answer.primitive || a.stencil != answer.stencil) continue;
+    a.z_lo = std::min(a.z_lo, answer.z_lo);
+    a.z_hi = std::max(a.z_hi, answer.z_hi);
+    return;
+  }
+  all.push_back(answer);
+}
+
+/// Draws one hit over winners of any stencil values.
+std::vector<LegalAnswer> drawn_by_stencil(const Hit& hit, bool certain, const StencilFace* face, DepthFormat format,
+                                          const std::vector<LegalAnswer>& winners) {
+  std::vector<LegalAnswer> left, won;
+  const auto put = [&](LegalAnswer a, bool nearer, std::uint8_t held, std::vector<LegalAnswer>& to) {
+    a.stencil = face == nullptr ? held : stencil_after(*face, nearer, held);
+    add(a, to);
+  };
+  for (const LegalAnswer& held : winners) {
+    if (!certain) add(held, left);
+    if (face != nullptr && !stencil_passes(*face, held.stencil)) {
+      put(held, false, held.stencil, left);
+      continue;
+    }
+    const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
+    const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {held.z_lo, held.z_hi}, step);
+    if (test.may_fail) {  // it stays only by the hit's failing
+      LegalAnswer failed = held;
+      failed.z_lo = test.failed.lo;
+      failed.z_hi = test.failed.hi;
+      put(failed, false, held.stencil, left);
+    }
+    if (!test.may_pass) continue;
+    put(answer(hit, hit.depth_mask ? test.passed : test.under), true, held.stencil, won);
+  }
+  for (const LegalAnswer& a : won) add(a, left);
+  return left;
+}
+
+using Group = std::vector<std::size_t>;  // indices of its hits
+
+/// The hits of each group, by its number.
+std::vector<Group> groups_of(std::span<const Hit> hits) {
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].group < 0) continue;
+    const auto number = static_cast<std::size_t>(hits[i].group);
+    if (number >= groups.size()) groups.resize(number + 1);
+    groups[number].push_back(i);
+  }
+  return groups;
+}
+
+/// The union of two sets of winners, in draw order; of one winner, the hull of its depths.
+std::vector<LegalAnswer> united(const std::vector<LegalAnswer>& a, const std::vector<LegalAnswer>& b) {
+  const auto key = [](const LegalAnswer& l) { return std::pair(l.primitive, l.stencil); };
+  std::vector<LegalAnswer> out = a;
+  out.insert(out.end(), b.begin(), b.end());
+  std::ranges::stable_sort(out, {}, key);
+  std::size_t kept = 0;
+  for (const LegalAnswer& l : out) {
+    if (kept > 0 && key(out[kept - 1]) == key(l)) {
+      out[kept - 1].z_lo = std::min(out[kept - 1].z_lo, l.z_lo);
+      out[kept - 1].z_hi = std::max(out[kept - 1].z_hi, l.z_hi);
+    } else {
+      out[kept++] = l;
+    }
+  }
+  out.resize(kept);
+  return out;
+}
+
+/// Folds where it is open which hit of each group is the certain one: from a group's first hit to its last, a branch
+/// for each. Groups that overlap multiply their branches; beyond kMostBranches the hits of a group are merely possible.
+class BranchedFold {
+ public:
+  explicit BranchedFold(const FrameFormat& frame) : branches_{{{}, LegalFold(frame)}} {}
+
+  void open(const Group& group) {
+    if (branches_.size() * group.size() > kMostBranches) return;
+    open_.push_back(&group);
+    std::vector<Branch> more;
+    for (const Branch& branch : branches_) {
+      for (const std::size_t member : group) {
+        more.push_back(branch);
+        more.back().chosen.push_back(member);
+      }
+    }
+    branches_ = std::move(more);
+  }
+  void draw(const Hit& hit, std::size_t index) {
+    for (Branch& branch : branches_) {
+      branch.fold.draw(hit, hit.certain || std::ranges::find(branch.chosen, index) != branch.chosen.end());
+    }
+  }
+  void close(const Group& group) {
+    const auto at = std::ranges::find(open_, &group);
+    if (at == open_.end()) return;
+    const auto place = at - open_.begin();
+    open_.erase(at);
+    std::vector<Branch> fewer;
+    for (Branch& branch : branches_) {
+      branch.chosen.erase(branch.chosen.begin() + place);
+      const auto same = std::ranges::find(fewer, branch.chosen, &Branch::chosen);
+      if (same == fewer.end()) {
+        fewer.push_back(std::move(branch));
+      } else {
+        same->fold.set(united(same->fold.winners(), branch.fold.winners()));
+      }
+    }
+    branches_ = std::move(fewer);
+  }
+  /// After the last group was closed.
+  const std::vector<LegalAnswer>& winners() const { return branches_.front().fold.winners(); }
+
+ private:
+  struct Branch {
+    std::vector<std::size_t> chosen;  ///< of each open group
+    LegalFold fold;
+  };
+  std::vector<const Group*> open_;
+  std::vector<Branch> branches_;
+};
+
+}  // namespace
+
+LegalFold::LegalFold(const FrameFormat& frame) : format_(frame.depth), background_(background(frame)) { clear(); }
+
+void LegalFold::clear() {
+  winners_.clear();
+  runs_.clear();
+  one_stencil_ = true;
+  add(background_);
+}
+
+void LegalFold::add(const LegalAnswer& winner) {
+  if (runs_.empty() || runs_.back().z_lo != winner.z_lo || runs_.back().z_hi != winner.z_hi) {
+    runs_.push_back({winners_.size(), winner.z_lo, winner.z_hi});
+  }
+  winners_.push_back(winner);
+}
+
+void LegalFold::set(const std::vector<LegalAnswer>& winners) {
+  winners_.clear();
+  runs_.clear();
+  for (const LegalAnswer& a : winners) add(a);
+  one_stencil_ = std::ranges::all_of(winners_, [&](const LegalAnswer& a) { return a.stencil == winners_[0].stencil; });
+}
+
+void LegalFold::draw_in_runs(const Hit& hit, bool certain) {
+  bool may_win = false;
+  Interval won{0, 0};
+  const std::uint8_t stencil = winners_.empty() ? 0 : winners_.front().stencil;
+  std::size_t kept = 0, kept_runs = 0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    Run run = runs_[r];
+    const std::size_t first = run.first, last = r + 1 < runs_.size() ? runs_[r + 1].first : winners_.size();
+    const double step = depth_step(format_, std::max(hit.z_hi, run.z_hi));
+    const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {run.z_lo, run.z_hi}, step);
+    if (test.may_pass) {
+      const Interval left = hit.depth_mask ? test.passed : test.under;
+      won = may_win ? Interval{std::min(won.lo, left.lo), std::max(won.hi, left.hi)} : left;
+      may_win = true;
+    }
+    if (certain && !test.may_fail) continue;
+    const bool narrower = certain && (test.failed.lo != run.z_lo || test.failed.hi != run.z_hi);
+    run.first = kept;
+    if (certain) {  // they stay only by the hit's failing
+      run.z_lo = test.failed.lo;
+      run.z_hi = test.failed.hi;
+    }
+    if (narrower || kept != first) {
+      for (std::size_t i = first; i < last; ++i) {
+        winners_[kept + i - first] = winners_[i];
+        winners_[kept + i - first].z_lo = run.z_lo;
+        winners_[kept + i - first].z_hi = run.z_hi;
+      }
+    }
+    kept += last - first;
+    runs_[kept_runs++] = run;
+  }
+  winners_.resize(kept);
+  runs_.resize(kept_runs);
+  if (!may_win) return;
+  LegalAnswer winner = answer(hit, won);
+  winner.stencil = stencil;
+  add(winner);
+}
+
+void LegalFold::draw(const Hit& hit, bool certain, const StencilFace* face) {
+  if (face == nullptr && one_stencil_) return draw_in_runs(hit, certain);
+  set(drawn_by_stencil(hit, certain, face, format_, winners_));
+}
+
+void LegalFold::draw_either_side(const Hit& hit, bool certain) {
+  if (hit.or_stencil == nullptr) return draw(hit, certain, hit.stencil);
+  std::vector<LegalAnswer> other = drawn_by_stencil(hit, certain, hit.or_stencil, format_, winners_);
+  draw(hit, certain, hit.stencil);
+  std::vector<LegalAnswer> both = winners_;
+  for (const LegalAnswer& a : other) plumbline::add(a, both);
+  set(both);
+}
+
+void LegalFold::draw(const Hit& hit, bool certain) {
+  if (!hit.alpha_passes) return;
+  certain = certain && !hit.alpha_fails;
+  draw_either_side(hit, certain);
+  if (hit.twice && hit.stencil != nullptr) draw_either_side(hit, false);
+}
+
+void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out) {
+  const std::vector<Group> groups = groups_of(hits);
+  BranchedFold fold(frame);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Group* group = hits[i].group < 0 ? nullptr : &groups[static_cast<std::size_t>(hits[i].group)];
+    if (group != nullptr && group->front() == i) fold.open(*group);
+    fold.draw(hits[i], i);
+    if (group != nullptr && group->back() == i) fold.close(*group);
+  }
+  out = fold.winners();
+}
+
+}  // namespace plumbline

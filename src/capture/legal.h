@@ -1,0 +1,119 @@
+// Legal answers: where the rules leave open what a pixel shows (a centre within the snapping bound of an edge, two
+// surfaces closer than the depth format can tell apart), the set of all answers that they allow.
+//
+// An oracle finds every triangle that is, or may be, at a pixel: its *hits*. fold_hits() runs them in draw order
+// through the scene's depth functions, following every outcome that the intervals allow, and returns the winners that
+// may remain. The set may be wider than the truth, never narrower.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "capture/plane.h"
+#include "scene/scene.h"
+
+namespace plumbline {
+
+inline constexpr std::int32_t kBackground = -1;  ///< in the place of a primitive: the cleared frame shows
+
+/// One triangle at one pixel.
+struct Hit {
+  std::uint32_t primitive = 0;
+  DepthFunc depth_func = DepthFunc::less;
+  bool certain = false;  ///< every legal renderer covers the pixel with it; else some may
+  int group = -1;        ///< possible hits of one group (>= 0): at least one of them covers the pixel
+  double z_lo = 0;       ///< window z, clamped to [0,1]: the depths that a legal renderer may give it
+  double z_hi = 0;
+  glm::dvec4 color{0};     ///< its colour at the pixel's centre
+  double color_bound = 0;  ///< and how far, per channel, float arithmetic from the scene on may be from that
+  bool depth_mask = true;  ///< whether its depth is written where it is drawn
+  bool alpha_passes = true, alpha_fails = false;  ///< what the alpha test may come to
+  /// What its stencil test is by; that of the other side too where it is open which one it shows. No test: null.
+  const StencilFace* stencil = nullptr;
+  const StencilFace* or_stencil = nullptr;
+  bool twice = false;  ///< two pieces of it may cover the pixel, which matters to stencil values
+};
+
+/// One winner that the rules allow, and the stencil value that stands beside it.
+struct LegalAnswer {
+  std::int32_t primitive = -1;  ///< or kBackground
+  float color_bound = 0;
+  double z_lo = 0, z_hi = 0;  ///< the window z that the frame then holds
+  glm::vec4 color{0};
+  std::uint8_t stencil = 0;
+};
+
+/// The legal winners of one pixel while its hits are drawn, in draw order. Time per hit: the number of different depth
+/// intervals among the winners; with stencil values, the square of the number of winners.
+class LegalFold {
+ public:
+  explicit LegalFold(const FrameFormat& frame);
+  /// The cleared frame again. Memory is kept.
+  void clear();
+  /// Draws a hit that counts as certain only if `certain`.
+  void draw(const Hit& hit, bool certain);
+  /// Goes on from these winners.
+  void set(const std::vector<LegalAnswer>& winners);
+  /// In draw order, the background first; one for each stencil value that may go with it.
+  const std::vector<LegalAnswer>& winners() const { return winners_; }
+
+ private:
+  /// Winners of equal depth intervals, one after another: the depth test treats them alike.
+  struct Run {
+    std::size_t first;
+    double z_lo, z_hi;
+  };
+
+  void draw_either_side(const Hit& hit, bool certain);
+  void draw(const Hit& hit, bool certain, const StencilFace* face);
+  void draw_in_runs(const Hit& hit, bool certain);
+  void add(const LegalAnswer& winner);
+
+  DepthFormat format_;
+  LegalAnswer background_;
+  std::vector<LegalAnswer> winners_;
+  std::vector<Run> runs_;    ///< of winners_
+  bool one_stencil_ = true;  ///< all winners stand beside one stencil value
+};
+
+/// All legal winners of a pixel, in draw order, the background first; one for each stencil value that may go with it.
+/// `hits` in draw order (ascending primitive), groups numbered from 0 on. A depth within `step` of another may compare
+/// either way. `out` is emptied first.
+void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
+
+/// What a fragment's texel may be where its level of detail is taken for four pixels at a time, by a logarithm that is
+/// linear between powers of two (as Mesa's drivers do), and its texture coordinates are off by a little.
+struct TexelRange {
+  glm::dvec4 lo{0}, hi{0};                                  ///< per channel, over the interval of lambda
+  glm::dvec4 slope_s{0}, slope_t{0};                        ///< by how much per unit of s and of t, within half a texel
+  glm::dvec2 gap{std::numeric_limits<double>::infinity()};  ///< in s and t, to where another texel is the nearest
+  int first_nearest = 0, last_nearest = -1;                 ///< the levels whose nearest texel it may be; or none
+  int first_linear = 0, last_linear = -1;                   ///< the levels that may be filtered linearly; or none
+  double lambda_lo = 0, lambda_hi = 0;                      ///< the interval of lambda
+};
+
+/// The legal answers of a whole frame. Empty: not asked for, or not shown.
+struct Legal {
+  Plane<std::uint32_t> certain;      ///< number of certain hits at the pixel; a group counts as one
+  Plane<std::uint32_t> possible;     ///< and of all hits: count must lie within [certain, possible]
+  std::vector<std::uint32_t> first;  ///< pixel y * width + x has answers [first[i], first[i + 1])
+  std::vector<LegalAnswer> answers;
+  /// The frame's colour, not rounded to codes; empty where it is that of the winner (scene.h, colors_replace). Infinite
+  /// where it is open which fragments made it.
+  Plane<glm::vec4> color_lo, color_hi;
+  std::vector<TexelRange> texels;  ///< of the fragments that were asked about, beside their covered
+  double predicted_ambiguous = 0;  ///< pixels, from the visible edges' length and the snapping bound
+
+  bool empty() const { return first.empty(); }
+  std::span<const LegalAnswer> at(int x, int y) const {
+    const std::size_t i =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(certain.width()) + static_cast<std::size_t>(x);
+    return {answers.data() + first[i], answers.data() + first[i + 1]};
+  }
+};
+
+}  // namespace plumbline

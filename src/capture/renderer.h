@@ -1,0 +1,114 @@
+// Anything that turns a scene into a capture: our pipeline, each reference, a program in another process.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "capture/capture.h"
+#include "capture/stages.h"
+#include "scene/scene.h"
+
+namespace plumbline {
+
+/// A set of stages.
+class StageSet {
+ public:
+  constexpr StageSet() = default;
+  constexpr StageSet(std::initializer_list<Stage> stages) {
+    for (Stage s : stages) add(s);
+  }
+  static constexpr StageSet all() {
+    StageSet set;
+    set.bits_ = (1u << kStageNames.size()) - 1;
+    return set;
+  }
+  constexpr void add(Stage s) { bits_ |= 1u << static_cast<unsigned>(s); }
+  constexpr bool has(Stage s) const { return (bits_ >> static_cast<unsigned>(s) & 1u) != 0; }
+  constexpr bool any() const { return bits_ != 0; }
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+/// The planes that a capture is wanted for. What is not wanted may be handed out all the same.
+enum class WantedPlanes {
+  all,
+  picture,  ///< color and depth are enough: drawn as it ships, nothing is watched
+  none      ///< records and legal answers are enough
+};
+
+/// What to capture. Records and the legal answers on demand.
+struct Request {
+  StageSet records;                       ///< stages whose records are wanted
+  bool legal = false;                     ///< an oracle's legal answers; of `pixels` at least
+  std::vector<std::uint32_t> primitives;  ///< only these primitives' records, ascending; empty: all. Planes show all.
+  std::vector<glm::ivec2> pixels;         ///< only these pixels' fragments (stages 5 to 9); empty: all
+  std::size_t memory_budget = std::size_t{512} << 20;  ///< bytes a capture may take
+  WantedPlanes planes = WantedPlanes::all;
+  std::string painter = {};  ///< one of info().painters, where planes is `picture`; empty: the one that ships
+};
+
+/// What a renderer is able to show of one stage.
+struct Ability {
+  bool shows = false;  ///< capture() hands the stage's records or planes out
+  bool runs = false;   ///< run_stage() serves the stage
+  std::string reason;  ///< why not, where neither
+};
+
+struct RendererInfo {
+  std::string name;
+  std::string version;
+  std::array<Ability, kStageNames.size()> stages;
+  bool legal = false;  ///< capture() hands legal answers out
+  /// Names of the codes that draw a picture alone (WantedPlanes::picture), the one that ships last: each draws the bits
+  /// of the watched frame. Empty: a picture is drawn by the code that is watched.
+  std::vector<std::string> painters = {};
+  const Ability& operator[](Stage s) const { return stages[static_cast<std::size_t>(s)]; }
+  Ability& operator[](Stage s) { return stages[static_cast<std::size_t>(s)]; }
+};
+
+/// The renderer cannot do what was asked: outcome `unsupported`.
+struct Unsupported : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+/// The renderer crashed, hung, or broke the protocol: outcome `failed`.
+struct RendererFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+/// A capture would not fit its memory budget.
+struct OverBudget : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+
+  virtual RendererInfo info() const = 0;
+
+  /// Draws the scene. Hands out every plane it is able to show, and of the records those that the request names and
+  /// it is able to show. Of an antialiased scene: its samples, planes.color and planes.depth, and no more; the rest is
+  /// handed out for its passes (scene/antialias.h). Throws OverBudget, RendererFailed.
+  virtual Capture capture(const Scene& scene, const Request& request) = 0;
+
+  /// Runs one stage alone on what `in` holds of the stages before it: records, for merge planes.id as well (made of the
+  /// records where it is empty), for visibility and merge the frame's clear values: the returned capture holds that
+  /// stage's records or planes, nothing else. Coverage hands out records.covered and the planes count and id_sum;
+  /// visibility planes.id and planes.stencil; merge planes.color and planes.depth; resolve planes.color, of in.samples.
+  /// Throws Unsupported where info()[stage].runs is false.
+  virtual Capture run_stage(const Scene& scene, Stage stage, const Capture& in);
+};
+
+/// Throws std::invalid_argument where the samples are not those of the scene's passes, in number and size.
+void require_samples(const Scene& scene, const std::vector<Plane<glm::vec4>>& samples);
+
+/// The bytes that planes of the scene's size take, and what their colours are made of, for checks against the budget.
+std::size_t plane_bytes(const Scene& scene);
+/// Throws OverBudget, naming the scene, what it would take and the budget.
+void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget);
+
+}  // namespace plumbline

@@ -1,0 +1,186 @@
+#include "capture/renderers/process_renderer.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/program.h"
+#include "base/temporary_path.h"
+#include "capture/files/capture_folder.h"
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += by.size()) text.replace(at, what.size(), by);
+  return text;
+}
+
+std::vector<std::string> merged_environment(const std::map<std::string, std::string>& extra) {
+  std::vector<std::string> all;
+  for (char** e = environ; *e != nullptr; ++e) {
+    const std::string_view entry = *e;
+    if (!extra.contains(std::string(entry.substr(0, entry.find('='))))) all.emplace_back(entry);
+  }
+  for (const auto& [name, value] : extra) all.push_back(fmt::format("{}={}", name, value));
+  return all;
+}
+
+/// How a process ended: its exit status, or in words what else came. Of another status than 0, in words as well.
+struct Ending {
+  std::string words;
+  int status = 0;
+};
+
+Ending ending_of(const ProgramEnd& end, std::chrono::milliseconds limit) {
+  if (end.start_error != 0) return {fmt::format("cannot be started: {}", std::strerror(end.start_error))};
+  if (end.hung) return {fmt::format("took longer than {} and was killed", limit)};
+  if (WIFSIGNALED(end.status)) {
+    return {fmt::format("was killed by signal {} ({})", WTERMSIG(end.status), ::strsignal(WTERMSIG(end.status)))};
+  }
+  if (WEXITSTATUS(end.status) == 0) return {};
+  return {fmt::format("exited with status {}", WEXITSTATUS(end.status)), WEXITSTATUS(end.status)};
+}
+
+/// A folder for one run, which other users cannot read.
+std::unique_ptr<TemporaryPath> temporary_folder() {
+  try {
+    return std::make_unique<TemporaryPath>(fs::temp_directory_path(), "plumbline-",
+                                           TemporaryPath::Kind::private_folder);
+  } catch (const std::system_error& error) {
+    throw RendererFailed(fmt::format("no temporary folder: {}", error.code().message()));
+  }
+}
+
+/// The last lines of a file, of which not more than the last few KiB are read.
+std::string last_lines(const fs::path& file, int lines) {
+  constexpr std::uintmax_t kBytes = 4096;
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error || size == 0) return "";
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(size - std::min(size, kBytes)));
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::size_t from = text.size();
+  for (int line = 0; line < lines && from != text.npos && from > 0; ++line) from = text.rfind('\n', from - 1);
+  return from == text.npos || from == 0 ? text : text.substr(from + 1);
+}
+
+std::uintmax_t bytes_below(const fs::path& folder) {
+  std::uintmax_t sum = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) sum += entry.file_size();
+  }
+  return sum;
+}
+
+void keep_only(Records<double>& records, const StageSet& stages) {
+  if (!stages.has(Stage::matrices)) {
+    records.matrices.clear();
+    records.lights.clear();
+  }
+  if (!stages.has(Stage::vertex)) records.vertices.clear();
+  if (!stages.has(Stage::light)) records.lit.clear();
+  if (!stages.has(Stage::clip)) records.polygons = {};
+  if (!stages.has(Stage::window)) records.triangles.clear();
+  if (!stages.has(Stage::coverage)) records.covered.clear();
+  if (!stages.has(Stage::depth)) records.depth.clear();
+  if (!stages.has(Stage::attributes)) records.attributes.clear();
+  if (!stages.has(Stage::shade)) records.shaded.clear();
+  if (!stages.has(Stage::visibility)) records.drawn.clear();
+}
+
+class ProcessRenderer : public Renderer {
+ public:
+  explicit ProcessRenderer(ProcessSpec spec) : spec_(std::move(spec)) {}
+
+  RendererInfo info() const override {
+    RendererInfo info;
+    info.name = spec_.name;
+    info.version = spec_.version;
+    for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+      const auto stage = static_cast<Stage>(i);
+      info[stage].shows = spec_.shows.has(stage);
+      if (!info[stage].shows) info[stage].reason = "not among the stages that it is said to show";
+    }
+    return info;
+  }
+
+  Capture capture(const Scene& scene, const Request& request) override {
+    if (scene.path.empty()) {
+      throw Unsupported(fmt::format("{}: a scene made in memory cannot be handed to a program", spec_.name));
+    }
+    if (scene.frame.antialias.kind != Antialias::Kind::none) {
+      throw Unsupported(fmt::format("{}: the passes of an antialiased scene stand in no file", spec_.name));
+    }
+    require_budget(scene, plane_bytes(scene), request.memory_budget);
+    const std::unique_ptr<TemporaryPath> temporary = temporary_folder();
+    const fs::path folder = temporary->path() / "capture", log = temporary->path() / "stderr.txt";
+    fs::create_directory(folder);
+
+    std::vector<std::string> argv = spec_.argv;
+    for (std::string& argument : argv) {
+      argument =
+          replaced(replaced(argument, "{folder}", folder.string()), "{scene}", fs::absolute(scene.path).string());
+    }
+    const Ending ending =
+        ending_of(run_program({argv, merged_environment(spec_.environment), log, spec_.timeout}), spec_.timeout);
+    if (ending.status == kUnsupportedStatus) {
+      const std::string reason = last_lines(log, 1);
+      throw Unsupported(reason.empty() ? fmt::format("{}: {}, and gave no reason", spec_.name, ending.words) : reason);
+    }
+    if (!ending.words.empty()) fail(argv, ending.words, log);
+    if (!fs::is_directory(folder)) fail(argv, "left no capture: its folder is gone", log);
+    require_budget(scene, bytes_below(folder), request.memory_budget);
+    try {
+      Capture capture = read_capture(folder);
+      if (capture.width != scene.frame.width || capture.height != scene.frame.height) {
+        fail(argv,
+             fmt::format("left a capture of {} x {} pixels where the scene has {} x {}", capture.width, capture.height,
+                         scene.frame.width, scene.frame.height),
+             log);
+      }
+      keep_only(capture.records, request.records);
+      capture.renderer = spec_.name;
+      return capture;
+    } catch (const CaptureError& error) {
+      fail(argv, fmt::format("left no capture that can be read: {}", error.what()), log);
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::vector<std::string>& argv, std::string_view what, const fs::path& log) const {
+    constexpr int kLines = 10;
+    const std::string lines = last_lines(log, kLines);
+    throw RendererFailed(fmt::format("{}: {} {}{}{}", spec_.name, fmt::join(argv, " "), what,
+                                     lines.empty() ? "" : "\nthe end of its stderr:\n", lines));
+  }
+
+  ProcessSpec spec_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_process_renderer(ProcessSpec spec) {
+  if (spec.argv.empty() || spec.argv[0].empty()) {
+    throw std::invalid_argument(fmt::format("{}: expected a program to run, found none", spec.name));
+  }
+  return std::make_unique<ProcessRenderer>(std::move(spec));
+}
+
+}  // namespace plumbline

@@ -1,0 +1,37 @@
+// A program of any kind as a renderer: it is handed a scene's file and a folder, and leaves a capture in it
+// (capture_folder.h).
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/renderer.h"
+
+namespace plumbline {
+
+/// Exit status of a program that cannot draw the scene or show it: outcome `unsupported`, and the last line of its
+/// stderr is the reason.
+inline constexpr int kUnsupportedStatus = 77;
+
+struct ProcessSpec {
+  std::string name;
+  std::string version;            ///< shown until a capture tells it
+  std::vector<std::string> argv;  ///< argv[0] is looked for in PATH; in each, {scene} and {folder} are replaced by the
+                                  ///< scene's file and an empty folder for the capture
+  std::map<std::string, std::string> environment;  ///< set beside what is inherited
+  std::chrono::milliseconds timeout{60'000};       ///< after that, it and all that it started is killed
+  StageSet shows;                                  ///< what it says it is able to show
+};
+
+/// info() runs nothing. capture() runs the program, waits, and reads the folder; of its records those that the request
+/// names are handed on, of these all primitives and pixels. Throws RendererFailed, with the last lines of the program's
+/// stderr, where it cannot be started, exits with other than 0 and 77, is killed by a signal, takes longer than the
+/// timeout, or leaves no capture, a broken one, or one of another size; OverBudget where what it left is beyond the
+/// budget; and Unsupported where it exits with 77, and for a scene that was not read from a file. Refuses a spec
+/// without argv (std::invalid_argument).
+std::unique_ptr<Renderer> make_process_renderer(ProcessSpec spec);
+
+}  // namespace plumbline

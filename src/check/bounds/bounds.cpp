@@ -1,0 +1,340 @@
+#include "check/bounds/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "scene/draw_of.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// A triangle's barycentric planes through its unsnapped corners (stages.h, 6), or the snapped where those fail; a
+// line's by projection onto it.
+struct Barycentrics {
+  Vec3<double> value, d_dx, d_dy;
+};
+
+Barycentrics along_line(const WindowTriangle<double>& t, double x, double y) {
+  const Vec2<double> a(t.v[0].p_win), d = Vec2<double>(t.v[1].p_win) - a;
+  const double square = glm::dot(d, d), of = square > 0 ? 1 / square : 0;
+  const double share = glm::dot(Vec2<double>(x, y) - a, d) * of;
+  return {{1 - share, share, 0}, {-d.x * of, d.x * of, 0}, {-d.y * of, d.y * of, 0}};
+}
+
+// Depth and colour at a share of the way along a line.
+struct OfLine {
+  double depth;
+  Vec4<double> color;
+};
+OfLine at_share(const WindowTriangle<double>& t, double share, const DepthLimits& limits) {
+  const double q0 = (1 - share) * t.v[0].inv_w, q1 = share * t.v[1].inv_w;
+  return {std::clamp((1 - share) * t.v[0].p_win.z + share * t.v[1].p_win.z, limits.low, limits.high),
+          (q0 * t.v[0].color + q1 * t.v[1].color) / (q0 + q1)};
+}
+
+double distance_from_line(const WindowTriangle<double>& t, double x, double y) {
+  const Vec2<double> a(t.v[0].p_win), b(t.v[1].p_win);
+  const double share = std::clamp(along_line(t, x, y).value[1], 0.0, 1.0);
+  return glm::distance(Vec2<double>(x, y), a + share * (b - a));
+}
+
+Barycentrics barycentrics(const WindowTriangle<double>& t, double x, double y) {
+  if (t.corners < 3) return along_line(t, x, y);
+  Vec2<double> p[3];
+  for (std::size_t i = 0; i < 3; ++i) p[i] = Vec2<double>(t.v[i].p_win);
+  const auto area = [&] { return (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x); };
+  double a = area();
+  if (!(t.front ? a > 0 : a < 0)) {
+    for (std::size_t i = 0; i < 3; ++i) p[i] = Vec2<double>(t.v[i].snapped) / 256.0 + 0.5;
+    a = area();
+  }
+  Barycentrics out;
+  for (int i = 0; i < 3; ++i) {
+    const Vec2<double> from = p[(i + 1) % 3], to = p[(i + 2) % 3];
+    out.d_dx[i] = (from.y - to.y) / a;
+    out.d_dy[i] = (to.x - from.x) / a;
+    out.value[i] = out.d_dx[i] * (x - from.x) + out.d_dy[i] * (y - from.y);
+  }
+  return out;
+}
+
+}  // namespace
+
+Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p) {
+  Vec4<double> out(0);
+  for (int column = 0; column < 4; ++column) out += glm::abs(m[column]) * std::abs(p[column]);
+  return out;
+}
+
+namespace {
+
+// |M| |v|.
+Vec3<double> terms(const Mat3<double>& m, const Vec3<double>& v) {
+  Vec3<double> sum(0);
+  for (int column = 0; column < 3; ++column) sum += glm::abs(m[column]) * std::abs(v[column]);
+  return sum;
+}
+
+}  // namespace
+
+double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n) {
+  return glm::length(terms(n_matrix, n)) / glm::length(n_matrix * n);
+}
+
+double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n) {
+  const Mat3<double> transposed = glm::transpose(Mat3<double>(model_view));
+  return glm::length(terms(n_matrix, terms(transposed, terms(n_matrix, n)))) / glm::length(n_matrix * n);
+}
+
+namespace {
+
+// What cancels in a gradient.
+struct Cancelled {
+  Vec2<double> e1;
+  double longest, area, share;
+};
+Cancelled cancelled_in(const WindowTriangle<double>& t) {
+  const auto& v = t.v;
+  double farthest = 0;
+  for (const auto& corner : v) farthest = std::max({farthest, std::abs(corner.p_win.x), std::abs(corner.p_win.y)});
+  // Every gradient is a sum of products of differences over the area, in float: what cancels in them is at most the
+  // longest side times the window position, and grows with the inverse of the area. (Of a line: of its squared length.)
+  const Vec2<double> e1 = Vec2<double>(v[1].p_win) - Vec2<double>(v[0].p_win);
+  const Vec2<double> e2 = Vec2<double>(v[2].p_win) - Vec2<double>(v[0].p_win);
+  const double longest = std::max({std::abs(e1.x), std::abs(e1.y), std::abs(e2.x), std::abs(e2.y)});
+  const double area = t.corners == 3 ? std::abs(e1.x * e2.y - e1.y * e2.x) : std::max(glm::dot(e1, e1), 1e-300);
+  return {e1, longest, area, (longest + farthest) / area};
+}
+
+// The error of the gradient of a plane of these values at the corners, `steepest` its size: times u.
+double gradient_bound(const WindowTriangle<double>& t, double f0, double f1, double f2, double steepest) {
+  const Cancelled c = cancelled_in(t);
+  const double range = std::max(std::abs(f1 - f0), std::abs(f2 - f0));
+  return c.longest / c.area * range + c.share * c.longest * steepest;
+}
+
+}  // namespace
+
+namespace {
+
+// By these barycentrics at the pixel.
+PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, int x, int y) {
+  constexpr double kFlushed = kFlushedUnderflow / kUnitRoundoff;
+  const Cancelled cancelled = cancelled_in(t);
+  const auto& v = t.v;
+  double x0 = 0, y0 = 0, from_corner = 0;
+  for (const auto& corner : v) {
+    x0 = std::max(x0, std::abs(corner.p_win.x));
+    y0 = std::max(y0, std::abs(corner.p_win.y));
+    from_corner = std::max({from_corner, std::abs(x + 0.5 - corner.p_win.x), std::abs(y + 0.5 - corner.p_win.y)});
+  }
+  // A gradient is a difference of two products, of differences over the area: each of these five may be flushed. Its
+  // error is multiplied by the way from the corner to the origin and to the pixel; eight other results are flushed
+  // once.
+  const double flushed = kFlushed * (8 + (3 + 2 * cancelled.longest / cancelled.area) * (x + x0 + y + y0));
+  // {value at the pixel, bound} of the plane through the corners' values.
+  const auto plane = [&](double f0, double f1, double f2) {
+    const Vec3<double> f(f0, f1, f2);
+    const double d_dx = std::abs(glm::dot(b.d_dx, f)), d_dy = std::abs(glm::dot(b.d_dy, f));
+    const double gradient_error = gradient_bound(t, f0, f1, f2, std::max(d_dx, d_dy));
+    return std::pair(glm::dot(b.value, f), std::max({std::abs(f0), std::abs(f1), std::abs(f2)}) + d_dx * (x + x0) +
+                                               d_dy * (y + y0) + gradient_error * from_corner + flushed);
+  };
+  PlaneBounds out;
+  out.depth = 1 + plane(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z).second;
+  const auto [inv_w, e_inv_w] = plane(v[0].inv_w, v[1].inv_w, v[2].inv_w);
+  for (int c = 0; c < 4; ++c) {
+    const auto [q, e_q] = plane(v[0].color[c] * v[0].inv_w, v[1].color[c] * v[1].inv_w, v[2].color[c] * v[2].inv_w);
+    out.color[c] = (e_q + std::abs(q / inv_w) * e_inv_w) / std::abs(inv_w) + kFlushed;
+  }
+  return out;
+}
+
+// A line's by the place on the major axis alone; the share of its second end is value[1].
+Barycentrics along_major(const WindowTriangle<double>& t, const Vec2<double>& e1, int x, int y) {
+  const auto in_float = [](double d) { return std::abs(static_cast<float>(d)); };  // x where they are as long
+  const int major = in_float(e1.x) >= in_float(e1.y) ? 0 : 1;
+  const double share = ((major == 0 ? x : y) + 0.5 - t.v[0].p_win[major]) / e1[major], slope = 1 / e1[major];
+  const Vec3<double> gradient(-slope, slope, 0);
+  return {{1 - share, share, 0}, major == 0 ? gradient : Vec3<double>(0), major == 0 ? Vec3<double>(0) : gradient};
+}
+
+}  // namespace
+
+DepthLimits depth_limits(const Scene& scene, const std::vector<DrawRange>& ranges, std::int32_t primitive) {
+  const auto draw = draw_of(ranges, static_cast<std::uint32_t>(primitive));
+  if (!scene.depth_clamp || !draw) return {};
+  const auto [low, high] = std::minmax(scene.draws[*draw].depth_range.near, scene.draws[*draw].depth_range.far);
+  return {low, high};
+}
+
+PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y, const DepthLimits& limits) {
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  PlaneBounds out = bounds_by(t, b, x, y);
+  if (t.corners != 2) return out;
+  const Vec2<double> e1 = cancelled_in(t).e1;
+  if (e1 == Vec2<double>(0)) return out;
+  const Barycentrics by_major = along_major(t, e1, x, y);
+  const PlaneBounds along_bounds = bounds_by(t, by_major, x, y);
+  out.depth = std::max(out.depth, along_bounds.depth);
+  out.color = glm::max(out.color, along_bounds.color);
+  const OfLine projected = at_share(t, b.value[1], limits), along = at_share(t, by_major.value[1], limits);
+  out.along_depth = along.depth - projected.depth;
+  out.along_color = along.color - projected.color;
+  return out;
+}
+
+std::span<const WindowTriangle<double>> triangles_of(const Records<double>& r, std::int32_t primitive) {
+  const auto number = [](const WindowTriangle<double>& t) { return static_cast<std::int32_t>(t.primitive); };
+  const auto run = std::ranges::equal_range(r.triangles, primitive, {}, number);
+  return {run.begin(), run.end()};
+}
+
+PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, int x, int y,
+                             const DepthLimits& limits) {
+  PlaneBounds out{1, Vec4<double>(1)};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const WindowTriangle<double>& t : triangles_of(r, primitive)) {
+    const PlaneBounds b = bounds_from_origin(t, x, y, limits);
+    out.depth = std::max(out.depth, b.depth);
+    out.color = glm::max(out.color, b.color);
+    const double distance = distance_from_line(t, x + 0.5, y + 0.5);
+    if (distance >= nearest) continue;
+    nearest = distance;  // of a triangle's edges, the one that the pixel is of
+    out.along_depth = b.along_depth;
+    out.along_color = b.along_color;
+  }
+  return out;
+}
+
+namespace {
+
+/// r of PolygonOffset (OpenGL 4.5, section 14.6.5) at the largest window z.
+double offset_unit(DepthFormat format, double z) {
+  const double codes = depth_scale(format);
+  if (codes > 0) return 2 / codes;
+  int exponent = 0;  // z is in [1/2, 1) * 2^exponent
+  std::frexp(std::max(z, 0x1p-126), &exponent);
+  return std::ldexp(1.0, exponent - 1 - 23);
+}
+
+}  // namespace
+
+OffsetErrors::OffsetErrors(const Scene& scene) : scene_(scene) {
+  const auto moves = [](const Draw& draw) { return draw.polygon_offset != PolygonOffset{}; };
+  if (std::ranges::any_of(scene.draws, moves)) ranges_ = draw_ranges(scene);
+}
+
+double OffsetErrors::of(const WindowTriangle<double>& t) const {
+  const auto draw = draw_of(ranges_, t.primitive);
+  if (!draw || t.corners < 3) return 0;
+  const PolygonOffset& offset = scene_.draws[*draw].polygon_offset;
+  if (offset == PolygonOffset{}) return 0;
+  const auto& v = t.v;
+  const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
+  const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
+  const double m = std::max(std::abs(glm::dot(b.d_dx, z)), std::abs(glm::dot(b.d_dy, z)));
+  const double factor = std::abs(static_cast<double>(offset.factor)), units = static_cast<double>(offset.units);
+  const double r = offset_unit(scene_.frame.depth, std::max({z.x, z.y, z.z}));
+  return factor * (4 * m + gradient_bound(t, z.x, z.y, z.z, m)) + 2 * (factor * m + std::abs(units) * r);
+}
+
+double OffsetErrors::of(const Records<double>& r, std::int32_t primitive) const {
+  double most = 0;
+  if (ranges_.empty()) return most;
+  auto it = std::partition_point(r.triangles.begin(), r.triangles.end(), [&](const WindowTriangle<double>& t) {
+    return static_cast<std::int32_t>(t.primitive) < primitive;
+  });
+  for (; it != r.triangles.end() && static_cast<std::int32_t>(it->primitive) == primitive; ++it)
+    most = std::max(most, of(*it));
+  return most;
+}
+
+std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges, int x, int y,
+                                   const DepthLimits& limits) {
+  std::vector<EdgeValue> out;
+  for (const WindowTriangle<double>& t : edges) {
+    if (t.corners != 2 || distance_from_line(t, x + 0.5, y + 0.5) > t.width + 2.0) continue;
+    const OfLine projected = at_share(t, along_line(t, x + 0.5, y + 0.5).value[1], limits);
+    const PlaneBounds along = bounds_from_origin(t, x, y, limits);
+    out.push_back({projected.depth, projected.color});
+    out.push_back({projected.depth + along.along_depth, projected.color + along.along_color});
+  }
+  if (out.size() <= 2) out.clear();
+  return out;
+}
+
+namespace {
+
+// Whether a point covers the pixel: the square about the nearest centre (odd sizes) or corner of pixels (stages.h, 5).
+bool covers(const WindowTriangle<double>& point, int x, int y) {
+  const Vec2<double> p = Vec2<double>(point.v[0].snapped) / static_cast<double>(kSubpixel) + 0.5;
+  const Vec2<double> middle = point.width % 2 == 1 ? glm::floor(p) + 0.5 : glm::floor(p + 0.5);
+  const Vec2<double> off = glm::abs(Vec2<double>(x + 0.5, y + 0.5) - middle);
+  return std::max(off.x, off.y) < point.width / 2.0;
+}
+
+}  // namespace
+
+std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corners, int x, int y, double tie) {
+  std::vector<EdgeValue> there, out;
+  for (const WindowTriangle<double>& t : corners) {
+    if (t.corners == 1 && covers(t, x, y)) there.push_back({t.v[0].p_win.z, t.v[0].color});
+  }
+  // A point has no slopes: z0 brought to the origin and back, four roundings of |z| each.
+  const auto ties = [&](const EdgeValue& a, const EdgeValue& b) {
+    return std::abs(a.depth - b.depth) <= tie + 4 * kUnitRoundoff * (std::abs(a.depth) + std::abs(b.depth));
+  };
+  for (const EdgeValue& value : there) {
+    if (std::ranges::count_if(there, [&](const EdgeValue& other) { return ties(value, other); }) > 1)
+      out.push_back(value);
+  }
+  return out;
+}
+
+PlaneValue color_of_plane(const WindowTriangle<double>& t, int x, int y) {
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const Vec3<double> inv_w(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
+  const double q = glm::dot(b.value, inv_w);
+  const auto sum = [&](const Vec3<double>& weights, const Vec4<double>& from) {
+    Vec4<double> out(0);
+    for (int i = 0; i < 3; ++i) out += weights[i] * inv_w[i] / q * (t.v[static_cast<std::size_t>(i)].color - from);
+    return out;
+  };
+  const Vec4<double> value = sum(b.value, Vec4<double>(0));
+  return {value, sum(b.d_dx, value), sum(b.d_dy, value)};
+}
+
+double depth_rounding(const WindowTriangle<double>& t) {
+  constexpr double kTerms = 6 * 0x1p-53, kPixels = 128;
+  const auto& v = t.v;
+  const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
+  const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
+  const double slopes = std::abs(glm::dot(b.d_dx, z)) + std::abs(glm::dot(b.d_dy, z));
+  const double out = kTerms * (std::max({std::abs(z.x), std::abs(z.y), std::abs(z.z)}) + kPixels * slopes);
+  return std::isfinite(out) ? out : 0;
+}
+
+Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const Vec3<double> q = b.value * Vec3<double>(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
+  const double sum = q.x + q.y + q.z;
+  const double condition = (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) / std::abs(sum);
+  const double k1 = std::abs(q.y / sum), k2 = std::abs(q.z / sum);
+  const Vec4<double> d1 = t.v[1].color - t.v[0].color, d2 = t.v[2].color - t.v[0].color;
+  const Vec4<double> mean = t.v[0].color + (q.y / sum) * d1 + (q.z / sum) * d2;
+  // Where a corner's share is nearly 0, its own rounding in double is left: 2^-52 of terms that are anchored a tile
+  // away.
+  const auto share = [&](int i) {
+    const double terms = 1 + 128 * (std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]));
+    return 0x1p-28 * terms * std::abs(t.v[static_cast<std::size_t>(i)].inv_w / sum);
+  };
+  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + (condition * k1 + share(1)) * glm::abs(d1) +
+         (condition * k2 + share(2)) * glm::abs(d2);
+}
+
+}  // namespace plumbline::check

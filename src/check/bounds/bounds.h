@@ -1,0 +1,145 @@
+// Error bounds, from the number format and the formula: what a stage in float arithmetic may differ by from the same
+// formula in double. u = 2^-24 is the unit roundoff of float. Factors stand in the ledger.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "capture/stages.h"
+#include "scene/scene.h"
+
+namespace plumbline::check {
+
+inline constexpr double kUnitRoundoff = 1.0 / 16777216.0;
+
+/// Absolute error of one rounding below float's smallest normal number, 2^-126, where u of the number is too little.
+/// Gradual underflow (IEEE 754, 7.5): half of the smallest step, 2^-149. Flushed: numbers below 2^-126 become 0, as
+/// operands and as results; Mesa sets the processor so for its vertices and for llvmpipe (util_fpstate).
+inline constexpr double kGradualUnderflow = 0x1p-150, kFlushedUnderflow = 0x1p-126;
+
+/// Roundings of a stage in float: `count` of them, and the renderer's underflow.
+struct Roundings {
+  double count;
+  double underflow = kGradualUnderflow;
+  /// Error of a result whose terms come to `magnitude`. A sum of nothing but zeros is not rounded.
+  double operator()(double magnitude) const {
+    return magnitude == 0 ? 0 : count * (kUnitRoundoff * magnitude + underflow);
+  }
+};
+
+/// |M| |p|: what the rounding errors of M p are proportional to.
+Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
+
+/// The same for a unit normal: |N| |n| / |N n|, in the largest component.
+double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
+
+/// For a renderer that inverts the model-view in float, as Mesa does: |N| |M|^T |N| |n| / |N n|, what an error of the
+/// matrix comes to in its inverse; in the largest component.
+double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n);
+
+/// What rounding may do to a lit colour.
+struct LightBounds {
+  /// Per channel, in units of u, how it may differ in float from the spec's equation in double: the sum over the lights
+  /// of |ambient| + k |n| |diffuse| + (k + s e) |specular|, at least 1 (the clamped result).
+  /// s: shininess, by which a power multiplies its argument's error (of cosines above 1, by s n^(s-1)); e: that error,
+  /// |n| k (1 + 1 / |L + E|) of the half vector (|L + E|: its length before it is normalised; 1 / |L + E| more of a
+  /// local viewer), 4 |n|^2 (k + 1) of 2 (N.L) (N.E) - L.E; k: of a point light, (|light| + |p_eye|) / |light - p_eye|
+  /// +
+  /// 1. Attenuation has 2 k, a cone the slope of its power times k + 1. Infinite where no direction is left (a light at
+  /// the vertex).
+  Vec3<double> magnitude{0};
+  /// Per channel, what may come or go: the specular terms of lights whose N.L is within rounding of 0; all of a light
+  /// whose cone ends within rounding; in GzRender's rule, where N.E is.
+  Vec3<double> jump{0};
+  /// Per channel, what the inputs' errors come to, to which the magnitude knows nothing.
+  Vec3<double> inherited{0};
+  /// Per channel: a specular term of 0 with a power that may be beyond float, of which a renderer that does not limit
+  /// its power makes 0 times infinity.
+  glm::bvec3 overflows{false};
+};
+/// How far position and normal (in length), and the material's colours that follow the vertex', may be off.
+struct LightInputs {
+  double p_eye = 0, n_eye = 0, color = 0;
+};
+/// `material`: the draw's at the vertex (scene.h, colored).
+/// `lights`: recorded ones; where there are none, the scene's.
+LightBounds light_bounds(const Scene& scene, const Material& material, const Vertex<double>& vertex,
+                         const LightInputs& errors = {}, std::span<const LightSource<double>> lights = {});
+
+/// What the triangle's plane of colours comes to at a pixel's centre, perspective-correct, and its slopes per pixel.
+struct PlaneValue {
+  Vec4<double> value, d_dx, d_dy;
+};
+PlaneValue color_of_plane(const WindowTriangle<double>& triangle, int x, int y);
+
+/// How a plane's value at a pixel centre depends on the triangle: depth, and the colour's four channels.
+struct PlaneBounds {
+  double depth;        ///< in window z, times u
+  Vec4<double> color;  ///< times u
+  /// Of a line, what its depth and colour move by where they go by the place along the major axis alone, as llvmpipe's
+  /// do, and not by the centre's projection onto the line (OpenGL 2.1, equation 3.5).
+  double along_depth = 0;
+  Vec4<double> along_color{0};
+};
+
+/// The range that depths are clamped to: the format's, or the draw's (scene.h, depth_clamp).
+struct DepthLimits {
+  double low = 0, high = 1;
+};
+DepthLimits depth_limits(const Scene& scene, const std::vector<DrawRange>& ranges, std::int32_t primitive);
+
+/// For a renderer that evaluates a = a0 + da/dx x + da/dy y in float from the window's origin, as llvmpipe does:
+/// |a|max + |da/dx| (x + x0) + |da/dy| (y + y0), x0, y0 the triangle's farthest corner, and the gradients' own error,
+/// by the inverse of the area, times the distance from the corners; for colour the same of c/w and of 1/w, joined by
+/// the division: (E(c/w) + |c| E(1/w)) w. Of a line the larger of both formulas' (PlaneBounds): where 1/w differs much
+/// between its ends, the second errs by another |c/w| over another 1/w. Every result may be flushed to zero
+/// besides, a gradient before it is multiplied.
+PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y, const DepthLimits& limits = {});
+/// The largest over a primitive's triangles, at least 1.
+PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,
+                             const DepthLimits& limits = {});
+
+/// A primitive's window triangles.
+std::span<const WindowTriangle<double>> triangles_of(const Records<double>& records, std::int32_t primitive);
+
+/// What a polygon offset adds to the bound of a depth, times u, for a renderer that finds the slope in float and adds
+/// the offset to the corners' depths: the slope's own error (bounds_from_origin's of a gradient) and four roundings of
+/// it times |factor|, and two of the offset.
+class OffsetErrors {
+ public:
+  explicit OffsetErrors(const Scene& scene);
+  double of(const WindowTriangle<double>& triangle) const;
+  /// The largest over a primitive's triangles.
+  double of(const Records<double>& records, std::int32_t primitive) const;
+
+ private:
+  const Scene& scene_;
+  std::vector<DrawRange> ranges_;  // none: no draw has an offset
+};
+
+/// What a pixel may hold where edges of a triangle that is not filled meet, of any of those that pass it by no more
+/// than their width and two pixels: by projection, and by the place along the major axis. Empty where there is one such
+/// edge or none.
+struct EdgeValue {
+  double depth;
+  Vec4<double> color;
+};
+std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges, int x, int y,
+                                   const DepthLimits& limits = {});
+
+/// Corners of one triangle, drawn as points over each other, that a pixel may hold: those whose depths are no more than
+/// `tie` and their errors apart, so that either may hide the other. Empty where no two tie.
+std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corners, int x, int y, double tie);
+
+/// Rounding error of a triangle's depth in double [window z]. The plane is evaluated at an anchor at most a tile (64
+/// pixels) away and brought to the pixel, so its terms are the corners' depths and both slopes over 128 pixels; six
+/// roundings of 2^-53. With slopes of 1 a pixel 1e-13; with slopes of 10^7 (slivers beside the eye) a step of z24.
+double depth_rounding(const WindowTriangle<double>& triangle);
+
+/// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
+/// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
+/// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|), and what double arithmetic leaves of a
+/// share that is 0.
+Vec4<double> bounds_of_mean(const WindowTriangle<double>& triangle, int x, int y);
+
+}  // namespace plumbline::check

@@ -1,0 +1,293 @@
+#include "check/bounds/fragment_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "check/bounds/units.h"
+#include "check/verdict/ledger.h"
+#include "scene/draw_of.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// What Mesa makes otherwise than OpenGL 2.1 (3.10; 3.9, 3.10).
+constexpr std::string_view kBehindEye =
+                               "Mesa interpolates |z_eye| of vertices behind the eye, fog is of a fragment's own",
+                           kClampedLate = "Mesa clamps the sum of colours after fog, the specification before";
+const Records<double> kNone;
+const std::vector<Vec4<double>> kNowhere;
+
+// Difference of a member (&Lit<double>::color) per vertex; `granted` where the reference shows none.
+template <class Record>
+std::vector<Vec4<double>> columns_apart(const std::vector<Record>& a, const std::vector<Record>& b, auto member,
+                                        double granted) {
+  std::vector<Vec4<double>> out(a.size(), Vec4<double>(granted));
+  if (b.size() != a.size()) return out;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = glm::abs(a[i].*member - b[i].*member);
+  return out;
+}
+
+std::vector<Vec4<double>> normals_apart(const Records<double>& a, const Records<double>& b) {
+  std::vector<Vec4<double>> out(a.vertices.size(), Vec4<double>(0));
+  if (b.vertices.size() != a.vertices.size()) return out;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {glm::abs(a.vertices[i].n_eye - b.vertices[i].n_eye), 0};
+  return out;
+}
+
+// Per vertex, what the two sides may be apart in a part of its light that the reference does not hand out; empty where
+// there is no such part.
+std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, Varying v) {
+  if (std::ranges::none_of(scene.draws, [&](const Draw& draw) { return carries(scene, draw, v); })) return {};
+  std::vector<Vec4<double>> out(r.vertices.size(), Vec4<double>(0));
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  for (std::size_t d = 0; d < ranges.size(); ++d) {
+    const Draw& draw = scene.draws[d];
+    if (!carries(scene, draw, v)) continue;
+    const std::vector<glm::vec4>& colors = scene.meshes[draw.mesh].colors;
+    for (std::size_t i = 0; i < ranges[d].vertex_count && ranges[d].first_vertex + i < out.size(); ++i) {
+      Vertex<double> vertex = r.vertices[ranges[d].first_vertex + i];
+      if (is_back(v)) vertex.n_eye = -vertex.n_eye;
+      const Material material =
+          lit_material(scene, draw, {is_back(v), is_secondary(v)}, colors.empty() ? nullptr : &colors[i]);
+      const LightBounds bounds = light_bounds(scene, material, vertex, {}, r.lights);
+      out[ranges[d].first_vertex + i] = {
+          tolerance("osmesa.light").factor * u * bounds.magnitude + bounds.jump + Vec3<double>(bounds.overflows), u};
+    }
+  }
+  return out;
+}
+
+// By how much what the corners are apart is enlarged at a pixel's centre: 1 inside the triangle, and the sum of its
+// weights' absolute values where a sample of it is inside and the centre is not.
+double enlarged(WindowTriangle<double> t, int x, int y) {
+  for (int k = 0; k < 3; ++k) t.v[static_cast<std::size_t>(k)].color = {k == 0, k == 1, k == 2, 0};
+  const Vec4<double> weights = glm::abs(color_of_plane(t, x, y).value);
+  return std::max(1.0, weights.x + weights.y + weights.z);
+}
+
+// An empty one is 0.
+std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<Vec4<double>>& b) {
+  a.resize(std::max(a.size(), b.size()), Vec4<double>(0));
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) a[i] = glm::max(a[i], b[i]);
+  return a;
+}
+
+}  // namespace
+
+namespace {
+
+// Numbers of the fragments that are `wanted`; none of a triangle that is not there.
+template <class Wanted>
+std::vector<std::size_t> fragments_of(const Records<double>& r, const Wanted& wanted) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+    if (r.covered[i].triangle < r.triangles.size() && wanted(i)) out.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace
+
+DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r, std::vector<std::size_t> fragments)
+    : width_(frame.width), records_(r), fragments_(std::move(fragments)) {
+  std::ranges::stable_sort(fragments_, {}, [&](std::size_t i) { return pixel(i); });
+}
+
+DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r)
+    : DrawnAt(frame, r,
+              fragments_of(r, [&](std::size_t i) { return r.drawn.size() == r.covered.size() && r.drawn[i].drawn; })) {}
+
+DrawnAt DrawnAt::covered(const FrameFormat& frame, const Records<double>& r) {
+  return {frame, r, fragments_of(r, [](std::size_t) { return true; })};
+}
+
+FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, const Capture& reference, double factor)
+    : scene_(scene),
+      records_(candidate.records),
+      texels_(candidate.legal.texels),
+      factor_(factor),
+      ranges_(draw_ranges(scene)),
+      lit_apart_(larger(columns_apart(candidate.records.lit, reference.records.lit, &Lit<double>::color,
+                                      u * tolerance("osmesa.light").factor),
+                        granted(scene, candidate.records, Varying::back_color))),
+      secondary_apart_(larger(granted(scene, candidate.records, Varying::secondary),
+                              granted(scene, candidate.records, Varying::back_secondary))),
+      eye_apart_(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0)),
+      normals_apart_(normals_apart(candidate.records, reference.records)),
+      drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
+  for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));
+  for (const Texture& texture : scene.textures)
+    texel_arithmetic_.push_back(tolerance("osmesa.texture").factor * u * largest_texel(texture));
+}
+
+Vec4<double> FragmentBounds::largest_of(std::uint32_t primitive, const std::vector<Vec4<double>>& column,
+                                        bool flat_applies) const {
+  const auto number = plumbline::draw_of(ranges_, primitive);
+  if (!number) return Vec4<double>(0);
+  const DrawRange& range = ranges_[*number];
+  const Draw& draw = scene_.draws[*number];
+  if (primitive - range.first_primitive >= range.primitive_count) return Vec4<double>(0);  // none of the scene
+  const glm::uvec3 corner = scene_.meshes[draw.mesh].triangles[primitive - range.first_primitive];
+  Vec4<double> out(0);
+  for (int i = flat_applies && draw.shading == Shading::flat ? 2 : 0; i < 3; ++i) {
+    const std::size_t vertex = range.first_vertex + corner[i];
+    if (vertex < column.size()) out = glm::max(out, glm::abs(column[vertex]));
+  }
+  return out;
+}
+
+bool FragmentBounds::reaches_behind_eye(std::size_t draw, std::uint32_t primitive) const {
+  const DrawRange& range = ranges_[draw];
+  const glm::uvec3 corner = scene_.meshes[scene_.draws[draw].mesh].triangles[primitive - range.first_primitive];
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t vertex = range.first_vertex + corner[i];
+    if (vertex < records_.vertices.size() && records_.vertices[vertex].p_eye.z > 0) return true;
+  }
+  return false;
+}
+
+const Draw& FragmentBounds::draw_of(std::uint32_t primitive) const {
+  return scene_.draws[plumbline::draw_of(ranges_, primitive).value()];
+}
+
+std::optional<WindowTriangle<double>> FragmentBounds::as_color(std::size_t i, Varying v) const {
+  const std::uint32_t number = records_.covered[i].triangle;
+  const auto& corners = records_.varyings[v].triangles;
+  if (number >= corners.size()) return std::nullopt;
+  WindowTriangle<double> out = records_.triangles[number];
+  for (std::size_t k = 0; k < 3; ++k) out.v[k].color = corners[number][k];
+  return out;
+}
+
+Vec4<double> FragmentBounds::cut_error(std::uint32_t primitive, Varying v) const {
+  const auto& [vertices, polygons] = records_.polygons;
+  const auto polygon = std::ranges::lower_bound(polygons, primitive, {}, &ClipPolygon::primitive);
+  if (polygon == polygons.end() || polygon->primitive != primitive) return Vec4<double>(0);
+  const auto corners = std::span(vertices).subspan(polygon->first, polygon->count);
+  if (std::ranges::none_of(corners, [](const ClipVertex<double>& corner) { return corner.cut; }))
+    return Vec4<double>(0);
+  return tolerance("osmesa.clip").factor * u * largest_of(primitive, records_.varyings[v].vertices, false);
+}
+
+Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
+  const Covered& c = records_.covered[i];
+  const auto triangle = as_color(i, v);
+  if (!triangle) return Vec4<double>(std::numeric_limits<double>::infinity());
+  const PlaneBounds plane = bounds_from_origin(*triangle, c.x, c.y);
+  const Vec4<double> beside = by_other_edges(i, &records_.varyings[v]);
+  const auto& vertices_apart = v == Varying::position    ? eye_apart_
+                               : v == Varying::normal    ? normals_apart_
+                               : v == Varying::secondary ? secondary_apart_
+                                                         : kNowhere;
+  return factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), beside) +
+         enlarged(*triangle, c.x, c.y) * largest_of(triangle->primitive, vertices_apart, is_lit(v)) +
+         cut_error(triangle->primitive, v);
+}
+
+Vec4<double> FragmentBounds::by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const {
+  const Covered& c = records_.covered[i];
+  const WindowTriangle<double>& own = records_.triangles[c.triangle];
+  Vec4<double> most(0);
+  if (own.corners == 3 || scene_.meshes[draw_of(own.primitive).mesh].topology != Topology::triangles) return most;
+  const auto of_primitive = triangles_of(records_, static_cast<std::int32_t>(own.primitive));
+  std::vector<WindowTriangle<double>> edges(of_primitive.begin(), of_primitive.end());
+  const auto first = static_cast<std::size_t>(of_primitive.data() - records_.triangles.data());
+  for (std::size_t k = 0; columns != nullptr && k < edges.size(); ++k) {
+    if (first + k >= columns->triangles.size()) return Vec4<double>(std::numeric_limits<double>::infinity());
+    for (std::size_t corner = 0; corner < 3; ++corner) edges[k].v[corner].color = columns->triangles[first + k][corner];
+  }
+  std::vector<EdgeValue> values = edge_values(edges, c.x, c.y);
+  const std::vector<EdgeValue> tied = tied_corners(edges, c.x, c.y, depth_step(scene_.frame.depth, 1));
+  values.insert(values.end(), tied.begin(), tied.end());
+  if (values.empty()) return most;
+  const WindowTriangle<double>& here = edges[c.triangle - first];
+  const Vec4<double> mine = color_of_plane(here, c.x, c.y).value;
+  for (const EdgeValue& value : values) most = glm::max(most, glm::abs(value.color - mine));
+  for (const WindowTriangle<double>& edge : edges)
+    most = glm::max(most, factor_ * u * bounds_from_origin(edge, c.x, c.y).color);
+  return most;
+}
+
+OpenShare FragmentBounds::open_texels(std::size_t i) const {
+  const auto triangle = as_color(i, Varying::texture);
+  if (!triangle || i >= texels_.size()) return {1, true};
+  const Covered& c = records_.covered[i];
+  return open_share(scene_.textures.at(draw_of(triangle->primitive).texture->texture), texels_[i],
+                    color_of_plane(*triangle, c.x, c.y), Vec2<double>(varying_error(i, Varying::texture)));
+}
+
+TexelBound FragmentBounds::texel(std::size_t i) const {
+  const Draw& draw = draw_of(records_.triangles[records_.covered[i].triangle].primitive);
+  if (i >= texels_.size() || i >= records_.varyings[Varying::texture].fragments.size()) {
+    return {{}, Vec4<double>(std::numeric_limits<double>::infinity())};
+  }
+  const Vec4<double>& st = records_.varyings[Varying::texture].fragments[i];
+  const std::size_t texture = draw.texture->texture;
+  return texel_bound(scene_.textures.at(texture), texels_[i], Vec2<double>(st),
+                     Vec2<double>(varying_error(i, Varying::texture)), texel_arithmetic_[texture]);
+}
+
+FragmentBound FragmentBounds::surface(std::size_t i) const {
+  const Covered& c = records_.covered[i];
+  const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
+  const std::size_t number = plumbline::draw_of(ranges_, triangle.primitive).value();
+  const Draw& draw = scene_.draws[number];
+  const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
+  FragmentFours errors;
+  errors.color = factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), by_other_edges(i, nullptr)) +
+                 enlarged(triangle, c.x, c.y) * largest_of(triangle.primitive, lit_apart_, true);
+  for (const Varying v : kAllVaryings) {
+    if (!is_back(v) && carries(scene_, draw, v)) errors[v] = varying_error(i, v);
+  }
+  const FragmentFours fours = fours_of(records_, i);
+  if (draw.texture) {
+    const TexelBound bound = texel(i);
+    errors.texel =
+        glm::max(glm::abs(bound.range.hi - fours.texel), glm::abs(fours.texel - bound.range.lo)) + bound.slack;
+  }
+  FragmentBound out;
+  out.color = shade_error(scene_, draw, fours, errors, {tolerance("osmesa.shade").factor, kFlushedUnderflow});
+  if (draw.texture && i < texels_.size())
+    out.reason = mesas_other_level(scene_.textures.at(draw.texture->texture), texels_[i]);
+  const bool summed = is_lit_per_vertex(draw) && scene_.light_model.separate_specular;
+  Vec4<double> primary = fours.color;
+  if (draw.texture) {
+    const TextureFormat format = scene_.textures.at(draw.texture->texture).format;
+    primary = environ_error(format, *draw.texture, primary, errors.color, fours.texel, errors.texel, {1}).color;
+  }
+  const Vec3<double> sum(primary + fours[Varying::secondary]);
+  const bool clamped = summed && (std::max({sum.x, sum.y, sum.z}) > 1 || std::min({sum.x, sum.y, sum.z}) < 0);
+  if (draw.fog && clamped) out.reason = kClampedLate;
+  if (draw.fog && reaches_behind_eye(number, triangle.primitive)) out.reason = kBehindEye;
+  return out;
+}
+
+FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
+  const Covered& c = records_.covered[i];
+  const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
+  if (!plain_[plumbline::draw_of(ranges_, triangle.primitive).value()]) return surface(i);
+  const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
+  const Vec4<double> apart = enlarged(triangle, c.x, c.y) * largest_of(triangle.primitive, lit_apart_, true);
+  return {factor_ * u * plane.color, plane.along_color, apart, {}};
+}
+
+FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
+  const auto p = static_cast<std::uint32_t>(primitive);
+  const auto draw = plumbline::draw_of(ranges_, p);
+  if (!draw || plain_[*draw]) {
+    const PlaneBounds plane = primitive_bounds(records_, primitive, x, y);
+    return {factor_ * u * plane.color, plane.along_color, largest_of(p, lit_apart_, true), {}};
+  }
+  FragmentBound out{Vec4<double>(std::numeric_limits<double>::infinity()), {}, {}, {}};
+  drawn_.each(x, y, [&](std::size_t i) {
+    if (records_.triangles[records_.covered[i].triangle].primitive == p) out = surface(i);
+  });
+  return out;
+}
+
+}  // namespace plumbline::check

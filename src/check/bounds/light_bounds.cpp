@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "check/bounds/bounds.h"
+#include "dialect/dialect.h"
+
+namespace plumbline::check {
+
+namespace {
+
+constexpr double kRoundings = 16;  // of N.L, as of the whole (ledger, exact.light)
+constexpr double kError = kRoundings * kUnitRoundoff;
+
+// A light as it meets the vertex.
+struct Ray {
+  Vec3<double> to_light;  // unit length
+  double distance, condition;
+};
+
+Ray ray(const Light& light, const LightSource<double>& source, const Vec3<double>& p_eye) {
+  const bool point = light.kind == Light::Kind::point;
+  const Vec3<double> l_eye(source.p_eye);
+  const Vec3<double> to_light = point ? l_eye - p_eye : l_eye;
+  // A light near the vertex: the difference of two rounded positions.
+  const double distance = glm::length(to_light);
+  return {to_light / distance, distance, point ? 1 + (glm::length(l_eye) + glm::length(p_eye)) / distance : 1};
+}
+
+// x^s where x may be `error` off, and how much that comes to, in units of kError: the slope at its steepest.
+struct Power {
+  double value, slope;
+};
+Power power(double x, double s, double error) {
+  const auto at = [&](double t) { return std::min(std::pow(std::max(t, 0.0), s), 1e30); };
+  if (s < 1) return {at(x), (at(x + error) - at(x - error)) / kError};
+  return {at(x), s * std::min(std::pow(std::max(x + error, 1.0), s - 1), 1e30) * error / kError};
+}
+
+// How far x^s moves where x does by `error`.
+double moved_power(double x, double s, double error) {
+  if (error == 0) return 0;
+  const auto at = [&](double t) { return std::min(std::pow(std::max(t, 0.0), s), 1e30); };
+  return std::max(at(x + error) - at(x), at(x) - at(x - error));
+}
+
+// What distance and cone leave of a light, its error in units of kError, and whether the cone ends here.
+struct Share {
+  double value = 1, error = 0, beyond = 0;  ///< beyond: what it would be if the cone ended elsewhere
+  double inherited = 0;                     ///< of the point being off by so much
+};
+Share share_of(const Light& light, const LightSource<double>& source, const Ray& r, double off) {
+  Share out;
+  if (light.kind == Light::Kind::directional) return out;
+  if (const Vec3<double> k(light.attenuation); k != Vec3<double>(1, 0, 0)) {
+    const auto at = [&](double d) { return 1 / (k[0] + k[1] * d + k[2] * d * d); };
+    out.value = at(r.distance);
+    out.inherited = at(std::max(r.distance - off, 0.0)) - out.value;
+    out.error = 2 * r.condition * out.value;  // at most the square of the distance
+  }
+  if (!light.spot) return out;
+  const double cosine = -glm::dot(r.to_light, glm::normalize(source.spot_eye));
+  const double edge = std::cos(glm::radians(light.spot->cutoff_degrees)), error = (r.condition + 1) * kError;
+  const Power p = power(cosine, light.spot->exponent, error);
+  if (std::abs(cosine - edge) <= error + off / r.distance) out.beyond = out.value * p.value;
+  if (cosine < edge) return {0, 0, out.beyond, 0};
+  const double moved = moved_power(cosine, light.spot->exponent, off / r.distance);
+  return {out.value * p.value, out.error * p.value + out.value * p.slope, out.beyond,
+          out.inherited * (p.value + moved) + out.value * moved};
+}
+
+// The cosine whose power the highlight is, how far it may be off in units of kError, and E.
+struct Highlight {
+  double cosine, error;
+};
+Highlight highlight(const LightModel& model, const Vec3<double>& n, const Ray& r, const Vec3<double>& e,
+                    double length) {
+  if (model.specular == LightModel::Specular::half_vector) {
+    const Vec3<double> half = r.to_light + e;
+    const double half_length = std::max(glm::length(half), 1e-6), of_eye = model.local_viewer ? 1 / half_length : 0;
+    return {glm::dot(n, half) / half_length, length * (r.condition * (1 + 1 / half_length) + of_eye)};
+  }
+  const double n_dot_l = glm::dot(n, r.to_light);
+  return {glm::dot(2 * n_dot_l * n - r.to_light, e), 4 * length * length * (r.condition + 1)};
+}
+
+LightSource<double> in_eye_space(const Light& light, const glm::dmat4& view) {
+  const double w = light.kind == Light::Kind::point ? 1.0 : 0.0;
+  return {view * glm::dvec4(light.vector, w), light.spot ? glm::dmat3(view) * light.spot->direction : Vec3<double>(0)};
+}
+
+}  // namespace
+
+LightBounds light_bounds(const Scene& scene, const Material& m, const Vertex<double>& vertex, const LightInputs& errors,
+                         std::span<const LightSource<double>> lights) {
+  const LightModel& model = scene.light_model;
+  const bool flips = model.sides == LightModel::Sides::flip;
+  const Vec3<double> p_eye(vertex.p_eye);
+  const glm::dmat4 view = view_matrix(scene);
+  LightBounds out;
+  const auto anything = [&] {
+    out.magnitude = Vec3<double>(std::numeric_limits<double>::infinity());
+    return out;
+  };
+  if (model.local_viewer && !(glm::length(p_eye) > 2 * errors.p_eye)) return anything();
+  const double e_moved = model.local_viewer ? 2 * errors.p_eye / glm::length(p_eye) : 0;
+  const Vec3<double> e = model.local_viewer ? -glm::normalize(p_eye) : Vec3<double>(0, 0, 1);
+  const double n_dot_e = glm::dot(vertex.n_eye, e);
+  const Vec3<double> n = flips && n_dot_e < 0 ? -vertex.n_eye : vertex.n_eye;
+  const double length = std::max(glm::length(n), 1.0);
+  out.magnitude = Vec3<double>(m.emission) + Vec3<double>(m.ambient) * Vec3<double>(model.ambient);
+  out.inherited = errors.color * (Vec3<double>(1) + Vec3<double>(model.ambient));
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    const LightSource<double> source = i < lights.size() ? lights[i] : in_eye_space(light, view);
+    const Ray r = ray(light, source, p_eye);
+    const double off = light.kind == Light::Kind::point ? errors.p_eye : 0;
+    if (!(r.condition * kError < 1 && r.distance > 2 * off)) return anything();
+    const Share share = share_of(light, source, r, off);
+    const Highlight h = highlight(model, n, r, e, length);
+    const Power p = power(h.cosine, m.shininess, h.error * kError);
+    const Vec3<double> ambient(light.ambient * glm::vec3(m.ambient)), diffuse(light.diffuse * glm::vec3(m.diffuse));
+    const Vec3<double> specular(light.specular * glm::vec3(m.specular));
+    if (std::pow(std::max(h.cosine + h.error * kError, 0.0), m.shininess) >= 0x1p127) {
+      for (int c = 0; c < 3; ++c) out.overflows[c] = out.overflows[c] || share.value * specular[c] == 0;
+    }
+    const double n_dot_l = glm::dot(n, r.to_light);
+    const Vec3<double> all = ambient + std::max(n_dot_l, 0.0) * diffuse + p.value * specular;
+    out.magnitude += share.value * (ambient + r.condition * length * diffuse +
+                                    (r.condition * std::max(p.value, 1.0) + p.slope) * specular) +
+                     share.error * all;
+    out.jump += share.beyond * all;
+    // What the inputs' errors do to N.L, and to the highlight's cosine.
+    const double l_moved = 2 * off / r.distance, n_l_moved = errors.n_eye + length * l_moved;
+    const double half_length = std::max(glm::length(r.to_light + e), 1e-6);
+    const double h_moved = model.specular == LightModel::Specular::half_vector
+                               ? errors.n_eye + length * 2 * (l_moved + e_moved) / half_length
+                               : 2 * length * n_l_moved + 2 * length * (errors.n_eye + e_moved) + l_moved + e_moved;
+    const Vec3<double> white = Vec3<double>(light.ambient) + std::max(n_dot_l, 0.0) * Vec3<double>(light.diffuse) +
+                               p.value * Vec3<double>(light.specular);
+    out.inherited +=
+        (share.value + share.inherited) *
+            (n_l_moved * diffuse + moved_power(h.cosine, m.shininess, h_moved) * specular + errors.color * white) +
+        share.inherited * all;
+    if (std::abs(n_dot_l) <= kError * r.condition * length + n_l_moved) out.jump += share.value * p.value * specular;
+    if (flips && std::abs(n_dot_e) <= 2 * kError * length + errors.n_eye + length * e_moved) {  // either way round
+      const double gloss = power(std::abs(h.cosine), m.shininess, h.error * kError).value;
+      out.jump += share.value * (std::abs(n_dot_l) * diffuse + gloss * specular);
+    }
+  }
+  out.magnitude = glm::max(out.magnitude, Vec3<double>(1));
+  return out;
+}
+
+}  // namespace plumbline::check

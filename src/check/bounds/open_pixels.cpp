@@ -1,0 +1,249 @@
+#include "check/bounds/open_pixels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "capture/fragment_outcomes.h"
+#include "check/bounds/fragment_bounds.h"
+#include "check/verdict/ledger.h"
+#include "scene/draw_of.h"
+
+namespace plumbline::check {
+
+bool tests_alpha(const Scene& scene) {
+  return std::ranges::any_of(scene.draws, [](const Draw& d) { return d.alpha_test.has_value(); });
+}
+
+namespace {
+
+// A product by 255 in float may bring a reference to another code where it lies between two (llvmpipe makes 76 of 0.3).
+Outcomes theirs_of(AlphaTest test, ColorFormat format, double lo, double hi) {
+  Outcomes out = alpha_outcomes(test, format, lo, hi);
+  if (color_scale(format) == 0) return out;
+  const float reference = test.reference;
+  for (const float roundings : {-2.0f, 2.0f}) {
+    test.reference = reference * (1 + roundings / 16777216.0f);
+    const Outcomes near = alpha_outcomes(test, format, lo, hi);
+    out = {out.may_pass || near.may_pass, out.may_fail || near.may_fail};
+  }
+  return out;
+}
+
+}  // namespace
+
+Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                  ColorFormat theirs, double factor) {
+  const Records<double>& r = candidate.records;
+  Plane<std::uint8_t> open(scene.frame.width, scene.frame.height, 0);
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const FragmentBounds bounds(scene, candidate, reference, factor);
+  for (std::size_t i = 0; i < std::min(r.covered.size(), r.shaded.size()); ++i) {
+    const Covered& c = r.covered[i];
+    if (c.triangle >= r.triangles.size() || c.x >= open.width() || c.y >= open.height()) continue;
+    const auto number = draw_of(ranges, r.triangles[c.triangle].primitive);
+    if (!number || !scene.draws[*number].alpha_test) continue;
+    const Draw& draw = scene.draws[*number];
+    const double alpha = r.shaded[i].color.a;
+    const FragmentBound bound = bounds.of_fragment(i);
+    const double off = bound.color.a + std::abs(bound.along.a) + bound.apart.a;
+    const bool mine = alpha_outcomes(*draw.alpha_test, scene.frame.color, alpha, alpha).may_pass;
+    const Outcomes other =
+        std::isfinite(off) ? theirs_of(*draw.alpha_test, theirs, alpha - off, alpha + off) : Outcomes{true, true};
+    if (mine ? other.may_fail : other.may_pass) open(c.x, c.y) = 1;
+  }
+  return open;
+}
+
+namespace {
+
+// How far a reference's depth of a fragment, before it is rounded to the frame's format, may be from the candidate's,
+// which has been: half a step. Where edges of one triangle meet, the reference may hold any of their values.
+double depth_error(const Records<double>& r, const OffsetErrors& offsets, std::size_t fragment,
+                   const DepthLimits& limits, DepthFormat format) {
+  const Covered& c = r.covered[fragment];
+  const WindowTriangle<double>& triangle = r.triangles[c.triangle];
+  const PlaneBounds bounds = bounds_from_origin(triangle, c.x, c.y, limits);
+  const double z = r.depth[fragment];
+  double apart = std::abs(bounds.along_depth), arithmetic = bounds.depth;
+  if (triangle.corners == 2) {
+    const auto primitive = static_cast<std::int32_t>(triangle.primitive);
+    for (const EdgeValue& edge : edge_values(triangles_of(r, primitive), c.x, c.y, limits)) {
+      apart = std::max(apart, std::abs(edge.depth - z));
+    }
+    arithmetic = primitive_bounds(r, primitive, c.x, c.y, limits).depth;
+  }
+  return tolerance("osmesa.depth").factor * kUnitRoundoff * (arithmetic + offsets.of(triangle)) + apart +
+         depth_step(format, z) / 2;
+}
+
+}  // namespace
+
+Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) {
+  const Records<double>& r = candidate.records;
+  const int width = scene.frame.width, height = scene.frame.height;
+  Plane<std::uint8_t> open(width, height, 0);
+  if (r.drawn.size() != r.covered.size() || r.depth.size() != r.covered.size()) return open;
+  struct Held {
+    double z, error;
+  };
+  Plane<Held> held(width, height, {scene.frame.clear_depth, 0});
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const OffsetErrors offsets(scene);
+  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+    const Covered& c = r.covered[i];
+    if (c.triangle >= r.triangles.size() || c.x >= width || c.y >= height) continue;
+    const auto number = draw_of(ranges, r.triangles[c.triangle].primitive);
+    if (!number) continue;
+    const Draw& draw = scene.draws[*number];
+    Held& before = held(c.x, c.y);
+    const double z = r.depth[i],
+                 error = depth_error(
+                     r, offsets, i,
+                     depth_limits(scene, ranges, static_cast<std::int32_t>(r.triangles[c.triangle].primitive)),
+                     scene.frame.depth);
+    const bool compares = draw.depth_func != DepthFunc::always && draw.depth_func != DepthFunc::never;
+    const double apart = std::abs(z - before.z);  // rounded, two depths are equal only within a step of each other
+    if (compares && !(apart > error + before.error + depth_step(scene.frame.depth, z))) open(c.x, c.y) = 1;
+    if (r.drawn[i].drawn && draw.merge.depth_mask) before = {z, error};
+  }
+  return open;
+}
+
+LegalWinners::LegalWinners(const Scene& scene, const Records<double>& records)
+    : scene_(scene),
+      records_(records),
+      ranges_(draw_ranges(scene)),
+      offsets_(scene),
+      fragments_(DrawnAt::covered(scene.frame, records)) {}
+
+std::vector<LegalAnswer> LegalWinners::at(int x, int y) const {
+  std::vector<Hit> hits;
+  fragments_.each(x, y, [&](std::size_t i) {
+    const WindowTriangle<double>& triangle = records_.triangles[records_.covered[i].triangle];
+    const auto number = draw_of(ranges_, triangle.primitive);
+    if (!number) return;
+    const Draw& draw = scene_.draws[*number];
+    const DepthLimits limits = depth_limits(scene_, ranges_, static_cast<std::int32_t>(triangle.primitive));
+    const double z = records_.depth[i], error = depth_error(records_, offsets_, i, limits, scene_.frame.depth);
+    Hit& hit = hits.emplace_back();
+    hit.primitive = triangle.primitive;
+    hit.depth_func = draw.depth_func;
+    hit.certain = true;
+    hit.z_lo = std::isfinite(error) ? std::max(z - error, 0.0) : 0;
+    hit.z_hi = std::isfinite(error) ? std::min(z + error, 1.0) : 1;
+    hit.depth_mask = draw.merge.depth_mask;
+    if (draw.alpha_test) {
+      const bool told = i < records_.shaded.size();
+      const double alpha = told ? records_.shaded[i].color.a : 0;
+      const Outcomes test = alpha_outcomes(*draw.alpha_test, scene_.frame.color, alpha, alpha);
+      hit.alpha_passes = !told || test.may_pass;
+      hit.alpha_fails = !told || test.may_fail;
+    }
+    if (draw.stencil) hit.stencil = triangle.front ? &draw.stencil->front : &draw.stencil->back;
+  });
+  std::vector<LegalAnswer> out;
+  fold_hits(hits, scene_.frame, out);
+  return out;
+}
+
+namespace {
+
+// Takes the fragments of the wanted triangles out of the planes of coverage.
+class Removal {
+ public:
+  Removal(const Capture& from, Plane<std::uint8_t>& open) : open_(open) {
+    out_.planes.count = from.planes.count;
+    out_.planes.id_sum = from.planes.id_sum;
+    out_.records.triangles = from.records.triangles;
+    out_.records.covered = from.records.covered;
+  }
+  void add(const Covered& c, std::uint32_t primitive) {
+    if (c.x >= open_.width() || c.y >= open_.height() || out_.planes.count.size() != open_.size()) return;
+    open_(c.x, c.y) = 1;
+    out_.planes.count(c.x, c.y) -= 1;  // modulo 2^32, as the sum is modulo 2^64: what was never there shows
+    out_.planes.id_sum(c.x, c.y) -= id_weight(primitive);
+  }
+  // With the triangles of the primitives `turned` marked as of no corners.
+  Capture done(std::span<const std::uint32_t> turned) {
+    for (WindowTriangle<double>& t : out_.records.triangles) {
+      if (std::ranges::binary_search(turned, t.primitive)) t.corners = 0;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  Plane<std::uint8_t>& open_;
+  Capture out_;
+};
+
+// The triangles that are wanted, as a referee is asked about them.
+template <class Wanted>
+Capture triangles_alone(const Capture& from, const Wanted& wanted) {
+  Capture out;
+  out.width = from.width;
+  out.height = from.height;
+  std::ranges::copy_if(from.records.triangles, std::back_inserter(out.records.triangles), wanted);
+  return out;
+}
+
+}  // namespace
+
+BesideTurned beside_turned(const Scene& scene, const Capture& candidate, const Capture& reference,
+                           std::span<const std::uint32_t> turned, Renderer& referee) {
+  BesideTurned out{{}, {}, Plane<std::uint8_t>(scene.frame.width, scene.frame.height, 0)};
+  const auto is_turned = [&](const WindowTriangle<double>& t) {
+    return std::ranges::binary_search(turned, t.primitive);
+  };
+  const auto settled = [&](const WindowTriangle<double>& t) { return is_turned(t) && t.corners != 2; };
+  const auto remove = [&](Removal& from, const Capture& triangles) {
+    const Capture covers = referee.run_stage(scene, Stage::coverage, triangles);
+    for (const Covered& c : covers.records.covered) from.add(c, triangles.records.triangles[c.triangle].primitive);
+  };
+  Removal mine(candidate, out.open), theirs(reference, out.open);
+  remove(mine, triangles_alone(candidate, is_turned));
+  remove(theirs, triangles_alone(reference, settled));
+  for (const Covered& c : reference.records.covered) {
+    if (c.triangle >= reference.records.triangles.size()) continue;
+    const WindowTriangle<double>& t = reference.records.triangles[c.triangle];
+    if (is_turned(t) && t.corners == 2) theirs.add(c, t.primitive);
+  }
+  out.candidate = mine.done(turned);
+  out.reference = theirs.done(turned);
+  return out;
+}
+
+namespace {
+
+template <class T>
+void settle_plane(Plane<T>& theirs, const Plane<T>& mine, const Plane<std::uint8_t>& open) {
+  if (theirs.size() != open.size() || mine.size() != open.size()) return;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (open.values()[i] != 0) theirs.values()[i] = mine.values()[i];
+  }
+}
+
+}  // namespace
+
+std::uint64_t settle(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference) {
+  settle_plane(reference.id, candidate.id, open);
+  settle_plane(reference.stencil, candidate.stencil, open);
+  settle_plane(reference.texel, candidate.texel, open);
+  settle_plane(reference.shaded, candidate.shaded, open);
+  settle_plane(reference.color, candidate.color, open);
+  settle_plane(reference.depth, candidate.depth, open);
+  return static_cast<std::uint64_t>(std::ranges::count(open.values(), std::uint8_t{1}));
+}
+
+std::uint64_t settle_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
+                           Capture& reference) {
+  // Alpha and its reference are converted with m bits, at least the frame's (OpenGL 2.1 spec, 4.1.4, 2.14.9). We take
+  // the frame's, and so does Mesa of 8 bits; of more it compares them in float, which is legal.
+  const bool in_float = stage == Stage::attributes || stage == Stage::shade || scene.frame.color != ColorFormat::rgba8;
+  const auto open =
+      open_by_alpha(scene, candidate, reference, in_float ? ColorFormat::rgba32f : scene.frame.color, factor);
+  return settle(open, candidate.planes, reference.planes);
+}
+
+}  // namespace plumbline::check

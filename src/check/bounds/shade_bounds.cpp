@@ -1,0 +1,120 @@
+#include "check/bounds/shade_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "check/bounds/texture_bounds.h"
+#include "check/bounds/units.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// f, and how far it may be off where z_eye may be off by `dz`.
+struct Factor {
+  double f, error;
+};
+Factor fog_factor(const Fog& fog, double z_eye, double dz, const Roundings& roundings) {
+  const double c = std::abs(z_eye), density = fog.density, x = density * c;
+  const double range = std::abs(static_cast<double>(fog.end) - fog.start);
+  switch (fog.mode) {
+    case Fog::Mode::linear: {
+      const double f = (fog.end - c) / (static_cast<double>(fog.end) - fog.start);
+      return {std::clamp(f, 0.0, 1.0), dz / range + roundings((std::abs(fog.end) + c) / range)};
+    }
+    // x exp(-x) <= 1/e: the argument's relative error comes to less than its absolute one.
+    case Fog::Mode::exp: {
+      const double f = std::exp(-std::max(x - density * dz, 0.0));
+      return {std::exp(-x), f * density * dz + roundings(f * (1 + x))};
+    }
+    case Fog::Mode::exp2: {
+      const double near = std::max(x - density * dz, 0.0), f = std::exp(-near * near);
+      return {std::exp(-x * x), f * (2 * x + density * dz) * density * dz + roundings(f * (1 + 2 * x * x))};
+    }
+  }
+  return {1, 0};
+}
+
+}  // namespace
+
+FragmentFours fours_of(const Records<double>& records, std::size_t i) {
+  FragmentFours out;
+  if (i < records.attributes.size()) out.color = records.attributes[i].color;
+  for (const Varying v : kAllVaryings) {
+    if (i < records.varyings[v].fragments.size()) out[v] = records.varyings[v].fragments[i];
+  }
+  if (i < records.texels.size()) out.texel = records.texels[i].color;
+  out.lights = records.lights;
+  return out;
+}
+
+namespace {
+
+// The error of a fragment's light.
+Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, const FragmentFours& attributes,
+                         const FragmentFours& errors, const Roundings& roundings) {
+  const Vec4<double> anything(std::numeric_limits<double>::infinity());
+  const auto length = [](const Vec4<double>& four) { return glm::length(Vec3<double>(four)); };
+  const double n = length(attributes[Varying::normal]), dn = length(errors[Varying::normal]);
+  if (!(n > 2 * dn)) return anything;
+  Vertex<double> at{};
+  at.p_eye = attributes[Varying::position];
+  at.n_eye = Vec3<double>(attributes[Varying::normal]) / (part.back ? -n : n);
+  const bool colors = !scene.meshes[draw.mesh].colors.empty() && draw.color_material != ColorMaterial::none;
+  const double d_color = colors ? glm::length(errors.color) : 0;
+  const glm::vec4 color(attributes.color);
+  const LightBounds bounds =
+      light_bounds(scene, lit_material(scene, draw, part, colors ? &color : nullptr), at,
+                   {length(errors[Varying::position]), dn / n + 4 * u, d_color}, attributes.lights);
+  if (!std::isfinite(bounds.magnitude.x) || bounds.jump != Vec3<double>(0)) return anything;
+  return Vec4<double>(bounds.inherited + 4 * roundings.count * u * bounds.magnitude, d_color + u);
+}
+
+// Of the face that errs more; `specular`: of the part that is kept apart.
+Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, const FragmentFours& attributes,
+                         const FragmentFours& errors, const Roundings& roundings) {
+  Vec4<double> largest = light_error(scene, draw, {false, specular}, attributes, errors, roundings);
+  if (scene.light_model.sides == LightModel::Sides::two)
+    largest = glm::max(largest, light_error(scene, draw, {true, specular}, attributes, errors, roundings));
+  return largest;
+}
+
+}  // namespace
+
+Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,
+                         const FragmentFours& errors, const Roundings& roundings) {
+  Vec4<double> color = attributes.color, error = errors.color;
+  const bool per_fragment = is_lit_per_fragment(draw), summed = draw.lit && scene.light_model.separate_specular;
+  if (per_fragment) error = light_error(scene, draw, false, attributes, errors, roundings);
+  if (draw.texture) {
+    const TextureFormat format = scene.textures.at(draw.texture->texture).format;
+    const auto after = [&](const Vec4<double>& before) {
+      return environ_error(format, *draw.texture, before, error, attributes.texel, errors.texel, roundings);
+    };
+    const Environed e = after(per_fragment ? Vec4<double>(0) : color);
+    // What the light comes to is not known here: errors are largest at one end or the other.
+    error = per_fragment ? glm::max(e.error, after(Vec4<double>(1)).error) : e.error;
+    color = e.color;
+  }
+  if (summed) {
+    const Vec4<double> apart =
+        per_fragment ? light_error(scene, draw, true, attributes, errors, roundings) : errors[Varying::secondary];
+    error += Vec4<double>(Vec3<double>(apart) + roundings(1), 0);
+  }
+  if (draw.fog) {
+    const auto [f, df] = fog_factor(*draw.fog, attributes[Varying::position].z, errors[Varying::position].z, roundings);
+    for (int c = 0; c < 3; ++c) {
+      const double of_fog = draw.fog->color[c];
+      if (per_fragment || summed) color[c] = of_fog > 0.5 ? 0 : 1;  // as far from the fog's as light can be
+      const double magnitude = f * std::abs(color[c]) + (1 - f) * of_fog;
+      error[c] = df * (std::abs(color[c] - of_fog) + error[c]) + f * error[c] + roundings(magnitude);
+      color[c] = f * color[c] + (1 - f) * of_fog;
+    }
+  }
+  // Where a texel is open, so is the colour, whatever it is multiplied by.
+  for (int c = 0; c < 4; ++c) error[c] = std::isfinite(error[c]) ? error[c] : std::numeric_limits<double>::infinity();
+  return error;
+}
+
+}  // namespace plumbline::check

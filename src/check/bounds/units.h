@@ -1,0 +1,77 @@
+// What the comparators and their bounds share; included by their .cpp files alone.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "capture/capture.h"
+#include "check/bounds/bounds.h"
+#include "check/verdict/measure.h"
+
+namespace plumbline::check {
+
+inline constexpr double u = kUnitRoundoff;
+
+// Compares each of n records by visit(meter, i); none if their numbers differ.
+template <class Visit>
+Measurement each(const char* what, const std::string& unit, std::size_t candidate, std::size_t reference, Visit visit) {
+  if (candidate != reference) {
+    return mismatch(unit, fmt::format("{} {}, the reference {}", candidate, what, reference),
+                    std::max(candidate, reference));
+  }
+  Meter meter(unit);
+  for (std::size_t i = 0; i < candidate; ++i) {
+    visit(meter, i);
+    meter.item();
+  }
+  return meter.done();
+}
+
+// Distance from |value| to the next float.
+inline double ulp(double value) {
+  const auto f = static_cast<float>(std::abs(value));
+  return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
+}
+
+// All entries of two vectors, the difference in units of `unit[c]`.
+template <int n>
+void add(Meter& meter, const glm::vec<n, double>& a, const glm::vec<n, double>& b, const glm::vec<n, double>& unit,
+         double factor, const Place& place) {
+  for (int c = 0; c < n; ++c) {
+    const double diff = difference(a[c], b[c]);
+    meter.value(diff == 0 ? 0 : diff / unit[c], factor, place, a[c], b[c]);
+  }
+}
+
+inline const LegalAnswer* find(std::span<const LegalAnswer> answers, std::int32_t primitive) {
+  const auto it = std::find_if(answers.begin(), answers.end(),
+                               [&](const LegalAnswer& answer) { return answer.primitive == primitive; });
+  return it == answers.end() ? nullptr : &*it;
+}
+
+// Of the planes' winner and the stencil value beside it.
+inline const LegalAnswer* find(const Legal& legal, const Planes& planes, int x, int y) {
+  const std::int32_t id = planes.id(x, y);
+  if (planes.stencil.empty()) return find(legal.at(x, y), id);
+  for (const LegalAnswer& answer : legal.at(x, y)) {
+    if (answer.primitive == id && answer.stencil == planes.stencil(x, y)) return &answer;
+  }
+  return nullptr;
+}
+
+inline double outside(double value, double low, double high) {
+  if (value >= low && value <= high) return 0;
+  return std::isfinite(value) ? std::max(low - value, value - high) : kInfinite;
+}
+
+// No bound can be computed (a triangle of no area): any number is legal, and none is proven.
+inline void open_value(Meter& meter, double value, const Place& place, double reference) {
+  meter.ambiguous();
+  meter.value(std::isfinite(value) && std::isfinite(reference) ? 0 : kInfinite, 0, place, value, reference);
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,127 @@
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "check/bounds/shade_bounds.h"
+#include "check/bounds/units.h"
+#include "check/compare/compare_records.h"
+
+namespace plumbline::check {
+
+Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference) {
+  Meter meter("fragments");
+  const auto key = [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); };
+  auto a = candidate.covered.begin();
+  auto b = reference.covered.begin();
+  while (a != candidate.covered.end() || b != reference.covered.end()) {
+    const bool extra = b == reference.covered.end() || (a != candidate.covered.end() && key(*a) < key(*b));
+    const bool lacks = a == candidate.covered.end() || (b != reference.covered.end() && key(*b) < key(*a));
+    const Covered& c = lacks ? *b : *a;
+    if (extra || lacks) {
+      meter.value(1, 0, {c.x, c.y, static_cast<std::int64_t>(c.triangle), extra ? "extra" : "lacking"}, extra, lacks);
+    }
+    if (!lacks) ++a;
+    if (!extra) ++b;
+    meter.item();
+  }
+  return meter.done();
+}
+
+namespace {
+
+// each(), of records that lie beside the candidate's fragments.
+template <class Visit>
+Measurement each_fragment(const char* what, const std::string& unit, const Records<double>& candidate, std::size_t own,
+                          std::size_t reference, Visit visit) {
+  if (own == reference && own != candidate.covered.size()) {
+    return mismatch(unit, fmt::format("{} {} of {} fragments", own, what, candidate.covered.size()), own);
+  }
+  return each(what, unit, own, reference, visit);
+}
+
+}  // namespace
+
+Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                          double factor) {
+  return each_fragment("depths", "step", candidate, candidate.depth.size(), reference.depth.size(),
+                       [&](Meter& meter, std::size_t i) {
+                         const double a = candidate.depth[i], b = reference.depth[i];
+                         const Covered& c = candidate.covered[i];
+                         const double step = depth_step(scene.frame.depth, b), apart = difference(a, b) / step;
+                         const bool needed = apart > factor && c.triangle < candidate.triangles.size();
+                         const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
+                         meter.value(apart, factor + rounding, {c.x, c.y, c.triangle, "z"}, a, b);
+                       });
+}
+
+Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor) {
+  return each_fragment(
+      "attributes", "u", candidate, candidate.attributes.size(), reference.attributes.size(),
+      [&](Meter& meter, std::size_t i) {
+        const Covered& c = candidate.covered[i];
+        if (c.triangle >= candidate.triangles.size()) {
+          meter.value(kInfinite, 0, {c.x, c.y, c.triangle, "triangle"}, 0, 0);
+          return;
+        }
+        const Vec4<double> bound = bounds_of_mean(candidate.triangles[c.triangle], c.x, c.y);
+        if (!std::isfinite(bound.x + bound.y + bound.z + bound.w)) {  // extrapolated to the horizon: any colour
+          meter.ambiguous();
+          for (int k = 0; k < 4; ++k) {
+            const double v = candidate.attributes[i].color[k];
+            meter.value(std::isfinite(v) ? 0 : kInfinite, 0, {c.x, c.y, c.triangle, "color"}, v, 0);
+          }
+          return;
+        }
+        add(meter, candidate.attributes[i].color, reference.attributes[i].color, u * bound + kGradualUnderflow, factor,
+            {c.x, c.y, c.triangle, "color"});
+      });
+}
+
+Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor) {
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  std::size_t d = 0;
+  return each_fragment(
+      "colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(), [&](Meter& meter, std::size_t i) {
+        const Covered& c = candidate.covered[i];
+        const Vec4<double>&a = candidate.shaded[i].color, &b = reference.shaded[i].color;
+        const Place place{c.x, c.y, c.triangle, "color"};
+        if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
+        const std::uint32_t primitive = candidate.triangles[c.triangle].primitive;
+        while (d + 1 < ranges.size() && primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
+        if (d >= scene.draws.size() || is_plain(scene, scene.draws[d]))
+          return add(meter, a, b, Vec4<double>(u), 0, place);
+        const Vec4<double> bound = shade_error(scene, scene.draws[d], fours_of(candidate, i), {}, {1});
+        if (!std::isfinite(bound.x)) {  // a light may come or go
+          meter.ambiguous();
+          for (int k = 0; k < 4; ++k) meter.value(a[k] >= 0 && a[k] <= 1 ? 0 : kInfinite, 0, place, a[k], b[k]);
+          return;
+        }
+        for (int k = 0; k < 4; ++k) {
+          if (bound[k] == 0) {
+            meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k]);
+          } else {
+            meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k]);
+          }
+        }
+      });
+}
+
+Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference) {
+  const auto &a = candidate.varyings[varying].vertices, &b = reference.varyings[varying].vertices;
+  return each("varyings", "u", a.size(), b.size(), [&](Meter& meter, std::size_t i) {
+    add(meter, a[i], b[i], Vec4<double>(u), 0, {-1, -1, static_cast<std::int64_t>(i), name_of(varying).data()});
+  });
+}
+
+Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference) {
+  if (candidate.drawn.empty()) return Meter("pixels").done();
+  return each_fragment("fragments drawn", "pixels", candidate, candidate.drawn.size(), reference.drawn.size(),
+                       [&](Meter& meter, std::size_t i) {
+                         const Covered& c = candidate.covered[i];
+                         const bool a = candidate.drawn[i].drawn, b = reference.drawn[i].drawn;
+                         meter.value(a == b ? 0 : 1, 0, {c.x, c.y, c.triangle, "drawn"}, a, b);
+                       });
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,91 @@
+#include "check/bounds/units.h"
+#include "check/compare/compare_planes.h"
+
+namespace plumbline::check {
+
+Measurement compare_legal_count(const Planes& candidate, const Legal& legal) {
+  return compare_planes(candidate.count, legal.certain, "fragments", [&](Meter& meter, int x, int y) {
+    const double count = candidate.count(x, y), low = legal.certain(x, y), high = legal.possible(x, y);
+    if (low != high) meter.ambiguous();
+    meter.value(std::max({low - count, count - high, 0.0}), 0, {x, y, -1, "count"}, count, count < low ? low : high);
+  });
+}
+
+Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
+  return compare_planes(candidate.id, legal.certain, "pixels", [&](Meter& meter, int x, int y) {
+    const auto answers = legal.at(x, y);
+    if (answers.size() > 1) meter.ambiguous();
+    const std::int32_t id = candidate.id(x, y);
+    meter.value(find(legal, candidate, x, y) != nullptr ? 0 : 1, 0, {x, y, -1, "primitive"}, id,
+                answers.empty() ? kBackground : answers.front().primitive);
+  });
+}
+
+namespace {
+
+// `half_code`: what rounding to the frame's format adds to the oracle's bound.
+Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
+                                double half_code, bool clamped, double factor) {
+  const Plane<std::int32_t>& id = candidate.id;
+  std::string why;
+  if (!same_size(id, legal.certain, why)) return mismatch("bound", why, color.size());
+  return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
+    const auto answers = legal.at(x, y);
+    if (answers.size() > 1) meter.ambiguous();
+    const glm::vec4 c = color(x, y);
+    const LegalAnswer* answer = find(legal, candidate, x, y);
+    if (answer == nullptr) {  // visibility's matter, but for what is no number
+      for (int i = 0; i < 4; ++i) {
+        meter.value(std::isfinite(c[i]) ? 0 : kInfinite, 0, {x, y, id(x, y), "color"}, c[i], 0);
+      }
+      return;
+    }
+    if (!std::isfinite(answer->color_bound) && answers.size() == 1) meter.ambiguous();  // open: any colour is legal
+    const double bound = static_cast<double>(answer->color_bound) + half_code;
+    for (int i = 0; i < 4; ++i) {
+      const double v = c[i], w = clamped ? glm::clamp(answer->color[i], 0.0f, 1.0f) : answer->color[i],
+                   diff = difference(v, w);
+      meter.value(diff == 0 ? 0 : diff / bound, factor, {x, y, answer->primitive, "color"}, v, w);
+    }
+  });
+}
+
+}  // namespace
+
+Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
+  std::string why;
+  if (!same_size(candidate.id, legal.certain, why)) return mismatch("step", why, candidate.depth.size());
+  return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
+    const auto answers = legal.at(x, y);
+    if (answers.size() > 1) meter.ambiguous();
+    const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
+    const LegalAnswer* answer = find(legal, candidate, x, y);
+    if (answer == nullptr) {
+      return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, candidate.id(x, y), "z"}, z, 0);
+    }
+    meter.value(outside(z, answer->z_lo, answer->z_hi) / step, factor, {x, y, answer->primitive, "z"}, z,
+                std::clamp(z, answer->z_lo, answer->z_hi));
+  });
+}
+
+Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor) {
+  return compare_legal_color(candidate.shaded, candidate, legal, 0, false, factor);
+}
+
+Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
+  const double scale = color_scale(scene.frame.color);
+  const bool codes = scale > 0;
+  if (!legal.color_lo.empty()) {
+    const double rounding = codes ? 0.5 / scale + 4 * u : u;
+    return compare_planes(candidate.color, legal.color_lo, "bound", [&](Meter& meter, int x, int y) {
+      const glm::vec4 &color = candidate.color(x, y), &low = legal.color_lo(x, y), &high = legal.color_hi(x, y);
+      if (!std::isfinite(low.x)) return open_value(meter, color.x, {x, y, -1, "color"}, 0);
+      for (int c = 0; c < 4; ++c) {
+        meter.value(outside(color[c], low[c], high[c]) / rounding, factor, {x, y, -1, "color"}, color[c], low[c]);
+      }
+    });
+  }
+  return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, codes, factor);
+}
+
+}  // namespace plumbline::check

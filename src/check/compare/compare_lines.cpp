@@ -1,0 +1,209 @@
+#include "check/compare/compare_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "check/bounds/open_pixels.h"
+#include "check/bounds/units.h"
+#include "scene/draw_of.h"
+
+namespace plumbline::check {
+
+namespace {
+
+struct Line {
+  const WindowTriangle<double>* window = nullptr;
+  std::vector<glm::ivec2> pixels;
+};
+// By primitive, and among a primitive's lines (the edges of a triangle that is not filled) by order.
+using LinesOfPixels = std::map<std::pair<std::uint32_t, std::size_t>, Line>;
+
+LinesOfPixels lines_of(const Records<double>& r) {
+  LinesOfPixels lines;
+  std::vector<Line*> line_of(r.triangles.size());
+  std::size_t order = 0;
+  for (std::size_t i = 0; i < r.triangles.size(); ++i) {
+    const WindowTriangle<double>& t = r.triangles[i];
+    order = i > 0 && r.triangles[i - 1].primitive == t.primitive ? order + 1 : 0;
+    if (t.corners != 2) continue;
+    line_of[i] = &lines[{t.primitive, order}];
+    line_of[i]->window = &t;
+  }
+  for (const Covered& c : r.covered) {
+    if (c.triangle < line_of.size() && line_of[c.triangle] != nullptr) {
+      line_of[c.triangle]->pixels.emplace_back(c.x, c.y);
+    }
+  }
+  return lines;
+}
+
+// The planes of coverage without the lines.
+struct Rest {
+  Plane<std::uint32_t> count;
+  Plane<std::uint64_t> id_sum;
+};
+Rest without(const LinesOfPixels& lines, const Planes& planes) {
+  Rest rest{planes.count, planes.id_sum};
+  for (const auto& [key, line] : lines) {
+    const std::uint32_t primitive = key.first;
+    for (const glm::ivec2 p : line.pixels) {
+      if (p.x >= rest.count.width() || p.y >= rest.count.height()) continue;
+      rest.count(p.x, p.y) -= 1;  // modulo 2^32, as the sum is modulo 2^64: what was never there shows
+      rest.id_sum(p.x, p.y) -= id_weight(primitive);
+    }
+  }
+  return rest;
+}
+
+int distance(glm::ivec2 a, glm::ivec2 b) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)); }
+
+// How far a pixel lies from the one of `pixels` that corresponds to it; of none, from those that the line ends in.
+int deviation(glm::ivec2 pixel, const std::vector<glm::ivec2>& pixels, const WindowTriangle<double>& line, int major) {
+  std::vector<glm::ivec2> ends;
+  if (pixels.empty()) ends = {glm::ivec2(glm::floor(line.v[0].p_win)), glm::ivec2(glm::floor(line.v[1].p_win))};
+  int nearest = std::numeric_limits<int>::max();
+  for (const glm::ivec2 p : pixels.empty() ? ends : pixels) {
+    if (p[major] == pixel[major]) return distance(p, pixel);
+    nearest = std::min(nearest, distance(p, pixel));
+  }
+  return nearest;
+}
+
+// What a line covers of one column (y-major: row).
+struct Column {
+  int low, high, count;
+};
+std::map<int, Column> columns_of(const std::vector<glm::ivec2>& pixels, int major) {
+  std::map<int, Column> columns;
+  for (const glm::ivec2 p : pixels) {
+    const int at = p[1 - major];
+    Column& c = columns.try_emplace(p[major], Column{at, at, 0}).first->second;
+    c = {std::min(c.low, at), std::max(c.high, at), c.count + 1};
+  }
+  return columns;
+}
+
+int major_axis(glm::dvec2 d) { return std::abs(d.x) >= std::abs(d.y) ? 0 : 1; }
+
+// Pixels from `low` up to, and without, `high`.
+struct Box {
+  glm::ivec2 low, high;
+};
+
+// The pixels of the frame that a primitive's draw may cover.
+Box box_of(const Scene& scene, const std::vector<DrawRange>& ranges, std::uint32_t primitive, glm::ivec2 extent) {
+  Box out{glm::ivec2(0), extent};
+  const auto draw = draw_of(ranges, primitive);
+  if (!draw || !scene.draws[*draw].scissor) return out;
+  const Scissor& scissor = *scene.draws[*draw].scissor;
+  out.low = glm::max(out.low, glm::ivec2(scissor.x, scissor.y));
+  out.high = glm::min(out.high, glm::ivec2(scissor.x + scissor.width, scissor.y + scissor.height));
+  return out;
+}
+
+// `box`: the pixels that the line may cover.
+void compare_line(Meter& meter, std::uint32_t primitive, const Line& mine, const Line& theirs, const Box& box,
+                  double factor) {
+  const auto at = [&](glm::ivec2 p, const char* field) {
+    return Place{p.x, p.y, static_cast<std::int64_t>(primitive), field};
+  };
+  if (mine.window == nullptr || theirs.window == nullptr) {
+    return meter.value(kInfinite, 0, at({-1, -1}, mine.window == nullptr ? "line lacking" : "line extra"), 0, 0);
+  }
+  const auto& [a, b, last] = mine.window->v;
+  const int major = major_axis(b.snapped - a.snapped), width = static_cast<int>(mine.window->width);
+  const bool axis_open = width > 1 && major != major_axis(glm::dvec2(b.p_win) - glm::dvec2(a.p_win));
+  const auto columns = columns_of(mine.pixels, major), their_columns = columns_of(theirs.pixels, major);
+  for (const glm::ivec2 p : theirs.pixels) {
+    if (columns.contains(p[major]) && !axis_open) continue;
+    const int off = std::max(deviation(p, mine.pixels, *mine.window, major) - (axis_open ? width : 0), 0);
+    meter.value(off, factor, at(p, "pixels off"), 0, off);
+  }
+  for (const auto& [place, column] : their_columns) {
+    if (axis_open) break;
+    const glm::ivec2 p = major == 0 ? glm::ivec2(place, column.low) : glm::ivec2(column.low, place);
+    const bool cut = column.low == box.low[1 - major] || column.high == box.high[1 - major] - 1;
+    const auto same = columns.find(place);
+    const bool whole = column.high - column.low + 1 == column.count && (cut || column.count == width);
+    meter.value(whole && column.count <= width ? 0 : kInfinite, 0, at(p, "width in a column"), width, column.count);
+    if (same == columns.end()) continue;
+    const int off = std::max(std::abs(column.low - same->second.low), std::abs(column.high - same->second.high));
+    meter.value(off, factor, at(p, "pixels off"), 0, off);
+  }
+  const auto mine_count = static_cast<double>(columns.size()), count = static_cast<double>(their_columns.size());
+  if (!axis_open) meter.value(std::abs(mine_count - count), factor, at({-1, -1}, "number"), mine_count, count);
+  if (mine.pixels != theirs.pixels) meter.ambiguous();
+}
+
+}  // namespace
+
+Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                  double factor) {
+  std::string why;
+  const Planes &a = candidate.planes, &b = reference.planes;
+  if (!same_size(a.count, b.count, why) || !same_size(a.id_sum, b.id_sum, why) || !same_size(a.count, a.id_sum, why)) {
+    return mismatch("pixels", why, a.count.size());
+  }
+  const LinesOfPixels mine = lines_of(candidate.records), theirs = lines_of(reference.records);
+  Meter meter("pixels");
+  LinesOfPixels all = mine;
+  all.insert(theirs.begin(), theirs.end());
+  const glm::ivec2 extent(a.count.width(), a.count.height());
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  for (const auto& [key, line] : all) {
+    const auto at = [&, wanted = key](const LinesOfPixels& lines) {
+      const auto found = lines.find(wanted);
+      return found == lines.end() ? Line{} : found->second;
+    };
+    compare_line(meter, key.first, at(mine), at(theirs), box_of(scene, ranges, key.first, extent), factor);
+    meter.item();
+  }
+  const Rest rest_a = without(mine, a), rest_b = without(theirs, b);
+  for (int y = 0; y < a.count.height(); ++y) {
+    for (int x = 0; x < a.count.width(); ++x) {
+      const bool same = rest_a.count(x, y) == rest_b.count(x, y) && rest_a.id_sum(x, y) == rest_b.id_sum(x, y);
+      meter.value(same ? 0 : kInfinite, 0, {x, y, -1, "beside the lines"}, rest_a.count(x, y), rest_b.count(x, y));
+      meter.item();
+    }
+  }
+  return meter.done();
+}
+
+Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, const Capture& reference) {
+  const Planes &mine = candidate.planes, &theirs = reference.planes;
+  std::string why;
+  if (!same_size(mine.id_sum, theirs.id_sum, why) || !same_size(mine.count, theirs.count, why) ||
+      !same_size(mine.count, mine.id_sum, why) || !same_size(mine.id, mine.count, why)) {
+    return mismatch("pixels", why, mine.id.size());
+  }
+  if (mine.stencil.size() != theirs.stencil.size()) {
+    return mismatch("pixels", "stencil values of one side alone", mine.id.size());
+  }
+  if (candidate.records.depth.size() != candidate.records.covered.size()) {
+    return mismatch("pixels", "not a depth for each fragment", mine.id.size());
+  }
+  const LegalWinners legal(scene, candidate.records);
+  return compare_planes(mine.id, theirs.id, "pixels", [&](Meter& meter, int x, int y) {
+    const std::int32_t a = mine.id(x, y), b = theirs.id(x, y);
+    const bool held = !mine.stencil.empty();
+    const int stencil_a = held ? mine.stencil(x, y) : 0, stencil_b = held ? theirs.stencil(x, y) : 0;
+    if (a == b && stencil_a == stencil_b) return;
+    const bool alike = mine.id_sum(x, y) == theirs.id_sum(x, y) && mine.count(x, y) == theirs.count(x, y);
+    if (!alike) return meter.ambiguous();
+    const std::vector<LegalAnswer> answers = legal.at(x, y);
+    const auto is_legal = [&](std::int32_t primitive, int stencil) {
+      return std::ranges::any_of(answers, [&](const LegalAnswer& answer) {
+        return answer.primitive == primitive && (!held || answer.stencil == stencil);
+      });
+    };
+    if (is_legal(a, stencil_a) && is_legal(b, stencil_b)) return meter.ambiguous();
+    if (a == b) return meter.value(1, 0, {x, y, -1, "stencil"}, stencil_a, stencil_b);
+    meter.value(1, 0, {x, y, -1, "primitive"}, a, b);
+  });
+}
+
+}  // namespace plumbline::check

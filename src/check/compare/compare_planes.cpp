@@ -1,0 +1,378 @@
+#include "check/compare/compare_planes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "check/bounds/fragment_bounds.h"
+#include "check/bounds/open_pixels.h"
+#include "check/bounds/units.h"
+#include "check/verdict/ledger.h"
+#include "scene/draw_of.h"
+
+namespace plumbline::check {
+
+namespace {
+
+void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Vec4<double>& tolerance, double unit,
+               const Place& place) {
+  for (int c = 0; c < 4; ++c) {
+    const double x = a[c], y = b[c];
+    meter.value(difference(x, y) / unit, tolerance[c], place, x, y);
+  }
+}
+
+// Pixel by pixel what visit(meter, x, y, winner) gives of a plane (&Planes::color) where both sides' winners are the
+// same: where they are not, it is visibility's matter.
+Measurement where_winners_agree(const Planes& a, const Planes& b, auto plane, const std::string& unit, auto visit) {
+  std::string why;
+  if (!same_size(a.id, b.id, why) || !same_size(a.id, a.*plane, why)) return mismatch(unit, why, a.id.size());
+  return compare_planes(a.*plane, b.*plane, unit, [&](Meter& meter, int x, int y) {
+    const std::int32_t id = a.id(x, y);
+    if (id == b.id(x, y)) visit(meter, x, y, id);
+  });
+}
+
+Vec4<double> codes_of(const Vec4<double>& color, double scale) {
+  return glm::roundEven(glm::clamp(color, 0.0, 1.0) * scale);
+}
+
+// A clear colour's product in float may be rounded onto the half between two codes: how many codes off that is.
+double cleared_codes(const FrameFormat& frame, int channel) {
+  const double scale = color_scale(frame.color), code = scale * static_cast<double>(frame.clear_color[channel]);
+  return std::abs(code - std::floor(code) - 0.5) <= scale * u / 2 ? 1 : 0;
+}
+
+// Values of the winner's edges or corners that another renderer may hold at the pixel.
+std::vector<EdgeValue> values_beside(const Scene& scene, const Capture& candidate, std::int32_t id, int x, int y) {
+  const auto triangles = triangles_of(candidate.records, id);
+  std::vector<EdgeValue> out = edge_values(triangles, x, y);
+  const std::vector<EdgeValue> tied = tied_corners(triangles, x, y, depth_step(scene.frame.depth, 1));
+  out.insert(out.end(), tied.begin(), tied.end());
+  return out;
+}
+
+// What colours of the frame are told apart in.
+std::string code_unit(const FrameFormat& frame) {
+  const double scale = color_scale(frame.color);
+  return scale > 0 ? fmt::format("1/{:.0f}", scale) : "u";
+}
+
+// Whether the two sides say that other fragments cover a pixel (lines' may lie beside each other): coverage's matter.
+// Primitive 0 weighs nothing in the sums: the count tells it.
+class OthersCover {
+ public:
+  OthersCover(const Planes& a, const Planes& b) : a_(a), b_(b) {
+    std::string why;
+    told_ = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why) && same_size(a.count, b.count, why) &&
+            same_size(a.count, a.id, why);
+  }
+  bool operator()(int x, int y) const {
+    return told_ && (a_.id_sum(x, y) != b_.id_sum(x, y) || a_.count(x, y) != b_.count(x, y));
+  }
+
+ private:
+  const Planes &a_, &b_;
+  bool told_ = false;
+};
+
+bool reads_frame(const BlendTerm& term) {
+  const auto reads = [](BlendFactor f) {
+    return f == BlendFactor::destination_color || f == BlendFactor::one_minus_destination_color ||
+           f == BlendFactor::destination_alpha || f == BlendFactor::one_minus_destination_alpha ||
+           f == BlendFactor::source_alpha_saturate;
+  };
+  return reads(term.source) || reads(term.destination);
+}
+bool factors_read_frame(const Scene& scene) {
+  return std::ranges::any_of(scene.draws, [](const Draw& d) {
+    return d.merge.blend && (reads_frame(d.merge.blend->rgb) || reads_frame(d.merge.blend->alpha));
+  });
+}
+
+}  // namespace
+
+Measurement compare_coverage(const Planes& candidate, const Planes& reference) {
+  std::string why;
+  if (!same_size(candidate.id_sum, reference.id_sum, why) || !same_size(candidate.id_sum, candidate.count, why))
+    return mismatch("fragments", why, candidate.id_sum.size());
+  return compare_planes(candidate.count, reference.count, "fragments", [&](Meter& meter, int x, int y) {
+    const double a = candidate.count(x, y), b = reference.count(x, y);
+    meter.value(difference(a, b), 0, {x, y, -1, "count"}, a, b);
+    // Other primitives, as many: reported as one fragment apart.
+    const bool same = candidate.id_sum(x, y) == reference.id_sum(x, y);
+    meter.value(same ? 0 : 1, 0, {x, y, -1, "id sum"}, a, b);
+  });
+}
+
+Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal) {
+  if (candidate.stencil.size() != reference.stencil.size()) {
+    return mismatch("pixels", "stencil values of one side alone", candidate.id.size());
+  }
+  return compare_planes(candidate.id, reference.id, "pixels", [&](Meter& meter, int x, int y) {
+    const std::int32_t a = candidate.id(x, y), b = reference.id(x, y);
+    const bool held = !candidate.stencil.empty();
+    const int stencil_a = held ? candidate.stencil(x, y) : 0, stencil_b = held ? reference.stencil(x, y) : 0;
+    if (a == b && stencil_a == stencil_b) return;
+    if (!legal.empty() && find(legal, candidate, x, y) != nullptr) {
+      if (find(legal, reference, x, y) != nullptr) return meter.ambiguous();
+      meter.suspect("its winner is none of the legal ones, ours is");
+    }
+    if (a != b) return meter.value(1, 0, {x, y, -1, "primitive"}, a, b);
+    meter.value(1, 0, {x, y, -1, "stencil"}, stencil_a, stencil_b);
+  });
+}
+
+namespace {
+
+// Where a winner leaves depths in place (depth_mask): how far another renderer's depth may be from the one that a
+// fragment beneath it left. That fragment's own edges and formulas count, and, where a depth test is open
+// (open_pixels.h), those of fragments that either may have hidden.
+class DepthsBeneath {
+ public:
+  DepthsBeneath(const Scene& scene, const Capture& candidate, const std::vector<DrawRange>& ranges)
+      : scene_(scene),
+        records_(depths_replace(scene) ? none_ : candidate.records),
+        ranges_(ranges),
+        fragments_(DrawnAt::covered(scene.frame, records_)),
+        offsets_(scene) {
+    known_ = records_.drawn.size() == records_.covered.size() && records_.depth.size() == records_.covered.size();
+    if (known_ && !records_.covered.empty()) open_ = open_by_depth(scene, candidate);
+  }
+  // visit(how far from z, bound times u), where a fragment left z.
+  template <class Visit>
+  void each(int x, int y, double z, double factor, Visit visit) const {
+    if (!known_) return;
+    const auto leaves = [&](std::size_t i) {
+      const auto draw = draw_of(ranges_, triangle_of(i).primitive);
+      return draw && scene_.draws[*draw].merge.depth_mask;
+    };
+    std::optional<Values> left;
+    fragments_.each(x, y, [&](std::size_t i) {
+      if (records_.drawn[i].drawn && records_.depth[i] == z && leaves(i)) left = values(i, x, y);
+    });
+    if (!left) return;
+    const auto [left_low, left_high] = std::ranges::minmax(left->depths);
+    fragments_.each(x, y, [&](std::size_t i) {
+      if (!leaves(i)) return;
+      const Values of = values(i, x, y);
+      const double reach = factor * u * (left->bound + of.bound) + depth_step(scene_.frame.depth, z);
+      const auto [low, high] = std::ranges::minmax(of.depths);
+      const bool tied = open_(x, y) != 0 && low <= left_high + reach && high >= left_low - reach;
+      if (records_.depth[i] != z && !tied) return;
+      for (const double depth : of.depths) visit(depth - z, of.bound);
+    });
+  }
+
+ private:
+  struct Values {
+    std::vector<double> depths;
+    double bound;
+  };
+  const WindowTriangle<double>& triangle_of(std::size_t i) const {
+    return records_.triangles[records_.covered[i].triangle];
+  }
+  Values values(std::size_t i, int x, int y) const {
+    const WindowTriangle<double>& triangle = triangle_of(i);
+    const auto primitive = static_cast<std::int32_t>(triangle.primitive);
+    const DepthLimits limits = depth_limits(scene_, ranges_, primitive);
+    const PlaneBounds bounds = bounds_from_origin(triangle, x, y, limits);
+    Values out{{records_.depth[i], records_.depth[i] + bounds.along_depth}, bounds.depth + offsets_.of(triangle)};
+    for (const EdgeValue& edge : edge_values(triangles_of(records_, primitive), x, y, limits)) {
+      out.depths.push_back(edge.depth);
+    }
+    return out;
+  }
+
+  const Scene& scene_;
+  const Records<double> none_;
+  const Records<double>& records_;
+  const std::vector<DrawRange>& ranges_;
+  DrawnAt fragments_;
+  OffsetErrors offsets_;
+  Plane<std::uint8_t> open_;
+  bool known_ = false;
+};
+
+}  // namespace
+
+Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                 double factor) {
+  const Planes &a = candidate.planes, &b = reference.planes;
+  const OffsetErrors offsets(scene);
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const DepthsBeneath beneath(scene, candidate, ranges);
+  const OthersCover others_cover(a, b);
+  // Another fragment, which the winner leaves in place, may have left its depth.
+  const auto others_left_it = [&](int x, int y) { return !depths_replace(scene) && others_cover(x, y); };
+  return where_winners_agree(a, b, &Planes::depth, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
+    const double z = a.depth(x, y), z_ref = b.depth(x, y);
+    const Place place{x, y, id, "z"};
+    if (id == kBackground) {
+      meter.value(difference(z, z_ref) / u, 0, place, z, z_ref);
+      return;
+    }
+    if (others_left_it(x, y)) return open_value(meter, z, place, z_ref);
+    const DepthLimits limits = depth_limits(scene, ranges, id);
+    const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y, limits);
+    double bound = bounds.depth + offsets.of(candidate.records, id),
+           diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));
+    for (const EdgeValue& edge : edge_values(triangles_of(candidate.records, id), x, y, limits)) {
+      diff = std::min(diff, difference(edge.depth, z_ref));
+    }
+    beneath.each(x, y, z, factor, [&](double apart, double its_bound) {
+      bound = std::max(bound, its_bound);
+      diff = std::min(diff, difference(z + apart, z_ref));
+    });
+    if (!std::isfinite(bound)) return open_value(meter, z, place, z_ref);
+    const double step = depth_step(scene.frame.depth, z_ref);
+    meter.value(diff / u, factor * bound, place, z, z_ref, step / u);
+  });
+}
+
+Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
+                                  double factor) {
+  const Planes &a = candidate.planes, &b = reference.planes;
+  const FragmentBounds bounds(scene, candidate, reference, factor);
+  return where_winners_agree(a, b, &Planes::shaded, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
+    const Place place{x, y, id, "color"};
+    if (id == kBackground) {
+      return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
+    }
+    const FragmentBound bound = bounds.of_winner(id, x, y);
+    meter.suspect(bound.reason);
+    const std::vector<EdgeValue> edges = values_beside(scene, candidate, id, x, y);
+    for (int c = 0; c < 4; ++c) {
+      const double v = a.shaded(x, y)[c], w = b.shaded(x, y)[c];
+      if (!std::isfinite(bound.color[c])) {
+        open_value(meter, v, place, w);
+      } else {
+        double diff = std::min(difference(v, w), difference(v + bound.along[c], w));
+        for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));
+        meter.value(diff / u, bound.color[c] / u, place, v, w, bound.apart[c] / u);
+      }
+    }
+  });
+}
+
+Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
+                          double factor) {
+  const Planes &a = candidate.planes, &b = reference.planes;
+  const double scale = color_scale(scene.frame.color);
+  const FragmentBounds bounds(scene, candidate, reference, factor);
+  const std::string unit = code_unit(scene.frame);
+  return where_winners_agree(a, b, &Planes::color, unit, [&](Meter& meter, int x, int y, std::int32_t id) {
+    const bool cleared = id == kBackground;
+    const FragmentBound fragment = cleared ? FragmentBound{} : bounds.of_winner(id, x, y);
+    const Vec4<double> bound = fragment.color + fragment.apart;
+    meter.suspect(fragment.reason);
+    const std::vector<EdgeValue> edges = values_beside(scene, candidate, id, x, y);
+    for (int c = 0; c < 4; ++c) {
+      const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
+      if (!std::isfinite(bound[c])) {
+        open_value(meter, v, {x, y, id, "color"}, w);
+        continue;
+      }
+      double diff = difference(v, w);
+      for (const EdgeValue& edge : edges) {
+        diff = std::min(diff, difference(std::round(scale * std::clamp(edge.color[c], 0.0, 1.0)), w));
+      }
+      if (fragment.along[c] != 0 && a.shaded.size() == a.color.size()) {
+        const double along = static_cast<double>(a.shaded(x, y)[c]) + fragment.along[c];
+        diff = std::min(diff, difference(std::round(scale * std::clamp(along, 0.0, 1.0)), w));
+      }
+      meter.value(diff, cleared ? cleared_codes(scene.frame, c) : codes, {x, y, id, "color"}, v, w,
+                  std::floor(scale * bound[c]));
+    }
+  });
+}
+
+Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
+                            double codes, double factor) {
+  const Planes &a = candidate.planes, &b = reference.planes;
+  const double scale = color_scale(scene.frame.color);
+  const FragmentBounds bounds(scene, candidate, reference, factor);
+  const DrawnAt drawn(scene.frame, candidate.records);
+  const Plane<std::uint8_t> tied = legal.empty() ? open_by_depth(scene, candidate) : Plane<std::uint8_t>();
+  const OthersCover others_cover(a, b);
+  const std::string unit = code_unit(scene.frame);
+  const bool reads = factors_read_frame(scene);
+  return where_winners_agree(a, b, &Planes::color, unit, [&](Meter& meter, int x, int y, std::int32_t id) {
+    const Place place{x, y, id, "color"};
+    const bool open = others_cover(x, y) || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
+                      (!tied.empty() && tied(x, y) != 0);
+    int fragments = 0;
+    double bound = 0;
+    bool combined = false, certain = true;      // by a logic op, of codes that both sides have
+    glm::bvec4 cleared(true), on_clear(false);  // the clear colour is there still; a logic op has read it
+    drawn.each(x, y, [&](std::size_t i) {
+      const FragmentBound of = bounds.of_fragment(i);
+      ++fragments;
+      if (!of.reason.empty()) meter.suspect(of.reason);
+      const Vec4<double> sum = of.color + glm::abs(of.along) + of.apart;
+      bound += std::max({sum.r, sum.g, sum.b, sum.a});
+      const Records<double>& r = candidate.records;
+      const Merge& merge = bounds.draw_of(r.triangles[r.covered[i].triangle].primitive).merge;
+      combined = combined || merge.logic_op;
+      for (int c = 0; c < 4; ++c) {
+        if (merge.logic_op) on_clear[c] = on_clear[c] || cleared[c];
+        if (!merge.logic_op && !merge.blend && merge.color_mask[c]) cleared[c] = false;
+      }
+      certain = certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
+                codes_of(r.shaded[i].color - sum, scale) == codes_of(r.shaded[i].color + sum, scale);
+    });
+    // A fragment's error comes in as its colour, as the factor that it makes of itself, and of what is there. That is 1
+    // at most, or in float one more for each fragment.
+    const double layers = reads ? std::exp2(fragments) - 1 : fragments, held = scale > 0 ? 1 : std::max(1, fragments);
+    bound *= (2 + held) * (reads ? std::exp2(fragments - 1) : 1);
+    combined = combined && scale > 0;
+    for (int c = 0; c < 4; ++c) {
+      const double v = a.color(x, y)[c], w = b.color(x, y)[c];
+      const bool unknown = !certain || (on_clear[c] && cleared_codes(scene.frame, c) > 0);
+      if (open || !std::isfinite(bound) || (combined && unknown)) {
+        open_value(meter, v, place, w);
+      } else if (scale > 0) {
+        const double code = std::round(scale * v), code_ref = std::round(scale * w);
+        if (combined) {
+          meter.value(difference(code, code_ref), 0, place, code, code_ref);
+        } else {
+          meter.value(difference(code, code_ref), codes * layers + cleared_codes(scene.frame, c), place, code, code_ref,
+                      std::floor(scale * bound));
+        }
+      } else {
+        meter.value(difference(v, w) / u, bound / u + 4 * layers * held, place, v, w);
+      }
+    }
+  });
+}
+
+Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
+                          const Legal& bounds) {
+  std::string why;
+  if (!same_size(candidate.depth, exact.depth, why) || !same_size(candidate.depth, candidate.color, why)) {
+    return mismatch("half code", why, candidate.depth.size());
+  }
+  const double scale = color_scale(scene.frame.color);
+  const bool codes = scale > 0;
+  const double unit = codes ? 0.5 / scale + 4 * u : u;
+  return compare_planes(candidate.color, exact.color, codes ? "half code" : "u", [&](Meter& meter, int x, int y) {
+    const std::int64_t id = candidate.id.size() == candidate.color.size() ? candidate.id(x, y) : -1;
+    const glm::vec4 &low = bounds.color_lo.empty() ? exact.color(x, y) : bounds.color_lo(x, y),
+                    &high = bounds.color_hi.empty() ? exact.color(x, y) : bounds.color_hi(x, y);
+    for (int c = 0; c < 4; ++c) {
+      const double v = candidate.color(x, y)[c];
+      meter.value(outside(v, low[c], high[c]) / unit, codes ? factor : 0, {x, y, id, "color"}, v, low[c]);
+    }
+    for (int c = 0; codes && c < 4; ++c) {
+      const double v = scale * static_cast<double>(candidate.color(x, y)[c]),
+                   code = std::clamp(std::round(v), 0.0, scale);
+      meter.value(std::abs(v - code) <= scale * 2 * u ? 0 : kInfinite, 0, {x, y, id, "no code"}, v, code);
+    }
+    const double z = candidate.depth(x, y), z_ref = exact.depth(x, y);
+    meter.value(difference(z, z_ref) / depth_step(scene.frame.depth, z_ref), 0, {x, y, id, "z, in steps"}, z, z_ref);
+  });
+}
+
+}  // namespace plumbline::check

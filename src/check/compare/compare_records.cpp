@@ -1,0 +1,165 @@
+#include "check/compare/compare_records.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "check/bounds/shade_bounds.h"
+#include "check/bounds/units.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// Bound on an entry's error before it is rounded to float, in proportion to its column: rounding in double, and entries
+// below 1e-12 become 0.
+constexpr double kDoubleError = 1e-12;
+
+template <class Matrix, class Unit>
+void add_entries(Meter& meter, const Matrix& a, const Matrix& b, Unit unit, double factor, const Place& place) {
+  for (int column = 0; column < Matrix::length(); ++column) {
+    double largest = 0;  // of the column: a far translation is no excuse for a rotation
+    for (int row = 0; row < Matrix::length(); ++row) largest = std::max(largest, std::abs(b[column][row]));
+    for (int row = 0; row < Matrix::length(); ++row) {
+      const double x = a[column][row], y = b[column][row], diff = difference(x, y);
+      meter.value(diff == 0 ? 0 : diff / unit(y, largest), factor, place, x, y);
+    }
+  }
+}
+
+// Whether there is one record for each vertex of the scene.
+bool one_per_vertex(const std::vector<DrawRange>& ranges, std::size_t records) {
+  return records == (ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count);
+}
+
+Measurement compare_matrices_by(const Records<double>& candidate, const Records<double>& reference, bool normal,
+                                const std::string& name, double factor, double (*unit)(double, double)) {
+  return each("matrices", name, candidate.matrices.size(), reference.matrices.size(), [&](Meter& meter, std::size_t i) {
+    const Matrices<double>&a = candidate.matrices[i], &b = reference.matrices[i];
+    const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+    add_entries(meter, a.model_view, b.model_view, unit, factor, at("model_view"));
+    add_entries(meter, a.projection, b.projection, unit, factor, at("projection"));
+    if (normal) add_entries(meter, a.normal, b.normal, unit, factor, at("normal"));
+    const auto units = [&](const Vec3<double>& v) { return Vec3<double>(unit(v.x, 0), unit(v.y, 0), unit(v.z, 0)); };
+    add(meter, a.win_scale, b.win_scale, units(b.win_scale), factor, at("win_scale"));
+    add(meter, a.win_translate, b.win_translate, units(b.win_translate), factor, at("win_translate"));
+  });
+}
+
+}  // namespace
+
+Measurement compare_rounded_matrices(const Records<double>& candidate, const Records<double>& reference,
+                                     double factor) {
+  return compare_matrices_by(candidate, reference, false, "1e-12", factor,
+                             [](double, double largest) { return kDoubleError * std::max(1.0, largest); });
+}
+
+Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor) {
+  return compare_matrices_by(candidate, reference, true, "half ULP", factor, [](double value, double largest) {
+    return 0.5 * ulp(value) + kDoubleError * std::max(1.0, largest);
+  });
+}
+
+Measurement compare_lights(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor) {
+  const std::size_t recorded = candidate.lights.size();
+  if (recorded == 0) return Meter("half ULP").done();
+  if (recorded != scene.lights.size()) return mismatch("half ULP", "not one record for each light", recorded);
+  return each("lights", "half ULP", recorded, reference.lights.size(), [&](Meter& meter, std::size_t i) {
+    const LightSource<double>&a = candidate.lights[i], &b = reference.lights[i];
+    const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+    const auto compare = [&](const Vec3<double>& x, const Vec3<double>& y, double columns, const Place& place) {
+      Vec3<double> unit;
+      for (int c = 0; c < 3; ++c) unit[c] = 0.5 * ulp(y[c]) + kDoubleError * columns;
+      add(meter, x, y, unit, factor, place);
+    };
+    const Light& light = scene.lights[i];
+    const double v = glm::length(light.vector), t = glm::length(Vec3<double>(b.p_eye)) + v;
+    const bool point = light.kind == Light::Kind::point;
+    compare(Vec3<double>(a.p_eye), Vec3<double>(b.p_eye), 2 * v + (point ? std::max(1.0, t) : 0), at("light p_eye"));
+    meter.value(difference(a.p_eye.w, b.p_eye.w), 0, at("light p_eye"), a.p_eye.w, b.p_eye.w);
+    const double along = light.spot ? glm::length(light.spot->direction) : 0;
+    compare(a.spot_eye, b.spot_eye, 2 * along, at("light spot_eye"));
+  });
+}
+
+Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                             double positions, double normals, Inversion inversion) {
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  std::size_t d = 0;
+  if (candidate.matrices.size() != scene.draws.size()) {
+    return mismatch("u", "no matrices", std::max(candidate.vertices.size(), reference.vertices.size()));
+  }
+  if (candidate.vertices.size() == reference.vertices.size() && !one_per_vertex(ranges, candidate.vertices.size())) {
+    return mismatch("u", "not one record for each vertex", candidate.vertices.size());
+  }
+  return each("vertices", "u", candidate.vertices.size(), reference.vertices.size(), [&](Meter& meter, std::size_t i) {
+    while (i >= ranges[d].first_vertex + ranges[d].vertex_count) ++d;
+    const Matrices<double>& m = candidate.matrices[d];
+    const Mesh& mesh = scene.meshes[scene.draws[d].mesh];
+    const Vec4<double> p(mesh.positions[i - ranges[d].first_vertex], 1.0);
+    // Matrix entries below 1e-12 became 0.
+    const Vec4<double> eye =
+        magnitude(m.model_view, p) + 1e-12 / u * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + 1);
+    const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+    const Vertex<double>&a = candidate.vertices[i], &b = reference.vertices[i];
+    add(meter, a.p_eye, b.p_eye, u * eye, positions, at("p_eye"));
+    add(meter, a.p_clip, b.p_clip, u * magnitude(m.projection, eye), positions, at("p_clip"));
+    const Vec3<double> normal(mesh.normals[i - ranges[d].first_vertex]);
+    const auto condition = [&](const Vec3<double>& of) {
+      return inversion == Inversion::in_float ? inverted_normal_magnitude(m.model_view, m.normal, of)
+                                              : normal_magnitude(m.normal, of);
+    };
+    double n = condition(normal);
+    if (scene.draws[d].normals != Normals::normalize) n *= glm::length(b.n_eye);
+    // The divisor is the length of the matrix' third column.
+    if (scene.draws[d].normals == Normals::rescale) n += glm::length(b.n_eye) * condition(Vec3<double>(0, 0, 1));
+    add(meter, a.n_eye, b.n_eye, Vec3<double>(u * n), normals, at("n_eye"));
+  });
+}
+
+Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                        double factor, LitPart part, const FloatRange& range) {
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  std::size_t d = 0;
+  if (candidate.vertices.size() != candidate.lit.size()) {
+    return mismatch("u", "not a colour for each vertex", std::max(candidate.lit.size(), reference.lit.size()));
+  }
+  if (candidate.lit.size() == reference.lit.size() && !one_per_vertex(ranges, candidate.lit.size())) {
+    return mismatch("u", "not one record for each vertex", candidate.lit.size());
+  }
+  return each("colours", "u", candidate.lit.size(), reference.lit.size(), [&](Meter& meter, std::size_t i) {
+    while (i >= ranges[d].first_vertex + ranges[d].vertex_count) ++d;
+    const Draw& draw = scene.draws[d];
+    const Place place{-1, -1, static_cast<std::int64_t>(i), "color"};
+    const Vec4<double>&a = candidate.lit[i].color, &b = reference.lit[i].color;
+    if (!is_lit_per_vertex(draw)) {
+      for (int c = 0; c < 4; ++c) {
+        meter.value(difference(a[c], b[c]) / u, 0, place, a[c], b[c], range.underflow / u);
+      }
+      return;
+    }
+    const Mesh& mesh = scene.meshes[draw.mesh];
+    const glm::vec4* color = mesh.colors.empty() ? nullptr : &mesh.colors[i - ranges[d].first_vertex];
+    Vertex<double> vertex = candidate.vertices[i];
+    if (part.back) vertex.n_eye = -vertex.n_eye;
+    const LightBounds bounds =
+        light_bounds(scene, lit_material(scene, draw, part, color), vertex, {}, candidate.lights);
+    const bool both = reference.vertices.size() == candidate.vertices.size();
+    const double turned = both ? glm::distance(candidate.vertices[i].n_eye, reference.vertices[i].n_eye) : 0;
+    if (bounds.jump != Vec3<double>(0) || !std::isfinite(bounds.magnitude.x)) meter.ambiguous();
+    for (int c = 0; c < 4; ++c) {
+      const double magnitude = c < 3 ? bounds.magnitude[c] : 1, jump = c < 3 ? bounds.jump[c] : 0;
+      meter.suspect(c < 3 && bounds.overflows[c] ? range.overflow : "");
+      if (std::isfinite(magnitude)) {
+        const double unit = u * magnitude;
+        meter.value(difference(a[c], b[c]) / unit, factor, place, a[c], b[c], (jump + turned * magnitude) / unit);
+      } else {
+        meter.value(a[c] >= 0 && a[c] <= 1 ? 0 : kInfinite, 0, place, a[c], b[c]);
+      }
+    }
+  });
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,76 @@
+// Comparators of records, stages 0 to 9. `from` is the candidate's capture, which gives the magnitudes that tolerances
+// are proportional to; candidate and reference records are of the stage compared.
+#pragma once
+
+#include <span>
+
+#include "capture/stages.h"
+#include "check/bounds/bounds.h"
+#include "check/verdict/measure.h"
+#include "scene/scene.h"
+
+namespace plumbline::check {
+
+/// Against matrices that were rounded to float, too; not the normal matrix, which OpenGL keeps inside. Unit: 1e-12 of
+/// the column's largest entry, or of 1.
+Measurement compare_rounded_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
+/// Against unrounded matrices.
+Measurement compare_matrices(const Records<double>& candidate, const Records<double>& reference, double factor);
+
+/// The scene's lights in eye space against unrounded ones; nothing to compare where the candidate's records hold none.
+/// A place in eye space is R v + t, a direction R v. Unit: half an ULP, and the error of R's and t's entries before the
+/// rounding, 1e-12 of their column's largest entry, or of 1, as for matrices: 1e-12 |v|_1, and 1e-12 max(1, |t|) of a
+/// place. R is orthonormal: |v|_1 <= 2 |v|, |t| <= |p_eye| + |v|.
+Measurement compare_lights(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor);
+
+/// In what a renderer inverts the model-view for its normals.
+enum class Inversion { in_double, in_float };
+/// p_eye, p_clip: `positions` u of their magnitudes; n_eye: `normals` u of theirs, by how the reference inverts.
+Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                             double positions, double normals, Inversion inversion = Inversion::in_double);
+/// How a reference's float arithmetic ends at both ends of its range.
+struct FloatRange {
+  double underflow = kGradualUnderflow;
+  std::string_view overflow = {};  ///< why a channel whose power overflows (LightBounds) is its fault; empty: it is not
+};
+/// Colours; what the two sides' normals differ by is the vertices' matter.
+Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                        double factor, LitPart part = {}, const FloatRange& range = {});
+
+/// Polygons as polygons: the same primitives and numbers of vertices; vertices of the mesh in the same place; each cut
+/// one on the planes that its counterpart lies on, and in the plane of its triangle, colours included. Where a corner
+/// lies within `factor` u of a clip plane, the number of vertices is ambiguous. `flat_applies`: colours are the
+/// provoking vertex' where the draw is flat.
+Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                             double factor, bool flat_applies = true);
+/// The same positions but for `factor` u of |p_clip| + w; for references that rebuild p_clip from the window.
+Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
+                                      double factor);
+
+/// p_win, 1/w and facing against the exact ones, `factor` u of the magnitudes; snapped positions are the rounding of
+/// the candidate's own p_win, exactly. Other facings, and missing or extra triangles, are legal where the candidate's
+/// clip polygons leave them open (legal_window.h); the colours are those of the face.
+Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor);
+/// Bit for bit (as floats), but 1/w, which has the tolerance osmesa.window. Colours are not compared: feedback has none
+/// of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h, turned_outlines):
+/// ambiguous.
+Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference,
+                                 std::span<const std::uint32_t> turned = {});
+
+/// The same fragments.
+Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
+/// In steps of the depth format.
+Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                          double factor);
+Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor);
+/// Of plain draws bit for bit (as floats); of others `factor` u of each step's magnitude (shade_bounds.h).
+Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor);
+/// The varying at the vertices, bit for bit (as floats): what is carried is copied.
+Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference);
+/// The same fragments are drawn; nothing to compare where the candidate does not say which.
+Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference);
+
+}  // namespace plumbline::check

@@ -1,0 +1,196 @@
+// Stage 4: window triangles against exact ones, and against another renderer's, bit for bit.
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "check/bounds/units.h"
+#include "check/compare/compare_records.h"
+#include "check/compare/legal_window.h"
+#include "check/verdict/ledger.h"
+#include "scene/draw_of.h"
+
+namespace plumbline::check {
+
+namespace {
+
+using Run = std::span<const WindowTriangle<double>>;
+using Colors = std::array<Vec4<double>, 3>;
+
+Colors colors_of(const WindowTriangle<double>& t) { return {t.v[0].color, t.v[1].color, t.v[2].color}; }
+
+// Compares a candidate's run of records, the first of them number `first`, with the reference's run of the same
+// primitive.
+class RunComparison {
+ public:
+  RunComparison(Meter& meter, const Scene& scene, const Records<double>& candidate, double factor)
+      : meter_(meter), factor_(factor), legal_(scene, candidate, factor, FacingArea::snapped) {}
+
+  void operator()(Run mine, Run theirs, std::size_t first) {
+    const bool alike = std::ranges::equal(mine, theirs, [&](const auto& a, const auto& b) { return is_alike(a, b); });
+    if (alike || !as_legal(mine, theirs, first)) strictly(mine, theirs, first);
+  }
+
+ private:
+  // Same kind and facing, at places that are the same but for rounding.
+  bool is_alike(const WindowTriangle<double>& a, const WindowTriangle<double>& b) const {
+    if (a.corners != b.corners || a.front != b.front) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3<double> error = error_of(b, k), off = glm::abs(a.v[k].p_win - b.v[k].p_win);
+      if (!(off.x <= error.x && off.y <= error.y && off.z <= error.z)) return false;
+    }
+    return true;
+  }
+
+  Vec3<double> error_of(const WindowTriangle<double>& t, std::size_t k) const {
+    return legal_.error(draw_of(legal_.ranges(), t.primitive).value(), t.v[k].p_win);
+  }
+
+  void strictly(Run mine, Run theirs, std::size_t first) {
+    if (mine.size() != theirs.size()) {
+      const Run more = mine.size() > theirs.size() ? mine : theirs;
+      return meter_.missing(more.size(),
+                            {-1, -1, static_cast<std::int64_t>(more.front().primitive), "triangle of primitive"});
+    }
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      meter_.value(mine[i].front == theirs[i].front ? 0 : kInfinite, 0, at(first + i, "front"), mine[i].front,
+                   theirs[i].front);
+      compare(mine[i], theirs[i], colors_of(theirs[i]), first + i);
+      meter_.item();
+    }
+  }
+
+  // Where both are legal, and not alike: each record against the reference's of the same answer, where it has that,
+  // else against the answer. False: one of them is not legal.
+  bool as_legal(Run mine, Run theirs, std::size_t first) {
+    const auto lists = legal_.of((mine.empty() ? theirs : mine).front().primitive);
+    const auto list_of = [&](Run run) {
+      return std::ranges::find_if(lists, [&](const auto& list) { return legal_.match(run, list).has_value(); });
+    };
+    const auto my_list = list_of(mine), their_list = list_of(theirs);
+    if (my_list == lists.end() || their_list == lists.end()) return false;
+    const auto my_answers = legal_.match(mine, *my_list).value(),
+               their_answers = legal_.match(theirs, *their_list).value();
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      const WindowAnswer& answer = (*my_list)[my_answers[i]];
+      const auto same = my_list == their_list ? std::ranges::find(their_answers, my_answers[i]) : their_answers.end();
+      const bool both = same != their_answers.end();
+      const WindowTriangle<double>& other =
+          both ? theirs[static_cast<std::size_t>(same - their_answers.begin())] : answer.record;
+      const bool as_theirs = both && other.front == mine[i].front;
+      if (!as_theirs) meter_.ambiguous();
+      compare(mine[i], other,
+              as_theirs       ? colors_of(other)
+              : mine[i].front ? colors_of(answer.record)
+                              : answer.back_color,
+              first + i);
+      meter_.item();
+    }
+    for (std::size_t i = mine.size(); i < theirs.size(); ++i) {
+      meter_.ambiguous();
+      meter_.item();
+    }
+    return true;
+  }
+
+  // Everything but the facing.
+  void compare(const WindowTriangle<double>& a, const WindowTriangle<double>& b, const Colors& colors,
+               std::size_t number) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const WindowVertex<double>&v = a.v[k], &w = b.v[k];
+      add(meter_, v.p_win, w.p_win, error_of(b, k) / factor_, factor_, at(number, "p_win"));
+      meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_,
+                   at(number, "inv_w"), v.inv_w, w.inv_w);
+      for (int c = 0; c < 2; ++c) {
+        const double own = std::nearbyint((v.p_win[c] - 0.5) * kSubpixel);
+        meter_.value(difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);
+      }
+      add(meter_, v.color, colors[k], Vec4<double>(u), 0, at(number, "color"));
+    }
+    meter_.value(a.corners == b.corners ? 0 : kInfinite, 0, at(number, "corners"), a.corners, b.corners);
+    meter_.value(difference(a.width, b.width), 0, at(number, "width"), a.width, b.width);
+  }
+
+  static Place at(std::size_t number, const char* field) { return {-1, -1, static_cast<std::int64_t>(number), field}; }
+
+  Meter& meter_;
+  double factor_;
+  LegalWindow legal_;
+};
+
+}  // namespace
+
+Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
+                           double factor) {
+  const auto &a = candidate.triangles, &b = reference.triangles;
+  if (candidate.matrices.empty() || candidate.matrices.size() != scene.draws.size()) {
+    return mismatch("u", "no matrices", std::max(a.size(), b.size()));
+  }
+  Meter meter("u");
+  RunComparison compare(meter, scene, candidate, factor);
+  // Matched by primitive: draws are in order, and so are each draw's primitives.
+  for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+    const bool has_a = i < a.size() && (j == b.size() || a[i].primitive <= b[j].primitive);
+    const bool has_b = j < b.size() && (i == a.size() || b[j].primitive <= a[i].primitive);
+    const std::size_t i_end = has_a ? run_end(a, i) : i, j_end = has_b ? run_end(b, j) : j;
+    compare(Run(a).subspan(i, i_end - i), Run(b).subspan(j, j_end - j), i);
+    i = i_end, j = j_end;
+  }
+  return meter.done();
+}
+
+namespace {
+
+// Numbers of the records whose primitive is not among `apart`, which is sorted.
+std::vector<std::size_t> records_beside(const std::vector<WindowTriangle<double>>& triangles,
+                                        std::span<const std::uint32_t> apart) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (!std::ranges::binary_search(apart, triangles[i].primitive)) out.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace
+
+Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference,
+                                 std::span<const std::uint32_t> turned) {
+  const double inv_w = tolerance("osmesa.window").factor;
+  const std::vector<std::size_t> mine = records_beside(candidate.triangles, turned),
+                                 theirs = records_beside(reference.triangles, turned);
+  Measurement m = each("window triangles", "ULP", mine.size(), theirs.size(), [&](Meter& meter, std::size_t number) {
+    const std::size_t i = mine[number];
+    const WindowTriangle<double>&a = candidate.triangles[i], &b = reference.triangles[theirs[number]];
+    const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
+    meter.value(a.primitive == b.primitive ? 0 : kInfinite, 0, at("primitive"), a.primitive, b.primitive);
+    if (a.corners == 3) meter.value(a.front == b.front ? 0 : kInfinite, 0, at("front"), a.front, b.front);
+    meter.value(a.corners == b.corners ? 0 : kInfinite, 0, at("corners"), a.corners, b.corners);
+    meter.value(difference(a.width, b.width), 0, at("width"), a.width, b.width);
+    // A triangle may begin at any of its corners; the turn that fits best counts.
+    const auto apart = [&](std::size_t turn) {
+      int n = 0;
+      for (std::size_t k = 0; k < 3; ++k) n += a.v[k].p_win != b.v[(k + turn) % 3].p_win ? 1 : 0;
+      return n;
+    };
+    const int n[] = {apart(0), apart(1), apart(2)};
+    const std::size_t turn = n[0] <= n[1] && n[0] <= n[2] ? 0 : n[1] <= n[2] ? 1 : 2;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const WindowVertex<double>&v = a.v[k], &w = b.v[(k + turn) % 3];
+      for (int c = 0; c < 3; ++c) {
+        const double diff = difference(v.p_win[c], w.p_win[c]);
+        meter.value(diff == 0 ? 0 : diff / ulp(w.p_win[c]), 0, at("p_win"), v.p_win[c], w.p_win[c]);
+      }
+      const double diff_w = difference(v.inv_w, w.inv_w);
+      meter.value(diff_w == 0 ? 0 : diff_w / ulp(w.inv_w), inv_w, at("inv_w"), v.inv_w, w.inv_w,
+                  kFlushedUnderflow / ulp(w.inv_w));
+      for (int c = 0; c < 2; ++c) {
+        const double x = v.snapped[c], y = w.snapped[c];
+        meter.value(difference(x, y), 0, at("snapped"), x, y);
+      }
+    }
+  });
+  m.items += turned.size();
+  m.ambiguous += turned.size();
+  return m;
+}
+
+}  // namespace plumbline::check

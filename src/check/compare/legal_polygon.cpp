@@ -1,0 +1,97 @@
+#include "check/compare/legal_polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "check/bounds/units.h"
+
+namespace plumbline::check {
+
+std::array<double, 6> distances(const Vec4<double>& p) {
+  return {p.w - p.x, p.w + p.x, p.w - p.y, p.w + p.y, p.w + p.z, p.w - p.z};
+}
+
+bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance) {
+  return std::abs(distances(v.p_clip)[plane]) <= tolerance;
+}
+
+bool uncut(const Corners& c) {
+  const auto all_corners = [&](std::size_t plane, auto are) {
+    return std::ranges::all_of(c.p_clip, [&](const Vec4<double>& corner) { return are(distances(corner)[plane]); });
+  };
+  bool inside = true, outside = false;
+  for (std::size_t p = 0; p < c.planes; ++p) {
+    inside &= all_corners(p, [](double d) { return d >= 0; });
+    outside |= all_corners(p, [](double d) { return d < 0; });
+  }
+  return inside || outside;
+}
+
+bool may_vanish(std::span<const ClipVertex<double>> polygon, std::size_t planes, double tolerance) {
+  for (std::size_t p = 0; p < planes && !polygon.empty(); ++p) {
+    if (std::ranges::all_of(polygon, [&](const auto& v) { return distances(v.p_clip)[p] <= tolerance; })) return true;
+  }
+  return false;
+}
+
+std::vector<ClipVertex<double>> clipped(const Corners& c, double by) {
+  std::vector<ClipVertex<double>> polygon;
+  for (std::size_t i = 0; i < 3; ++i) polygon.push_back({c.p_clip[i], c.color[i], false});
+  for (std::size_t p = 0; p < c.planes; ++p) {
+    std::vector<ClipVertex<double>> left;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const ClipVertex<double>&v = polygon[i], &next = polygon[(i + 1) % polygon.size()];
+      const double d = distances(v.p_clip)[p] - by, d_next = distances(next.p_clip)[p] - by;
+      if (d >= 0) left.push_back(v);
+      if ((d >= 0) == (d_next >= 0)) continue;
+      const double t = d / (d - d_next);
+      left.push_back({glm::mix(v.p_clip, next.p_clip, t), glm::mix(v.color, next.color, t), true});
+    }
+    polygon = std::move(left);
+  }
+  return polygon;
+}
+
+bool may_end_in(const ClipVertex<double>& v, const Corners& c, std::size_t i, double tolerance) {
+  const auto d = distances(c.p_clip[i]);
+  const bool is_corner = v.p_clip == c.p_clip[i] && v.color == c.color[i];
+  for (std::size_t p = 0; p < c.planes; ++p) {
+    if (std::abs(d[p]) <= tolerance && (v.cut ? on_plane(v, p, tolerance) : is_corner)) return true;
+  }
+  return false;
+}
+
+namespace {
+
+double distance_to_segment(const Vec4<double>& p, const Vec4<double>& a, const Vec4<double>& b) {
+  const Vec4<double> along = b - a;
+  const double square = glm::dot(along, along);
+  const double t = square > 0 ? std::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0;
+  return glm::distance(p, a + t * along);
+}
+
+double distance_to_triangle(const Vec4<double>& p, const Vec4<double>& a, const Vec4<double>& b,
+                            const Vec4<double>& c) {
+  const double to_sides =
+      std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+  const Vec4<double> e = b - a, f = c - a, to = p - a;
+  const double ee = glm::dot(e, e), ff = glm::dot(f, f), ef = glm::dot(e, f), area = ee * ff - ef * ef;
+  if (!(area > 1e-24 * ee * ff)) return to_sides;  // 0 but for double's rounding
+  const double s = (ff * glm::dot(e, to) - ef * glm::dot(f, to)) / area,
+               t = (ee * glm::dot(f, to) - ef * glm::dot(e, to)) / area;
+  return s >= 0 && t >= 0 && s + t <= 1 ? std::min(to_sides, glm::distance(to, s * e + t * f)) : to_sides;
+}
+
+}  // namespace
+
+double distance_to_polygon(const Vec4<double>& p, std::span<const ClipVertex<double>> polygon) {
+  double least = kInfinite;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipVertex<double>& next = polygon[std::min(i + 1, polygon.size() - 1)];
+    least = std::min(least, distance_to_triangle(p, polygon[0].p_clip, polygon[i].p_clip, next.p_clip));
+  }
+  return least;
+}
+
+}  // namespace plumbline::check

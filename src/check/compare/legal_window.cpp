@@ -1,0 +1,253 @@
+#include "check/compare/legal_window.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/bounds/units.h"
+#include "check/verdict/ledger.h"
+#include "scene/draw_of.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// A polygon's corner in the window. `error`: of p_win, per coordinate.
+struct Corner {
+  WindowVertex<double> vertex;
+  Vec4<double> back_color;
+  Vec3<double> error;
+};
+
+// Where a corner may lie: a middle, and how far from it.
+struct Spot {
+  Vec2<double> middle, reach;
+};
+
+// Snapped positions within the error of p_win.
+Spot snapped_spot(const Corner& c) {
+  Spot out{};
+  for (int k = 0; k < 2; ++k) {
+    const double at = c.vertex.p_win[k] - 0.5, error = c.error[k];
+    const double least = std::nearbyint((at - error) * kSubpixel), most = std::nearbyint((at + error) * kSubpixel);
+    out.middle[k] = (least + most) / 2;
+    out.reach[k] = (most - least) / 2;
+  }
+  return out;
+}
+
+Spot unsnapped_spot(const Corner& c) { return {Vec2<double>(c.vertex.p_win), Vec2<double>(c.error)}; }
+
+// Twice the signed area.
+struct Area {
+  double least, most;
+};
+
+// Area of the polygon through the spots: sum of m_i x m_(i+1), from the first corner on. Where corner i moves by h_i,
+// it changes by at most sum |h_i| |m_(i+1) - m_(i-1)| + |h_i| |h_(i+1)|, taken per coordinate. `rounding`: relative
+// error of the products' sum in the arithmetic of whoever decides.
+Area area_of(std::span<const Spot> spots, double rounding) {
+  double area = 0, terms = 0, moved = 0;
+  const std::size_t n = spots.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Spot &before = spots[(i + n - 1) % n], &at = spots[i], &next = spots[(i + 1) % n];
+    const Vec2<double> p = at.middle - spots[0].middle, q = next.middle - spots[0].middle;
+    area += p.x * q.y - p.y * q.x;
+    terms += std::abs(p.x * q.y) + std::abs(p.y * q.x);
+    const Vec2<double> across = glm::abs(next.middle - before.middle);
+    moved += at.reach.x * across.y + at.reach.y * across.x + at.reach.x * next.reach.y + at.reach.y * next.reach.x;
+  }
+  moved += rounding * terms;
+  return {area - moved, area + moved};
+}
+
+// Products of snapped coordinates are integers: sums below 2^52 are exact in double.
+Area snapped_area(std::span<const Corner> corners) {
+  std::vector<Spot> spots;
+  for (const Corner& c : corners) spots.push_back(snapped_spot(c));
+  const Area exact = area_of(spots, 0);
+  return std::max(std::abs(exact.least), std::abs(exact.most)) < 0x1p48 ? exact : area_of(spots, 0x1p-48);
+}
+
+// In float: two differences, a product and a sum round, 4 u of the terms.
+Area unsnapped_area(std::span<const Corner> corners) {
+  std::vector<Spot> spots;
+  for (const Corner& c : corners) spots.push_back(unsnapped_spot(c));
+  return area_of(spots, 4 * u);
+}
+
+bool is_culled(Cull cull, bool front) { return cull == (front ? Cull::front : Cull::back); }
+
+bool is_filled(const Draw& draw) { return draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill; }
+
+WindowAnswer answer_of(std::uint32_t primitive, std::uint32_t corners, int width, const Corner& a, const Corner& b,
+                       const Corner& c) {
+  WindowAnswer out;
+  out.record.v = {a.vertex, b.vertex, c.vertex};
+  out.record.primitive = primitive;
+  out.record.corners = corners;
+  out.record.width = static_cast<std::uint32_t>(width);
+  out.back_color = {a.back_color, b.back_color, c.back_color};
+  return out;
+}
+
+// Each triangle of the fan is faced, and culled, by itself.
+std::vector<WindowAnswer> fan(const Draw& draw, std::uint32_t primitive, std::span<const Corner> corners) {
+  std::vector<WindowAnswer> out;
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    const std::array<Corner, 3> three = {corners[i - 1], corners[i], corners[0]};
+    const Area area = snapped_area(three);
+    WindowAnswer answer = answer_of(primitive, 3, 1, three[0], three[1], three[2]);
+    const bool front = area.most > 0, back = area.least < 0;
+    answer.front = front && !is_culled(draw.cull, true);
+    answer.back = back && !is_culled(draw.cull, false);
+    answer.absent = (area.least <= 0 && area.most >= 0) || answer.front != front || answer.back != back;
+    out.push_back(answer);
+  }
+  return out;
+}
+
+// Edges or corners of a polygon of one facing.
+std::vector<WindowAnswer> outline(const Draw& draw, std::uint32_t primitive, bool front,
+                                  std::span<const Corner> corners) {
+  std::vector<WindowAnswer> out;
+  const bool lines = (front ? draw.front_mode : draw.back_mode) == PolygonMode::line;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Corner &before = corners[(i + corners.size() - 1) % corners.size()], &at = corners[i];
+    WindowAnswer answer = lines ? answer_of(primitive, 2, draw.line_width, before, at, at)
+                                : answer_of(primitive, 1, draw.point_size, at, at, at);
+    answer.front = answer.record.front = front;
+    answer.back = !front;
+    out.push_back(answer);
+  }
+  return out;
+}
+
+}  // namespace
+
+LegalWindow::LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area)
+    : scene_(scene), records_(records), factor_(factor), area_(area), ranges_(draw_ranges(scene)) {}
+
+Vec3<double> LegalWindow::error(std::size_t draw, const Vec3<double>& p_win) const {
+  const Vec3<double>& t = records_.matrices[draw].win_translate;
+  return factor_ * u * (glm::abs(p_win - t) + glm::abs(t));
+}
+
+std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) const {
+  const auto& polygons = records_.polygons.polygons;
+  const auto polygon = std::ranges::lower_bound(polygons, primitive, {}, &ClipPolygon::primitive);
+  const auto number = draw_of(ranges_, primitive);
+  if (polygon == polygons.end() || polygon->primitive != primitive || !number || polygon->count < 3 ||
+      *number >= records_.matrices.size() ||
+      std::size_t{polygon->first} + polygon->count > records_.polygons.vertices.size()) {
+    return {};
+  }
+  const Draw& draw = scene_.draws[*number];
+  const Matrices<double>& m = records_.matrices[*number];
+  const std::vector<Vec4<double>>& back = records_.varyings[Varying::back_color].clipped;
+  const bool two_sided = carries(scene_, draw, Varying::back_color) && back.size() == records_.polygons.vertices.size();
+  std::vector<Corner> corners;
+  for (std::uint32_t i = polygon->first; i < polygon->first + polygon->count; ++i) {
+    const ClipVertex<double>& v = records_.polygons.vertices[i];
+    Corner& c = corners.emplace_back();
+    c.vertex = {Vec3<double>(v.p_clip) / v.p_clip.w * m.win_scale + m.win_translate, 1 / v.p_clip.w, {}, v.color};
+    c.back_color = two_sided ? back[i] : v.color;
+    c.error = error(*number, c.vertex.p_win);
+    const Vec3<double>& p = c.vertex.p_win;
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return {};
+  }
+  if (is_filled(draw)) return {fan(draw, primitive, corners)};
+  const Area snapped = snapped_area(corners), plain = area_ == FacingArea::either ? unsnapped_area(corners) : snapped;
+  std::vector<std::vector<WindowAnswer>> out;
+  for (const bool front : {true, false}) {
+    const bool legal = front ? snapped.most > 0 || plain.most > 0 : snapped.least <= 0 || plain.least <= 0;
+    if (!legal) continue;
+    const PolygonMode mode = front ? draw.front_mode : draw.back_mode;
+    if (is_culled(draw.cull, front)) {
+      out.emplace_back();
+    } else {
+      out.push_back(mode == PolygonMode::fill ? fan(draw, primitive, corners)
+                                              : outline(draw, primitive, front, corners));
+    }
+  }
+  return out;
+}
+
+bool LegalWindow::fits(const WindowTriangle<double>& t, const WindowAnswer& answer) const {
+  const WindowTriangle<double>& r = answer.record;
+  if (t.corners != r.corners || t.width != r.width || !(t.front ? answer.front : answer.back)) return false;
+  const std::size_t draw = draw_of(ranges_, r.primitive).value();
+  const auto near = [&](const WindowVertex<double>& a, const WindowVertex<double>& b) {
+    const Vec3<double> error = this->error(draw, b.p_win);
+    for (int c = 0; c < 3; ++c) {
+      if (!(std::abs(a.p_win[c] - b.p_win[c]) <= error[c])) return false;
+    }
+    return std::abs(a.inv_w - b.inv_w) <= factor_ * u * std::abs(b.inv_w);
+  };
+  const auto turned = [&](std::size_t turn) {
+    return near(t.v[0], r.v[turn]) && near(t.v[1], r.v[(1 + turn) % 3]) && near(t.v[2], r.v[(2 + turn) % 3]);
+  };
+  return turned(0) || (t.corners == 3 && (turned(1) || turned(2)));
+}
+
+std::optional<std::vector<std::size_t>> LegalWindow::match(std::span<const WindowTriangle<double>> run,
+                                                           const std::vector<WindowAnswer>& answers) const {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (out.size() < run.size() && fits(run[out.size()], answers[i])) {
+      out.push_back(i);
+    } else if (!answers[i].absent) {
+      return std::nullopt;
+    }
+  }
+  if (out.size() != run.size()) return std::nullopt;
+  return out;
+}
+
+std::size_t run_end(std::span<const WindowTriangle<double>> records, std::size_t begin) {
+  std::size_t end = begin;
+  while (end < records.size() && records[end].primitive == records[begin].primitive) ++end;
+  return end;
+}
+
+std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<double>& candidate,
+                                           const Records<double>& reference) {
+  std::vector<std::uint32_t> out;
+  const auto outlines = [&](const Draw& draw) {
+    return scene.meshes[draw.mesh].topology == Topology::triangles && !is_filled(draw);
+  };
+  if (std::ranges::none_of(scene.draws, outlines) || candidate.matrices.size() != scene.draws.size()) return out;
+  const LegalWindow legal(scene, candidate, tolerance("exact.window").factor, FacingArea::either);
+  const std::span a(candidate.triangles), b(reference.triangles);
+  for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+    const bool has_a = i < a.size() && (j == b.size() || a[i].primitive <= b[j].primitive);
+    const bool has_b = j < b.size() && (i == a.size() || b[j].primitive <= a[i].primitive);
+    const std::uint32_t primitive = has_a ? a[i].primitive : b[j].primitive;
+    const std::size_t i_end = has_a ? run_end(a, i) : i, j_end = has_b ? run_end(b, j) : j;
+    const auto mine = a.subspan(i, i_end - i), theirs = b.subspan(j, j_end - j);
+    i = i_end, j = j_end;
+    const auto number = draw_of(legal.ranges(), primitive);
+    if (!number || !outlines(scene.draws[*number])) continue;
+    const Draw& draw = scene.draws[*number];
+    const bool same =
+        std::ranges::equal(mine, theirs, {}, &WindowTriangle<double>::corners, &WindowTriangle<double>::corners);
+    const bool face_shows = carries(scene, draw, Varying::back_color) || draw.stencil;
+    if (same && !face_shows) continue;
+    const auto answers = legal.of(primitive);
+    if (answers.size() < 2) continue;
+    const auto is_legal = [&](std::span<const WindowTriangle<double>> run) {
+      return std::ranges::any_of(answers, [&](const auto& list) { return legal.match(run, list).has_value(); });
+    };
+    // The reference hands out no facing of edges and corners.
+    const auto is_legal_of_any_face = [&](std::span<const WindowTriangle<double>> run) {
+      return std::ranges::any_of(answers, [&](const auto& list) {
+        std::vector<WindowTriangle<double>> faced(run.begin(), run.end());
+        for (WindowTriangle<double>& t : faced) t.front = t.corners < 3 && !list.empty() ? list.front().front : t.front;
+        return legal.match(faced, list).has_value();
+      });
+    };
+    if (is_legal(mine) && is_legal_of_any_face(theirs)) out.push_back(primitive);
+  }
+  return out;
+}
+
+}  // namespace plumbline::check

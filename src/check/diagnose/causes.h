@@ -1,0 +1,22 @@
+// Likely causes of a wrong stage, in words: exact makes the same mistake if the bug is put into what it is given, or
+// into what it made of it; or the differences of all records show the bug's pattern.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "check/diagnose/evidence.h"
+
+namespace plumbline::check {
+
+struct Cause {
+  std::string_view name;  ///< such as "window.y_flipped"
+  std::string words;      ///< the bug, and what shows it
+};
+
+/// Those that explain at least 49 in 50 of the records that differ, in the order of hypotheses.h; empty where none do.
+/// (The rest: ties, and what rounding decides.)
+std::vector<Cause> likely_causes(const Evidence& evidence);
+
+}  // namespace plumbline::check

@@ -1,0 +1,325 @@
+#include "check/diagnose/diagnose.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "check/diagnose/causes.h"
+#include "check/diagnose/coverage_differences.h"
+#include "check/diagnose/worst_record.h"
+#include "check/judge/failing_stage.h"
+#include "check/judge/judge_passes.h"
+#include "check/judge/passes.h"
+#include "check/judge/scene_case.h"
+#include "check/judge/stage_copy.h"
+
+namespace plumbline::check {
+
+namespace {
+
+Renderer* referee_of(std::span<const Reference> references) {
+  for (const Reference& r : references) {
+    if (r.renderer != nullptr && r.renderer->info()[Stage::vertex].runs) return r.renderer;
+  }
+  return nullptr;
+}
+
+bool is_wrong(const Comparison& c) { return c.outcome == Outcome::different || c.outcome == Outcome::failed; }
+
+// Whether the row judges its stage by itself.
+bool judges_alone(const Comparison& c) {
+  return c.reference.ends_with(kFromRecords) || c.reference.ends_with(kRepaired) || c.reference.ends_with(kAtWorst) ||
+         (c.stage == Stage::matrices && c.reference.ends_with("from scene"));
+}
+
+// What a finding says beyond who judged and by how much.
+using Explain = void (*)(const Evidence&, Finding&);
+
+void in_full(const Evidence& evidence, Finding& finding) {
+  finding.numbers = worst_record(evidence, finding.measurement);
+  for (const Cause& cause : likely_causes(evidence)) finding.causes.push_back(cause.words);
+  if (finding.stage != Stage::coverage || over_budget(evidence.candidate))
+    return;  // without fragments, all would be missing
+  if (const auto worst = worst_triangle(evidence)) finding.picture = coverage_picture(*worst);
+}
+void in_brief(const Evidence&, Finding&) {}
+
+Finding finding_of(const Comparison& row) { return {row.stage, row.reference, row.measurement, {}, {}, ""}; }
+
+// One scene of one sample a pixel.
+struct Pass {
+  SceneVerdict verdict;
+  std::vector<Finding> findings;  // of the stages that are wrong by themselves
+  std::optional<Finding> first;   // or, where there is none, of the first different stage
+  Plane<glm::vec4> color;         // the candidate's
+  Capture repaired;               // what the candidate would have handed on, were its wrong stages right
+};
+
+// What exact makes of the records before the stage; nothing where they do not fit.
+Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, const Capture& in) {
+  try {
+    return renderer.run_stage(scene, stage, in);
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+// Who finds, and how it is said.
+struct Finder {
+  const Scene& scene;
+  Renderer& referee;
+  Explain explain;
+  Finding operator()(const Capture& mine, const Comparison& row) const {
+    Finding out = finding_of(row);
+    if (row.outcome == Outcome::failed) {
+      out.numbers = {row.note};
+    } else if (explain != in_brief) {
+      const Capture expected = run_or_nothing(scene, referee, row.stage, mine);
+      explain({scene, row.stage, mine, expected, &referee}, out);
+    }
+    return out;
+  }
+};
+
+// From the first wrong stage on, each stage on records that are right.
+void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<Stage>& known) {
+  const Scene& scene = find.scene;
+  Renderer& referee = find.referee;
+  Capture& in = pass.repaired;
+  const RendererInfo info = candidate.info(), referee_info = referee.info();
+  const bool fragments_are_here = !over_budget(in);
+  for (auto i = static_cast<std::size_t>(*known.begin()); i <= static_cast<std::size_t>(Stage::merge); ++i) {
+    copy_stage(static_cast<Stage>(i), {}, in);  // what was made of wrong records fits right ones no longer
+  }
+  for (auto i = static_cast<std::size_t>(*known.begin()); i <= static_cast<std::size_t>(Stage::merge); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (stage == Stage::texture && !textured(scene)) continue;
+    if (stage >= Stage::coverage && !fragments_are_here) return;
+    if (!info[stage].runs || !referee_info[stage].runs) return;
+    bool wrong = known.contains(stage);
+    if (!wrong) {
+      const std::string name = referee_info.name + " " + std::string(kRepaired);
+      std::vector<Comparison> rows;
+      const Legal none;
+      Case c{scene, in, none, &referee, rows};
+      try {
+        copy_stage(stage, candidate.run_stage(scene, stage, in), in);
+        run_exact_stage(c, referee, stage, name);
+      } catch (const OverBudget&) {
+        return;
+      } catch (const std::exception& e) {
+        c.skip(name, stage, Outcome::failed, e.what());
+      }
+      wrong = is_wrong(rows.back());
+      if (wrong) pass.findings.push_back(find(in, rows.back()));
+      pass.verdict.comparisons.push_back(std::move(rows.back()));
+    }
+    if (!wrong) continue;
+    copy_stage(stage, {}, in);  // exact takes levels of detail from texels that are there
+    copy_stage(stage, referee.run_stage(scene, stage, in), in);
+    round_to_formats(scene, stage, in);
+  }
+}
+
+// The first different stage beside what the reference showed of it.
+std::optional<Finding> first_finding(const Scene& scene, const SceneVerdict& verdict, const Capture& mine,
+                                     std::span<const Reference> references, std::span<const Capture> theirs,
+                                     Explain explain) {
+  const Comparison* row = first_different(verdict);
+  if (row == nullptr) return std::nullopt;
+  Finding out = finding_of(*row);
+  for (std::size_t i = 0; i < theirs.size(); ++i) {
+    if (row->reference == references[i].name) explain({scene, row->stage, mine, theirs[i], nullptr}, out);
+  }
+  return out;
+}
+
+// The worst pixel of each row that differs, and those about it, row by row.
+std::vector<glm::ivec2> worst_pixels(const Scene& scene, const SceneVerdict& verdict) {
+  std::vector<glm::ivec2> out;
+  for (const Comparison& c : verdict.comparisons) {
+    const Place& at = c.measurement.worst.place;
+    if (c.outcome != Outcome::different || at.x < 0) continue;
+    for (int y = std::max(at.y - 2, 0); y <= std::min(at.y + 2, scene.frame.height - 1); ++y) {
+      for (int x = std::max(at.x - 2, 0); x <= std::min(at.x + 2, scene.frame.width - 1); ++x) {
+        if (std::ranges::find(out, glm::ivec2(x, y)) == out.end()) out.emplace_back(x, y);
+      }
+    }
+  }
+  return out;
+}
+
+// Where there are too many fragments, those of a few pixels are not.
+void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
+  const std::vector<glm::ivec2> pixels = worst_pixels(find.scene, pass.verdict);
+  if (pixels.empty()) return;
+  try {
+    const Capture mine = candidate.capture(find.scene, {StageSet::all(), false, {}, pixels});
+    const std::string name = find.referee.info().name + " " + std::string(kAtWorst);
+    const Legal none;
+    Case c{find.scene, mine, none, &find.referee, pass.verdict.comparisons};
+    for (const Stage stage : {Stage::depth, Stage::attributes, Stage::texture, Stage::shade}) {
+      if ((stage == Stage::texture && !textured(find.scene)) || over_budget(mine)) continue;
+      run_exact_stage(c, find.referee, stage, name);
+      if (is_wrong(c.out.back())) pass.findings.push_back(find(mine, c.out.back()));
+    }
+  } catch (const std::exception&) {  // what the planes show stands
+  }
+}
+
+Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+             std::uint64_t most_fragments, Explain explain) {
+  BothCaptures drawn;
+  Pass pass{judge(scene, candidate, references, &drawn, most_fragments), {}, {}, {}, {}};
+  pass.color = drawn.candidate.planes.color;
+  pass.repaired = std::move(drawn.candidate);
+  Renderer* referee = referee_of(references);
+  if (pass.repaired.width == 0) {  // it drew nothing
+    for (const Comparison& c : pass.verdict.comparisons) {
+      if (judges_alone(c) && is_wrong(c)) pass.findings.push_back(finding_of(c));
+    }
+    const auto at = referee != nullptr ? failing_stage(scene, candidate, *referee) : std::nullopt;
+    if (at) pass.findings.push_back({at->stage, candidate.info().name, {}, {at->how}, {}, ""});
+    return pass;
+  }
+  std::set<Stage> wrong;
+  for (const Comparison& c : pass.verdict.comparisons) {
+    if (referee == nullptr || !judges_alone(c) || !is_wrong(c) || !wrong.insert(c.stage).second) continue;
+    pass.findings.push_back(Finder{scene, *referee, explain}(pass.repaired, c));
+  }
+  if (referee != nullptr && over_budget(pass.repaired)) look_at_worst(pass, {scene, *referee, explain}, candidate);
+  if (wrong.empty()) {
+    if (!pass.findings.empty()) return pass;
+    pass.first = first_finding(scene, pass.verdict, pass.repaired, references, drawn.references, explain);
+    return pass;
+  }
+  try {
+    repair(pass, {scene, *referee, explain}, candidate, wrong);
+  } catch (const std::exception&) {  // exact cannot go on; what was found stands
+  }
+  return pass;
+}
+
+// Resolve on the passes' repaired colours.
+void judge_repaired_samples(const Finder& find, std::span<const Pass> passes, Renderer& candidate, Diagnosis& out) {
+  const Scene& scene = find.scene;
+  const auto reached_the_end = [](const Pass& pass) { return !pass.repaired.planes.color.empty(); };
+  if (!candidate.info()[Stage::resolve].runs || !std::ranges::all_of(passes, reached_the_end)) return;
+  Capture in;
+  for (const Pass& pass : passes) in.samples.push_back(pass.repaired.planes.color);
+  const std::string name = find.referee.info().name + " " + std::string(kRepaired);
+  Comparison row;
+  try {
+    copy_stage(Stage::resolve, candidate.run_stage(scene, Stage::resolve, in), in);
+    const Capture made = find.referee.run_stage(scene, Stage::resolve, in);
+    row = judged(scene.name, name, Stage::resolve, compare_resolved(scene, in, made, tolerance("exact.resolve").factor),
+                 "exact.resolve");
+  } catch (const std::exception& e) {
+    row = not_judged(scene.name, name, Stage::resolve, Outcome::failed, e.what());
+  }
+  if (is_wrong(row)) out.findings.push_back(find(in, row));
+  out.verdict.comparisons.push_back(std::move(row));
+}
+
+bool tells_more(const Finding& a, const Finding& b) {
+  const Measurement &m = a.measurement, &n = b.measurement;
+  return m.differing != n.differing ? m.differing > n.differing : m.max_ratio > n.max_ratio;
+}
+
+// One for each stage, the worst.
+std::vector<Finding> worst_of_each(std::vector<Finding> all) {
+  std::vector<Finding> out;
+  for (Finding& f : all) {
+    const auto known = std::ranges::find(out, f.stage, &Finding::stage);
+    if (known == out.end()) {
+      out.push_back(std::move(f));
+    } else if (tells_more(f, *known)) {
+      *known = std::move(f);
+    }
+  }
+  std::ranges::sort(out, {}, &Finding::stage);
+  return out;
+}
+
+// An antialiased scene's passes, and what is made of them.
+Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                          std::uint64_t most_fragments, Explain explain, std::optional<Finding>& first) {
+  Diagnosis out;
+  std::vector<Pass> passes;
+  std::vector<SceneVerdict> verdicts;
+  std::vector<Plane<glm::vec4>> colors;
+  const std::vector<Scene> scenes = pass_scenes(scene);
+  for (const Scene& pass : scenes) {
+    passes.push_back(look_at(pass, candidate, references, most_fragments / scenes.size(), explain));
+    verdicts.push_back(passes.back().verdict);
+    colors.push_back(std::move(passes.back().color));
+    if (!first) first = passes.back().first;
+    std::ranges::move(passes.back().findings, std::back_inserter(out.findings));
+  }
+  const bool repaired = !out.findings.empty();
+  BothCaptures drawn;
+  out.verdict = judge_resolved(scene, verdicts, colors, candidate, references, &drawn);
+  Renderer* referee = referee_of(references);
+  if (referee == nullptr) return out;
+  const Finder find{scene, *referee, explain};
+  bool resolve_wrong = false;
+  for (const Comparison& c : out.verdict.comparisons) {
+    if (c.stage != Stage::resolve || !judges_alone(c) || !is_wrong(c)) continue;
+    resolve_wrong = true;
+    out.findings.push_back(find(drawn.candidate, c));
+  }
+  if (repaired && !resolve_wrong) judge_repaired_samples(find, passes, candidate, out);
+  return out;
+}
+
+Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                    std::uint64_t most_fragments, Explain explain) {
+  Diagnosis out;
+  std::optional<Finding> first;
+  if (scene.frame.antialias.kind == Antialias::Kind::none) {
+    Pass pass = look_at(scene, candidate, references, most_fragments, explain);
+    out.verdict = std::move(pass.verdict);
+    out.findings = std::move(pass.findings);
+    first = std::move(pass.first);
+  } else {
+    out = diagnose_passes(scene, candidate, references, most_fragments, explain, first);
+  }
+  out.findings = worst_of_each(std::move(out.findings));
+  for (const Finding& f : out.findings) out.wrong.push_back(f.stage);
+  if (const Comparison* row = first_different(out.verdict)) {
+    out.first = row->stage;
+    if (!out.wrong.empty() && row->stage < out.wrong[0] && holds_alone(out.verdict, row->stage))
+      out.first = out.wrong[0];
+    if (out.wrong.empty()) out.findings.push_back(first ? *first : finding_of(*row));
+  } else if (!out.wrong.empty()) {
+    out.first = out.wrong[0];  // which failed
+  }
+  return out;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                   std::uint64_t most_fragments) {
+  return diagnosed(scene, candidate, references, most_fragments, in_full);
+}
+
+Diagnosis diagnose_in_brief(const Scene& scene, Renderer& candidate, std::span<const Reference> references) {
+  return diagnosed(scene, candidate, references, kMostFragments, in_brief);
+}
+
+Capture expected_capture(const Scene& scene, Renderer& referee) {
+  Capture out;
+  out.renderer = referee.info().name;
+  out.width = scene.frame.width;
+  out.height = scene.frame.height;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(Stage::merge); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (stage == Stage::texture && !textured(scene)) continue;
+    copy_stage(stage, referee.run_stage(scene, stage, out), out);
+    round_to_formats(scene, stage, out);
+  }
+  return out;
+}
+
+}  // namespace plumbline::check

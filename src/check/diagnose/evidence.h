@@ -1,0 +1,19 @@
+// What diagnosis looks at: one wrong stage.
+#pragma once
+
+#include "capture/capture.h"
+#include "capture/renderer.h"
+#include "scene/scene.h"
+
+namespace plumbline::check {
+
+/// One stage of the candidate beside what it should be, both made of the same records.
+struct Evidence {
+  const Scene& scene;
+  Stage stage;
+  const Capture& candidate;     ///< with the records that came in
+  const Capture& expected;      ///< exact's, of that stage alone: real numbers
+  Renderer* referee = nullptr;  ///< that made it; null: nobody to try a bug with
+};
+
+}  // namespace plumbline::check

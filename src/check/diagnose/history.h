@@ -1,0 +1,83 @@
+// A pixel's history: every fragment that reached it, in each renderer, and why it lived or died.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "capture/renderer.h"
+#include "check/judge/judge.h"
+#include "scene/scene.h"
+
+namespace plumbline::check {
+
+/// What became of a fragment, by the first test that it did not pass, in OpenGL's order (2.1 spec, chapter 4.1).
+enum class Fate {
+  culled,       ///< its triangle was
+  scissor,      ///< outside its draw's box
+  alpha,        ///< alpha test
+  stencil,      ///< stencil test
+  depth,        ///< depth test
+  discarded,    ///< passed them all by its own numbers, and was not drawn all the same
+  overwritten,  ///< drawn, and another after it
+  winner        ///< the last that was drawn
+};
+std::string_view name_of(Fate fate);
+
+/// One renderer's numbers; what it does not hand out is empty.
+struct PixelFragment {
+  std::uint32_t primitive = 0;
+  std::size_t draw = 0;
+  std::optional<std::uint32_t> triangle;  ///< its place among the renderer's window triangles
+  bool front = true;                      ///< or of a line or point
+  std::optional<double> depth;            ///< window z; not rounded to the frame's format by renderers that compute so
+  std::optional<glm::dvec4> color;        ///< interpolated
+  std::vector<std::pair<Varying, glm::dvec4>> varyings;
+  std::optional<glm::dvec4> texel;
+  std::optional<double> lod;
+  std::optional<glm::dvec4> shaded;
+  bool drawn = false;  ///< as the renderer says
+  Fate fate = Fate::discarded;
+  std::string why;                           ///< with the numbers: of tests in codes where the frame has codes
+  std::optional<double> held_depth;          ///< what it met, in the frame's format; culled, outside the box: nothing
+  std::optional<std::uint8_t> held_stencil;  ///< likewise, in frames that have stencil values
+};
+
+/// One renderer's account of one pixel.
+struct PixelHistory {
+  std::string renderer;
+  std::string absent;  ///< why there is none: "unsupported: ...", "missing: ...", "failed: ..."; else empty
+  std::vector<PixelFragment> fragments;      ///< in draw order
+  std::map<std::string, std::string> lacks;  ///< what it does not tell of fragments ("fragments", "lod" ...), and why
+  std::optional<glm::vec4> color;            ///< the frame's
+  std::optional<double> depth;
+  std::optional<std::uint8_t> stencil;
+  std::vector<std::string> notes;  ///< where its own numbers do not agree
+  std::vector<LegalAnswer> legal;  ///< an oracle's, of the pixel
+};
+
+/// The pixel in one pass, or that of several samples in one (antialias.h).
+struct SampleHistory {
+  std::size_t pass = 0;
+  glm::ivec2 pixel{0};  ///< of the pass' frame
+  std::vector<PixelHistory> renderers;
+};
+
+struct History {
+  glm::ivec2 pixel{0};
+  std::vector<SampleHistory> samples;  ///< one, where the scene is not antialiased
+  std::vector<PixelHistory> resolved;  ///< of an antialiased scene: the frame's own colour and depth, no fragments
+};
+
+/// Asks the candidate, and the references as judge() takes them, what they made of the pixel. Rows count as the
+/// scene's dialect counts them, which is from the bottom but in gzrender. Fragments that were culled or lie outside a
+/// scissor box are found by drawing without; those that are then there as well count as such. Throws
+/// std::invalid_argument where the frame has no such pixel, naming its size.
+History pixel_history(const Scene& scene, Renderer& candidate, std::span<const Reference> references, glm::ivec2 pixel);
+
+}  // namespace plumbline::check

@@ -1,0 +1,16 @@
+// The worst record of a wrong stage, with all its numbers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "check/diagnose/evidence.h"
+#include "check/verdict/measure.h"
+
+namespace plumbline::check {
+
+/// Lines: where it is, what came in, what came out, what was expected, and how far they are apart; the triangle and its
+/// corners where there are such.
+std::vector<std::string> worst_record(const Evidence& evidence, const Measurement& measurement);
+
+}  // namespace plumbline::check

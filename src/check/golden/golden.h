@@ -1,0 +1,44 @@
+// A scene against its golden, and what it takes to become one.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "check/golden/golden_set.h"
+#include "check/verdict/verdict.h"
+
+namespace plumbline::check {
+
+/// What of a scene is not as its golden has it.
+struct GoldenDifference {
+  /// Why there is nothing to compare: the renderer failed, no golden, one of another scene, a broken file; or empty.
+  std::string why;
+  Fingerprint golden, drawn;  ///< empty where they are not known
+  std::vector<Stage> stages;  ///< whose hashes differ, in order
+  Measurement color, depth;   ///< pixels that differ in a bit, the differences in steps of the format
+  bool any() const { return !why.empty() || !stages.empty() || color.differing > 0 || depth.differing > 0; }
+};
+/// Draws the scene.
+GoldenDifference compare_golden(const Scene& scene, Renderer& candidate, const GoldenSet& goldens);
+
+/// For a person: the first stage that differs, the pixels, the worst one. Lines.
+std::string describe(const GoldenDifference& difference);
+
+/// As rows of a verdict, of the reference kGolden, one for each stage that hands on anything; a picture that differs
+/// counts its pixels in the last. `failed` where there is nothing to compare.
+std::vector<Comparison> golden_rows(const Scene& scene, Renderer& candidate, const GoldenSet& goldens);
+
+/// Whether the references vouch for what was judged.
+struct Vouch {
+  std::vector<std::string> refusals;  ///< none: they do
+  std::vector<std::string> by;        ///< those that agree where they judge, and fail it nowhere
+  std::vector<std::string> disputed;  ///< where a reference is at fault, and why
+  std::map<std::string, std::map<std::string, std::string>> references;  ///< as in the manifest
+};
+/// Of all that `asked` says: three references or more, none of them the candidate. They vouch if no comparison is a
+/// failure, every stage is judged, and at each a reference agrees whose own fault nothing there is.
+Vouch vouch(const SceneVerdict& verdict, const std::string& candidate, std::span<const std::string> asked);
+
+}  // namespace plumbline::check

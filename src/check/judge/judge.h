@@ -1,0 +1,15 @@
+// A scene, the candidate and its references: the entry to the judges.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "check/judge/judge_single.h"
+
+namespace plumbline::check {
+
+/// judge_passes() of an antialiased scene, judge_single() of any other.
+SceneVerdict judge(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                   BothCaptures* drawn = nullptr, std::uint64_t most_fragments = ~std::uint64_t{0});
+
+}  // namespace plumbline::check

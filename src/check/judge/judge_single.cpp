@@ -1,0 +1,391 @@
+#include "check/judge/judge_single.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "check/bounds/open_pixels.h"
+#include "check/compare/compare_bits.h"
+#include "check/compare/compare_planes.h"
+#include "check/compare/compare_records.h"
+#include "check/compare/compare_texels.h"
+#include "check/judge/failing_stage.h"
+#include "check/judge/scene_case.h"
+#include "check/judge/stage_copy.h"
+#include "check/verdict/votes.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// The budget of ambiguity: a pixel is open where a snapping bound of an edge reaches its centre, which is predicted
+// from the edges' length. Twice the prediction, and a scatter of three standard deviations of such a count.
+std::string ambiguity_note(const Legal& legal, std::uint64_t ambiguous) {
+  return fmt::format("{} ambiguous, {:.1f} predicted", ambiguous, legal.predicted_ambiguous);
+}
+
+// Coverage, depth, colour and visibility against an oracle's legal answers.
+void ask_oracle(Case& c, const Legal& legal, Stage stage, const std::string& name) {
+  const Planes& planes = c.candidate.planes;
+  switch (stage) {
+    case Stage::coverage: return c.add(name, stage, compare_legal_count(planes, legal));
+    case Stage::depth:
+      return c.add(name, stage, compare_legal_depth(c.scene, planes, legal, factor("legal.depth")), "legal.depth");
+    case Stage::attributes:
+    case Stage::shade:
+      return c.add(name, stage, compare_legal_shaded(planes, legal, factor("legal.attributes")), "legal.attributes");
+    case Stage::visibility: {
+      Measurement m = compare_legal_winner(planes, legal);
+      const double budget = 2 * legal.predicted_ambiguous;
+      const double scatter = 3 * std::sqrt(budget + 1);
+      std::string note = ambiguity_note(legal, m.ambiguous);
+      if (!(static_cast<double>(m.ambiguous) <= budget + scatter)) {
+        note += ": more than twice as many";
+        m.differing = std::max(m.differing, m.ambiguous);
+      }
+      return c.add(name, stage, std::move(m), "", std::move(note));
+    }
+    case Stage::merge:
+      return c.add(name, stage, compare_legal_merge(c.scene, planes, legal, factor("legal.merge")), "legal.merge");
+    default: return;
+  }
+}
+
+// An oracle hands out the final colour, which is the interpolated one where all draws are plain.
+StageSet oracle_stages(const Scene& scene) {
+  return {Stage::coverage, Stage::depth, is_plain(scene) ? Stage::attributes : Stage::shade, Stage::visibility,
+          Stage::merge};
+}
+
+bool runs_stages(const RendererInfo& info) {
+  return std::any_of(info.stages.begin(), info.stages.end(), [](const Ability& a) { return a.runs; });
+}
+
+// The first stage up to `stage` whose records or planes the candidate does not show, or null.
+const Ability* first_hidden(const Scene& scene, const RendererInfo& candidate, Stage stage) {
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(stage); ++i) {
+    if ((static_cast<Stage>(i) != Stage::texture || textured(scene)) && !candidate.stages[i].shows)
+      return &candidate.stages[i];
+  }
+  return nullptr;
+}
+
+// What a reference says of the scene: records and planes side by side, coverage to colour by an oracle's answers.
+void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, const RendererInfo& candidate) {
+  const bool exact = runs_stages(info);
+  const std::string name = exact ? info.name + " from scene" : info.name;
+  const StageSet of_oracle = oracle_stages(c.scene);
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (stage == Stage::resolve || (stage == Stage::texture && !textured(c.scene))) continue;
+    if (!candidate[stage].shows) {
+      c.skip(name, stage, Outcome::unsupported, candidate[stage].reason);
+    } else if (info.legal && of_oracle.has(stage) && theirs.legal.empty()) {
+      c.skip(name, stage, Outcome::unsupported,
+             draws_lines_or_points(c.scene) ? "its legal answers are of triangles alone"
+                                            : "too many fragments for legal answers");
+    } else if (info.legal && of_oracle.has(stage)) {
+      ask_oracle(c, theirs.legal, stage, name);
+    } else if (exact && stage == Stage::matrices) {
+      const Records<double>& mine = c.candidate.records;
+      c.add(name, stage,
+            worse(compare_matrices(mine, theirs.records, factor("exact.matrices")),
+                  compare_lights(c.scene, mine, theirs.records, factor("exact.matrices"))),
+            "exact.matrices");
+    } else if (exact && stage == Stage::vertex) {
+      c.add(name, stage,
+            compare_vertices(c.scene, c.candidate.records, theirs.records, factor("exact.vertex.scene"),
+                             factor("exact.vertex.scene")),
+            "exact.vertex.scene");
+    } else if (!info[stage].shows) {
+      c.skip(name, stage, Outcome::unsupported, info[stage].reason);
+    } else if (stage == Stage::attributes && info.legal && !exact) {
+      c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
+    } else if (stage == Stage::shade && info.legal && !exact) {
+      c.repeat(name, Stage::attributes, stage);
+    } else if (!exact && lacks_texels(c, stage)) {
+      c.skip(name, stage, Outcome::unsupported,
+             over_budget(c.candidate) ? kOverBudget : "which levels of detail are legal, exact says: it is not asked");
+    } else if (!exact && stage > Stage::coverage && tests_alpha(c.scene)) {
+      if (over_budget(c.candidate)) {
+        c.skip(name, stage, Outcome::unsupported, kOverBudget);
+        continue;
+      }
+      Capture settled = theirs;
+      c.open = settle_alpha(c.scene, c.candidate, stage, factor("osmesa.attributes"), settled);
+      side_by_side(c, settled, stage, name);
+      c.open = 0;
+    } else if (!exact) {
+      side_by_side(c, theirs, stage, name);
+    }  // An exact reference judges the other stages from the candidate's own records.
+  }
+}
+
+constexpr StageSet kGeometry{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
+
+bool more_than(std::uint64_t most_fragments, const Capture& capture) {
+  const std::vector<std::uint32_t>& count = capture.planes.count.values();
+  return std::accumulate(count.begin(), count.end(), std::uint64_t{0}) > most_fragments;
+}
+
+// Everything; where the fragments are too many, or do not fit the budget, everything but them.
+Capture capture_all(const Scene& scene, Renderer& renderer, std::uint64_t most_fragments) {
+  try {
+    if (most_fragments != ~std::uint64_t{0}) {
+      Capture counted = renderer.capture(scene, {kGeometry, false, {}, {}});
+      if (more_than(most_fragments, counted)) return counted;
+    }
+    return renderer.capture(scene, {StageSet::all(), false, {}, {}});
+  } catch (const OverBudget&) {
+    return renderer.capture(scene, {kGeometry, false, {}, {}});
+  }
+}
+
+// What the judgement wants of a reference: an oracle's answers, if they fit the budget, and no planes beside them where
+// it runs stages; records of the vertices; of the fragments, those of lines.
+Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal) {
+  const RendererInfo info = renderer.info();
+  Request request{kGeometry, legal && info.legal, {}, {}};
+  if (draws(scene, Topology::lines)) request.records.add(Stage::coverage);  // which line covers what
+  if (runs_stages(info) || (info.legal && !legal)) request.planes = WantedPlanes::none;
+  try {
+    return renderer.capture(scene, request);
+  } catch (const OverBudget&) {
+    request.legal = false;
+    return renderer.capture(scene, request);
+  }
+}
+
+// Where the frame's answers are too many: those of the pixels that show another winner.
+Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle) {
+  Request request{{}, true, {}, {}};
+  request.planes = WantedPlanes::none;
+  const auto apart = [&](int x, int y) {
+    return std::ranges::any_of(theirs, [&](const Capture& c) {
+      return c.planes.id.size() == mine.planes.id.size() && c.planes.id(x, y) != mine.planes.id(x, y);
+    });
+  };
+  for (int y = 0; y < mine.planes.id.height(); ++y) {
+    for (int x = 0; x < mine.planes.id.width(); ++x) {
+      if (apart(x, y)) request.pixels.emplace_back(x, y);
+    }
+  }
+  if (request.pixels.empty()) return {};
+  try {
+    return oracle.capture(scene, request).legal;
+  } catch (const std::exception&) {  // it has nothing to say
+    return {};
+  }
+}
+
+// The row of a candidate that draws nothing; `shown` is left what its stages before that one show alone.
+Comparison candidate_failed(const Scene& scene, Renderer& candidate, Renderer* referee, const std::string& how,
+                            RendererInfo& shown) {
+  const auto at = referee == nullptr ? std::nullopt : failing_stage(scene, candidate, *referee);
+  const Stage stage = at ? at->stage : Stage::merge;
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    if (at && i < static_cast<std::size_t>(std::min(stage, Stage::coverage))) continue;
+    shown.stages[i] = {false, false, fmt::format("{} failed at stage {}", shown.name, name_of(stage))};
+  }
+  return not_judged(scene.name, shown.name, stage, Outcome::failed, at ? at->how : how);
+}
+
+// Stages that say what the others' rows leave open. A referee that fails shows that under its own name.
+MadeStages make_stages(const Scene& scene, const Capture& candidate, Renderer& referee) {
+  MadeStages made;
+  for (const Stage stage : {Stage::texture, Stage::visibility}) {
+    if (!referee.info()[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
+    try {
+      made.emplace(stage, referee.run_stage(scene, stage, candidate));
+    } catch (const std::exception&) {
+    }
+  }
+  return made;
+}
+
+// Marks the candidate's fragments as drawn by the referee's tests of its earlier records, as long as it lives: a
+// fragment that the candidate draws wrongly leaves nothing open.
+class DrawnAsMade {
+ public:
+  DrawnAsMade(Capture& candidate, MadeStages& made) : candidate_(candidate), visibility_(made.find(Stage::visibility)) {
+    known_ = visibility_ != made.end();
+    swap();
+  }
+  DrawnAsMade(const DrawnAsMade&) = delete;
+  DrawnAsMade& operator=(const DrawnAsMade&) = delete;
+  ~DrawnAsMade() { swap(); }
+
+ private:
+  void swap() {
+    if (known_) candidate_.records.drawn.swap(visibility_->second.records.drawn);
+  }
+  Capture& candidate_;
+  MadeStages::iterator visibility_;
+  bool known_;
+};
+
+// The records of the stages that `shown` shows, each run alone on those before it.
+Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown) {
+  Capture out;
+  for (std::size_t i = 0; shown.stages[i].shows; ++i) {
+    try {
+      copy_stage(static_cast<Stage>(i), candidate.run_stage(scene, static_cast<Stage>(i), out), out);
+    } catch (const std::exception& e) {
+      for (Ability& later : std::span(shown.stages).subspan(i)) later = {false, false, e.what()};
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
+                                      const RendererInfo* shown, const MadeStages& made) {
+  std::vector<Comparison> out;
+  const Legal none;
+  Case c{scene, candidate, none, &referee, out};
+  const RendererInfo info = referee.info();
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    const bool of_none = stage == Stage::matrices || stage == Stage::resolve;
+    if (of_none || !info[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
+    const std::string name = fmt::format("{} {}", info.name, kFromRecords);
+    if (const Ability* hidden = shown != nullptr ? first_hidden(scene, *shown, stage) : nullptr) {
+      c.skip(name, stage, Outcome::unsupported, hidden->reason);
+      continue;
+    }
+    try {
+      const auto known = made.find(stage);
+      if (known != made.end() && !over_budget(candidate)) {
+        compare_stage(c, known->second, stage, name);
+      } else {
+        run_exact_stage(c, referee, stage, name);
+      }
+    } catch (const OverBudget& e) {
+      c.skip(name, stage, Outcome::unsupported, e.what());
+    } catch (const std::exception& e) {
+      c.skip(name, stage, Outcome::failed, e.what());
+    }
+  }
+  return out;
+}
+
+Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture& watched) {
+  const Stage stage = scene.frame.antialias.kind == Antialias::Kind::none ? Stage::merge : Stage::resolve;
+  try {
+    Comparison row;
+    for (const std::string& painter : candidate.info().painters) {
+      Request request;
+      request.planes = WantedPlanes::picture;
+      request.painter = painter;
+      const Capture shipped = candidate.capture(scene, request);
+      row = judged(scene.name, std::string(kPicture), stage,
+                   compare_picture(scene.frame, shipped.planes, watched.planes));
+      if (row.outcome == Outcome::equal) continue;
+      row.note = fmt::format("painter {}{}{}", painter, row.note.empty() ? "" : ": ", row.note);
+      break;
+    }
+    return row;
+  } catch (const std::exception& e) {
+    return not_judged(scene.name, std::string(kPicture), stage, Outcome::failed, e.what());
+  }
+}
+
+SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                          BothCaptures* drawn, std::uint64_t most_fragments) {
+  const auto start = std::chrono::steady_clock::now();
+  SceneVerdict verdict{scene.name, scene.path, {}, 0};
+  const auto nothing = [&](const std::string& name, Outcome outcome, const std::string& why) {
+    verdict.comparisons.push_back(not_judged(scene.name, name, Stage::merge, outcome, why));
+  };
+  std::optional<Capture> mine;
+  std::string failure;
+  try {
+    mine = capture_all(scene, candidate, most_fragments);
+  } catch (const OverBudget&) {
+    throw;  // nobody else draws what is too large to be judged
+  } catch (const std::exception& e) {
+    failure = e.what();
+  }
+  std::vector<Capture> theirs(references.size());
+  std::vector<std::string> failures(references.size());
+  std::vector<Outcome> outcomes(references.size(), Outcome::failed);
+  const bool ask_legal = !mine || !more_than(most_fragments, *mine);
+  const Legal none;
+  const Legal* legal = &none;
+  Renderer* referee = nullptr;
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (references[i].renderer == nullptr) {
+      failures[i] = "not built in";
+      outcomes[i] = Outcome::missing;
+      continue;
+    }
+    try {
+      theirs[i] = capture_reference(scene, *references[i].renderer, ask_legal);
+      if (legal->empty()) legal = &theirs[i].legal;
+      if (runs_stages(references[i].renderer->info())) referee = references[i].renderer;
+    } catch (const Unsupported& e) {
+      failures[i] = e.what();
+      outcomes[i] = Outcome::unsupported;
+    } catch (const OverBudget& e) {
+      failures[i] = e.what();
+      outcomes[i] = Outcome::unsupported;
+    } catch (const std::exception& e) {
+      failures[i] = e.what();
+    }
+  }
+  RendererInfo mine_info = candidate.info();
+  const bool drew = mine.has_value();
+  if (!drew) {
+    verdict.comparisons.push_back(candidate_failed(scene, candidate, referee, failure, mine_info));
+    mine = run_alone(scene, candidate, mine_info);
+  }
+  Legal somewhere;
+  if (drew && legal->empty() && referee != nullptr && referee->info().legal) {
+    somewhere = legal_where_apart(scene, *mine, theirs, *referee);
+    legal = &somewhere;
+  }
+  MadeStages made;
+  if (drew && referee != nullptr) made = make_stages(scene, *mine, *referee);
+  if (const auto filtered = made.find(Stage::texture); filtered != made.end()) {
+    mine->legal.texels = std::move(filtered->second.legal.texels);
+  }
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (!failures[i].empty()) {
+      nothing(references[i].name, outcomes[i], failures[i]);
+    } else {
+      Case c{scene, *mine, *legal, referee, verdict.comparisons};
+      try {
+        const RendererInfo info = references[i].renderer->info();
+        {
+          const DrawnAsMade drawn_as_made(*mine, made);
+          judge_from_scene(c, theirs[i], info, mine_info);
+        }
+        if (runs_stages(info)) {
+          const bool same = references[i].renderer == referee;
+          std::ranges::move(
+              judge_records(scene, *mine, *references[i].renderer, &mine_info, same ? made : MadeStages()),
+              std::back_inserter(verdict.comparisons));
+        }
+      } catch (const std::exception& e) {
+        nothing(references[i].name, Outcome::failed, e.what());
+      }
+    }
+  }
+  settle_votes(verdict.comparisons);
+  if (drew && !mine_info.painters.empty() && mine_info[Stage::merge].shows)
+    verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));
+  verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (drawn != nullptr) {
+    if (drew) drawn->candidate = std::move(*mine);
+    drawn->references = std::move(theirs);
+  }
+  return verdict;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,48 @@
+// A scene of one sample a pixel, the candidate and its references: everything that can be compared is compared.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+
+#include "capture/renderer.h"
+#include "check/verdict/verdict.h"
+#include "scene/scene.h"
+
+namespace plumbline::check {
+
+/// A reference, or its absence.
+struct Reference {
+  std::string name;
+  Renderer* renderer = nullptr;  ///< not owned; null: not built in
+};
+
+/// What both sides handed out, for a report's pictures.
+struct BothCaptures {
+  Capture candidate;
+  std::vector<Capture> references;  ///< in the references' order; empty captures where there is none
+};
+
+/// References are told apart by what they are able to do (renderer.h), not by name: one that runs stages is a judge of
+/// the candidate's own records, stage by stage ("from its records"); one that hands out legal answers is an oracle
+/// for coverage, depth, visibility and colour; of any, what it shows is compared side by side.
+///
+/// Where the candidate's planes count more than `most_fragments`, or its fragments do not fit the memory budget, their
+/// records are not asked for; with the first, an oracle's answers are where another winner is seen, and nowhere else.
+/// Throws OverBudget where even then the candidate's capture does not fit; no reference draws the scene.
+SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+                          BothCaptures* drawn = nullptr, std::uint64_t most_fragments = ~std::uint64_t{0});
+
+/// The frame as the candidate ships it against the one that was watched: row `picture`, of the last stage.
+Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture& watched);
+
+/// Stages as a referee makes them of the candidate's own records.
+using MadeStages = std::map<Stage, Capture>;
+
+/// The part of it that needs no scene but for what is drawn: each stage but the first as `referee` makes it of the
+/// candidate's own records, against the candidate's. `made`: stages that it made already.
+std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
+                                      const RendererInfo* shown = nullptr, const MadeStages& made = {});
+
+}  // namespace plumbline::check

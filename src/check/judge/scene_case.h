@@ -1,0 +1,73 @@
+// One scene's judgement, as judge.cpp, run_exact_stage.cpp and side_by_side.cpp see it.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "capture/capture.h"
+#include "capture/renderer.h"
+#include "check/verdict/ledger.h"
+#include "check/verdict/measure.h"
+#include "check/verdict/verdict.h"
+#include "scene/scene.h"
+
+namespace plumbline::check {
+
+inline constexpr std::string_view kOnlyShaded = "it hands out the final colour alone; see shade";
+inline constexpr std::string_view kOverBudget = "more fragments than are looked at one by one";
+
+/// One scene's judgement of one candidate, as it grows.
+struct Case {
+  const Scene& scene;
+  const Capture& candidate;
+  const Legal& legal;  // an oracle's, or empty
+  Renderer* referee;   // runs stages, or null
+  std::vector<Comparison>& out;
+  std::uint64_t open = 0;  // pixels that the stage at hand leaves out, for the alpha test may go either way there
+
+  void add(const std::string& reference, Stage stage, Measurement m, std::string_view row = "", std::string note = "") {
+    m.ambiguous += open;
+    out.push_back(judged(scene.name, reference, stage, std::move(m), row, std::move(note)));
+  }
+  // The row of stage `of` once more, for another stage that the same plane shows.
+  void repeat(const std::string& reference, Stage of, Stage stage) {
+    const auto same = [&](const Comparison& c) { return c.reference == reference && c.stage == of; };
+    const auto row = std::find_if(out.begin(), out.end(), same);
+    if (row == out.end()) return;
+    Comparison copy = *row;
+    copy.stage = stage;
+    out.push_back(std::move(copy));
+  }
+  void skip(const std::string& reference, Stage stage, Outcome outcome, std::string_view note) {
+    out.push_back(not_judged(scene.name, reference, stage, outcome, std::string(note)));
+  }
+};
+
+inline double factor(std::string_view row) { return tolerance(row).factor; }
+
+/// Fragments were drawn, but none are recorded.
+inline bool over_budget(const Capture& c) {
+  const std::vector<std::uint32_t>& count = c.planes.count.values();
+  return c.records.covered.empty() && std::any_of(count.begin(), count.end(), [](std::uint32_t n) { return n != 0; });
+}
+
+inline bool draws_lines_or_points(const Scene& scene) {
+  return draws(scene, Topology::lines) || draws(scene, Topology::points);
+}
+
+/// The stage as `referee` makes it of the candidate's own records, against the candidate's.
+void run_exact_stage(Case& c, Renderer& referee, Stage stage, const std::string& name);
+
+/// The stage as it was made of the candidate's own records, against the candidate's. Not of matrices, nor of resolve.
+void compare_stage(Case& c, const Capture& made, Stage stage, const std::string& name);
+
+/// What the reference shows, beside the candidate's.
+void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name);
+
+/// Whether the stage's comparison needs to know which texels are legal, and nobody told.
+bool lacks_texels(const Case& c, Stage stage);
+
+}  // namespace plumbline::check

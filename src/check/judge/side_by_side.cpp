@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "check/bounds/open_pixels.h"
+#include "check/compare/compare_lines.h"
+#include "check/compare/compare_planes.h"
+#include "check/compare/compare_records.h"
+#include "check/compare/compare_texels.h"
+#include "check/compare/legal_window.h"
+#include "check/judge/scene_case.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// Whether a reference's coverage contradicts the window triangles that it hands out itself, and the candidate's follows
+// from them: exact arithmetic on the reference's own records is the third witness. (llvmpipe culls by the unsnapped
+// area as well, once anything in a batch is clipped.)
+bool contradicts_itself(Case& c, const Capture& mine, const Capture& theirs) {
+  if (c.referee == nullptr || theirs.records.triangles.empty()) return false;
+  Capture window;
+  std::ranges::copy_if(theirs.records.triangles, std::back_inserter(window.records.triangles),
+                       [](const WindowTriangle<double>& t) { return t.corners != 0; });  // those that were taken out
+  try {
+    const Capture settled = c.referee->run_stage(c.scene, Stage::coverage, window);
+    return compare_coverage(mine.planes, settled.planes).differing == 0;
+  } catch (const std::exception&) {
+    return false;  // nobody settled it; the referee's failure shows under its own name
+  }
+}
+
+constexpr std::string_view kNoNumber =
+    "Mesa's power of the highlight's cosine is beyond float, and infinity times a specular term of 0 no number";
+constexpr FloatRange kOfMesa{kFlushedUnderflow, kNoNumber};
+constexpr std::string_view kNo8BitDepth = "OpenGL has no 8-bit depth: it draws with 24 bits, other surfaces may win";
+constexpr std::string_view kNo16BitsBesideStencil =
+    "OpenGL has no 16-bit depth beside stencil values: it draws with 24 bits, other surfaces may win";
+std::string_view no_such_depth(const FrameFormat& frame) {
+  return frame.depth == DepthFormat::z8 ? kNo8BitDepth : kNo16BitsBesideStencil;
+}
+
+bool has_depth_format(const FrameFormat& frame) {
+  const bool stencil = frame.stencil != StencilFormat::none;
+  return frame.depth != DepthFormat::z8 && !(stencil && frame.depth == DepthFormat::z16);
+}
+
+// Whether its depths are codes of the scene's format, if that is one that OpenGL lacks.
+bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
+  if (has_depth_format(scene.frame)) return true;
+  return std::ranges::all_of(theirs.planes.depth.values(), [&](double z) {
+    const double code = z * depth_scale(scene.frame.depth);
+    return std::abs(code - std::round(code)) < 1e-9;  // a double's rounding; a code of 24 bits is 1e-5 away or more
+  });
+}
+
+void compare_covers(Case& c, const Capture& mine, const Capture& theirs, const std::string& name) {
+  if (draws(c.scene, Topology::lines)) {
+    c.add(name, Stage::coverage, compare_covered_lines(c.scene, mine, theirs, factor("osmesa.lines")), "osmesa.lines");
+  } else {
+    c.add(name, Stage::coverage, compare_coverage(mine.planes, theirs.planes));
+  }
+  if (c.out.back().outcome == Outcome::different && contradicts_itself(c, mine, theirs)) {
+    to_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
+  }
+}
+
+}  // namespace
+
+bool lacks_texels(const Case& c, Stage stage) {
+  const bool of_texels = stage == Stage::texture || stage == Stage::shade || stage == Stage::merge;
+  return of_texels && textured(c.scene) && c.candidate.legal.texels.empty();
+}
+
+namespace {
+
+void compare_shown(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+  const Records<double>& mine = c.candidate.records;
+  switch (stage) {
+    case Stage::matrices:
+      return c.add(name, stage, compare_rounded_matrices(mine, theirs.records, factor("osmesa.matrices")),
+                   "osmesa.matrices");
+    case Stage::vertex:
+      return c.add(name, stage,
+                   compare_vertices(c.scene, mine, theirs.records, 0, factor("osmesa.vertex"), Inversion::in_float),
+                   "osmesa.vertex");
+    case Stage::light:
+      return c.add(name, stage, compare_lit(c.scene, mine, theirs.records, factor("osmesa.light"), {}, kOfMesa),
+                   "osmesa.light");
+    case Stage::clip:
+      return c.add(name, stage, compare_polygon_positions(mine, theirs.records, factor("osmesa.clip")), "osmesa.clip");
+    case Stage::window: {
+      const std::vector<std::uint32_t> turned = turned_outlines(c.scene, mine, theirs.records);
+      return c.add(name, stage, compare_window_equal(mine, theirs.records, turned), "osmesa.window");
+    }
+    case Stage::coverage:
+      if (draws(c.scene, Topology::lines) && over_budget(c.candidate)) {
+        return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      }
+      return compare_covers(c, c.candidate, theirs, name);
+    case Stage::depth:
+      if (!draws_depth_codes(c.scene, theirs)) {
+        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+      }
+      return c.add(name, stage, compare_depth_planes(c.scene, c.candidate, theirs, factor("osmesa.depth")),
+                   "osmesa.depth");
+    case Stage::attributes:
+      if (!is_plain(c.scene)) return c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
+      return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
+                   "osmesa.attributes");
+    case Stage::texture: {
+      if (theirs.planes.texel.empty()) {
+        return c.skip(name, stage, Outcome::unsupported, "where alpha is tested, its texels are not drawn alone");
+      }
+      std::string note;
+      Measurement m = compare_texel_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes"), note);
+      return c.add(name, stage, std::move(m), "osmesa.texture", std::move(note));
+    }
+    case Stage::shade:
+      // Without textures, lights or fog per fragment, both are the one plane of the winners' colours.
+      if (is_plain(c.scene)) return c.repeat(name, Stage::attributes, stage);
+      if (over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
+                   "osmesa.shade");
+    case Stage::visibility:
+      if (!draws_depth_codes(c.scene, theirs)) {
+        return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+      }
+      if (!draws_lines_or_points(c.scene)) {
+        return c.add(name, stage, compare_winners(c.candidate.planes, theirs.planes, c.legal));
+      }
+      if (over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      if (mine.depth.size() != mine.covered.size()) {
+        return c.skip(name, stage, Outcome::unsupported, "how deep fragments are is not told");
+      }
+      return c.add(name, stage, compare_thin_winners(c.scene, c.candidate, theirs));
+    case Stage::merge: {
+      const bool replaced = colors_replace(c.scene);
+      if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {
+        return c.skip(name, stage, Outcome::unsupported, "which fragments are blended is not told");
+      }
+      if (!replaced && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      switch (c.scene.frame.color) {
+        case ColorFormat::rgba8:
+        case ColorFormat::rgba16: {
+          const bool bytes = c.scene.frame.color == ColorFormat::rgba8;
+          const std::string_view row = replaced ? (bytes ? "osmesa.merge.rgba8" : "osmesa.merge.rgba16")
+                                                : (bytes ? "osmesa.merge.blend" : "osmesa.merge.blend.rgba16");
+          return c.add(name, stage,
+                       replaced ? compare_codes(c.scene, c.candidate, theirs, factor(row), factor("osmesa.attributes"))
+                                : compare_blended(c.scene, c.candidate, theirs, c.legal, factor(row),
+                                                  factor("osmesa.attributes")),
+                       row);
+        }
+        case ColorFormat::rgba12:
+          return c.skip(name, stage, Outcome::unsupported,
+                        "asked for 12 bits a channel, OpenGL gives 16; attributes are compared");
+        case ColorFormat::rgba32f:
+          if (!replaced) {
+            return c.add(name, stage,
+                         compare_blended(c.scene, c.candidate, theirs, c.legal, 0, factor("osmesa.merge.blend.float")),
+                         "osmesa.merge.blend.float");
+          }
+          return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
+      }
+      return;
+    }
+    case Stage::resolve: return;
+  }
+}
+
+// Where snapping decides which face an outline is of, the two sides may draw different things (legal_window.h): they
+// are taken out of coverage; the planes after it are open where they lie. Exact judges them by the candidate's records.
+// False: there are none, or nobody says what they cover.
+bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+  const bool lines_untold = draws(c.scene, Topology::lines) && over_budget(c.candidate);
+  if (stage < Stage::coverage || c.referee == nullptr || lines_untold) return false;
+  const std::vector<std::uint32_t> turned = turned_outlines(c.scene, c.candidate.records, theirs.records);
+  if (turned.empty()) return false;
+  const BesideTurned beside = beside_turned(c.scene, c.candidate, theirs, turned, *c.referee);
+  const std::uint64_t before = c.open;
+  if (stage == Stage::coverage) {
+    c.open += turned.size();
+    compare_covers(c, beside.candidate, beside.reference, name);
+  } else {
+    Capture settled = theirs;
+    c.open += settle(beside.open, c.candidate.planes, settled.planes);
+    compare_shown(c, settled, stage, name);
+  }
+  c.open = before;
+  return true;
+}
+
+}  // namespace
+
+void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+  const std::size_t before = c.out.size();
+  if (!compare_beside_turned(c, theirs, stage, name)) compare_shown(c, theirs, stage, name);
+  // The depths that are left may be codes (the clear depth's, say) where those of other fragments were none.
+  const bool by_depth = stage == Stage::visibility || stage == Stage::merge;
+  if (!by_depth || has_depth_format(c.scene.frame) || c.out.size() == before) return;
+  const Outcome outcome = c.out.back().outcome;
+  if (outcome != Outcome::different && outcome != Outcome::dispute) return;
+  c.out.pop_back();
+  c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
+}
+
+}  // namespace plumbline::check

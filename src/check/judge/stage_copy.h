@@ -1,0 +1,17 @@
+// A capture's stages one by one: taken from one capture into another, and exact's real numbers rounded to what a
+// renderer in float would have handed on.
+#pragma once
+
+#include "capture/capture.h"
+#include "scene/scene.h"
+
+namespace plumbline::check {
+
+/// Replaces what `to` holds of the stage (records, and planes of the stage itself) by what `from` holds of it.
+void copy_stage(Stage stage, const Capture& from, Capture& to);
+
+/// Rounds what the capture holds of the stage: depths and colours to the frame's codes where it has codes, all else to
+/// float. Snapped positions and facing stay as they are.
+void round_to_formats(const Scene& scene, Stage stage, Capture& capture);
+
+}  // namespace plumbline::check

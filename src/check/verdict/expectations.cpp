@@ -1,0 +1,130 @@
+#include "check/verdict/expectations.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scene/json/json_file.h"
+
+namespace plumbline::check {
+
+namespace {
+
+std::string row_of(const Expectation& e) { return fmt::format("{}, {}, {}", e.scene, e.reference, name_of(e.stage)); }
+
+std::string renderer_of(const Expectation& e) { return e.reference.substr(0, e.reference.find(' ')); }
+
+Stage stage_at(const JsonNode& node) {
+  const auto found = std::ranges::find(kStageNames, std::string_view(node.text()));
+  if (found == kStageNames.end())
+    node.refuse(fmt::format("a stage ({} to {})", kStageNames.front(), kStageNames.back()));
+  return static_cast<Stage>(found - kStageNames.begin());
+}
+
+std::chrono::sys_days day_at(const JsonNode& node) {
+  try {
+    return day_of(node.text());
+  } catch (const std::invalid_argument&) {
+    node.refuse("a day as YYYY-MM-DD");
+  }
+}
+
+}  // namespace
+
+std::chrono::sys_days day_of(const std::string& text) {
+  const auto is_digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
+  bool in_form = text.size() == 10;
+  for (std::size_t i = 0; in_form && i < text.size(); ++i) in_form = i == 4 || i == 7 ? text[i] == '-' : is_digit(i);
+  if (in_form) {
+    const auto part = [&](std::size_t first, std::size_t count) { return std::stoi(text.substr(first, count)); };
+    const std::chrono::year_month_day date{std::chrono::year(part(0, 4)),
+                                           std::chrono::month(static_cast<unsigned>(part(5, 2))),
+                                           std::chrono::day(static_cast<unsigned>(part(8, 2)))};
+    if (date.ok()) return date;
+  }
+  throw std::invalid_argument(fmt::format("expected a day as YYYY-MM-DD, found \"{}\"", text));
+}
+
+std::string to_string(std::chrono::sys_days day) {
+  const std::chrono::year_month_day date(day);
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                     static_cast<unsigned>(date.day()));
+}
+
+std::vector<Expectation> read_expectations(const std::filesystem::path& path, std::span<const std::string> renderers) {
+  const JsonFile file(path);
+  file.root().only({"expectations"});
+  std::vector<Expectation> out;
+  std::set<std::tuple<std::string, std::string, Stage>> rows;
+  for (const JsonNode& node : file.root()["expectations"].elements(0, 10'000)) {
+    node.only({"scene", "reference", "stage", "outcome", "reason", "issue", "expires"});
+    Expectation e;
+    e.scene = node["scene"].text();
+    e.reference = node["reference"].text();
+    if (std::ranges::count(renderers, renderer_of(e)) == 0) {
+      node["reference"].refuse(fmt::format("a row's reference, which begins with {}", fmt::join(renderers, ", ")));
+    }
+    e.stage = stage_at(node["stage"]);
+    if (const auto outcome = node.find("outcome")) {
+      e.outcome = outcome->choice<Outcome>(
+          {{"different", Outcome::different}, {"missing", Outcome::missing}, {"failed", Outcome::failed}});
+    }
+    e.reason = node["reason"].text();
+    e.issue = node["issue"].text();
+    e.expires = day_at(node["expires"]);
+    if (!rows.emplace(e.scene, e.reference, e.stage).second) node.refuse("each comparison once", row_of(e) + " twice");
+    out.push_back(std::move(e));
+  }
+  return out;
+}
+
+std::vector<Settled> settle(std::span<const Expectation> expectations, std::span<const std::string> asked,
+                            std::chrono::sys_days today, SceneVerdict& verdict) {
+  std::vector<Settled> out;
+  for (const Expectation& e : expectations) {
+    if (e.scene != verdict.scene || std::ranges::count(asked, renderer_of(e)) == 0) continue;
+    const auto is_it = [&](const Comparison& c) { return c.reference == e.reference && c.stage == e.stage; };
+    std::vector<Comparison*> rows;
+    for (Comparison& c : verdict.comparisons) {
+      if (is_it(c)) rows.push_back(&c);
+    }
+    const bool occurs = std::ranges::any_of(rows, [&](const Comparison* c) { return c->outcome == e.outcome; });
+    if (rows.empty()) {
+      out.push_back({&e, Settlement::unmatched, fmt::format("expectation {}: there is no such row", row_of(e))});
+    } else if (!occurs) {
+      out.push_back({&e, Settlement::passed,
+                     fmt::format("unexpected {}: {}, expected {} ({}, {}): the expectation can go", row_of(e),
+                                 name_of(rows.front()->outcome), name_of(e.outcome), e.reason, e.issue)});
+    } else if (today > e.expires) {
+      out.push_back({&e, Settlement::expired,
+                     fmt::format("expired {}: was expected until {} ({}, {})", row_of(e), to_string(e.expires),
+                                 e.reason, e.issue)});
+    } else {
+      for (Comparison* c : rows) {
+        if (c->outcome != e.outcome) continue;
+        c->note = fmt::format("known to be {} until {}: {} ({}){}{}", name_of(e.outcome), to_string(e.expires),
+                              e.reason, e.issue, c->note.empty() ? "" : "; ", c->note);
+        c->outcome = Outcome::expected;
+      }
+      out.push_back({&e, Settlement::occurred, ""});
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> of_no_scene(std::span<const Expectation> expectations,
+                                     std::span<const SceneVerdict> verdicts) {
+  std::vector<std::string> out;
+  for (const Expectation& e : expectations) {
+    if (std::ranges::find(verdicts, e.scene, &SceneVerdict::scene) == verdicts.end()) {
+      out.push_back(fmt::format("expectation {}: there is no such scene", row_of(e)));
+    }
+  }
+  return out;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,53 @@
+// Known differences: rows of a file, each with its reason, its issue and the day on which it stops being an excuse.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "check/verdict/verdict.h"
+
+namespace plumbline::check {
+
+struct Expectation {
+  std::string scene;      ///< its name: group/scene
+  std::string reference;  ///< as a row of the table names it, such as "osmesa" or "exact from scene"
+  Stage stage = Stage::matrices;
+  Outcome outcome = Outcome::different;  ///< or missing, failed
+  std::string reason, issue;
+  std::chrono::sys_days expires;  ///< the last day
+};
+
+/// {"expectations": [{"scene", "reference", "stage", "outcome" ("different" where left out), "reason", "issue",
+/// "expires": "YYYY-MM-DD"}]}. Throws JsonError (json_tree.h), also where two rows are of one comparison, or a
+/// reference is none of `renderers`.
+std::vector<Expectation> read_expectations(const std::filesystem::path& file, std::span<const std::string> renderers);
+
+/// YYYY-MM-DD. Throws std::invalid_argument: no such day.
+std::chrono::sys_days day_of(const std::string& text);
+std::string to_string(std::chrono::sys_days day);
+
+/// What became of an expectation in a run.
+enum class Settlement {
+  not_asked,  ///< its scene or its reference was not
+  occurred,   ///< its row is now `expected`, and says why
+  expired,    ///< it occurred after its last day: the row stays a failure
+  passed,     ///< the row came to something else: a failure, too
+  unmatched   ///< scene and reference were asked, and there is no such row: a failure
+};
+struct Settled {
+  const Expectation* expectation;
+  Settlement fate;
+  std::string line;  ///< for a failure
+};
+
+/// Settles the expectations of the verdict's scene whose reference was asked; `asked`: names of renderers.
+std::vector<Settled> settle(std::span<const Expectation> expectations, std::span<const std::string> asked,
+                            std::chrono::sys_days today, SceneVerdict& verdict);
+
+/// Of a whole suite: a line for each expectation whose scene is none of it.
+std::vector<std::string> of_no_scene(std::span<const Expectation> expectations, std::span<const SceneVerdict> verdicts);
+
+}  // namespace plumbline::check

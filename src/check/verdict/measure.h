@@ -1,0 +1,133 @@
+// Measurements: what a comparator returns. It measures; the verdict decides.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "capture/plane.h"
+
+namespace plumbline::check {
+
+inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Where in a capture: a pixel, or a record and its field.
+struct Place {
+  int x = -1, y = -1;        ///< pixel, or -1
+  std::int64_t record = -1;  ///< number of the record, or -1
+  const char* field = "";    ///< such as "p_clip.x"
+};
+std::string to_string(const Place& place);
+
+/// The item with the largest difference in proportion to its tolerance.
+struct Worst {
+  Place place;
+  double candidate = 0, reference = 0;
+  double difference = 0;  ///< in the measurement's unit
+  double tolerance = 0;   ///< likewise
+};
+
+struct Measurement {
+  std::string unit;
+  std::uint64_t items = 0;      ///< pixels or records compared
+  std::uint64_t differing = 0;  ///< items beyond their tolerance
+  std::uint64_t ambiguous = 0;  ///< items for which more than one answer is legal
+  std::uint64_t disputed = 0;   ///< items where the reference, not the candidate, is outside the legal answers
+  double max_difference = 0;    ///< in `unit`, but of what is disputed; infinite: NaN, a wrong size, a missing record
+  double max_ratio = 0;         ///< likewise, largest share of a tolerance that was used; above 1 something differs
+  Worst worst;
+  Worst dispute;                        ///< of what is disputed, the largest difference
+  std::string reason;                   ///< and what the reference's fault is there
+  std::vector<glm::ivec2> disputed_at;  ///< the pixels, where items are pixels
+  /// The pixels of items that differ, where they have one; the first 2^16.
+  std::vector<glm::ivec2> differing_at;
+  std::string mismatch;  ///< why nothing could be compared item by item (sizes differ), or empty
+  /// Items by difference: [0] none, [i] in [2^(i-13), 2^(i-12)) units, the ends open; [19]: not finite.
+  std::array<std::uint64_t, 20> histogram{};
+};
+
+/// |a - b|; 0 for equal numbers, equal infinities included; infinite where anything else is not finite.
+double difference(double a, double b);
+
+/// Gathers a measurement item by item.
+class Meter {
+ public:
+  explicit Meter(std::string unit) { m_.unit = std::move(unit); }
+
+  /// One value of an item: `diff` and `tolerance` in the meter's unit. A NaN diff counts as infinite, a tolerance
+  /// that is not finite as 0. `allowance`: of another row, granted before this tolerance is touched.
+  void value(double diff, double tolerance, const Place& place, double candidate, double reference,
+             double allowance = 0);
+  /// What the item at hand still gets beyond its tolerance is the reference's fault, and why: disputed. (Not what is no
+  /// number.) An empty reason: nothing is.
+  void suspect(std::string_view why) { why_ = why; }
+  void ambiguous() { item_ambiguous_ = true; }
+  /// Ends an item that has got its values.
+  void item();
+  /// Counts whole items as different, such as missing records.
+  void missing(std::uint64_t items, const Place& place);
+  Measurement done() { return std::move(m_); }
+
+ private:
+  Measurement m_;
+  double item_difference_ = 0;
+  bool item_differs_ = false, item_ambiguous_ = false, item_disputed_ = false;
+  std::string why_;
+};
+
+/// Of two measurements of one stage, the one that tells more: that with the larger share beyond tolerance.
+inline Measurement worse(Measurement a, Measurement b) {
+  const bool a_tells = a.differing != b.differing ? a.differing > b.differing : a.max_ratio >= b.max_ratio;
+  return a_tells ? std::move(a) : std::move(b);
+}
+
+/// A measurement that says that nothing fits: every item differs.
+Measurement mismatch(std::string unit, std::string why, std::uint64_t items);
+
+/// Whether two planes are of one size, and there; if not, says so in `why`.
+template <class A, class B>
+bool same_size(const Plane<A>& a, const Plane<B>& b, std::string& why) {
+  if (a.empty() && b.empty()) {
+    why = "not handed out by either";
+    return false;
+  }
+  if (a.width() == b.width() && a.height() == b.height()) return true;
+  why = std::to_string(a.width()) + " x " + std::to_string(a.height()) + " against " + std::to_string(b.width()) +
+        " x " + std::to_string(b.height());
+  return false;
+}
+
+/// Compares pixel by pixel: `visit(meter, x, y)` gives the meter that pixel's values.
+template <class A, class B, class Visit>
+Measurement compare_planes(const Plane<A>& a, const Plane<B>& b, const std::string& unit, Visit visit) {
+  std::string why;
+  if (!same_size(a, b, why)) return mismatch(unit, why, a.size());
+  Meter meter(unit);
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      visit(meter, x, y);
+      meter.item();
+    }
+  }
+  return meter.done();
+}
+
+/// Zero tolerance, for planes of integers.
+template <class T>
+Measurement compare_equal(const Plane<T>& candidate, const Plane<T>& reference, const std::string& unit) {
+  return compare_planes(candidate, reference, unit, [&](Meter& meter, int x, int y) {
+    const T a = candidate(x, y), b = reference(x, y);
+    // Subtracted as 64-bit integers, modulo 2^64: they do not all fit a double, nor a signed difference its type.
+    const auto wide_a = static_cast<std::uint64_t>(a), wide_b = static_cast<std::uint64_t>(b);
+    const auto diff = static_cast<double>(a > b ? wide_a - wide_b : wide_b - wide_a);
+    meter.value(diff, 0, {x, y, -1, ""}, static_cast<double>(a), static_cast<double>(b));
+  });
+}
+
+}  // namespace plumbline::check

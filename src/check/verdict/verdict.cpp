@@ -1,0 +1,129 @@
+#include "check/verdict/verdict.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace plumbline::check {
+
+std::string_view name_of(Outcome outcome) {
+  constexpr std::array<std::string_view, kOutcomes> kNames = {
+      "equal", "within", "ambiguous_only", "different", "dispute", "unsupported", "missing", "failed", "expected"};
+  return kNames[static_cast<std::size_t>(outcome)];
+}
+
+bool is_failure(Outcome outcome) {
+  return outcome == Outcome::different || outcome == Outcome::failed || outcome == Outcome::missing;
+}
+
+Comparison judged(std::string scene, std::string reference, Stage stage, Measurement m, std::string_view ledger_row,
+                  std::string note) {
+  Outcome outcome = Outcome::equal;
+  if (m.differing > 0) {
+    outcome = Outcome::different;
+  } else if (m.disputed > 0) {
+    outcome = Outcome::dispute;
+  } else if (m.ambiguous > 0) {
+    outcome = Outcome::ambiguous_only;
+  } else if (m.max_difference > 0) {
+    outcome = Outcome::within;
+  }
+  if (!m.mismatch.empty()) note = m.mismatch;
+  return {std::move(scene), std::move(reference),    stage,          outcome,
+          std::move(m),     std::string(ledger_row), std::move(note)};
+}
+
+void to_dispute(Comparison& c, std::string why) {
+  Measurement& m = c.measurement;
+  c.outcome = Outcome::dispute;
+  m.disputed += std::exchange(m.differing, 0);
+  m.dispute = m.worst;
+  m.reason = std::move(why);
+}
+
+const Worst* shown(const Comparison& c) {
+  if (c.outcome == Outcome::dispute) return &c.measurement.dispute;
+  return c.measurement.max_difference > 0 ? &c.measurement.worst : nullptr;
+}
+
+std::string remark(const Comparison& c) {
+  const Worst* worst = shown(c);
+  std::string out = worst == nullptr ? "" : to_string(worst->place);
+  const auto add = [&](const std::string& more) { out += (out.empty() || more.empty() ? "" : "; ") + more; };
+  if (c.outcome == Outcome::dispute) {
+    add(fmt::format("{:.9g}, the reference {:.9g}", worst->candidate, worst->reference));
+    add(fmt::format("{} disputed: {}", c.measurement.disputed, c.measurement.reason));
+  }
+  add(c.note);
+  return out;
+}
+
+Comparison not_judged(std::string scene, std::string reference, Stage stage, Outcome outcome, std::string note) {
+  return {std::move(scene), std::move(reference), stage, outcome, {}, "", std::move(note)};
+}
+
+bool holds_alone(const SceneVerdict& verdict, Stage stage) {
+  return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
+    return c.stage == stage && c.reference.ends_with(kFromRecords) &&
+           (c.outcome == Outcome::equal || c.outcome == Outcome::within || c.outcome == Outcome::ambiguous_only);
+  });
+}
+
+const Comparison* first_different(const SceneVerdict& verdict) {
+  const Comparison *first = nullptr, *alone = nullptr;
+  for (const Comparison& c : verdict.comparisons) {
+    if (c.outcome != Outcome::different) continue;
+    if (first == nullptr || c.stage < first->stage) first = &c;
+    if (c.reference.ends_with(kFromRecords) && (alone == nullptr || c.stage < alone->stage)) alone = &c;
+  }
+  return alone != nullptr && holds_alone(verdict, first->stage) ? alone : first;
+}
+
+std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
+  std::vector<Stage> out;
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    const bool judged_by_any = std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
+      return c.stage == stage && votes(c) && c.outcome != Outcome::unsupported && c.outcome != Outcome::missing &&
+             c.outcome != Outcome::failed;
+    });
+    // Of a scene without textures, or that is not antialiased, nobody says anything of their stages.
+    const bool of_some = stage == Stage::texture || stage == Stage::resolve;
+    const bool asked =
+        !of_some || std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) { return c.stage == stage; });
+    if (asked && !judged_by_any) out.push_back(stage);
+  }
+  return out;
+}
+
+std::vector<Stage> stages_lost_to_missing(const SceneVerdict& verdict) {
+  const auto is = [&](Outcome outcome) { return [=](const Comparison& c) { return c.outcome == outcome; }; };
+  if (std::ranges::none_of(verdict.comparisons, is(Outcome::missing))) return {};
+  std::vector<Stage> out = unjudged_stages(verdict);
+  std::erase_if(out, [&](Stage stage) {
+    return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
+      return c.stage == stage && (c.outcome == Outcome::unsupported || c.outcome == Outcome::failed);
+    });
+  });
+  return out;
+}
+
+std::vector<LedgerUse> ledger_use(std::span<const SceneVerdict> verdicts) {
+  std::vector<LedgerUse> uses;
+  for (const Tolerance& row : ledger()) uses.push_back({&row, -1, ""});
+  for (const SceneVerdict& verdict : verdicts) {
+    for (const Comparison& c : verdict.comparisons) {
+      if (c.outcome == Outcome::dispute) continue;  // the reference's fault, where it is a small one too
+      for (LedgerUse& use : uses) {
+        if (c.ledger_row != use.row->name || c.measurement.max_ratio <= use.largest_ratio) continue;
+        use.largest_ratio = c.measurement.max_ratio;
+        use.where = fmt::format("{}, {}, {}", c.scene, c.reference, to_string(c.measurement.worst.place));
+      }
+    }
+  }
+  return uses;
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,54 @@
+#include "cli/options/references.h"
+
+#include <algorithm>
+
+#include "check/golden/golden.h"
+#include "cli/options/renderers.h"
+
+namespace plumbline::cli {
+
+References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets) {
+  References out;
+  for (const std::string& name : names) {
+    out.owned.push_back(make_reference(name, assets));
+    out.list.push_back({name, out.owned.back().get()});
+  }
+  return out;
+}
+
+References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
+                           const Watch& watch) {
+  References out;
+  std::uint32_t number = 0;
+  for (const std::string& name : names) {
+    Watch own = watch;
+    if (in_own_process(name)) own.limit += kOwnProcessLimit;  // which ends it before
+    const auto make = [&] { return make_reference(name, assets); };
+    out.owned.push_back(make_watched(name, make, ++number, own));
+    out.list.push_back({name, out.owned.back().get()});
+  }
+  return out;
+}
+
+std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
+  std::vector<std::string> out = known_reference_names();
+  std::erase_if(out, [&](const std::string& name) { return std::ranges::count(names, name) == 0; });
+  return out;
+}
+
+std::vector<std::string> names_of_rows() {
+  std::vector<std::string> out = known_reference_names();
+  out.emplace_back(check::kGolden);
+  out.emplace_back(check::kPicture);
+  return out;
+}
+
+std::map<std::string, std::string> versions_of(const Renderer& candidate, const References& references) {
+  std::map<std::string, std::string> out{{candidate.info().name, candidate.info().version}};
+  for (const check::Reference& r : references.list) {
+    if (r.renderer != nullptr) out[r.name] = r.renderer->info().version;
+  }
+  return out;
+}
+
+}  // namespace plumbline::cli

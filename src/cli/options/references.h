@@ -1,0 +1,33 @@
+// The references that a run asks.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/renderers/watched_renderer.h"
+#include "check/judge/judge.h"
+
+namespace plumbline::cli {
+
+struct References {
+  std::vector<std::unique_ptr<Renderer>> owned;
+  std::vector<check::Reference> list;
+};
+/// `assets`: where those in processes of their own look for meshes as well.
+References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets);
+/// In a worker: each is watched, numbered from 1.
+References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
+                           const Watch& watch);
+
+/// Each once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
+std::vector<std::string> without_repeats(const std::vector<std::string>& names);
+
+/// What a row may be against: every reference there is, and goldens.
+std::vector<std::string> names_of_rows();
+
+/// By name, the candidate's among them.
+std::map<std::string, std::string> versions_of(const Renderer& candidate, const References& references);
+
+}  // namespace plumbline::cli

@@ -1,0 +1,161 @@
+#include "cli/options/renderers.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/did_you_mean.h"
+#include "capture/renderers/process_renderer.h"
+#include "image_order/image_order.h"
+#include "pipeline/pipeline_renderer.h"
+#include "reference/exact/exact.h"
+#ifdef PLUMBLINE_EMBREE
+#include "reference/embree/embree.h"
+#endif
+#if defined(PLUMBLINE_OSMESA) || defined(PLUMBLINE_EGL)
+#include "reference/osmesa/osmesa.h"
+#endif
+#ifdef PLUMBLINE_FAULTS
+#include "faults/endings.h"
+#include "faults/faults.h"
+#endif
+
+namespace plumbline::cli {
+
+namespace {
+
+#ifdef PLUMBLINE_OSMESA
+constexpr bool kOsmesa = true;
+#else
+constexpr bool kOsmesa = false;
+#endif
+#ifdef PLUMBLINE_EGL
+constexpr bool kEgl = true;
+#else
+constexpr bool kEgl = false;
+#endif
+// The OpenGL reference of this process.
+constexpr const char* kOpenGl = kEgl && !kOsmesa ? "egl" : "osmesa";
+
+// What this program hands out as `name` in a process of its own.
+class OwnProcess final : public Renderer {
+ public:
+  OwnProcess(RendererInfo info, const std::vector<std::string>& assets) : info_(std::move(info)) {
+    ProcessSpec spec;
+    spec.name = info_.name;
+    spec.argv = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                 "capture",
+                 "{scene}",
+                 "{folder}",
+                 "--with",
+                 info_.name};
+    for (const std::string& folder : assets) spec.argv.insert(spec.argv.end(), {"--assets", folder});
+    spec.timeout = kOwnProcessLimit;
+    process_ = make_process_renderer(std::move(spec));
+  }
+  RendererInfo info() const override { return info_; }
+  Capture capture(const Scene& scene, const Request& request) override { return process_->capture(scene, request); }
+
+ private:
+  RendererInfo info_;
+  std::unique_ptr<Renderer> process_;
+};
+
+RendererInfo opengl_info(const std::string& name) {
+  RendererInfo info;
+  info.name = name;
+  info.version = "in a process of its own";
+  for (Ability& ability : info.stages) ability.shows = true;
+  if (name == "softpipe") {
+    info[Stage::window] = {false, false, "its window positions are rounded otherwise: it has no fused multiply-add"};
+  }
+  return info;
+}
+
+}  // namespace
+
+const std::vector<std::string>& reference_names() {
+  static const std::vector<std::string> kNames = {kOpenGl, "embree", "exact"};
+  return kNames;
+}
+
+const std::vector<std::string>& known_reference_names() {
+  static const std::vector<std::string> kNames = {"osmesa", "egl", "softpipe", "embree", "exact", "image_order"};
+  return kNames;
+}
+
+const std::vector<std::string>& renderer_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names = known_reference_names();
+    names.insert(names.begin(), "ours");
+    return names;
+  }();
+  return kNames;
+}
+
+std::unique_ptr<Renderer> make_renderer(const std::string& name) {
+  if (name == "ours") return pipeline::make_pipeline();
+  if (name == "exact") return exact::make_exact();
+  if (name == "image_order") return image_order::make_image_order();
+#ifdef PLUMBLINE_EGL
+  if (name == "egl") return make_egl();
+#endif
+#if defined(PLUMBLINE_OSMESA)
+  if (name == "osmesa") return make_osmesa();
+  if (name == "softpipe") return make_osmesa(MesaDriver::softpipe);
+#elif defined(PLUMBLINE_EGL)
+  if (name == "softpipe") return make_egl(MesaDriver::softpipe);
+#endif
+#ifdef PLUMBLINE_EMBREE
+  if (name == "embree") return embree::make_embree();
+#endif
+  const auto& names = renderer_names();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return nullptr;
+  throw std::invalid_argument(fmt::format("no renderer '{}': there are {}", name, fmt::join(names, ", ")));
+}
+
+bool in_own_process(const std::string& name) {
+  return name == "softpipe" ? kOsmesa || kEgl : name == "egl" && kEgl && kOsmesa;
+}
+
+std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets) {
+  if (in_own_process(name)) return std::make_unique<OwnProcess>(opengl_info(name), assets);
+  return make_renderer(name);
+}
+
+#ifdef PLUMBLINE_FAULTS
+std::vector<FaultInfo> fault_infos() {
+  std::vector<FaultInfo> out;
+  for (const faults::Fault& fault : faults::all()) {
+    out.push_back({fault.name, name_of(fault.stage), fault.changes, fault.report});
+  }
+  return out;
+}
+
+std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
+  if (fault.empty()) return pipeline::make_pipeline();
+  for (const faults::Fault& f : faults::all()) {
+    if (f.name == fault) return pipeline::make_pipeline(f.stages());
+  }
+  for (const faults::Fault& f : faults::endings()) {
+    if (f.name == fault) return pipeline::make_pipeline(f.stages());
+  }
+  std::vector<std::string_view> names;
+  for (const faults::Fault& f : faults::all()) names.push_back(f.name);
+  throw std::invalid_argument(
+      fmt::format("no fault '{}'{}: plumb list faults shows all", fault, did_you_mean(fault, names)));
+}
+#else
+std::vector<FaultInfo> fault_infos() { return {}; }
+
+std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
+  if (fault.empty()) return pipeline::make_pipeline();
+  throw std::invalid_argument("--fault: this plumb was built without the library of faults");
+}
+#endif
+
+}  // namespace plumbline::cli

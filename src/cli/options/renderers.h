@@ -1,0 +1,42 @@
+// The renderers and faults that this program was built with, by name.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "capture/renderer.h"
+
+namespace plumbline::cli {
+
+/// The references that are asked where none are named, in that order. Of the OpenGL ones, OSMesa; in a build without
+/// it, EGL.
+const std::vector<std::string>& reference_names();
+/// All references that there are, built in or not, in the order in which they are asked.
+const std::vector<std::string>& known_reference_names();
+/// These and `ours`.
+const std::vector<std::string>& renderer_names();
+
+/// Within this process, which holds one of Mesa's libraries and drivers. Null if the renderer is known but not built
+/// in. Throws std::invalid_argument, naming those there are, if unknown.
+std::unique_ptr<Renderer> make_renderer(const std::string& name);
+
+/// How long a renderer in a process of its own may take.
+inline constexpr std::chrono::minutes kOwnProcessLimit{10};  // softpipe takes its time
+/// Whether it would be a second Mesa in this process.
+bool in_own_process(const std::string& name);
+/// One of several in a run: what in_own_process() is this program once more, which looks for meshes in `assets` as
+/// well. Else as make_renderer().
+std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets);
+
+struct FaultInfo {
+  std::string_view name, stage, changes;
+  std::string_view report;  ///< who reports such a bug (faults.h), or empty
+};
+std::vector<FaultInfo> fault_infos();
+/// Our pipeline; with the named fault unless the name is empty. Throws std::invalid_argument if it is unknown.
+std::unique_ptr<Renderer> make_candidate(const std::string& fault);
+
+}  // namespace plumbline::cli

@@ -1,0 +1,23 @@
+// What each stage handed on as pictures, ours beside what was expected.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capture/capture.h"
+#include "report/page/viewer_data.h"
+#include "scene/scene.h"
+
+namespace plumbline::report {
+
+/// Fragments counted; depth; of the winners texture coordinates, texel, level of detail and the colour before it is
+/// merged; the winning primitives; stencil values; the frame. In the order of the stages, those that either side shows.
+std::vector<Layer> stage_layers(const Scene& scene, const Capture& mine, const Capture& expected);
+
+/// The window triangles of both sides as an SVG drawing over the frame: expected in green, ours in red over it where it
+/// is elsewhere. At most `most` triangles of a side are drawn, those that differ before others. Empty where neither has
+/// any.
+std::string positions_drawing(const Scene& scene, const Capture& mine, const Capture& expected,
+                              std::size_t most = 5000);
+
+}  // namespace plumbline::report

@@ -1,0 +1,172 @@
+#include "report/runs/json_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_path.h"
+#include "report/text/comparison_json.h"
+
+namespace plumbline::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json worst_of(const check::Worst& worst) {
+  Json out{{"place", check::to_string(worst.place)},
+           {"candidate", json_number(worst.candidate)},
+           {"reference", json_number(worst.reference)},
+           {"difference", json_number(worst.difference)},
+           {"tolerance", json_number(worst.tolerance)}};
+  if (worst.place.x >= 0) out["pixel"] = {worst.place.x, worst.place.y};
+  return out;
+}
+
+}  // namespace
+
+Json json_number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return value;
+}
+
+Json comparison_json(const check::Comparison& c) {
+  const check::Measurement& m = c.measurement;
+  Json out{{"scene", c.scene},
+           {"reference", c.reference},
+           {"stage", name_of(c.stage)},
+           {"outcome", name_of(c.outcome)},
+           {"pixels", m.items},
+           {"differing", m.differing},
+           {"ambiguous", m.ambiguous},
+           {"max_difference", json_number(m.max_difference)},
+           {"unit", m.unit},
+           {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
+           {"disputed", m.disputed},
+           {"max_ratio", json_number(m.max_ratio)},
+           {"histogram", m.histogram}};
+  if (m.disputed > 0) {
+    out["dispute"] = worst_of(m.dispute);
+    out["dispute"]["reason"] = m.reason;
+  }
+  if (!c.ledger_row.empty()) out["ledger"] = c.ledger_row;
+  if (!c.note.empty()) out["note"] = c.note;
+  return out;
+}
+
+void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts, const RunHead& head) {
+  const Shard& shard = head.shard;
+  Json out{{"versions", head.versions},
+           {"fault", head.fault},
+           {"against", head.against},
+           {"golden", head.golden},
+           {"failures", head.failures},
+           {"tolerances", Json::object()},
+           {"shard", {{"index", shard.index}, {"of", shard.of}, {"scenes", std::max(shard.scenes, verdicts.size())}}},
+           {"scenes", Json::array()},
+           {"comparisons", Json::array()}};
+  for (const check::Tolerance& row : check::ledger()) out["tolerances"][std::string(row.name)] = row.factor;
+  for (const check::SceneVerdict& verdict : verdicts) {
+    Json scene{{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}};
+    if (!verdict.failure.empty()) scene["failure"] = verdict.failure, scene["repeat"] = verdict.repeat;
+    out["scenes"].push_back(std::move(scene));
+    for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
+  }
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void write_json(const std::filesystem::path& file, const check::Diagnosis& diagnosis,
+                const std::map<std::string, std::string>& versions, const std::string& pixel_history) {
+  Json out{{"scene", diagnosis.verdict.scene},
+           {"file", diagnosis.verdict.path},
+           {"versions", versions},
+           {"first", diagnosis.first ? Json(name_of(*diagnosis.first)) : Json(nullptr)},
+           {"wrong", Json::array()},
+           {"findings", Json::array()},
+           {"comparisons", Json::array()}};
+  for (const Stage stage : diagnosis.wrong) out["wrong"].push_back(name_of(stage));
+  for (const check::Finding& f : diagnosis.findings) {
+    out["findings"].push_back({{"stage", name_of(f.stage)},
+                               {"reference", f.reference},
+                               {"pixels", f.measurement.items},
+                               {"differing", f.measurement.differing},
+                               {"numbers", f.numbers},
+                               {"causes", f.causes},
+                               {"picture", f.picture}});
+  }
+  for (const check::Comparison& c : diagnosis.verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
+  if (!pixel_history.empty()) out["pixel_history"] = Json::parse(pixel_history);
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,
+                std::span<const check::StoredComparison> comparisons) {
+  Json out{{"a", a}, {"b", b}, {"tolerance", tolerance}, {"comparisons", Json::array()}};
+  for (const check::StoredComparison& c : comparisons) {
+    const check::Measurement& m = c.measurement;
+    Json row{{"what", c.what},
+             {"outcome", name_of(c.outcome)},
+             {"items", m.items},
+             {"differing", m.differing},
+             {"max_difference", json_number(m.max_difference)},
+             {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
+             {"histogram", m.histogram}};
+    if (c.codes > 0) row["codes"] = c.codes;
+    if (!c.note.empty()) row["note"] = c.note;
+    out["comparisons"].push_back(std::move(row));
+  }
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+namespace {
+
+// Two digits: enough to judge a tolerance by, and the same from one run to the next.
+Json share(double ratio) { return json_number(std::round(ratio * 100) / 100); }
+
+// Of each group of scenes, how many there are, and the largest differences of each reference, stage and unit; what is
+// not there is equal, or not compared.
+Json groups(std::span<const check::SceneVerdict> verdicts) {
+  struct Group {
+    int scenes = 0;
+    std::map<std::string, double> largest;
+  };
+  std::map<std::string, Group> by_name;
+  for (const check::SceneVerdict& verdict : verdicts) {
+    Group& group = by_name[verdict.scene.substr(0, verdict.scene.find('/'))];
+    ++group.scenes;
+    for (const check::Comparison& c : verdict.comparisons) {
+      if (!(c.measurement.max_difference > 0)) continue;
+      double& largest = group.largest[fmt::format("{}, {}, {}", c.reference, name_of(c.stage), c.measurement.unit)];
+      largest = std::max(largest, c.measurement.max_difference);
+    }
+  }
+  Json out = Json::array();
+  for (const auto& [name, group] : by_name) {
+    Json largest = Json::object();
+    for (const auto& [what, difference] : group.largest) largest[what] = fmt::format("{:.2g}", difference);
+    out.push_back({{"name", name}, {"scenes", group.scenes}, {"largest_difference", largest}});
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts) {
+  Json rows = Json::array();
+  for (const check::LedgerUse& use : check::ledger_use(verdicts)) {
+    rows.push_back({{"name", use.row->name},
+                    {"factor", use.row->factor},
+                    {"unit", use.row->unit},
+                    {"largest_seen", use.largest_ratio < 0 ? Json(nullptr) : share(use.largest_ratio)},
+                    {"where", use.where}});
+  }
+  const Json out{{"tolerances", rows}, {"groups", groups(verdicts)}};
+  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace plumbline::report

@@ -1,0 +1,53 @@
+#include "report/runs/junit.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "report/runs/run_file.h"
+#include "report/text/safe_text.h"
+#include "report/text/table.h"
+
+namespace plumbline::report {
+
+namespace {
+
+// XML holds no control characters, escaped neither, and not U+FFFE and U+FFFF.
+std::string xml(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'; }, '?');
+  std::string out = escaped(text);
+  for (const char* none : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
+    for (std::size_t at = out.find(none); at != std::string::npos; at = out.find(none, at)) out.replace(at, 3, 1, '?');
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string junit(std::span<const check::SceneVerdict> verdicts, std::span<const std::string> of_run) {
+  const auto failures = std::ranges::count_if(verdicts, [](const auto& v) { return !v.failure.empty(); });
+  std::string out = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites><testsuite name=\"plumb check\" tests=\"{}\" "
+      "failures=\"{}\" errors=\"0\" skipped=\"0\" time=\"{:.3f}\">\n",
+      verdicts.size() + of_run.size(), static_cast<std::size_t>(failures) + of_run.size(), seconds(verdicts));
+  for (const check::SceneVerdict& v : verdicts) {
+    const std::size_t slash = v.scene.find('/');
+    out +=
+        fmt::format("<testcase classname=\"{}\" name=\"{}\" file=\"{}\" time=\"{:.3f}\"", xml(v.scene.substr(0, slash)),
+                    xml(slash == std::string::npos ? v.scene : v.scene.substr(slash + 1)), xml(v.path), v.seconds);
+    if (v.failure.empty()) {
+      out += "/>\n";
+      continue;
+    }
+    out += fmt::format("><failure message=\"{}\">{}\n{}{}</failure></testcase>\n",
+                       xml(v.failure.substr(0, v.failure.find('\n'))), xml(v.failure), xml(table_head()),
+                       xml(table_rows(v)));
+  }
+  for (const std::string& what : of_run) {
+    out += fmt::format("<testcase classname=\"run\" name=\"{0}\"><failure message=\"{0}\"/></testcase>\n", xml(what));
+  }
+  return out + "</testsuite></testsuites>\n";
+}
+
+}  // namespace plumbline::report

@@ -1,0 +1,19 @@
+// The verdict for a CI page, in Markdown as GitHub and GitLab show it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "check/verdict/verdict.h"
+
+namespace plumbline::report {
+
+/// Text for a cell of a table: one line, and what Markdown or HTML would take for its own, escaped.
+std::string cell(std::string_view text);
+
+/// The summary; how many comparisons came to what, and were not run; a row for each scene that does not hold (at most
+/// 200), with its first different stage and the command that repeats it; what was disputed or expected.
+std::string markdown(std::span<const check::SceneVerdict> verdicts, const std::string& summary);
+
+}  // namespace plumbline::report

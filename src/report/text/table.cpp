@@ -1,0 +1,170 @@
+#include "report/text/table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace plumbline::report {
+
+using check::Comparison;
+using check::Outcome;
+using check::SceneVerdict;
+
+namespace {
+
+constexpr const char* kRow = "{:<28} {:<24} {:<10} {:<14} {:>9} {:>9} {:>9}  {:<24} {}\n";
+
+bool was_judged(const Comparison& c) {
+  return c.outcome != Outcome::unsupported && c.outcome != Outcome::missing && c.outcome != Outcome::failed;
+}
+
+std::string largest(const Comparison& c) {
+  const check::Worst* worst = check::shown(c);
+  if (worst == nullptr) return "0";
+  return fmt::format("{:.4g} {} (tolerance {:.4g})", worst->difference, c.measurement.unit, worst->tolerance);
+}
+
+}  // namespace
+
+std::string table_head() {
+  return fmt::format(kRow, "scene", "reference", "stage", "outcome", "pixels", "differing", "ambiguous", "largest",
+                     "worst");
+}
+
+std::string table_rows(const SceneVerdict& verdict) {
+  std::string out;
+  for (const Comparison& c : verdict.comparisons) {
+    const check::Measurement& m = c.measurement;
+    if (was_judged(c)) {
+      out += fmt::format(kRow, c.scene, c.reference, name_of(c.stage), name_of(c.outcome), m.items, m.differing,
+                         m.ambiguous, largest(c), check::remark(c));
+    } else {
+      out += fmt::format(kRow, c.scene, c.reference, name_of(c.stage), name_of(c.outcome), "-", "-", "-", "-", c.note);
+    }
+  }
+  return out;
+}
+
+std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> unjudged,
+                          const std::string& repeat_command) {
+  std::string out;
+  for (const Comparison& c : verdict.comparisons) {
+    if (c.outcome == Outcome::failed || c.outcome == Outcome::missing) {
+      out += fmt::format("{} {}: {}, {}: {}\n", name_of(c.outcome), c.scene, c.reference, name_of(c.stage), c.note);
+    }
+  }
+  for (Stage stage : unjudged) {
+    out += fmt::format("unjudged {}: no reference judged {}\n", verdict.scene, name_of(stage));
+  }
+  if (const Comparison* first = check::first_different(verdict)) {
+    const check::Worst& w = first->measurement.worst;
+    out += fmt::format("different {}: first different stage: {} (against {}): {} of {} beyond tolerance", first->scene,
+                       name_of(first->stage), first->reference, first->measurement.differing, first->measurement.items);
+    if (!first->note.empty()) out += "; " + first->note;
+    if (w.difference > 0) {
+      out += fmt::format("\n  worst: {}: {:.9g}, the reference {:.9g}, {:.4g} {} apart, tolerance {:.4g}",
+                         check::to_string(w.place), w.candidate, w.reference, w.difference, first->measurement.unit,
+                         w.tolerance);
+    }
+    out += '\n';
+  }
+  if (!out.empty()) out += fmt::format("  repeat: {}\n", repeat_command);
+  return out;
+}
+
+namespace {
+
+// How many comparisons came to what.
+struct Tally {
+  std::array<std::size_t, check::kOutcomes> of_outcome{};
+  std::size_t scenes = 0, comparisons = 0;
+
+  void add(const SceneVerdict& verdict) {
+    ++scenes;
+    comparisons += verdict.comparisons.size();
+    for (const Comparison& c : verdict.comparisons) ++of_outcome[static_cast<std::size_t>(c.outcome)];
+  }
+  std::size_t count(Outcome outcome) const { return of_outcome[static_cast<std::size_t>(outcome)]; }
+  std::string text() const {
+    std::string out;
+    for (std::size_t i = 0; i < of_outcome.size(); ++i) {
+      if (of_outcome[i] == 0) continue;
+      out += fmt::format("{}{} {}", out.empty() ? "" : ", ", of_outcome[i], name_of(static_cast<Outcome>(i)));
+    }
+    return out;
+  }
+};
+
+}  // namespace
+
+std::string group_lines(std::span<const SceneVerdict> verdicts) {
+  std::map<std::string, Tally> groups;
+  for (const SceneVerdict& verdict : verdicts) groups[verdict.scene.substr(0, verdict.scene.find('/'))].add(verdict);
+  std::string out;
+  for (const auto& [group, tally] : groups) {
+    out += fmt::format("{:<16} {:>4} scenes {:>6} comparisons: {}\n", group, tally.scenes, tally.comparisons,
+                       tally.text());
+  }
+  return out;
+}
+
+std::string summary(std::span<const SceneVerdict> verdicts, bool all_hold, double seconds) {
+  Tally tally;
+  bool complete = true;
+  for (const SceneVerdict& verdict : verdicts) {
+    tally.add(verdict);
+    complete &= check::unjudged_stages(verdict).empty();
+  }
+  for (Outcome outcome : {Outcome::unsupported, Outcome::missing, Outcome::dispute, Outcome::expected}) {
+    complete &= tally.count(outcome) == 0;
+  }
+  const char* word = !all_hold                ? "FAILED"
+                     : tally.comparisons == 0 ? "nothing was judged"
+                     : complete               ? "ok"
+                                              : "ok where judged";
+  return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, tally.scenes, tally.comparisons, seconds,
+                     tally.text());
+}
+
+std::string stored_table(std::span<const check::StoredComparison> comparisons, double tolerance) {
+  constexpr const char* kStoredRow = "{:<24} {:<10} {:>9} {:>9}  {:<24} {}\n";
+  std::string out = fmt::format(kStoredRow, "what", "outcome", "items", "differing", "largest", "worst");
+  for (const check::StoredComparison& c : comparisons) {
+    const check::Measurement& m = c.measurement;
+    if (c.outcome == Outcome::missing) {
+      out += fmt::format(kStoredRow, c.what, name_of(c.outcome), "-", "-", "-", c.note);
+      continue;
+    }
+    std::string size = "0", place;
+    if (m.max_difference > 0) {
+      size = fmt::format("{:.4g}", m.max_difference);
+      if (c.codes > 0) size += fmt::format(" ({:.6g}/{:.0f})", m.max_difference * c.codes, c.codes);
+    }
+    if (m.max_difference > 0 && m.mismatch.empty()) {
+      place = fmt::format("{}: {:.9g} against {:.9g}", check::to_string(m.worst.place), m.worst.candidate,
+                          m.worst.reference);
+    }
+    const char* between = place.empty() || c.note.empty() ? "" : "; ";
+    out += fmt::format(kStoredRow, c.what, name_of(c.outcome), m.items, m.differing, size, place + between + c.note);
+  }
+  std::size_t differ = 0, missing = 0;
+  for (const check::StoredComparison& c : comparisons) {
+    differ += c.outcome == Outcome::different ? 1 : 0;
+    missing += c.outcome == Outcome::missing ? 1 : 0;
+  }
+  const auto first = std::ranges::find(comparisons, Outcome::different, &check::StoredComparison::outcome);
+  if (comparisons.size() == missing) {
+    out += "nothing was compared\n";
+  } else if (first != comparisons.end()) {
+    out += fmt::format("different: {} of {} beyond tolerance {}; first: {}\n", differ, comparisons.size(), tolerance,
+                       first->what);
+  } else {
+    out += fmt::format("{} of {} hold, tolerance {}\n", comparisons.size() - missing, comparisons.size(), tolerance);
+  }
+  return out;
+}
+
+}  // namespace plumbline::report

@@ -1,0 +1,28 @@
+// The verdict as lines for a terminal or a log.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "check/compare/compare_stored.h"
+#include "check/verdict/verdict.h"
+
+namespace plumbline::report {
+
+std::string table_head();
+/// A line per comparison.
+std::string table_rows(const check::SceneVerdict& verdict);
+/// For a scene that failed: the first different stage, its worst item, the stages whose lack of a judge is a failure,
+/// and the command that repeats it; else empty.
+std::string failure_lines(const check::SceneVerdict& verdict, std::span<const Stage> unjudged,
+                          const std::string& repeat_command);
+/// A line per group (the part of a scene's name before its first '/'), sorted: its scenes, and how many of their
+/// comparisons came to what.
+std::string group_lines(std::span<const check::SceneVerdict> verdicts);
+/// The last line: how many comparisons came to what. "ok" where all hold, bare only where every stage was judged.
+std::string summary(std::span<const check::SceneVerdict> verdicts, bool all_hold, double seconds);
+
+/// A comparison of two images or captures: a line each, under a head.
+std::string stored_table(std::span<const check::StoredComparison> comparisons, double tolerance);
+
+}  // namespace plumbline::report

@@ -1,0 +1,18 @@
+// The "lights" and the "light_model" of a scene file.
+#pragma once
+
+#include "scene/json/json_tree.h"
+#include "scene/scene.h"
+
+namespace plumbline {
+
+/// [r, g, b], 0 or more. Throws JsonError.
+glm::vec3 read_light_color(const JsonNode& node);
+
+/// One of "lights". Throws JsonError.
+Light read_light(const JsonNode& node);
+
+/// All but its ambient light. Throws JsonError.
+LightModel read_light_model(const JsonNode& node);
+
+}  // namespace plumbline

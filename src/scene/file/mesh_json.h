@@ -1,0 +1,17 @@
+// The "mesh" of a scene file's draw.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scene/json/asset_folders.h"
+#include "scene/json/json_tree.h"
+#include "scene/mesh/mesh_file.h"
+
+namespace plumbline {
+
+/// Makes or loads the mesh that the node describes (scene_file.h): one part, or of a file one for each stretch of one
+/// material. More than `most_triangles` are refused before they are made. Throws JsonError.
+std::vector<MeshPart> read_mesh(const JsonNode& node, const AssetFolders& folders, std::size_t most_triangles);
+
+}  // namespace plumbline

@@ -1,0 +1,380 @@
+#include "scene/mesh/mesh_import.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
+
+#include "scene/json/scene_values.h"
+#include "scene/mesh/mesh_check.h"
+#include "scene/mesh/mesh_shapes.h"
+#include "scene/mesh/polygon.h"
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(std::string_view expected, std::string_view found) {
+  throw std::runtime_error(fmt::format("expected {}, found {}", expected, found));
+}
+
+std::string read_bytes(const fs::path& file) {
+  constexpr std::uintmax_t kLargest = 256u << 20;
+  if (!fs::is_regular_file(file)) fail("a mesh file", "none");
+  const std::uintmax_t size = fs::file_size(file);
+  if (size > kLargest) fail(fmt::format("a mesh file of at most {} bytes", kLargest), fmt::format("{}", size));
+  std::string bytes(size, '\0');
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) fail("a mesh file", "one that cannot be read");
+  return bytes;
+}
+
+/// Files for assimp: the mesh file's bytes as they were checked, and regular files that the folders allow. A material
+/// file that does not exist is an empty one.
+class AllowedFiles : public Assimp::DefaultIOSystem {
+ public:
+  /// Material files asked for, and the first other file that was not opened.
+  struct Asked {
+    std::string refused;     ///< with what is wrong
+    std::string missing;     ///< material file that does not exist, the first
+    bool materials = false;  ///< a material file was opened
+  };
+  AllowedFiles(const AssetFolders& folders, const fs::path& mesh, std::string_view bytes, Asked& asked)
+      : folders_(folders), mesh_(mesh), bytes_(bytes), asked_(asked) {}
+  /// Without opening it, as assimp's own does: a pipe would wait for ever.
+  bool Exists(const char* file) const override {
+    std::error_code error;
+    return fs::is_regular_file(file, error);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    const bool reads = mode[0] == 'r';
+    if (reads && file == mesh_ && folders_.allow(file)) return stream_of(bytes_);
+    const bool material = fs::path(file).extension() == ".mtl";
+    if (reads && material && lacks(file)) {
+      if (asked_.missing.empty()) asked_.missing = file;
+      return stream_of("# no material\n");  // assimp would open a file of the mesh's name instead
+    }
+    std::error_code error;
+    const bool there = fs::is_regular_file(file, error);
+    if (there && reads && folders_.allow(file)) {
+      asked_.materials = asked_.materials || material;
+      return DefaultIOSystem::Open(file, mode);
+    }
+    if (asked_.refused.empty()) {
+      asked_.refused = fmt::format("\"{}\", {}", file, there ? "which is elsewhere" : "which is no file");
+    }
+    return nullptr;
+  }
+
+ private:
+  static Assimp::IOStream* stream_of(std::string_view bytes) {
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  }
+  /// A name with blanks may be several files' names.
+  static bool lacks(const std::string& file) {
+    std::error_code error;
+    return fs::symlink_status(file, error).type() == fs::file_type::not_found &&
+           fs::path(file).filename().string().find(' ') == std::string::npos;
+  }
+
+  const AssetFolders& folders_;
+  const fs::path& mesh_;
+  std::string_view bytes_;
+  Asked& asked_;
+};
+
+/// Complaints after which nothing of the shape is guessed: parts without nodes, an OBJ without "o", animations, third
+/// texture coordinates that are 0.
+constexpr std::array<std::string_view, 6> kHarmless = {
+    "No hierarchy information", "No object detected to attach",         "animation", "roll track",
+    "Skipping pivot",           "UVs are declared to be 3D but they're"};
+
+using Names = std::set<std::string, std::less<>>;
+
+/// What assimp complains about while this lives: what it then does is guess.
+class Complaints {
+ public:
+  Complaints() {
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(new Stream(*this), Assimp::Logger::Err | Assimp::Logger::Warn);
+  }
+  ~Complaints() { Assimp::DefaultLogger::kill(); }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+  const std::string& first() const { return first_; }
+  /// Names of materials that the file uses and no material file defines.
+  const Names& undefined_materials() const { return undefined_; }
+
+ private:
+  struct Stream : Assimp::LogStream {
+    explicit Stream(Complaints& to) : complaints(to) {}
+    void write(const char* message) override { complaints.add(message); }
+    Complaints& complaints;
+  };
+  void add(std::string_view text) {
+    constexpr std::string_view kUndefined = "OBJ: failed to locate material ", kRest = ", creating new material";
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const std::size_t undefined = line.find(kUndefined), rest = line.rfind(kRest);
+    if (undefined != line.npos && rest != line.npos) {
+      undefined_.emplace(line.substr(undefined + kUndefined.size(), rest - undefined - kUndefined.size()));
+      return;
+    }
+    const bool harmless = std::any_of(kHarmless.begin(), kHarmless.end(),
+                                      [&](std::string_view part) { return text.find(part) != text.npos; });
+    if (first_.empty() && !harmless) first_ = line;
+    if (const std::size_t head = first_.find(": "); head < 12) first_.erase(0, head + 2);  // "Warn,  T0: "
+  }
+  std::string first_;
+  Names undefined_;
+};
+
+/// Before anything is made of it: a post-processing step would trust the numbers.
+void check_part(const aiMesh& part) {
+  for (unsigned f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices < 3) {
+      fail("faces of three corners or more (lines and points are not drawn)",
+           fmt::format("{} in face {}", face.mNumIndices, f));
+    }
+    constexpr unsigned kMostCorners = 1024;
+    if (face.mNumIndices > kMostCorners) {
+      fail(fmt::format("polygons of at most {} corners", kMostCorners),
+           fmt::format("{} in face {}", face.mNumIndices, f));
+    }
+    std::vector<glm::dvec3> corners;
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      const unsigned i = face.mIndices[k];
+      if (i >= part.mNumVertices) {
+        fail(fmt::format("vertices below {}", part.mNumVertices), fmt::format("{} in face {}", i, f));
+      }
+      const aiVector3D& p = part.mVertices[i];
+      if (face.mNumIndices > 3) corners.emplace_back(p.x, p.y, p.z);
+    }
+    if (const std::string fault = polygon_fault(corners); !fault.empty()) {
+      fail("flat polygons that do not cross themselves", fmt::format("in face {} {}", f, fault));
+    }
+  }
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& p = part.mVertices[i];
+    for (const float x : {p.x, p.y, p.z}) {
+      if (!std::isfinite(x)) fail("coordinates that are finite", fmt::format("{} in vertex {}", x, i));
+    }
+    if (part.HasNormals()) {
+      const aiVector3D& n = part.mNormals[i];
+      if (!std::isnormal(n.SquareLength())) {
+        fail("finite normals that are not zero, for all corners or for none",
+             fmt::format("({}, {}, {}) in vertex {}", n.x, n.y, n.z, i));
+      }
+    }
+    if (part.HasTextureCoords(0)) {
+      constexpr float kLargest = 16384;
+      const aiVector3D& c = part.mTextureCoords[0][i];
+      for (const float x : {c.x, c.y}) {
+        if (!(std::abs(x) <= kLargest)) {
+          fail(fmt::format("texture coordinates from {} to {}", -kLargest, kLargest),
+               fmt::format("{} in vertex {}", x, i));
+        }
+      }
+    }
+    if (part.HasVertexColors(0)) {
+      const aiColor4D& c = part.mColors[0][i];
+      for (const float x : {c.r, c.g, c.b, c.a}) {
+        if (!(x >= 0 && x <= 1)) fail("colours from 0 to 1", fmt::format("{} in vertex {}", x, i));
+      }
+    }
+  }
+}
+
+glm::vec4 read_color(const aiMaterial& from, const char* key, float alpha) {
+  aiColor4D c(0);
+  if (from.Get(key, 0, 0, c) != aiReturn_SUCCESS) return {0, 0, 0, alpha};
+  for (const float x : {c.r, c.g, c.b}) {
+    if (!(x >= 0 && x <= 1))
+      fail("colours from 0 to 1", fmt::format("{} in the material {}", x, from.GetName().C_Str()));
+  }
+  return {c.r, c.g, c.b, alpha};
+}
+
+/// None for the materials that assimp makes up: where a file has none (a PLY file never has), and `undefined` ones.
+std::optional<Material> read_material(const aiMaterial& from, std::string_view ending, const Names& undefined) {
+  const std::string name = from.GetName().C_Str();
+  const bool made_up = name == AI_DEFAULT_MATERIAL_NAME || name == "%%%DEFAULT" || undefined.contains(name);
+  if (ending == ".ply" || made_up) return std::nullopt;
+  float opacity = 1, shininess = 0;
+  from.Get(AI_MATKEY_OPACITY, opacity);
+  from.Get(AI_MATKEY_SHININESS, shininess);
+  if (!(opacity >= 0 && opacity <= 1))
+    fail("an opacity from 0 to 1", fmt::format("{} in the material {}", opacity, name));
+  if (!(shininess >= 0)) fail("a shininess of 0 or more", fmt::format("{} in the material {}", shininess, name));
+  Material to;
+  to.diffuse = read_color(from, "$clr.diffuse", opacity);
+  to.emission = read_color(from, "$clr.emissive", 1);
+  if (ending == ".gltf" || ending == ".glb") {
+    to.ambient = glm::vec4(glm::vec3(to.diffuse), 1);
+    return to;
+  }
+  to.ambient = read_color(from, "$clr.ambient", 1);
+  to.specular = read_color(from, "$clr.specular", 1);
+  to.shininess = std::min(shininess, 128.0f);
+  return to;
+}
+
+/// Puts the file's parts, placed, one after the other.
+class Assembly {
+ public:
+  Assembly(const aiScene& scene, std::string_view ending, const Names& undefined_materials, std::size_t most_triangles)
+      : scene_(scene), ending_(ending), undefined_(undefined_materials), most_triangles_(most_triangles) {}
+
+  void add(const aiNode& node, const aiMatrix4x4& parent, int depth = 0) {
+    constexpr int kDeepest = 256;
+    if (depth > kDeepest) fail(fmt::format("at most {} levels of nodes", kDeepest), "more");
+    const aiMatrix4x4 placement = parent * node.mTransformation;
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) add(*scene_.mMeshes[node.mMeshes[m]], placement);
+    for (unsigned c = 0; c < node.mNumChildren; ++c) add(*node.mChildren[c], placement, depth + 1);
+  }
+  std::vector<MeshPart> take() { return std::move(parts_); }
+
+ private:
+  void add(const aiMesh& from, const aiMatrix4x4& placement) {
+    triangles_ += from.mNumFaces;
+    if (triangles_ > most_triangles_) fail(fmt::format("at most {} triangles", most_triangles_), "more");
+    if (parts_.empty() || material_ != from.mMaterialIndex) {
+      parts_.push_back({{}, read_material(*scene_.mMaterials[from.mMaterialIndex], ending_, undefined_), ""});
+      material_ = from.mMaterialIndex;
+    }
+    Mesh& mesh = parts_.back().mesh;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const bool coordinates = from.HasTextureCoords(0) && mesh.texcoords.size() == first;
+    if (!coordinates) mesh.texcoords.clear();
+    const aiMatrix3x3 linear(placement);
+    const bool mirrors = linear.Determinant() < 0;
+    const aiMatrix3x3 for_normals = aiMatrix3x3(linear).Inverse().Transpose();
+    if (from.HasVertexColors(0)) mesh.colors.resize(first, glm::vec4(1));
+    for (unsigned i = 0; i < from.mNumVertices; ++i) {
+      const aiVector3D p = placement * from.mVertices[i];
+      for (const float x : {p.x, p.y, p.z}) {
+        if (!(std::abs(x) <= kLargestCoordinate)) {
+          fail(fmt::format("coordinates from {} to {}", -kLargestCoordinate, kLargestCoordinate),
+               fmt::format("{} in vertex {}", x, first + i));
+        }
+      }
+      mesh.positions.emplace_back(p.x, p.y, p.z);
+      const aiVector3D n = from.HasNormals() ? for_normals * from.mNormals[i] : aiVector3D(0);
+      mesh.normals.emplace_back(n.x, n.y, n.z);
+      if (coordinates) mesh.texcoords.emplace_back(from.mTextureCoords[0][i].x, from.mTextureCoords[0][i].y);
+      if (from.HasVertexColors(0)) {
+        const aiColor4D c = from.mColors[0][i];
+        mesh.colors.emplace_back(c.r, c.g, c.b, c.a);
+      } else if (!mesh.colors.empty()) {
+        mesh.colors.emplace_back(1);
+      }
+    }
+    for (unsigned f = 0; f < from.mNumFaces; ++f) {
+      const unsigned* corner = from.mFaces[f].mIndices;
+      glm::uvec3 t(corner[0], corner[1], corner[2]);
+      if (mirrors) std::swap(t.x, t.y);
+      if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t + first);
+    }
+  }
+
+  const aiScene& scene_;
+  std::string_view ending_;
+  const Names& undefined_;
+  std::size_t most_triangles_, triangles_ = 0;
+  unsigned material_ = 0;
+  std::vector<MeshPart> parts_;
+};
+
+/// Unit length; where one is not to be had (around triangles without an area), one made from the adjacent triangles.
+void repair_normals(Mesh& mesh) {
+  std::vector<glm::vec3> spare;
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    const double length = glm::length(glm::dvec3(mesh.normals[i]));
+    if (std::isnormal(length)) {
+      mesh.normals[i] = glm::vec3(glm::dvec3(mesh.normals[i]) / length);
+    } else {
+      if (spare.empty()) spare = area_weighted_normals(mesh.positions, mesh.triangles);
+      mesh.normals[i] = spare[i];
+    }
+  }
+}
+
+void add_note(std::string& notes, const std::string& note) { notes += (notes.empty() ? "" : "; ") + note; }
+
+/// On bytes that are not the ending's, assimp tries every format that it knows, and may then read for ever.
+void check_beginning(std::string_view bytes, std::string_view ending) {
+  if (ending == ".glb" && !bytes.starts_with("glTF"))
+    fail("a binary glTF file, beginning with glTF", "another beginning");
+  if (ending == ".3ds" && !bytes.starts_with("MM")) fail("a 3DS file, beginning with MM", "another beginning");
+  if (ending != ".gltf") return;
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (first == bytes.npos || bytes[first] != '{') fail("a glTF file, beginning with {", "another beginning");
+}
+
+}  // namespace
+
+std::vector<MeshPart> import_mesh(const fs::path& file, const AssetFolders& folders, std::size_t most_triangles) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (ending != ".obj" && ending != ".3ds" && ending != ".ply" && ending != ".gltf" && ending != ".glb") {
+    fail("a mesh file ending in .obj, .3ds, .ply, .gltf or .glb", fmt::format("\"{}\"", ending));
+  }
+  std::string bytes = read_bytes(file);
+  check_beginning(bytes, ending);
+  std::string note;
+  if (ending == ".obj") note = check_obj(bytes);
+  if (ending == ".ply") {
+    check_ply(bytes);
+    bytes = with_faces_for_strips(bytes);
+  }
+
+  AllowedFiles::Asked asked;
+  const Complaints complaints;
+  const Names& undefined = complaints.undefined_materials();
+  Assimp::Importer importer;
+  importer.SetIOHandler(new AllowedFiles(folders, file, bytes, asked));
+  const aiScene* scene = importer.ReadFile(file.string(), 0);
+  if (!asked.refused.empty())
+    fail("a mesh whose other files are in the scene's folder or an asset folder", asked.refused);
+  if (scene == nullptr) fail("a mesh", importer.GetErrorString());
+  if (scene->mRootNode == nullptr) fail("a mesh", "a scene of nothing");
+  if (!complaints.first().empty()) fail("a mesh that can be read as it is", complaints.first());
+  if (!undefined.empty() && asked.materials && asked.missing.empty()) {
+    fail("materials that the material files define", fmt::format("\"{}\"", *undefined.begin()));
+  }
+  if (!asked.missing.empty()) {
+    add_note(note, fmt::format("materials of \"{}\" are left out: there is no such file", asked.missing));
+  } else if (!undefined.empty()) {
+    add_note(note, fmt::format("the material \"{}\" is left out: no material file is named", *undefined.begin()));
+  }
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) check_part(*scene->mMeshes[m]);
+
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
+                                       aiProcess_GenSmoothNormals);
+  if (scene == nullptr) fail("a mesh", importer.GetErrorString());
+  if (!complaints.first().empty()) fail("polygons that can be cut into triangles", complaints.first());
+  Assembly assembly(*scene, ending, undefined, most_triangles);
+  assembly.add(*scene->mRootNode, aiMatrix4x4());
+  std::vector<MeshPart> parts = assembly.take();
+  std::erase_if(parts, [](const MeshPart& part) { return part.mesh.triangles.empty(); });
+  if (parts.empty()) fail("triangles", "none");
+  for (MeshPart& part : parts) repair_normals(part.mesh);
+  parts.front().note = std::move(note);
+  return parts;
+}
+
+}  // namespace plumbline

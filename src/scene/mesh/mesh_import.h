@@ -1,0 +1,17 @@
+// Mesh files through assimp.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "scene/json/asset_folders.h"
+#include "scene/mesh/mesh_part.h"
+
+namespace plumbline {
+
+/// What load_mesh (mesh_file.h) does, in this process. Throws std::runtime_error: expected ..., found ...
+std::vector<MeshPart> import_mesh(const std::filesystem::path& file, const AssetFolders& folders,
+                                  std::size_t most_triangles);
+
+}  // namespace plumbline

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/mesh/mesh_check.h"
+#include "scene/mesh/text_scan.h"
+
+namespace plumbline {
+namespace {
+
+/// The numbers of a line, each of which assimp's reader takes for one.
+std::vector<double> read_numbers(std::string_view line) {
+  std::vector<double> numbers;
+  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
+    const bool point_first = word.front() == '.';
+    const auto number = number_in<double>(word);
+    if (!number || point_first) {
+      throw std::runtime_error(fmt::format("expected a number that begins with a sign or a digit, found \"{}\"", word));
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+/// Of v, vt and vn, in the order in which a corner names them.
+using Counts = std::array<std::int64_t, 3>;
+constexpr std::array<std::string_view, 3> kIndexed = {"v", "vt", "vn"};
+
+void count(std::string_view statement, Counts& counts) {
+  for (std::size_t i = 0; i < kIndexed.size(); ++i) counts[i] += statement == kIndexed[i] ? 1 : 0;
+}
+
+Counts count_all(std::string_view text) {
+  Counts counts{};
+  while (!text.empty()) {
+    std::string_view line = take_line(text);
+    count(take_word(line), counts);
+  }
+  return counts;
+}
+
+/// Indices count from 1 in the whole file, or down from -1 in what stands above.
+void check_corner(std::string_view corner, const Counts& all, const Counts& above) {
+  for (std::size_t i = 0; i < kIndexed.size() && !corner.empty(); ++i) {
+    const std::string_view word = corner.substr(0, corner.find('/'));
+    corner.remove_prefix(std::min(word.size() + 1, corner.size()));
+    if (word.empty()) continue;
+    const auto index = number_in<std::int64_t>(word);
+    if (!index || *index == 0 || *index > all[i] || *index < -above[i]) {
+      throw std::runtime_error(
+          fmt::format("expected an index of the {} {} that there are, found {}", all[i], kIndexed[i], word));
+    }
+  }
+}
+
+void check_face(std::string_view line, const Counts& all, const Counts& above) {
+  int corners = 0;
+  for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
+    if (word.find_first_not_of("0123456789/-") != word.npos) {
+      throw std::runtime_error(fmt::format("expected a corner such as 1, 1/2, 1//3 or 1/2/3, found \"{}\"", word));
+    }
+    check_corner(word, all, above);
+  }
+  if (corners < 3) throw std::runtime_error(fmt::format("expected a face of three corners or more, found {}", corners));
+}
+
+}  // namespace
+
+std::string check_obj(std::string_view text) {
+  constexpr std::array<std::string_view, 8> kHarmless = {"vn", "g", "o", "s", "mg", "mtllib", "usemtl", ""};
+  std::string note;
+  std::size_t numbers_of_all = 0;
+  const Counts all = count_all(text);
+  Counts above{};
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    std::string_view line = take_line(text);
+    line = line.substr(0, line.find('#'));
+    const std::string_view statement = take_word(line);
+    count(statement, above);
+    try {
+      if (statement == "v") {
+        const std::size_t numbers = read_numbers(line).size();
+        if (numbers != 3 && numbers != 4 && numbers != 6) {
+          throw std::runtime_error(fmt::format("expected v with 3, 4 or 6 numbers, found {}", numbers));
+        }
+        if (numbers_of_all != 0 && numbers != numbers_of_all) {
+          throw std::runtime_error(
+              fmt::format("expected v with {} numbers as in the lines before, found {}", numbers_of_all, numbers));
+        }
+        numbers_of_all = numbers;
+      } else if (statement == "vt") {
+        const std::vector<double> numbers = read_numbers(line);
+        if (numbers.size() != 2 && numbers.size() != 3) {
+          throw std::runtime_error(fmt::format("expected vt with 2 or 3 numbers, found {}", numbers.size()));
+        }
+        if (note.empty() && numbers.size() == 3 && numbers[2] != 0) {
+          note = fmt::format("third texture coordinates, as in line {}, are left out: textures have two", number);
+        }
+      } else if (statement == "f") {
+        check_face(line, all, above);
+      } else if (std::find(kHarmless.begin(), kHarmless.end(), statement) == kHarmless.end()) {
+        throw std::runtime_error(
+            fmt::format("expected v, vn, vt, f, g, o, s, mtllib or usemtl, found \"{}\"", statement.substr(0, 40)));
+      }
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("{} in line {}", error.what(), number));
+    }
+  }
+  return note;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,167 @@
+// The bound of a lit colour's rounding: each of its terms, on scenes where that term alone counts.
+#include "check/bounds/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/check/fixtures.h"
+
+namespace plumbline::check {
+namespace {
+
+struct LightBoundsTest : testing::Test {
+  LightBoundsTest() {
+    scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};
+    draw.material.ambient = {0.5, 0.5, 0.5, 1};
+    draw.material.diffuse = {0.5, 1, 0, 1};
+    draw.material.specular = {0.25, 0.5, 1, 1};
+    draw.material.shininess = 10;
+    light.vector = {0, 0, 2};
+    light.ambient = {1, 2, 3};
+    light.diffuse = {4, 2, 1};
+    light.specular = {2, 2, 0.5};
+  }
+  LightBounds at(glm::dvec3 p_eye, glm::dvec3 n_eye) const {
+    return light_bounds(scene, draw.material, {glm::dvec4(p_eye, 1), glm::dvec4(0), n_eye});
+  }
+  glm::dvec3 magnitude_at(glm::dvec3 p_eye) const { return at(p_eye, {0, 0, 1}).magnitude; }
+  Scene scene;
+  Draw draw;
+  Light light;
+};
+
+TEST_F(LightBoundsTest, IsAtLeastTheClampedResult) { EXPECT_EQ(magnitude_at({0, 0, 0}), glm::dvec3(1)); }
+
+TEST_F(LightBoundsTest, SumsEmissionSceneAndLights) {
+  draw.material.emission = {2, 0, 3, 1};
+  scene.light_model.ambient = {1, 1, 4};
+  EXPECT_EQ(magnitude_at({0, 0, 0}), glm::dvec3(2.5, 1, 5));
+  scene.lights = {light};
+  // A power's slope is taken at the far end of its argument's error. Along z the half vector's length is 2: the
+  // highlight counts 1 + 10 (1 + 1/2) times.
+  const glm::dvec3 one(0.5 + 2 + 16 * 0.5, 1 + 2 + 16 * 1, 1.5 + 0 + 16 * 0.5);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(magnitude_at({0, 0, 0})[c], glm::dvec3(2.5, 0.5, 5)[c] + one[c], 1e-3);
+  }
+  scene.lights = {light, light};
+  EXPECT_NEAR(magnitude_at({7, 8, 9}).r, 2.5 + 2 * one.r, 1e-3) << "wherever the vertex is";
+}
+
+TEST_F(LightBoundsTest, OfAPointLightGrowsNearIt) {
+  light.kind = Light::Kind::point;
+  light.vector = {0, 0, 3};  // eye space: (0, 0, -2)
+  scene.lights = {light};
+  // From (0, 0, -6): (2 + 6) / 4 + 1 = 3 times.
+  EXPECT_NEAR(magnitude_at({0, 0, -6}).r, 0.5 + 3 * 2 + 3 * 16 * 0.5, 1e-3);
+  EXPECT_GT(magnitude_at({0, 0, -2.01}).r, 100 * magnitude_at({0, 0, -6}).r / 3);
+}
+
+TEST_F(LightBoundsTest, OfALightAtTheVertexAreInfinite) {
+  light.kind = Light::Kind::point;
+  light.vector = {0, 0, 3};
+  scene.lights = {light};
+  EXPECT_EQ(magnitude_at({0, 0, -2}).r, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isfinite(magnitude_at({0, 0, -2.0001}).r));
+}
+
+TEST_F(LightBoundsTest, OverflowIsOfSpecularTermsOfZeroAlone) {
+  draw.material.specular = {0.25, 0, 1, 1};
+  draw.material.shininess = 128;
+  scene.lights = {light};
+  EXPECT_EQ(at({0, 0, 0}, {0, 0, 1}).overflows, glm::bvec3(false));
+  EXPECT_EQ(at({0, 0, 0}, {0, 0, 1.9}).overflows, glm::bvec3(false)) << "1.9^128 = 2^118.5";
+  EXPECT_EQ(at({0, 0, 0}, {0, 0, 2}).overflows, glm::bvec3(false, true, false));
+  scene.lights.push_back(light);
+  scene.lights[1].kind = Light::Kind::point;
+  scene.lights[1].vector = {0, 0, 8};
+  scene.lights[1].spot = Spot{{0, 0, 1}, 10, 0};  // away from the vertex
+  EXPECT_EQ(at({0, 0, 0}, {0, 0, 2}).overflows, glm::bvec3(true)) << "a cone's 0 times the power";
+}
+
+TEST_F(LightBoundsTest, TheHighlightMayComeOrGoWhereTheLightGrazes) {
+  light.vector = {1, 0, 0};
+  scene.lights = {light};
+  // N.H = 1 / sqrt 2, to the 10th: 1/32 of the term.
+  EXPECT_NEAR(at({0, 0, 0}, {0, 0, 1}).jump.r, 2 * 0.25 / 32, 1e-12);
+  EXPECT_NEAR(at({0, 0, 0}, {0, 0, 1}).jump.b, 0.5 * 1 / 32.0, 1e-12);
+  const auto tilted = [&](double sine) { return at({0, 0, 0}, {sine, 0, std::sqrt(1 - sine * sine)}).jump.r; };
+  constexpr double kU = kUnitRoundoff;
+  EXPECT_GT(tilted(15 * kU), 0);
+  EXPECT_GT(tilted(-15 * kU), 0);
+  EXPECT_EQ(tilted(17 * kU), 0);
+  EXPECT_EQ(tilted(-17 * kU), 0);
+}
+
+TEST_F(LightBoundsTest, AConesEndTakesItsLightAlong) {
+  light.kind = Light::Kind::point;
+  light.vector = {0, 0, 4};  // eye space: (0, 0, -1)
+  light.spot = Spot{{0, 0, -1}, 45, 2};
+  scene.lights = {light};
+  draw.material.specular = glm::vec4(0);
+  // On the edge: cos 45 of the normal, half of the cone, and the ambient term with it.
+  EXPECT_NEAR(at({1, 0, -2}, {0, 0, 1}).jump.r, 0.5 * (0.5 + 2 * std::sqrt(0.5)), 1e-3);
+  EXPECT_EQ(at({1.001, 0, -2}, {0, 0, 1}).jump.r, 0);
+  EXPECT_EQ(at({0.999, 0, -2}, {0, 0, 1}).jump.r, 0);
+  EXPECT_EQ(at({1.001, 0, -2}, {0, 0, 1}).magnitude.r, 1) << "nothing is left of the light";
+  // Within, on the axis: the cone's slope, 2, for k + 1 = (1 + 2) / 1 + 2.
+  EXPECT_NEAR(at({0, 0, -2}, {0, 0, 1}).magnitude.r, (0.5 + 4 * 2) + 2 * 5 * (0.5 + 2), 1e-3);
+}
+
+TEST_F(LightBoundsTest, DistanceCountsTwice) {
+  light.kind = Light::Kind::point;
+  light.vector = {0, 0, 3};
+  light.attenuation = {0, 1, 0};
+  scene.lights = {light};
+  draw.material.specular = glm::vec4(0);
+  // A quarter, from (0, 0, -6), where k = 3, and 2 k of what is there.
+  EXPECT_NEAR(magnitude_at({0, 0, -6}).r, 0.25 * (0.5 + 3 * 2) + 0.25 * 6 * (0.5 + 2), 1e-3);
+}
+
+TEST_F(LightBoundsTest, GzRendersRuleTurnsAtTheHorizon) {
+  scene.light_model.sides = LightModel::Sides::flip;
+  light.vector = {1, 0, 0};
+  scene.lights = {light};
+  draw.material.specular = glm::vec4(0);
+  EXPECT_NEAR(at({0, 0, 0}, {1, 0, 0}).jump.r, 2, 1e-9) << "all but the ambient term";
+  EXPECT_NEAR(at({0, 0, 0}, {-1, 0, 0}).jump.r, 2, 1e-9) << "turned over, it is lit as well";
+  EXPECT_EQ(at({0, 0, 0}, glm::normalize(glm::dvec3(1, 0, 1e-5))).jump.r, 0);
+}
+
+TEST_F(LightBoundsTest, LongNormalsSteepenThePower) {
+  light.specular = {2, 2, 0.5};
+  scene.lights = {light};
+  draw.material.diffuse = glm::vec4(0);
+  draw.material.shininess = 2;
+  // N.H = 2: (N.H)^2 = 4, its slope 2 * 2, of an argument twice as long (1 + 1/2 times).
+  EXPECT_NEAR(at({0, 0, 0}, {0, 0, 2}).magnitude.r, 0.5 + 0.5 * (4 + 4 * 3), 1e-3);
+}
+
+TEST_F(LightBoundsTest, InheritWhatTheInputsAreOffBy) {
+  const auto inherited = [&](const LightInputs& errors) {
+    return light_bounds(scene, draw.material, {glm::dvec4(0, 0, -6, 1), glm::dvec4(0), glm::dvec3(0, 0.6, 0.8)}, errors)
+        .inherited.r;
+  };
+  draw.material.specular = glm::vec4(0);
+  light.kind = Light::Kind::point;
+  light.vector = {0, 0, 3};  // eye space: (0, 0, -2), 4 away
+  light.attenuation = {0, 1, 0};
+  scene.lights = {light};
+  EXPECT_EQ(inherited({}), 0);
+  EXPECT_NEAR(inherited({0, 0.01, 0}), 0.25 * 2 * 0.01, 1e-9) << "the normal, by the diffuse term's 2, a quarter of it";
+  // The position: 2 of it over the distance in N.L, and 1 / (d - e) for 1 / d of all.
+  const double moved = 1 / 3.99 - 0.25;
+  EXPECT_NEAR(inherited({0.01, 0, 0}), (0.25 + moved) * 2 * 0.005 + moved * (0.5 + 0.8 * 2), 1e-9);
+  // Colours: the emission and no scene's ambient light, and of the lamp a quarter of its own.
+  EXPECT_NEAR(inherited({0, 0, 0.01}), 0.01 * (1 + 0.25 * (1 + 0.8 * 4 + 2 * std::pow(0.8, 10))), 1e-9);
+}
+
+TEST_F(LightBoundsTest, OfAHighlightSeenAgainstTheLightGrows) {
+  light.vector = {0, 0.1, -1};
+  scene.lights = {light};
+  // |L + z| is about 0.1: 1 + 10 (1 + 10).
+  EXPECT_NEAR(magnitude_at({0, 0, 0}).r, 0.5 + 2 + 0.5 * (11 + 10 / 0.0997), 0.5);
+}
+
+}  // namespace
+}  // namespace plumbline::check

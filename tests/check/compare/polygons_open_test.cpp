@@ -1,0 +1,106 @@
+// Polygons whose cuts rounding decides about: the corners say what is open, never the polygon that is judged.
+#include "tests/check/compare/polygons.h"
+
+namespace plumbline::check {
+namespace {
+
+struct OpenPolygons : Polygons {
+  void set_line(const glm::dvec4& a, const glm::dvec4& b) {
+    set({{a, b, b}});
+    scene.meshes[0].topology = Topology::lines;
+    records.lit[2] = records.lit[1];
+    Capture in;
+    in.records = records;
+    in.records.polygons = {};
+    records.polygons = exact::make_exact()->run_stage(scene, Stage::clip, in).records.polygons;
+  }
+  // The end of the line at share t of it.
+  ClipVertex<double> on_line(double t, bool cut) const {
+    return {glm::mix(records.vertices[0].p_clip, records.vertices[1].p_clip, t),
+            glm::mix(records.lit[0].color, records.lit[1].color, t), cut};
+  }
+  Measurement ending_in(const ClipVertex<double>& end) const {
+    return compare([&](auto& r) { at(r, 0, 1) = end; });
+  }
+};
+
+TEST_F(OpenPolygons, AVertexInTheEyeOpensNoPlane) {
+  ASSERT_EQ(records.polygons.polygons[2].count, 4u);
+  EXPECT_TRUE(fails(compare([&](auto& r) {
+    erase_vertex(r, 2, cuts(2)[1]);
+    at(r, 2, cuts(2)[0]).p_clip = glm::dvec4(0);
+  })));
+}
+
+TEST_F(OpenPolygons, ACornerThatIsOpenCannotBeLost) {
+  set({{{-0.5, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, -1, 1}}});  // the last corner lies on the near plane
+  ASSERT_EQ(records.polygons.polygons[0].count, 3u);
+  EXPECT_TRUE(fails(compare([&](auto& r) { erase_vertex(r, 0, 2); }))) << "an edge is left";
+  EXPECT_TRUE(passes(compare([&](auto& r) {
+    repeat_vertex(r, 0, 2);
+    at(r, 0, 2).cut = at(r, 0, 3).cut = true;
+  })));
+  for (const glm::dvec4 off : {glm::dvec4(1e-5, 0, 0, 0), {0, 0, -1e-5, 0}}) {
+    EXPECT_TRUE(fails(compare([&](auto& r) {
+      repeat_vertex(r, 0, 2);
+      at(r, 0, 2).cut = at(r, 0, 3).cut = true;
+      at(r, 0, 2).p_clip += off;
+    }))) << "off its triangle, or outside";
+  }
+}
+
+// A triangle over the corner of the view, which its long side passes in a distance of `outside`.
+TEST_F(OpenPolygons, AnExtraPolygonIsThereByItsCornersAlone) {
+  const auto with_extra = [&](double outside, const glm::dvec4& place) {
+    set({{{2 + outside, 0, 0, 1}, {0, 2 + outside, 0, 1}, {3, 3, 0, 1}}});
+    EXPECT_TRUE(records.polygons.polygons.empty());
+    const glm::dvec4 color = glm::mix(records.lit[0].color, records.lit[1].color, 0.5);
+    return compare([&](auto& r) {
+      r.polygons.vertices.assign(3, {place, color, true});
+      r.polygons.polygons = {{0, 0, 3}};
+    });
+  };
+  const Measurement m = with_extra(0x1p-23, {1 + 0x1p-24, 1 + 0x1p-24, 0, 1});
+  EXPECT_TRUE(passes(m));
+  EXPECT_EQ(m.ambiguous, 1u);
+  EXPECT_TRUE(fails(with_extra(0x1p-23, {1, 0.5, 0, 1}))) << "on a plane, but not of the triangle";
+  EXPECT_TRUE(fails(with_extra(0x1p-23, {1.5, 0.5, 0, 1}))) << "of the triangle, but outside";
+  EXPECT_TRUE(fails(with_extra(0.125, {1, 1, 0, 1}))) << "on two planes, which the triangle does not meet";
+}
+
+// A triangle that reaches far into the view, of which the reference has nothing: that the candidate has no more than a
+// point of it, on a plane, opens nothing.
+TEST_F(OpenPolygons, AnExtraPolygonOnAPlaneDoesNotExcuseItself) {
+  set({{{-0.5, 0, 0, 1}, {1.5, 0, 0, 1}, {0, 0.5, 0, 1}}});
+  const glm::dvec4 color = glm::mix(records.lit[0].color, records.lit[1].color, 0.75);
+  const auto point = [&](auto& r) {
+    r.polygons.vertices.assign(3, {glm::dvec4(1, 0, 0, 1), color, true});
+    r.polygons.polygons = {{0, 0, 3}};
+  };
+  EXPECT_TRUE(fails(compare(point, [](auto& r) { r.polygons = {}; })));
+}
+
+TEST_F(OpenPolygons, ALineEndsOnAPlaneByItsCornerAlone) {
+  set_line({0, 0, 0, 1}, {0.5, 0.25, 0, 1});
+  ASSERT_FALSE(at(records, 0, 1).cut);
+  EXPECT_TRUE(passes(compare(kUnchanged)));
+  EXPECT_TRUE(fails(ending_in(on_line(2, true)))) << "on the right plane, which its corner is far from";
+  for (const double off : {0.0, -0x1p-23, 0x1p-23}) {
+    set_line({0, 0, 0, 1}, {1 + off, 0.25, 0, 1});
+    const bool is_cut = at(records, 0, 1).cut;
+    EXPECT_EQ(is_cut, off > 0);
+    const Measurement m = ending_in(on_line(1, !is_cut));
+    EXPECT_TRUE(passes(m)) << off;
+    EXPECT_EQ(m.ambiguous, 1u) << off;
+    EXPECT_TRUE(fails(ending_in(on_line(0.5, !is_cut)))) << "away from the plane";
+    ClipVertex<double> end = on_line(1, !is_cut);
+    end.p_clip.y += 1e-5;
+    EXPECT_TRUE(fails(ending_in(end))) << "off the line";
+    end = on_line(1, !is_cut);
+    end.color.g += 1e-5;
+    EXPECT_TRUE(fails(ending_in(end))) << "of another colour";
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::check

@@ -1,0 +1,127 @@
+// What the faults are, how the fault matrix asks of them, and that nothing is said of what has none. That each is seen,
+// and its stage named: test `fault_matrix`, and scripts/fault_matrix.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "faults/faults.h"
+#include "faults/legal.h"
+#include "matrix/matrix.h"
+#include "matrix/report.h"
+#include "scene/file/scene_file.h"
+
+namespace plumbline {
+
+namespace {
+
+TEST(Faults, there_are_five_in_each_stage_and_twenty_that_others_report) {
+  std::map<Stage, int> count;
+  std::set<std::string_view> names;
+  int reported = 0;
+  for (const faults::Fault& fault : faults::of_stages()) {
+    ++count[fault.stage];
+    names.insert(fault.name);
+    reported += fault.report.empty() ? 0 : 1;
+    EXPECT_TRUE(std::string(fault.name).starts_with(name_of(fault.stage))) << fault.name;
+  }
+  EXPECT_GE(names.size(), 80u);
+  EXPECT_EQ(names.size(), faults::of_stages().size()) << "two of one name";
+  EXPECT_GE(reported, 20);
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) EXPECT_GE(count[static_cast<Stage>(i)], 5) << kStageNames[i];
+}
+
+TEST(Faults, are_as_many_as_the_readme_says) {
+  std::ostringstream text;
+  text << std::ifstream(PLUMBLINE_SOURCE_DIR "/tests/README.md").rdbuf();
+  const auto reported = std::ranges::count_if(faults::of_stages(), [](const auto& f) { return !f.report.empty(); });
+  const std::size_t all = faults::all().size(), of_stages = faults::of_stages().size();
+  for (const std::string& part : {fmt::format("{} bugs ({} of them from public bug reports", of_stages, reported),
+                                  fmt::format("the notes' {} mistakes", all - of_stages),
+                                  fmt::format("{} legal variants", faults::legal_variants().size())}) {
+    EXPECT_NE(text.str().find(part), std::string::npos) << part;
+  }
+}
+
+matrix::Subject subject_of(std::string_view name) {
+  for (const faults::Fault& fault : faults::all()) {
+    if (fault.name != name) continue;
+    matrix::Subject out{std::string(name), faults::production(), {fault.stage}};
+    fault.apply(out.table);
+    return out;
+  }
+  throw std::out_of_range(std::string(name));
+}
+
+Scene scene_of(std::string_view file) {
+  return load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/").append(file), {});
+}
+
+// Geometry, pixels, records alone and what is resolved; and nothing where it is not asked for.
+TEST(FaultMatrix, a_fault_affects_the_scenes_that_it_changes) {
+  const std::vector<Scene> scenes = {scene_of("coverage/shared_edges.json"), scene_of("antialias/supersample_3.json"),
+                                     scene_of("light/flat_sphere.json")};
+  const std::vector<matrix::Subject> subjects = {
+      {"ours", faults::production(), {}}, subject_of("window.y_flipped"),     subject_of("coverage.inclusive_edges"),
+      subject_of("texture.t_flipped"),    subject_of("resolve.first_sample"), subject_of("vertex.not_renormalised")};
+  const std::vector<matrix::SceneList> on = matrix::affected(scenes, subjects, 3, 2);
+  using L = matrix::SceneList;
+  EXPECT_EQ(on[0], L());
+  EXPECT_EQ(on[1], (L{0, 1, 2}));
+  EXPECT_TRUE(std::ranges::count(on[2], 0u) == 1);
+  EXPECT_EQ(on[3], L());
+  EXPECT_EQ(on[4], (L{1}));
+  EXPECT_TRUE(std::ranges::count(on[5], 2u) == 1);
+  EXPECT_EQ(matrix::affected(scenes, subjects, 1, 1)[1], (L{0}));
+}
+
+TEST(FaultMatrix, right_is_the_stage_and_no_other) {
+  using S = std::vector<Stage>;
+  const matrix::Subject fault{"", {}, {Stage::depth}}, pair{"", {}, {Stage::light, Stage::depth}}, legal{"", {}, {}};
+  const auto answer = [](std::optional<Stage> first, S wrong, std::string failed = "") {
+    return matrix::Answer{0, first ? "a row" : "", first, std::move(wrong), std::move(failed)};
+  };
+  EXPECT_TRUE(is_right(answer(Stage::depth, {Stage::depth}), fault));
+  EXPECT_FALSE(is_right(answer(Stage::light, {Stage::depth}), fault));
+  EXPECT_FALSE(is_right(answer(Stage::depth, {Stage::depth, Stage::merge}), fault));
+  EXPECT_FALSE(is_right(answer(Stage::depth, {}), fault));
+  EXPECT_FALSE(is_right(answer(std::nullopt, {}), fault));
+  EXPECT_FALSE(is_right(answer(Stage::depth, {Stage::depth}, "crashed"), fault));
+  EXPECT_TRUE(is_right(answer(Stage::light, {Stage::light, Stage::depth}), pair));
+  EXPECT_FALSE(is_right(answer(Stage::light, {Stage::light}), pair));
+  EXPECT_TRUE(is_right(answer(std::nullopt, {}), legal));
+  EXPECT_FALSE(is_right(answer(Stage::depth, {}), legal));
+  EXPECT_FALSE(is_right(answer(std::nullopt, {Stage::depth}), legal));
+}
+
+TEST(FaultMatrix, what_must_hold) {
+  const matrix::Answer right{0, "a row", Stage::depth, {Stage::depth}, ""}, not_seen{0, "", {}, {}, ""};
+  const matrix::Subject depth{"", {}, {Stage::depth}};
+  matrix::Matrix m;
+  m.faults = {{depth, 100, std::vector<matrix::Answer>(97, right)}};
+  EXPECT_TRUE(holds(shares(m)));
+  m.faults[0].answers.resize(100, not_seen);
+  EXPECT_TRUE(holds(shares(m))) << "97 of 100";
+  m.faults[0].answers[0] = not_seen;
+  EXPECT_FALSE(holds(shares(m))) << "96 of 100";
+  m.faults[0].answers.assign(100, right);
+  m.faults.push_back({depth, 1, {not_seen}});
+  EXPECT_FALSE(holds(shares(m))) << "a fault that is nowhere seen";
+  m.faults.pop_back();
+  m.legal = {{{"", {}, {}}, 1, {right}}};
+  EXPECT_FALSE(holds(shares(m))) << "an alarm";
+}
+
+TEST(FaultMatrix, the_sample_is_spread) {
+  const matrix::SceneList six = {0, 2, 4, 6, 8, 10};
+  EXPECT_EQ(matrix::spread(six, 3), (matrix::SceneList{0, 4, 8}));
+  EXPECT_EQ(matrix::spread(six, 9), six);
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,63 @@
+// The whole suite, by what the scenes' tests left: every scene is there, and the 4x rule: each tolerance is used,
+// holds, and is at most four times what was seen, or says why.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "check/verdict/ledger.h"
+#include "report/runs/run_merge.h"
+#include "scene/file/scene_file.h"
+
+namespace plumbline {
+namespace {
+
+class Suite : public testing::Test {
+ protected:
+  static report::CheckRun all() {
+    std::vector<report::CheckRun> runs;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(PLUMBLINE_SUITE)) {
+      if (entry.path().extension() == ".json") runs.push_back(report::read_run(entry.path()));
+    }
+    if (runs.empty()) throw std::runtime_error("no scene's test has been run: ctest -R scene/");
+    return report::merge(std::move(runs)).run;
+  }
+};
+
+TEST_F(Suite, holds_every_scene_and_more_than_a_thousand_comparisons) {
+  const report::CheckRun run = all();
+  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
+  std::set<std::filesystem::path> judged;
+  std::size_t comparisons = 0;
+  for (const check::SceneVerdict& verdict : run.verdicts) {
+    judged.insert(verdict.path);
+    comparisons += verdict.comparisons.size();
+    EXPECT_EQ(verdict.failure, "") << verdict.scene;
+  }
+  std::ifstream in(PLUMBLINE_SUITE "/../slow_scenes.txt");  // judged by scripts/test all
+  std::set<std::filesystem::path> slow;
+  for (std::string name; std::getline(in, name);) slow.insert(folder[0] / (name + ".json"));
+  EXPECT_LE(slow.size(), 13u);
+  for (const auto& file : find_scenes(folder)) EXPECT_TRUE(judged.contains(file) || slow.contains(file)) << file;
+  for (const char* reference : {"osmesa", "embree", "exact"}) EXPECT_TRUE(run.head.versions.contains(reference));
+  EXPECT_GE(comparisons, 10'000u);
+}
+
+TEST_F(Suite, uses_every_row_of_the_ledger_and_none_is_loose) {
+  const report::CheckRun run = all();
+  for (const check::LedgerUse& use : check::ledger_use(run.verdicts)) {
+    ASSERT_GE(use.largest_ratio, 0) << use.row->name << ": no comparison uses the row";
+    EXPECT_LE(use.largest_ratio, 1) << use.row->name << ": " << use.where;
+    if (use.row->loose_because.empty()) {
+      EXPECT_GE(use.largest_ratio, 0.25) << use.row->name << ": looser than four times what was seen, " << use.where;
+    } else {
+      EXPECT_LT(use.largest_ratio, 0.5) << use.row->name << ": it is not loose, the excuse can go";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

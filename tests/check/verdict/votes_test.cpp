@@ -1,0 +1,107 @@
+// The rule of votes, on rows made up.
+#include "check/verdict/votes.h"
+
+#include <cmath>
+#include <span>
+
+#include <gtest/gtest.h>
+
+namespace plumbline::check {
+namespace {
+
+Comparison row(const std::string& reference, Stage stage, Outcome outcome) {
+  Comparison c{"test", reference, stage, outcome, {}, "", ""};
+  c.measurement.items = 10;
+  c.measurement.differing = outcome == Outcome::different ? 3 : 0;
+  c.measurement.max_ratio = outcome == Outcome::different ? HUGE_VAL : 0;
+  return c;
+}
+
+// Of coverage: osmesa's row stands alone. With other rows after it.
+std::vector<Comparison> rows(std::vector<Comparison> more = {}) {
+  std::vector<Comparison> out = {
+      row("osmesa", Stage::coverage, Outcome::different), row("embree", Stage::coverage, Outcome::ambiguous_only),
+      row("exact from its records", Stage::coverage, Outcome::equal), row("osmesa", Stage::window, Outcome::within),
+      row("exact from its records", Stage::window, Outcome::equal)};
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+Comparison settled(std::vector<Comparison> all) {
+  settle_votes(all);
+  return all[0];
+}
+
+TEST(Votes, WhoStandsAloneIsADisputeWithTheEvidence) {
+  const Comparison c = settled(rows());
+  EXPECT_EQ(c.outcome, Outcome::dispute);
+  EXPECT_EQ(c.measurement.disputed, 3u);
+  EXPECT_EQ(c.measurement.differing, 0u);
+  EXPECT_NE(c.measurement.reason.find("embree and exact"), std::string::npos) << c.measurement.reason;
+  EXPECT_EQ(settled(rows({row("osmesa", Stage::merge, Outcome::different)})).outcome, Outcome::dispute)
+      << "a later stage is another matter";
+}
+
+TEST(Votes, EachOfThemIsNeeded) {
+  for (const std::size_t gone : {1u, 2u}) {
+    std::vector<Comparison> without = rows();
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(gone));
+    EXPECT_EQ(settled(without).outcome, Outcome::different) << gone;
+    for (const Outcome outcome :
+         {Outcome::unsupported, Outcome::missing, Outcome::failed, Outcome::dispute, Outcome::different}) {
+      std::vector<Comparison> other = rows();
+      other[gone].outcome = outcome;
+      EXPECT_EQ(settled(other).outcome, Outcome::different) << gone << ": " << name_of(outcome);
+    }
+  }
+}
+
+TEST(Votes, OneMoreThatDiffersIsOurs) {
+  for (const Stage stage : {Stage::coverage, Stage::vertex, Stage::matrices}) {
+    for (const Outcome outcome : {Outcome::different, Outcome::failed}) {
+      EXPECT_EQ(settled(rows({row("egl", stage, outcome)})).outcome, Outcome::different) << name_of(stage);
+    }
+  }
+  EXPECT_EQ(settled(rows({row("osmesa", Stage::window, Outcome::different)})).outcome, Outcome::different)
+      << "its own earlier stage, which two cannot outvote";
+}
+
+TEST(Votes, ABudgetOfAmbiguityIsNobodysNumber) {
+  std::vector<Comparison> all = rows();
+  all[0].measurement.max_ratio = 1;  // no item is beyond its tolerance: too many are open
+  EXPECT_EQ(settled(all).outcome, Outcome::different);
+}
+
+TEST(Votes, ExactHasOneVoteAndIsNeverOutvoted) {
+  std::vector<Comparison> twice = rows();
+  twice[1].reference = "exact from scene";
+  EXPECT_EQ(settled(twice).outcome, Outcome::different);
+  std::vector<Comparison> alone = rows({row("egl", Stage::coverage, Outcome::equal)});
+  for (const char* kind : {"exact from scene", "exact from its records"}) {
+    alone[0].reference = kind;
+    alone[2].outcome = kind == std::string("exact from scene") ? Outcome::equal : Outcome::different;
+    EXPECT_EQ(settled(alone).outcome, Outcome::different) << kind;
+  }
+}
+
+TEST(Votes, WhoSharesArithmeticIsOneVoice) {
+  for (const Stage stage : {Stage::texture, Stage::shade, Stage::visibility, Stage::merge}) {
+    std::vector<Comparison> all = rows();
+    for (Comparison& c : std::span(all).first(3)) c.stage = stage;
+    EXPECT_EQ(settled(all).outcome, Outcome::different) << name_of(stage) << ": embree and exact share it";
+    all[1].reference = "softpipe";
+    EXPECT_EQ(settled(all).outcome, Outcome::dispute) << name_of(stage);
+  }
+}
+
+TEST(Votes, WhatIsSettledStandsInNoLaterStagesWay) {
+  std::vector<Comparison> all = {row("embree", Stage::visibility, Outcome::different),
+                                 row("osmesa", Stage::visibility, Outcome::equal),
+                                 row("exact from its records", Stage::visibility, Outcome::equal)};
+  const std::vector<Comparison> of_coverage = rows();
+  all.insert(all.end(), of_coverage.begin(), of_coverage.end());
+  EXPECT_EQ(settled(all).outcome, Outcome::dispute);
+}
+
+}  // namespace
+}  // namespace plumbline::check

@@ -1,0 +1,47 @@
+// What ships and what is captured are one path: the planes without a tap equal those with it, bit for bit.
+#include <gtest/gtest.h>
+
+#include "pipeline/pipeline_renderer.h"
+#include "scene/file/scene_file.h"
+#include "tests/cross/random_scenes.h"
+#include "tests/extent.h"
+
+namespace plumbline {
+namespace {
+
+void expect_equal_planes(const Scene& scene) {
+  const pipeline::Frame frame = pipeline::render(scene);
+  constexpr std::size_t kMost = std::size_t{2} << 30;  // all records of a million triangles
+  const Capture capture = pipeline::make_pipeline()->capture(scene, {StageSet::all(), false, {}, {}, kMost});
+  const double scale = depth_scale(scene.frame.depth);
+  std::size_t differing = 0;
+  for (int y = 0; y < scene.frame.height; ++y) {
+    for (int x = 0; x < scene.frame.width; ++x) {
+      const glm::vec4 tapped = capture.planes.color(x, y);
+      const glm::vec4 shipped = !frame.color_rgba8.empty()    ? glm::vec4(frame.color_rgba8(x, y)) / 255.0f
+                                : !frame.color_rgba12.empty() ? glm::vec4(frame.color_rgba12(x, y)) / 4095.0f
+                                : !frame.color_rgba16.empty() ? glm::vec4(frame.color_rgba16(x, y)) / 65535.0f
+                                                              : frame.color_rgba32f(x, y);
+      const double z =
+          frame.depth_z32f.empty() ? frame.depth_code(x, y) / scale : static_cast<double>(frame.depth_z32f(x, y));
+      const bool same_stencil = frame.stencil.empty() || frame.stencil(x, y) == capture.planes.stencil(x, y);
+      if (tapped != shipped || z != capture.planes.depth(x, y) || !same_stencil) ++differing;
+    }
+  }
+  EXPECT_EQ(differing, 0u) << scene.name;
+}
+
+TEST(Taps, planes_are_equal_on_every_scene) {
+  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
+  const auto files = find_scenes(folder);
+  for (std::size_t i = 0; i < files.size(); i += one_of(16)) expect_equal_planes(load_scene(files[i], {}));
+}
+
+TEST(Taps, planes_are_equal_on_random_triangles) {
+  for (const SceneKind& kind : kinds()) {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) expect_equal_planes(random_scene(kind, 100, seed));
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

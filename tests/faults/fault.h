@@ -1,0 +1,25 @@
+// A bug that people really make, in one stage: a stage function of the pipeline replaced by one with the bug. The stages
+// after it run as they are. Faults prove that the harness sees, and names, what breaks a renderer.
+#pragma once
+
+#include <string_view>
+
+#include "capture/stages.h"
+#include "faults/table.h"
+
+namespace plumbline::faults {
+
+struct Fault {
+  std::string_view name;     ///< stage.bug, or notes.note.mistake (notes.h)
+  std::string_view changes;  ///< what it does, in words
+  Stage stage;               ///< the stage that must be named
+  void (*apply)(Table&);     ///< puts its functions in
+  /// The thread of a public renderer that reports it (owner/repository#number): written from that report alone, before
+  /// its writer had read how faults are found.
+  std::string_view report = {};
+
+  /// The pipeline with it.
+  pipeline::Stages stages() const;
+};
+
+}  // namespace plumbline::faults

@@ -1,0 +1,138 @@
+// Scenes and comparisons for the tests of the pipeline as a renderer.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "capture/renderer.h"
+
+namespace plumbline::testing_words {
+
+inline constexpr std::pair<ColorFormat, DepthFormat> kFormats[] = {{ColorFormat::rgba8, DepthFormat::z24},
+                                                                   {ColorFormat::rgba8, DepthFormat::z16},
+                                                                   {ColorFormat::rgba12, DepthFormat::z8},
+                                                                   {ColorFormat::rgba32f, DepthFormat::z32f},
+                                                                   {ColorFormat::rgba32f, DepthFormat::z24}};
+
+inline StageSet stages_with_records() {
+  return {Stage::matrices, Stage::vertex, Stage::light,      Stage::clip,  Stage::window,
+          Stage::coverage, Stage::depth,  Stage::attributes, Stage::shade, Stage::visibility};
+}
+inline Request everything() {
+  Request request;
+  request.records = stages_with_records();
+  return request;
+}
+
+/// A closed box, its normals out of its corners, each corner a colour.
+inline Mesh box() {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    const glm::vec3 p(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    mesh.positions.push_back(p);
+    mesh.normals.push_back(glm::normalize(p));
+    mesh.colors.push_back(glm::vec4(p * 0.4f + 0.5f, 1));
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+/// Boxes cut by the near plane and the frame's sides, one beyond the far plane, lit and unlit, flat and smooth, culled
+/// either way, under several depth functions; the frame not a multiple of the tile's side.
+inline Scene boxes(ColorFormat color = ColorFormat::rgba8, DepthFormat depth = DepthFormat::z24) {
+  Scene scene;
+  scene.name = "boxes";
+  scene.frame = {90, 70, color, depth, {0.125f, 0.25f, 0.375f, 0.625f}, 0.9999};
+  scene.camera = {{0.5, 1, 4}, {0, 0, 0}, {0, 1, 0}};
+  scene.projection = Perspective{60, 1, 30};
+  scene.light_model.ambient = glm::vec3(0.2f);
+  scene.lights = {{Light::Kind::directional, {1, 2, 3}, glm::vec3(0.1f), glm::vec3(0.7f), glm::vec3(0.5f)},
+                  {Light::Kind::point, {-3, 1, 2}, glm::vec3(0), {0.2f, 0.5f, 0.9f}, glm::vec3(0.3f)}};
+  scene.meshes = {box(), {}, box(), box()};
+  scene.meshes[2].colors.clear();
+  scene.meshes[3].triangles.resize(6);
+  const auto add = [&](std::uint32_t mesh, std::vector<Transform> transforms, bool lit, Shading shading, Cull cull,
+                       DepthFunc func) {
+    Draw draw;
+    draw.mesh = mesh;
+    draw.transforms = std::move(transforms);
+    draw.material.specular = {0.4f, 0.4f, 0.4f, 1};
+    draw.material.shininess = 9;
+    draw.lit = lit;
+    draw.shading = shading;
+    draw.cull = cull;
+    draw.depth_func = func;
+    scene.draws.push_back(draw);
+  };
+  add(0, {Rotate{30, {1, 2, 0}}}, true, Shading::gouraud, Cull::back, DepthFunc::less);
+  add(2, {Translate{{-1.5, 0.5, 2.8}}, Rotate{20, {0, 1, 1}}}, true, Shading::flat, Cull::none, DepthFunc::less);
+  add(1, {}, true, Shading::flat, Cull::none, DepthFunc::less);  // an empty mesh
+  add(0, {Translate{{0, 0, -40}}}, false, Shading::gouraud, Cull::none, DepthFunc::less);
+  add(0, {Translate{{2.5, -1, 0.5}}, Scale{{1, 1.5, 0.5}}}, false, Shading::flat, Cull::front, DepthFunc::less_equal);
+  add(2, {Translate{{0.5, 0.8, -0.5}}, Scale{{1.5, 0.2, 1}}}, false, Shading::gouraud, Cull::back, DepthFunc::greater);
+  add(3, {Rotate{30, {1, 2, 0}}}, false, Shading::gouraud, Cull::none, DepthFunc::equal);  // half of the first
+  return scene;
+}
+
+template <class T>
+bool same_values(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(), [](const T& x, const T& y) { return x == y; });
+}
+
+inline void expect_same(const Planes& is, const Planes& expected) {
+  EXPECT_EQ(is.count.values(), expected.count.values());
+  EXPECT_EQ(is.id_sum.values(), expected.id_sum.values());
+  EXPECT_EQ(is.id.values(), expected.id.values());
+  EXPECT_TRUE(same_values(is.shaded.values(), expected.shaded.values()));
+  EXPECT_TRUE(same_values(is.color.values(), expected.color.values()));
+  EXPECT_EQ(is.depth.values(), expected.depth.values());
+}
+
+template <class T, class Same>
+void expect_same_records(const char* name, const std::vector<T>& is, const std::vector<T>& expected, Same same) {
+  ASSERT_EQ(is.size(), expected.size()) << name;
+  for (std::size_t i = 0; i < is.size(); ++i) ASSERT_TRUE(same(is[i], expected[i])) << name << " " << i;
+}
+
+inline void expect_same(const Records<double>& is, const Records<double>& expected) {
+  expect_same_records("matrices", is.matrices, expected.matrices, [](const auto& a, const auto& b) {
+    return a.model_view == b.model_view && a.projection == b.projection && a.normal == b.normal &&
+           a.win_scale == b.win_scale && a.win_translate == b.win_translate;
+  });
+  expect_same_records("lights", is.lights, expected.lights,
+                      [](const auto& a, const auto& b) { return a.p_eye == b.p_eye && a.spot_eye == b.spot_eye; });
+  expect_same_records("vertex", is.vertices, expected.vertices, [](const auto& a, const auto& b) {
+    return a.p_eye == b.p_eye && a.p_clip == b.p_clip && a.n_eye == b.n_eye;
+  });
+  expect_same_records("lit", is.lit, expected.lit, [](const auto& a, const auto& b) { return a.color == b.color; });
+  expect_same_records("polygon", is.polygons.polygons, expected.polygons.polygons, [](const auto& a, const auto& b) {
+    return a.primitive == b.primitive && a.first == b.first && a.count == b.count;
+  });
+  expect_same_records(
+      "polygon vertex", is.polygons.vertices, expected.polygons.vertices,
+      [](const auto& a, const auto& b) { return a.p_clip == b.p_clip && a.color == b.color && a.cut == b.cut; });
+  expect_same_records("triangle", is.triangles, expected.triangles, [](const auto& a, const auto& b) {
+    bool same = a.primitive == b.primitive && a.front == b.front;
+    for (std::size_t i = 0; i < 3; ++i) {
+      same &= a.v[i].p_win == b.v[i].p_win && a.v[i].inv_w == b.v[i].inv_w && a.v[i].snapped == b.v[i].snapped &&
+              a.v[i].color == b.v[i].color;
+    }
+    return same;
+  });
+  expect_same_records("covered", is.covered, expected.covered, [](const auto& a, const auto& b) {
+    return a.triangle == b.triangle && a.x == b.x && a.y == b.y;
+  });
+  EXPECT_EQ(is.depth, expected.depth);
+  expect_same_records("attributes", is.attributes, expected.attributes,
+                      [](const auto& a, const auto& b) { return a.color == b.color; });
+  expect_same_records("shaded", is.shaded, expected.shaded,
+                      [](const auto& a, const auto& b) { return a.color == b.color; });
+  expect_same_records("drawn", is.drawn, expected.drawn,
+                      [](const auto& a, const auto& b) { return a.drawn == b.drawn; });
+}
+
+}  // namespace plumbline::testing_words
