@@ -2,8 +2,8 @@
 // the place itself.
 #pragma once
 
-#include "pipeline/attributes.h"
-#include "pipeline/depth.h"
+#include "kernels/attributes.h"
+#include "kernels/depth.h"
 
 namespace plumbline::test {
 
@@ -13,9 +13,10 @@ inline pipeline::CornerPlanes<double> planes_of_weights() {
 inline float depth_at(const pipeline::DepthSetup& depth, double l1, double l2) {
   return pipeline::depth<float>(pipeline::depth_plane(depth, planes_of_weights()), {l1, l2});
 }
-inline pipeline::Color<float> attributes_at(const WindowTriangle<float>& triangle, double l1, double l2) {
+inline pipeline::Color<float> attributes_at(const pipeline::WindowTriangle& triangle,
+                                            const pipeline::AttributeSetup& setup, double l1, double l2) {
   const pipeline::PerspectiveSetup perspective = pipeline::perspective_setup(triangle, planes_of_weights());
-  return pipeline::mean<float>(pipeline::attribute_setup(triangle), pipeline::weights<float>(perspective, {l1, l2}));
+  return pipeline::mean<float>(setup, pipeline::weights<float>(perspective, {l1, l2}));
 }
 
 }  // namespace plumbline::test

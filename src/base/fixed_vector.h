@@ -15,10 +15,15 @@ class FixedVector {
     if (size_ == N) throw std::length_error("more of a kind than there is room for");
     values_[size_++] = value;
   }
+  void pop_back() { --size_; }
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T& operator[](std::size_t i) { return values_[i]; }
   const T& operator[](std::size_t i) const { return values_[i]; }
   const T& back() const { return values_[size_ - 1]; }
+  T* begin() { return values_.data(); }
+  T* end() { return values_.data() + size_; }
   const T* begin() const { return values_.data(); }
   const T* end() const { return values_.data() + size_; }
 

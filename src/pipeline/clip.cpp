@@ -17,50 +17,48 @@ float distance_to(const Vec4<float>& plane, const Vec4<float>& p) {
 }
 
 // A plane adds one vertex to a convex polygon. Rounding may make one cross a plane many times: each run of vertices
-// outside becomes two, so that six planes make 3, 4, 6, 9, 13, 19, 28 vertices at most.
-struct Polygon {
-  std::array<ClipVertex<float>, 28> v;
-  int count = 0;
-  void add(const ClipVertex<float>& vertex) { v[static_cast<std::size_t>(count++)] = vertex; }
-};
+// outside becomes two, so that six planes make 3, 4, 6, 9, 13, 19, 28 vertices at most (Polygon::kMostCorners).
+ClipVertex moved(const ClipVertex& v, const ClipVertex& towards, float t) {
+  ClipVertex out{v.p_clip + t * (towards.p_clip - v.p_clip), {}, true};
+  for (std::size_t i = 0; i < kAttributes; ++i) {
+    out.attributes[i] = v.attributes[i] + t * (towards.attributes[i] - v.attributes[i]);
+  }
+  return out;
+}
 
-ClipVertex<float> cut(const ClipVertex<float>& a, float d_a, const ClipVertex<float>& b, float d_b) {
-  const float t = d_a / (d_a - d_b);
-  return {a.p_clip + t * (b.p_clip - a.p_clip), a.color + t * (b.color - a.color), true};
+ClipVertex cut(const ClipVertex& a, float d_a, const ClipVertex& b, float d_b) {
+  return moved(a, b, d_a / (d_a - d_b));
 }
 
 Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
-  Polygon out;
-  for (int i = 0; i < in.count; ++i) {
-    const ClipVertex<float>& from = in.v[static_cast<std::size_t>(i)];
-    const ClipVertex<float>& to = in.v[static_cast<std::size_t>((i + 1) % in.count)];
+  Polygon out{in.primitive, {}};
+  for (std::size_t i = 0; i < in.corners.size(); ++i) {
+    const ClipVertex& from = in.corners[i];
+    const ClipVertex& to = in.corners[(i + 1) % in.corners.size()];
     const float d_from = distance_to(plane, from.p_clip), d_to = distance_to(plane, to.p_clip);
-    if (d_from >= 0) out.add(from);
+    if (d_from >= 0) out.corners.push_back(from);
     if ((d_from >= 0) == (d_to >= 0)) continue;
     const bool from_inside = d_from >= 0;
     const float d_in = from_inside ? d_from : d_to, d_out = from_inside ? d_to : d_from;
     const bool start_outside = -d_out < d_in;
-    out.add(start_outside == from_inside ? cut(to, d_to, from, d_from) : cut(from, d_from, to, d_to));
+    out.corners.push_back(start_outside == from_inside ? cut(to, d_to, from, d_from) : cut(from, d_from, to, d_to));
   }
   return out;
 }
 
 // A line's two vertices, or none: each end is moved by the largest of the shares that the planes cut off there.
 Polygon cut_line(std::span<const Vec4<float>> planes, const Polygon& line) {
-  const ClipVertex<float>&a = line.v[0], &b = line.v[1];
+  const ClipVertex &a = line.corners[0], &b = line.corners[1];
   float from_a = 0, from_b = 0;
   for (const Vec4<float>& plane : planes) {
     const float d_a = distance_to(plane, a.p_clip), d_b = distance_to(plane, b.p_clip);
     if (d_b < 0) from_b = std::max(from_b, d_b / (d_b - d_a));
     if (d_a < 0) from_a = std::max(from_a, d_a / (d_a - d_b));
   }
-  Polygon out;
+  Polygon out{line.primitive, {}};
   if (from_a + from_b >= 1) return out;
-  const auto moved = [](const ClipVertex<float>& v, const ClipVertex<float>& towards, float t) -> ClipVertex<float> {
-    return {v.p_clip + t * (towards.p_clip - v.p_clip), v.color + t * (towards.color - v.color), true};
-  };
-  out.add(from_a > 0 ? moved(a, b, from_a) : a);
-  out.add(from_b > 0 ? moved(b, a, from_b) : b);
+  out.corners.push_back(from_a > 0 ? moved(a, b, from_a) : a);
+  out.corners.push_back(from_b > 0 ? moved(b, a, from_b) : b);
   return out;
 }
 
@@ -81,38 +79,45 @@ bool finite(const Vec4<float>& p) {
 
 std::span<const Vec4<float>, 6> view_volume() { return kPlanes; }
 
-void clip(const Assembly& assembly, ClipPolygons<float>& out) {
-  constexpr std::size_t kSides = 4;
-  clip_at(std::span(kPlanes).first(assembly.depth_clamp ? kSides : kPlanes.size()), assembly, out);
+Polygon assemble(const DrawInput& input, const glm::uvec3& corners, std::span<const Vertex<float>> vertices,
+                 std::span<const Attributes> attributes) {
+  Polygon out;
+  const auto count = static_cast<int>(corner_count(input.topology));
+  for (int k = 0; k < count; ++k) {
+    ClipVertex corner{vertices[corners[k]].p_clip, attributes[corners[k]], false};
+    if (input.draw->shading == Shading::flat) {
+      const Attributes& provoking = attributes[corners[2]];
+      corner.attributes.color() = provoking.color();
+      for (const Varying v : kAllVaryings) {
+        if (is_lit(v)) corner.attributes[v] = provoking[v];
+      }
+    }
+    out.corners.push_back(corner);
+  }
+  return out;
 }
 
-void clip_at(std::span<const Vec4<float>> planes, const Assembly& assembly, ClipPolygons<float>& out) {
-  const auto count = static_cast<int>(corner_count(assembly.topology));
-  for (std::size_t i = 0; i < assembly.triangles.size(); ++i) {
-    const glm::uvec3 corners = assembly.triangles[i];
-    Polygon polygon;
-    unsigned violated = 0, violated_by_all = ~0u;
-    bool drop = false;
-    for (int k = 0; k < count; ++k) {
-      const std::uint32_t provoking = assembly.shading == Shading::flat ? corners[2] : corners[k];
-      const Vec4<float>& p_clip = assembly.vertices[corners[k]].p_clip;
-      polygon.add({p_clip, assembly.lit[provoking].color, false});
-      const unsigned bits = outcode(planes, p_clip);
-      violated |= bits;
-      violated_by_all &= bits;
-      drop |= !finite(p_clip);
-    }
-    if (drop || violated_by_all != 0) continue;
-    if (assembly.topology == Topology::lines && violated != 0) polygon = cut_line(planes, polygon);
-    for (std::size_t p = 0; assembly.topology == Topology::triangles && p < planes.size() && polygon.count >= 3; ++p) {
-      if ((violated >> p & 1u) != 0) polygon = cut_by(planes[p], polygon);
-    }
-    if (polygon.count < count) continue;
-    const auto first = static_cast<std::uint32_t>(out.vertices.size());
-    out.vertices.insert(out.vertices.end(), polygon.v.begin(), polygon.v.begin() + polygon.count);
-    out.polygons.push_back(
-        {assembly.first_primitive + static_cast<std::uint32_t>(i), first, static_cast<std::uint32_t>(polygon.count)});
+void clip(const DrawInput& input, Polygon& polygon) {
+  constexpr std::size_t kSides = 4;
+  clip_at(std::span(kPlanes).first(input.depth_clamp ? kSides : kPlanes.size()), polygon);
+}
+
+void clip_at(std::span<const Vec4<float>> planes, Polygon& polygon) {
+  const std::size_t count = polygon.corners.size();
+  unsigned violated = 0, violated_by_all = ~0u;
+  bool all_finite = true;
+  for (const ClipVertex& corner : polygon.corners) {
+    const unsigned bits = outcode(planes, corner.p_clip);
+    violated |= bits;
+    violated_by_all &= bits;
+    all_finite &= finite(corner.p_clip);
   }
+  if (!all_finite || violated_by_all != 0) return polygon.corners.clear();
+  if (count == 2 && violated != 0) polygon = cut_line(planes, polygon);
+  for (std::size_t p = 0; count == 3 && p < planes.size() && polygon.corners.size() >= 3; ++p) {
+    if ((violated >> p & 1u) != 0) polygon = cut_by(planes[p], polygon);
+  }
+  if (polygon.corners.size() < count) polygon.corners.clear();
 }
 
 }  // namespace plumbline::pipeline

@@ -1,4 +1,4 @@
-// The finished frame in its own formats, as a display or a file would take it.
+// The frame: while it is drawn, in floats; finished, in its own formats, as a display or a file takes it.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "capture/plane.h"
+#include "kernels/attributes.h"
 #include "scene/scene.h"
 
 namespace plumbline::pipeline {
@@ -23,5 +24,38 @@ struct Frame {
   Plane<float> depth_z32f;
   Plane<std::uint8_t> stencil;  ///< empty where the format has none
 };
+
+/// Number formats of a frame.
+struct Formats {
+  double depth_scale;    ///< largest depth code; 0: float
+  float color_scale;     ///< largest colour code; 0: float
+  glm::ivec2 sample{0};  ///< from a pixel's centre to where it is covered [1/256 pixel] (scene/antialias.h)
+};
+Formats formats_of(const FrameFormat& frame);
+
+/// What a cleared pixel holds, in the frame's formats.
+struct ClearPixel {
+  float depth;
+  Color<float> color;
+};
+ClearPixel clear_pixel(const FrameFormat& frame);
+
+/// A pixel of the frame that is drawn.
+struct FramePixel {
+  float* depth;           ///< code, or window z
+  glm::vec4* color;       ///< codes, or floats
+  std::uint8_t* stencil;  ///< null where the format has none
+};
+
+/// The frame while it is drawn: codes as floats, which hold them exactly.
+struct FrameBuffer {
+  explicit FrameBuffer(const FrameFormat& format);  ///< cleared
+  FramePixel at(glm::ivec2 pixel);
+
+  Plane<float> depth;
+  Plane<glm::vec4> color;
+  Plane<std::uint8_t> stencil;  ///< empty where the format has none
+};
+Frame finished(const FrameFormat& format, const FrameBuffer& buffer);
 
 }  // namespace plumbline::pipeline

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "dialect/dialect.h"
-#include "pipeline/math.h"
+#include "kernels/math.h"
 #include "transforms/normal.h"
 #include "transforms/transform.h"
 

@@ -4,10 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/clip.h"
-#include "pipeline/matrices.h"
-#include "pipeline/window.h"
-
 namespace plumbline::pipeline {
 
 void require_drawable(std::size_t triangles, const FrameFormat& format) {
@@ -24,20 +20,29 @@ void require_drawable(std::size_t triangles, const FrameFormat& format) {
   }
 }
 
-std::vector<WindowTriangle<float>> program_triangles(std::span<const Vertex<float>> p_clip,
-                                                     std::span<const Lit<float>> four, const FrameFormat& format,
-                                                     const ProgramState& state) {
-  std::vector<glm::uvec3> corners;
-  for (std::uint32_t i = 0; i + 2 < p_clip.size(); i += 3) corners.push_back({i, i + 1, i + 2});
-  ClipPolygons<float> polygons;
-  clip({p_clip, four, corners, 0, state.shading}, polygons);
-  Scene viewport;  // of stage 0 the window's part alone counts
-  viewport.frame = format;
-  std::vector<WindowTriangle<float>> out;
+Frame draw_program(std::span<const Vertex<float>> vertices, std::span<const Attributes> varyings,
+                   std::size_t varying_fours, const FrameFormat& format, const ProgramState& state,
+                   decltype(Stages::shade) shade, const void* program) {
+  Scene scene;  // of stage 0 the viewport alone counts
+  scene.frame = format;
   Draw draw;
   draw.cull = state.cull;
-  to_window(matrices(viewport, draw), draw, polygons, polygons.polygons, out);
-  return out;
+  draw.depth_func = state.depth_func;
+  std::vector<Attributes> by_corner(varyings.begin(), varyings.end());
+  std::vector<glm::uvec3> triangles;
+  for (std::uint32_t i = 0; i + 2 < vertices.size(); i += 3) {
+    triangles.push_back({i, i + 1, i + 2});
+    if (state.shading == Shading::flat) by_corner[i] = by_corner[i + 1] = by_corner[i + 2];
+  }
+  Stages stages = production_stages();
+  stages.shade = shade;
+  Surface surface{&scene, &draw, {}, {}, {}, program};
+  for (std::size_t i = 1; i < varying_fours; ++i) surface.carried.push_back(kAllVaryings[i - 1]);
+  const DrawInput input{&draw, Topology::triangles, false, false, stages.matrices(scene, draw)};
+  FrameBuffer frame(format);
+  Recorder nothing;
+  draw_primitives({input, triangles, vertices, by_corner, 0, surface}, format, stages, frame, nothing);
+  return finished(format, frame);
 }
 
 }  // namespace plumbline::pipeline

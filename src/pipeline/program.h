@@ -9,9 +9,8 @@
 //   };
 //   const Frame frame = draw_program(Gouraud{...}, triangles, format);
 //
-// Both are compiled into the loop over fragments (fragment.h): what a program knows besides, its uniforms, are its
-// members. Varyings travel as colours do, four floats at a time: stages 3 and 4 run once for every four of them, and
-// what holds of a vertex colour (cut by cut, bit by bit) holds of them.
+// Both take the place of stage functions in the definition (render.h): what a program knows besides, its uniforms, are
+// its members. Varyings travel as vertex attributes do, four floats at a time, and are cut and interpolated with them.
 #pragma once
 
 #include <array>
@@ -19,7 +18,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "pipeline/tiles.h"
+#include "pipeline/render.h"
 
 namespace plumbline::pipeline {
 
@@ -55,83 +54,36 @@ struct ProgramState {
 /// Throws std::invalid_argument for more than 2^24 triangles, or a frame of no or more than 16384 pixels a side.
 void require_drawable(std::size_t triangles, const FrameFormat& format);
 
-/// Stages 3 and 4 for four of the varyings: `p_clip` and `four` per corner, three corners to a triangle.
-std::vector<WindowTriangle<float>> program_triangles(std::span<const Vertex<float>> p_clip,
-                                                     std::span<const Lit<float>> four, const FrameFormat& format,
-                                                     const ProgramState& state);
+/// A program's vertices and varyings, three vertices to a triangle, drawn on a cleared frame. Throws as require_drawable.
+Frame draw_program(std::span<const Vertex<float>> vertices, std::span<const Attributes> varyings,
+                   std::size_t varying_fours, const FrameFormat& format, const ProgramState& state,
+                   decltype(Stages::shade) shade, const void* program);
 
-/// A program as stage functions.
+/// Stage 9 by the program's fragment().
 template <Program P>
-class ProgramStages : public FragmentStages {
- public:
-  using Varyings = typename P::Varyings;
-  static constexpr bool has_surfaces = false;
-  static constexpr std::size_t kFloats = std::is_empty_v<Varyings> ? 0 : sizeof(Varyings) / sizeof(float);
-  static constexpr std::size_t kFours = kFloats == 0 ? 1 : (kFloats + 3) / 4;
-  /// The same triangles once for every four varyings, which stand for the colour.
-  using Triangles = std::array<std::vector<WindowTriangle<float>>, kFours>;
-  struct Shaded : Color<float> {
-    bool discarded;
-  };
-
-  ProgramStages(const P& program, const Triangles& triangles) : program_(program), triangles_(triangles) {}
-
-  std::array<AttributeSetup, kFours> attribute_setup(const WindowTriangle<float>&, std::uint32_t triangle) const {
-    std::array<AttributeSetup, kFours> out;
-    for (std::size_t i = 0; i < kFours; ++i) out[i] = pipeline::attribute_setup(triangles_[i][triangle]);
-    return out;
-  }
-  template <class R>
-  static Varyings attributes(const auto& s, const std::array<AttributeSetup, kFours>& of, const Pixels<R>& p) {
-    Varyings out{};
-    if constexpr (kFloats != 0) {
-      const Weights<R> k = weights<R>(s.perspective, from_anchor<R>(s.planes, p));
-      std::array<Color<R>, kFours> fours;
-      for (std::size_t i = 0; i < kFours; ++i) fours[i] = mean<R>(of[i], k);
-      std::memcpy(&out, fours.data(), sizeof out);
-    }
-    return out;
-  }
-  template <class R>
-  Shaded shade(const Varyings& in) const {
-    glm::vec4 color(0, 0, 0, 1);
-    const bool discarded = program_.fragment(in, color);
-    return {{color.r, color.g, color.b, color.a}, discarded};
-  }
-  template <class R>
-  static bool kept(bool passes, const Shaded& shaded) {
-    return passes && !shaded.discarded;
-  }
-
- private:
-  const P& program_;
-  const Triangles& triangles_;
-};
+Shaded shade_program(const Surface& surface, bool /*front*/, const SurfaceAttributes<float>& attributes) {
+  typename P::Varyings in{};
+  if constexpr (!std::is_empty_v<typename P::Varyings>) std::memcpy(&in, &attributes, sizeof in);  // colour, varyings
+  glm::vec4 color(0, 0, 0, 1);
+  const bool discarded = static_cast<const P*>(surface.program)->fragment(in, color);
+  return {{color.r, color.g, color.b, color.a}, discarded};
+}
 
 /// Draws the program's triangles, in order, on a cleared frame. Throws as require_drawable.
 template <Program P>
 Frame draw_program(const P& program, std::size_t triangles, const FrameFormat& format, const ProgramState& state = {}) {
-  using OfProgram = ProgramStages<P>;
+  using Varyings = typename P::Varyings;
+  constexpr std::size_t kFloats = std::is_empty_v<Varyings> ? 0 : sizeof(Varyings) / sizeof(float);
+  static_assert(kFloats <= 4 * kAttributes, "varyings of at most 28 floats");
   require_drawable(triangles, format);
   std::vector<Vertex<float>> vertices(3 * triangles);
-  std::array<std::vector<Lit<float>>, OfProgram::kFours> fours;
-  fours.fill(std::vector<Lit<float>>(3 * triangles));
+  std::vector<Attributes> varyings(3 * triangles);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    typename P::Varyings out{};
+    Varyings out{};
     vertices[i].p_clip = program.vertex(i / 3, static_cast<int>(i % 3), out);
-    std::array<glm::vec4, OfProgram::kFours> floats{};
-    if constexpr (OfProgram::kFloats != 0) std::memcpy(floats.data(), &out, sizeof out);
-    for (std::size_t k = 0; k < OfProgram::kFours; ++k) fours[k][i].color = floats[k];
+    if constexpr (kFloats != 0) std::memcpy(varyings[i].data(), &out, sizeof out);
   }
-  typename OfProgram::Triangles of_four;
-  for (std::size_t k = 0; k < OfProgram::kFours; ++k) of_four[k] = program_triangles(vertices, fours[k], format, state);
-  const std::uint32_t first[] = {0, static_cast<std::uint32_t>(of_four[0].size())};
-  Draw draw;
-  draw.depth_func = state.depth_func;
-  Frame frame(format);
-  NoTap tap;
-  draw_tiles<float>(OfProgram(program, of_four), {of_four[0], first, std::span(&draw, 1)}, format, frame, tap);
-  return frame;
+  return draw_program(vertices, varyings, (kFloats + 3) / 4, format, state, shade_program<P>, &program);
 }
 
 }  // namespace plumbline::pipeline

@@ -15,9 +15,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/scenes/bench_scenes.h"
-#include "pipeline/painter.h"
-#include "pipeline/pipeline_renderer.h"
+#include "painter/painter.h"
 #include "reference/osmesa/readback/frame_loop.h"
+#include "renderers/pipeline_renderer.h"
 
 namespace plumbline::bench {
 namespace {

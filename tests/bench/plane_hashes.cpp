@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/painter.h"
+#include "painter/painter.h"
 #include "pipeline/render.h"
 #include "scene/file/scene_file.h"
 

@@ -3,7 +3,7 @@
 
 #include "capture/renderers/process_renderer.h"
 #include "check/compare/compare_planes.h"
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/cli/run_plumb.h"
 

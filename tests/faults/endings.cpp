@@ -11,15 +11,14 @@ namespace plumbline::faults {
 
 namespace {
 
-void crash(const pipeline::Assembly&, ClipPolygons<float>&) { ::raise(SIGSEGV); }
+void crash(const pipeline::DrawInput&, pipeline::Polygon&) { ::raise(SIGSEGV); }
 
-void hang(const Matrices<float>&, const Draw&, const ClipPolygons<float>&, std::span<const ClipPolygon>,
-          std::vector<Triangle>&) {
+void hang(const pipeline::DrawInput&, const pipeline::Polygon&, std::vector<pipeline::ShadedTriangle>&) {
   while (true) ::pause();
 }
 
 void take_memory(const Scene&, const Draw&, pipeline::Lights, std::span<const Vertex<float>>,
-                 std::vector<Lit<float>>& out) {
+                 std::vector<pipeline::Attributes>& out) {
   while (true) out.resize(2 * out.size() + 1);
 }
 
@@ -33,10 +32,10 @@ constexpr Fault ending(std::string_view name, std::string_view changes, Stage st
 }
 
 constexpr Fault kEndings[] = {
-    ending<&Geometry::vertex, refuse>("endings.throw", "the vertex stage throws", Stage::vertex),
-    ending<&Geometry::light, take_memory>("endings.memory", "the light stage takes all memory", Stage::light),
-    ending<&Geometry::clip, crash>("endings.crash", "the clip stage is ended by a signal", Stage::clip),
-    ending<&Geometry::window, hang>("endings.hang", "the window stage does not end", Stage::window),
+    ending<&Stages::vertex, refuse>("endings.throw", "the vertex stage throws", Stage::vertex),
+    ending<&Stages::light, take_memory>("endings.memory", "the light stage takes all memory", Stage::light),
+    ending<&Stages::clip, crash>("endings.crash", "the clip stage is ended by a signal", Stage::clip),
+    ending<&Stages::window, hang>("endings.hang", "the window stage does not end", Stage::window),
 };
 
 }  // namespace

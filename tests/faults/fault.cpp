@@ -1,11 +1,13 @@
 #include "faults/fault.h"
 
+#include "pipeline/production_stages.h"
+
 namespace plumbline::faults {
 
 pipeline::Stages Fault::stages() const {
-  Table table = production();
-  apply(table);
-  return stages_of(table);
+  pipeline::Stages stages = pipeline::production_stages();
+  apply(stages);
+  return stages;
 }
 
 }  // namespace plumbline::faults

@@ -5,15 +5,15 @@
 #include <string_view>
 
 #include "capture/stages.h"
-#include "faults/table.h"
+#include "pipeline/stages.h"
 
 namespace plumbline::faults {
 
 struct Fault {
-  std::string_view name;     ///< stage.bug, or notes.note.mistake (notes.h)
-  std::string_view changes;  ///< what it does, in words
-  Stage stage;               ///< the stage that must be named
-  void (*apply)(Table&);     ///< puts its functions in
+  std::string_view name;             ///< stage.bug, or notes.note.mistake (notes.h)
+  std::string_view changes;          ///< what it does, in words
+  Stage stage;                       ///< the stage that must be named
+  void (*apply)(pipeline::Stages&);  ///< puts its functions in
   /// The thread of a public renderer that reports it (owner/repository#number): written from that report alone, before
   /// its writer had read how faults are found.
   std::string_view report = {};

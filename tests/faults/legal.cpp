@@ -204,24 +204,22 @@ void positions_in_two_steps(const Matrices<float>& m, Normals normals, const Mes
   for (std::size_t i = first; i < out.size(); ++i) out[i].p_clip = m.projection * out[i].p_eye;
 }
 
-void near_plane_first(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
+void near_plane_first(const pipeline::DrawInput& input, pipeline::Polygon& polygon) {
   const auto p = pipeline::view_volume();  // right, left, top, bottom, near, far
   const std::array<Vec4<float>, 6> near_first = {p[4], p[5], p[0], p[1], p[2], p[3]};
-  pipeline::clip_at(std::span(near_first).subspan(assembly.depth_clamp ? 2 : 0), assembly, out);
+  pipeline::clip_at(std::span(near_first).subspan(input.depth_clamp ? 2 : 0), polygon);
 }
 
-void polygons_rotated(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
-  const std::size_t first = out.polygons.size();
-  pipeline::clip(assembly, out);
-  for (std::size_t i = first; i < out.polygons.size(); ++i) {
-    const auto begin = out.vertices.begin() + out.polygons[i].first, end = begin + out.polygons[i].count;
-    if (end - begin > 3) std::rotate(begin, begin + 1, end);
-  }
+void polygons_rotated(const pipeline::DrawInput& input, pipeline::Polygon& polygon) {
+  pipeline::clip(input, polygon);
+  auto& corners = polygon.corners;
+  if (corners.size() > 3) std::rotate(corners.begin(), corners.begin() + 1, corners.end());
 }
 
-pipeline::PixelBounds larger_box(const Triangle& t) {
-  const pipeline::PixelBounds b = pipeline::pixel_bounds(t);
-  return {b.x0 - 1, b.y0 - 1, b.x1 + 1, b.y1 + 1};
+PixelList larger_box(const Triangle& t, const PixelBounds& box) {
+  if (t.corners != 3) return pipeline::covered_pixels(t, box);
+  const PixelBounds b = pipeline::pixel_bounds(t);
+  return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0 - 1, b.y0 - 1, b.x1 + 1, b.y1 + 1}, box);
 }
 
 float depth_of_three_weights(const Setup& s, const Pixels<float>& p) {
@@ -235,7 +233,7 @@ Color<float> attributes_in_double(const Setup& s, const pipeline::AttributeSetup
   const auto& inv_w = s.perspective.inv_w;
   const double q0 = b.l0 * static_cast<double>(inv_w[0]), q1 = b.l1 * static_cast<double>(inv_w[1]),
                q2 = b.l2 * static_cast<double>(inv_w[2]), sum = q0 + q1 + q2;
-  if (!(std::abs(sum) > 1e-37)) return pipeline::FragmentStages::attributes<float>(s, of, p);
+  if (!(std::abs(sum) > 1e-37)) return pipeline::mean<float>(of, weights_of(s, p));
   const auto channel = [&](int i) {
     const double of_0 = static_cast<double>(of.color0[i]), d1 = static_cast<double>(of.d_color1[i]),
                  d2 = static_cast<double>(of.d_color2[i]);
@@ -264,7 +262,7 @@ constexpr Variant said(std::string_view name, std::string_view says, MaybeScene 
                        bool same_bits = false) {
   return {name, says, scene, nullptr, same_bits};
 }
-constexpr Variant drawn(std::string_view name, std::string_view says, void (*apply)(Table&), bool same_bits = false) {
+constexpr Variant drawn(std::string_view name, std::string_view says, void (*apply)(Stages&), bool same_bits = false) {
   return {name, says, nullptr, apply, same_bits};
 }
 
@@ -283,17 +281,17 @@ constexpr std::array kVariants = {
     said("blending_that_replaces", "blending by one and zero", blending_that_replaces),
     said("draw_out_of_sight", "the last draw again, where no pixel is", draw_out_of_sight, true),
     said("world_doubled", "all lengths, and with them w, are twice as large", world_doubled, true),
-    drawn("positions_in_two_steps", "P (M p) for (P M) p", put<&Geometry::vertex, positions_in_two_steps>),
+    drawn("positions_in_two_steps", "P (M p) for (P M) p", put<&Stages::vertex, positions_in_two_steps>),
     drawn("near_plane_first", "the near plane cuts first, then the far one, and then the sides",
-          put<&Geometry::clip, near_plane_first>),
+          put<&Stages::clip, near_plane_first>),
     drawn("polygons_rotated", "cut polygons begin, and are fanned, at another corner",
-          put<&Geometry::clip, polygons_rotated>),
-    drawn("larger_box", "a bounding box with a pixel more on each side", put<&Fragment::bounds, larger_box>, true),
+          put<&Stages::clip, polygons_rotated>),
+    drawn("larger_box", "a bounding box with a pixel more on each side", put<&Stages::coverage, larger_box>, true),
     drawn("depth_of_three_weights", "depth by three weights, not by two differences",
-          put<&Fragment::depth, depth_of_three_weights>),
+          put<&Stages::depth, depth_of_three_weights>),
     drawn("attributes_in_double", "attributes are worked out in double",
-          put<&Fragment::attributes, attributes_in_double>),
-    drawn("halves_up", "halves between two codes go up, not to the even one", put<&Fragment::merge, halves_up>),
+          put<&Stages::attributes, attributes_in_double>),
+    drawn("halves_up", "halves between two codes go up, not to the even one", put<&Stages::merge, halves_up>),
     drawn("mean_from_the_last", "samples are added up from the last",
           put<&pipeline::ResolveStage::weighted, mean_from_the_last>, true),
 };

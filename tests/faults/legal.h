@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "faults/table.h"
+#include "pipeline/stages.h"
 #include "scene/scene.h"
 
 namespace plumbline::faults {
@@ -16,7 +16,7 @@ struct Variant {
   std::string_view name;
   std::string_view says;                                  ///< what is otherwise, and why that is allowed
   std::optional<Scene> (*scene)(const Scene&) = nullptr;  ///< the scene said otherwise; none: there is no such way
-  void (*apply)(Table&) = nullptr;                        ///< puts its functions into the pipeline
+  void (*apply)(pipeline::Stages&) = nullptr;             ///< puts its functions into the pipeline
   bool same_bits = false;                                 ///< not a bit of the picture may change
 };
 

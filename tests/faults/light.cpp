@@ -6,9 +6,9 @@
 #include "dialect/dialect.h"
 #include "faults/lists.h"
 #include "faults/variants.h"
-#include "pipeline/carry.h"
+#include "kernels/math.h"
+#include "kernels/shade.h"
 #include "pipeline/light.h"
-#include "pipeline/math.h"
 #include "pipeline/matrices.h"
 
 namespace plumbline::faults {
@@ -17,7 +17,7 @@ namespace {
 
 using pipeline::Lights;
 using Vertices = std::span<const Vertex<float>>;
-using LitVertices = std::vector<Lit<float>>;
+using LitVertices = std::vector<pipeline::Attributes>;
 
 // The stage under a scene that says something else, and that scene's lights.
 template <auto change>
@@ -87,7 +87,7 @@ void specular_from_behind(const Scene& scene, const Draw& draw, Lights lights, V
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const float cosine = glm::dot(vertices[i].n_eye, glm::normalize(l + glm::vec3(0, 0, 1)));
       if (glm::dot(vertices[i].n_eye, l) > 0 || !(cosine > 0)) continue;
-      glm::vec4& color = out[first + i].color;
+      glm::vec4& color = out[first + i].color();
       const glm::vec3 gloss =
           pipeline::power(cosine, draw.material.shininess) * light.specular * glm::vec3(draw.material.specular);
       color = glm::clamp(color + glm::vec4(gloss, 0), 0.0f, 1.0f);
@@ -95,45 +95,48 @@ void specular_from_behind(const Scene& scene, const Draw& draw, Lights lights, V
   }
 }
 
-void back_color_is_the_fronts(const Scene& scene, const Draw& draw, Varying varying, Lights lights, Vertices vertices,
-                              std::vector<Vec4<float>>& out) {
-  if (varying != Varying::back_color || !carries(scene, draw, varying)) {
-    return pipeline::carry(scene, draw, varying, lights, vertices, out);
-  }
-  pipeline::light_part(scene, draw, {}, lights, vertices, out);
+void back_color_is_the_fronts(const Scene& scene, const Draw& draw, Lights lights, Vertices vertices,
+                              LitVertices& out) {
+  const std::size_t first = out.size();
+  pipeline::light(scene, draw, lights, vertices, out);
+  if (!carries(scene, draw, Varying::back_color)) return;
+  for (std::size_t i = first; i < out.size(); ++i) out[i][Varying::back_color] = out[i].color();
 }
 
 // Of the vertices before their cut: the fog of a primitive that reaches behind the eye grows towards it.
-void positions_by_distance(const Scene& scene, const Draw& draw, Varying varying, Lights lights, Vertices vertices,
-                           std::vector<Vec4<float>>& out) {
+void positions_by_distance(const Scene& scene, const Draw& draw, Lights lights, Vertices vertices, LitVertices& out) {
   const std::size_t first = out.size();
-  pipeline::carry(scene, draw, varying, lights, vertices, out);
-  if (varying != Varying::position) return;
-  for (std::size_t i = first; i < out.size(); ++i) out[i].z = std::abs(out[i].z);
+  pipeline::light(scene, draw, lights, vertices, out);
+  for (std::size_t i = first; i < out.size(); ++i) {
+    float& z_eye = out[i][Varying::position].z;
+    z_eye = std::abs(z_eye);
+  }
 }
 
 // The sum of colours left out.
-Color<float> no_color_sum(const pipeline::Surface& surface, bool front, const pipeline::SurfaceAttributes<float>& a) {
+pipeline::Shaded no_color_sum(const pipeline::Surface& surface, bool front,
+                              const pipeline::SurfaceAttributes<float>& a) {
   pipeline::SurfaceAttributes<float> primary = a;
   primary[Varying::secondary] = {float(0), float(0), float(0), float(0)};
-  return pipeline::shade_surface<float>(surface, front, primary);
+  return {pipeline::shade<float>(surface, front, primary)};
 }
 
 // The fragments of a surface without fog, of one side.
-Color<float> short_normals(const pipeline::Surface& surface, bool front, const pipeline::SurfaceAttributes<float>& a) {
+pipeline::Shaded short_normals(const pipeline::Surface& surface, bool front,
+                               const pipeline::SurfaceAttributes<float>& a) {
   const LightModel& model = surface.scene->light_model;
   const bool simple = model.sides != LightModel::Sides::two && !model.separate_specular && !surface.draw->fog;
   if (!surface.light || surface.light->by_color || !simple) {
-    return pipeline::shade_surface<float>(surface, front, a);
+    return {pipeline::shade<float>(surface, front, a)};
   }
   const Color<float>&n = a[Varying::normal], &p = a[Varying::position];
-  return pipeline::lit<float>(surface.light->illumination, surface.light->reflectance[0][0], {p.r, p.g, p.b},
-                              {n.r, n.g, n.b});
+  return {pipeline::lit<float>(surface.light->illumination, surface.light->reflectance[0][0], {p.r, p.g, p.b},
+                               {n.r, n.g, n.b})};
 }
 
 template <auto change>
 constexpr Fault of(std::string_view name, std::string_view what, std::string_view report = {}) {
-  return {name, what, Stage::light, put<&Geometry::light, lit_otherwise<change>>, report};
+  return {name, what, Stage::light, put<&Stages::light, lit_otherwise<change>>, report};
 }
 
 constexpr std::array kFaults = {
@@ -149,15 +152,15 @@ constexpr std::array kFaults = {
     of<kNoColorMaterial>("light.no_color_material", "vertex colours do not stand for the material"),
     of<kAmbientPerLight>("light.ambient_per_light", "the ambient light is added once more for each light"),
     Fault{"light.specular_from_behind", "highlights shine where N.L <= 0", Stage::light,
-          put<&Geometry::light, specular_from_behind>},
+          put<&Stages::light, specular_from_behind>},
     Fault{"light.back_color_of_front", "back faces are lit by their front's normal and material", Stage::light,
-          put<&Geometry::carry, back_color_is_the_fronts>},
+          put<&Stages::light, back_color_is_the_fronts>},
     Fault{"light.distance_at_vertices", "the distance for fog is taken at the vertices and interpolated", Stage::light,
-          put<&Geometry::carry, positions_by_distance>},
+          put<&Stages::light, positions_by_distance>},
     Fault{"shade.no_color_sum", "the separate specular colour is not added", Stage::shade,
-          put<&Fragment::shade_surface, no_color_sum>},
+          put<&Stages::shade, no_color_sum>},
     Fault{"shade.not_renormalised", "interpolated normals are not brought back to unit length", Stage::shade,
-          put<&Fragment::shade_surface, short_normals>},
+          put<&Stages::shade, short_normals>},
 };
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include "faults/lists.h"
 #include "faults/variants.h"
+#include "kernels/fragment_tests.h"
+#include "kernels/merge.h"
 
 namespace plumbline::faults {
 
@@ -171,44 +173,44 @@ float equal_weights(Values values, Samples samples, float scale) {
 }
 
 template <pipeline::Resolve resolve>
-void put_resolve(Table& table) {
-  table.resolve = {resolve, resolve};
+void put_resolve(Stages& stages) {
+  stages.resolve = {resolve, resolve};
 }
 
 constexpr std::array kMerge = {
     Fault{"visibility.less_equal", "an equal depth passes where only a smaller one may", Stage::visibility,
-          put<&Fragment::depth_passes, depth_passes_by<kLessEqualForLess>>},
+          put<&Stages::depth_passes, depth_passes_by<kLessEqualForLess>>},
     Fault{"visibility.greater_for_less", "the depth test asks for the farther one", Stage::visibility,
-          put<&Fragment::depth_passes, depth_passes_by<kSidesSwapped>>},
+          put<&Stages::depth_passes, depth_passes_by<kSidesSwapped>>},
     Fault{"visibility.alpha_at_reference", "an alpha equal to the reference passes where only a greater one may",
-          Stage::visibility, put<&Fragment::alpha_passes, alpha_at_the_reference_kept>},
+          Stage::visibility, put<&Stages::alpha_passes, alpha_at_the_reference_kept>},
     Fault{"visibility.no_alpha_test", "the alpha test lets everything pass", Stage::visibility,
-          put<&Fragment::alpha_passes, no_alpha_test>},
+          put<&Stages::alpha_passes, no_alpha_test>},
     Fault{"visibility.stencil_ops_swapped", "the stencil op of a depth that fails is taken for that of one that passes",
-          Stage::visibility, put<&Fragment::stencil_test, stencil_under<kOpsSwapped>>},
+          Stage::visibility, put<&Stages::stencil_passes, stencil_under<kOpsSwapped>>},
     Fault{"visibility.stencil_sides_swapped", "the value held is compared with the reference, not the other way round",
-          Stage::visibility, put<&Fragment::stencil_test, stencil_under<kReferenceOnTheRight>>},
+          Stage::visibility, put<&Stages::stencil_passes, stencil_under<kReferenceOnTheRight>>},
     Fault{"visibility.stencil_mask_unused", "stencil values are compared in all bits", Stage::visibility,
-          put<&Fragment::stencil_test, stencil_under<kNoMask>>},
+          put<&Stages::stencil_passes, stencil_under<kNoMask>>},
     Fault{"visibility.stencil_write_mask_unused", "stencil ops change all bits", Stage::visibility,
-          put<&Fragment::stencil_test, stencil_under<kNoWriteMask>>},
+          put<&Stages::stencil_passes, stencil_under<kNoWriteMask>>},
     Fault{"visibility.stencil_saturates", "stencil values stop where they should wrap", Stage::visibility,
-          put<&Fragment::stencil_test, stencil_under<kNoWrap>>, "RPCS3/rpcs3#1341"},
+          put<&Stages::stencil_passes, stencil_under<kNoWrap>>, "RPCS3/rpcs3#1341"},
     Fault{"merge.truncated", "colours are truncated to codes, not rounded", Stage::merge,
-          put<&Fragment::merge, truncated_color>},
-    Fault{"merge.blue_first", "red and blue change places", Stage::merge, put<&Fragment::merge, blue_first>},
+          put<&Stages::merge, truncated_color>},
+    Fault{"merge.blue_first", "red and blue change places", Stage::merge, put<&Stages::merge, blue_first>},
     Fault{"merge.factors_swapped", "blending takes the source's factor for the destination's, and the other way round",
-          Stage::merge, put<&Fragment::merge_state, merge_under<kFactorsSwapped>>},
+          Stage::merge, put<&Stages::merge_state, merge_under<kFactorsSwapped>>},
     Fault{"merge.alpha_as_rgb", "alpha is blended by the factors and equation of rgb", Stage::merge,
-          put<&Fragment::merge_state, merge_under<kAlphaAsRgb>>},
+          put<&Stages::merge_state, merge_under<kAlphaAsRgb>>},
     Fault{"merge.premultiplied_again", "blended colours are multiplied by their alpha once more", Stage::merge,
-          put<&Fragment::blend, premultiplied_again>, "OpenRA/TiberianDawnHD#28"},
+          put<&Stages::blend, premultiplied_again>, "OpenRA/TiberianDawnHD#28"},
     Fault{"merge.shifted_for_divided", "blending divides by 256, not 255, and truncates", Stage::merge,
-          put<&Fragment::blend, shifted_for_divided>, "scummvm/scummvm#985"},
+          put<&Stages::blend, shifted_for_divided>, "scummvm/scummvm#985"},
     Fault{"merge.logic_op_sides", "a logic op turns the wrong one over: s & ~d for ~s & d", Stage::merge,
-          put<&Fragment::logic, sides_of_logic_op_swapped>},
+          put<&Stages::logic, sides_of_logic_op_swapped>},
     Fault{"merge.color_mask_ignored", "masked channels are written", Stage::merge,
-          put<&Fragment::merge_state, merge_under<kNoColorMask>>},
+          put<&Stages::merge_state, merge_under<kNoColorMask>>},
     Fault{"resolve.truncated", "the mean of a pixel's samples is truncated to a code, not rounded", Stage::resolve,
           put_resolve<truncated_mean>},
     Fault{"resolve.first_sample", "a pixel's first sample is taken for all", Stage::resolve, put_resolve<first_sample>},

@@ -1,5 +1,6 @@
 #include "faults/notes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -8,7 +9,7 @@
 #include "pipeline/clip.h"
 #include "pipeline/light.h"
 #include "pipeline/matrices.h"
-#include "tests/thin_pixels.h"
+#include "tests/pixels_in_order.h"
 #include "transforms/projection.h"
 
 namespace plumbline::faults {
@@ -70,7 +71,7 @@ Matrices<float> whole_centres(const Scene& scene, const Draw& draw) {
 // N.L below 0 takes light away: what an opposite light of negative colour does. (Of GzRender's lights, which are
 // directional. A scene has 8 lights at most.)
 void no_clamp_of_n_l(const Scene& scene, const Draw& draw, pipeline::Lights lights,
-                     std::span<const Vertex<float>> vertices, std::vector<Lit<float>>& out) {
+                     std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
   Scene wrong = scene;
   std::vector<LightSource<float>> opposite(lights.begin(), lights.end());
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -85,7 +86,7 @@ void no_clamp_of_n_l(const Scene& scene, const Draw& draw, pipeline::Lights ligh
 
 // N.L and N.E both below 0: N is turned; one of them: no light. As though every N with N.E < 0 were turned.
 void flipped_normals(const Scene& scene, const Draw& draw, pipeline::Lights lights,
-                     std::span<const Vertex<float>> vertices, std::vector<Lit<float>>& out) {
+                     std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
   std::vector<Vertex<float>> facing(vertices.begin(), vertices.end());
   for (Vertex<float>& v : facing) {
     if (v.n_eye.z < 0) v.n_eye = -v.n_eye;
@@ -95,20 +96,12 @@ void flipped_normals(const Scene& scene, const Draw& draw, pipeline::Lights ligh
 
 // One corner with Z < 0, which is before the near plane, and the triangle is gone. Where depths are clamped there is no
 // such plane.
-void delete_behind_view_plane(const pipeline::Assembly& assembly, ClipPolygons<float>& out) {
-  if (assembly.depth_clamp) return pipeline::clip(assembly, out);
-  for (std::size_t i = 0; i < assembly.triangles.size(); ++i) {
-    bool deleted = false;
-    for (std::uint32_t corner = 0; corner < corner_count(assembly.topology); ++corner) {
-      const Vec4<float>& p_clip = assembly.vertices[assembly.triangles[i][static_cast<int>(corner)]].p_clip;
-      deleted |= p_clip.z < -p_clip.w;
-    }
-    if (deleted) continue;
-    pipeline::Assembly one = assembly;
-    one.triangles = assembly.triangles.subspan(i, 1);
-    one.first_primitive = assembly.first_primitive + static_cast<std::uint32_t>(i);
-    pipeline::clip(one, out);
+void delete_behind_view_plane(const pipeline::DrawInput& input, pipeline::Polygon& polygon) {
+  const auto is_before = [](const pipeline::ClipVertex& v) { return v.p_clip.z < -v.p_clip.w; };
+  if (!input.depth_clamp && std::any_of(polygon.corners.begin(), polygon.corners.end(), is_before)) {
+    return polygon.corners.clear();
   }
+  pipeline::clip(input, polygon);
 }
 
 constexpr bool is_small_side(std::int64_t step_x, std::int64_t step_y) {
@@ -122,34 +115,29 @@ bool left_and_right_edges_in(std::int64_t step_x, std::int64_t) { return step_x 
 bool left_taken_for_right(std::int64_t step_x, std::int64_t step_y) { return !is_small_side(step_x, step_y); }
 
 // x_i is the first corner's x, in pixels whose centres are whole numbers.
-pipeline::PixelBounds box_of_one_vertex_bounds(const Triangle& triangle) {
-  if (triangle.corners != 3) return pipeline::pixel_bounds(triangle);
+PixelList box_of_one_vertex(const Triangle& triangle, const PixelBounds& box) {
+  if (triangle.corners != 3) return pipeline::covered_pixels(triangle, box);
   const glm::ivec2 p = triangle.v[2].snapped;  // the fan's hub
   const auto floor = [](int snapped) { return snapped >> 8; };
   const auto ceiling = [](int snapped) { return (snapped + kSubpixel - 1) >> 8; };
-  return {floor(p.x), floor(p.y), ceiling(p.x) + 1, ceiling(p.y) + 1};
-}
-
-// Production walks whole blocks around its box, for no other pixel is covered.
-bool box_of_one_vertex_coverage(const Setup& s, const Pixels<float>& p) {
-  const pipeline::PixelBounds& b = s.bounds;
-  return pipeline::coverage<float>(s.edges, p) & (p.x >= b.x0) & (p.x < b.x1) & (p.y >= b.y0) & (p.y < b.y1);
+  const PixelBounds of_vertex{floor(p.x), floor(p.y), ceiling(p.x) + 1, ceiling(p.y) + 1};
+  return pipeline::covered_pixels(pipeline::edges_of(triangle), of_vertex, box);
 }
 
 // y = y + k in float for each x, from where the line is exited first, and ROUND(y).
-std::vector<glm::ivec2> incremental_line(const Triangle& t, glm::ivec2 origin, int size) {
-  if (t.corners != 2) return thin_pixels(t, origin, size);
+PixelList incremental_line(const Triangle& t, const PixelBounds& box) {
+  if (t.corners != 2) return pipeline::covered_pixels(t, box);
   const glm::ivec2 from = t.v[0].snapped, d = t.v[1].snapped - from;
   const int x = std::abs(d.x) >= std::abs(d.y) ? 0 : 1, y = 1 - x;  // the major axis and the other
   const float k = static_cast<float>(d[y]) / static_cast<float>(std::abs(d[x]));
-  const std::vector<glm::ivec2> line = thin_pixels(t, {0, 0}, 16384);  // all of any frame
-  std::vector<glm::ivec2> out;
+  const PixelList line = pixels_in_order(t, {0, 0, 16384, 16384});  // all of any frame
+  PixelList out;
   float at = 0;
   for (glm::ivec2 p : line) {
     const int steps = std::abs(p[x] * kSubpixel - from[x]);
     at = p == line.front() ? (static_cast<float>(from[y]) + k * static_cast<float>(steps)) / kSubpixel : at + k;
     p[y] = static_cast<int>(std::floor(at + 0.5f));
-    if (glm::all(glm::greaterThanEqual(p, origin)) && glm::all(glm::lessThan(p, origin + size))) out.push_back(p);
+    if (p.x >= box.x0 && p.y >= box.y0 && p.x < box.x1 && p.y < box.y1) out.push_back(p);
   }
   return out;
 }
@@ -173,46 +161,43 @@ float eight_bit_depth(const Setup& setup, const Pixels<float>& p) {
 
 constexpr std::array kNotes = {
     Fault{"notes.000.v_is_w_cross_v", "World Space -> Camera Space: v = w x v, v being up before, for w x u",
-          Stage::matrices, put<&Geometry::matrices, v_is_w_cross_v>},
+          Stage::matrices, put<&Stages::matrices, v_is_w_cross_v>},
     Fault{"notes.000.no_clamp_of_n_l", "Shading: where N.L is below 0, directional lights take light away",
-          Stage::light, put<&Geometry::light, no_clamp_of_n_l>},
+          Stage::light, put<&Stages::light, no_clamp_of_n_l>},
     Fault{"notes.000.flipped_normals", "Shading, GzRender's way: normals that face away from the eye are turned over",
-          Stage::light, put<&Geometry::light, flipped_normals>},
+          Stage::light, put<&Stages::light, flipped_normals>},
     Fault{"notes.000.strict_edges", "Rasterization: alpha, beta, gamma > 0: no triangle has the pixels on its edges",
-          Stage::coverage, put<&Fragment::edges, tied<no_edge_in>>},
+          Stage::coverage, put<&Stages::coverage, tied<no_edge_in>>},
     Fault{"notes.000.box", "Rasterization: the bounding box is that of one vertex", Stage::coverage,
-          [](Table& t) {
-            put<&Fragment::bounds, box_of_one_vertex_bounds>(t);
-            put<&Fragment::coverage, box_of_one_vertex_coverage>(t);
-          }},
+          put<&Stages::coverage, box_of_one_vertex>},
     Fault{"notes.000.affine_color", "Rasterization: c = alpha c0 + beta c1 + gamma c2, without perspective",
-          Stage::attributes, put<&Fragment::attributes, affine_attributes>},
+          Stage::attributes, put<&Stages::attributes, affine_attributes>},
     Fault{"notes.002.lookat", "LookAt Method: the center is the origin, under a projection with its eye there",
-          Stage::matrices, put<&Geometry::matrices, lookat_without_its_projection>},
+          Stage::matrices, put<&Stages::matrices, lookat_without_its_projection>},
     Fault{"notes.002.sum_z_over_sum_w", "Z-Buffer: depth is (sum b z) / (sum b w), b on the screen", Stage::depth,
-          put<&Fragment::depth, depth_of_linear_z>},
+          put<&Stages::depth, depth_of_linear_z>},
     Fault{"notes.002.eight_bit_depth", "Z-Buffer: depth has 256 codes, whatever the format", Stage::depth,
-          put<&Fragment::depth, eight_bit_depth>},
+          put<&Stages::depth, eight_bit_depth>},
     Fault{"notes.002.affine_color", "Fragment Shader: varying_intensity * bar, without perspective", Stage::attributes,
-          put<&Fragment::attributes, affine_attributes>},
+          put<&Stages::attributes, affine_attributes>},
     Fault{"notes.004.eye_at_c", "3.3: the eye is at c, not d behind it", Stage::matrices,
-          put<&Geometry::matrices, eye_at_c>},
+          put<&Stages::matrices, eye_at_c>},
     Fault{"notes.004.whole_centres", "2.1, 3.2 X_sp: pixel centres are whole numbers: half a pixel off",
-          Stage::matrices, put<&Geometry::matrices, whole_centres>},
+          Stage::matrices, put<&Stages::matrices, whole_centres>},
     Fault{"notes.004.delete_behind_view_plane", "3.2: triangles with a corner of Z < 0 are deleted, not cut",
-          Stage::clip, put<&Geometry::clip, delete_behind_view_plane>},
+          Stage::clip, put<&Stages::clip, delete_behind_view_plane>},
     Fault{"notes.004.incremental_line", "2.2: lines by y = y + k in float, whose error builds up", Stage::coverage,
-          put<&Fragment::thin_pixels, incremental_line>},
+          put<&Stages::coverage, incremental_line>},
     Fault{"notes.004.lee_sign", "2.5: E > 0 is taken for left, so that right edges' pixels are in for left ones'",
-          Stage::coverage, put<&Fragment::edges, tied<left_taken_for_right>>},
+          Stage::coverage, put<&Stages::coverage, tied<left_taken_for_right>>},
     Fault{"notes.004.left_edges", "2.5: pixels on left edges are in, on horizontal ones nobody's", Stage::coverage,
-          put<&Fragment::edges, tied<left_edges_in>>},
+          put<&Stages::coverage, tied<left_edges_in>>},
     Fault{"notes.004.left_right_edges", "2.5: pixels on left and right edges are in, on horizontal ones nobody's",
-          Stage::coverage, put<&Fragment::edges, tied<left_and_right_edges_in>>},
+          Stage::coverage, put<&Stages::coverage, tied<left_and_right_edges_in>>},
     Fault{"notes.004.all_edges_in", "2.5: pixels on all edges are in", Stage::coverage,
-          put<&Fragment::edges, tied<all_edges_in>>},
+          put<&Stages::coverage, tied<all_edges_in>>},
     Fault{"notes.004.z_in_camera_space", "3.2: Z is interpolated in camera space, not in the perspective plane",
-          Stage::depth, put<&Fragment::depth, depth_of_linear_z>},
+          Stage::depth, put<&Stages::depth, depth_of_linear_z>},
 };
 
 }  // namespace

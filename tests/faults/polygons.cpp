@@ -11,16 +11,18 @@ namespace plumbline::faults {
 
 namespace {
 
-using pipeline::Assembly;
-using Polygons = ClipPolygons<float>;
-using Corners = std::vector<ClipVertex<float>>;
-using Triangles = std::vector<WindowTriangle<float>>;
+using pipeline::Attributes;
+using pipeline::ClipVertex;
+using pipeline::DrawInput;
+using pipeline::Polygon;
+using pipeline::ShadedTriangle;
+using Triangles = std::vector<ShadedTriangle>;
 
 // The stage at other planes; where depths are clamped there are none to get wrong.
 template <auto planes>
-void cut_at(const Assembly& assembly, Polygons& out) {
-  if (assembly.depth_clamp) return pipeline::clip(assembly, out);
-  pipeline::clip_at(planes(), assembly, out);
+void cut_at(const DrawInput& input, Polygon& polygon) {
+  if (input.depth_clamp) return pipeline::clip(input, polygon);
+  pipeline::clip_at(planes(), polygon);
 }
 
 constexpr auto kNoNear = [] {
@@ -36,101 +38,78 @@ constexpr auto kNearAtZero = [] {
 
 // The stage with other positions.
 template <auto change>
-void clip_moved(const Assembly& assembly, Polygons& out) {
-  std::vector<Vertex<float>> moved(assembly.vertices.begin(), assembly.vertices.end());
-  for (Vertex<float>& v : moved) change(v.p_clip);
-  Assembly wrong = assembly;
-  wrong.vertices = moved;
-  pipeline::clip(wrong, out);
+void clip_moved(const DrawInput& input, Polygon& polygon) {
+  for (ClipVertex& v : polygon.corners) change(v.p_clip);
+  pipeline::clip(input, polygon);
 }
 
 constexpr auto kNearFlattened = [](Vec4<float>& p) { p.z = std::max(p.z, -p.w); };
 constexpr auto kWSignLost = [](Vec4<float>& p) { p = p.w < 0 ? -p : p; };
 
-// The stage, what it makes of each primitive changed: change(corners) may take some away.
+// The stage, what it makes changed.
 template <auto change>
-void clip_changed(const Assembly& assembly, Polygons& out) {
-  Polygons right;
-  pipeline::clip(assembly, right);
-  for (const ClipPolygon& p : right.polygons) {
-    const auto from = right.vertices.begin() + p.first;
-    Corners corners(from, from + p.count);
-    change(corners);
-    out.polygons.push_back(
-        {p.primitive, static_cast<std::uint32_t>(out.vertices.size()), static_cast<std::uint32_t>(corners.size())});
-    out.vertices.insert(out.vertices.end(), corners.begin(), corners.end());
-  }
+void clip_changed(const DrawInput& input, Polygon& polygon) {
+  pipeline::clip(input, polygon);
+  change(polygon);
 }
 
 // A cut's corner has the attributes of the one before it.
-constexpr auto kAttributesNotCut = [](Corners& corners) {
-  const auto of_mesh =
-      std::find_if(corners.rbegin(), corners.rend(), [](const ClipVertex<float>& c) { return !c.cut; });
-  if (of_mesh == corners.rend()) return;
-  Vec4<float> color = of_mesh->color;
-  for (ClipVertex<float>& c : corners) {
-    if (c.cut) c.color = color;
-    color = c.color;
+constexpr auto kAttributesNotCut = [](Polygon& polygon) {
+  const Attributes* before = nullptr;
+  for (const ClipVertex& c : polygon.corners) {
+    if (!c.cut) before = &c.attributes;
+  }
+  if (before == nullptr) return;
+  Attributes attributes = *before;
+  for (ClipVertex& c : polygon.corners) {
+    if (c.cut) c.attributes = attributes;
+    attributes = c.attributes;
   }
 };
 
-constexpr auto kCornerLost = [](Corners& corners) {
-  if (corners.size() > 3) corners.pop_back();
+constexpr auto kCornerLost = [](Polygon& polygon) {
+  if (polygon.corners.size() > 3) polygon.corners.pop_back();
 };
 
-constexpr auto kReversed = [](Corners& corners) {
-  if (corners.size() > 3) std::reverse(corners.begin(), corners.end());
+constexpr auto kReversed = [](Polygon& polygon) {
+  if (polygon.corners.size() > 3) std::reverse(polygon.corners.begin(), polygon.corners.end());
 };
-
-// Each primitive by itself, as change(its corners, its assembly) has it; false: it is left out.
-template <auto change>
-void clip_each(const Assembly& assembly, Polygons& out) {
-  for (std::size_t i = 0; i < assembly.triangles.size(); ++i) {
-    std::array<Vertex<float>, 3> vertices;
-    std::array<Lit<float>, 3> lit;
-    for (int k = 0; k < 3; ++k) {
-      vertices[static_cast<std::size_t>(k)] = assembly.vertices[assembly.triangles[i][k]];
-      lit[static_cast<std::size_t>(k)] = assembly.lit[assembly.triangles[i][k]];
-    }
-    if (!change(assembly.shading, vertices, lit)) continue;
-    const glm::uvec3 corners(0, 1, 2);
-    Assembly one = assembly;
-    one.vertices = vertices;
-    one.lit = lit;
-    one.triangles = {&corners, 1};
-    one.first_primitive = assembly.first_primitive + static_cast<std::uint32_t>(i);
-    pipeline::clip(one, out);
-  }
-}
-using ThreeVertices = std::array<Vertex<float>, 3>;
-using ThreeLit = std::array<Lit<float>, 3>;
 
 // x / w of a corner behind the eye has the other sign.
-constexpr auto kDividedFirst = [](Shading, const ThreeVertices& vertices, const ThreeLit&) {
+void left_out_after_division(const DrawInput& input, Polygon& polygon) {
   for (int i = 0; i < 2; ++i) {
-    int right = 0, left = 0;
-    for (const Vertex<float>& v : vertices) {
+    std::size_t right = 0, left = 0;
+    for (const ClipVertex& v : polygon.corners) {
       right += v.p_clip[i] / v.p_clip.w > 1;
       left += v.p_clip[i] / v.p_clip.w < -1;
     }
-    if (right == 3 || left == 3) return false;
+    if (right == polygon.corners.size() || left == polygon.corners.size()) return polygon.corners.clear();
   }
-  return true;
-};
+  pipeline::clip(input, polygon);
+}
 
-constexpr auto kFirstProvokes = [](Shading shading, const ThreeVertices&, ThreeLit& lit) {
-  if (shading == Shading::flat) lit[2] = lit[0];
-  return true;
-};
+Polygon first_provokes(const DrawInput& input, const glm::uvec3& corners, std::span<const Vertex<float>> vertices,
+                       std::span<const Attributes> attributes) {
+  Polygon polygon = pipeline::assemble(input, corners, vertices, attributes);
+  if (input.draw->shading != Shading::flat) return polygon;
+  const Attributes& first = attributes[corners[0]];
+  for (ClipVertex& v : polygon.corners) {
+    v.attributes.color() = first.color();
+    for (const Varying varying : kAllVaryings) {
+      if (is_lit(varying)) v.attributes[varying] = first[varying];
+    }
+  }
+  return polygon;
+}
 
 // The stage under other matrices, or a draw that says something else.
 template <auto change>
-void window_under(const Matrices<float>& matrices, const Draw& draw, const Polygons& polygons,
-                  std::span<const ClipPolygon> of_draw, Triangles& out) {
-  Matrices<float> wrong_matrices = matrices;
-  Draw wrong = draw;
-  change(wrong_matrices, wrong);
-  pipeline::to_window(wrong_matrices, wrong, polygons, of_draw, out);
+void window_under(const DrawInput& input, const Polygon& polygon, Triangles& out) {
+  DrawInput wrong = input;
+  Draw wrong_draw = *input.draw;
+  wrong.draw = &wrong_draw;
+  change(wrong.matrices, wrong_draw);
+  pipeline::to_window(wrong, polygon, out);
 }
 
 constexpr auto kModeOfOtherFace = [](Matrices<float>&, Draw& d) { std::swap(d.front_mode, d.back_mode); };
@@ -144,12 +123,11 @@ constexpr auto kRowsFromAbove = [](Matrices<float>& m, Draw&) { m.win_scale.y = 
 
 // The stage, its corners snapped otherwise. Triangles of no area are gone.
 template <auto snap>
-void snapped_otherwise(const Matrices<float>& matrices, const Draw& draw, const Polygons& polygons,
-                       std::span<const ClipPolygon> of_draw, Triangles& out) {
+void snapped_otherwise(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   Triangles made;
-  pipeline::to_window(matrices, draw, polygons, of_draw, made);
-  for (Triangle& t : made) {
-    for (WindowVertex<float>& v : t.v) v.snapped = snap(v);
+  pipeline::to_window(input, polygon, made);
+  for (ShadedTriangle& t : made) {
+    for (pipeline::WindowVertex& v : t.v) v.snapped = snap(v);
     const std::int64_t area = pipeline::snapped_area(t);
     if (t.corners == 3 && area == 0) continue;
     if (t.corners == 3) t.front = area > 0;
@@ -157,61 +135,53 @@ void snapped_otherwise(const Matrices<float>& matrices, const Draw& draw, const 
   }
 }
 
-constexpr auto kTruncated = [](const WindowVertex<float>& v) {
+constexpr auto kTruncated = [](const pipeline::WindowVertex& v) {
   return glm::ivec2((glm::vec2(v.p_win) - 0.5f) * static_cast<float>(kSubpixel));
 };
-constexpr auto kWholeRows = [](const WindowVertex<float>& v) {
+constexpr auto kWholeRows = [](const pipeline::WindowVertex& v) {
   return glm::ivec2(v.snapped.x, (v.snapped.y + kSubpixel / 2) / kSubpixel * kSubpixel);
 };
-constexpr auto kHalfAPixelOff = [](const WindowVertex<float>& v) { return v.snapped + kSubpixel / 2; };
+constexpr auto kHalfAPixelOff = [](const pipeline::WindowVertex& v) { return v.snapped + kSubpixel / 2; };
 
-void z_not_divided(const Matrices<float>& matrices, const Draw& draw, const Polygons& polygons,
-                   std::span<const ClipPolygon> of_draw, Triangles& out) {
-  Polygons wrong = polygons;
-  for (ClipVertex<float>& v : wrong.vertices) v.p_clip.z *= v.p_clip.w;
-  pipeline::to_window(matrices, draw, wrong, of_draw, out);
+void z_not_divided(const DrawInput& input, const Polygon& polygon, Triangles& out) {
+  Polygon wrong = polygon;
+  for (ClipVertex& v : wrong.corners) v.p_clip.z *= v.p_clip.w;
+  pipeline::to_window(input, wrong, out);
 }
 
-void facing_turned(const Matrices<float>& matrices, const Draw& draw, const Polygons& polygons,
-                   std::span<const ClipPolygon> of_draw, Triangles& out) {
+void facing_turned(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   const std::size_t first = out.size();
-  pipeline::to_window(matrices, draw, polygons, of_draw, out);
-  for (Triangle& t : std::span(out).subspan(first)) t.front = t.front != (t.corners == 3);
+  pipeline::to_window(input, polygon, out);
+  for (ShadedTriangle& t : std::span(out).subspan(first)) t.front = t.front != (t.corners == 3);
 }
 
-void diagonals_drawn(const Matrices<float>& matrices, const Draw& draw, const Polygons& polygons,
-                     std::span<const ClipPolygon> of_draw, Triangles& out) {
-  if (draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill)
-    return pipeline::to_window(matrices, draw, polygons, of_draw, out);
-  Polygons fans;
-  for (const ClipPolygon& p : of_draw) {
-    if (p.count < 3) return pipeline::to_window(matrices, draw, polygons, of_draw, out);
-    for (std::uint32_t i = 2; i < p.count; ++i) {
-      fans.polygons.push_back({p.primitive, static_cast<std::uint32_t>(fans.vertices.size()), 3});
-      for (const std::uint32_t k : {0u, i - 1, i}) fans.vertices.push_back(polygons.vertices[p.first + k]);
-    }
+void diagonals_drawn(const DrawInput& input, const Polygon& polygon, Triangles& out) {
+  const bool filled = input.draw->front_mode == PolygonMode::fill && input.draw->back_mode == PolygonMode::fill;
+  if (filled || polygon.corners.size() < 3) return pipeline::to_window(input, polygon, out);
+  for (std::size_t i = 2; i < polygon.corners.size(); ++i) {
+    Polygon triangle{polygon.primitive, {}};
+    for (const std::size_t k : {std::size_t{0}, i - 1, i}) triangle.corners.push_back(polygon.corners[k]);
+    pipeline::to_window(input, triangle, out);
   }
-  pipeline::to_window(matrices, draw, fans, fans.polygons, out);
 }
 
 // An edge begins at the corner that it ends in, but the first.
-void edges_of_one_corner(const Matrices<float>& matrices, const Draw& draw, const Polygons& polygons,
-                         std::span<const ClipPolygon> of_draw, Triangles& out) {
+void edges_of_one_corner(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   const std::size_t first = out.size();
-  pipeline::to_window(matrices, draw, polygons, of_draw, out);
+  pipeline::to_window(input, polygon, out);
   for (std::size_t i = first + 1; i < out.size(); ++i) {
-    Triangle& edge = out[i];
-    if (edge.corners == 2 && out[i - 1].primitive == edge.primitive) edge.v[0] = edge.v[1];
+    ShadedTriangle& edge = out[i];
+    if (edge.corners == 2) edge.v[0] = edge.v[1], edge.attributes[0] = edge.attributes[1];
   }
 }
 
 template <auto function>
 constexpr Fault of_clip(std::string_view name, std::string_view changes, std::string_view report = {}) {
-  return {name, changes, Stage::clip, put<&Geometry::clip, function>, report};
+  return {name, changes, Stage::clip, put<&Stages::clip, function>, report};
 }
 template <auto function>
 constexpr Fault of_window(std::string_view name, std::string_view changes, std::string_view report = {}) {
-  return {name, changes, Stage::window, put<&Geometry::window, function>, report};
+  return {name, changes, Stage::window, put<&Stages::window, function>, report};
 }
 
 constexpr std::array kPolygons = {
@@ -223,10 +193,10 @@ constexpr std::array kPolygons = {
         "clip.near_flattened", "what is before the near plane is moved onto it, not cut", "Vita3K/Vita3K#4110"),
     of_clip<clip_moved<kWSignLost>>("clip.w_sign_lost",
                                     "what is behind the eye is taken for its mirror image before it"),
-    of_clip<clip_each<kDividedFirst>>("clip.left_out_after_division",
-                                      "triangles are left out by x/w and y/w, behind the eye too", "vindar/tgx#47"),
-    of_clip<clip_each<kFirstProvokes>>("clip.first_vertex_provokes", "flat triangles have their first corner's colour",
-                                       "flyinghead/flycast#1681"),
+    of_clip<left_out_after_division>("clip.left_out_after_division",
+                                     "triangles are left out by x/w and y/w, behind the eye too", "vindar/tgx#47"),
+    Fault{"clip.first_vertex_provokes", "flat triangles have their first corner's colour", Stage::clip,
+          put<&Stages::assemble, first_provokes>, "flyinghead/flycast#1681"},
     of_clip<clip_changed<kAttributesNotCut>>("clip.attributes_not_cut",
                                              "a cut's corner has the attributes of the corner before it",
                                              "Victormeriqui/Consol3#20"),

@@ -4,7 +4,7 @@
 
 #include "faults/lists.h"
 #include "faults/variants.h"
-#include "tests/thin_pixels.h"
+#include "tests/pixels_in_order.h"
 
 namespace plumbline::faults {
 
@@ -16,84 +16,101 @@ bool top_edges_for_bottom(std::int64_t step_x, std::int64_t step_y) {
   return step_x > 0 || (step_x == 0 && step_y < 0);
 }
 
+// The stage, of triangles alone.
+template <auto pixels>
+PixelList triangles_by(const Triangle& t, const PixelBounds& box) {
+  return t.corners == 3 ? pixels(t, box) : pipeline::covered_pixels(t, box);
+}
+
 // Of 1/256 pixel squared, from triangles of some 180 x 180 pixels on.
-bool in_32_bits(const Setup& s, const Pixels<float>& p) {
-  for (int i = 0; i < 3; ++i) {
-    const std::int64_t e = s.edges.at_origin[i] + s.edges.step_x[i] * p.x + s.edges.step_y[i] * p.y;
-    if (static_cast<std::int32_t>(static_cast<std::uint32_t>(e)) < 0) return false;
+PixelList in_32_bits(const Triangle& t, const PixelBounds& box) {
+  const pipeline::Edges edges = pipeline::edges_of(t);
+  PixelList out;
+  for (const glm::ivec2 p : pipeline::covered_pixels({}, pipeline::pixel_bounds(t), box)) {
+    bool inside = true;
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t e = edges.at_origin[i] + edges.step_x[i] * p.x + edges.step_y[i] * p.y;
+      inside = inside && static_cast<std::int32_t>(static_cast<std::uint32_t>(e)) >= 0;
+    }
+    if (inside) out.push_back(p);
   }
-  return true;
+  return out;
 }
 
-constexpr glm::ivec2 kCorner(-kSubpixel / 2);
-pipeline::Edges edges_at_corner(const Triangle& t) { return pipeline::edges_of(pipeline::as_seen_from(t, kCorner)); }
-pipeline::PixelBounds bounds_at_corner(const Triangle& t) {
-  return pipeline::pixel_bounds(pipeline::as_seen_from(t, kCorner));
+PixelList at_corner(const Triangle& t, const PixelBounds& box) {
+  return pipeline::covered_pixels(pipeline::as_seen_from(t, glm::ivec2(-kSubpixel / 2)), box);
 }
 
-pipeline::PixelBounds bounds_one_short(const Triangle& t) {
-  pipeline::PixelBounds b = pipeline::pixel_bounds(t);
-  return {b.x0, b.y0, b.x1 - 1, b.y1 - 1};
-}
-// Production walks whole blocks around its box, for no other pixel is covered.
-bool covered_in_bounds(const Setup& s, const Pixels<float>& p) {
-  const pipeline::PixelBounds& b = s.bounds;
-  return pipeline::coverage<float>(s.edges, p) && p.x >= b.x0 && p.x < b.x1 && p.y >= b.y0 && p.y < b.y1;
+PixelList box_one_short(const Triangle& t, const PixelBounds& box) {
+  const PixelBounds b = pipeline::pixel_bounds(t);
+  return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0, b.y0, b.x1 - 1, b.y1 - 1}, box);
 }
 
-bool scissor_with_its_far_sides(const Scissor& box, const Pixels<float>& p) {
-  return pipeline::scissor<float>({box.x, box.y, box.width + 1, box.height + 1}, p);
+PixelBounds scissor_with_its_far_sides(const Scissor& box, const PixelBounds& frame) {
+  return pipeline::scissored({box.x, box.y, box.width + 1, box.height + 1}, frame);
 }
 
-std::vector<glm::ivec2> line_end_drawn(const Triangle& t, glm::ivec2 origin, int size) {
-  std::vector<glm::ivec2> pixels = thin_pixels(t, origin, size);
-  WindowTriangle<float> end{{t.v[1], t.v[1], t.v[1]}, t.primitive, true, 1};
-  for (const glm::ivec2 last : thin_pixels(end, origin, size)) {
-    if (std::find(pixels.begin(), pixels.end(), last) == pixels.end()) pixels.push_back(last);
+// The stage, of lines and points alone.
+template <auto pixels>
+PixelList lines_by(const Triangle& t, const PixelBounds& box) {
+  return t.corners == 3 ? pipeline::covered_pixels(t, box) : pixels(t, box);
+}
+bool contains(const PixelList& pixels, glm::ivec2 p) {
+  return std::find(pixels.begin(), pixels.end(), p) != pixels.end();
+}
+bool inside(const PixelBounds& box, glm::ivec2 p) {
+  return p.x >= box.x0 && p.y >= box.y0 && p.x < box.x1 && p.y < box.y1;
+}
+
+PixelList line_end_drawn(const Triangle& t, const PixelBounds& box) {
+  PixelList pixels = pipeline::covered_pixels(t, box);
+  const Triangle end{{t.v[1], t.v[1], t.v[1]}, t.primitive, true, 1};
+  for (const glm::ivec2 last : pipeline::covered_pixels(end, box)) {
+    if (!contains(pixels, last)) pixels.push_back(last);
   }
   return pixels;
 }
 
-std::vector<glm::ivec2> steep_lines_torn(const Triangle& t, glm::ivec2 origin, int size) {
-  std::vector<glm::ivec2> pixels = thin_pixels(t, origin, size);
-  std::vector<glm::ivec2> one_per_column;
-  for (const glm::ivec2 p : pixels) {
+// In the order in which a line is drawn.
+PixelList steep_lines_torn(const Triangle& t, const PixelBounds& box) {
+  PixelList one_per_column;
+  for (const glm::ivec2 p : pixels_in_order(t, box)) {
     if (one_per_column.empty() || one_per_column.back().x != p.x) one_per_column.push_back(p);
   }
   return one_per_column;
 }
 
-// Every pixel of the thin line becomes a row of an x-major line, a column of a y-major one.
-std::vector<glm::ivec2> lines_widened_along(const Triangle& t, glm::ivec2 origin, int size) {
-  if (t.corners != 2 || t.width == 1) return thin_pixels(t, origin, size);
-  WindowTriangle<float> thin = t;
-  thin.width = 1;
+// Every pixel of the line of width 1 becomes a row of an x-major line, a column of a y-major one.
+PixelList lines_widened_along(const Triangle& t, const PixelBounds& box) {
+  if (t.corners != 2 || t.width == 1) return pipeline::covered_pixels(t, box);
+  Triangle of_width_1 = t;
+  of_width_1.width = 1;
   const auto width = static_cast<int>(t.width);
   const glm::ivec2 d = glm::abs(t.v[1].snapped - t.v[0].snapped),
                    along = d.x >= d.y ? glm::ivec2(1, 0) : glm::ivec2(0, 1);
-  std::vector<glm::ivec2> pixels;
-  for (const glm::ivec2 p : thin_pixels(thin, origin - width, size + 2 * width)) {
+  PixelList pixels;
+  for (const glm::ivec2 p :
+       pipeline::covered_pixels(of_width_1, {box.x0 - width, box.y0 - width, box.x1 + width, box.y1 + width})) {
     for (int k = 0; k < width; ++k) {
-      const glm::ivec2 q = p + along * (k - width / 2), in_box = q - origin;
-      const bool inside = in_box.x >= 0 && in_box.y >= 0 && in_box.x < size && in_box.y < size;
-      if (inside && std::find(pixels.begin(), pixels.end(), q) == pixels.end()) pixels.push_back(q);
+      const glm::ivec2 q = p + along * (k - width / 2);
+      if (inside(box, q) && !contains(pixels, q)) pixels.push_back(q);
     }
   }
   return pixels;
 }
 
-std::vector<glm::ivec2> points_off_by_half(const Triangle& t, glm::ivec2 origin, int size) {
-  WindowTriangle<float> moved = t;
+PixelList points_off_by_half(const Triangle& t, const PixelBounds& box) {
+  Triangle moved = t;
   if (t.corners == 1) moved.v[0].snapped += kSubpixel / 2;
-  return thin_pixels(moved, origin, size);
+  return pipeline::covered_pixels(moved, box);
 }
 
 // Samples mirrored in the pixel's middle row.
-pipeline::Places mirrored_samples(glm::ivec2 sample) { return {{sample.x, -sample.y}, sample, {0, 0}}; }
+pipeline::SampleOffsets mirrored_samples(glm::ivec2 sample) { return {{sample.x, -sample.y}, sample, {0, 0}}; }
 
 // 6. Depth.
 
-pipeline::Places depth_of_centre(glm::ivec2 sample) { return {sample, {0, 0}, {0, 0}}; }
+pipeline::SampleOffsets depth_of_centre(glm::ivec2 sample) { return {sample, {0, 0}, {0, 0}}; }
 
 // The triangle's plane, under a state that says something else.
 template <auto change>
@@ -127,23 +144,19 @@ float truncated_depth(const Setup& setup, const Pixels<float>& p) {
 // 2^n for 2^n - 1, and the last code for what that makes too large.
 float scaled_by_power_of_two(const Setup& setup, const Pixels<float>& p) {
   const double scale = setup.depth.scale;
-  if (scale == 0.0) return pipeline::FragmentStages::depth<float>(setup, p);
+  if (scale == 0.0) return right_depth(setup, p);
   return static_cast<float>(std::min(pipeline::round_even(window_z(setup, p) * (scale + 1)), scale));
 }
 
 float depth_at_corner(const Setup& s, const Pixels<float>& p) {
-  return pipeline::FragmentStages::depth<float>(s, Pixels<float>{p.x, p.y, p.x_win - 0.5, p.y_win - 0.5});
+  return right_depth(s, Pixels<float>{p.x, p.y, p.x_win - 0.5, p.y_win - 0.5});
 }
 
 // 7. Attributes.
 
 using TriangleAttributes = pipeline::AttributeSetup;
 
-pipeline::Places color_of_sample(glm::ivec2 sample) { return {sample, sample, sample}; }
-
-pipeline::Weights<float> weights_of(const Setup& s, const Pixels<float>& p) {
-  return pipeline::weights<float>(s.perspective, pipeline::from_anchor<float>(s.planes, p));
-}
+pipeline::SampleOffsets color_of_sample(glm::ivec2 sample) { return {sample, sample, sample}; }
 
 Color<float> of_wrong_corners(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
   const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
@@ -180,66 +193,59 @@ Color<float> not_divided(const Setup& s, const TriangleAttributes& of, const Pix
 
 constexpr std::array kRaster = {
     Fault{"coverage.inclusive_edges", "pixels on any edge are covered: shared edges are painted twice", Stage::coverage,
-          put<&Fragment::edges, tied<all_edges_in>>},
+          put<&Stages::coverage, tied<all_edges_in>>},
     Fault{"coverage.top_for_bottom", "of horizontal edges, the one above has its pixels: the rule of y downwards",
-          Stage::coverage, put<&Fragment::edges, tied<top_edges_for_bottom>>, "nesbox/TIC-80#1644"},
+          Stage::coverage, put<&Stages::coverage, tied<top_edges_for_bottom>>, "nesbox/TIC-80#1644"},
     Fault{"coverage.in_32_bits", "edge functions overflow 32 bits: large triangles have holes", Stage::coverage,
-          put<&Fragment::coverage, in_32_bits>, "vindar/tgx#31"},
+          put<&Stages::coverage, triangles_by<in_32_bits>>, "vindar/tgx#31"},
     Fault{"coverage.at_corner", "pixels are covered where their lower left corners are", Stage::coverage,
-          [](Table& t) {
-            t.fragment.edges = edges_at_corner;
-            t.fragment.bounds = bounds_at_corner;
-          },
-          "hrydgard/ppsspp#9681"},
+          put<&Stages::coverage, triangles_by<at_corner>>, "hrydgard/ppsspp#9681"},
     Fault{"coverage.box_one_short", "the bounding box lacks its last column and row", Stage::coverage,
-          [](Table& t) {
-            t.fragment.bounds = bounds_one_short;
-            t.fragment.coverage = covered_in_bounds;
-          }},
+          put<&Stages::coverage, triangles_by<box_one_short>>},
     Fault{"coverage.scissor_inclusive", "the scissor box has one column and one row too many", Stage::coverage,
-          put<&Fragment::scissor, scissor_with_its_far_sides>},
+          put<&Stages::scissor, scissor_with_its_far_sides>},
     Fault{"coverage.line_end_drawn", "a line's last pixel is drawn too: lines that meet paint it twice",
-          Stage::coverage, put<&Fragment::thin_pixels, line_end_drawn>},
+          Stage::coverage, put<&Stages::coverage, lines_by<line_end_drawn>>},
     Fault{"coverage.steep_lines_torn", "lines are stepped along x in every octant: steep ones have gaps",
-          Stage::coverage, put<&Fragment::thin_pixels, steep_lines_torn>},
+          Stage::coverage, put<&Stages::coverage, lines_by<steep_lines_torn>>},
     Fault{"coverage.lines_widened_along", "wide lines are widened along their major axis, not across it",
-          Stage::coverage, put<&Fragment::thin_pixels, lines_widened_along>},
+          Stage::coverage, put<&Stages::coverage, lines_by<lines_widened_along>>},
     Fault{"coverage.points_off_by_half", "points' squares lie half a pixel too far right and up", Stage::coverage,
-          put<&Fragment::thin_pixels, points_off_by_half>},
+          put<&Stages::coverage, lines_by<points_off_by_half>>},
     Fault{"coverage.samples_mirrored", "the samples' y is counted downwards in the pixel", Stage::coverage,
-          put<&Fragment::places, mirrored_samples>},
+          put<&Stages::sample_offsets, mirrored_samples>},
     Fault{"depth.truncated", "depth codes are truncated, not rounded", Stage::depth,
-          put<&Fragment::depth, truncated_depth>},
+          put<&Stages::depth, truncated_depth>},
     Fault{"depth.scaled_by_power_of_two", "depth codes are of z times 2^n, not 2^n - 1", Stage::depth,
-          put<&Fragment::depth, scaled_by_power_of_two>},
+          put<&Stages::depth, scaled_by_power_of_two>},
     Fault{"depth.at_corner", "depths are those of the pixels' lower left corners", Stage::depth,
-          put<&Fragment::depth, depth_at_corner>},
+          put<&Stages::depth, depth_at_corner>},
     Fault{"depth.one_per_triangle", "a triangle has one depth, the mean of its corners'", Stage::depth,
-          put<&Fragment::depth_setup, one_depth>},
+          put<&Stages::depth_setup, one_depth>},
     Fault{"depth.of_centre", "all samples of a pixel have the depth at its centre", Stage::depth,
-          put<&Fragment::places, depth_of_centre>},
+          put<&Stages::sample_offsets, depth_of_centre>},
     Fault{"depth.clamped_to_format", "depths beyond the draw's range are clamped to [0,1]", Stage::depth,
-          put<&Fragment::depth_setup, depth_under<kClampedToFormat>>},
+          put<&Stages::depth_setup, depth_under<kClampedToFormat>>},
     Fault{"depth.offset_without_slope", "a polygon offset is of its units alone", Stage::depth,
-          put<&Fragment::depth_setup, depth_under<kNoSlope>>},
+          put<&Stages::depth_setup, depth_under<kNoSlope>>},
     Fault{"depth.offset_slope_of_one", "a polygon offset takes its factor for units", Stage::depth,
-          put<&Fragment::depth_setup, depth_under<kSlopeOfOne>>, "Kazade/GLdc#32"},
+          put<&Stages::depth_setup, depth_under<kSlopeOfOne>>, "Kazade/GLdc#32"},
     Fault{"depth.offset_sign", "a polygon offset moves the other way: that of a reversed depth buffer", Stage::depth,
-          put<&Fragment::depth_setup, depth_under<kTowardsTheEye>>, "mrdoob/three.js#34606"},
+          put<&Stages::depth_setup, depth_under<kTowardsTheEye>>, "mrdoob/three.js#34606"},
     Fault{"attributes.affine", "attributes are interpolated without perspective", Stage::attributes,
-          put<&Fragment::attributes, affine_attributes>},
+          put<&Stages::attributes, affine_attributes>},
     Fault{"attributes.not_divided", "attributes over w are not divided by the interpolated 1/w", Stage::attributes,
-          put<&Fragment::attributes, not_divided>},
+          put<&Stages::attributes, not_divided>},
     Fault{"attributes.nearness_reversed", "corners count by w, not by 1/w", Stage::attributes,
-          put<&Fragment::attributes, nearness_reversed>},
+          put<&Stages::attributes, nearness_reversed>},
     Fault{"attributes.wrong_corners", "two corners have each other's barycentric coordinates", Stage::attributes,
-          put<&Fragment::attributes, of_wrong_corners>, "ssloy/tinyrenderer#40"},
+          put<&Stages::attributes, of_wrong_corners>, "ssloy/tinyrenderer#40"},
     Fault{"attributes.clamped", "all that is interpolated is clamped to [0,1]", Stage::attributes,
-          put<&Fragment::attributes, each_channel<kClamped>>},
+          put<&Stages::attributes, each_channel<kClamped>>},
     Fault{"attributes.of_8_bits", "all that is interpolated is rounded to 1/255", Stage::attributes,
-          put<&Fragment::attributes, each_channel<kOf8Bits>>},
+          put<&Stages::attributes, each_channel<kOf8Bits>>},
     Fault{"attributes.of_sample", "a sample's colour is that at its own place, not at the pixel's centre",
-          Stage::attributes, put<&Fragment::places, color_of_sample>},
+          Stage::attributes, put<&Stages::sample_offsets, color_of_sample>},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "faults/lists.h"
 #include "faults/variants.h"
+#include "kernels/shade.h"
 
 namespace plumbline::faults {
 
@@ -83,12 +84,12 @@ using TexturedAttributes = pipeline::SurfaceAttributes<float>;
 
 // The stage under a draw that says something else.
 template <auto change>
-Color<float> shaded_under(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
+pipeline::Shaded shaded_under(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
   Draw wrong = *surface.draw;
   change(wrong);
   pipeline::Surface with_it = surface;
   with_it.draw = &wrong;
-  return pipeline::shade_surface<float>(with_it, front, attributes);
+  return {pipeline::shade<float>(with_it, front, attributes)};
 }
 
 constexpr auto kModulateForReplace = [](Draw& draw) {
@@ -106,65 +107,66 @@ constexpr auto kNoEnvironmentColor = [](Draw& draw) {
 };
 constexpr auto kNoFog = [](Draw& draw) { draw.fog.reset(); };
 
-Color<float> fogged_alpha(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
-  Color<float> color = pipeline::shade_surface<float>(surface, front, attributes);
+pipeline::Shaded fogged_alpha(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
+  Color<float> color = pipeline::shade<float>(surface, front, attributes);
   if (surface.draw->fog) color.a *= pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
-  return color;
+  return {color};
 }
 
 // The fog's colour `of_fog` times, the fragment's own `of_fragment` times.
-Color<float> with_fog(const pipeline::Surface& surface, const Color<float>& color, float of_fragment, float of_fog) {
+pipeline::Shaded with_fog(const pipeline::Surface& surface, const Color<float>& color, float of_fragment,
+                          float of_fog) {
   const glm::vec3& fog = surface.draw->fog->color;
-  return {of_fragment * color.r + of_fog * fog.r, of_fragment * color.g + of_fog * fog.g,
-          of_fragment * color.b + of_fog * fog.b, color.a};
+  return {{of_fragment * color.r + of_fog * fog.r, of_fragment * color.g + of_fog * fog.g,
+           of_fragment * color.b + of_fog * fog.b, color.a}};
 }
 
-Color<float> fog_added(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
-  if (!surface.draw->fog) return pipeline::shade_surface<float>(surface, front, attributes);
+pipeline::Shaded fog_added(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
+  if (!surface.draw->fog) return {pipeline::shade<float>(surface, front, attributes)};
   const float f = pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
-  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes), 1, 1 - f);
+  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes).color, 1, 1 - f);
 }
 
-Color<float> fog_near(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
-  if (!surface.draw->fog) return pipeline::shade_surface<float>(surface, front, attributes);
+pipeline::Shaded fog_near(const pipeline::Surface& surface, bool front, const TexturedAttributes& attributes) {
+  if (!surface.draw->fog) return {pipeline::shade<float>(surface, front, attributes)};
   const float f = pipeline::fog_factor<float>(*surface.draw->fog, attributes[Varying::position].b);
-  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes), 1 - f, f);
+  return with_fog(surface, shaded_under<kNoFog>(surface, front, attributes).color, 1 - f, f);
 }
 
 constexpr std::array kTextures = {
-    Fault{"texture.t_flipped", "textures are upside down", Stage::texture, put<&Fragment::texture, flipped_t>},
-    Fault{"texture.s_for_t", "s and t change places", Stage::texture, put<&Fragment::texture, s_for_t>},
+    Fault{"texture.t_flipped", "textures are upside down", Stage::texture, put<&Stages::texture, flipped_t>},
+    Fault{"texture.s_for_t", "s and t change places", Stage::texture, put<&Stages::texture, s_for_t>},
     Fault{"texture.half_texel_off", "texels are taken for points at their lower left corners", Stage::texture,
-          put<&Fragment::texture, half_texel_off>},
+          put<&Stages::texture, half_texel_off>},
     Fault{"texture.clamp_for_repeat", "textures are not repeated, but drawn out from their edges", Stage::texture,
-          put<&Fragment::texture, texture_under<kClampForRepeat>>},
+          put<&Stages::texture, texture_under<kClampForRepeat>>},
     Fault{"texture.negative_mirrored", "repeated textures are mirrored where coordinates are negative", Stage::texture,
-          put<&Fragment::texture, negative_mirrored>, "dolphin-emu/dolphin#9921"},
+          put<&Stages::texture, negative_mirrored>, "dolphin-emu/dolphin#9921"},
     Fault{"texture.edge_for_border", "a texture's edge is drawn out where its border should be", Stage::texture,
-          put<&Fragment::texture, texture_under<kEdgeForBorder>>, "xemu-project/xemu#1005"},
+          put<&Stages::texture, texture_under<kEdgeForBorder>>, "xemu-project/xemu#1005"},
     Fault{"texture.bias_left_out", "the texture's level-of-detail bias is not added", Stage::texture,
-          put<&Fragment::texture, texture_under<kNoBias>>},
+          put<&Stages::texture, texture_under<kNoBias>>},
     Fault{"texture.max_level_ignored", "levels beyond the last that may be sampled are", Stage::texture,
-          put<&Fragment::texture, texture_under<kAllLevels>>},
+          put<&Stages::texture, texture_under<kAllLevels>>},
     Fault{"texture.magnified_always", "textures are filtered as where they are magnified", Stage::texture,
-          put<&Fragment::texture, texture_under<kMagnifiedAlways>>},
+          put<&Stages::texture, texture_under<kMagnifiedAlways>>},
     Fault{"texture.levels_by_row", "the level of detail is that along x alone", Stage::texture,
-          put<&Fragment::texture, levels_by_row>},
+          put<&Stages::texture, levels_by_row>},
     Fault{"texture.levels_doubled", "the level of detail is that of the pixel's area in texels", Stage::texture,
-          put<&Fragment::texture, levels_doubled>, "bochs-emu/Bochs#222"},
+          put<&Stages::texture, levels_doubled>, "bochs-emu/Bochs#222"},
     Fault{"texture.levels_swapped", "of two levels mixed, each gets the other's share", Stage::texture,
-          put<&Fragment::texture, levels_swapped>},
+          put<&Stages::texture, levels_swapped>},
     Fault{"shade.modulate_for_replace", "the texture's colour is multiplied in where it should replace", Stage::shade,
-          put<&Fragment::shade_surface, shaded_under<kModulateForReplace>>},
+          put<&Stages::shade, shaded_under<kModulateForReplace>>},
     Fault{"shade.replace_for_decal", "a decal covers where its alpha should let through", Stage::shade,
-          put<&Fragment::shade_surface, shaded_under<kReplaceForDecal>>},
+          put<&Stages::shade, shaded_under<kReplaceForDecal>>},
     Fault{"shade.no_environment_color", "the texture environment's colour is black", Stage::shade,
-          put<&Fragment::shade_surface, shaded_under<kNoEnvironmentColor>>},
-    Fault{"shade.fogged_alpha", "fog takes alpha too", Stage::shade, put<&Fragment::shade_surface, fogged_alpha>},
+          put<&Stages::shade, shaded_under<kNoEnvironmentColor>>},
+    Fault{"shade.fogged_alpha", "fog takes alpha too", Stage::shade, put<&Stages::shade, fogged_alpha>},
     Fault{"shade.fog_added", "fog is added to a colour, which does not fade into it", Stage::shade,
-          put<&Fragment::shade_surface, fog_added>, "godotengine/godot#12454"},
+          put<&Stages::shade, fog_added>, "godotengine/godot#12454"},
     Fault{"shade.fog_near", "fog is thick near the eye, and thin far away", Stage::shade,
-          put<&Fragment::shade_surface, fog_near>},
+          put<&Stages::shade, fog_near>},
 };
 
 }  // namespace

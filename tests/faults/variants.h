@@ -2,42 +2,45 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include "faults/table.h"
+#include "pipeline/clip.h"
+#include "pipeline/coverage.h"
+#include "pipeline/stages.h"
 
 namespace plumbline::faults {
 
-using Geometry = pipeline::GeometryStages;
-using Fragment = FragmentTable;
 using pipeline::Barycentric;
 using pipeline::Color;
 using pipeline::Pixels;
-using Triangle = WindowTriangle<float>;
-using Setup = pipeline::TriangleSetup<>;
+using pipeline::Stages;
+using Triangle = pipeline::WindowTriangle;
+using Setup = pipeline::TriangleSetup;
+using pipeline::PixelBounds;
+using PixelList = std::vector<glm::ivec2>;
 
-/// `function` in the place of one of the table's.
+/// `function` in the place of one of the stages'.
 template <auto member, auto function>
-void put(Table& table) {
-  if constexpr (requires { table.geometry.*member; }) {
-    table.geometry.*member = function;
-  } else if constexpr (requires { table.fragment.*member; }) {
-    table.fragment.*member = function;
+void put(Stages& stages) {
+  if constexpr (requires { stages.*member; }) {
+    stages.*member = function;
   } else {
-    table.resolve.*member = function;
+    stages.resolve.*member = function;
   }
 }
 
-/// The production edges with another tie rule: `owns(step_x, step_y)` says whether an edge, into whose triangle these
-/// steps lead, has its own pixels in.
+/// Coverage by another tie rule: `owns(step_x, step_y)` says whether an edge, into whose triangle these steps lead, has
+/// its own pixels in.
 template <bool (*owns)(std::int64_t, std::int64_t)>
-pipeline::Edges tied(const Triangle& triangle) {
+PixelList tied(const Triangle& triangle, const PixelBounds& box) {
+  if (triangle.corners != 3) return pipeline::covered_pixels(triangle, box);
   pipeline::Edges e = pipeline::edges_of(triangle);
   for (int i = 0; i < 3; ++i) {
     const bool owned = e.step_x[i] > 0 || (e.step_x[i] == 0 && e.step_y[i] > 0);
     if (!owned) ++e.at_origin[i];
     if (!owns(e.step_x[i], e.step_y[i])) --e.at_origin[i];
   }
-  return e;
+  return pipeline::covered_pixels(e, pipeline::pixel_bounds(triangle), box);
 }
 
 inline bool all_edges_in(std::int64_t, std::int64_t) { return true; }
@@ -55,6 +58,13 @@ inline double z_of_sample(const Setup& s) {
 inline double window_z(const Setup& s, const Pixels<float>& p) {
   const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
   return pipeline::clamp01(s.depth.z0 + b.l1 * s.depth.dz1 + b.l2 * s.depth.dz2 + z_of_sample(s));
+}
+/// The pipeline's own.
+inline float right_depth(const Setup& s, const Pixels<float>& p) {
+  return pipeline::depth<float>(s.depth_plane, pipeline::from_anchor<float>(s.planes, p));
+}
+inline pipeline::Weights<float> weights_of(const Setup& s, const Pixels<float>& p) {
+  return pipeline::weights<float>(s.perspective, pipeline::from_anchor<float>(s.planes, p));
 }
 /// Window z in the triangle's depth format.
 inline float stored_depth(const pipeline::DepthSetup& s, double z) {

@@ -40,9 +40,9 @@ Matrices<float> matrices_of_wrong_view(const Scene& scene, const Draw& draw) {
 FixedVector<LightSource<float>, 8> lights_of_wrong_view(const Scene& scene) {
   return pipeline::light_sources(with_wrong_view(scene));
 }
-void wrong_view(Table& table) {
-  put<&Geometry::matrices, matrices_of_wrong_view>(table);
-  put<&Geometry::lights, lights_of_wrong_view>(table);
+void wrong_view(Stages& stages) {
+  put<&Stages::matrices, matrices_of_wrong_view>(stages);
+  put<&Stages::lights, lights_of_wrong_view>(stages);
 }
 
 // The stage's matrices changed.
@@ -120,11 +120,11 @@ constexpr auto kWIsOne = [](const Matrices<float>&, const glm::vec3&, Vertex<flo
 
 template <auto function>
 constexpr Fault of_matrices(std::string_view name, std::string_view changes, std::string_view report = {}) {
-  return {name, changes, Stage::matrices, put<&Geometry::matrices, function>, report};
+  return {name, changes, Stage::matrices, put<&Stages::matrices, function>, report};
 }
 template <auto function>
 constexpr Fault of_vertex(std::string_view name, std::string_view changes, std::string_view report = {}) {
-  return {name, changes, Stage::vertex, put<&Geometry::vertex, function>, report};
+  return {name, changes, Stage::vertex, put<&Stages::vertex, function>, report};
 }
 
 constexpr std::array kVertices = {

@@ -1,5 +1,5 @@
 // Any text as a scene file: it is a scene, which then draws, or it is refused.
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/fuzz/fuzz_folder.h"
 

@@ -1,5 +1,5 @@
 // The words that the kernels are written in, for one pixel at a time.
-#include "pipeline/lanes.h"
+#include "kernels/lanes.h"
 
 #include <cmath>
 #include <limits>

@@ -22,6 +22,8 @@ namespace fs = std::filesystem;
 /// What each node includes.
 using Graph = std::map<std::string, std::set<std::string>>;
 
+constexpr std::size_t kMostFiles = 32;  // of a folder
+
 struct Include {
   std::string from, to;  ///< files, from the project's folder
 };
@@ -121,6 +123,10 @@ TEST(Layers, FilesIncludeEachOtherOneWay) {
 
 TEST(Layers, FoldersIncludeEachOtherOneWay) {
   EXPECT_EQ(fmt::format("{}", fmt::join(cycle_of(graph_of(includes_of(source_files()), folder_of)), " -> ")), "");
+}
+
+TEST(Layers, NoFolderHasMoreThan32SourceFiles) {
+  for (const auto& [folder, count] : crowded(source_files(), kMostFiles)) ADD_FAILURE() << folder << ": " << count;
 }
 
 TEST(Layers, NoReferenceSeesTheRenderer) {

@@ -13,7 +13,6 @@
 #include "capture/files/capture_columns.h"
 #include "matrix/matrix.h"
 #include "matrix/parallel.h"
-#include "pipeline/convert.h"
 #include "pipeline/render.h"
 #include "scene/antialias.h"
 
@@ -21,23 +20,22 @@ namespace plumbline::matrix {
 
 namespace {
 
-using faults::FragmentTable;
-using faults::Table;
+using pipeline::Stages;
 
 // ---- what a scene never asks for cannot affect it
 
-const Table& production() {
-  static const Table kTable = faults::production();
-  return kTable;
+const Stages& production() {
+  static const Stages kStages = pipeline::production_stages();
+  return kStages;
 }
 
-// A function of the table, of those that some scenes do without.
+// A stage function, of those that some scenes do without.
 template <auto member>
-auto& of(Table& table) {
-  if constexpr (requires { table.fragment.*member; }) {
-    return table.fragment.*member;
+auto& of(Stages& stages) {
+  if constexpr (requires { stages.*member; }) {
+    return stages.*member;
   } else {
-    return table.resolve.*member;
+    return stages.resolve.*member;
   }
 }
 
@@ -47,7 +45,7 @@ thread_local bool was_called = false;
 template <auto member, class R, class... A>
 R note_call(A... a) {
   was_called<member> = true;
-  return of<member>(const_cast<Table&>(production()))(a...);
+  return of<member>(const_cast<Stages&>(production()))(a...);
 }
 template <auto member, class R, class... A>
 void watch(R (*&function)(A...)) {
@@ -58,10 +56,10 @@ void watch(R (*&function)(A...)) {
 template <auto... members>
 struct Some {
   // The pipeline, that notes which of them it calls.
-  static Table watched() {
-    Table table = production();
-    (watch<members>(of<members>(table)), ...);
-    return table;
+  static Stages watched() {
+    Stages stages = production();
+    (watch<members>(of<members>(stages)), ...);
+    return stages;
   }
   static std::bitset<sizeof...(members)> called() {
     std::bitset<sizeof...(members)> out;
@@ -69,18 +67,29 @@ struct Some {
     ((out[i++] = was_called<members>), ...);
     return out;
   }
-  // The table with the pipeline's own in place of those not called.
-  static Table of_called(Table table, const std::bitset<sizeof...(members)>& called) {
-    Table own = production();
+  // The stages with the pipeline's own in place of those not called.
+  static Stages of_called(Stages stages, const std::bitset<sizeof...(members)>& called) {
+    Stages own = production();
     std::size_t i = 0;
-    ((of<members>(table) = called[i++] ? of<members>(table) : of<members>(own)), ...);
-    return table;
+    ((of<members>(stages) = called[i++] ? of<members>(stages) : of<members>(own)), ...);
+    return stages;
   }
 };
-using Rare = Some<&FragmentTable::thin_pixels, &FragmentTable::scissor, &FragmentTable::texture, &FragmentTable::shade,
-                  &FragmentTable::shade_surface, &FragmentTable::alpha_passes, &FragmentTable::stencil_test,
-                  &FragmentTable::blend, &FragmentTable::logic, &pipeline::ResolveStage::multisample,
-                  &pipeline::ResolveStage::weighted>;
+using Rare = Some<&Stages::scissor, &Stages::texture, &Stages::alpha_passes, &Stages::stencil_passes, &Stages::blend,
+                  &Stages::logic, &pipeline::ResolveStage::multisample, &pipeline::ResolveStage::weighted>;
+
+// Stages 0 to 4 of `stages`, the pipeline's own after them; and the other way round.
+Stages geometry_of(const Stages& stages) {
+  Stages out = production();
+  out.matrices = stages.matrices;
+  out.lights = stages.lights;
+  out.vertex = stages.vertex;
+  out.light = stages.light;
+  out.assemble = stages.assemble;
+  out.clip = stages.clip;
+  out.window = stages.window;
+  return out;
+}
 
 // ---- bits
 
@@ -114,12 +123,6 @@ std::uint64_t bits_of(const Capture& capture) {
   return bits.hash;
 }
 
-std::uint64_t bits_of(const pipeline::Geometry& geometry) {
-  Capture capture;
-  pipeline::widen_geometry(geometry.records, {StageSet::all(), false, {}, {}}, capture.records);
-  return bits_of(capture);
-}
-
 std::uint64_t bits_of(const pipeline::Frame& frame) {
   Bits bits;
   bits.plane("", frame.color_rgba8);
@@ -134,79 +137,56 @@ std::uint64_t bits_of(const pipeline::Frame& frame) {
 
 // ---- one scene
 
-// One of the scenes that are drawn for it, and what the pipeline makes of that.
-class Pass {
- public:
-  explicit Pass(Scene scene)
-      : scene_(std::move(scene)),
-        geometry_(pipeline::run_geometry(scene_, production().geometry)),
-        geometry_bits_(bits_of(geometry_)) {}
+std::vector<glm::ivec2> no_pixels(const pipeline::WindowTriangle&, const pipeline::PixelBounds&) { return {}; }
 
-  bool changed_by(const pipeline::GeometryStages& stages) const {
-    return bits_of(pipeline::run_geometry(scene_, stages)) != geometry_bits_;
-  }
-  pipeline::Frame picture(const pipeline::FragmentFunctions& fragment) const {
-    pipeline::Frame frame(scene_.frame);
-    pipeline::NoTap tap;
-    draw(fragment.draw, frame, tap);
-    return frame;
-  }
-  std::uint64_t fragments(const pipeline::FragmentFunctions& fragment) const {
-    Request request{StageSet::all(), false, {}, {}};
-    request.memory_budget = std::size_t{1} << 40;
-    pipeline::Frame frame(scene_.frame);
-    pipeline::CaptureTap tap(scene_, request, 0);
-    draw(fragment.draw_tapped, frame, tap);
-    Capture capture;
-    tap.hand_out(geometry_.records.triangles, capture);
-    return bits_of(capture);
-  }
-
- private:
-  void draw(const auto& function, pipeline::Frame& frame, auto& tap) const {
-    const std::vector<pipeline::Surface> surfaces = pipeline::surfaces_of(scene_, geometry_.records);
-    function({geometry_.records.triangles, geometry_.first_triangle, scene_.draws, surfaces, scene_.depth_clamp},
-             scene_.frame, frame, tap);
-  }
-
-  Scene scene_;
-  pipeline::Geometry geometry_;
-  std::uint64_t geometry_bits_;
-};
+// What the stages make of the scene: all records, and the frame's bits among the planes.
+std::uint64_t capture_bits(const Scene& scene, const Stages& stages) {
+  Request request{StageSet::all(), false, {}, {}};
+  request.memory_budget = std::size_t{1} << 40;
+  Capture capture;
+  pipeline::Recorder records(scene, request, 0, capture);
+  const std::uint64_t frame = bits_of(pipeline::render(scene, stages, records));
+  return bits_of(capture) ^ (frame * 0x9e3779b97f4a7c15u);
+}
+// Of stages 0 to 4 alone.
+std::uint64_t geometry_bits(const Scene& scene, Stages stages) {
+  stages.coverage = no_pixels;
+  return capture_bits(scene, stages);
+}
 
 class Unfaulted {
  public:
-  explicit Unfaulted(const Scene& scene) : format_(scene.frame) {
-    for (Scene& pass : passes_of(scene)) passes_.emplace_back(std::move(pass));
+  explicit Unfaulted(const Scene& scene) : format_(scene.frame), passes_(passes_of(scene)) {
+    for (const Scene& pass : passes_) geometry_bits_.push_back(geometry_bits(pass, production()));
   }
 
-  bool changed_by(const Table& given) {
+  bool changed_by(const Stages& given) {
     const auto any_pass = [&](auto changes) {
       for (std::size_t i = 0; i < passes_.size(); ++i) {
         if (changes(i)) return true;
       }
       return false;
     };
-    if (given.geometry != production().geometry &&
-        any_pass([&](std::size_t i) { return passes_[i].changed_by(given.geometry); }))
+    const Stages geometry = geometry_of(given);
+    if (geometry != production() &&
+        any_pass([&](std::size_t i) { return geometry_bits(passes_[i], geometry) != geometry_bits_[i]; })) {
       return true;
-    if (given.fragment == production().fragment && given.resolve == production().resolve) return false;
+    }
+    if (geometry == given) return false;
     std::call_once(is_drawn_, [&] { draw(); });  // what is wrong before needs no pixel
-    const Table table = Rare::of_called(given, called_);
-    if (table.resolve != production().resolve && resolved(table.resolve) != resolved_bits_) return true;
-    if (table.fragment == production().fragment) return false;
-    const pipeline::FragmentFunctions fragment = faults::stages_of(table).fragment;
-    return any_pass([&](std::size_t i) { return bits_of(passes_[i].picture(fragment)) != picture_bits_[i]; }) ||
-           any_pass([&](std::size_t i) { return passes_[i].fragments(fragment) != fragment_bits_[i]; });
+    Stages stages = Rare::of_called(given, called_);
+    if (stages.resolve != production().resolve && resolved(stages.resolve) != resolved_bits_) return true;
+    stages.resolve = production().resolve;
+    if (stages == production()) return false;
+    return any_pass([&](std::size_t i) { return capture_bits(passes_[i], stages) != capture_bits_[i]; });
   }
 
  private:
   void draw() {
-    const pipeline::Stages watched = faults::stages_of(Rare::watched());
-    for (const Pass& pass : passes_) {
-      pictures_.push_back(pass.picture(watched.fragment));
-      picture_bits_.push_back(bits_of(pictures_.back()));
-      fragment_bits_.push_back(pass.fragments(watched.fragment));
+    const Stages watched = Rare::watched();
+    for (const Scene& pass : passes_) {
+      pictures_.push_back(pipeline::render(pass, production()));
+      capture_bits_.push_back(capture_bits(pass, watched));
     }
     resolved_bits_ = resolved(watched.resolve);
     called_ = Rare::called();
@@ -216,10 +196,11 @@ class Unfaulted {
   }
 
   FrameFormat format_;
-  std::vector<Pass> passes_;
+  std::vector<Scene> passes_;
+  std::vector<std::uint64_t> geometry_bits_;
   std::once_flag is_drawn_;
   std::vector<pipeline::Frame> pictures_;
-  std::vector<std::uint64_t> picture_bits_, fragment_bits_;
+  std::vector<std::uint64_t> capture_bits_;
   std::uint64_t resolved_bits_ = 0;
   decltype(Rare::called()) called_;
 };
@@ -235,7 +216,7 @@ std::vector<SceneList> affected(std::span<const Scene> scenes, std::span<const S
     for (std::size_t s = 0; s < scenes.size() && out[i].size() < most; ++s) {
       try {
         std::call_once(is_there[s], [&] { unfaulted[s].emplace(scenes[s]); });
-        if (unfaulted[s]->changed_by(subjects[i].table)) out[i].push_back(s);
+        if (unfaulted[s]->changed_by(subjects[i].stages)) out[i].push_back(s);
       } catch (const std::exception& e) {
         throw std::runtime_error(fmt::format("{} on {}: {}", subjects[i].name, scenes[s].name, e.what()));
       }

@@ -9,8 +9,8 @@
 
 #include "check/diagnose/diagnose.h"
 #include "matrix/parallel.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
 
 namespace plumbline::matrix {
 
@@ -43,7 +43,7 @@ class ExactOnce : public Renderer {
 };
 
 Answer answer_of(const Scene& scene, std::size_t number, const Subject& subject, Renderer& exact) {
-  const auto candidate = pipeline::make_pipeline(faults::stages_of(subject.table));
+  const auto candidate = pipeline::make_pipeline(subject.stages);
   const check::Reference references[] = {{"exact", &exact}};
   const check::Diagnosis diagnosis = check::diagnose_in_brief(scene, *candidate, references);
   Answer out{number, "", diagnosis.first, diagnosis.wrong, ""};

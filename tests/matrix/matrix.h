@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "capture/stages.h"
-#include "faults/table.h"
+#include "pipeline/stages.h"
 #include "scene/scene.h"
 
 namespace plumbline::matrix {
@@ -16,7 +16,7 @@ namespace plumbline::matrix {
 /// A pipeline to be diagnosed.
 struct Subject {
   std::string name;
-  faults::Table table;
+  pipeline::Stages stages;
   std::vector<Stage> broken;  ///< the stages that must be named, in order; none: nothing may be raised
 };
 

@@ -94,7 +94,7 @@ TEST(SourceChanges, LeaveAloneWhatDrawsNothing) {
 TEST(SourceChanges, EachFileOfTheSourcesHasARule) {
   const auto rules = read_file_rules(kRoot / "tests/mutation/files.tsv");
   EXPECT_EQ(rule_of(rules, "src/pipeline/light.cpp", "light")->names, std::vector<std::string>{"light"});
-  EXPECT_EQ(rule_of(rules, "src/pipeline/painter.cpp", "")->names, std::vector<std::string>{"picture"});
+  EXPECT_EQ(rule_of(rules, "src/painter/painter.cpp", "")->names, std::vector<std::string>{"picture"});
   EXPECT_EQ(rule_of(rules, "reference/exact/clip.cpp", ""), nullptr);
   std::set<const FileRule*> used;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / "src")) {

@@ -212,9 +212,9 @@ double stage_color(glm::dvec3 n, const std::vector<Lamp>& lamps, double ks, doub
   draw.material = {glm::vec4(0), glm::vec4(static_cast<float>(kd)), glm::vec4(static_cast<float>(ks)), glm::vec4(0),
                    static_cast<float>(s)};
   const Vertex<float> vertex{{0, 0, -5, 1}, {0, 0, 0, 1}, Vec3<float>(n)};
-  std::vector<Lit<float>> lit;
+  std::vector<Attributes> lit;
   light(scene, draw, light_sources(scene), std::span(&vertex, 1), lit);
-  return lit[0].color.r;
+  return lit[0].color().r;
 }
 
 TEST(NotesLight, WithoutAClampALightFromBehindDarkens) {

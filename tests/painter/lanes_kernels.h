@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include "pipeline/fragment_light.h"
-#include "pipeline/merge.h"
-#include "pipeline/texture.h"
+#include "kernels/fragment_light.h"
+#include "kernels/merge.h"
+#include "kernels/texture.h"
 
 namespace plumbline::pipeline {
 

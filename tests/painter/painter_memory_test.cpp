@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "pipeline/painter.h"
+#include "painter/painter.h"
 #include "pipeline/render.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/painter.h"
+#include "painter/painter.h"
 #include "pipeline/render.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "pipeline/draw_simd.h"
+#include "painter/simd_targets.h"
 #include "pipeline/matrices.h"
 #include "scene/texture/texture_images.h"
 #include "tests/painter/lanes_kernels.h"

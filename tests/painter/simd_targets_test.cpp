@@ -1,4 +1,4 @@
-// Every SIMD target's tiles are those of the definition (tiles.h), whatever the triangles; and none leaves code behind
+// Every SIMD target's tiles are those of the definition (render.h), whatever the triangles; and none leaves code behind
 // that others would run.
 #include <gtest/gtest.h>
 
@@ -10,14 +10,14 @@
 #include <random>
 #include <sstream>
 
-#include "pipeline/coverage.h"
-#include "pipeline/draw_simd.h"
-#include "pipeline/window.h"
+#include "kernels/coverage.h"
+#include "painter/simd_targets.h"
+#include "tests/pipeline/window_frame.h"
 
 namespace plumbline::pipeline {
 namespace {
 
-using Triangles = std::vector<WindowTriangle<float>>;
+using Triangles = std::vector<ShadedTriangle>;
 
 FrameFormat format_of(int width, int height) {
   FrameFormat format;
@@ -26,12 +26,12 @@ FrameFormat format_of(int width, int height) {
   return format;
 }
 
-WindowTriangle<float> triangle(const std::array<glm::vec3, 3>& p_win, const std::array<float, 3>& inv_w) {
-  WindowTriangle<float> t{};
+ShadedTriangle triangle(const std::array<glm::vec3, 3>& p_win, const std::array<float, 3>& inv_w) {
+  ShadedTriangle t{};
   for (std::size_t k = 0; k < 3; ++k) {
     t.v[k].p_win = p_win[k];
     t.v[k].inv_w = inv_w[k];
-    t.v[k].color = {0.5f * static_cast<float>(k), 1, 0.25f, 0.5f};
+    t.attributes[k].color() = {0.5f * static_cast<float>(k), 1, 0.25f, 0.5f};
     t.v[k].snapped = {snap(p_win[k].x), snap(p_win[k].y)};
   }
   t.front = snapped_area(t) > 0;
@@ -39,37 +39,37 @@ WindowTriangle<float> triangle(const std::array<glm::vec3, 3>& p_win, const std:
 }
 
 Frame by_definition(const Triangles& triangles, const Draw& draw, const FrameFormat& format) {
-  Frame frame(format);
-  NoTap tap;
   const std::uint32_t first[] = {0, static_cast<std::uint32_t>(triangles.size())};
-  draw_tiles<float>(FragmentStages(), {triangles, first, std::span(&draw, 1)}, format, frame, tap);
-  return frame;
+  return test::frame_of(triangles, first, std::span(&draw, 1), format);
 }
 
-// `any_far`: else the triangles may be painted from the last to the first.
+// `any_long_edge`: else the triangles may be painted from the last to the first.
 Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw& draw, PaintKernel kernel,
-                const FrameFormat& format, bool any_far = true) {
+                const FrameFormat& format, bool any_long_edge = true) {
   Painting painting{};
   painting.format = format;
   painting.formats = formats_of(format);
   painting.samples = std::span<const glm::ivec2>(&painting.formats.sample, 1);
   painting.columns = (format.width + kTile - 1) / kTile;
   painting.rows = (format.height + kTile - 1) / kTile;
-  painting.any_far = any_far;
+  painting.any_long_edge = any_long_edge;
   const auto tiles = static_cast<std::size_t>(painting.columns * painting.rows);
   const auto count = static_cast<std::uint32_t>(triangles.size());
-  std::vector<WindowVertex<float>> vertices;
+  std::vector<PaintVertex> vertices;
   std::array<Chunk, 1> chunk;
   PaintTriangle* of_chunk = chunk[0].triangles.of(count);
   std::uint32_t* numbers = chunk[0].numbers.of(count * tiles);
   for (std::uint32_t i = 0; i < count; ++i) {
     of_chunk[i] = {{3 * i, 3 * i + 1, 3 * i + 2}, triangles[i].front, 3, 1};
-    vertices.insert(vertices.end(), triangles[i].v.begin(), triangles[i].v.end());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const WindowVertex& v = triangles[i].v[k];
+      vertices.push_back({v.p_win, v.inv_w, v.snapped, triangles[i].attributes[k].color()});
+    }
     for (std::size_t t = 0; t < tiles; ++t) numbers[t * count + i] = i;
   }
   for (std::size_t t = 0; t <= tiles; ++t) chunk[0].first.push_back(static_cast<std::uint32_t>(t * count));
   chunk[0].draws = {{0, count}};
-  const BlockState state = block_state(draw, format.depth, false, nullptr);
+  const DrawState state = draw_state(draw, format.depth, false, nullptr);
   const PaintDraw draws[] = {{state, kernel, false}};
   painting.vertices = vertices.data();
   painting.chunks = chunk;
@@ -81,13 +81,14 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
 }
 
 // By each kernel that may paint it, of every target.
-void expect_same(const Triangles& triangles, const FrameFormat& format, const std::string& what, bool any_far = true) {
+void expect_same(const Triangles& triangles, const FrameFormat& format, const std::string& what,
+                 bool any_long_edge = true) {
   Draw draw, over, depth_alone;
   over.merge.blend = kOver;
   depth_alone.merge.color_mask = glm::bvec4(false);
   for (const SimdTarget& target : simd_targets()) {
     for (const PaintKernel kernel : {PaintKernel::any, PaintKernel::replaces}) {
-      const Frame frame = by_target(target, triangles, draw, kernel, format, any_far);
+      const Frame frame = by_target(target, triangles, draw, kernel, format, any_long_edge);
       const Frame definition = by_definition(triangles, draw, format);
       EXPECT_TRUE(frame.color_rgba8.values() == definition.color_rgba8.values()) << target.name << ", " << what;
       EXPECT_TRUE(frame.depth_code.values() == definition.depth_code.values()) << target.name << ", " << what;
@@ -138,10 +139,10 @@ TEST(SimdTargets, PaintRandomTriangles) {
                                      : at + glm::vec2(between(-size, size), between(-size, size));
           return glm::vec3(p, between(-beyond, 1 + beyond));
         };
-        WindowTriangle<float> t =
+        ShadedTriangle t =
             triangle({corner(0), corner(.4f), corner(1)}, {between(.1f, 2), between(.1f, 2), between(.1f, 2)});
-        if (i % 3 == 1) t.v[1 + i % 2].color.a = between(0, 1);
-        if (i % 5 == 1) t.v[1].color = t.v[2].color = t.v[0].color;
+        if (i % 3 == 1) t.attributes[1 + static_cast<std::size_t>(i % 2)].color().a = between(0, 1);
+        if (i % 5 == 1) t.attributes[1] = t.attributes[2] = t.attributes[0];
         if (i % 7 == 1) t.v[2].inv_w = 1e-6f;
         if (snapped_area(t) != 0) triangles.push_back(t);
       }
@@ -165,7 +166,7 @@ TEST(SimdTargets, PaintRandomTriangles) {
 TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
   std::mt19937 random(9);
   std::vector<glm::uvec3> corners(501);
-  std::vector<WindowVertex<float>> vertices(300);
+  std::vector<PaintVertex> vertices(300);
   const auto any = [&](std::uint32_t of) { return static_cast<std::uint32_t>(random() % of); };
   for (const float size : {1.0f, 70.0f, 3000.0f, 8192.0f}) {
     std::uniform_real_distribution<float> place(-size, size);
@@ -178,20 +179,24 @@ TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
       for (const bool sampled : {false, true}) {
         const glm::ivec2 least(sampled ? -96 : 0), most(sampled ? 96 : 0);
         for (const SimdTarget& target : simd_targets()) {
-          std::vector<KeptTriangle> told(corners.size());
-          target.cull({vertices.data(), cull, least, most, 700, 300}, corners, told.data());
+          std::vector<KeptTriangle> known(corners.size());
+          target.cull({vertices.data(), cull, least, most, 700, 300}, corners, known.data());
           for (std::size_t i = 0; i < corners.size(); ++i) {
             const glm::uvec3 c = corners[i];
-            WindowTriangle<float> t{{vertices[c[0]], vertices[c[1]], vertices[c[2]]}, 0, false};
+            WindowTriangle t;
+            for (std::size_t k = 0; k < 3; ++k) {
+              const PaintVertex& v = vertices[c[static_cast<int>(k)]];
+              t.v[k] = {v.p_win, v.inv_w, v.snapped};
+            }
             const std::int64_t area = snapped_area(t);
             const PixelBounds low = pixel_bounds(as_seen_from(t, most)), high = pixel_bounds(as_seen_from(t, least));
             const int x0 = std::max(low.x0, 0), x1 = std::min(high.x1, 700) - 1;
             const int y0 = std::max(low.y0, 0), y1 = std::min(high.y1, 300) - 1;
             const bool drawn = area != 0 && cull != (area > 0 ? Cull::front : Cull::back) && x0 <= x1 && y0 <= y1;
             const Kept kept = !drawn ? Kept::none : area > 0 ? Kept::front : Kept::back;
-            ASSERT_EQ(told[i].kept, kept) << target.name << ", " << i << " of " << size;
+            ASSERT_EQ(known[i].kept, kept) << target.name << ", " << i << " of " << size;
             if (!drawn) continue;
-            const TileBox box = told[i].box;
+            const TileBox box = known[i].box;
             ASSERT_TRUE(box.x0 == x0 / 64 && box.y0 == y0 / 64 && box.x1 == x1 / 64 && box.y1 == y1 / 64)
                 << target.name;
           }

@@ -1,26 +1,31 @@
 // Stages 7 and 9: perspective-correct means, worked out by hand.
-#include "pipeline/attributes.h"
+#include "kernels/attributes.h"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "pipeline/shade.h"
+#include "kernels/shade.h"
 #include "tests/at_weights.h"
 #include "tests/pipeline/window_triangles.h"
 
 namespace plumbline::pipeline {
 namespace {
 
+using testing_words::color_setup;
 using testing_words::window_triangle;
 using testing_words::window_vertex;
-using Triangle = WindowTriangle<float>;
+using Triangle = ShadedTriangle;
 
 Color<float> at(const Triangle& t, int x, int y) {
   const BarycentricPlanes planes = planes_of(t, 0, 0);
   const Offset<float> offset = from_anchor<float>(planes, Pixels<float>{x, y, x + 0.5, y + 0.5});
-  return mean<float>(attribute_setup(t), weights<float>(perspective_setup(t, planes), offset));
+  return mean<float>(color_setup(t), weights<float>(perspective_setup(t, planes), offset));
+}
+
+Color<float> attributes_at(const Triangle& t, double l1, double l2) {
+  return test::attributes_at(t, color_setup(t), l1, l2);
 }
 
 const glm::vec4 kA(1, 0, 0.25f, 1), kB(0, 1, 0.75f, 0.5f), kC(0.5f, 0.125f, 0, 0);
@@ -78,11 +83,11 @@ TEST(PipelineAttributes, AgainstLongDouble) {
     glm::vec<4, long double> mean(0);
     for (std::size_t k = 0; k < 3; ++k) {
       sum += weight[k] * t.v[k].inv_w;
-      mean += weight[k] * t.v[k].inv_w * glm::vec<4, long double>(t.v[k].color);
+      mean += weight[k] * t.v[k].inv_w * glm::vec<4, long double>(t.attributes[k].color());
     }
     mean /= sum;
     // Of each k_i: one rounding of its numerator, one of the sum, two of the quotient; then of the mean.
-    const Color<float> c = test::attributes_at(t, l1, l2);
+    const Color<float> c = attributes_at(t, l1, l2);
     const double bound = 12 * 0x1p-24;
     ASSERT_NEAR(c.r, static_cast<double>(mean.r), bound);
     ASSERT_NEAR(c.g, static_cast<double>(mean.g), bound);
@@ -98,44 +103,46 @@ TEST(PipelineAttributes, EqualCornersGiveExactlyThatValue) {
   for (int i = 0; i < 2000; ++i) {
     const glm::vec4 color(unit(random), unit(random), unit(random), unit(random));
     Triangle t = triangle(w(random), w(random), w(random));
-    for (auto& v : t.v) v.color = color;
+    for (auto& a : t.attributes) a.color() = color;
     const double l1 = weight(random), l2 = weight(random);  // off the triangle too
-    const Color<float> c = test::attributes_at(t, l1, l2);
+    const Color<float> c = attributes_at(t, l1, l2);
     ASSERT_EQ(glm::vec4(c.r, c.g, c.b, c.a), color);
   }
 }
 
 TEST(PipelineAttributes, OnTheHorizonThereIsNoDivisionByZero) {
   // 1/w of 1 and 0.5, extrapolated by l0 = -1, l1 = 2: their sum is 0.
-  const Color<float> c = test::attributes_at(triangle(1, 2, 1), 2.0, 0.0);
+  const Color<float> c = attributes_at(triangle(1, 2, 1), 2.0, 0.0);
   EXPECT_EQ(glm::vec4(c.r, c.g, c.b, c.a), kA) << "corner 0's colour";
-  const Color<float> near = test::attributes_at(triangle(1, 2, 1), 2.0000002, 0.0);
+  const Color<float> near = attributes_at(triangle(1, 2, 1), 2.0000002, 0.0);
   EXPECT_TRUE(std::isfinite(near.r) && std::isfinite(near.g) && std::isfinite(near.b) && std::isfinite(near.a));
 }
 
 TEST(PipelineAttributes, BeyondTheHorizonTheMeanGoesOn) {
   // Weights -1 and 2 / 4: of their sum, -1/2, they are 2 and -1.
-  const Color<float> c = test::attributes_at(triangle(1, 4, 1), 2.0, 0.0);
+  const Color<float> c = attributes_at(triangle(1, 4, 1), 2.0, 0.0);
   EXPECT_EQ(glm::vec4(c.r, c.g, c.b, c.a), 2.0f * kA - kB);
 }
 
 TEST(PipelineAttributes, BesideTheHorizonOfTheFarthestCornersToo) {
   // w near the largest float: the sum of the weights is subnormal, and 1 over it beyond every float.
   Triangle t = triangle(3e38f, 1.5e38f, 3e38f);
-  for (auto& v : t.v) v.color = kA;
-  const Color<float> c = test::attributes_at(t, -1.0001, 0);
+  for (auto& a : t.attributes) a.color() = kA;
+  const Color<float> c = attributes_at(t, -1.0001, 0);
   EXPECT_EQ(glm::vec4(c.r, c.g, c.b, c.a), kA) << c.r;
 }
 
 TEST(PipelineAttributes, SetUpIsDifferencesFromCornerZero) {
-  const AttributeSetup s = attribute_setup(triangle(1, 4, 0.5f));
+  const AttributeSetup s = color_setup(triangle(1, 4, 0.5f));
   EXPECT_EQ(s.color0, kA);
   EXPECT_EQ(s.d_color1, kB - kA);
   EXPECT_EQ(s.d_color2, kC - kA);
 }
 
 TEST(PipelineShade, IsTheAttributesColour) {
-  const Color<float> c = shade<float>({0.1f, -2, 3, 0.4f});
+  const Scene scene;
+  const Draw draw;
+  const Color<float> c = shade<float>({&scene, &draw, {}, {}, {}}, true, {{0.1f, -2, 3, 0.4f}, {}, {}});
   EXPECT_EQ(glm::vec4(c.r, c.g, c.b, c.a), glm::vec4(0.1f, -2, 3, 0.4f));
 }
 

@@ -11,32 +11,42 @@ namespace plumbline::pipeline {
 namespace {
 
 using Corners = std::array<glm::vec4, 3>;
-using Polygon = std::vector<ClipVertex<float>>;
+/// A corner, its attributes the colour alone.
+struct Cut {
+  glm::vec4 p_clip, color;
+  bool cut;
+};
+using Cuts = std::vector<Cut>;
 constexpr std::array<const char*, 6> kNames = {"right", "left", "top", "bottom", "near", "far"};
 
-/// Appends the triangle's polygon; its vertices, or none.
+/// What is left of the triangle; its corners, or none.
 template <class Clip>
-Polygon polygon_of(const Corners& p, Clip clip_it, Shading shading = Shading::gouraud) {
+Cuts polygon_of(const Corners& p, Clip clip_it, Shading shading = Shading::gouraud) {
   const Vertex<float> vertices[3] = {{{}, p[0], {}}, {{}, p[1], {}}, {{}, p[2], {}}};
-  const Lit<float> lit[3] = {{{1, 0, 0, 1}}, {{0, 1, 0, 0.5f}}, {{0, 0, 1, 0}}};
-  const glm::uvec3 triangle(0, 1, 2);
-  ClipPolygons<float> out;
-  clip_it(Assembly{vertices, lit, std::span(&triangle, 1), 0, shading}, out);
-  return out.vertices;
+  Attributes attributes[3] = {};
+  attributes[0].color() = {1, 0, 0, 1}, attributes[1].color() = {0, 1, 0, 0.5f}, attributes[2].color() = {0, 0, 1, 0};
+  Draw draw;
+  draw.shading = shading;
+  const DrawInput input{&draw, Topology::triangles, false, false, {}};
+  Polygon polygon = assemble(input, {0, 1, 2}, vertices, attributes);
+  clip_it(input, polygon);
+  Cuts out;
+  for (const ClipVertex& v : polygon.corners) out.push_back({v.p_clip, v.attributes.color(), v.cut});
+  return out;
 }
-Polygon clipped(const Corners& p, Shading shading = Shading::gouraud) { return polygon_of(p, clip, shading); }
-Polygon clipped_at(std::span<const Vec4<float>> planes, const Corners& p) {
-  return polygon_of(p, [&](const Assembly& a, ClipPolygons<float>& out) { clip_at(planes, a, out); });
+Cuts clipped(const Corners& p, Shading shading = Shading::gouraud) { return polygon_of(p, clip, shading); }
+Cuts clipped_at(std::span<const Vec4<float>> planes, const Corners& p) {
+  return polygon_of(p, [&](const DrawInput&, Polygon& polygon) { clip_at(planes, polygon); });
 }
 
-bool same(const Polygon& a, const Polygon& b) {
-  const auto equal = [](const ClipVertex<float>& v, const ClipVertex<float>& w) {
+bool same(const Cuts& a, const Cuts& b) {
+  const auto equal = [](const Cut& v, const Cut& w) {
     return v.p_clip == w.p_clip && v.color == w.color && v.cut == w.cut;
   };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), equal);
 }
 
-void expect_polygon(const Polygon& is, const Polygon& expected) {
+void expect_polygon(const Cuts& is, const Cuts& expected) {
   ASSERT_EQ(is.size(), expected.size());
   for (std::size_t i = 0; i < is.size(); ++i) {
     EXPECT_EQ(is[i].p_clip, expected[i].p_clip) << "vertex " << i;
@@ -112,14 +122,14 @@ TEST(PipelineClip, WhollyBeyondOnePlaneLeavesNothing) {
 
 TEST(PipelineClip, AcrossTheEyePlaneTheNearPlaneCuts) {
   // w from 2 down to -2 beside the eye: what lies behind it must not come back mirrored.
-  const Polygon p = clipped({{{0, -1, 1, 2}, {0.5f, -1, 1, 2}, {0, 0, -3, -2}}});
+  const Cuts p = clipped({{{0, -1, 1, 2}, {0.5f, -1, 1, 2}, {0, 0, -3, -2}}});
   ASSERT_EQ(p.size(), 4u);
   for (const auto& v : p) EXPECT_GE(v.p_clip.w, 0.25f);
 }
 
 TEST(PipelineClip, AllSixPlanesLeaveNineCorners) {
   // The plane x + y + z = 0 meets the cube in a hexagon; the triangle's own edges cut three of its corners off.
-  const Polygon p = clipped({{{1.75f, -1.75f, 0, 1}, {0, 1.75f, -1.75f, 1}, {-1.75f, 0, 1.75f, 1}}});
+  const Cuts p = clipped({{{1.75f, -1.75f, 0, 1}, {0, 1.75f, -1.75f, 1}, {-1.75f, 0, 1.75f, 1}}});
   ASSERT_EQ(p.size(), 9u);
   glm::vec3 turning(0);
   for (std::size_t i = 0; i < 9; ++i) {
@@ -138,7 +148,7 @@ TEST(PipelineClip, WhatIsLeftLiesInsideAndOnTheTriangle) {
   int cut = 0;
   for (int i = 0; i < 20000; ++i) {
     const Corners p = {{random.point(), random.point(), random.point()}};
-    const Polygon polygon = clipped(p);
+    const Cuts polygon = clipped(p);
     ASSERT_TRUE(polygon.empty() || (polygon.size() >= 3 && polygon.size() <= 9));
     for (const auto& v : polygon) {
       for (const auto& plane : view_volume()) ASSERT_GE(distance_to(plane, v.p_clip), -4e-6f);
@@ -169,7 +179,7 @@ TEST(PipelineClip, ACutIsTakenFromTheNearerEnd) {
     const glm::vec4 expected = d_in <= -d_out ? from_inside : from_outside;
     other_end_differs += from_inside != from_outside;
     for (const Corners& p : {Corners{{inside, outside, inside}}, Corners{{outside, inside, outside}}}) {
-      const Polygon cut = clipped_at(std::span(&plane, 1), p);
+      const Cuts cut = clipped_at(std::span(&plane, 1), p);
       ASSERT_EQ(cut.size(), p[0] == inside ? 4u : 3u);
       for (const auto& v : cut) {
         if (v.cut) {
@@ -207,7 +217,7 @@ TEST(PipelineClip, NeighboursCutTheirSharedEdgeAtTheSamePoints) {
   for (int i = 0; i < 5000; ++i) {
     const glm::vec4 a = random.point(), b = random.point(), c = random.point(), d = random.point();
     // On the shared edge no cut has any of the third corner's colour, blue.
-    const auto on_edge = [](const Polygon& polygon) {
+    const auto on_edge = [](const Cuts& polygon) {
       std::vector<glm::vec4> points;
       for (const auto& v : polygon) {
         if (v.cut && v.color.b == 0) points.push_back(v.p_clip);
@@ -233,7 +243,7 @@ TEST(PipelineClip, ThePlanesInTheirOrder) {
   int order_shows = 0;
   for (int i = 0; i < 2000; ++i) {
     const Corners p = {{random.point(), random.point(), random.point()}};
-    const Polygon is = clipped(p);
+    const Cuts is = clipped(p);
     ASSERT_TRUE(same(is, clipped_at(view_volume(), p)));
     std::vector<Vec4<float>> turned(view_volume().begin(), view_volume().end());
     std::reverse(turned.begin(), turned.end());
@@ -265,7 +275,7 @@ TEST(PipelineClip, PlanesThatNoVertexViolatesAreLeftAlone) {
         violated.push_back(plane);
       }
     }
-    const Polygon is = clipped(p);
+    const Cuts is = clipped(p);
     ASSERT_TRUE(same(is, clipped_at(violated, p)));
     for (const auto& v : is) shows += distance_to(view_volume()[2], v.p_clip) < 0;
   }
@@ -292,7 +302,7 @@ TEST(PipelineClip, AlongTheVolumesEdgesNoMoreThanNineCorners) {
 }
 
 TEST(PipelineClip, OnAPlaneIsInside) {
-  const Polygon p = clipped({{{1, 0, 0, 1}, {1, 0.5f, 0, 1}, {1, 0, 0.5f, 1}}});
+  const Cuts p = clipped({{{1, 0, 0, 1}, {1, 0.5f, 0, 1}, {1, 0, 0.5f, 1}}});
   ASSERT_EQ(p.size(), 3u);
   for (const auto& v : p) EXPECT_FALSE(v.cut);
   // A corner on the plane that the others are beyond: not wholly outside, but a polygon of one point only.
@@ -327,7 +337,7 @@ TEST(PipelineClip, BeyondAPlaneByALastPlaceIsWhollyOutside) {
 
 TEST(PipelineClip, FlatTakesTheLastCornersColour) {
   const glm::vec4 blue(0, 0, 1, 0);
-  const Polygon p = clipped({{{0, 0, 0, 1}, {4, 0, 0, 1}, {0, 0.5f, 0, 1}}}, Shading::flat);
+  const Cuts p = clipped({{{0, 0, 0, 1}, {4, 0, 0, 1}, {0, 0.5f, 0, 1}}}, Shading::flat);
   ASSERT_EQ(p.size(), 4u);
   for (const auto& v : p) EXPECT_EQ(v.color, blue);
 }
@@ -345,32 +355,35 @@ TEST(PipelineClip, WhatIsNotFiniteIsDropped) {
   }
 }
 
-TEST(PipelineClip, AppendsOnePolygonPerTriangleThatIsLeft) {
-  const Vertex<float> vertices[] = {{{}, {0, 0, 0, 1}, {}},
-                                    {{}, {4, 0, 0, 1}, {}},
-                                    {{}, {0, 0.5f, 0, 1}, {}},
-                                    {{}, {9, 9, 9, 1}, {}},
-                                    {{}, {0.5f, 0, 0, 1}, {}}};
-  std::vector<Lit<float>> lit;
-  for (int i = 0; i < 5; ++i) lit.push_back({glm::vec4(static_cast<float>(i))});
-  const glm::uvec3 triangles[] = {{0, 4, 2}, {1, 3, 1}, {2, 0, 1}};
-  ClipPolygons<float> out;
-  for (std::uint32_t first : {10u, 20u}) clip({vertices, lit, triangles, first, Shading::gouraud}, out);
-  ASSERT_EQ(out.polygons.size(), 4u);
-  const std::uint32_t primitives[] = {10, 12, 20, 22}, counts[] = {3, 4, 3, 4}, firsts[] = {0, 3, 7, 10};
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(out.polygons[i].primitive, primitives[i]);
-    EXPECT_EQ(out.polygons[i].count, counts[i]);
-    EXPECT_EQ(out.polygons[i].first, firsts[i]);
+TEST(PipelineClip, AttributesAreCutWithTheColour) {
+  const Vertex<float> vertices[] = {{{}, {0, 0, 0, 1}, {}}, {{}, {4, 0, 0, 1}, {}}, {{}, {0, 0.5f, 0, 1}, {}}};
+  Attributes attributes[3] = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < kAttributes; ++k) attributes[i][k] = glm::vec4(static_cast<float>(10 * i + k));
   }
-  ASSERT_EQ(out.vertices.size(), 14u);
-  EXPECT_EQ(out.vertices[1].color, glm::vec4(4)) << "colours go by the vertex' number";
-  EXPECT_EQ(out.vertices[3].p_clip, glm::vec4(0, 0.5f, 0, 1));
+  Draw draw;
+  DrawInput input{&draw, Topology::triangles, false, false, {}};
+  Polygon polygon = assemble(input, {0, 1, 2}, vertices, attributes);
+  clip(input, polygon);
+  ASSERT_EQ(polygon.corners.size(), 4u);
+  for (std::size_t k = 0; k < kAttributes; ++k) {
+    const auto number = static_cast<float>(k);
+    EXPECT_EQ(polygon.corners[0].attributes[k], glm::vec4(number));
+    EXPECT_EQ(polygon.corners[1].attributes[k], glm::vec4(number + 2.5f)) << "a quarter of the way";
+    EXPECT_EQ(polygon.corners[2].attributes[k], glm::vec4(number + 17.5f));
+    EXPECT_EQ(polygon.corners[3].attributes[k], glm::vec4(number + 20));
+  }
+  // Under flat shading the lit ones are the provoking vertex', the others are not.
+  draw.shading = Shading::flat;
+  polygon = assemble(input, {2, 1, 0}, vertices, attributes);
+  for (const Varying v : kAllVaryings) {
+    EXPECT_EQ(polygon.corners[0].attributes[v], attributes[is_lit(v) ? 0 : 2][v]) << name_of(v);
+  }
 }
 
 TEST(PipelineClipAt, PlanesOfOnesOwn) {
   const Vec4<float> planes[] = {{1, 1, 0, 0}};  // x + y >= 0
-  const Polygon p = clipped_at(planes, {{{1, 0, 5, 1}, {0, 1, 5, 1}, {-1, -1, 5, 1}}});
+  const Cuts p = clipped_at(planes, {{{1, 0, 5, 1}, {0, 1, 5, 1}, {-1, -1, 5, 1}}});
   ASSERT_EQ(p.size(), 4u);
   for (const auto& v : p) EXPECT_GE(v.p_clip.x + v.p_clip.y, -1e-7f);
   const Corners beyond_all = {{{9, 9, 9, 1}, {9, -9, 9, -1}, {-9, 9, 9, 1}}};

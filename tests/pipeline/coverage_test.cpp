@@ -1,5 +1,5 @@
 // Stage 5: pictures, ties in every direction, every centre painted once, and no overflow.
-#include "pipeline/coverage.h"
+#include "kernels/coverage.h"
 
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ using testing_words::picture_of;
 using testing_words::same_picture;
 using testing_words::snapped_triangle;
 using testing_words::window_triangle;
-using Triangle = WindowTriangle<float>;
+using Triangle = ShadedTriangle;
 
 bool covers(const Triangle& t, int x, int y) { return coverage<float>(edges_of(t), {x, y, x + 0.5, y + 0.5}); }
 Picture picture(const Triangle& t, int width, int height) {

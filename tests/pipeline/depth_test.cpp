@@ -1,5 +1,5 @@
 // Stage 6: planes against long double, codes of each format, and the depth test.
-#include "pipeline/depth.h"
+#include "kernels/depth.h"
 
 #include <cmath>
 #include <limits>
@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/compare.h"
-#include "pipeline/coverage.h"
-#include "pipeline/fragment.h"
+#include "kernels/compare.h"
+#include "kernels/coverage.h"
+#include "pipeline/stages.h"
 #include "tests/at_weights.h"
 #include "tests/pipeline/window_triangles.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 using testing_words::window_triangle;
 using testing_words::window_vertex;
-using Triangle = WindowTriangle<float>;
+using Triangle = ShadedTriangle;
 constexpr double kZ16 = 65535, kZ24 = 16777215, kZ32f = 0;
 
 Pixels<float> pixel(int x, int y) { return {x, y, x + 0.5, y + 0.5}; }

@@ -1,13 +1,12 @@
 // Fog: the specification's three equations (2.1, section 3.10), and the way of its distance to the fragments.
-#include "pipeline/fog.h"
+#include "kernels/fog.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pipeline/carry.h"
+#include "kernels/surface.h"
 #include "pipeline/render.h"
-#include "pipeline/surface.h"
 
 namespace plumbline::pipeline {
 namespace {
@@ -69,14 +68,18 @@ Scene triangle_in_fog(Shading shading) {
 TEST(PipelineFog, IsOfTheFragmentsOwnDistanceEvenWhereColoursAreFlat) {
   for (const Shading shading : {Shading::gouraud, Shading::flat}) {
     const Scene scene = triangle_in_fog(shading);
-    const Geometry geometry = run_geometry(scene, geometry_stages());
-    const auto& columns = geometry.records.varyings[Varying::position];
+    Capture capture;
+    const Request request{{Stage::light, Stage::clip, Stage::window}, false, {}, {}};
+    Recorder recorder(scene, request, 0, capture);
+    render(scene, production_stages(), recorder);
+    const Records<double>& records = capture.records;
+    const auto& columns = records.varyings[Varying::position];
     ASSERT_EQ(columns.vertices.size(), 3u);
-    ASSERT_EQ(columns.clipped.size(), geometry.records.polygons.vertices.size());
-    ASSERT_EQ(columns.triangles.size(), geometry.records.triangles.size());
-    EXPECT_EQ(columns.vertices[2], Vec4<float>(0, 30, -40, 1));
+    ASSERT_EQ(columns.clipped.size(), records.polygons.vertices.size());
+    ASSERT_EQ(columns.triangles.size(), records.triangles.size());
+    EXPECT_EQ(columns.vertices[2], Vec4<double>(0, 30, -40, 1));
     for (std::size_t i = 0; i < columns.clipped.size(); ++i) {  // w_clip is -z_eye
-      EXPECT_NEAR(columns.clipped[i].z, -geometry.records.polygons.vertices[i].p_clip.w, 1e-5);
+      EXPECT_NEAR(columns.clipped[i].z, -records.polygons.vertices[i].p_clip.w, 1e-5);
     }
     const Frame frame = render(scene);
     // A triangle of one colour: at the distance d, y = -2 + k (d - 2), which the ray y = slope d meets.

@@ -1,11 +1,11 @@
 // Alpha and stencil test by the tables of the specification, and in their order; polygon offset by its formula.
-#include "pipeline/fragment_tests.h"
+#include "kernels/fragment_tests.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "pipeline/depth.h"
+#include "kernels/depth.h"
 #include "pipeline/render.h"
 #include "scene/mesh/mesh_shapes.h"
 #include "tests/at_weights.h"
@@ -161,7 +161,7 @@ TEST(FragmentTests, AFrameWithoutStencilValuesHasNone) {
 }
 
 // dz/dx 1/16, dz/dy -1/8 a pixel: m = 1/8.
-WindowTriangle<float> slope() {
+ShadedTriangle slope() {
   return window_triangle(window_vertex({0, 0, 0.5f}), window_vertex({4, 0, 0.75f}), window_vertex({0, 2, 0.25f}));
 }
 
@@ -186,7 +186,7 @@ TEST(PolygonOffset, MovesTheWholePlaneBeforeItIsClamped) {
 }
 
 TEST(PolygonOffset, LinesAndPointsHaveNone) {
-  WindowTriangle<float> line = slope();
+  ShadedTriangle line = slope();
   line.v[2] = line.v[1];
   line.corners = 2;
   EXPECT_EQ(depth_setup(line, {DepthFormat::z32f, 0, 1, {8, 8}}).z0, 0.5);

@@ -10,9 +10,9 @@ namespace {
 
 glm::vec4 lit(const Scene& scene, const test::LightCase& of) {
   const Vertex<float> vertex{Vec4<float>(of.p_eye, 1), {}, of.n_eye};
-  std::vector<Lit<float>> out;
+  std::vector<Attributes> out;
   light(scene, scene.draws[0], light_sources(scene), std::span(&vertex, 1), out);
-  return out.at(0).color;
+  return out.at(0).color();
 }
 
 TEST(PipelineLightCases, ByHand) {

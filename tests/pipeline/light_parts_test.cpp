@@ -1,11 +1,10 @@
 // What light hands on beside the front's colour: the back's, and the specular part kept apart (OpenGL 2.1 spec 2.14.1).
 #include <gtest/gtest.h>
 
-#include "pipeline/carry.h"
+#include "kernels/shade.h"
 #include "pipeline/light.h"
 #include "pipeline/matrices.h"
 #include "pipeline/render.h"
-#include "pipeline/shade.h"
 
 namespace plumbline::pipeline {
 namespace {
@@ -37,8 +36,10 @@ Scene backs() {
 
 std::vector<Vec4<float>> carried_of(const Scene& scene, Varying v) {
   const std::vector<Vertex<float>> vertices(4, {{0, 0, -2, 1}, {}, {0, 0, -1}});
+  std::vector<Attributes> attributes;
+  light(scene, scene.draws[0], light_sources(scene), vertices, attributes);
   std::vector<Vec4<float>> out;
-  carry(scene, scene.draws[0], v, light_sources(scene), vertices, out);
+  for (const Attributes& a : attributes) out.push_back(a[v]);
   return out;
 }
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/math.h"
+#include "kernels/math.h"
 #include "pipeline/matrices.h"
 
 namespace plumbline::pipeline {
@@ -103,9 +103,9 @@ class PipelineLight : public testing::Test {
     draw_.material = {glm::vec4(0), glm::vec4(0), glm::vec4(0), glm::vec4(0), 0};
   }
   glm::vec4 lit() const {
-    std::vector<Lit<float>> out;
+    std::vector<Attributes> out;
     light(scene_, draw_, light_sources(scene_), std::span(&vertex_, 1), out);
-    return out.at(0).color;
+    return out.at(0).color();
   }
   /// The normal and the light at that angle, towards +x.
   void tilt(double degrees) { vertex_.n_eye = {std::sin(degrees * M_PI / 180), 0, std::cos(degrees * M_PI / 180)}; }
@@ -239,10 +239,10 @@ TEST_F(PipelineLight, EachUnlitVertexHasItsOwnColour) {
   draw_.lit = false;
   scene_.meshes.resize(1);
   scene_.meshes[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
-  std::vector<Lit<float>> out;
+  std::vector<Attributes> out;
   light(scene_, draw_, light_sources(scene_), std::vector(3, vertex_), out);
   ASSERT_EQ(out.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(out[i].color, scene_.meshes[0].colors[i]);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(out[i].color(), scene_.meshes[0].colors[i]);
 }
 
 TEST_F(PipelineLight, LitMeshesLeaveTheirColoursAside) {
@@ -257,11 +257,11 @@ TEST_F(PipelineLight, AppendsOneColourPerVertexInOrder) {
   draw_.material.diffuse = glm::vec4(1);
   scene_.lights[0].diffuse = glm::vec3(1);
   const std::vector<Vertex<float>> vertices = {vertex_, {{0, 0, -2, 1}, {}, {0, 0, -1}}};
-  std::vector<Lit<float>> out(1);
+  std::vector<Attributes> out(1);
   light(scene_, draw_, light_sources(scene_), vertices, out);
   ASSERT_EQ(out.size(), 3u);
-  EXPECT_EQ(out[1].color, glm::vec4(1));
-  EXPECT_EQ(out[2].color, glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(out[1].color(), glm::vec4(1));
+  EXPECT_EQ(out[2].color(), glm::vec4(0, 0, 0, 1));
 }
 
 }  // namespace

@@ -4,43 +4,49 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/attributes.h"
+#include "kernels/depth.h"
 #include "kernels/line_diamond.h"
-#include "pipeline/attributes.h"
 #include "pipeline/clip.h"
 #include "pipeline/coverage.h"
-#include "pipeline/depth.h"
-#include "pipeline/pipeline_renderer.h"
+#include "pipeline/window.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/pipeline/window_triangles.h"
-#include "tests/thin_pixels.h"
 
 namespace plumbline::pipeline {
 namespace {
 
+using testing_words::color_setup;
+using testing_words::window_primitive;
 using testing_words::window_vertex;
 
-ClipPolygons<float> clipped(Topology topology, std::vector<glm::vec4> p_clip, Shading shading = Shading::gouraud) {
+Polygon clipped(Topology topology, std::vector<glm::vec4> p_clip, Shading shading = Shading::gouraud) {
   std::vector<Vertex<float>> vertices;
   for (const glm::vec4& p : p_clip) vertices.push_back({{}, p, {}});
-  const std::vector<Lit<float>> lit = {{{1, 0, 0, 1}}, {{0, 1, 0, 0}}};
-  const glm::uvec3 primitive = topology == Topology::lines ? glm::uvec3(0, 1, 1) : glm::uvec3(0);
-  ClipPolygons<float> out;
-  clip(Assembly{vertices, lit, std::span(&primitive, 1), 7, shading, false, topology}, out);
+  Attributes attributes[2] = {};
+  attributes[0].color() = {1, 0, 0, 1}, attributes[1].color() = {0, 1, 0, 0};
+  Draw draw;
+  draw.shading = shading;
+  const DrawInput input{&draw, topology, false, false, {}};
+  Polygon out =
+      assemble(input, topology == Topology::lines ? glm::uvec3(0, 1, 1) : glm::uvec3(0), vertices, attributes);
+  clip(input, out);
   return out;
 }
-std::vector<ClipVertex<float>> line(glm::vec4 a, glm::vec4 b, Shading shading = Shading::gouraud) {
-  return clipped(Topology::lines, {a, b}, shading).vertices;
+std::vector<ClipVertex> line(glm::vec4 a, glm::vec4 b, Shading shading = Shading::gouraud) {
+  const Polygon out = clipped(Topology::lines, {a, b}, shading);
+  return {out.corners.begin(), out.corners.end()};
 }
 
 TEST(PipelineLines, clip_leaves_what_is_inside_as_it_is) {
-  const ClipPolygons<float> out = clipped(Topology::lines, {{-1, 0, 0, 1}, {0.5f, 1, 1, 1}});
-  ASSERT_EQ(out.polygons.size(), 1u);
-  EXPECT_EQ(out.polygons[0].primitive, 7u);
-  EXPECT_EQ(out.polygons[0].count, 2u);
-  EXPECT_EQ(out.vertices[0].p_clip, glm::vec4(-1, 0, 0, 1));
-  EXPECT_EQ(out.vertices[1].p_clip, glm::vec4(0.5f, 1, 1, 1));
-  EXPECT_FALSE(out.vertices[0].cut || out.vertices[1].cut);
-  EXPECT_EQ(out.vertices[0].color, glm::vec4(1, 0, 0, 1));
-  EXPECT_EQ(line({-1, 0, 0, 1}, {0.5f, 1, 1, 1}, Shading::flat)[0].color, glm::vec4(0, 1, 0, 0));  // the last provokes
+  const auto out = line({-1, 0, 0, 1}, {0.5f, 1, 1, 1});
+  ASSERT_EQ(out.size(), 2u);
+  EXPECT_EQ(out[0].p_clip, glm::vec4(-1, 0, 0, 1));
+  EXPECT_EQ(out[1].p_clip, glm::vec4(0.5f, 1, 1, 1));
+  EXPECT_FALSE(out[0].cut || out[1].cut);
+  EXPECT_EQ(out[0].attributes.color(), glm::vec4(1, 0, 0, 1));
+  EXPECT_EQ(line({-1, 0, 0, 1}, {0.5f, 1, 1, 1}, Shading::flat)[0].attributes.color(),
+            glm::vec4(0, 1, 0, 0));  // the last provokes
 }
 
 TEST(PipelineLines, clip_cuts_at_each_plane) {
@@ -51,13 +57,14 @@ TEST(PipelineLines, clip_cuts_at_each_plane) {
       for (const bool from_outside : {false, true}) {
         const auto v = from_outside ? line(out, in) : line(in, out);
         ASSERT_EQ(v.size(), 2u);
-        const ClipVertex<float>&kept = v[from_outside ? 1 : 0], &cut = v[from_outside ? 0 : 1];
+        const ClipVertex &kept = v[from_outside ? 1 : 0], &cut = v[from_outside ? 0 : 1];
         EXPECT_EQ(kept.p_clip, in);
         EXPECT_FALSE(kept.cut);
         EXPECT_TRUE(cut.cut);
         EXPECT_EQ(cut.p_clip[axis], side);
         // A quarter of the way from the inner end.
-        EXPECT_EQ(cut.color, from_outside ? glm::vec4(0.25f, 0.75f, 0, 0.25f) : glm::vec4(0.75f, 0.25f, 0, 0.75f));
+        EXPECT_EQ(cut.attributes.color(),
+                  from_outside ? glm::vec4(0.25f, 0.75f, 0, 0.25f) : glm::vec4(0.75f, 0.25f, 0, 0.75f));
       }
     }
   }
@@ -83,7 +90,7 @@ TEST(PipelineLines, clip_drops_what_is_outside) {
 }
 
 TEST(PipelineLines, clip_keeps_or_drops_points) {
-  const auto kept = [](glm::vec4 p) { return !clipped(Topology::points, {p, {}}).polygons.empty(); };
+  const auto kept = [](glm::vec4 p) { return !clipped(Topology::points, {p, {}}).corners.empty(); };
   for (int axis = 0; axis < 3; ++axis) {
     for (const float side : {-1.0f, 1.0f}) {
       glm::vec4 p(0.25f, 0.25f, 0.25f, 1);
@@ -95,21 +102,24 @@ TEST(PipelineLines, clip_keeps_or_drops_points) {
   }
   EXPECT_FALSE(kept({0, 0, 0, -1}));
   EXPECT_FALSE(kept({NAN, 0, 0, 1}));
-  EXPECT_EQ(clipped(Topology::points, {{0, 0, 0, 1}, {}}).polygons[0].count, 1u);
+  EXPECT_EQ(clipped(Topology::points, {{0, 0, 0, 1}, {}}).corners.size(), 1u);
 }
 
 TEST(PipelineLines, window_neither_culls_nor_drops) {
   Matrices<float> m{};
   m.win_scale = {8, 8, 0.5f};
   m.win_translate = {8, 8, 0.5f};
-  ClipPolygons<float> polygons;
-  polygons.vertices = {{{0, 0, 0, 1}, {1, 0, 0, 1}, false}, {{1, 0, 0, 2}, {0, 1, 0, 1}, true}};
-  polygons.polygons = {{3, 0, 2}, {4, 1, 1}};
+  Polygon of_line{3, {}}, of_point{4, {}};
+  ClipVertex v{{0, 0, 0, 1}, {}, false}, w{{1, 0, 0, 2}, {}, true};
+  v.attributes.color() = {1, 0, 0, 1}, w.attributes.color() = {0, 1, 0, 1};
+  of_line.corners.push_back(v), of_line.corners.push_back(w), of_point.corners.push_back(w);
   for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
-    std::vector<WindowTriangle<float>> out;
+    std::vector<ShadedTriangle> out;
     Draw draw;
     draw.cull = cull;
-    to_window(m, draw, polygons, polygons.polygons, out);
+    for (const Polygon& polygon : {of_line, of_point}) {
+      to_window({&draw, Topology::lines, false, false, m}, polygon, out);
+    }
     ASSERT_EQ(out.size(), 2u);
     EXPECT_EQ(out[0].corners, 2u);
     EXPECT_EQ(out[1].corners, 1u);
@@ -119,27 +129,30 @@ TEST(PipelineLines, window_neither_culls_nor_drops) {
     EXPECT_EQ(out[0].v[2].p_win, out[0].v[1].p_win);
     EXPECT_EQ(out[0].v[1].inv_w, 0.5f);
     EXPECT_EQ(out[1].v[0].p_win, glm::vec3(12, 8, 0.5f));
-    EXPECT_EQ(out[1].v[2].color, glm::vec4(0, 1, 0, 1));
+    EXPECT_EQ(out[1].attributes[2].color(), glm::vec4(0, 1, 0, 1));
     EXPECT_EQ(out[1].primitive, 4u);
   }
 }
 
-WindowTriangle<float> window_line(glm::vec3 a, glm::vec3 b, float w_b = 1) {
-  const WindowVertex<float> v = window_vertex(a, 1, {1, 0, 0, 1}), w = window_vertex(b, w_b, {0, 1, 0, 1});
-  return {{v, w, w}, 0, true, 2};
+ShadedTriangle window_line(glm::vec3 a, glm::vec3 b, float w_b = 1) {
+  const auto v = window_vertex(a, 1, {1, 0, 0, 1}), w = window_vertex(b, w_b, {0, 1, 0, 1});
+  return window_primitive(v, w, w, 0, 2);
 }
-WindowTriangle<float> window_point(glm::vec3 p) {
-  const WindowVertex<float> v = window_vertex(p);
-  return {{v, v, v}, 0, true, 1};
+ShadedTriangle window_point(glm::vec3 p) {
+  const auto v = window_vertex(p);
+  return window_primitive(v, v, v, 0, 1);
+}
+std::vector<glm::ivec2> pixels_in(const ShadedTriangle& t, glm::ivec2 origin, int size) {
+  return covered_pixels(t, {origin.x, origin.y, origin.x + size, origin.y + size});
 }
 
 TEST(PipelineLines, tiles_split_a_line_without_changing_it) {
   for (const glm::vec2 b : {glm::vec2(150.3f, 40.1f), {3.2f, 131.9f}, {140.25f, 130.5f}, {-20, 64}, {64, -9}}) {
-    const WindowTriangle<float> t = window_line({60.7f, 63.4f, 0}, {b, 0});
+    const ShadedTriangle t = window_line({60.7f, 63.4f, 0}, {b, 0});
     std::vector<glm::ivec2> tiled;
     for (int y = 0; y < 192; y += 64) {
       for (int x = 0; x < 192; x += 64) {
-        for (const glm::ivec2 p : thin_pixels(t, {x, y}, 64)) tiled.push_back(p);
+        for (const glm::ivec2 p : pixels_in(t, {x, y}, 64)) tiled.push_back(p);
       }
     }
     std::vector<glm::ivec2> whole = raster::diamond_exit_line(t.v[0].snapped, t.v[1].snapped, {192, 192});
@@ -156,7 +169,7 @@ TEST(PipelineLines, tiles_split_a_line_without_changing_it) {
 }
 
 TEST(PipelineLines, a_point_is_the_pixel_that_it_lies_in) {
-  const auto pixels = [](float x, float y) { return thin_pixels(window_point({x, y, 0}), {0, 0}, 64); };
+  const auto pixels = [](float x, float y) { return pixels_in(window_point({x, y, 0}), {0, 0}, 64); };
   using Pixels = std::vector<glm::ivec2>;
   EXPECT_EQ(pixels(3.5f, 4.5f), (Pixels{{3, 4}}));
   EXPECT_EQ(pixels(3, 4), (Pixels{{3, 4}}));  // on the border: the pixel above and to the right
@@ -165,17 +178,17 @@ TEST(PipelineLines, a_point_is_the_pixel_that_it_lies_in) {
   EXPECT_EQ(pixels(0, 0), (Pixels{{0, 0}}));
   EXPECT_TRUE(pixels(-0.01f, 3).empty());
   EXPECT_TRUE(pixels(64, 3).empty());
-  EXPECT_EQ(thin_pixels(window_point({64, 65, 0}), {64, 64}, 64), (Pixels{{64, 65}}));
+  EXPECT_EQ(pixels_in(window_point({64, 65, 0}), {64, 64}, 64), (Pixels{{64, 65}}));
 }
 
 TEST(PipelineLines, depth_and_color_go_by_the_projection_onto_the_line) {
   // From (2.5, 1.5) along (4, 2), |d|^2 = 20; the pixel above its middle projects 0.1 farther.
-  const WindowTriangle<float> t = window_line({2.5f, 1.5f, 0.25f}, {6.5f, 3.5f, 0.75f});
+  const ShadedTriangle t = window_line({2.5f, 1.5f, 0.25f}, {6.5f, 3.5f, 0.75f});
   const BarycentricPlanes planes = planes_of(t, 0, 0);
   const DepthPlane z = depth_plane(depth_setup(t, {DepthFormat::z32f}), planes);
   const auto at = [&](int x, int y) { return from_anchor<float>(planes, Pixels<float>{x, y, x + 0.5, y + 0.5}); };
-  const auto color = [&](const WindowTriangle<float>& line, int x, int y) {
-    return mean<float>(attribute_setup(line), weights<float>(perspective_setup(line, planes), at(x, y)));
+  const auto color = [&](const ShadedTriangle& line, int x, int y) {
+    return mean<float>(color_setup(line), weights<float>(perspective_setup(line, planes), at(x, y)));
   };
   EXPECT_EQ(depth<float>(z, at(2, 1)), 0.25f);
   EXPECT_FLOAT_EQ(depth<float>(z, at(4, 2)), 0.5f);
@@ -183,18 +196,18 @@ TEST(PipelineLines, depth_and_color_go_by_the_projection_onto_the_line) {
   EXPECT_FLOAT_EQ(depth<float>(z, at(6, 3)), 0.75f);
   EXPECT_FLOAT_EQ(color(t, 4, 3).g, 0.6f);
   // Perspective, w 1 and 3: in the middle (0.5 * 1/3) / (0.5 + 0.5 / 3) = 1/4 of the second colour; z stays affine.
-  const WindowTriangle<float> far = window_line({2.5f, 1.5f, 0.25f}, {6.5f, 3.5f, 0.75f}, 3);
+  const ShadedTriangle far = window_line({2.5f, 1.5f, 0.25f}, {6.5f, 3.5f, 0.75f}, 3);
   EXPECT_FLOAT_EQ(color(far, 4, 2).g, 0.25f);
   EXPECT_FLOAT_EQ(color(far, 4, 2).r, 0.75f);
 }
 
 TEST(PipelineLines, a_point_has_its_own_depth_and_color) {
-  const WindowTriangle<float> t = window_point({2.75f, 1.25f, 0.3f});
+  const ShadedTriangle t = window_point({2.75f, 1.25f, 0.3f});
   const BarycentricPlanes planes = planes_of(t, 0, 0);
   const Offset<float> at{2, 1};
   EXPECT_EQ(depth<float>(depth_plane(depth_setup(t, {DepthFormat::z32f}), planes), at), 0.3f);
-  EXPECT_EQ(mean<float>(attribute_setup(t), weights<float>(perspective_setup(t, planes), at)).r, 1.0f);
-  const WindowTriangle<float> nothing = window_line({2.5f, 1.5f, 0.25f}, {2.5f, 1.5f, 0.75f});  // no length: no NaN
+  EXPECT_EQ(mean<float>(color_setup(t), weights<float>(perspective_setup(t, planes), at)).r, 1.0f);
+  const ShadedTriangle nothing = window_line({2.5f, 1.5f, 0.25f}, {2.5f, 1.5f, 0.75f});  // no length: no NaN
   EXPECT_EQ(barycentric<float>(planes_of(nothing, 0, 0), {2, 1, 2.5, 1.5}).l1, 0);
 }
 

@@ -1,5 +1,5 @@
 // Stage 11: the nearest code, its boundaries, and float frames.
-#include "pipeline/merge.h"
+#include "kernels/merge.h"
 
 #include <cmath>
 #include <limits>

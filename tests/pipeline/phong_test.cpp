@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "kernels/surface.h"
 #include "pipeline/render.h"
-#include "pipeline/surface.h"
 
 namespace plumbline::pipeline {
 namespace {
@@ -84,10 +84,13 @@ TEST(PipelinePhong, VertexColoursAreTheMaterialThere) {
 
 TEST(PipelinePhong, VerticesAreNotLit) {
   const Scene scene = leaning();
-  const Geometry geometry = run_geometry(scene, geometry_stages());
-  for (const Lit<float>& v : geometry.records.lit) EXPECT_EQ(v.color, scene.draws[0].material.diffuse);
-  EXPECT_EQ(geometry.records.varyings[Varying::normal].vertices.at(1), Vec4<float>(0.8f, 0, 0.6f, 0));
-  EXPECT_EQ(geometry.records.varyings[Varying::position].vertices.at(1), Vec4<float>(1, -1, -2, 1));
+  Capture capture;
+  const Request request{{Stage::light}, false, {}, {}};
+  Recorder records(scene, request, 0, capture);
+  render(scene, production_stages(), records);
+  for (const Lit<double>& v : capture.records.lit) EXPECT_EQ(glm::vec4(v.color), scene.draws[0].material.diffuse);
+  EXPECT_EQ(Vec4<float>(capture.records.varyings[Varying::normal].vertices.at(1)), Vec4<float>(0.8f, 0, 0.6f, 0));
+  EXPECT_EQ(capture.records.varyings[Varying::position].vertices.at(1), Vec4<double>(1, -1, -2, 1));
 }
 
 TEST(PipelinePhong, UnlitDrawsAreAsWithGouraud) {

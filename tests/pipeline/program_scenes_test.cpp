@@ -21,7 +21,7 @@ struct PassThrough {
     glm::vec4 color;
   };
   std::vector<Vertex<float>> vertices;
-  std::vector<Lit<float>> lit;
+  std::vector<Attributes> lit;
   std::vector<glm::uvec3> triangles;
 
   explicit PassThrough(const Scene& scene) {
@@ -29,13 +29,13 @@ struct PassThrough {
       const Mesh& mesh = scene.meshes[draw.mesh];
       const auto first = static_cast<std::uint32_t>(vertices.size());
       transform(matrices(scene, draw), draw.normals, mesh, vertices);
-      geometry_stages().light(scene, draw, light_sources(scene), std::span(vertices).subspan(first), lit);
+      production_stages().light(scene, draw, light_sources(scene), std::span(vertices).subspan(first), lit);
       for (const glm::uvec3& t : mesh.triangles) triangles.push_back(t + first);
     }
   }
   glm::vec4 vertex(std::size_t triangle, int corner, Varyings& out) const {
     const std::uint32_t i = triangles[triangle][corner];
-    out.color = lit[i].color;
+    out.color = lit[i].color();
     return vertices[i].p_clip;
   }
   bool fragment(const Varyings& in, glm::vec4& color) const {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "capture/files/capture_folder.h"
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/test_folder.h"
 

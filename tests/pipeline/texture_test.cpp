@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/environment.h"
-#include "pipeline/texture.h"
+#include "kernels/environment.h"
+#include "kernels/texture.h"
 #include "scene/texture/texture_images.h"
 
 namespace plumbline::pipeline {
@@ -195,8 +195,8 @@ TEST(PipelineTexture, CoordinatesThatAreNoNumbersDoNoHarm) {
   }
 }
 
-WindowTriangle<float> triangle(glm::vec3 x_y_w0, glm::vec3 x_y_w1, glm::vec3 x_y_w2) {
-  WindowTriangle<float> t{};
+WindowTriangle triangle(glm::vec3 x_y_w0, glm::vec3 x_y_w1, glm::vec3 x_y_w2) {
+  WindowTriangle t{};
   t.front = true;
   const glm::vec3 places[] = {x_y_w0, x_y_w1, x_y_w2};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -213,7 +213,7 @@ std::array<Vec4<float>, 3> corners(glm::vec2 a, glm::vec2 b, glm::vec2 c) {
 
 TEST(PipelineTexture, GradientsAreThoseOfTheFunction) {
   // Affine where all w are 1: s = x / 8, t = y / 4 + x / 16
-  const WindowTriangle<float> flat = triangle({0, 0, 1}, {8, 0, 1}, {0, 8, 1});
+  const WindowTriangle flat = triangle({0, 0, 1}, {8, 0, 1}, {0, 8, 1});
   const GradientSetup f = gradient_setup(flat, corners({0, 0}, {1, 0.5f}, {0, 2}), planes_of(flat, 0, 0));
   const Gradients<float> g = gradients<float>(f, {3, 2}, 1);
   EXPECT_EQ(g.ds_dx, 0.125);
@@ -222,7 +222,7 @@ TEST(PipelineTexture, GradientsAreThoseOfTheFunction) {
   EXPECT_EQ(g.dt_dy, 0.25);
   // In perspective: w from 1 at x = 0 to 4 at x = 8, s from 0 to 1: 1/w = 1 - 3x/32, s/w = x/32, s = x / (32 - 3x),
   // ds/dx = 32 / (32 - 3x)^2, and times q^2 = (32 - 3x)^2 / 32^2 it is 1/32 everywhere
-  const WindowTriangle<float> deep = triangle({0, 0, 1}, {8, 0, 4}, {0, 8, 1});
+  const WindowTriangle deep = triangle({0, 0, 1}, {8, 0, 4}, {0, 8, 1});
   const GradientSetup d = gradient_setup(deep, corners({0, 0}, {1, 0}, {0, 0}), planes_of(deep, 0, 0));
   for (const double x : {0.5, 2.5, 6.5}) {
     const double q = 1 - 3 * x / 32;

@@ -10,7 +10,6 @@
 #include "kernels/line_diamond.h"
 #include "pipeline/coverage.h"
 #include "pipeline/window.h"
-#include "tests/thin_pixels.h"
 
 namespace plumbline::pipeline {
 namespace {
@@ -18,8 +17,8 @@ namespace {
 using Pixel = std::pair<int, int>;
 using PixelSet = std::set<Pixel>;
 
-WindowTriangle<float> thin(glm::ivec2 a, glm::ivec2 b, std::uint32_t corners, std::uint32_t width) {
-  WindowTriangle<float> t{};
+WindowTriangle line_or_point(glm::ivec2 a, glm::ivec2 b, std::uint32_t corners, std::uint32_t width) {
+  WindowTriangle t;
   t.v[0].snapped = a;
   t.v[1].snapped = t.v[2].snapped = b;
   t.corners = corners;
@@ -28,10 +27,10 @@ WindowTriangle<float> thin(glm::ivec2 a, glm::ivec2 b, std::uint32_t corners, st
 }
 
 /// Those in [0, 128) x [0, 128), tile by tile; none twice.
-PixelSet covered(const WindowTriangle<float>& t) {
+PixelSet covered(const WindowTriangle& t) {
   PixelSet out;
   for (const glm::ivec2 origin : {glm::ivec2(0, 0), glm::ivec2(64, 0), glm::ivec2(0, 64), glm::ivec2(64, 64)}) {
-    for (const glm::ivec2 p : thin_pixels(t, origin, 64))
+    for (const glm::ivec2 p : covered_pixels(t, {origin.x, origin.y, origin.x + 64, origin.y + 64}))
       EXPECT_TRUE(out.emplace(p.x, p.y).second) << p.x << " " << p.y;
   }
   const PixelBounds b = pixel_bounds(t);
@@ -54,7 +53,7 @@ TEST(PipelineWide, PointsAreSquares) {
   for (const int size : {1, 2, 3, 4, 5, 8, 63, 64}) {
     for (const int x : {0, 1, 127, 128, 129, 255, 256, 257, 64 * 256 - 128, 100 * 256 + 77}) {
       for (const int y : {-128, -1, 383, 384, 385, 127 * 256, 128 * 256 - 129}) {
-        EXPECT_EQ(covered(thin({x, y}, {x, y}, 1, static_cast<std::uint32_t>(size))), square({x, y}, size))
+        EXPECT_EQ(covered(line_or_point({x, y}, {x, y}, 1, static_cast<std::uint32_t>(size))), square({x, y}, size))
             << size << " at " << x << ", " << y;
       }
     }
@@ -63,22 +62,22 @@ TEST(PipelineWide, PointsAreSquares) {
 
 TEST(PipelineWide, PointsOfBothParitiesByHand) {
   // At the centre of pixel (5, 7); a hair to the left of the border between columns 5 and 6.
-  EXPECT_EQ(covered(thin({5 * 256, 7 * 256}, {}, 1, 3)).size(), 9u);
-  EXPECT_EQ(*covered(thin({5 * 256, 7 * 256}, {}, 1, 3)).begin(), Pixel(4, 6));
-  EXPECT_EQ(*covered(thin({5 * 256, 7 * 256}, {}, 1, 2)).begin(), Pixel(5, 7)) << "floor(5.5 + 1/2) - 1";
-  EXPECT_EQ(*covered(thin({5 * 256 - 1, 7 * 256}, {}, 1, 2)).begin(), Pixel(4, 7));
-  EXPECT_EQ(*covered(thin({5 * 256 + 127, 7 * 256}, {}, 1, 3)).begin(), Pixel(4, 6));
-  EXPECT_EQ(*covered(thin({5 * 256 + 128, 7 * 256}, {}, 1, 3)).begin(), Pixel(5, 6));
+  EXPECT_EQ(covered(line_or_point({5 * 256, 7 * 256}, {}, 1, 3)).size(), 9u);
+  EXPECT_EQ(*covered(line_or_point({5 * 256, 7 * 256}, {}, 1, 3)).begin(), Pixel(4, 6));
+  EXPECT_EQ(*covered(line_or_point({5 * 256, 7 * 256}, {}, 1, 2)).begin(), Pixel(5, 7)) << "floor(5.5 + 1/2) - 1";
+  EXPECT_EQ(*covered(line_or_point({5 * 256 - 1, 7 * 256}, {}, 1, 2)).begin(), Pixel(4, 7));
+  EXPECT_EQ(*covered(line_or_point({5 * 256 + 127, 7 * 256}, {}, 1, 3)).begin(), Pixel(4, 6));
+  EXPECT_EQ(*covered(line_or_point({5 * 256 + 128, 7 * 256}, {}, 1, 3)).begin(), Pixel(5, 6));
 }
 
 TEST(PipelineWide, ALevelLineOfThreeIsThreeLines) {
-  const PixelSet is = covered(thin({10 * 256, 20 * 256}, {15 * 256, 20 * 256}, 2, 3));
+  const PixelSet is = covered(line_or_point({10 * 256, 20 * 256}, {15 * 256, 20 * 256}, 2, 3));
   PixelSet expected;
   for (int x = 10; x < 15; ++x)
     for (const int y : {19, 20, 21}) expected.emplace(x, y);
   EXPECT_EQ(is, expected);
   // Two wide, half a pixel down: ends on the border of rows 19 and 20 count for the lower, and of columns for the left.
-  const PixelSet two = covered(thin({10 * 256, 20 * 256}, {15 * 256, 20 * 256}, 2, 2));
+  const PixelSet two = covered(line_or_point({10 * 256, 20 * 256}, {15 * 256, 20 * 256}, 2, 2));
   EXPECT_EQ(two.size(), 10u);
   for (const auto& [x, y] : two) EXPECT_TRUE(y == 19 || y == 20) << y;
 }
@@ -102,24 +101,25 @@ TEST(PipelineWide, LinesAreTheMovedLineReplicated) {
         if (q.x >= 0 && q.y >= 0 && q.x < 128 && q.y < 128) expected.emplace(q.x, q.y);
       }
     }
-    ASSERT_EQ(covered(thin(a, b, 2, static_cast<std::uint32_t>(width))), expected) << width;
+    ASSERT_EQ(covered(line_or_point(a, b, 2, static_cast<std::uint32_t>(width))), expected) << width;
   }
 }
 
 /// Five corners about the middle of a 16 x 16 viewport, the first the rightmost, counter-clockwise; each red by number.
-std::vector<WindowTriangle<float>> polygon(Draw draw, bool clockwise = false) {
+std::vector<ShadedTriangle> polygon(Draw draw, bool clockwise = false) {
   Matrices<float> m{};
   m.win_scale = m.win_translate = {8, 8, 0.5f};
-  ClipPolygons<float> polygons;
+  Polygon polygon{9, {}};
   for (int i = 0; i < 5; ++i) {
     const double angle = 2 * 3.14159265358979 * i / 5 * (clockwise ? -1 : 1);
-    polygons.vertices.push_back({{0.5 * std::cos(angle), 0.5 * std::sin(angle), 0, 1}, {i, 0, 0, 1}, i % 2 == 1});
+    ClipVertex v{{0.5 * std::cos(angle), 0.5 * std::sin(angle), 0, 1}, {}, i % 2 == 1};
+    v.attributes.color().r = static_cast<float>(i);
+    polygon.corners.push_back(v);
   }
-  polygons.polygons = {{9, 0, 5}};
   draw.line_width = 3;
   draw.point_size = 5;
-  std::vector<WindowTriangle<float>> out;
-  to_window(m, draw, polygons, polygons.polygons, out);
+  std::vector<ShadedTriangle> out;
+  to_window({&draw, Topology::triangles, false, false, m}, polygon, out);
   return out;
 }
 
@@ -140,9 +140,9 @@ TEST(PipelineOutline, EdgesAreThePolygonsAndNotTheFans) {
       EXPECT_EQ(edges[i].width, 3u);
       EXPECT_EQ(edges[i].primitive, 9u);
       EXPECT_EQ(edges[i].front, !clockwise);
-      EXPECT_EQ(edges[i].v[0].color.r, static_cast<float>((i + 4) % 5));
-      EXPECT_EQ(edges[i].v[1].color.r, static_cast<float>(i));
-      EXPECT_EQ(edges[i].v[2].color.r, static_cast<float>(i));
+      EXPECT_EQ(edges[i].attributes[0].color().r, static_cast<float>((i + 4) % 5));
+      EXPECT_EQ(edges[i].attributes[1].color().r, static_cast<float>(i));
+      EXPECT_EQ(edges[i].attributes[2].color().r, static_cast<float>(i));
     }
   }
 }
@@ -153,7 +153,7 @@ TEST(PipelineOutline, CornersArePoints) {
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(points[i].corners, 1u);
     EXPECT_EQ(points[i].width, 5u);
-    for (const auto& v : points[i].v) EXPECT_EQ(v.color.r, static_cast<float>(i));
+    for (const Attributes& a : points[i].attributes) EXPECT_EQ(a.color().r, static_cast<float>(i));
   }
 }
 
@@ -177,12 +177,11 @@ TEST(PipelineOutline, CullingComesFirst) {
 TEST(PipelineOutline, NoAreaIsTheBack) {
   Matrices<float> m{};
   m.win_scale = m.win_translate = {8, 8, 0.5f};
-  ClipPolygons<float> polygons;
-  polygons.vertices = {{{-0.5f, 0, 0, 1}, {}, false}, {{0, 0, 0, 1}, {}, false}, {{0.5f, 0, 0, 1}, {}, false}};
-  polygons.polygons = {{0, 0, 3}};
+  Polygon polygon{0, {}};
+  for (const float x : {-0.5f, 0.0f, 0.5f}) polygon.corners.push_back({{x, 0, 0, 1}, {}, false});
   const auto run = [&](const Draw& draw) {
-    std::vector<WindowTriangle<float>> out;
-    to_window(m, draw, polygons, polygons.polygons, out);
+    std::vector<ShadedTriangle> out;
+    to_window({&draw, Topology::triangles, false, false, m}, polygon, out);
     return out.size();
   };
   EXPECT_EQ(run(with_modes(PolygonMode::fill, PolygonMode::line)), 3u) << "edge on, its edges are seen";

@@ -51,21 +51,26 @@ class PipelineWindow : public testing::Test {
   /// A viewport of that size, its lower left corner at the origin.
   void scale_to(glm::vec2 size) { matrices_.win_scale = matrices_.win_translate = glm::vec3(size / 2.0f, 0.5f); }
   void add(std::vector<glm::vec4> corners, std::uint32_t primitive = 0, bool cut = false) {
-    polygons_.polygons.push_back(
-        {primitive, static_cast<std::uint32_t>(polygons_.vertices.size()), static_cast<std::uint32_t>(corners.size())});
+    Polygon& polygon = polygons_.emplace_back();
+    polygon.primitive = primitive;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      polygons_.vertices.push_back({corners[i], glm::vec4(static_cast<float>(i), 0, 0, 1), cut});
+      ClipVertex v{corners[i], {}, cut};
+      v.attributes.color() = glm::vec4(static_cast<float>(i), 0, 0, 1);
+      polygon.corners.push_back(v);
     }
   }
-  std::vector<WindowTriangle<float>> run(Cull cull = Cull::none) const {
-    std::vector<WindowTriangle<float>> out;
+  std::vector<ShadedTriangle> run(Cull cull = Cull::none, bool two_sided = false) const {
+    std::vector<ShadedTriangle> out;
     Draw draw;
     draw.cull = cull;
-    to_window(matrices_, draw, polygons_, polygons_.polygons, out);
+    for (const Polygon& polygon : polygons_) {
+      to_window({&draw, Topology::triangles, false, two_sided, matrices_}, polygon, out);
+    }
     return out;
   }
+  static float red(const ShadedTriangle& t, std::size_t corner) { return t.attributes[corner].color().r; }
   Matrices<float> matrices_{Mat4<float>(1), Mat4<float>(1), Mat3<float>(1), Vec3<float>(1), Vec3<float>(0)};
-  ClipPolygons<float> polygons_;
+  std::vector<Polygon> polygons_;
 };
 
 TEST_F(PipelineWindow, DividesAndMovesToTheWindow) {
@@ -83,9 +88,9 @@ TEST_F(PipelineWindow, DividesAndMovesToTheWindow) {
   EXPECT_EQ(a.inv_w, 1);
   EXPECT_EQ(b.inv_w, 0.5f);
   EXPECT_EQ(c.inv_w, 0.25f);
-  EXPECT_EQ(a.color.r, 0);
-  EXPECT_EQ(b.color.r, 1);
-  EXPECT_EQ(c.color.r, 2);
+  EXPECT_EQ(red(out[0], 2), 0);
+  EXPECT_EQ(red(out[0], 0), 1);
+  EXPECT_EQ(red(out[0], 1), 2);
   EXPECT_EQ(a.snapped, glm::ivec2(128, 7 * 128));
   EXPECT_EQ(b.snapped, glm::ivec2(9 * 128, 7 * 128));
   EXPECT_EQ(c.snapped, glm::ivec2(5 * 128, 11 * 128));
@@ -97,20 +102,31 @@ TEST_F(PipelineWindow, APolygonIsAFanAboutItsFirstVertex) {
   ASSERT_EQ(out.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<float>(i);  // the colours number the corners: (i-1, i, 0) for i = 2, 3, 4
-    EXPECT_EQ(out[i].v[0].color.r, k + 1);
-    EXPECT_EQ(out[i].v[1].color.r, k + 2);
-    EXPECT_EQ(out[i].v[2].color.r, 0);
+    EXPECT_EQ(red(out[i], 0), k + 1);
+    EXPECT_EQ(red(out[i], 1), k + 2);
+    EXPECT_EQ(red(out[i], 2), 0);
     EXPECT_EQ(out[i].primitive, 3u);
   }
 }
 
-TEST_F(PipelineWindow, TheDrawsPolygonsAloneAreAppendedInOrder) {
-  for (std::uint32_t primitive : {4u, 6u, 9u}) add({{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}}, primitive);
-  std::vector<WindowTriangle<float>> out(1);
-  to_window(matrices_, Draw{}, polygons_, std::span(polygons_.polygons).subspan(1), out);
-  ASSERT_EQ(out.size(), 3u);
-  EXPECT_EQ(out[1].primitive, 6u);
-  EXPECT_EQ(out[2].primitive, 9u);
+TEST_F(PipelineWindow, BackFacesOfTwoSidedDrawsHaveTheBacksColours) {
+  add({{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}}, 0);  // counter-clockwise
+  add({{0, 0, 0, 1}, {0, 1, 0, 1}, {1, 0, 0, 1}}, 1);  // clockwise
+  for (Polygon& polygon : polygons_) {
+    for (ClipVertex& v : polygon.corners) {
+      v.attributes[Varying::secondary] = glm::vec4(2);
+      v.attributes[Varying::back_color] = glm::vec4(7);
+      v.attributes[Varying::back_secondary] = glm::vec4(8);
+    }
+  }
+  for (const bool two_sided : {false, true}) {
+    const auto out = run(Cull::none, two_sided);
+    ASSERT_EQ(out.size(), 2u);
+    EXPECT_EQ(red(out[0], 2), 0) << "a front face";
+    EXPECT_EQ(out[0].attributes[2][Varying::secondary], glm::vec4(2));
+    EXPECT_EQ(red(out[1], 2), two_sided ? 7 : 0);
+    EXPECT_EQ(out[1].attributes[2][Varying::secondary], glm::vec4(two_sided ? 8.0f : 2.0f));
+  }
 }
 
 TEST_F(PipelineWindow, Culls) {
@@ -135,7 +151,7 @@ TEST_F(PipelineWindow, FacingIsOfTheSnappedCornersEachTriangleOfTheFanItsOwn) {
   ASSERT_EQ(out.size(), 2u);
   EXPECT_TRUE(out[0].front);
   EXPECT_FALSE(out[1].front);
-  EXPECT_EQ(out[1].v[0].color.r, 3);
+  EXPECT_EQ(red(out[1], 0), 3);
   EXPECT_EQ(run(Cull::back).size(), 1u);
   EXPECT_EQ(run(Cull::front).size(), 1u);
 }
@@ -169,7 +185,7 @@ TEST_F(PipelineWindow, CornersOutOfReachDropTheWholePolygon) {
   const std::vector<glm::vec4> good = {{0, 0, 0, 1}, {1, 0, 0, 1}, {1, 1, 0, 1}};
   const glm::vec4 reaches[] = {{far, 2, 0, 1}, {-far, 2, 0, 1}, {0, far, 0, 1}, {-2, -far, 0, 1}};
   for (const glm::vec4& corner : reaches) {
-    polygons_ = {};
+    polygons_.clear();
     add({good[0], good[1], good[2], corner});
     EXPECT_EQ(run().size(), 2u) << corner.x << " " << corner.y;
   }
@@ -179,7 +195,7 @@ TEST_F(PipelineWindow, CornersOutOfReachDropTheWholePolygon) {
                                     {0, 1, 0, nan},     {kInfinity, 1, 0, 1}};
   for (const glm::vec4& corner : out_of_reach) {
     for (std::size_t place = 0; place < 4; ++place) {
-      polygons_ = {};
+      polygons_.clear();
       std::vector<glm::vec4> corners = good;
       corners.insert(corners.begin() + static_cast<std::ptrdiff_t>(place), corner);
       add(corners);
@@ -200,7 +216,7 @@ TEST_F(PipelineWindow, MeshVerticesAreFusedAndCutOnesAreNot) {
   scale_to({1001, 1001});
   for (const Case& c : cases) {
     for (bool cut : {false, true}) {
-      polygons_ = {};
+      polygons_.clear();
       add({{0, 0, 0, 1}, {c.x, -c.w, 0, c.w}, {-1, c.x / c.w, 0, 1}}, 0, cut);
       EXPECT_EQ(run().at(0).v[0].p_win.x, cut ? c.separate : c.fused);
     }
@@ -210,7 +226,7 @@ TEST_F(PipelineWindow, MeshVerticesAreFusedAndCutOnesAreNot) {
 TEST_F(PipelineWindow, EachVertexOfACutPolygonIsRoundedItsOwnWay) {
   scale_to({1001, 1001});
   add({{0x1.7d4b94p+0f, -1, 0, 0x1.7f7448p+0f}, {0x1.7d4b94p+0f, 1, 0, 0x1.7f7448p+0f}, {-1, 0, 0, 1}});
-  polygons_.vertices[1].cut = true;
+  polygons_[0].corners[1].cut = true;
   const auto out = run();
   ASSERT_EQ(out.size(), 1u);
   EXPECT_EQ(out[0].v[2].p_win.x, 0x1.f3174ap+9f);
@@ -226,7 +242,7 @@ TEST_F(PipelineWindow, TheReciprocalIsRoundedBeforeTheProduct) {
   int differ = 0;
   for (int i = 0; i < 100; ++i) {
     const float x = number(random), w = number(random);
-    polygons_ = {};
+    polygons_.clear();
     add({{0, 0, 0, 1}, {x, 0, 0, w}, {0, 1, 0, 1}});
     const float reciprocal = 1 / w;
     ASSERT_EQ(run().at(0).v[0].p_win.x, x * reciprocal);

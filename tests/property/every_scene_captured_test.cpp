@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "pipeline/pipeline_renderer.h"
 #include "pipeline/render.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 #include "tests/extent.h"

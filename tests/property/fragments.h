@@ -8,9 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/attributes.h"
-#include "pipeline/coverage.h"
-#include "pipeline/depth.h"
+#include "kernels/attributes.h"
+#include "kernels/coverage.h"
+#include "kernels/depth.h"
+#include "pipeline/stages.h"
 
 namespace plumbline::test {
 
@@ -25,7 +26,7 @@ struct Fragment {
 
 /// Calls visit(pixel) at each covered pixel, by y, then x.
 template <class Visit>
-void for_each_covered(const WindowTriangle<float>& triangle, Visit visit) {
+void for_each_covered(const pipeline::WindowTriangle& triangle, Visit visit) {
   const pipeline::Edges edges = pipeline::edges_of(triangle);
   const pipeline::PixelBounds b = pipeline::pixel_bounds(triangle);
   for (int y = b.y0; y < b.y1; ++y) {
@@ -37,12 +38,13 @@ void for_each_covered(const WindowTriangle<float>& triangle, Visit visit) {
 }
 
 /// `scale`: scene.h, depth_scale; `anchor`: depth.h, planes_of.
-inline std::vector<Fragment> fragments(const WindowTriangle<float>& triangle, double scale, glm::ivec2 anchor) {
+inline std::vector<Fragment> fragments(const pipeline::ShadedTriangle& triangle, double scale, glm::ivec2 anchor) {
   const pipeline::BarycentricPlanes planes = pipeline::planes_of(triangle, anchor.x, anchor.y);
   pipeline::DepthSetup depth = pipeline::depth_setup(triangle, {DepthFormat::z32f});
   depth.scale = scale;
   const pipeline::DepthPlane plane = pipeline::depth_plane(depth, planes);
-  const pipeline::AttributeSetup attributes = pipeline::attribute_setup(triangle);
+  const pipeline::AttributeSetup attributes = pipeline::attribute_setup(
+      {triangle.attributes[0].color(), triangle.attributes[1].color(), triangle.attributes[2].color()});
   const pipeline::PerspectiveSetup perspective = pipeline::perspective_setup(triangle, planes);
   std::vector<Fragment> out;
   for_each_covered(triangle, [&](const pipeline::Pixels<float>& p) {

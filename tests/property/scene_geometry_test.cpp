@@ -8,7 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "capture/plane.h"
-#include "pipeline/draw.h"
+#include "pipeline/production_stages.h"
 #include "scene/mesh/mesh_shapes.h"
 #include "scene/mesh/mesh_solids.h"
 #include "tests/property/fragments.h"
@@ -62,30 +62,53 @@ Scene closed_scene() {
   return scene;
 }
 
+// Stages 0 to 4 of the scene's one or more draws: visit(polygon, its window triangles).
+void each_polygon(const Scene& scene, auto visit) {
+  const pipeline::Stages stages = pipeline::production_stages();
+  const auto lights = stages.lights(scene);
+  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const Draw& draw = scene.draws[d];
+    const Mesh& mesh = scene.meshes[draw.mesh];
+    const pipeline::DrawInput input = pipeline::draw_input(scene, draw, stages.matrices(scene, draw));
+    std::vector<Vertex<float>> vertices;
+    stages.vertex(input.matrices, draw.normals, mesh, vertices);
+    std::vector<pipeline::Attributes> attributes;
+    stages.light(scene, draw, {lights.begin(), lights.end()}, vertices, attributes);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      pipeline::Polygon polygon = stages.assemble(input, mesh.triangles[i], vertices, attributes);
+      polygon.primitive = ranges[d].first_primitive + static_cast<std::uint32_t>(i);
+      stages.clip(input, polygon);
+      std::vector<pipeline::ShadedTriangle> triangles;
+      stages.window(input, polygon, triangles);
+      visit(polygon, triangles);
+    }
+  }
+}
+
 RC_GTEST_PROP(ClosedMeshes, CoverEachPixelWithAsManyFrontsAsBacks, ()) {
   const Scene scene = closed_scene();
   Plane<int> fronts(scene.frame.width, scene.frame.height, 0), backs = fronts;
-  const pipeline::Geometry geometry = pipeline::run_geometry(scene, pipeline::geometry_stages());
-  for (const WindowTriangle<float>& t : geometry.records.triangles) {
-    test::for_each_covered(t, [&](const pipeline::Pixels<float>& p) {
-      const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
-      if (x >= 0 && y >= 0 && x < scene.frame.width && y < scene.frame.height) ++(t.front ? fronts : backs)(x, y);
-    });
-  }
+  each_polygon(scene, [&](const pipeline::Polygon&, const std::vector<pipeline::ShadedTriangle>& triangles) {
+    for (const pipeline::ShadedTriangle& t : triangles) {
+      test::for_each_covered(t, [&](const pipeline::Pixels<float>& p) {
+        const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
+        if (x >= 0 && y >= 0 && x < scene.frame.width && y < scene.frame.height) ++(t.front ? fronts : backs)(x, y);
+      });
+    }
+  });
   RC_CLASSIFY(*std::max_element(fronts.values().begin(), fronts.values().end()) == 0, "nothing in the frame");
   RC_CLASSIFY(*std::max_element(fronts.values().begin(), fronts.values().end()) > 1, "several layers");
   RC_ASSERT(fronts.values() == backs.values());
 }
 
 // The window triangles of the primitives that no plane cuts: the fan of a cut one starts elsewhere in another order.
-std::map<std::uint32_t, WindowTriangle<float>> whole_triangles(const Scene& scene) {
-  const Records<float> r = pipeline::run_geometry(scene, pipeline::geometry_stages()).records;
-  std::map<std::uint32_t, WindowTriangle<float>> out;
-  for (const WindowTriangle<float>& t : r.triangles) out.emplace(t.primitive, t);
-  for (const ClipPolygon& polygon : r.polygons.polygons) {
-    const auto v = std::span(r.polygons.vertices).subspan(polygon.first, polygon.count);
-    if (std::ranges::any_of(v, &ClipVertex<float>::cut)) out.erase(polygon.primitive);
-  }
+std::map<std::uint32_t, pipeline::ShadedTriangle> whole_triangles(const Scene& scene) {
+  std::map<std::uint32_t, pipeline::ShadedTriangle> out;
+  each_polygon(scene, [&](const pipeline::Polygon& polygon, const std::vector<pipeline::ShadedTriangle>& triangles) {
+    const bool cut = std::any_of(polygon.corners.begin(), polygon.corners.end(), [](const auto& v) { return v.cut; });
+    if (!cut && !triangles.empty()) out.emplace(polygon.primitive, triangles[0]);
+  });
   return out;
 }
 
@@ -108,7 +131,7 @@ RC_GTEST_PROP(RandomScenes, RotatedVertexOrderKeepsCoverageAndValues, ()) {
   RC_CLASSIFY(before.empty(), "nothing whole");
   RC_ASSERT(before.size() == after.size());
   for (const auto& [primitive, triangle] : before) {
-    const auto of = [](const WindowTriangle<float>& t) {
+    const auto of = [](const pipeline::ShadedTriangle& t) {
       const pipeline::PixelBounds b = pipeline::pixel_bounds(t);
       return test::fragments(t, 0, {b.x0, b.y0});
     };

@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "check/judge/judge.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/embree/embree.h"
 #include "reference/exact/exact.h"
 #include "reference/osmesa/osmesa.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 
 namespace plumbline::test {

@@ -51,18 +51,19 @@ Corners corners() {
 }
 
 // Through stage 4 as one polygon; its position in clip space comes to the snapped one without an error.
-std::vector<WindowTriangle<float>> window_triangles(const Corners& corners, Cull cull) {
+std::vector<pipeline::ShadedTriangle> window_triangles(const Corners& corners, Cull cull) {
   Matrices<float> matrices{};
   matrices.win_scale = Vec3<float>(1);
-  ClipPolygons<float> polygons{{}, {{0, 0, 3}}};
+  pipeline::Polygon polygon;
   for (const Corner& c : corners) {
     const glm::vec2 p_win = glm::vec2(c.snapped) / 256.0f + 0.5f;
-    polygons.vertices.push_back({Vec4<float>(p_win * c.w, c.z * c.w, c.w), c.color, false});
+    polygon.corners.push_back({Vec4<float>(p_win * c.w, c.z * c.w, c.w), {}, false});
+    polygon.corners[polygon.corners.size() - 1].attributes.color() = c.color;
   }
-  std::vector<WindowTriangle<float>> out;
+  std::vector<pipeline::ShadedTriangle> out;
   Draw draw;
   draw.cull = cull;
-  pipeline::to_window(matrices, draw, polygons, polygons.polygons, out);
+  pipeline::to_window({&draw, Topology::triangles, false, false, matrices}, polygon, out);
   return out;
 }
 

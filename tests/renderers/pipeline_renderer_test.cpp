@@ -1,5 +1,5 @@
 // The pipeline behind the interface of all renderers: captures, requests, budgets, and each stage run alone.
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 
 #include <algorithm>
 
@@ -56,16 +56,14 @@ TEST(PipelineRenderer, PlanesDoNotDependOnTheRecordsAskedFor) {
 }
 
 TEST(PipelineRenderer, APictureIsDrawnAsItShips) {
-  Stages unwatched = production_stages();
-  unwatched.fragment.draw_tapped = nullptr;  // would crash
   Request picture;
   picture.planes = WantedPlanes::picture;
   for (const auto& [color, depth] : kFormats) {
     const Scene scene = boxes(color, depth);
-    const Capture drawn = make_pipeline(unwatched)->capture(scene, picture);
-    const Capture tapped = make_pipeline()->capture(scene, {});
-    EXPECT_EQ(drawn.planes.color.values(), tapped.planes.color.values());
-    EXPECT_EQ(drawn.planes.depth.values(), tapped.planes.depth.values());
+    const Capture drawn = make_pipeline()->capture(scene, picture);
+    const Capture watched = make_pipeline()->capture(scene, {});
+    EXPECT_EQ(drawn.planes.color.values(), watched.planes.color.values());
+    EXPECT_EQ(drawn.planes.depth.values(), watched.planes.depth.values());
     EXPECT_TRUE(drawn.planes.count.empty()) << "nobody watched";
   }
   Request more = everything();
@@ -243,23 +241,15 @@ TEST(PipelineRenderer, SaysWhatItIsAbleToShow) {
 
 TEST(PipelineRenderer, AnotherStageFunctionIsUsedByCaptureAndByRunStage) {
   Stages stages = production_stages();
-  stages.geometry.light = [](const Scene&, const Draw&, Lights, std::span<const Vertex<float>> vertices,
-                             std::vector<Lit<float>>& out) {
-    for (std::size_t i = 0; i < vertices.size(); ++i) out.push_back({{0.25f, 0.5f, 0.75f, 1}});
+  stages.light = [](const Scene&, const Draw&, Lights, std::span<const Vertex<float>> vertices,
+                    std::vector<Attributes>& out) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) out.push_back({{Vec4<float>(0.25f, 0.5f, 0.75f, 1)}});
   };
   const auto changed = make_pipeline(stages);
   const Scene scene = boxes();
   const Capture c = changed->capture(scene, everything());
   for (const auto& lit : c.records.lit) EXPECT_EQ(lit.color, glm::dvec4(0.25, 0.5, 0.75, 1));
   EXPECT_EQ(changed->run_stage(scene, Stage::light, c).records.lit.at(0).color, glm::dvec4(0.25, 0.5, 0.75, 1));
-}
-
-TEST(PipelineDraws, SharesOfTheTrianglesEvenWhereADrawHasNone) {
-  const Scene scene = boxes();  // primitives 0-11, 12-23, none, 24-35, 36-47, 48-59, 60-65
-  std::vector<WindowTriangle<float>> triangles;
-  for (std::uint32_t primitive : {0u, 0u, 11u, 12u, 36u, 65u}) triangles.push_back({{}, primitive, true});
-  EXPECT_EQ(triangles_of_draws(scene, triangles), (std::vector<std::uint32_t>{0, 3, 4, 4, 4, 5, 5, 6}));
-  EXPECT_EQ(triangles_of_draws(scene, {}), std::vector<std::uint32_t>(8, 0));
 }
 
 TEST(PipelineRenderer, AnEmptySceneIsItsBackground) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/pipeline/boxes.h"
 
 namespace plumbline::pipeline {
@@ -165,7 +165,7 @@ TEST(PipelineRenderer, TrianglesBeyondTheFrameAreCutOff) {
   const Scene scene = boxes();
   const auto pipeline = make_pipeline();
   Capture in;
-  WindowTriangle<double> t{{}, 5, true};
+  plumbline::WindowTriangle<double> t{{}, 5, true};
   const glm::dvec2 corners[] = {{-500, -500}, {2000, -500}, {-500, 2000}};
   for (std::size_t i = 0; i < 3; ++i) {
     t.v[i] = {glm::dvec3(corners[i], 0.5), 1, glm::ivec2(corners[i] * 256.0) - 128, glm::dvec4(1)};

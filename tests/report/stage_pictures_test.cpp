@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "check/diagnose/diagnose.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
 #include "report/page/diagnosis_page.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/pipeline_renderer.h"
 #include "pipeline/render.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/pipeline/window_scene.h"
 
 namespace plumbline::pipeline {

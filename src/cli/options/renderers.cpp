@@ -11,8 +11,8 @@
 #include "base/did_you_mean.h"
 #include "capture/renderers/process_renderer.h"
 #include "image_order/image_order.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
 #ifdef PLUMBLINE_EMBREE
 #include "reference/embree/embree.h"
 #endif

@@ -9,7 +9,7 @@
 #include "check/diagnose/hypotheses.h"
 #include "check/judge/stage_copy.h"
 #include "faults/faults.h"
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 #include "tests/check/fixtures.h"

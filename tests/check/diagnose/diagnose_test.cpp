@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "faults/faults.h"
+#include "pipeline/production_stages.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 #include "tests/check/judge/judge_fixtures.h"
@@ -25,9 +26,9 @@ faults::Fault fault(std::string_view name) {
 
 // The pipeline with several faults at once.
 std::unique_ptr<Renderer> with(std::initializer_list<std::string_view> names) {
-  faults::Table table = faults::production();
-  for (const std::string_view name : names) fault(name).apply(table);
-  return pipeline::make_pipeline(faults::stages_of(table));
+  pipeline::Stages stages = pipeline::production_stages();
+  for (const std::string_view name : names) fault(name).apply(stages);
+  return pipeline::make_pipeline(stages);
 }
 
 struct Diagnose : testing::Test {
@@ -80,11 +81,10 @@ TEST_F(Diagnose, NamesEachPairAndAllAtOnce) {
 // The first leaves the second nothing to be wrong with.
 TEST_F(Diagnose, NamesWhatAFaultBeforeItHides) {
   scene = suite_scene("interpolation/w_ratio");
-  faults::Table table = faults::production();
-  fault("attributes.affine").apply(table);
-  table.geometry.window = [](const Matrices<float>&, const Draw&, const ClipPolygons<float>&,
-                             std::span<const ClipPolygon>, std::vector<WindowTriangle<float>>&) {};
-  const auto candidate = pipeline::make_pipeline(faults::stages_of(table));
+  pipeline::Stages stages = pipeline::production_stages();
+  fault("attributes.affine").apply(stages);
+  stages.window = [](const pipeline::DrawInput&, const pipeline::Polygon&, std::vector<pipeline::ShadedTriangle>&) {};
+  const auto candidate = pipeline::make_pipeline(stages);
   const Diagnosis d = of(*candidate);
   EXPECT_EQ(d.first, Stage::window);
   EXPECT_EQ(d.wrong, (Stages{Stage::window, Stage::attributes}));
@@ -92,7 +92,7 @@ TEST_F(Diagnose, NamesWhatAFaultBeforeItHides) {
   EXPECT_EQ(d.findings[0].reference, "exact from its records");
   EXPECT_EQ(d.findings[1].reference, "exact from repaired records");
   // Where the candidate's stages cannot be called, the first alone shows.
-  Changed captured(pipeline::make_pipeline(faults::stages_of(table)));
+  Changed captured(pipeline::make_pipeline(stages));
   captured.on_info = [](RendererInfo& info) {
     for (Ability& a : info.stages) a.runs = false;
   };
@@ -108,10 +108,12 @@ TEST_F(Diagnose, NamesStagesOfAnAntialiasedScenesPassesAndResolve) {
   const auto two = with({"coverage.samples_mirrored", "resolve.truncated"});
   EXPECT_EQ(of(*two).wrong, (Stages{Stage::coverage, Stage::resolve}));
   // Nothing reaches the frame: resolve shows on repaired samples alone.
-  faults::Table table = faults::production();
-  fault("resolve.truncated").apply(table);
-  table.fragment.coverage = [](const pipeline::TriangleSetup<>&, const pipeline::Pixels<float>&) { return false; };
-  const auto hidden = pipeline::make_pipeline(faults::stages_of(table));
+  pipeline::Stages stages = pipeline::production_stages();
+  fault("resolve.truncated").apply(stages);
+  stages.coverage = [](const pipeline::WindowTriangle&, const pipeline::PixelBounds&) {
+    return std::vector<glm::ivec2>();
+  };
+  const auto hidden = pipeline::make_pipeline(stages);
   EXPECT_EQ(of(*hidden).wrong, (Stages{Stage::coverage, Stage::resolve}));
 }
 
@@ -123,9 +125,9 @@ TEST_F(Diagnose, WhatWasMadeOfWrongRecordsIsForgotten) {
 
 TEST_F(Diagnose, WhatDoesNotFitTheBudgetIsLookedAtAboutTheWorstPixels) {
   scene = suite_scene("interpolation/w_ratio");
-  faults::Table table = faults::production();
-  fault("attributes.affine").apply(table);
-  Changed candidate(pipeline::make_pipeline(faults::stages_of(table)));
+  pipeline::Stages stages = pipeline::production_stages();
+  fault("attributes.affine").apply(stages);
+  Changed candidate(pipeline::make_pipeline(stages));
   std::size_t pixels = 0;
   candidate.before_capture = [&](const Request& request) {
     if (request.records.has(Stage::coverage) && request.pixels.empty()) throw OverBudget("too many fragments");

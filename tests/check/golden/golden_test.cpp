@@ -18,7 +18,7 @@
 
 #include "base/atomic_path.h"
 #include "capture/files/image_file.h"
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 
 namespace plumbline::check {

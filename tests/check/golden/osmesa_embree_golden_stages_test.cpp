@@ -8,10 +8,10 @@
 #include "check/diagnose/diagnose.h"
 #include "check/golden/golden.h"
 #include "faults/faults.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/embree/embree.h"
 #include "reference/exact/exact.h"
 #include "reference/osmesa/osmesa.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 
 namespace plumbline::check {

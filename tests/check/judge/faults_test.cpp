@@ -14,6 +14,7 @@
 #include "faults/legal.h"
 #include "matrix/matrix.h"
 #include "matrix/report.h"
+#include "pipeline/production_stages.h"
 #include "scene/file/scene_file.h"
 
 namespace plumbline {
@@ -51,8 +52,8 @@ TEST(Faults, are_as_many_as_the_readme_says) {
 matrix::Subject subject_of(std::string_view name) {
   for (const faults::Fault& fault : faults::all()) {
     if (fault.name != name) continue;
-    matrix::Subject out{std::string(name), faults::production(), {fault.stage}};
-    fault.apply(out.table);
+    matrix::Subject out{std::string(name), pipeline::production_stages(), {fault.stage}};
+    fault.apply(out.stages);
     return out;
   }
   throw std::out_of_range(std::string(name));
@@ -67,8 +68,9 @@ TEST(FaultMatrix, a_fault_affects_the_scenes_that_it_changes) {
   const std::vector<Scene> scenes = {scene_of("coverage/shared_edges.json"), scene_of("antialias/supersample_3.json"),
                                      scene_of("light/flat_sphere.json")};
   const std::vector<matrix::Subject> subjects = {
-      {"ours", faults::production(), {}}, subject_of("window.y_flipped"),     subject_of("coverage.inclusive_edges"),
-      subject_of("texture.t_flipped"),    subject_of("resolve.first_sample"), subject_of("vertex.not_renormalised")};
+      {"ours", pipeline::production_stages(), {}}, subject_of("window.y_flipped"),
+      subject_of("coverage.inclusive_edges"),      subject_of("texture.t_flipped"),
+      subject_of("resolve.first_sample"),          subject_of("vertex.not_renormalised")};
   const std::vector<matrix::SceneList> on = matrix::affected(scenes, subjects, 3, 2);
   using L = matrix::SceneList;
   EXPECT_EQ(on[0], L());

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "check/judge/judge.h"
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/check/fixtures.h"
 
 namespace plumbline::check {

@@ -4,8 +4,8 @@
 #include "capture/files/capture_folder.h"
 #include "check/judge/judge.h"
 #include "faults/legal.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/check/suite_scenes.h"
 
 namespace plumbline {
@@ -28,9 +28,8 @@ class LegalVariants : public testing::TestWithParam<faults::Variant> {};
 // Each on two of the scenes that there is such a way for, not all on the same ones. (The fault matrix takes more.)
 TEST_P(LegalVariants, raises_nothing) {
   const faults::Variant& variant = GetParam();
-  faults::Table table = faults::production();
-  if (variant.apply != nullptr) variant.apply(table);
-  const pipeline::Stages stages = faults::stages_of(table);
+  pipeline::Stages stages = pipeline::production_stages();
+  if (variant.apply != nullptr) variant.apply(stages);
   const auto candidate = pipeline::make_pipeline(stages);
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"exact", exact.get()}};

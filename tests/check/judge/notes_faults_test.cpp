@@ -15,8 +15,8 @@
 
 #include "check/judge/judge.h"
 #include "faults/notes.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 
 namespace plumbline {

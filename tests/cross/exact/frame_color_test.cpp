@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/merge.h"
+#include "kernels/merge.h"
 
 namespace plumbline {
 namespace {

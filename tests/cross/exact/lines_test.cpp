@@ -4,11 +4,11 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/judge/judge.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/exact/barycentric.h"
 #include "reference/exact/clip.h"
 #include "reference/exact/coverage.h"
 #include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/cross/thin_scenes.h"
 
 namespace plumbline::test {

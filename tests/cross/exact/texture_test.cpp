@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <random>
 
-#include "pipeline/environment.h"
-#include "pipeline/texture.h"
+#include "kernels/environment.h"
+#include "kernels/texture.h"
 #include "reference/arithmetic/texture.h"
 #include "scene/texture/texture_images.h"
 

@@ -1,16 +1,17 @@
 // The formulas of the notes that are no matrices, ours beside an evaluation of their own, in integers or in a wider
 // format: the table goes on (transforms_table_test.cpp). What is an integer is equal. Of a sum, the unit is an ULP of
 // its largest term, or of the sum where that is larger: at most 4, as there. In a million inputs 3.5 is seen.
+#include "kernels/attributes.h"
+#include "kernels/coverage.h"
+#include "kernels/depth.h"
 #include "notes/raster/triangle_algorithms.h"
-#include "pipeline/attributes.h"
-#include "pipeline/coverage.h"
-#include "pipeline/depth.h"
 #include "pipeline/vertex.h"
 #include "pipeline/window.h"
 #include "reference/exact/wide.h"
 #include "scene/frame_buffer.h"
 #include "tests/at_weights.h"
 #include "tests/cross/transforms_table.h"
+#include "tests/pipeline/window_triangles.h"
 #include "transforms/projection.h"
 
 namespace plumbline::test {
@@ -44,18 +45,19 @@ glm::ivec2 corner(Inputs& r, int reach) {
 }
 
 /// Counter-clockwise in the window, of an area; corners at multiples of 1/256 pixel, which floats hold.
-WindowTriangle<float> triangle_within(Inputs& r, int reach) {
+pipeline::ShadedTriangle triangle_within(Inputs& r, int reach) {
   for (;;) {
-    WindowTriangle<float> out{};
-    for (WindowVertex<float>& v : out.v) {
+    pipeline::ShadedTriangle out{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      pipeline::WindowVertex& v = out.v[k];
       v.snapped = corner(r, reach);
       v.p_win = glm::vec3(glm::vec2(glm::dvec2(v.snapped) / 256.0 + 0.5), static_cast<float>(r.between(0, 1)));
       v.inv_w = 1;
-      for (int i = 0; i < 4; ++i) v.color[i] = static_cast<float>(r.between(0, 1));
+      for (int i = 0; i < 4; ++i) out.attributes[k].color()[i] = static_cast<float>(r.between(0, 1));
     }
     const std::int64_t area = pipeline::snapped_area(out);
     if (area == 0) continue;
-    if (area < 0) std::swap(out.v[1], out.v[2]);
+    if (area < 0) std::swap(out.v[1], out.v[2]), std::swap(out.attributes[1], out.attributes[2]);
     out.front = true;
     return out;
   }
@@ -76,7 +78,7 @@ Entry integer(std::int64_t ours, Int128 theirs) {
 /// One edge of the triangle that ships, at any pixel.
 Row edge_row(const char* formula, const char* reference, int edge, int sign, Expression theirs) {
   return row(formula, "edges_of", reference, 0, [=](Inputs& r) {
-    const WindowTriangle<float> t = triangle_within(r, kFarthest);
+    const pipeline::ShadedTriangle t = triangle_within(r, kFarthest);
     const int x = whole(r, 0, 16383), y = whole(r, 0, 16383);
     const Point p = point(t.v[static_cast<std::size_t>(edge)].snapped);
     const Point q = point(t.v[static_cast<std::size_t>((edge + 1) % 3)].snapped);
@@ -87,7 +89,7 @@ Row edge_row(const char* formula, const char* reference, int edge, int sign, Exp
 /// The step to the next pixel, or row.
 Row step_row(const char* formula, const char* ours, bool along_x) {
   return row(formula, ours, "E there - E here", 0, [=](Inputs& r) {
-    const WindowTriangle<float> t = triangle_within(r, kFarthest);
+    const pipeline::ShadedTriangle t = triangle_within(r, kFarthest);
     const pipeline::Edges e = pipeline::edges_of(t);
     const Int128 x = whole(r, 0, 16383), y = whole(r, 0, 16383);
     Entries out;
@@ -175,7 +177,7 @@ struct Weighed {
 };
 Weighed weighed(Inputs& r) {
   Weighed out;
-  const WindowTriangle<float> t = triangle_within(r, 64 * 256);
+  const pipeline::ShadedTriangle t = triangle_within(r, 64 * 256);
   const int x = whole(r, -64, 64), y = whole(r, -64, 64), dx = whole(r, 0, 63), dy = whole(r, 0, 63);
   const pipeline::BarycentricPlanes p = pipeline::planes_of(t, x - dx, y - dy);
   out.ours = pipeline::barycentric<float>(p, {x, y, x + 0.5, y + 0.5});
@@ -215,7 +217,7 @@ WideVec3 alpha_beta_gamma(const WideVec3 (&at)[3]) {
 /// Weights inside of a triangle, and w of its corners: colours by 000's sum, or that over w.
 Row color_row(const char* formula, const char* ours, const char* reference, double largest_w) {
   return {formula, ours, reference, 24, 4, [=](Inputs& r) {
-            WindowTriangle<float> t = triangle_within(r, 256);
+            pipeline::ShadedTriangle t = triangle_within(r, 256);
             const double a = r.between(0, 1), b = r.between(0, 1 - a);
             const double l[3] = {1 - a - b, a, b};
             WideVec3 sum(0);
@@ -223,10 +225,10 @@ Row color_row(const char* formula, const char* ours, const char* reference, doub
             for (std::size_t i = 0; i < 3; ++i) {
               t.v[i].inv_w = static_cast<float>(1 / r.between(1, largest_w));
               const Wide weight = Wide(l[i]) * t.v[i].inv_w;
-              sum += weight * WideVec3(t.v[i].color);
+              sum += weight * WideVec3(t.attributes[i].color());
               of_weights += weight;
             }
-            const auto c = test::attributes_at(t, l[1], l[2]);
+            const auto c = test::attributes_at(t, testing_words::color_setup(t), l[1], l[2]);
             sum /= of_weights;
             Entries out;  // colours are in [0, 1], and so is what is added to the first corner's
             for (const auto& [mine, theirs] : {std::pair(c.r, sum.r), {c.g, sum.g}, {c.b, sum.b}}) {
@@ -239,7 +241,7 @@ Row color_row(const char* formula, const char* ours, const char* reference, doub
 std::vector<Row> interpolation_rows() {
   const auto segment = [](Inputs& r) {
     const float z0 = static_cast<float>(r.between(0, 1)), z1 = static_cast<float>(r.between(0, 1));
-    WindowTriangle<float> t{};
+    pipeline::WindowTriangle t;
     t.v[0].p_win.z = z0, t.v[1].p_win.z = z1;
     const double at = r.between(0, 1);
     const float ours = test::depth_at(pipeline::depth_setup(t, {DepthFormat::z32f}), at, 0);
@@ -259,19 +261,19 @@ Entries divided(Inputs& r) {
   Matrices<float> m{};
   m.win_scale = {static_cast<float>(whole(r, 1, 16384)) / 2, static_cast<float>(whole(r, 1, 16384)) / 2, 0.5f};
   m.win_translate = m.win_scale;
-  ClipPolygons<float> polygons;
-  polygons.polygons = {{0, 0, 3}};
+  pipeline::Polygon polygon;
   for (int i = 0; i < 3; ++i) {
     const double w = std::exp2(r.between(-4, 6));
     const glm::dvec3 p = w * r.point(1);
-    polygons.vertices.push_back({Vec4<float>(glm::vec3(p), static_cast<float>(w)), Vec4<float>(1), false});
+    polygon.corners.push_back({Vec4<float>(glm::vec3(p), static_cast<float>(w)), {}, false});
   }
-  std::vector<WindowTriangle<float>> triangles;
-  pipeline::to_window(m, Draw{}, polygons, polygons.polygons, triangles);
+  const Draw draw;
+  std::vector<pipeline::ShadedTriangle> triangles;
+  pipeline::to_window({&draw, Topology::triangles, false, false, m}, polygon, triangles);
   Entries out;
-  for (const WindowTriangle<float>& t : triangles) {
+  for (const pipeline::ShadedTriangle& t : triangles) {
     for (std::size_t v = 0; v < 3; ++v) {
-      const Vec4<float>& c = polygons.vertices[(v + 1) % 3].p_clip;  // a fan's corners are (1, 2, 0)
+      const Vec4<float>& c = polygon.corners[(v + 1) % 3].p_clip;  // a fan's corners are (1, 2, 0)
       for (int i = 0; i < 3; ++i) {
         const Wide theirs = (Wide(c[i]) / c.w + 1) * m.win_scale[i];
         out.push_back({t.v[v].p_win[i], theirs, std::max<Wide>(m.win_translate[i], std::abs(theirs))});

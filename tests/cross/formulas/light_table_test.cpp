@@ -15,9 +15,9 @@ struct Lamps {
   Vec3<float> n;
   float ours() const {
     const Vertex<float> vertex{{0, 0, -5, 1}, {0, 0, 0, 1}, n};
-    std::vector<Lit<float>> lit;
+    std::vector<pipeline::Attributes> lit;
     pipeline::light(scene, draw, pipeline::light_sources(scene), std::span(&vertex, 1), lit);
-    return lit[0].color.r;
+    return lit[0].color().r;
   }
 };
 float share(Inputs& r) { return static_cast<float>(r.between(0.01, 0.4)); }

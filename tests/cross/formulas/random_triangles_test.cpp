@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "check/judge/judge.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/cross/random_scenes.h"
 #include "tests/extent.h"
 

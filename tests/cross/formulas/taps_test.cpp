@@ -1,7 +1,7 @@
 // What ships and what is captured are one path: the planes without a tap equal those with it, bit for bit.
 #include <gtest/gtest.h>
 
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/cross/random_scenes.h"
 #include "tests/extent.h"

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/pipeline_renderer.h"
 #include "reference/exact/coverage.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/cross/random_scenes.h"
 

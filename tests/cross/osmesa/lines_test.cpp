@@ -6,8 +6,8 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/judge/judge.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/osmesa/osmesa.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/cross/thin_scenes.h"
 
 namespace plumbline::test {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/pipeline_renderer.h"
 #include "reference/osmesa/osmesa.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/antialias.h"
 #include "tests/pipeline/window_scene.h"
 

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/pipeline_renderer.h"
 #include "reference/exact/exact.h"
 #include "reference/osmesa/osmesa.h"
+#include "renderers/pipeline_renderer.h"
 #include "tests/cross/thin_scenes.h"
 
 namespace plumbline::test {

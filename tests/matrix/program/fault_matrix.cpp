@@ -13,6 +13,7 @@
 #include "faults/faults.h"
 #include "faults/legal.h"
 #include "matrix/report.h"
+#include "pipeline/production_stages.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 
@@ -55,8 +56,8 @@ std::size_t work_of(const Scene& scene) {
 }
 
 Subject subject_of(const faults::Fault& fault) {
-  Subject out{std::string(fault.name), faults::production(), {fault.stage}};
-  fault.apply(out.table);
+  Subject out{std::string(fault.name), pipeline::production_stages(), {fault.stage}};
+  fault.apply(out.stages);
   return out;
 }
 
@@ -73,7 +74,7 @@ std::vector<Pair> draw_pairs(std::span<const faults::Fault> all, std::span<const
     std::size_t i = random() % all.size(), k = random() % all.size();
     if (all[k].stage < all[i].stage) std::swap(i, k);
     const faults::Fault &a = all[i], &b = all[k];
-    faults::Table a_then_b = faults::production(), b_then_a = a_then_b;
+    pipeline::Stages a_then_b = pipeline::production_stages(), b_then_a = a_then_b;
     a.apply(a_then_b);
     b.apply(a_then_b);
     b.apply(b_then_a);
@@ -149,10 +150,10 @@ std::vector<Row> of_faults_and_pairs(std::span<const Scene> scenes, const Extent
 std::vector<Row> of_legal(const std::vector<Scene>& scenes, const Extent& extent, unsigned workers) {
   SceneList all(scenes.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  std::vector<Row> out = rows_of(scenes, {{"ours", faults::production(), {}}}, {{all}}, all.size(), workers);
+  std::vector<Row> out = rows_of(scenes, {{"ours", pipeline::production_stages(), {}}}, {{all}}, all.size(), workers);
   for (const faults::Variant& variant : faults::legal_variants()) {
-    Subject subject{std::string(variant.name), faults::production(), {}};
-    if (variant.apply != nullptr) variant.apply(subject.table);
+    Subject subject{std::string(variant.name), pipeline::production_stages(), {}};
+    if (variant.apply != nullptr) variant.apply(subject.stages);
     std::vector<Scene> said;
     SceneList where;
     for (const std::size_t s : all) {

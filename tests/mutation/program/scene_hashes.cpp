@@ -13,7 +13,7 @@
 #include "base/child_process.h"
 #include "check/golden/golden_hash.h"
 #include "mutation/program/random_scenes.h"
-#include "pipeline/pipeline_renderer.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 

@@ -15,10 +15,10 @@
 
 #include "check/judge/judge.h"
 #include "ordinary/ordinary_scene.h"
-#include "pipeline/pipeline_renderer.h"
 #include "reference/embree/embree.h"
 #include "reference/exact/exact.h"
 #include "reference/osmesa/osmesa.h"
+#include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 #include "tests/property/random_scene.h"
 #include "tests/property/scene_text.h"

@@ -1,0 +1,96 @@
+// Stage 5: which pixel centres a triangle covers.
+//
+//            c          Each edge has a function E(x, y) = (b - a) x ((x, y) - a), positive on its left. Corners are
+//           / \         taken counter-clockwise, so a centre is inside where all three are positive. A centre with
+//          / + \        E = 0 lies on the edge: the tie rule gives it to one of the two triangles that share the edge,
+//         /     \       so that each centre is painted once.
+//        a ----- b
+//
+// Positions are integers in 1/256 pixel (Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH 1988), so
+// every E is exact: below 2^46 for frames of up to 16384 pixels a side.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "kernels/lanes.h"
+#include "kernels/line_diamond.h"
+#include "kernels/window_triangle.h"
+#include "scene/scene.h"
+
+namespace plumbline::pipeline {
+
+/// The three edge functions over pixel numbers: E_i(x, y) = at_origin[i] + step_x[i] x + step_y[i] y, less 1 where the
+/// tie rule does not give the edge's own pixels to the triangle: covered where all are >= 0.
+struct Edges {
+  std::int64_t at_origin[3];
+  std::int64_t step_x[3];
+  std::int64_t step_y[3];
+};
+
+Edges edges_of(const WindowTriangle& triangle, TieRule rule = TieRule::small_sides_in);
+
+/// The triangle with its snapped corners counted from `sample` [1/256 pixel from the centre]: what holds of the centre
+/// holds of the sample. Lines and points are covered by the centre in every pass.
+inline WindowTriangle as_seen_from(const WindowTriangle& triangle, glm::ivec2 sample) {
+  WindowTriangle out = triangle;
+  for (WindowVertex& v : out.v) v.snapped -= triangle.corners == 3 ? sample : glm::ivec2(0);
+  return out;
+}
+
+/// The pixels whose centres lie in the triangle's bounding box, and of a line or point all that it may cover: [x0, x1)
+/// x [y0, y1).
+struct PixelBounds {
+  int x0, y0, x1, y1;
+};
+PixelBounds pixel_bounds(const WindowTriangle& triangle);
+
+/// Calls visit(pixel) for those of a line (line_diamond.h) or of a point within the box of `size` pixels that begins at
+/// pixel `origin`.
+///
+/// A wide line is moved down its minor axis by (width - 1) / 2; each of its pixels is the lowest of `width` in a column
+/// (y-major: the first of a row; OpenGL 2.1, section 3.4.2). A wide point is a square of so many pixels, about the
+/// centre of the pixel that it lies in, or, of an even size, about the nearest corner of pixels (section 3.3): either
+/// way its first column is floor(x - (width - 1) / 2).
+void visit_line_or_point(const WindowTriangle& line_or_point, glm::ivec2 origin, glm::ivec2 size, auto visit) {
+  const glm::i64vec2 from = std::int64_t{kSubpixel} * glm::i64vec2(origin);
+  const glm::i64vec2 a = glm::i64vec2(line_or_point.v[0].snapped) - from;
+  const glm::i64vec2 b = glm::i64vec2(line_or_point.v[1].snapped) - from;
+  const auto width = static_cast<int>(line_or_point.width);
+  if (line_or_point.corners == 1) {
+    const glm::ivec2 first((a + std::int64_t{kSubpixel / 2 * (2 - width)}) >> std::int64_t{8});
+    for (int y = std::max(first.y, 0); y < std::min(first.y + width, size.y); ++y) {
+      for (int x = std::max(first.x, 0); x < std::min(first.x + width, size.x); ++x) visit(origin + glm::ivec2(x, y));
+    }
+    return;
+  }
+  const glm::i64vec2 d = glm::abs(b - a);
+  const int minor = d.x >= d.y ? 1 : 0;
+  glm::i64vec2 moved(0);  // so that what begins below the box, and reaches into it, is seen
+  moved[minor] = kSubpixel * (width - 1) - kSubpixel / 2 * (width - 1);
+  glm::ivec2 box = size;
+  box[minor] += width - 1;
+  raster::visit_diamond_exit_line(a + moved, b + moved, box, [&](glm::ivec2 p) {
+    p[minor] -= width - 1;
+    for (int k = 0; k < width; ++k, ++p[minor]) {
+      if (p[minor] >= 0 && p[minor] < size[minor]) visit(origin + p);
+    }
+  });
+}
+
+template <class R>
+Mask<R> coverage(const Edges& e, const Pixels<R>& p) {
+  const Int<R> e0 = e.at_origin[0] + e.step_x[0] * p.x + e.step_y[0] * p.y;
+  const Int<R> e1 = e.at_origin[1] + e.step_x[1] * p.x + e.step_y[1] * p.y;
+  const Int<R> e2 = e.at_origin[2] + e.step_x[2] * p.x + e.step_y[2] * p.y;
+  return (e0 | e1 | e2) >= 0;  // the sign bit of any
+}
+
+/// Which of the pixels are in the box.
+template <class R>
+Mask<R> scissor(const Scissor& box, const Pixels<R>& p) {
+  return (p.x >= box.x) & (p.x < box.x + box.width) & (p.y >= box.y) & (p.y < box.y + box.height);
+}
+
+}  // namespace plumbline::pipeline

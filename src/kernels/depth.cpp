@@ -1,0 +1,90 @@
+#include "kernels/depth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::pipeline {
+
+namespace {
+
+// A line is a triangle whose third corner, at a right angle to it, has the values of the first; a point has no slopes.
+PlaneCorners<double> corners_of_line(const WindowTriangle& line) {
+  const glm::dvec2 p0(line.v[0].p_win), d = glm::dvec2(line.v[1].p_win) - p0;
+  return {p0.x, p0.y, d.x, d.y, -d.y, d.x, glm::dot(d, d)};
+}
+
+PlaneCorners<double> corners_of(const WindowTriangle& t) {
+  const auto& v = t.v;
+  return plane_corners<float>({v[0].p_win.x, v[1].p_win.x, v[2].p_win.x}, {v[0].p_win.y, v[1].p_win.y, v[2].p_win.y},
+                              {v[0].snapped.x, v[1].snapped.x, v[2].snapped.x},
+                              {v[0].snapped.y, v[1].snapped.y, v[2].snapped.y}, t.front ? 1.0 : -1.0);
+}
+
+// In window z.
+double offset_of(const WindowTriangle& triangle, const DepthState& state) {
+  if (triangle.corners < 3 || state.offset == PolygonOffset{}) return 0;
+  const double z0 = triangle.v[0].p_win.z, z1 = triangle.v[1].p_win.z, z2 = triangle.v[2].p_win.z;
+  const PlaneCorners<double> c = corners_of(triangle);
+  const double slope_x = difference_of_products(z1 - z0, c.d2_y, z2 - z0, c.d1_y) / c.twice_area;
+  const double slope_y = difference_of_products(z2 - z0, c.d1_x, z1 - z0, c.d2_x) / c.twice_area;
+  const double m = std::max(std::abs(slope_x), std::abs(slope_y));
+  return state.offset.factor * m + state.offset.units * polygon_offset_unit(state.format, std::max({z0, z1, z2}));
+}
+
+}  // namespace
+
+BarycentricPlanes planes_of(const WindowTriangle& triangle, int x0, int y0) {
+  const double x = x0 + 0.5, y = y0 + 0.5;
+  if (triangle.corners == 3) return {corner_planes(corners_of(triangle), x, y), {x, y}};
+  PlaneCorners<double> line = corners_of_line(triangle);
+  if (line.twice_area == 0) line = {line.p0_x, line.p0_y, 0, 0, 0, 0, 1};
+  BarycentricPlanes planes{corner_planes(line, x, y), {x, y}};
+  planes.l2 = {0, 0, 0};
+  return planes;
+}
+
+BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place) {
+  if (place == glm::ivec2(0)) return planes;
+  const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
+  BarycentricPlanes out = planes;
+  out.x0 -= by.x;
+  out.y0 -= by.y;
+  return out;
+}
+
+// What the near and far plane do not cut is clamped to where they are (GL_ARB_depth_clamp); else to what formats hold.
+DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp) {
+  DepthState out{format};
+  out.offset = draw.polygon_offset;
+  if (!depth_clamp) return out;
+  const auto [low, high] = std::minmax(draw.depth_range.near, draw.depth_range.far);
+  out.low = low;
+  out.high = high;
+  return out;
+}
+
+DepthSetup depth_setup(const WindowTriangle& triangle, const DepthState& state) {
+  const double z0 = triangle.v[0].p_win.z;
+  return {z0 + offset_of(triangle, state),
+          triangle.v[1].p_win.z - z0,
+          triangle.corners == 3 ? triangle.v[2].p_win.z - z0 : 0,
+          depth_scale(state.format),
+          state.low,
+          state.high};
+}
+
+DepthPlane depth_plane(const DepthSetup& depth, const CornerPlanes<double>& planes) {
+  const double unit = depth.scale == 0 ? 1 : depth.scale;
+  return {planes.through(depth.z0 * unit, depth.dz1 * unit, depth.dz2 * unit), depth.scale, depth.low * unit,
+          depth.high * unit};
+}
+
+DepthPlane moved(const DepthPlane& depth, glm::ivec2 place) {
+  if (place == glm::ivec2(0)) return depth;
+  const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
+  DepthPlane out = depth;
+  out.code.at_0 += by.x * out.code.x + by.y * out.code.y;
+  return out;
+}
+
+}  // namespace plumbline::pipeline

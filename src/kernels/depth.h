@@ -1,0 +1,171 @@
+// Stage 6: the depth of each fragment, and the depth test.
+//
+// Depth is affine in the window, and so are barycentric coordinates, over w or not: planes in double serve depth here
+// and attributes in stage 7. They go through the *unsnapped* positions: the snapped ones only decide coverage (through
+// them, the colours of tiny triangles would move visibly). Double, because for a sliver in float even the third bit of
+// a depth may be wrong.
+#pragma once
+
+#include "kernels/lanes.h"
+#include "kernels/window_triangle.h"
+#include "scene/scene.h"
+
+namespace plumbline::pipeline {
+
+/// What is affine in the window: its value at an anchor, a pixel's centre nearby, and how much it grows by x and by y.
+template <class W>
+struct Affine {
+  W at_0, x, y;
+};
+/// From the anchor to where a value is asked for.
+template <class R>
+struct Offset {
+  Wide<R> dx, dy;
+};
+/// The sum in brackets is a row's.
+template <class R>
+[[gnu::always_inline]] inline Wide<R> value_at(const Affine<double>& f, const Offset<R>& from_anchor) {
+  return (f.at_0 + from_anchor.dy * f.y) + from_anchor.dx * f.x;
+}
+
+/// a b - c d to within two roundings of the result, however close the products are (Kahan).
+template <class W>
+W difference_of_products(W a, W b, W c, W d) {
+  const W cd = c * d;
+  const W error = fused(-c, d, cd);
+  return fused(a, b, -cd) + error;
+}
+
+/// What a triangle's planes go through: corner 0, and the others' places from it.
+template <class W>
+struct PlaneCorners {
+  W p0_x, p0_y, d1_x, d1_y, d2_x, d2_y;
+  W twice_area;
+};
+template <class W>
+[[gnu::always_inline]] inline PlaneCorners<W> plane_corners(const W (&x)[3], const W (&y)[3]) {
+  const W d1_x = x[1] - x[0], d1_y = y[1] - y[0], d2_x = x[2] - x[0], d2_y = y[2] - y[0];
+  return {x[0], y[0], d1_x, d1_y, d2_x, d2_y, difference_of_products(d1_x, d2_y, d1_y, d2_x)};
+}
+/// Where the unsnapped area is zero or of the other sign than the snapped, the snapped corners. `facing`: 1 of a front
+/// face, -1 of a back one.
+template <class R>
+PlaneCorners<Wide<R>> plane_corners(const R (&x_win)[3], const R (&y_win)[3], const Int<R> (&snapped_x)[3],
+                                    const Int<R> (&snapped_y)[3], const Wide<R>& facing) {
+  using W = Wide<R>;
+  const W x[3] = {to_wide(x_win[0]), to_wide(x_win[1]), to_wide(x_win[2])};
+  const W y[3] = {to_wide(y_win[0]), to_wide(y_win[1]), to_wide(y_win[2])};
+  PlaneCorners<W> out = plane_corners<W>(x, y);
+  const auto usable = out.twice_area * facing > W(0);
+  if (all(usable)) return out;
+  const auto place = [](const Int<R>& snapped) { return to_wide(snapped) * W(1.0 / 256.0) + W(0.5); };
+  const W snapped_corner_x[3] = {place(snapped_x[0]), place(snapped_x[1]), place(snapped_x[2])};
+  const W snapped_corner_y[3] = {place(snapped_y[0]), place(snapped_y[1]), place(snapped_y[2])};
+  const PlaneCorners<W> other = plane_corners<W>(snapped_corner_x, snapped_corner_y);
+  const auto of = [&](auto member) { out.*member = select(usable, out.*member, other.*member); };
+  of(&PlaneCorners<W>::p0_x), of(&PlaneCorners<W>::p0_y);
+  of(&PlaneCorners<W>::d1_x), of(&PlaneCorners<W>::d1_y);
+  of(&PlaneCorners<W>::d2_x), of(&PlaneCorners<W>::d2_y);
+  of(&PlaneCorners<W>::twice_area);
+  return out;
+}
+
+/// What a triangle's planes are made of, and its barycentric coordinates l1 and l2 (l0 = 1 - l1 - l2).
+template <class W>
+struct CornerPlanes {
+  PlaneCorners<W> corners;
+  W area_1, area_2;  ///< l1 and l2 at the anchor, times twice the triangle's area
+  Affine<W> l1, l2;
+
+  /// The plane of what is `v0` at corner 0, and `d1` and `d2` more at the others; its slopes, however thin the triangle
+  /// is, to within a few roundings.
+  [[gnu::always_inline]] Affine<W> through(const W& v0, const W& d1, const W& d2) const {
+    const PlaneCorners<W>& c = corners;
+    return {v0 + difference_of_products(area_1, d1, -area_2, d2) / c.twice_area,
+            difference_of_products(d1, c.d2_y, d2, c.d1_y) / c.twice_area,
+            difference_of_products(d2, c.d1_x, d1, c.d2_x) / c.twice_area};
+  }
+};
+template <class W>
+[[gnu::always_inline]] inline CornerPlanes<W> corner_planes(const PlaneCorners<W>& c, double anchor_x,
+                                                            double anchor_y) {
+  const W dx = W(anchor_x) - c.p0_x, dy = W(anchor_y) - c.p0_y, inv = W(1) / c.twice_area;
+  const W area_1 = difference_of_products(dx, c.d2_y, dy, c.d2_x);
+  const W area_2 = difference_of_products(c.d1_x, dy, c.d1_y, dx);
+  return {c, area_1, area_2, {area_1 * inv, c.d2_y * inv, -c.d2_x * inv}, {area_2 * inv, -c.d1_y * inv, c.d1_x * inv}};
+}
+
+struct Anchor {
+  double x0, y0;  ///< window
+};
+/// Those of a window triangle, and where their anchor is.
+struct BarycentricPlanes : CornerPlanes<double>, Anchor {};
+
+/// Along a line, l1 = (p - p0).(p1 - p0) / |p1 - p0|^2 and l2 = 0 (OpenGL 2.1, equation 3.5); of a point both are 0.
+/// Where the unsnapped area is zero or of the other sign than the snapped, the planes go through the snapped corners.
+/// (x0, y0): a pixel at most a tile away from those that are wanted. From a far anchor, the terms of a sliver's sum
+/// would be so large that double itself is too coarse.
+BarycentricPlanes planes_of(const WindowTriangle& triangle, int x0, int y0);
+
+/// The same for the points `place` (in 1/256 pixel) from those that they are asked for.
+BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place);
+
+template <class R>
+[[gnu::always_inline]] inline Offset<R> from_anchor(const Anchor& anchor, const Pixels<R>& p) {
+  return {p.x_win - anchor.x0, p.y_win - anchor.y0};
+}
+
+template <class R>
+struct Barycentric {
+  Wide<R> l0, l1, l2;
+};
+template <class R>
+[[gnu::always_inline]] inline Barycentric<R> barycentric(const BarycentricPlanes& planes, const Pixels<R>& p) {
+  const Offset<R> at = from_anchor<R>(planes, p);
+  const Wide<R> l1 = value_at<R>(planes.l1, at), l2 = value_at<R>(planes.l2, at);
+  return {1.0 - l1 - l2, l1, l2};
+}
+
+/// What a draw says of its fragments' depth.
+struct DepthState {
+  DepthFormat format;
+  double low = 0, high = 1;  ///< depths beyond are clamped
+  PolygonOffset offset = {};
+};
+DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp);
+
+/// A triangle's window depths, as corner 0's and the differences from it.
+struct DepthSetup {
+  double z0, dz1, dz2;
+  double scale;              ///< the largest code of the depth format (scene.h, depth_scale); 0: float
+  double low = 0, high = 1;  ///< as DepthState
+};
+/// With the polygon offset, which moves the whole plane.
+DepthSetup depth_setup(const WindowTriangle& triangle, const DepthState& state);
+/// Their plane, in codes of the depth format; of float depth as they are.
+struct DepthPlane {
+  Affine<double> code;
+  double scale, low, high;  ///< as DepthSetup, but in codes
+};
+DepthPlane depth_plane(const DepthSetup& depth, const CornerPlanes<double>& planes);
+/// The same for the points `place` (in 1/256 pixel) from those that it is asked for.
+DepthPlane moved(const DepthPlane& depth, glm::ivec2 place);
+
+/// The code nearest to `scaled` in [0, scale], half to even; of 8 bits half up, as tinyrenderer's int(z + .5) (note
+/// 002).
+template <class W>
+[[gnu::always_inline]] inline W rounded_code(const W& scaled, double scale) {
+  const W code = round_even(scaled);
+  return scale == 255.0 ? select(scaled - code == 0.5, code + 1.0, code) : code;
+}
+/// Of z in [0,1].
+inline double depth_code(double z, double scale) { return rounded_code(z * scale, scale); }
+
+/// In the depth format: a code, which a float holds exactly up to 2^24, or window z itself for z32f.
+template <class R>
+[[gnu::always_inline]] inline R depth(const DepthPlane& s, const Offset<R>& at) {
+  const Wide<R> code = clamped<Wide<R>>(value_at<R>(s.code, at), s.low, s.high);
+  return to_float(s.scale == 0.0 ? code : rounded_code(code, s.scale));
+}
+
+}  // namespace plumbline::pipeline

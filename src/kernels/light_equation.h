@@ -1,0 +1,159 @@
+// The light equation at one point (OpenGL 2.1 spec, section 2.14.1), and note 000's in its place.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+
+#include "base/fixed_vector.h"
+#include "capture/stages.h"
+#include "kernels/attributes.h"
+#include "kernels/math.h"
+#include "kernels/vector.h"
+#include "scene/scene.h"
+
+namespace plumbline::pipeline {
+
+/// The scene's lights, as stage 0 hands them on.
+using Lights = std::span<const LightSource<float>>;
+
+/// A light in eye space, ready for the equation.
+struct EyeLight {
+  bool directional;
+  Vector<float> vector;  ///< unit direction towards it, or its place
+  Vector<float> half;    ///< of a directional light, unit, half way to a viewer infinitely far away
+  bool attenuates, has_cone;
+  Vec3<float> attenuation;  ///< k0, k1, k2
+  Vector<float> cone;       ///< unit direction to which it shines
+  float cos_cutoff, exponent;
+};
+
+/// What does not change within a draw.
+struct Illumination {
+  LightModel model;
+  FixedVector<EyeLight, 8> lights;
+};
+/// `lights`: one for each of the scene's.
+Illumination illumination(const Scene& scene, Lights lights);
+
+/// A material, and what of it a colour stands for (lit_material(), scene.h).
+struct ColoredMaterial {
+  Material own;
+  bool emission = false, ambient = false, diffuse = false, specular = false;
+};
+ColoredMaterial colored_material(const Scene& scene, const Draw& draw, LitPart part);
+
+/// What a material makes of the light: emission and ambient light, and each light's colours times its own.
+template <class R>
+struct Reflectance {
+  struct Answer {
+    Vector<R> ambient, diffuse, specular;
+  };
+  Vector<R> base;
+  std::array<Answer, 8> answers;  ///< beside the lights
+  float shininess;
+  R alpha;
+};
+template <class R>
+Reflectance<R> reflectance(const Scene& scene, const ColoredMaterial& material, const Color<R>& color) {
+  const Material& own = material.own;
+  const auto of = [&](bool of_color, const glm::vec4& v) {
+    return of_color ? Vector<R>{color.r, color.g, color.b} : spread<R>(v);
+  };
+  const Vector<R> ambient = of(material.ambient, own.ambient), diffuse = of(material.diffuse, own.diffuse);
+  const Vector<R> specular = of(material.specular, own.specular);
+  Reflectance<R> out;
+  out.base = of(material.emission, own.emission) + ambient * spread<R>(scene.light_model.ambient);
+  out.shininess = own.shininess;
+  out.alpha = material.diffuse ? color.a : R(own.diffuse.a);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& l = scene.lights[i];
+    out.answers[i] = {spread<R>(l.ambient) * ambient, spread<R>(l.diffuse) * diffuse, spread<R>(l.specular) * specular};
+  }
+  return out;
+}
+/// Of a material alone.
+Reflectance<float> reflectance(const Scene& scene, const Material& material);
+
+/// N.L, and the cosine whose power the highlight is; 0 where the light does not reach.
+template <class R>
+struct Cosines {
+  R diffuse, specular;
+};
+
+template <class R>
+R positive_dot(const Vector<R>& a, const Vector<R>& b) {
+  return greater_of(dot(a, b), R(0));
+}
+
+template <class R>
+Cosines<R> cosines(const LightModel& model, const EyeLight& light, Vector<R> n, const Vector<R>& to_light,
+                   const Vector<R>& to_eye) {
+  Mask<R> seen = n.x == n.x;
+  if (model.sides == LightModel::Sides::flip) {
+    const R n_dot_l = dot(n, to_light), n_dot_e = dot(n, to_eye);
+    const Mask<R> from_behind = (n_dot_l < R(0)) & (n_dot_e < R(0));
+    seen = from_behind | (n_dot_e > R(0));
+    n = select<R>(from_behind, -n, n);
+  }
+  const R diffuse = select(seen, positive_dot(n, to_light), R(0));
+  if (model.specular == LightModel::Specular::half_vector) {
+    const bool fixed = light.directional && !model.local_viewer;
+    return {diffuse, positive_dot(n, fixed ? spread<R>(light.half) : unit(to_light + to_eye))};
+  }
+  const Vector<R> mirrored = (R(2) * diffuse) * n - to_light;
+  return {diffuse, positive_dot(mirrored, to_eye)};
+}
+
+/// What distance and cone leave of a light.
+template <class R>
+R reach(const EyeLight& light, const Vector<R>& from_point, const Vector<R>& to_light) {
+  R share(1);
+  if (light.attenuates) {
+    const R d = square_root(dot(from_point, from_point));
+    const Vec3<float>& k = light.attenuation;
+    // Only a light at the point itself has nothing to divide by.
+    share = R(1) / greater_of(R(std::numeric_limits<float>::min()), k.x + (k.y + k.z * d) * d);
+  }
+  if (light.has_cone) {
+    const R cosine = -dot(to_light, spread<R>(light.cone));
+    share = select(cosine >= R(light.cos_cutoff), share * power(cosine, light.exponent), R(0));
+  }
+  return share;
+}
+
+/// rgba, clamped to [0,1]; alpha is the diffuse material's. Where a normal faces away from a light, its diffuse and
+/// specular terms are 0; outside a light's cone, its ambient one too. `n_eye` need not be of unit length.
+/// `T`: float where all lanes are of one material, or R.
+template <class R, class T>
+Color<R> lit(const Illumination& illumination, const Reflectance<T>& reflectance, const Vector<R>& p_eye,
+             const Vector<R>& n_eye) {
+  const Vector<R> to_eye = illumination.model.local_viewer ? unit(-p_eye) : Vector<R>{R(0), R(0), R(1)};
+  Vector<R> sum = spread<R>(reflectance.base);
+  for (std::size_t i = 0; i < illumination.lights.size(); ++i) {
+    const EyeLight& light = illumination.lights[i];
+    const typename Reflectance<T>::Answer& answer = reflectance.answers[i];
+    const Vector<R> place = spread<R>(light.vector), from_point = light.directional ? place : place - p_eye;
+    const Vector<R> to_light = light.directional ? place : unit(from_point);
+    Vector<R> color = spread<R>(answer.ambient);
+    const Cosines<R> c = cosines<R>(illumination.model, light, n_eye, to_light, to_eye);
+    const Mask<R> faces = c.diffuse > R(0);
+    if (any(faces)) {
+      Vector<R> bright = color + c.diffuse * spread<R>(answer.diffuse);
+      const Vector<T>& s = answer.specular;
+      if (any((s.x != T(0)) | (s.y != T(0)) | (s.z != T(0)))) {
+        bright = bright + power(c.specular, reflectance.shininess) * spread<R>(s);
+      }
+      color = select<R>(faces, bright, color);
+    }
+    if (!light.attenuates && !light.has_cone) {
+      sum = sum + color;
+      continue;
+    }
+    const R share = reach(light, from_point, to_light);
+    sum = select<R>(share > R(0), sum + share * color, sum);
+  }
+  return {clamp01(sum.x), clamp01(sum.y), clamp01(sum.z), clamp01(R(reflectance.alpha))};
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,339 @@
+// The words of lanes.h for as many pixels at a time as the target has lanes, over Highway: each lane does what float
+// does, bit for bit. Included by simd_kernels.cpp alone, which is compiled once for each target, PLUMBLINE_TARGET: a
+// namespace of that name keeps their functions apart.
+#pragma once
+
+#include <hwy/highway.h>
+
+#include "kernels/lanes.h"
+
+namespace plumbline::pipeline {
+namespace PLUMBLINE_TARGET {
+namespace {  // so that what is made of these types is the object file's own
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+static_assert(HWY_TARGET <= HWY_SSE4, "what narrower ones emulate is not the same to the last bit");
+inline constexpr int kWidth = HWY_MAX_BYTES / 4;  // 4, 8 or 16: a part of a block, or all of it
+inline constexpr int kHalf = kWidth / 2;
+inline constexpr hn::FixedTag<float, kWidth> kFloats{};
+inline constexpr hn::FixedTag<float, kHalf> kHalfFloats{};
+inline constexpr hn::FixedTag<std::int32_t, kWidth> kInts{};
+inline constexpr hn::FixedTag<std::int32_t, kHalf> kHalfInts{};
+inline constexpr hn::FixedTag<std::uint8_t, kWidth> kBytes{};
+inline constexpr hn::FixedTag<double, kHalf> kDoubles{};
+inline constexpr hn::FixedTag<std::uint64_t, kHalf> kLongs{};
+
+using FloatVector = hn::Vec<decltype(kFloats)>;
+using IntVector = hn::Vec<decltype(kInts)>;
+using DoubleVector = hn::Vec<decltype(kDoubles)>;
+using FloatMask = hn::Mask<decltype(kFloats)>;
+using DoubleMask = hn::Mask<decltype(kDoubles)>;
+
+struct SimdMask {
+  FloatMask m;
+  friend SimdMask operator&(SimdMask a, SimdMask b) { return {hn::And(a.m, b.m)}; }
+  friend SimdMask operator|(SimdMask a, SimdMask b) { return {hn::Or(a.m, b.m)}; }
+};
+inline bool any(SimdMask mask) { return !hn::AllFalse(kFloats, mask.m); }
+inline bool all(SimdMask mask) { return hn::AllTrue(kFloats, mask.m); }
+inline unsigned bits_of(SimdMask mask) {
+  std::uint8_t bytes[8] = {};  // Highway writes whole bytes, as many as the lanes need
+  hn::StoreMaskBits(kFloats, mask.m, bytes);
+  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
+}
+
+/// One float a lane.
+struct Simd {
+  FloatVector v;
+  Simd() = default;
+  Simd(FloatVector of) : v(of) {}
+  Simd(float of) : v(hn::Set(kFloats, of)) {}
+  friend Simd operator+(Simd a, Simd b) { return hn::Add(a.v, b.v); }
+  friend Simd operator-(Simd a, Simd b) { return hn::Sub(a.v, b.v); }
+  friend Simd operator*(Simd a, Simd b) { return hn::Mul(a.v, b.v); }
+  friend Simd operator/(Simd a, Simd b) { return hn::Div(a.v, b.v); }
+  friend Simd operator-(Simd a) { return hn::Neg(a.v); }
+  friend SimdMask operator<(Simd a, Simd b) { return {hn::Lt(a.v, b.v)}; }
+  friend SimdMask operator<=(Simd a, Simd b) { return {hn::Le(a.v, b.v)}; }
+  friend SimdMask operator>(Simd a, Simd b) { return {hn::Gt(a.v, b.v)}; }
+  friend SimdMask operator>=(Simd a, Simd b) { return {hn::Ge(a.v, b.v)}; }
+  friend SimdMask operator==(Simd a, Simd b) { return {hn::Eq(a.v, b.v)}; }
+  friend SimdMask operator!=(Simd a, Simd b) { return {hn::Ne(a.v, b.v)}; }
+};
+
+/// Of doubles, in two halves.
+struct WideMask {
+  DoubleMask low, high;
+  friend WideMask operator&(WideMask a, WideMask b) { return {hn::And(a.low, b.low), hn::And(a.high, b.high)}; }
+  friend WideMask operator|(WideMask a, WideMask b) { return {hn::Or(a.low, b.low), hn::Or(a.high, b.high)}; }
+  operator SimdMask() const {
+    const auto ones = [](DoubleMask m) {
+      return hn::DemoteTo(kHalfFloats, hn::IfThenElseZero(m, hn::Set(kDoubles, 1.0)));
+    };
+    return {hn::Ne(hn::Combine(kFloats, ones(high), ones(low)), hn::Zero(kFloats))};
+  }
+};
+
+struct SimdWide {
+  DoubleVector low, high;
+  SimdWide() = default;
+  SimdWide(DoubleVector l, DoubleVector h) : low(l), high(h) {}
+  SimdWide(double of) : low(hn::Set(kDoubles, of)), high(low) {}
+  friend SimdWide operator+(SimdWide a, SimdWide b) { return {hn::Add(a.low, b.low), hn::Add(a.high, b.high)}; }
+  friend SimdWide operator-(SimdWide a, SimdWide b) { return {hn::Sub(a.low, b.low), hn::Sub(a.high, b.high)}; }
+  friend SimdWide operator*(SimdWide a, SimdWide b) { return {hn::Mul(a.low, b.low), hn::Mul(a.high, b.high)}; }
+  friend SimdWide operator/(SimdWide a, SimdWide b) { return {hn::Div(a.low, b.low), hn::Div(a.high, b.high)}; }
+  friend SimdWide operator-(SimdWide a) { return {hn::Neg(a.low), hn::Neg(a.high)}; }
+  friend WideMask operator<(SimdWide a, SimdWide b) { return {hn::Lt(a.low, b.low), hn::Lt(a.high, b.high)}; }
+  friend WideMask operator<=(SimdWide a, SimdWide b) { return {hn::Le(a.low, b.low), hn::Le(a.high, b.high)}; }
+  friend WideMask operator>(SimdWide a, SimdWide b) { return {hn::Gt(a.low, b.low), hn::Gt(a.high, b.high)}; }
+  friend WideMask operator>=(SimdWide a, SimdWide b) { return {hn::Ge(a.low, b.low), hn::Ge(a.high, b.high)}; }
+  friend WideMask operator==(SimdWide a, SimdWide b) { return {hn::Eq(a.low, b.low), hn::Eq(a.high, b.high)}; }
+  friend WideMask operator!=(SimdWide a, SimdWide b) { return {hn::Ne(a.low, b.low), hn::Ne(a.high, b.high)}; }
+};
+
+/// Integers of 32 bits: of pixels, codes, and edge functions counted from a tile (painter/simd_targets.h).
+struct SimdInt {
+  IntVector v;
+  SimdInt() = default;
+  SimdInt(IntVector of) : v(of) {}
+  SimdInt(std::int32_t of) : v(hn::Set(kInts, of)) {}
+  friend SimdInt operator+(SimdInt a, SimdInt b) { return hn::Add(a.v, b.v); }
+  friend SimdInt operator-(SimdInt a, SimdInt b) { return hn::Sub(a.v, b.v); }
+  friend SimdInt operator*(SimdInt a, SimdInt b) { return hn::Mul(a.v, b.v); }
+  friend SimdInt operator&(SimdInt a, SimdInt b) { return hn::And(a.v, b.v); }
+  friend SimdInt operator|(SimdInt a, SimdInt b) { return hn::Or(a.v, b.v); }
+  friend SimdInt operator^(SimdInt a, SimdInt b) { return hn::Xor(a.v, b.v); }
+  friend SimdMask operator<(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Lt(a.v, b.v))}; }
+  friend SimdMask operator>(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Gt(a.v, b.v))}; }
+  friend SimdMask operator<=(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Not(hn::Gt(a.v, b.v)))}; }
+  friend SimdMask operator>=(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Not(hn::Lt(a.v, b.v)))}; }
+  friend SimdMask operator==(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Eq(a.v, b.v))}; }
+  friend SimdMask operator!=(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Ne(a.v, b.v))}; }
+};
+
+inline Simd select(SimdMask mask, Simd yes, Simd no) { return hn::IfThenElse(mask.m, yes.v, no.v); }
+inline Simd where(SimdMask mask, Simd value) { return hn::IfThenElseZero(mask.m, value.v); }
+inline SimdInt select(SimdMask mask, SimdInt yes, SimdInt no) {
+  return hn::IfThenElse(hn::RebindMask(kInts, mask.m), yes.v, no.v);
+}
+inline SimdWide select(WideMask mask, SimdWide yes, SimdWide no) {
+  return {hn::IfThenElse(mask.low, yes.low, no.low), hn::IfThenElse(mask.high, yes.high, no.high)};
+}
+
+// x86's max and min: the second where either is NaN.
+inline Simd greater_of(Simd a, Simd b) { return hn::Max(a.v, b.v); }
+inline Simd lesser_of(Simd a, Simd b) { return hn::Min(a.v, b.v); }
+inline SimdWide greater_of(SimdWide a, SimdWide b) { return {hn::Max(a.low, b.low), hn::Max(a.high, b.high)}; }
+inline SimdWide lesser_of(SimdWide a, SimdWide b) { return {hn::Min(a.low, b.low), hn::Min(a.high, b.high)}; }
+
+inline Simd to_float(SimdWide w) {
+  return hn::Combine(kFloats, hn::DemoteTo(kHalfFloats, w.high), hn::DemoteTo(kHalfFloats, w.low));
+}
+inline SimdWide to_wide(Simd f) {
+  return {hn::PromoteTo(kDoubles, hn::LowerHalf(kHalfFloats, f.v)),
+          hn::PromoteTo(kDoubles, hn::UpperHalf(kHalfFloats, f.v))};
+}
+inline SimdWide to_wide(SimdInt i) {
+  return {hn::PromoteTo(kDoubles, hn::LowerHalf(kHalfInts, i.v)),
+          hn::PromoteTo(kDoubles, hn::UpperHalf(kHalfInts, i.v))};
+}
+inline SimdInt to_int(Simd f) { return hn::ConvertTo(kInts, f.v); }
+inline Simd to_float(SimdInt i) { return hn::ConvertTo(kFloats, i.v); }
+
+inline Simd round_even(Simd f) { return (f + 12582912.0f) - 12582912.0f; }
+inline SimdWide round_even(SimdWide w) { return (w + 6755399441055744.0) - 6755399441055744.0; }
+
+// Not by masked stores, which are slow on some machines: the tile is one thread's own.
+inline void store(SimdMask mask, Simd value, float* to) {
+  hn::StoreU(hn::IfThenElse(mask.m, value.v, hn::LoadU(kFloats, to)), kFloats, to);
+}
+inline void store(SimdMask mask, SimdInt value, std::uint8_t* to) {
+  const SimdInt held = hn::PromoteTo(kInts, hn::LoadU(kBytes, to));
+  hn::StoreU(hn::DemoteTo(kBytes, select(mask, value, held).v), kBytes, to);
+}
+
+inline SimdWide floor_of(SimdWide w) { return {hn::Floor(w.low), hn::Floor(w.high)}; }
+inline SimdInt to_int(SimdWide w) {
+  const SimdWide counted = w + 6755399441055744.0;  // 1.5 * 2^52: they stand in the lowest bits
+  return hn::ConcatEven(kInts, hn::BitCast(kInts, counted.high), hn::BitCast(kInts, counted.low));
+}
+
+inline Simd square_root(Simd f) { return hn::Sqrt(f.v); }
+inline void store(Simd value, float* to) { hn::StoreU(value.v, kFloats, to); }
+inline void store(SimdInt value, std::int32_t* to) { hn::StoreU(value.v, kInts, to); }
+inline void store(SimdWide value, double* to) {
+  hn::StoreU(value.low, kDoubles, to);
+  hn::StoreU(value.high, kDoubles, to + kHalf);
+}
+inline void store_codes(SimdInt value, std::uint8_t* to) { hn::StoreU(hn::DemoteTo(kBytes, value.v), kBytes, to); }
+inline void store_packed(SimdMask mask, SimdInt value, std::uint32_t* to) {
+  auto* ints = reinterpret_cast<std::int32_t*>(to);
+  hn::StoreU(select(mask, value, SimdInt(hn::LoadU(kInts, ints))).v, kInts, ints);
+}
+
+inline bool any(WideMask mask) { return !hn::AllFalse(kDoubles, mask.low) || !hn::AllFalse(kDoubles, mask.high); }
+inline bool all(WideMask mask) { return hn::AllTrue(kDoubles, mask.low) && hn::AllTrue(kDoubles, mask.high); }
+inline SimdInt greater_of(SimdInt a, SimdInt b) { return hn::Max(a.v, b.v); }
+inline SimdInt lesser_of(SimdInt a, SimdInt b) { return hn::Min(a.v, b.v); }
+template <int n>
+SimdInt shifted_left(SimdInt value) {
+  return hn::ShiftLeft<n>(value.v);
+}
+template <int n>
+SimdInt shifted_right(SimdInt value) {
+  return hn::ShiftRight<n>(value.v);
+}
+inline SimdInt as_int(Simd value) { return hn::BitCast(kInts, value.v); }
+inline Simd as_float(SimdInt bits) { return hn::BitCast(kFloats, bits.v); }
+// x86's own: the nearest, of what fits no int the most negative; and packs that saturate, by blocks of 128 bits.
+inline __m128i rounded(__m128 v) { return _mm_cvtps_epi32(v); }
+inline __m128i rounded(__m128d v) { return _mm_cvtpd_epi32(v); }
+inline __m128i to_shorts(__m128i a, __m128i b) { return _mm_packs_epi32(a, b); }
+inline __m128i to_bytes(__m128i a, __m128i b) { return _mm_packus_epi16(a, b); }
+#if HWY_TARGET <= HWY_AVX2
+inline __m128i rounded(__m256d v) { return _mm256_cvtpd_epi32(v); }
+inline __m256i rounded(__m256 v) { return _mm256_cvtps_epi32(v); }
+inline __m256i to_shorts(__m256i a, __m256i b) { return _mm256_packs_epi32(a, b); }
+inline __m256i to_bytes(__m256i a, __m256i b) { return _mm256_packus_epi16(a, b); }
+#endif
+#if HWY_TARGET <= HWY_AVX3
+inline __m256i rounded(__m512d v) { return _mm512_cvtpd_epi32(v); }
+inline __m512i rounded(__m512 v) { return _mm512_cvtps_epi32(v); }
+inline __m512i to_shorts(__m512i a, __m512i b) { return _mm512_packs_epi32(a, b); }
+inline __m512i to_bytes(__m512i a, __m512i b) { return _mm512_packus_epi16(a, b); }
+#endif
+inline SimdInt packed(SimdInt r, SimdInt g, SimdInt b, SimdInt a) {
+  const IntVector codes{to_bytes(to_shorts(r.v.raw, g.v.raw), to_shorts(b.v.raw, a.v.raw))};
+  HWY_ALIGN static constexpr std::int32_t kByPixel[4] = {0x0c080400, 0x0d090501, 0x0e0a0602, 0x0f0b0703};
+  return hn::TableLookupBytes(codes, hn::LoadDup128(kInts, kByPixel));
+}
+inline SimdInt packed_codes_near(Simd r, Simd g, Simd b, Simd a) {
+  const auto code = [](Simd value) { return IntVector{rounded(value.v.raw)}; };
+  return packed(code(r), code(g), code(b), code(a));
+}
+inline SimdInt packed_codes(Simd r, Simd g, Simd b, Simd a) {
+  const auto least = [](Simd value) { return lesser_of(Simd(255.0f), value); };  // NaN stays NaN
+  return packed_codes_near(least(r), least(g), least(b), least(a));
+}
+inline SimdInt nearest_int(SimdWide value) {
+  const auto half = [](DoubleVector v) { return hn::Vec<decltype(kHalfInts)>{rounded(v.raw)}; };
+  return hn::Combine(kInts, half(value.high), half(value.low));
+}
+inline SimdInt nearest_int(Simd value) { return hn::NearestInt(value.v); }
+
+#if HWY_NATIVE_FMA
+inline Simd fused(Simd a, Simd b, Simd c) { return hn::MulAdd(a.v, b.v, c.v); }
+inline SimdWide fused(SimdWide a, SimdWide b, SimdWide c) {
+  return {hn::MulAdd(a.low, b.low, c.low), hn::MulAdd(a.high, b.high, c.high)};
+}
+#else
+inline Simd fused(Simd a, Simd b, Simd c) {
+  HWY_ALIGN float of[3][kWidth];
+  store(a, of[0]), store(b, of[1]), store(c, of[2]);
+  for (int i = 0; i < kWidth; ++i) of[0][i] = std::fma(of[0][i], of[1][i], of[2][i]);
+  return hn::Load(kFloats, of[0]);
+}
+inline SimdWide fused(SimdWide a, SimdWide b, SimdWide c) {
+  HWY_ALIGN double of[3][kWidth];
+  store(a, of[0]), store(b, of[1]), store(c, of[2]);
+  for (int i = 0; i < kWidth; ++i) of[0][i] = std::fma(of[0][i], of[1][i], of[2][i]);
+  return {hn::Load(kDoubles, of[0]), hn::Load(kDoubles, of[0] + kHalf)};
+}
+#endif
+
+inline float greatest_lane(Simd value) { return hn::GetLane(hn::MaxOfLanes(kFloats, value.v)); }
+inline int greatest_lane(SimdInt value) { return hn::GetLane(hn::MaxOfLanes(kInts, value.v)); }
+inline void load_threes(const float* from, Simd (&out)[3]) {
+  hn::LoadInterleaved3(kFloats, from, out[0].v, out[1].v, out[2].v);
+}
+
+inline SimdWide mantissa_of(SimdWide w) {
+  const auto of = [](DoubleVector v) {
+    const auto fraction = hn::And(hn::BitCast(kLongs, v), hn::Set(kLongs, 0xfffffffffffff));
+    return hn::BitCast(kDoubles, hn::Or(fraction, hn::Set(kLongs, 0x3ff0000000000000)));
+  };
+  return {of(w.low), of(w.high)};
+}
+inline SimdWide exponent_of(SimdWide w) {
+  // Below 2^52's leading bit: 2^52 + the biased exponent.
+  const auto of = [](DoubleVector v) {
+    const auto biased = hn::ShiftRight<52>(hn::BitCast(kLongs, v));
+    return hn::BitCast(kDoubles, hn::Or(biased, hn::Set(kLongs, 0x4330000000000000)));
+  };
+  return SimdWide(of(w.low), of(w.high)) - (4503599627370496.0 + 1023.0);
+}
+inline SimdWide power_of_two(SimdWide n) {
+  const auto of = [](DoubleVector v) { return hn::BitCast(kDoubles, hn::ShiftLeft<52>(hn::BitCast(kLongs, v))); };
+  const SimdWide biased = n + (6755399441055744.0 + 1023.0);
+  return {of(biased.low), of(biased.high)};
+}
+
+}  // namespace
+}  // namespace PLUMBLINE_TARGET
+
+template <>
+struct Lanes<PLUMBLINE_TARGET::Simd> {
+  static constexpr int width = PLUMBLINE_TARGET::kWidth;
+  using Wide = PLUMBLINE_TARGET::SimdWide;
+  using Int = PLUMBLINE_TARGET::SimdInt;
+  using Mask = PLUMBLINE_TARGET::SimdMask;
+};
+
+template <>
+inline PLUMBLINE_TARGET::Simd load<PLUMBLINE_TARGET::Simd>(const float* from) {
+  return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kFloats, from);
+}
+template <>
+inline PLUMBLINE_TARGET::SimdInt load_codes<PLUMBLINE_TARGET::Simd>(const std::uint8_t* from) {
+  return PLUMBLINE_TARGET::hn::PromoteTo(PLUMBLINE_TARGET::kInts,
+                                         PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kBytes, from));
+}
+
+template <>
+inline PLUMBLINE_TARGET::SimdMask mask_of<PLUMBLINE_TARGET::Simd>(unsigned bits) {
+  using namespace PLUMBLINE_TARGET;
+  HWY_ALIGN static constexpr std::int32_t kBits[] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                                     256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+  return (SimdInt(static_cast<std::int32_t>(bits)) & SimdInt(hn::LoadU(kInts, kBits))) != SimdInt(0);
+}
+template <>
+inline PLUMBLINE_TARGET::SimdWide load_wide<PLUMBLINE_TARGET::Simd>(const double* from) {
+  using namespace PLUMBLINE_TARGET;
+  return {hn::LoadU(kDoubles, from), hn::LoadU(kDoubles, from + kHalf)};
+}
+template <>
+inline PLUMBLINE_TARGET::SimdInt load_ints<PLUMBLINE_TARGET::Simd>(const std::int32_t* from) {
+  return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kInts, from);
+}
+template <>
+inline PLUMBLINE_TARGET::SimdInt load_packed<PLUMBLINE_TARGET::Simd>(const std::uint32_t* from) {
+  return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kInts, reinterpret_cast<const std::int32_t*>(from));
+}
+
+// Halves that are equal are one value, so that what is made of them is made once.
+template <>
+[[gnu::always_inline]] inline PLUMBLINE_TARGET::SimdWide columns_of_block<PLUMBLINE_TARGET::Simd>(int block_x, int) {
+  using namespace PLUMBLINE_TARGET;
+  HWY_ALIGN static constexpr double kX[2 * kBlock] = {0, 1, 2, 3, 0, 1, 2, 3};
+  const auto x = hn::Set(kDoubles, block_x), low = hn::Add(x, hn::LoadU(kDoubles, kX));
+  return {low, kHalf < kBlock ? hn::Add(x, hn::LoadU(kDoubles, kX + kHalf)) : low};
+}
+template <>
+[[gnu::always_inline]] inline PLUMBLINE_TARGET::SimdWide rows_of_block<PLUMBLINE_TARGET::Simd>(int block_y, int i) {
+  using namespace PLUMBLINE_TARGET;
+  HWY_ALIGN static constexpr double kY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  const auto y = hn::Set(kDoubles, block_y), low = hn::Add(y, hn::LoadU(kDoubles, kY + i));
+  return {low, kHalf < kBlock ? low : hn::Add(y, hn::LoadU(kDoubles, kY + i + kHalf))};
+}
+template <>
+[[gnu::always_inline]] inline Pixels<PLUMBLINE_TARGET::Simd> block_pixels<PLUMBLINE_TARGET::Simd>(int block_x,
+                                                                                                  int block_y, int i) {
+  using namespace PLUMBLINE_TARGET;
+  const SimdInt number = SimdInt(hn::Iota(kInts, 0)) + SimdInt(i);
+  return {SimdInt(block_x) + (number & SimdInt(kBlock - 1)), SimdInt(block_y) + SimdInt(hn::ShiftRight<2>(number.v)),
+          columns_of_block<Simd>(block_x, i) + 0.5, rows_of_block<Simd>(block_y, i) + 0.5};
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,38 @@
+// What a draw's fragments are coloured by: texture, light per fragment, and the varyings that these read.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "base/fixed_vector.h"
+#include "capture/stages.h"
+#include "kernels/attributes.h"
+#include "kernels/fragment_light.h"
+#include "kernels/texture.h"
+#include "scene/scene.h"
+
+namespace plumbline::pipeline {
+
+/// A draw's state of stages 7 to 9. Pointers into the scene.
+struct Surface {
+  const Scene* scene = nullptr;
+  const Draw* draw = nullptr;
+  std::optional<FragmentLight> light;       ///< none: lit at the vertices, or not at all
+  FixedVector<Varying, kVaryings> carried;  ///< by the draw's fragments
+  std::optional<TextureSetup> texture;
+  const void* program = nullptr;  ///< a user's fragment program (program.h)
+};
+/// `lights`: stage 0's.
+Surface surface_of(const Scene& scene, const Draw& draw, Lights lights);
+
+/// A fragment's attributes, zero where the surface does not carry one; and its texel, where there is a texture.
+template <class R>
+struct SurfaceAttributes {
+  Color<R> color;
+  std::array<Color<R>, kVaryings> varyings;
+  FilteredTexel<R> texel;
+  const Color<R>& operator[](Varying v) const { return varyings[static_cast<std::size_t>(v)]; }
+  Color<R>& operator[](Varying v) { return varyings[static_cast<std::size_t>(v)]; }
+};
+
+}  // namespace plumbline::pipeline

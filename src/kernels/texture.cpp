@@ -1,0 +1,46 @@
+#include "kernels/texture.h"
+
+#include <algorithm>
+
+namespace plumbline::pipeline {
+
+GradientSetup gradient_setup(const WindowTriangle& triangle, const std::array<Vec4<float>, 3>& texcoords,
+                             const BarycentricPlanes& planes) {
+  const std::size_t third = triangle.corners == 3 ? 2 : 0;  // of a line, as depth_setup() has it
+  const auto plane = [&](auto value) {
+    const auto over_w = [&](std::size_t i) { return to_wide(value(texcoords[i])) * to_wide(triangle.v[i].inv_w); };
+    const double at_0 = over_w(0);
+    return planes.through(at_0, over_w(1) - at_0, over_w(third) - at_0);
+  };
+  const Affine<double> s = plane([](const Vec4<float>& v) { return v.s; });
+  const Affine<double> t = plane([](const Vec4<float>& v) { return v.t; });
+  const Affine<double> q = plane([](const Vec4<float>&) { return 1.0f; });
+  const auto cross = [](double a, double b, double c, double d) { return difference_of_products(a, b, c, d); };
+  return {cross(s.x, q.at_0, s.at_0, q.x), cross(s.y, q.at_0, s.at_0, q.y), cross(s.x, q.y, s.y, q.x),
+          cross(t.x, q.at_0, t.at_0, q.x), cross(t.y, q.at_0, t.at_0, q.y), cross(t.x, q.y, t.y, q.x)};
+}
+
+TextureSetup texture_setup(const Texture& texture, const Sampler& sampler) {
+  // Where nearest texels of mipmaps take over from a linear magnification, they do so half a level later (3.8.9).
+  const bool later = sampler.mag == MagFilter::linear && (sampler.min == MinFilter::nearest_mipmap_nearest ||
+                                                          sampler.min == MinFilter::nearest_mipmap_linear);
+  const double c = later ? 0.5 : 0.0;
+  const TextureLevel& base = texture.levels[static_cast<std::size_t>(sampler.base_level)];
+  TextureSetup out{
+      &texture,
+      sampler,
+      std::min(static_cast<int>(texture.levels.size()) - 1, sampler.max_level),
+      c,
+      // A little less than 4^(c - bias): which side of it log2 finds is then beyond doubt.
+      to_wide(sampler.min_lod) > c ? 0 : 0.999 * exp2_of(lesser_of(2 * (c - to_wide(sampler.lod_bias)), 1000.0)),
+      static_cast<double>(base.width),
+      static_cast<double>(base.height),
+      {},
+      source_components(texture.format, sampler.border),
+      sampler.wrap_s == Wrap::clamp_to_border || sampler.wrap_t == Wrap::clamp_to_border};
+  std::transform(texture.levels.begin(), texture.levels.end(), out.texels.begin(),
+                 [](const TextureLevel& level) { return level.texels.data(); });
+  return out;
+}
+
+}  // namespace plumbline::pipeline

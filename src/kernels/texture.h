@@ -1,0 +1,321 @@
+// Stage 8: the filtered texel (OpenGL 2.1 spec 3.8.7 to 3.8.9), and the level of detail that it was filtered at.
+//
+// Texel coordinates are worked out in double: s times a width is exact there, so that which texel is the nearest, and
+// how far off its centre a fragment lies, is not rounded at all.
+#pragma once
+
+#include <array>
+#include <bit>
+
+#include "kernels/attributes.h"
+#include "kernels/lanes.h"
+#include "kernels/math.h"
+#include "scene/scene.h"
+
+namespace plumbline::pipeline {
+
+template <class R>
+struct TexCoords {
+  R s, t;
+};
+/// Of s and t, by window x and y, times q^2: each is affine in the window, in x or in y alone.
+template <class R>
+struct Gradients {
+  Wide<R> ds_dx, dt_dx, ds_dy, dt_dy;
+  Wide<R> q = Wide<R>(1);  ///< 1/w
+};
+/// A fragment's.
+template <class R>
+struct FilteredTexel {
+  Color<R> color;  ///< texture source components (Cs, As)
+  R lod;           ///< lambda: bias and limits applied
+};
+
+/// A triangle's Gradients, anchored as its barycentric planes. With S = s/w and q = 1/w, d(S/q)/dx q^2 is S_x q - S
+/// q_x, in which the terms of x cancel: (S_x q_0 - S_0 q_x) + (S_x q_y - S_y q_x) dy. By y likewise, and the last
+/// term's sign is turned.
+struct GradientSetup {
+  double ds_dx, ds_dy, s_turn, dt_dx, dt_dy, t_turn;
+};
+GradientSetup gradient_setup(const WindowTriangle& triangle, const std::array<Vec4<float>, 3>& texcoords,
+                             const BarycentricPlanes& planes);
+
+/// `q`: 1/w. Exact for each pixel: no neighbours are asked.
+template <class R>
+[[gnu::always_inline]] inline Gradients<R> gradients(const GradientSetup& g, const Offset<R>& at, const Wide<R>& q) {
+  return {g.ds_dx + at.dy * g.s_turn, g.dt_dx + at.dy * g.t_turn, g.ds_dy - at.dx * g.s_turn,
+          g.dt_dy - at.dx * g.t_turn, q};
+}
+
+/// What of a texture is looked at per fragment, chosen once per draw.
+struct TextureSetup {
+  const Texture* texture;
+  Sampler sampler;
+  int last;                                 ///< the highest level that may be sampled
+  double c;                                 ///< lambda up to which a texture is magnified
+  double magnified_rho2;                    ///< up to which it surely is; 0: none
+  double width, height;                     ///< of the base level
+  std::array<const glm::vec4*, 16> texels;  ///< of each level
+  glm::vec4 border;                         ///< texture source components
+  bool has_border;                          ///< whether it is asked for
+};
+TextureSetup texture_setup(const Texture& texture, const Sampler& sampler);
+
+/// Of texels by pixels, times q^4: the squared length of the longer of the two vectors by which texel coordinates go
+/// from one pixel to the next.
+template <class R>
+[[gnu::always_inline]] inline Wide<R> longer_squared(const TextureSetup& t, const Gradients<R>& g) {
+  const auto squared = [&](const Wide<R>& ds, const Wide<R>& dt) {
+    const Wide<R> du = ds * t.width, dv = dt * t.height;
+    return du * du + dv * dv;
+  };
+  return greater_of(squared(g.ds_dx, g.dt_dx), squared(g.ds_dy, g.dt_dy));
+}
+
+/// lambda (equations 3.17 to 3.22): log2 of the longer of the two vectors by which texel coordinates go from one pixel
+/// to the next; of no length, the smallest.
+template <class R>
+[[gnu::always_inline]] inline R level_of_detail(const TextureSetup& t, const Gradients<R>& g) {
+  using W = Wide<R>;
+  const W q2 = g.q * g.q, rho2 = longer_squared<R>(t, g) / (q2 * q2);
+  // Extrapolated out of a sliver, 1/w may reach 0.
+  const auto has_length = (rho2 > 1e-300) & (rho2 < 1e300);
+  const W log2_rho = select(has_length, 0.5 * log2_of(select(has_length, rho2, W(1))), W(-1e6));
+  const W lambda = log2_rho + to_wide(t.sampler.lod_bias);
+  const W least = to_wide(t.sampler.min_lod), most = to_wide(t.sampler.max_lod);
+  const W low = select(lambda > least, lambda, least);
+  return to_float(select(low < most, low, most));
+}
+
+/// A texel coordinate, every other image of a repeated row of `size` turned round. The coordinate is, not the texel's
+/// number (3.8.7): between two texels it is the one that then lies to its right.
+template <class W>
+W mirrored(const W& u, const W& size) {
+  const W image = floor_of(floor_of(u) / size), within = u - image * size;
+  return select(image - 2.0 * floor_of(image * 0.5) != 0.0, size - within, within);
+}
+
+/// Where texel `i` of a row of `size` is found; -1: the border. Whole numbers, `i` up to 2^40: what is below a whole
+/// number by 1 / size is not rounded to it.
+template <class W>
+W wrapped(Wrap wrap, const W& i, const W& size) {
+  switch (wrap) {
+    case Wrap::repeat: return i - floor_of(i / size) * size;
+    case Wrap::mirrored_repeat:  // of a mirrored coordinate
+    case Wrap::clamp_to_edge: return clamped(i, W(0), size - 1.0);
+    case Wrap::clamp_to_border: return select((i < 0.0) | (i >= size), W(-1), i);
+  }
+  return i;
+}
+/// Of texel `i`, and of the next. `halves`: the base level's size is a power of two, and so are the others'.
+template <class R>
+[[gnu::always_inline]] inline std::array<Int<R>, 2> texel_numbers(Wrap wrap, const Wide<R>& i, const Wide<R>& size,
+                                                                  bool halves) {
+  if (wrap == Wrap::repeat && halves) {
+    const Int<R> number = to_int(i), last = to_int(size) - Int<R>(1);
+    return {number & last, (number + Int<R>(1)) & last};
+  }
+  return {to_int(wrapped<Wide<R>>(wrap, i, size)), to_int(wrapped<Wide<R>>(wrap, i + 1.0, size))};
+}
+
+template <class R>
+Color<R> select(Mask<R> mask, const Color<R>& yes, const Color<R>& no) {
+  return {select(mask, yes.r, no.r), select(mask, yes.g, no.g), select(mask, yes.b, no.b), select(mask, yes.a, no.a)};
+}
+
+/// A mean, 1 - k of `x` and k of `y`.
+template <class W>
+W mix(const W& x, const W& y, const W& k) {
+  return x + k * (y - x);
+}
+
+/// A level's width or height, or those of each lane's level.
+template <class R>
+[[gnu::always_inline]] inline Wide<R> size_of_level(int base, int level) {
+  return Wide<R>(static_cast<double>(std::max(base >> level, 1)));
+}
+template <class R>
+[[gnu::always_inline]] inline Wide<R> size_of_level(int base, const R& level) {
+  return greater_of(floor_of(static_cast<double>(base) * power_of_two(-to_wide(level))), Wide<R>(1));
+}
+/// Coordinates of texels, for those that a plane extrapolated out of a sliver makes: within what a double counts.
+template <class W>
+W bounded(const W& u) {
+  return clamped(u, W(-0x1p40), W(0x1p40));
+}
+
+/// The texels about a place in each lane's level: it and its neighbours to the right, above, and both; and how far the
+/// place is towards them. The nearest texel is the first.
+template <class R>
+struct Taps {
+  static constexpr int kLanes = Lanes<R>::width;
+  std::int32_t twice[4][kLanes];  ///< their numbers', for machines scale an address by up to 8; below 0: the border
+  std::int32_t level[kLanes];     ///< unless all have one
+  double right[kLanes], above[kLanes];
+};
+inline void keep_level(int, std::int32_t*) {}
+template <class R>
+void keep_level(const R& level, std::int32_t* to) {
+  store(to_int(level), to);
+}
+template <class R>
+int level_of(int level, const Taps<R>&, int) {
+  return level;
+}
+template <class R>
+int level_of(const R&, const Taps<R>& taps, int lane) {
+  return taps.level[lane];
+}
+/// `level`: one number, or each lane's.
+template <class R>
+[[gnu::always_inline]] inline void find_taps(const TextureSetup& t, const auto& level, bool linear,
+                                             const TexCoords<R>& at, Taps<R>& out) {
+  using W = Wide<R>;
+  using I = Int<R>;
+  const TextureLevel& image = t.texture->levels[0];
+  const Wrap wrap_s = t.sampler.wrap_s, wrap_t = t.sampler.wrap_t;
+  const W shift(linear ? 0.5 : 0.0);
+  const auto place = [&](Wrap wrap, const R& coordinate, const W& size) {
+    const W u = bounded<W>(to_wide(coordinate) * size);
+    return (wrap == Wrap::mirrored_repeat ? mirrored<W>(u, size) : u) - shift;
+  };
+  const auto halves = [](int base) { return std::has_single_bit(static_cast<unsigned>(base)); };
+  const W width = size_of_level<R>(image.width, level), height = size_of_level<R>(image.height, level);
+  const W u = place(wrap_s, at.s, width), v = place(wrap_t, at.t, height), i = floor_of(u), j = floor_of(v);
+  const auto [x, right] = texel_numbers<R>(wrap_s, i, width, halves(image.width));
+  const auto [y, above] = texel_numbers<R>(wrap_t, j, height, halves(image.height));
+  const I none(0), row = y * to_int(width), next_row = above * to_int(width);
+  const auto find = [&](const I& column, const I& row_number, const I& first, std::int32_t* to) {
+    const I number = shifted_left<1>(first + column);
+    store(t.has_border ? select((column < none) | (row_number < none), I(-1), number) : number, to);
+  };
+  keep_level(level, out.level);
+  find(x, y, row, out.twice[0]);
+  find(right, y, row, out.twice[1]);
+  find(x, above, next_row, out.twice[2]);
+  find(right, above, next_row, out.twice[3]);
+  store(u - i, out.right);
+  store(v - j, out.above);
+}
+
+/// Of the taps' mean by area, or of their first, a row.
+template <class R, bool kBorder>
+[[gnu::always_inline]] inline Wide<R> texel_row(const TextureSetup& t, const auto& level, const Taps<R>& taps,
+                                                bool linear, int row) {
+  using W = Wide<R>;
+  const auto tap = [&](int i) {
+    return row_of_fours(R(), row, [&](int lane) {
+      const glm::vec4* texels = t.texels[static_cast<std::size_t>(level_of<R>(level, taps, lane))];
+      const std::ptrdiff_t twice = taps.twice[i][lane];
+      return kBorder && twice < 0 ? &t.border.r : reinterpret_cast<const float*>(texels) + 2 * twice;
+    });
+  };
+  if (!linear) return tap(0);
+  const W right = row_of_shares(R(), row, taps.right), above = row_of_shares(R(), row, taps.above);
+  return mix<W>(mix<W>(tap(0), tap(1), right), mix<W>(tap(2), tap(3), right), above);
+}
+template <class R>
+[[gnu::always_inline]] inline Color<R> color_of_rows(const Wide<R> (&rows)[4]) {
+  R of[4];
+  fours_of_rows(rows, of);
+  return {of[0], of[1], of[2], of[3]};
+}
+
+/// The level below lambda; whether it is mixed with the next, and how much of that.
+template <class R>
+struct Levels {
+  R first;
+  Mask<R> two;
+  Wide<R> k;
+};
+template <class R>
+Levels<R> levels(const TextureSetup& t, R lod) {
+  using W = Wide<R>;
+  const W lambda = to_wide(lod), base(t.sampler.base_level), last(t.last);
+  const MinFilter min = t.sampler.min;
+  const R none(0);
+  if (!mipmaps(min)) return {to_float(base), none != none, W(0)};
+  if (min == MinFilter::nearest_mipmap_nearest || min == MinFilter::linear_mipmap_nearest) {
+    // ceil(lambda + 1/2) - 1: a half is rounded down
+    return {to_float(lesser_of(base - floor_of(-(lambda + 0.5)) - 1.0, last)), none != none, W(0)};
+  }
+  const W whole = floor_of(lambda), first = base + whole;
+  return {to_float(lesser_of(first, last)), first < last, lambda - whole};
+}
+
+/// Of the first level and, where `two`, the second, whose share is k; linear or nearest. Rounded once.
+template <class R, bool kBorder>
+Color<R> mix_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const auto& first, const auto& second,
+                    const Mask<R>& two, const Wide<R>& k) {
+  Taps<R> taps;
+  find_taps<R>(t, first, linear, at, taps);
+  Wide<R> low[4];
+  for (int row = 0; row < 4; ++row) low[row] = texel_row<R, kBorder>(t, first, taps, linear, row);
+  if (!any(two)) return color_of_rows<R>(low);
+  find_taps<R>(t, second, linear, at, taps);
+  double share[Lanes<R>::width];
+  store(k, share);
+  Wide<R> mixed[4];
+  for (int row = 0; row < 4; ++row) {
+    const Wide<R> next = texel_row<R, kBorder>(t, second, taps, linear, row);
+    mixed[row] = mix<Wide<R>>(low[row], next, row_of_shares(R(), row, share));
+  }
+  const Color<R> color = color_of_rows<R>(mixed);
+  return all(two) ? color : select<R>(two, color, color_of_rows<R>(low));
+}
+template <class R>
+Color<R> sample_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const auto& first,
+                       const auto& second, const Mask<R>& two, const Wide<R>& k) {
+  return t.has_border ? mix_levels<R, true>(t, at, linear, first, second, two, k)
+                      : mix_levels<R, false>(t, at, linear, first, second, two, k);
+}
+
+template <class R>
+[[gnu::always_inline]] inline Color<R> magnified(const TextureSetup& t, const TexCoords<R>& at) {
+  const R none(0);
+  const int level = t.sampler.base_level;
+  return sample_levels<R>(t, at, t.sampler.mag == MagFilter::linear, level, level, none != none, Wide<R>(0));
+}
+
+/// At a level of detail, no NaN.
+template <class R>
+Color<R> sample(const TextureSetup& t, const TexCoords<R>& at, R lod) {
+  const Sampler& s = t.sampler;
+  const R c(static_cast<float>(t.c));
+  const Mask<R> larger = lod <= c, smaller = lod > c;
+  if (!any(smaller)) return magnified<R>(t, at);
+  const bool linear = s.min == MinFilter::linear || s.min == MinFilter::linear_mipmap_nearest ||
+                      s.min == MinFilter::linear_mipmap_linear;
+  const Levels<R> of = levels<R>(t, lod);
+  const R first = select(larger, R(static_cast<float>(s.base_level)), of.first);
+  const Mask<R> two = of.two & smaller;
+  const int one = static_cast<int>(greatest_lane(first));  // of all lanes, mostly
+  const Color<R> low = [&] {
+    if constexpr (Lanes<R>::width > 1) {
+      if (!all(first == R(static_cast<float>(one)))) {
+        return sample_levels<R>(t, at, linear, first, select(two, first + R(1), first), two, of.k);
+      }
+    }
+    return sample_levels<R>(t, at, linear, one, std::min(one + 1, t.last), two, of.k);
+  }();
+  const bool alike = linear == (s.mag == MagFilter::linear);
+  return alike || !any(larger) ? low : select<R>(larger, magnified<R>(t, at), low);
+}
+
+/// The texel of stage 8 alone: where all lanes are magnified, no level of detail has to be known.
+template <class R>
+[[gnu::always_inline]] inline Color<R> texel_color(const TextureSetup& t, const TexCoords<R>& at,
+                                                   const Gradients<R>& g) {
+  const Wide<R> q2 = g.q * g.q;
+  if (t.magnified_rho2 > 0 && all(longer_squared<R>(t, g) <= q2 * q2 * t.magnified_rho2)) return magnified<R>(t, at);
+  return sample<R>(t, at, level_of_detail<R>(t, g));
+}
+
+/// Stage 8.
+template <class R>
+FilteredTexel<R> texture(const TextureSetup& t, const TexCoords<R>& at, const Gradients<R>& gradients) {
+  const R lod = level_of_detail<R>(t, gradients);
+  return {sample<R>(t, at, lod), lod};
+}
+
+}  // namespace plumbline::pipeline

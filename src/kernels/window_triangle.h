@@ -1,0 +1,38 @@
+// A triangle, line or point in window space: its geometry, without attributes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "capture/stages.h"
+
+namespace plumbline::pipeline {
+
+struct WindowVertex {
+  Vec3<float> p_win;   ///< x, y [pixels], z in [0,1]
+  float inv_w;         ///< 1 / w_clip
+  glm::ivec2 snapped;  ///< [1/256 pixel], pixel (i, j)'s centre is (256 i, 256 j)
+};
+
+/// A line's last corner stands there twice; a point's three corners are equal.
+struct WindowTriangle {
+  std::array<WindowVertex, 3> v;
+  std::uint32_t primitive = 0;
+  bool front = true;          ///< counter-clockwise in the window; a line or point
+  std::uint32_t corners = 3;  ///< of a line 2, of a point 1
+  std::uint32_t width = 1;    ///< [pixels] of a line, or the side of a point's square
+};
+
+/// (win - 1/2) * 256, rounded half to even. The sum is exact in double; adding 1.5 * 2^52 rounds half to even.
+inline int snap(float win) {
+  constexpr double kRound = 6755399441055744.0;
+  return static_cast<int>(((static_cast<double>(win) - 0.5) * kSubpixel + kRound) - kRound);
+}
+
+/// Twice the snapped area [1/65536 pixel]; > 0: counter-clockwise in the window, a front face.
+inline std::int64_t snapped_area(const WindowTriangle& t) {
+  const glm::i64vec2 a(t.v[0].snapped), b(t.v[1].snapped), c(t.v[2].snapped);
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,48 @@
+// Stages 3 and 4 of triangles whose vertices have been through them already: assembled, culled, and put into bins.
+#pragma once
+
+#include "painter/painting.h"
+
+namespace plumbline::pipeline {
+
+/// What of a draw its triangles are assembled from.
+struct AssemblyWork {
+  const Draw* draw;
+  const Mesh* mesh;
+  DrawRange range;
+  std::uint8_t planes;  ///< bits of those that cut (clip.h)
+  std::uint32_t first_vertex;
+  const std::uint8_t* outside;  ///< null: its window triangles are all in `others`
+  std::uint8_t any_outside;     ///< what is so of any of the vertices
+
+  bool all_inside() const { return (any_outside & (planes | kNotFinite | kNotDrawable)) == 0; }
+};
+
+/// What is the same for all filled triangles of a draw.
+struct CullWork {
+  const PaintVertex* vertices;  ///< the mesh's
+  Cull cull;
+  glm::ivec2 least, most;  ///< of the samples' places
+  int width, height;       ///< of the frame
+};
+/// Drawn face of a triangle.
+enum class Kept : std::int32_t { none, back, front };
+struct KeptTriangle {
+  Kept kept;
+  TileBox box;
+};
+/// One for each of `corners`, the vertices' numbers in the mesh. Triangles with a corner outside the view volume get any
+/// (cull_lanes.h).
+using CullTriangles = void (*)(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to);
+
+/// Window triangles that came another way (draw.h), by primitive: clipped ones, lines, points.
+struct OtherTriangles {
+  std::span<const ShadedTriangle> triangles;
+  std::uint32_t first_vertex;  ///< their corners' numbers from there on, three each
+};
+
+/// The chunk's triangles, and which tiles they touch. `others`: per draw.
+void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const OtherTriangles> others,
+              const Painting& painting, CullTriangles cull);
+
+}  // namespace plumbline::pipeline

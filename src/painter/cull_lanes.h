@@ -1,0 +1,60 @@
+// Stage 4 of filled triangles whose corners are in the window, as many at a time as R has lanes: which way they face,
+// whether that culls them, and the tiles that they touch.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+
+#include "painter/assemble.h"
+
+namespace plumbline::pipeline {
+
+template <class R>
+void cull_triangles(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to) {
+  using I = Int<R>;
+  constexpr std::size_t kLanes = Lanes<R>::width;
+  const std::size_t count = corners.size();
+  const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
+  const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
+  glm::uvec3 last[kLanes];  // lanes that are too many do as the last one
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const glm::uvec3* of_lane = corners.data() + i;
+    if (count - i < kLanes) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) last[lane] = corners[std::min(i + lane, count - 1)];
+      of_lane = last;
+    }
+    I x[3], y[3];
+    for (int k = 0; k < 3; ++k) {
+      const float* from[kLanes];
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        from[lane] = reinterpret_cast<const float*>(&work.vertices[(&of_lane[lane].x)[k]].snapped);
+      }
+      R four[4];
+      load_fours(from, four);
+      x[k] = as_int(four[0]), y[k] = as_int(four[1]);
+    }
+    const I x_min = least(x), x_max = most(x), y_min = least(y), y_max = most(y);
+    // Products of differences up to 2^22 (16384 pixels) are exact in double, and so is their difference.
+    const R area = to_float(to_wide(x[1] - x[0]) * to_wide(y[2] - y[0]) - to_wide(y[1] - y[0]) * to_wide(x[2] - x[0]));
+    const Mask<R> front = area > R(0), back = area < R(0);
+    // The pixels whose centres the box holds (coverage.h, pixel_bounds).
+    const auto up = [](I snapped) { return shifted_right<8>(snapped + I(kSubpixel - 1)); };
+    const I x0 = greater_of(up(x_min - I(work.most.x)), I(0)), y0 = greater_of(up(y_min - I(work.most.y)), I(0));
+    const I x1 = lesser_of(shifted_right<8>(x_max - I(work.least.x)), I(work.width - 1)),
+            y1 = lesser_of(shifted_right<8>(y_max - I(work.least.y)), I(work.height - 1));
+    const Mask<R> drawn = (x0 <= x1) & (y0 <= y1);
+    I kept(0);
+    if (work.cull != Cull::back) kept = select(drawn & back, I(static_cast<int>(Kept::back)), kept);
+    if (work.cull != Cull::front) kept = select(drawn & front, I(static_cast<int>(Kept::front)), kept);
+    alignas(64) std::int32_t kept_of[kLanes], box_of[kLanes];
+    store(kept, kept_of);
+    const I low = shifted_right<6>(x0) | shifted_left<8>(shifted_right<6>(y0));
+    store(low | shifted_left<16>(shifted_right<6>(x1)) | shifted_left<24>(shifted_right<6>(y1)), box_of);
+    for (std::size_t lane = 0; lane < std::min(kLanes, count - i); ++lane) {
+      to[i + lane] = {static_cast<Kept>(kept_of[lane]), std::bit_cast<TileBox>(box_of[lane])};
+    }
+  }
+}
+
+}  // namespace plumbline::pipeline

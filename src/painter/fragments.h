@@ -1,0 +1,85 @@
+// Stages 6 to 11 of fragments of one triangle, line or point, as many at a time as R has lanes.
+#pragma once
+
+#include <optional>
+
+#include "kernels/coverage.h"
+#include "kernels/fragment_tests.h"
+#include "painter/surface_setup.h"
+#include "painter/tile.h"
+
+namespace plumbline::pipeline {
+
+/// State of a draw that its fragments read.
+struct DrawState {
+  DepthState depth;
+  DepthFunc depth_func;
+  std::optional<Scissor> scissor;
+  std::optional<AlphaTest> alpha_test;
+  std::optional<Stencil> stencil;
+  Merge merge;
+  const Surface* surface;  ///< null: fragments have the interpolated colour
+};
+inline DrawState draw_state(const Draw& draw, DepthFormat format, bool depth_clamp, const Surface* surface) {
+  return {depth_state(draw, format, depth_clamp),
+          draw.depth_func,
+          draw.scissor,
+          draw.alpha_test,
+          draw.stencil,
+          draw.merge,
+          surface};
+}
+
+/// Whether a fragment's colour replaces what is there.
+inline bool is_opaque(const Merge& state) {
+  const glm::bvec4& channels = state.color_mask;
+  return !state.blend && !state.logic_op && channels.r && channels.g && channels.b && channels.a;
+}
+/// Depth and colour of the fragments `kept` into the frame.
+template <class R>
+[[gnu::always_inline]] inline void write(const Merge& state, Mask<R> kept, R z, const Color<R>& shaded,
+                                         float color_scale, const auto& to) {
+  if (state.depth_mask) store(kept, z, to.depth);
+  if constexpr (requires { to.store_merged(kept, shaded); }) {
+    if (is_opaque(state)) return to.store_merged(kept, shaded);
+  }
+  const Color<R> merged = [&]() -> Color<R> {
+    if (!state.blend && !state.logic_op) return merge<R>(shaded, color_scale);
+    const Color<R> stored = to.template load_color<R>();
+    if (state.logic_op) return logic<R>(*state.logic_op, shaded, stored, color_scale);
+    return blend<R>(*state.blend, shaded, stored, color_scale);
+  }();
+  to.template store_color<R>(kept, merged, state.color_mask);
+}
+
+/// The pixels `p` of `covered`, which are stored from `place` on. `s`: the triangle's planes, depth_plane, perspective,
+/// attributes, front and surface (null: none).
+template <class R>
+void paint_fragments(const DrawState& state, const auto& s, const SurfaceSetup* surface, const Pixels<R>& p,
+                     Mask<R> covered, int place, float color_scale, auto& tile) {
+  if (state.scissor) {
+    covered = covered & scissor<R>(*state.scissor, p);
+    if (!any(covered)) return;
+  }
+  const R z = depth<R>(s.depth_plane, from_anchor<R>(s.planes, p));
+  const auto stored = tile.at(place);
+  const Mask<R> nearer = covered & compares<R>(state.depth_func, z, load<R>(stored.depth));
+  if (!any(nearer) && !state.stencil) return;
+  const glm::bvec4& channels = state.merge.color_mask;
+  const bool needs_color = state.alpha_test || channels.r || channels.g || channels.b || channels.a;
+  Color<R> shaded{};
+  if (needs_color && surface != nullptr) {
+    shaded = shade<R>(*surface->surface, s.front, surface_attributes<R>(s, *surface, p));
+  } else if (needs_color) {
+    shaded = mean<R>(s.attributes, weights<R>(s.perspective, from_anchor<R>(s.planes, p)));
+  }
+  Mask<R> kept = state.stencil ? covered : nearer;
+  if (state.alpha_test) kept = kept & alpha_passes<R>(*state.alpha_test, shaded.a, color_scale);
+  if (state.stencil) {
+    const StencilFace& face = s.front ? state.stencil->front : state.stencil->back;
+    kept = nearer & stencil_test<R>(face, kept, nearer, stored.stencil);
+  }
+  write<R>(state.merge, kept, z, shaded, color_scale, stored);
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,74 @@
+// Stages 5 to 11 of lines of width 1 whose nearer fragments replace what is there, in frames of rgba8 and z24: as many
+// lines are set up, and coloured pixel by pixel, as there are lanes.
+#pragma once
+
+#include <algorithm>
+
+#include "kernels/line_diamond.h"
+#include "painter/paint_pixels.h"
+
+namespace plumbline::pipeline {
+
+/// planes_of() a line (depth.cpp): a triangle whose third corner has the values of the first. Those of a line without
+/// length are not numbers, and it covers nothing.
+template <class R>
+[[gnu::always_inline]] inline CornerPlanes<Wide<R>> planes_of_lines(const R (&p_win)[3][4], const SetupSite& site) {
+  using W = Wide<R>;
+  const W x = to_wide(p_win[0][0]), y = to_wide(p_win[0][1]);
+  const W d_x = to_wide(p_win[1][0]) - x, d_y = to_wide(p_win[1][1]) - y;
+  CornerPlanes<W> planes =
+      corner_planes<W>({x, y, d_x, d_y, -d_y, d_x, d_x * d_x + d_y * d_y}, site.tile_x + 0.5, site.tile_y + 0.5);
+  planes.l2 = {W(0), W(0), W(0)};
+  return planes;
+}
+
+/// alone(line): of wider ones, and of those that share their lanes.
+template <class R>
+void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile, auto alone) {
+  using I = Int<R>;
+  constexpr std::size_t kLanes = Lanes<R>::width;
+  const SetupSite site = site_of(painting, run, tile.x0, tile.y0);
+  const glm::i64vec2 origin = std::int64_t{kSubpixel} * glm::i64vec2(tile.x0, tile.y0);
+  SetupLanes<R> lanes;
+  alignas(64) std::int32_t pixel_of[kTile][kLanes] = {};  // x + kTile y; behind a line's last, whichever were there
+  for (std::size_t i = 0; i < run.numbers.size(); i += kLanes) {
+    const std::size_t count = std::min(kLanes, run.numbers.size() - i);
+    const auto line = [&](std::size_t lane) -> const PaintTriangle& {  // lanes that are too many do as the last
+      return run.triangles[run.numbers[i + std::min(lane, count - 1)]];
+    };
+    const PaintVertex* corner[3][kLanes];
+    bool all_fit = true;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const PaintTriangle& t = line(lane);
+      corner[0][lane] = corner[2][lane] = painting.vertices + t.corner[0];
+      corner[1][lane] = painting.vertices + t.corner[1];
+      all_fit &= t.width == 1;
+    }
+    if (!all_fit) {
+      for (std::size_t lane = 0; lane < count; ++lane) alone(line(lane));
+      continue;
+    }
+    int pixels[kLanes] = {}, most = 0;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const auto end = [&](int k) { return glm::i64vec2(corner[k][lane]->snapped) - origin; };
+      int& n = pixels[lane];
+      raster::visit_diamond_exit_line(end(0), end(1), glm::ivec2(kTile),
+                                      [&](glm::ivec2 p) { pixel_of[n++][lane] = p.x + kTile * p.y; });
+      most = std::max(most, n);
+    }
+    if (most == 0) continue;
+    const CornerLanes<R> corners = load_corners<R>(corner);
+    set_up_colors<R>(corner, site.flat, lanes);
+    set_up_planes<R, 1>(planes_of_lines<R>(corners.p_win, site), corners.p_win, site, lanes);
+    PixelsOfLanes<R, true, false, kTile> values(lanes, lanes.sample[0].code);
+    for (int k = 0; k < most; ++k) {
+      const I pixel = load_ints<R>(pixel_of[k]);
+      values.work_out(k, pixel & I(kTile - 1), shifted_right<6>(pixel));
+    }
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      values.paint(static_cast<int>(lane), pixels[lane], false, 0, tile);
+    }
+  }
+}
+
+}  // namespace plumbline::pipeline

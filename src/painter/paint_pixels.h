@@ -1,0 +1,86 @@
+// Single pixels of as many triangles or lines as there are lanes: each one's first pixel, its second and so on, all at
+// once; then, one triangle after the other, these into the tile.
+#pragma once
+
+#include "painter/set_up_lanes.h"
+
+namespace plumbline::pipeline {
+
+inline constexpr double kMostZ24 = 16777215;  ///< the largest code
+
+/// mean(), where 1/w is not near 0 and the corners have the same alpha.
+template <class R>
+[[gnu::always_inline]] inline Color<R> plain_color(const auto& s, const R& q1, const R& q2, const R& sum,
+                                                   const R& alpha) {
+  const R reciprocal = R(1) / sum;
+  const Weights<R> k{q1 * reciprocal, q2 * reciprocal};
+  return {mixed(s, k, 0), mixed(s, k, 1), mixed(s, k, 2), alpha};
+}
+
+/// AttributeSetup, of lanes' triangles.
+template <class R>
+struct AttributeLanes {
+  R color0[4], d_color1[4], d_color2[4];
+};
+
+/// Fragments of rgba8 and z24 that replace what is there where they are nearer. `kPlain`: SetupLanes' of all lanes;
+/// `kMost`: pixels of each.
+template <class R, bool kColors, bool kPlain, int kMost>
+class PixelsOfLanes {
+ public:
+  [[gnu::always_inline]] PixelsOfLanes(const CommonLanes<R>& lanes, const AffineLanes<R>& code)
+      : code_(code.of_all()), q1_(lanes.q1.of_all()), q2_(lanes.q2.of_all()), sum_(lanes.sum.of_all()) {
+    for (int c = 0; c < 4; ++c) {
+      attributes_.color0[c] = load<R>(lanes.color[0][c]);
+      attributes_.d_color1[c] = load<R>(lanes.color[1][c]);
+      attributes_.d_color2[c] = load<R>(lanes.color[2][c]);
+    }
+    constant_ = load_ints<R>(lanes.constant_colors) != Int<R>(0);
+  }
+
+  /// Each lane's i-th pixel, counted from the tile.
+  [[gnu::always_inline]] void work_out(int i, const Int<R>& x, const Int<R>& y) {
+    using W = Wide<R>;
+    const W dx = to_wide(x), dy = to_wide(y);
+    const auto value = [&](const Affine<W>& f) { return (f.at_0 + dy * f.y) + dx * f.x; };  // value_at()
+    store(place_in_tile(x, y), place_of_[i]);
+    if constexpr (kPlain) {
+      store(to_float(nearest_int(value(code_))), z_of_[i]);
+    } else {
+      store(to_float(round_even(clamped(value(code_), W(0), W(kMostZ24)))), z_of_[i]);
+    }
+    if constexpr (kColors) {
+      const R q1 = to_float(value(q1_)), q2 = to_float(value(q2_)), sum = to_float(value(sum_));
+      if constexpr (kPlain) {
+        store(packed_merge_near(plain_color(attributes_, q1, q2, sum, attributes_.color0[3])), color_of_[i]);
+      } else {
+        const Weights<R> k = weights<R>(q1, q2, sum);
+        const Weights<R> known{select(constant_, R(0), k.k1), select(constant_, R(0), k.k2)};
+        store(packed_merge(mean<R>(attributes_, known)), color_of_[i]);
+      }
+    }
+  }
+
+  /// A lane's first `count` pixels. `from_last`: triangles come from the last to the first, so that one as near as what
+  /// is there comes before it; one as near as the clear depth is none.
+  [[gnu::always_inline]] void paint(int lane, int count, bool from_last, float cleared, PackedTile& tile) const {
+    for (int i = 0; i < count; ++i) {
+      const int place = place_of_[i][lane];
+      const float z = z_of_[i][lane], held = tile.depth[place];
+      if (from_last ? z <= held && z < cleared : z < held) {
+        tile.depth[place] = z;
+        if constexpr (kColors) tile.color[place] = static_cast<std::uint32_t>(color_of_[i][lane]);
+      }
+    }
+  }
+
+ private:
+  static constexpr int kLanes = Lanes<R>::width;
+  Affine<Wide<R>> code_, q1_, q2_, sum_;
+  AttributeLanes<R> attributes_;
+  Mask<R> constant_;
+  alignas(64) float z_of_[kMost][kLanes];
+  alignas(64) std::int32_t color_of_[kMost][kLanes], place_of_[kMost][kLanes];
+};
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,104 @@
+// Stages 7 to 11 of a triangle's fragments that are coloured by a surface and replace what is there. Those that passed
+// the depth test are collected from their blocks, so that as many are shaded at a time as there are lanes.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <optional>
+
+#include "painter/set_up_lanes.h"
+
+namespace plumbline::pipeline {
+
+/// A triangle's varyings at its corners; of those that light made, flat shading takes the provoking one's.
+inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
+                                             Varying v) {
+  const Vec4<float>* column = painting.varyings[static_cast<std::size_t>(v)];
+  const bool flat = draw.flat && is_lit(v);
+  return {column[t.corner[flat ? 1 : 0]], column[t.corner[1]], column[t.corner[flat ? 1 : 2]]};
+}
+
+/// The triangle as stage 4 has it.
+inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTriangle& t) {
+  WindowTriangle out{{}, 0, t.front, t.corners, t.width};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const PaintVertex& v = painting.vertices[t.corner[k]];
+    out.v[k] = {v.p_win, v.inv_w, v.snapped};
+  }
+  return out;
+}
+/// Its colours at the corners.
+inline std::array<Vec4<float>, 3> colors_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t) {
+  const auto color = [&](int k) { return painting.vertices[t.corner[draw.flat ? 1 : k]].color; };
+  return {color(0), color(1), color(2)};
+}
+
+/// (x0, y0): the tile's lower left pixel.
+inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t, int x0,
+                                    int y0) {
+  const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
+  const WindowTriangle triangle = window_triangle_of(painting, t);
+  return set_up_surface(*draw.state.surface, triangle, planes_of(triangle, x0, y0), varying);
+}
+
+/// A triangle's: add() them block by block, then finish(). A pixel is shaded once for all of its samples.
+template <class R, int kSampleCount>
+class ShadedPixels {
+ public:
+  ShadedPixels(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle,
+               const LaneSetup<kSampleCount>& setup, PackedTile* tiles)
+      : painting_(painting), draw_(draw), triangle_(triangle), setup_(setup), tiles_(tiles) {}
+
+  /// Those of a part of a block, from `place` on.
+  void add(int place, const std::array<Mask<R>, kSampleCount>& kept) {
+    unsigned of_sample[kSampleCount], some = 0;
+    for (int i = 0; i < kSampleCount; ++i) some |= of_sample[i] = bits_of(kept[static_cast<std::size_t>(i)]);
+    for (; some != 0; some &= some - 1, ++count_) {
+      const int lane = std::countr_zero(some);
+      places_[count_] = place + lane;
+      for (int i = 0; i < kSampleCount && kSampleCount > 1; ++i) kept_[count_][i] = (of_sample[i] >> lane & 1u) != 0;
+    }
+    if (count_ >= kLanes) shade(kLanes);
+  }
+  void finish() {
+    if (count_ == 0) return;
+    const int count = count_;
+    while (count_ < kLanes) places_[count_++] = places_[0];
+    shade(count);
+  }
+
+ private:
+  static constexpr int kLanes = Lanes<R>::width;
+
+  // The last ones, `count` of as many as there are lanes.
+  void shade(int count) {
+    using I = Int<R>;
+    const int x0 = tiles_[0].x0, y0 = tiles_[0].y0;
+    if (!surface_) surface_.emplace(surface_of_lane(painting_, draw_, triangle_, x0, y0));
+    count_ -= kLanes;
+    const I place = load_ints<R>(places_ + count_);
+    const I x = I(x0) + x_of_place(place), y = I(y0) + y_of_place(place);
+    const Pixels<R> p{x, y, to_wide(x) + 0.5, to_wide(y) + 0.5};
+    const SurfaceAttributes<R> attributes = surface_attributes<R>(setup_, *surface_, p);
+    alignas(64) std::int32_t codes[kLanes];
+    store(packed_merge(pipeline::shade<R>(*surface_->surface, setup_.front, attributes)), codes);
+    for (int lane = 0; lane < count; ++lane) {
+      for (int i = 0; i < kSampleCount; ++i) {
+        if (kSampleCount == 1 || kept_[count_ + lane][i])
+          tiles_[i].color[places_[count_ + lane]] = static_cast<std::uint32_t>(codes[lane]);
+      }
+    }
+  }
+
+  const Painting& painting_;
+  const PaintDraw& draw_;
+  const PaintTriangle& triangle_;
+  const LaneSetup<kSampleCount>& setup_;
+  PackedTile* tiles_;
+  std::optional<SurfaceSetup> surface_;  ///< when the first is shaded
+  std::int32_t places_[2 * kLanes];
+  bool kept_[2 * kLanes][kSampleCount];
+  int count_ = 0;
+};
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,241 @@
+// Stages 5 to 11 of a tile, as the painter does them: triangles set up in lanes, blocks in rows. Draws whose nearer
+// fragments replace what is there, which most are, have a kernel of their own (paint_opaque.h).
+#pragma once
+
+#include <algorithm>
+
+#include "kernels/merge.h"
+#include "painter/lone_triangle.h"
+#include "painter/paint_lines.h"
+#include "painter/paint_opaque.h"
+
+namespace plumbline::pipeline {
+
+/// Of lines, points, and triangles whose edges do not fit: one by one (lone_triangle.h).
+template <class R>
+void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, auto& tile) {
+  const auto varying = [&](Varying v) { return varying_of(painting, draw, triangle, v); };
+  paint_lone<R>(draw.state, window_triangle_of(painting, triangle), colors_of(painting, draw, triangle), varying,
+                painting.formats, tile);
+}
+
+/// A lane's depth, with what of the draw's state changes it.
+inline DepthPlane depth_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
+                                const Affine<double>& code, int x0, int y0) {
+  const double scale = painting.formats.depth_scale, unit = scale == 0 ? 1 : scale;
+  if (draw.state.depth.offset == PolygonOffset{}) {
+    return {code, scale, draw.state.depth.low * unit, draw.state.depth.high * unit};
+  }
+  const WindowTriangle record = window_triangle_of(painting, t);
+  return moved(depth_plane(depth_setup(record, draw.state.depth), planes_of(record, x0, y0)), painting.formats.sample);
+}
+
+/// Those of the run, by the draw's state.
+template <class R>
+void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
+  const PaintDraw& draw = painting.draws[run.draw];
+  const auto paint_blocks = [&](const LaneSetup<>& setup, const SurfaceSetup* surface) {
+    const auto block = [&](int x, int y, const auto& covered) {
+      for (int part = 0; part < kParts<R>; ++part) {
+        if (!any(covered[0][part])) continue;
+        const int i = part * Lanes<R>::width;
+        paint_fragments<R>(draw.state, setup, surface, block_pixels<R>(tile.x0 + x, tile.y0 + y, i), covered[0][part],
+                           block_offset(x, y) + i, painting.formats.color_scale, tile);
+      }
+    };
+    const auto all_pixels = [](int) { return ~0u; };
+    visit_covered<R, 1>(setup, all_pixels, block);
+  };
+  const auto paint = [&](const PaintTriangle& t, const auto& lanes, int lane) {
+    LaneSetup<> s = lanes.of(lane, t.front, tile.x0, tile.y0);
+    s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
+    if (draw.state.surface == nullptr) return paint_blocks(s, nullptr);
+    const SurfaceSetup surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
+    paint_blocks(s, &surface);
+  };
+  const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
+  const auto together = [](const auto&, int) { return false; };
+  each_lane<R, 1>(painting, run, false, tile.x0, tile.y0, together, alone, paint);
+}
+
+/// Whether one's triangles may be painted as the other's: all else that a draw says, such kernels are there not to ask.
+inline bool alike(const PaintDraw& a, const PaintDraw& b) {
+  return a.kernel == b.kernel && a.flat == b.flat && a.kernel != PaintKernel::any && a.kernel != PaintKernel::shades;
+}
+
+/// The tile's triangles, chunk by chunk and draw by draw; those of draws that are alike together.
+inline void find_runs(const Painting& painting, std::size_t tile, std::vector<PaintRun>& runs) {
+  runs.clear();
+  for (const Chunk& chunk : painting.chunks) {
+    std::span<const std::uint32_t> numbers(chunk.numbers.data() + chunk.first[tile],
+                                           chunk.first[tile + 1] - chunk.first[tile]);
+    auto of_draw = chunk.draws.begin();
+    while (!numbers.empty()) {
+      while (numbers.front() >= of_draw->end) ++of_draw;
+      const std::uint32_t draw = of_draw->draw;
+      while (of_draw + 1 != chunk.draws.end() && alike(painting.draws[draw], painting.draws[of_draw[1].draw]))
+        ++of_draw;
+      const auto end =
+          std::partition_point(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return n < of_draw->end; });
+      const auto count = static_cast<std::size_t>(end - numbers.begin());
+      runs.push_back({draw, chunk.triangles.data(), numbers.first(count)});
+      numbers = numbers.subspan(count);
+    }
+  }
+}
+
+/// Of the runs that may be painted by paint_opaque(), those first in the tile; painted from the last to the first where
+/// that is from near to far.
+template <class R>
+std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun> runs, PackedTile& tile) {
+  const auto opaque = [&](const PaintRun& run) { return painting.draws[run.draw].kernel == PaintKernel::replaces; };
+  const auto count = static_cast<std::size_t>(std::find_if_not(runs.begin(), runs.end(), opaque) - runs.begin());
+  if (count == 0) return 0;
+  const auto depth = [&](const PaintRun& run, std::uint32_t number) {
+    return painting.vertices[run.triangles[number].corner[0]].p_win.z;
+  };
+  const PaintRun &first = runs[0], &last = runs[count - 1];
+  if (painting.any_long_edge || !(depth(last, last.numbers.back()) < depth(first, first.numbers.front()))) return 0;
+  for (std::size_t i = count; i-- > 0;)
+    paint_opaque<R, PaintKernel::replaces, Order::last_to_first, 1>(painting, runs[i], &tile,
+                                                                    [](const PaintTriangle&) {});
+  return count;
+}
+
+/// paint(painting, tile) of each sample's own.
+template <int kSampleCount>
+void each_sample(const Painting& painting, PackedTile* tiles, auto paint) {
+  if constexpr (kSampleCount == 1) return paint(painting, tiles[0]);
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
+    Painting of_sample = painting;
+    of_sample.samples = painting.samples.subspan(i, 1);
+    of_sample.formats.sample = painting.samples[i];
+    paint(of_sample, tiles[i]);
+  }
+}
+
+/// `tiles`: of each sample one.
+template <class R, int kSampleCount>
+void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
+  const PaintDraw& draw = painting.draws[run.draw];
+  const auto alone = [&](const PaintTriangle& t) {
+    each_sample<kSampleCount>(painting, tiles,
+                              [&](const Painting& of, PackedTile& tile) { paint_alone<R>(of, draw, t, tile); });
+  };
+  const auto opaque = [&]<PaintKernel kKernel>() {
+    paint_opaque<R, kKernel, Order::first_to_last, kSampleCount>(painting, run, tiles, alone);
+  };
+  switch (draw.kernel) {
+    case PaintKernel::replaces: return opaque.template operator()<PaintKernel::replaces>();
+    case PaintKernel::blends_over: return opaque.template operator()<PaintKernel::blends_over>();
+    case PaintKernel::depth_alone: return opaque.template operator()<PaintKernel::depth_alone>();
+    case PaintKernel::shades: return opaque.template operator()<PaintKernel::shades>();
+    case PaintKernel::lines:
+      return each_sample<kSampleCount>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
+        paint_lines<R>(of, run, tile, [&](const PaintTriangle& t) { paint_alone<R>(of, draw, t, tile); });
+      });
+    case PaintKernel::any: break;
+  }
+  const DepthFunc func = draw.state.depth_func;
+  const bool farther =
+      func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;
+  each_sample<kSampleCount>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
+    if (farther) {
+      tile.farthest_of_all = std::numeric_limits<float>::infinity();
+      std::fill(std::begin(tile.farthest), std::end(tile.farthest), tile.farthest_of_all);
+    }
+    paint_run<R>(of, run, tile);
+  });
+}
+
+/// Copies the tile's part of the frame out of its blocks.
+template <class R>
+void copy_out(const Tile& tile, Frame& frame) {
+  write_out(tile, frame);
+}
+/// Lanes of a row at once; one plane after the other, for twice as many streams of memory are slower.
+template <class R>
+void copy_out(const PackedTile& tile, Frame& frame) {
+  constexpr int kLanes = Lanes<R>::width;
+  const int columns = std::min(kTile, frame.color_rgba8.width() - tile.x0);
+  if (kLanes < kBlock || columns % kLanes != 0 || frame.depth_code.empty() || !frame.stencil.empty()) {
+    return write_out(tile, frame);
+  }
+  const int rows = std::min(kTile, frame.color_rgba8.height() - tile.y0);
+  for (int y = 0; y < rows; ++y) {
+    auto* to = reinterpret_cast<std::int32_t*>(frame.color_rgba8.row(tile.y0 + y) + tile.x0);
+    const auto* from = reinterpret_cast<const float*>(tile.color + block_offset(0, y) + y % kBlock * kBlock);
+    for (int x = 0; x < columns; x += kLanes) store(as_int(load_row<R>(from + x * kBlock)), to + x);
+  }
+  for (int y = 0; y < rows; ++y) {
+    auto* to = reinterpret_cast<std::int32_t*>(frame.depth_code.row(tile.y0 + y) + tile.x0);
+    const float* from = tile.depth + block_offset(0, y) + y % kBlock * kBlock;
+    for (int x = 0; x < columns; x += kLanes) store(to_int(load_row<R>(from + x * kBlock)), to + x);
+  }
+}
+
+template <class R>
+void clear(Tile& tile, const Painting& painting) {
+  clear(tile, painting.format);
+}
+template <class R>
+void clear(PackedTile& tile, const Painting& painting) {
+  const FrameFormat& frame = painting.format;
+  const ClearPixel pixel = clear_pixel(frame);
+  const R depth(pixel.depth);
+  const Int<R> codes = packed_codes(R(pixel.color.r), R(pixel.color.g), R(pixel.color.b), R(pixel.color.a));
+  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) store(depth, tile.depth + i);
+  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) {
+    store(codes, reinterpret_cast<std::int32_t*>(tile.color + i));
+  }
+  std::fill(std::begin(tile.farthest), std::end(tile.farthest), pixel.depth);
+  tile.farthest_of_all = pixel.depth;
+  if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
+}
+
+/// mean_of_four() (resolve.h) of the samples' codes, into the first's.
+template <class R>
+void resolve_samples(PackedTile (&samples)[4]) {
+  const auto mean = [](R a, R b, R c, R d) {
+    const R code(1.0f / 255.0f), sum = ((a * code + b * code) + c * code) + d * code;
+    return (sum * R(0.25f)) * R(255.0f);  // packing rounds it half to even
+  };
+  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) {
+    Color<R> of[4];
+    for (int k = 0; k < 4; ++k) of[k] = samples[k].at(i).load_color<R>();
+    store(packed_codes(mean(of[0].r, of[1].r, of[2].r, of[3].r), mean(of[0].g, of[1].g, of[2].g, of[3].g),
+                       mean(of[0].b, of[1].b, of[2].b, of[3].b), mean(of[0].a, of[1].a, of[2].a, of[3].a)),
+          reinterpret_cast<std::int32_t*>(samples[0].color + i));
+  }
+}
+
+/// The tile, from clear to the frame.
+template <class R>
+void paint_tile(const Painting& painting, int number, TileMemory& memory, Frame& frame) {
+  const int x0 = number % painting.columns * kTile, y0 = number / painting.columns * kTile;
+  const std::vector<PaintRun>& runs = memory.runs;
+  find_runs(painting, static_cast<std::size_t>(number), memory.runs);
+  const auto begin = [&](auto& tile) {
+    tile.x0 = x0, tile.y0 = y0;
+    clear<R>(tile, painting);
+  };
+  if (painting.format.color != ColorFormat::rgba8) {
+    begin(memory.tile);
+    for (const PaintRun& run : runs) paint_run<R>(painting, run, memory.tile);
+    return copy_out<R>(memory.tile, frame);
+  }
+  PackedTile& first = memory.packed[0];
+  if (painting.samples.size() == 1 || runs.empty()) {
+    begin(first);
+    for (std::size_t i = paint_first_runs<R>(painting, runs, first); i < runs.size(); ++i) {
+      paint_next_run<R, 1>(painting, runs[i], &first);
+    }
+  } else {
+    for (PackedTile& tile : memory.packed) begin(tile);
+    for (const PaintRun& run : runs) paint_next_run<R, 4>(painting, run, memory.packed);
+    resolve_samples<R>(memory.packed);
+  }
+  copy_out<R>(first, frame);
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,328 @@
+#include "painter/painter.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "kernels/fragment_light.h"
+#include "kernels/surface.h"
+#include "painter/assemble.h"
+#include "painter/scalar_geometry.h"
+#include "pipeline/matrices.h"
+#include "pipeline/resolve.h"
+#include "pipeline/vertex.h"
+#include "scene/antialias.h"
+
+namespace plumbline::pipeline {
+
+namespace {
+
+// Whether a draw's vertices go through stages 1, 2 and 4 in lanes; the others' through their definition.
+bool goes_in_lanes(const Scene& scene, const Draw& draw) {
+  const Mesh& mesh = scene.meshes[draw.mesh];
+  const bool by_color = draw.color_material != ColorMaterial::none && !mesh.colors.empty();
+  const bool filled = mesh.topology == Topology::triangles && draw.front_mode == PolygonMode::fill &&
+                      draw.back_mode == PolygonMode::fill;
+  return (filled || draw.shading != Shading::flat) && !(is_lit_per_vertex(draw) && by_color) &&
+         !carries(scene, draw, Varying::back_color) && !carries(scene, draw, Varying::back_secondary);
+}
+
+// Whether triangles are drawn so whose faces are not culled.
+bool draws_as(const Draw& draw, PolygonMode mode) {
+  return (draw.cull == Cull::front || draw.front_mode == mode) && (draw.cull == Cull::back || draw.back_mode == mode);
+}
+
+PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const DrawState& s) {
+  const bool plain = s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 && s.depth.high == 1.0 &&
+                     s.depth_func == DepthFunc::less && !s.scissor && !s.alpha_test && !s.stencil && s.merge.depth_mask;
+  if (!plain) return PaintKernel::any;
+  const bool triangles = mesh.topology == Topology::triangles;
+  // Lines have no offset, whatever their draw's is (depth.cpp).
+  if (mesh.topology == Topology::lines || (triangles && draws_as(draw, PolygonMode::line))) {
+    return is_opaque(s.merge) && s.surface == nullptr ? PaintKernel::lines : PaintKernel::any;
+  }
+  if (!triangles || !draws_as(draw, PolygonMode::fill) || s.depth.offset != PolygonOffset{}) return PaintKernel::any;
+  if (!glm::any(s.merge.color_mask)) return PaintKernel::depth_alone;
+  if (is_opaque(s.merge)) return s.surface == nullptr ? PaintKernel::replaces : PaintKernel::shades;
+  const bool over = s.merge.blend && is_over(*s.merge.blend) && !s.merge.logic_op && glm::all(s.merge.color_mask);
+  return over && s.surface == nullptr ? PaintKernel::blends_over : PaintKernel::any;
+}
+
+// Whether tiles take a pixel's samples at once. Other antialiased frames are resolved from whole passes.
+bool takes_samples(const FrameFormat& frame) {
+  return frame.antialias.kind == Antialias::Kind::multisample && frame.color == ColorFormat::rgba8 &&
+         frame.stencil == StencilFormat::none;
+}
+
+bool same_planes(const FrameFormat& a, const FrameFormat& b) {
+  return a.width == b.width && a.height == b.height && a.color == b.color && a.depth == b.depth &&
+         (a.stencil == StencilFormat::none) == (b.stencil == StencilFormat::none);
+}
+
+}  // namespace
+
+struct Painter::Memory {
+  static constexpr int kMostThreads = 256;
+  Memory(int thread_count, const SimdTarget& of)
+      : threads(std::clamp(thread_count, 1, kMostThreads)), target(of), arena(threads) {
+    if (threads > tbb::info::default_concurrency()) {
+      // Else there are no more workers than processors, for all of the process.
+      static const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, kMostThreads);
+    }
+    for (int i = 0; i < threads; ++i) tiles.push_back(std::make_unique_for_overwrite<TileMemory>());
+  }
+
+  void draw_pass(const Scene& scene, Frame& to);
+
+  // f(0) to f(count - 1), on the threads.
+  template <class F>
+  void each(std::size_t count, F f) {
+    if (threads == 1) {
+      for (std::size_t i = 0; i < count; ++i) f(i);
+      return;
+    }
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, f, tbb::simple_partitioner()); });
+  }
+
+  void prepare(const Scene& scene);
+  void run_vertices(const Scene& scene);
+  void run_others(const Scene& scene);
+  void run_triangles();
+  void run_tiles(Frame& to);
+
+  const int threads;
+  const SimdTarget& target;
+  tbb::task_arena arena;
+  std::vector<std::unique_ptr<TileMemory>> tiles;
+
+  Painting painting{};
+  std::vector<DrawRange> ranges;
+  std::vector<Surface> surfaces;
+  std::vector<PaintDraw> draws;
+  Illumination illumination;
+  std::vector<VertexWork> vertex_work;
+  struct Share {
+    std::size_t draw, from, to;
+    std::uint8_t outside;
+  };
+  std::vector<Share> shares;
+  std::vector<AssemblyWork> assembly;
+  std::vector<OtherTriangles> others;
+  ScalarGeometry other_geometry;
+  std::vector<Chunk> chunks;
+  Scratch<PaintVertex> vertices;
+  Scratch<std::uint8_t> outside;
+  std::vector<Varying> carried_varyings;  // by any draw's fragments
+  std::array<Scratch<Vec4<float>>, kVaryings> varyings;
+  std::size_t vertex_count = 0;
+
+  std::optional<FrameFormat> format;
+  std::unique_ptr<Frame> frame;
+  Scene pass;
+  FrameFormat pass_format;
+  std::vector<Frame> passes;
+};
+
+void Painter::Memory::prepare(const Scene& scene) {
+  painting.format = scene.frame;
+  painting.formats = formats_of(scene.frame);
+  painting.samples = takes_samples(scene.frame) ? std::span<const glm::ivec2>(kSamples)
+                                                : std::span<const glm::ivec2>(&painting.formats.sample, 1);
+  painting.columns = (scene.frame.width + kTile - 1) / kTile;
+  painting.rows = (scene.frame.height + kTile - 1) / kTile;
+  draw_ranges(scene, ranges);
+  surfaces.clear();
+  const auto lights = light_sources(scene);
+  for (const Draw& draw : scene.draws) surfaces.push_back(surface_of(scene, draw, {lights.begin(), lights.end()}));
+  draws.clear();
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const Draw& draw = scene.draws[d];
+    const Surface* surface = is_plain(scene, draw) ? nullptr : &surfaces[d];
+    DrawState state = draw_state(draw, scene.frame.depth, scene.depth_clamp, surface);
+    const PaintKernel kernel = kernel_of(scene.meshes[draw.mesh], draw, state);
+    if (kernel == PaintKernel::depth_alone) state.surface = nullptr;  // nothing asks for colours
+    draws.push_back({state, kernel, draw.shading == Shading::flat});
+  }
+  painting.draws = draws;
+}
+
+// Stages 0, 1, 2 and 4.
+void Painter::Memory::run_vertices(const Scene& scene) {
+  illumination = pipeline::illumination(scene, light_sources(scene));
+  vertex_work.clear();
+  shares.clear();
+  assembly.clear();
+  vertex_count = ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count;
+  PaintVertex* to = vertices.of(vertex_count);
+  std::uint8_t* outside_of = outside.of(vertex_count);
+  carried(scene, carried_varyings);
+  std::erase_if(carried_varyings, is_back);
+  for (const Varying v : carried_varyings) varyings[static_cast<std::size_t>(v)].of(vertex_count);
+  constexpr std::size_t kShare = 2048;
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const Draw& draw = scene.draws[d];
+    const Mesh& mesh = scene.meshes[draw.mesh];
+    const DrawRange& range = ranges[d];
+    const unsigned planes = scene.depth_clamp ? 0xfu : 0x3fu;
+    const bool in_lanes = goes_in_lanes(scene, draw);
+    assembly.push_back({&draw, &mesh, range, static_cast<std::uint8_t>(planes), range.first_vertex,
+                        in_lanes ? outside_of + range.first_vertex : nullptr, 0});
+    VertexWork work{};
+    work.mesh = &mesh;
+    work.matrices = matrices(scene, draw);
+    work.to_clip = clip_matrix(work.matrices);
+    const Vec3<float>& third = work.matrices.normal[2];
+    work.normal_divisor = draw.normals == Normals::normalize ? 0.0f
+                          : draw.normals == Normals::rescale
+                              ? std::sqrt((third.x * third.x + third.y * third.y) + third.z * third.z)
+                              : 1.0f;
+    if (is_lit_per_vertex(draw)) {
+      work.illumination = &illumination;
+      work.reflectance = reflectance(scene, lit_material(scene, draw, {}, nullptr));
+      work.secondary = reflectance(scene, lit_material(scene, draw, {false, true}, nullptr));
+    }
+    work.color = glm::clamp(draw.material.diffuse, 0.0f, 1.0f);
+    work.wants_normals = is_lit_per_vertex(draw) || carries(scene, draw, Varying::normal);
+    work.out = to + range.first_vertex;
+    work.outside = outside_of + range.first_vertex;
+    for (const Varying v : kAllVaryings) {
+      const auto i = static_cast<std::size_t>(v);
+      if (!is_back(v) && carries(scene, draw, v)) work.varyings[i] = varyings[i].data() + range.first_vertex;
+    }
+    vertex_work.push_back(work);
+    for (std::size_t from = 0; in_lanes && from < range.vertex_count; from += kShare) {
+      shares.push_back({d, from, std::min<std::size_t>(from + kShare, range.vertex_count), 0});
+    }
+  }
+  each(shares.size(), [&](std::size_t i) {
+    Share& share = shares[i];
+    share.outside = target.vertices(vertex_work[share.draw], share.from, share.to);
+  });
+  for (const Share& share : shares) assembly[share.draw].any_outside |= share.outside;
+}
+
+// What goes by the definition, beside what goes in lanes.
+void Painter::Memory::run_others(const Scene& scene) {
+  others.assign(scene.draws.size(), {});
+  const std::span<const ShadedTriangle> triangles = other_geometry.run(scene, assembly);
+  if (triangles.empty()) return;
+  const std::size_t corners = 3 * triangles.size();
+  PaintVertex* to = vertices.of(vertex_count + corners, vertex_count);
+  for (std::size_t i = 0; i < corners; ++i) {
+    const WindowVertex& v = triangles[i / 3].v[i % 3];
+    to[vertex_count + i] = {v.p_win, v.inv_w, v.snapped, triangles[i / 3].attributes[i % 3].color()};
+  }
+  for (const Varying v : carried_varyings) {
+    Vec4<float>* fours = varyings[static_cast<std::size_t>(v)].of(vertex_count + corners, vertex_count);
+    for (std::size_t i = 0; i < corners; ++i) fours[vertex_count + i] = triangles[i / 3].attributes[i % 3][v];
+  }
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const auto from = [&](std::uint32_t primitive) {
+      return std::partition_point(triangles.begin(), triangles.end(),
+                                  [&](const ShadedTriangle& t) { return t.primitive < primitive; });
+    };
+    const auto begin = from(ranges[d].first_primitive);
+    const auto end = from(ranges[d].first_primitive + ranges[d].primitive_count);
+    others[d] = {{begin, end},
+                 static_cast<std::uint32_t>(vertex_count + 3 * static_cast<std::size_t>(begin - triangles.begin()))};
+  }
+}
+
+// Stages 3 and 4, in shares.
+void Painter::Memory::run_triangles() {
+  painting.vertices = vertices.data();
+  for (std::size_t i = 0; i < kVaryings; ++i) painting.varyings[i] = varyings[i].data();
+  const std::uint32_t primitives = ranges.empty() ? 0 : ranges.back().first_primitive + ranges.back().primitive_count;
+  constexpr std::uint32_t kFewest = 4096;
+  const std::uint32_t most = threads == 1 ? 1 : 4 * static_cast<std::uint32_t>(threads);
+  const std::uint32_t count = std::clamp(primitives / kFewest, 1u, most);
+  chunks.resize(std::max<std::size_t>(chunks.size(), count));
+  each(count, [&](std::size_t i) {
+    chunks[i].first_primitive = static_cast<std::uint32_t>(std::uint64_t{primitives} * i / count);
+    chunks[i].end_primitive = static_cast<std::uint32_t>(std::uint64_t{primitives} * (i + 1) / count);
+    assemble(chunks[i], assembly, others, painting, target.cull);
+  });
+  painting.chunks = std::span(chunks).first(count);
+  painting.any_long_edge =
+      std::any_of(painting.chunks.begin(), painting.chunks.end(), [](const Chunk& c) { return c.any_long_edge; });
+}
+
+void Painter::Memory::run_tiles(Frame& to) {
+  // For every thread, whether or not it has had a tile yet.
+  std::size_t runs = 0;
+  for (const Chunk& chunk : painting.chunks) runs += chunk.draws.size();
+  for (const auto& memory : tiles) memory->runs.reserve(runs);
+  const int count = painting.columns * painting.rows;
+  std::atomic<int> next{0};
+  each(static_cast<std::size_t>(threads), [&](std::size_t worker) {
+    for (int tile = next++; tile < count; tile = next++) target.tile(painting, tile, *tiles[worker], to);
+  });
+}
+
+void Painter::Memory::draw_pass(const Scene& scene, Frame& to) {
+  prepare(scene);
+  run_vertices(scene);
+  run_others(scene);
+  run_triangles();
+  run_tiles(to);
+}
+
+Painter::Painter(int threads, const SimdTarget& target) : memory_(std::make_unique<Memory>(threads, target)) {}
+Painter::~Painter() = default;
+
+std::size_t Painter::bytes() const {
+  const Memory& m = *memory_;
+  std::size_t sum = m.vertices.bytes() + m.outside.bytes() + m.tiles.size() * sizeof(TileMemory);
+  for (const auto& column : m.varyings) sum += column.bytes();
+  for (const Chunk& chunk : m.chunks) {
+    sum += chunk.triangles.bytes() + chunk.boxes.bytes() + chunk.numbers.bytes() + 4 * chunk.first.capacity();
+  }
+  const auto of = [](const auto& plane) { return plane.size() * sizeof(plane.values()[0]); };
+  const auto add = [&](const Frame& f) {
+    sum += of(f.color_rgba8) + of(f.color_rgba12) + of(f.color_rgba16) + of(f.color_rgba32f) + of(f.depth_code) +
+           of(f.depth_z32f) + of(f.stencil);
+  };
+  if (m.frame) add(*m.frame);
+  std::ranges::for_each(m.passes, add);
+  for (const Mesh& mesh : m.pass.meshes) sum += bytes_of(mesh);
+  for (const Texture& texture : m.pass.textures) {
+    for (const auto& level : texture.levels) sum += level.texels.capacity() * sizeof(level.texels[0]);
+  }
+  return sum + m.other_geometry.bytes();
+}
+
+Frame& Painter::draw(const Scene& scene) {
+  if (!memory_->frame || !memory_->format || !same_planes(*memory_->format, scene.frame) || memory_->frame->empty()) {
+    memory_->frame = std::make_unique<Frame>(scene.frame);
+    memory_->format = scene.frame;
+  }
+  if (scene.frame.antialias.kind == Antialias::Kind::none || takes_samples(scene.frame)) {
+    memory_->draw_pass(scene, *memory_->frame);
+    return *memory_->frame;
+  }
+  const std::size_t count = pass_count(scene.frame.antialias);
+  std::vector<Frame>& passes = memory_->passes;
+  pass_of(scene, 0, memory_->pass);
+  const FrameFormat& format = memory_->pass.frame;
+  if (passes.size() != count || !same_planes(memory_->pass_format, format)) {
+    passes.clear();  // should there be no memory, none are left that are of another format
+    passes.assign(count, Frame(format));
+    memory_->pass_format = format;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    memory_->pass.frame.pass = own_of_pass(scene.frame, i);
+    memory_->draw_pass(memory_->pass, passes[i]);
+  }
+  resolve({}, scene.frame, passes, *memory_->frame);
+  return *memory_->frame;
+}
+
+Frame paint(const Scene& scene) { return std::move(Painter().draw(scene)); }
+
+}  // namespace plumbline::pipeline

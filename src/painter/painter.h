@@ -1,0 +1,37 @@
+// The fastest way from a scene to its frame: stages 0 to 11 by SIMD and threads, in memory that is kept from frame to
+// frame. What render() by stage functions (render.h) draws is its definition, bit for bit.
+//
+//   vertices (paint_vertices.h)   stages 1, 2 and 4, each once, as many at a time as there are lanes
+//   triangles (assemble.h)        culled and put into bins of tiles, in shares ("chunks") of the scene's primitives
+//   tiles (paint_tile.h)          stages 5 to 11, each tile by one thread, triangles in draw order
+//
+// Primitives that are clipped, lines, points and what else is rare go through stages 0 to 4 as the definition has them.
+#pragma once
+
+#include <memory>
+
+#include "painter/simd_targets.h"
+#include "pipeline/frame.h"
+
+namespace plumbline::pipeline {
+
+class Painter {
+ public:
+  /// `threads`: from 1 to 256; beyond, the nearer of them.
+  explicit Painter(int threads = 1, const SimdTarget& target = simd_targets().back());
+  ~Painter();
+
+  /// The frame is the painter's, until it draws the next; a caller may move it away. Another scene each time is fine.
+  Frame& draw(const Scene& scene);
+  /// What it keeps from frame to frame, the frame's planes among it.
+  std::size_t bytes() const;
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+/// The frame by a painter of one thread, with the widest SIMD target.
+Frame paint(const Scene& scene);
+
+}  // namespace plumbline::pipeline

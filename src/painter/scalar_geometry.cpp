@@ -1,0 +1,110 @@
+#include "painter/scalar_geometry.h"
+
+#include <algorithm>
+
+#include "pipeline/clip.h"
+#include "pipeline/light.h"
+#include "pipeline/matrices.h"
+#include "pipeline/vertex.h"
+#include "pipeline/window.h"
+
+namespace plumbline::pipeline {
+
+namespace {
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
+  return values.capacity() * sizeof(T);
+}
+
+// The primitives of `from`, with vertices of their own.
+void copy_primitives(const Mesh& from, std::span<const std::uint32_t> primitives, Mesh& to) {
+  to.topology = from.topology;
+  to.positions.clear(), to.normals.clear(), to.colors.clear(), to.texcoords.clear();
+  to.triangles.clear();
+  const std::uint32_t corners = corner_count(from.topology);
+  for (const std::uint32_t i : primitives) {
+    const auto first = static_cast<std::uint32_t>(to.positions.size());
+    for (std::uint32_t k = 0; k < corners; ++k) {
+      const std::uint32_t v = from.triangles[i][static_cast<int>(k)];
+      to.positions.push_back(from.positions[v]);
+      to.normals.push_back(from.normals[v]);
+      if (!from.colors.empty()) to.colors.push_back(from.colors[v]);
+      if (!from.texcoords.empty()) to.texcoords.push_back(from.texcoords[v]);
+    }
+    to.triangles.push_back({first, first + std::min(1u, corners - 1), first + corners - 1});
+  }
+}
+
+}  // namespace
+
+// All, or what is clipped.
+void ScalarGeometry::find(const AssemblyWork& draw) {
+  of_draw_.clear();
+  const auto violates = [&](unsigned bits) { return (bits & draw.planes) != 0; };
+  if (draw.outside != nullptr && !violates(draw.any_outside)) return;
+  for (std::uint32_t i = 0; i < draw.range.primitive_count; ++i) {
+    const glm::uvec3& c = draw.mesh->triangles[i];
+    const auto clipped = [&] {
+      const unsigned a = draw.outside[c[0]], b = draw.outside[c[1]], e = draw.outside[c[2]];
+      return violates(a | b | e) && !violates(a & b & e) && ((a | b | e) & kNotFinite) == 0;
+    };
+    if (draw.outside == nullptr || clipped()) of_draw_.push_back(i);
+  }
+}
+
+std::span<const ShadedTriangle> ScalarGeometry::run(const Scene& scene, std::span<const AssemblyWork> draws) {
+  triangles_.clear();
+  rest_.meshes.resize(draws.size());
+  rest_.draws = scene.draws;
+  rest_.dialect = scene.dialect;
+  rest_.frame = scene.frame;
+  rest_.camera = scene.camera;
+  rest_.projection = scene.projection;
+  rest_.depth_clamp = scene.depth_clamp;
+  rest_.light_model = scene.light_model;
+  rest_.lights = scene.lights;
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    find(draws[d]);
+    if (of_draw_.empty()) continue;
+    rest_.draws[d].mesh = static_cast<std::uint32_t>(d);
+    if (draws[d].outside == nullptr) {
+      rest_.meshes[d] = *draws[d].mesh;
+    } else {
+      copy_primitives(*draws[d].mesh, of_draw_, rest_.meshes[d]);
+    }
+    for (std::uint32_t& primitive : of_draw_) primitive += draws[d].range.first_primitive;
+    run_draw(d);
+  }
+  return triangles_;
+}
+
+void ScalarGeometry::run_draw(std::size_t number) {
+  const Draw& draw = rest_.draws[number];
+  const Mesh& mesh = rest_.meshes[number];
+  const DrawInput input = draw_input(rest_, draw, matrices(rest_, draw));
+  const auto lights = light_sources(rest_);
+  vertices_.clear();
+  transform(input.matrices, draw.normals, mesh, vertices_);
+  attributes_.clear();
+  light(rest_, draw, {lights.begin(), lights.end()}, vertices_, attributes_);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    Polygon polygon = assemble(input, mesh.triangles[i], vertices_, attributes_);
+    polygon.primitive = of_draw_[i];
+    clip(input, polygon);
+    to_window(input, polygon, triangles_);
+  }
+}
+
+std::size_t bytes_of(const Mesh& mesh) {
+  return bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(mesh.colors) + bytes_of(mesh.texcoords) +
+         bytes_of(mesh.triangles);
+}
+
+std::size_t ScalarGeometry::bytes() const {
+  std::size_t sum = bytes_of(vertices_) + bytes_of(attributes_) + bytes_of(triangles_) + bytes_of(of_draw_);
+  for (const Mesh& mesh : rest_.meshes) sum += bytes_of(mesh);
+  return sum;
+}
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,278 @@
+// Triangles made ready for a tile, as many at a time as R has lanes: what set_up() (lone_triangle.h) makes of one.
+#pragma once
+
+#include "painter/painting.h"
+
+namespace plumbline::pipeline {
+
+/// An edge function in 32 bits, counted from the tile: E(x, y) >= 0 (coverage.h) exactly where at_tile + step_x x +
+/// step_y y < 0, so that the sign bit of all three is that of their "and". E's steps are multiples of 256, so that of
+/// the rest its floor tells; here they have the other sign.
+struct TileEdge {
+  std::int32_t at_tile, step_x, step_y;
+};
+/// |step| <= 2^22 and 64 pixels reach less than 2^29, so that what is beyond 2^30 has a sign that no pixel of the tile
+/// changes. Corners cut where w is tiny may be rounded to far outside of the frame: such edges do not fit.
+inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
+
+/// A triangle in its lane. Edges and depths are taken at each of the pixel's samples, which differ but in what is added
+/// there; `edge` has the least of what is, so that a pixel outside of it is outside for all samples.
+template <int kSampleCount = 1>
+struct LaneSetup {
+  bool front;
+  int x0, y0, x1, y1;  ///< the pixels of the tile in its bounding box, x0 and y0 rounded down to a block's
+  TileEdge edge[3];
+  std::int32_t at_tile[kSampleCount][3];
+  Affine<double> code[kSampleCount];
+  Anchor planes;
+  DepthPlane depth_plane;
+  PerspectiveSetup perspective;
+  float nearest;                  ///< a depth code: all its fragments in the tile are farther
+  bool plain_depth, plain_color;  ///< SetupLanes
+  AttributeSetup attributes;
+};
+
+template <class R>
+struct AffineLanes {
+  static constexpr int kLanes = Lanes<R>::width;
+  alignas(64) double at_0[kLanes];
+  double x[kLanes], y[kLanes];
+
+  Affine<double> of(int lane) const { return {at_0[lane], x[lane], y[lane]}; }
+  Affine<Wide<R>> of_all() const { return {load_wide<R>(at_0), load_wide<R>(x), load_wide<R>(y)}; }
+};
+/// What a pixel's samples have each of their own.
+template <class R>
+struct SampleLanes {
+  alignas(64) std::int32_t at_tile[3][Lanes<R>::width];
+  AffineLanes<R> code;
+};
+template <class R>
+struct CommonLanes {
+  static constexpr int kLanes = Lanes<R>::width;
+  alignas(64) std::int32_t bounds[4][kLanes];  ///< as LaneSetup, x0 and y0 not rounded
+  std::int32_t step_x[3][kLanes], step_y[3][kLanes];
+  AffineLanes<R> q1, q2, sum;
+  alignas(64) float color[3][4][kLanes];
+  float nearest[kLanes];
+  alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
+  unsigned fitting;                                  ///< a bit a lane
+  /// In the tile, no fragment's code has to be clamped, and all are nearer than the clear depth; their colours' weights
+  /// are small, with no horizon near, and all corners have the same alpha.
+  unsigned plain_depth, plain_color;
+  int width, height;  ///< the largest box
+};
+template <class R, int kSampleCount = 1>
+struct SetupLanes : CommonLanes<R> {
+  SampleLanes<R> sample[kSampleCount];
+
+  /// In the tile whose lower left pixel that is.
+  [[gnu::always_inline]] LaneSetup<kSampleCount> of(int lane, bool front, int tile_x, int tile_y) const {
+    const CommonLanes<R>& all = *this;
+    LaneSetup<kSampleCount> s;
+    s.front = front;
+    s.planes = {tile_x + 0.5, tile_y + 0.5};
+    s.x0 = all.bounds[0][lane] & ~(kBlock - 1), s.y0 = all.bounds[1][lane] & ~(kBlock - 1);
+    s.x1 = all.bounds[2][lane], s.y1 = all.bounds[3][lane];
+    for (int i = 0; i < kSampleCount; ++i) s.code[i] = sample[i].code.of(lane);
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < kSampleCount; ++i) s.at_tile[i][k] = sample[i].at_tile[k][lane];
+      s.edge[k] = {s.at_tile[0][k], all.step_x[k][lane], all.step_y[k][lane]};
+      for (int i = 1; i < kSampleCount; ++i) s.edge[k].at_tile = std::min(s.edge[k].at_tile, s.at_tile[i][k]);
+    }
+    s.depth_plane.code = s.code[0];
+    s.perspective.q1 = all.q1.of(lane), s.perspective.q2 = all.q2.of(lane), s.perspective.sum = all.sum.of(lane);
+    for (int c = 0; c < 4; ++c) {
+      s.attributes.color0[c] = all.color[0][c][lane];
+      s.attributes.d_color1[c] = all.color[1][c][lane];
+      s.attributes.d_color2[c] = all.color[2][c][lane];
+    }
+    s.attributes.constant = all.constant_colors[lane] != 0;
+    s.nearest = all.nearest[lane];
+    s.plain_depth = (all.plain_depth >> lane & 1u) != 0;
+    s.plain_color = (all.plain_color >> lane & 1u) != 0;
+    return s;
+  }
+};
+
+/// What is the same for all lanes.
+struct SetupSite {
+  int tile_x, tile_y;  ///< the tile's lower left pixel
+  std::span<const glm::ivec2> samples;
+  double depth_scale;  ///< Formats::depth_scale
+  double clear_code;   ///< of depth
+  bool flat;
+};
+inline SetupSite site_of(const Painting& painting, const PaintRun& run, int tile_x, int tile_y) {
+  const Formats& formats = painting.formats;
+  return {tile_x,
+          tile_y,
+          painting.samples,
+          formats.depth_scale,
+          depth_code(painting.format.clear_depth, formats.depth_scale),
+          painting.draws[run.draw].flat};
+}
+
+/// Per corner, each lane's vertex.
+template <class R>
+using CornersOfLanes = const PaintVertex* [3][Lanes<R>::width];
+
+template <class R>
+struct CornerLanes {
+  R p_win[3][4];
+  Int<R> snapped_x[3], snapped_y[3];
+};
+template <class R>
+[[gnu::always_inline]] inline void load_corner(const PaintVertex* const (&corner)[Lanes<R>::width], auto member,
+                                               R (&four)[4]) {
+  const float* from[Lanes<R>::width];
+  for (int lane = 0; lane < Lanes<R>::width; ++lane) from[lane] = member(corner[lane]);
+  load_fours(from, four);
+}
+template <class R>
+[[gnu::always_inline]] inline CornerLanes<R> load_corners(const CornersOfLanes<R>& corner) {
+  const auto p_win = [](const PaintVertex* v) { return &v->p_win.x; };
+  const auto snapped = [](const PaintVertex* v) { return reinterpret_cast<const float*>(&v->snapped); };
+  CornerLanes<R> out;
+  for (int k = 0; k < 3; ++k) {
+    load_corner<R>(corner[k], p_win, out.p_win[k]);
+    R four[4];
+    load_corner<R>(corner[k], snapped, four);
+    out.snapped_x[k] = as_int(four[0]), out.snapped_y[k] = as_int(four[1]);
+  }
+  return out;
+}
+
+/// Colours into `out`; returns which lanes' corners all have the same alpha.
+template <class R>
+[[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat, CommonLanes<R>& out) {
+  const auto color_of = [](const PaintVertex* v) { return &v->color.r; };
+  R color[3][4];
+  for (int k = 0; k < 3; ++k) load_corner<R>(corner[flat ? 1 : k], color_of, color[k]);
+  Mask<R> constant = mask_of<R>(~0u);
+  for (int c = 0; c < 4; ++c) {
+    const R d1 = color[1][c] - color[0][c], d2 = color[2][c] - color[0][c];
+    constant = constant & (d1 == R(0)) & (d2 == R(0));
+    store(color[0][c], out.color[0][c]);
+    store(d1, out.color[1][c]);
+    store(d2, out.color[2][c]);
+  }
+  store(select(constant, Int<R>(1), Int<R>(0)), out.constant_colors);
+  return (color[1][3] == color[0][3]) & (color[2][3] == color[0][3]);
+}
+
+template <class R, int kSampleCount>
+struct PlaneLanes {
+  Affine<Wide<R>> code[kSampleCount], q1, q2, sum;
+};
+/// Of depth at each sample, and of the colours' weights, which are the centre's; into `out`, too.
+template <class R, int kSampleCount>
+[[gnu::always_inline]] inline PlaneLanes<R, kSampleCount> set_up_planes(const CornerPlanes<Wide<R>>& planes,
+                                                                        const R (&p_win)[3][4], const SetupSite& site,
+                                                                        SetupLanes<R, kSampleCount>& out) {
+  using W = Wide<R>;
+  const auto corners = [&](int coordinate, double unit) {
+    const W at_0 = to_wide(p_win[0][coordinate]);
+    const auto beyond = [&](int k) { return (to_wide(p_win[k][coordinate]) - at_0) * unit; };
+    return planes.through(at_0 * unit, beyond(1), beyond(2));
+  };
+  const auto keep = [](const Affine<W>& plane, AffineLanes<R>& to) {
+    store(plane.at_0, to.at_0), store(plane.x, to.x), store(plane.y, to.y);
+  };
+  const Affine<W> code = corners(2, site.depth_scale == 0 ? 1 : site.depth_scale);
+  PlaneLanes<R, kSampleCount> of{
+      {}, scaled(planes.l1, to_wide(p_win[1][3])), scaled(planes.l2, to_wide(p_win[2][3])), corners(3, 1)};
+  for (int i = 0; i < kSampleCount; ++i) {  // moved(), depth.h
+    of.code[i] = code;
+    const glm::dvec2 by = glm::dvec2(site.samples[static_cast<std::size_t>(i)]) / static_cast<double>(kSubpixel);
+    if (by != glm::dvec2(0)) of.code[i].at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
+    keep(of.code[i], out.sample[i].code);
+  }
+  keep(of.q1, out.q1), keep(of.q2, out.q2), keep(of.sum, out.sum);
+  return of;
+}
+
+/// `facing`: 1 of a front face, -1 of a back one.
+template <class R, int kSampleCount>
+void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const SetupSite& site,
+                  SetupLanes<R, kSampleCount>& out) {
+  using I = Int<R>;
+  using W = Wide<R>;
+  const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(corner);
+  const Mask<R> same_alpha = set_up_colors<R>(corner, site.flat, out);
+  const R face = load<R>(facing);
+  const PlaneCorners<W> through =
+      plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
+                       snapped_y, to_wide(face));
+  const auto [code, q1, q2, sum] =
+      set_up_planes<R, kSampleCount>(corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5), p_win, site, out);
+
+  // From here on, corners are counted from the tile.
+  const I origin_x(site.tile_x * kSubpixel), origin_y(site.tile_y * kSubpixel);
+  I x[3], y[3];
+  for (int k = 0; k < 3; ++k) x[k] = snapped_x[k] - origin_x, y[k] = snapped_y[k] - origin_y;
+  glm::ivec2 low_sample = site.samples[0], high_sample = low_sample;
+  for (const glm::ivec2& sample : site.samples) {
+    low_sample = glm::min(low_sample, sample), high_sample = glm::max(high_sample, sample);
+  }
+  const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
+  const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
+  const auto first = [](I low, int sample) {
+    return greater_of(shifted_right<8>(low + I(kSubpixel - 1 - sample)), I(0));
+  };
+  const auto end = [](I high, int sample) { return lesser_of(shifted_right<8>(high - I(sample)) + I(1), I(kTile)); };
+  const I x_first = first(least(x), high_sample.x), y_first = first(least(y), high_sample.y);
+  const I x_end = end(most(x), low_sample.x), y_end = end(most(y), low_sample.y);
+  out.width = greatest_lane(x_end - x_first);
+  out.height = greatest_lane(y_end - y_first);
+  store(x_first, out.bounds[0]), store(y_first, out.bounds[1]);
+  store(x_end, out.bounds[2]), store(y_end, out.bounds[3]);
+
+  // The planes at the box's corners. What rounding does there and at the fragments is far below 2^-48 of the terms'
+  // sum; a code's own rounding is below one code.
+  const W low_x = to_wide(x_first), high_x = to_wide(x_end), low_y = to_wide(y_first), high_y = to_wide(y_end);
+  const auto size = [](const W& value) { return greater_of(value, -value); };
+  const auto terms = [&](const Affine<W>& f) { return size(f.at_0) + (size(f.x) + size(f.y)) * W(kTile); };
+  const auto least_of = [&](const Affine<W>& f) {
+    return f.at_0 + lesser_of(f.x * low_x, f.x * high_x) + lesser_of(f.y * low_y, f.y * high_y) - terms(f) * W(0x1p-48);
+  };
+  W least_code = least_of(code[0]), most_code = -least_of({-code[0].at_0, -code[0].x, -code[0].y});
+  for (int i = 1; i < kSampleCount; ++i) {
+    least_code = lesser_of(least_code, least_of(code[i]));
+    most_code = greater_of(most_code, -least_of({-code[i].at_0, -code[i].x, -code[i].y}));
+  }
+  const W least_sum = least_of(sum);
+  store(to_float(floor_of(clamped(least_code, W(0), W(site.depth_scale))) - W(1)), out.nearest);
+  out.plain_depth = bits_of(Mask<R>((least_code >= W(0)) & (most_code < W(site.clear_code - 1))));
+  const W most_weight = least_sum * W(1024);  // 255 of them are far from 2^31, too
+  const W terms_1 = terms(q1), terms_2 = terms(q2);
+  const Mask<R> small = (least_sum > W(0x1p-60)) & (terms_1 < most_weight) & (terms_2 < most_weight);
+  out.plain_color = bits_of(small & same_alpha);
+
+  // Counter-clockwise.
+  const Mask<R> front = face > R(0);
+  const I x1 = select(front, x[1], x[2]), y1 = select(front, y[1], y[2]);
+  x[2] = select(front, x[2], x[1]), y[2] = select(front, y[2], y[1]);
+  x[1] = x1, y[1] = y1;
+  I longest(0);
+  for (int k = 0; k < 3; ++k) {
+    const I d_x = x[(k + 1) % 3] - x[k], d_y = y[(k + 1) % 3] - y[k];
+    longest = greater_of(longest, greater_of(greater_of(d_x, I(0) - d_x), greater_of(d_y, I(0) - d_y)));
+    const I step_x = I(0) - d_y;
+    // owns_its_centres (coverage.cpp): else 1 less, so that 0 is outside.
+    const Mask<R> owns = (step_x > I(0)) | ((step_x == I(0)) & (d_x > I(0)));
+    const W less = to_wide(select(owns, I(0), I(1)));
+    const W wide_x = to_wide(d_x), wide_y = to_wide(d_y), e = wide_y * to_wide(x[k]) - wide_x * to_wide(y[k]);
+    for (int i = 0; i < kSampleCount; ++i) {
+      const glm::dvec2 sample(site.samples[static_cast<std::size_t>(i)]);
+      const W at_sample = e - (wide_y * sample.x - wide_x * sample.y);
+      const W at_tile = floor_of((at_sample - less) * W(1.0 / kSubpixel));
+      store(I(-1) - to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.sample[i].at_tile[k]);
+    }
+    store(d_y, out.step_x[k]);
+    store(I(0) - d_x, out.step_y[k]);
+  }
+  out.fitting = bits_of(longest <= I(kLongestEdge));
+}
+
+}  // namespace plumbline::pipeline

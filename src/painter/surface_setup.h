@@ -1,0 +1,49 @@
+// Stages 7 and 8 of fragments that a surface colours.
+#pragma once
+
+#include <array>
+
+#include "kernels/shade.h"
+#include "kernels/surface.h"
+
+namespace plumbline::pipeline {
+
+/// A triangle's varyings, those that the surface carries.
+struct SurfaceSetup {
+  const Surface* surface;
+  std::array<AttributeSetup, kVaryings> varyings;
+  GradientSetup gradients;  ///< of the texture coordinates, where there is a texture
+};
+
+/// `varying_at(v)`: varying v at the triangle's three corners.
+SurfaceSetup set_up_surface(const Surface& surface, const WindowTriangle& t, const BarycentricPlanes& planes,
+                            const auto& varying_at) {
+  SurfaceSetup out;
+  out.surface = &surface;
+  for (const Varying v : surface.carried) out.varyings[static_cast<std::size_t>(v)] = attribute_setup(varying_at(v));
+  if (surface.texture) out.gradients = gradient_setup(t, varying_at(Varying::texture), planes);
+  return out;
+}
+
+/// Every varying by the same weights; of texture coordinates s and t alone; and the texel. `of`: the triangle's planes,
+/// perspective and attributes.
+template <class R>
+[[gnu::always_inline]] inline SurfaceAttributes<R> surface_attributes(const auto& of, const SurfaceSetup& s,
+                                                                      const Pixels<R>& p) {
+  SurfaceAttributes<R> out;
+  const Offset<R> at = from_anchor<R>(of.planes, p);
+  const Weights<R> k = weights<R>(of.perspective, at);
+  out.color = mean<R>(of.attributes, k);
+  for (const Varying v : s.surface->carried) {
+    const AttributeSetup& setup = s.varyings[static_cast<std::size_t>(v)];
+    out[v] = v != Varying::texture ? mean<R>(setup, k) : mean<R, 2>(setup, k);
+  }
+  if (s.surface->texture) {
+    const Color<R>& st = out[Varying::texture];
+    const Gradients<R> g = gradients<R>(s.gradients, at, value_at<R>(of.perspective.sum, at));
+    out.texel.color = texel_color<R>(*s.surface->texture, {st.r, st.g}, g);
+  }
+  return out;
+}
+
+}  // namespace plumbline::pipeline

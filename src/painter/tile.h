@@ -1,0 +1,98 @@
+// A tile: a square of the frame, stored block by block while it is painted.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/attributes.h"
+#include "kernels/lanes.h"
+#include "kernels/merge.h"
+#include "pipeline/frame.h"
+#include "pipeline/stages.h"
+
+namespace plumbline::pipeline {
+
+/// Where the next pixels' values are: depth and colour in the frame's formats, as floats.
+struct Stored {
+  float* depth;
+  float* color[4];
+  std::uint8_t* stencil;
+
+  template <class R>
+  Color<R> load_color() const {
+    return {load<R>(color[0]), load<R>(color[1]), load<R>(color[2]), load<R>(color[3])};
+  }
+  template <class R>
+  void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
+    if (channels.r) store(kept, merged.r, color[0]);
+    if (channels.g) store(kept, merged.g, color[1]);
+    if (channels.b) store(kept, merged.b, color[2]);
+    if (channels.a) store(kept, merged.a, color[3]);
+  }
+};
+/// The same of rgba8, red in the lowest byte.
+struct StoredCodes {
+  float* depth;
+  std::uint32_t* color;
+  std::uint8_t* stencil;
+
+  template <class R>
+  Color<R> load_color() const {
+    const Int<R> held = load_packed<R>(color), most(255);
+    return {to_float(held & most), to_float(shifted_right<8>(held) & most), to_float(shifted_right<16>(held) & most),
+            to_float(shifted_right<24>(held) & most)};
+  }
+  /// merge() and store_color() at once.
+  template <class M, class R>
+  void store_merged(M kept, const Color<R>& shaded) const {
+    store_packed(kept, packed_merge(shaded), color);
+  }
+  template <class R>
+  void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
+    if (!channels.r && !channels.g && !channels.b && !channels.a) return;
+    const Int<R> codes = packed_codes(merged.r, merged.g, merged.b, merged.a);
+    if (channels.r && channels.g && channels.b && channels.a) return store_packed(kept, codes, color);
+    const std::uint32_t written = (channels.r ? 0xffu : 0u) | (channels.g ? 0xff00u : 0u) |
+                                  (channels.b ? 0xff0000u : 0u) | (channels.a ? 0xff000000u : 0u);
+    const Int<R> to(static_cast<std::int32_t>(written)), other(static_cast<std::int32_t>(~written));
+    store_packed(kept, (codes & to) | (load_packed<R>(color) & other), color);
+  }
+};
+
+/// Of the block whose lower left pixel is (x, y) in the tile, its first pixel's place.
+inline int block_offset(int x, int y) {
+  static_assert(kBlock == 4 && kTile == 64);
+  return (y >> 2 << 8) + (x >> 2 << 4);
+}
+
+/// A square of the frame, stored block by block; colour and depth in the frame's formats, as floats.
+struct Tile {
+  int x0, y0;  ///< its lower left pixel
+  alignas(64) float depth[kTile * kTile];
+  alignas(64) float color[4][kTile * kTile];
+  alignas(64) std::uint8_t stencil[kTile * kTile];  ///< left alone where the frame has none
+
+  int offset(int x, int y) const { return block_offset(x - x0, y - y0); }
+  Stored at(int place) {
+    return {depth + place, {color[0] + place, color[1] + place, color[2] + place, color[3] + place}, stencil + place};
+  }
+};
+/// Of rgba8 frames: half the memory, written out as it is.
+struct PackedTile {
+  int x0, y0;
+  alignas(64) float depth[kTile * kTile];
+  alignas(64) char apart[2112];  ///< so that a pixel's depth and colour are not 16 KiB apart: stores would stall loads
+  alignas(64) std::uint32_t color[kTile * kTile];
+  alignas(64) std::uint8_t stencil[kTile * kTile];
+  alignas(64) float farthest[kTile * kTile / kBlockPixels];  ///< of each block: none of its depths is greater
+  float farthest_of_all;
+
+  int offset(int x, int y) const { return block_offset(x - x0, y - y0); }
+  StoredCodes at(int place) { return {depth + place, color + place, stencil + place}; }
+};
+
+void clear(Tile& tile, const FrameFormat& frame);
+/// Copies the tile's part of the frame out of its blocks.
+void write_out(const Tile& tile, Frame& frame);
+void write_out(const PackedTile& tile, Frame& frame);
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,48 @@
+#include "pipeline/production_stages.h"
+
+#include "kernels/fragment_tests.h"
+#include "kernels/merge.h"
+#include "kernels/shade.h"
+#include "pipeline/clip.h"
+#include "pipeline/coverage.h"
+#include "pipeline/light.h"
+#include "pipeline/matrices.h"
+#include "pipeline/vertex.h"
+#include "pipeline/window.h"
+
+namespace plumbline::pipeline {
+
+Stages production_stages() {
+  Stages s{};
+  s.matrices = matrices;
+  s.lights = light_sources;
+  s.vertex = transform;
+  s.light = light;
+  s.assemble = assemble;
+  s.clip = clip;
+  s.window = to_window;
+  s.sample_offsets = [](glm::ivec2 sample) { return SampleOffsets{sample, sample, {0, 0}}; };
+  s.scissor = scissored;
+  s.coverage = covered_pixels;
+  s.depth_setup = depth_setup;
+  s.depth = [](const TriangleSetup& t, const Pixels<float>& p) {
+    return depth<float>(t.depth_plane, from_anchor<float>(t.planes, p));
+  };
+  s.attributes = [](const TriangleSetup& t, const AttributeSetup& of, const Pixels<float>& p) {
+    return mean<float>(of, weights<float>(t.perspective, from_anchor<float>(t.planes, p)));
+  };
+  s.texture = texture<float>;
+  s.shade = [](const Surface& surface, bool front, const SurfaceAttributes<float>& attributes) {
+    return Shaded{shade<float>(surface, front, attributes)};
+  };
+  s.depth_passes = compares<float, float>;
+  s.alpha_passes = alpha_passes<float>;
+  s.stencil_passes = stencil_test<float>;
+  s.merge_state = [](const Merge& of_draw) { return of_draw; };
+  s.merge = merge<float>;
+  s.blend = blend<float>;
+  s.logic = logic<float>;
+  return s;
+}
+
+}  // namespace plumbline::pipeline

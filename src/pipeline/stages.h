@@ -1,0 +1,128 @@
+// The stages of the pipeline as functions, and what they hand to each other. (capture/stages.h is the map: what each
+// stage does, and the records that captures hold of it.)
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/fixed_vector.h"
+#include "capture/stages.h"
+#include "kernels/attributes.h"
+#include "kernels/coverage.h"
+#include "kernels/depth.h"
+#include "kernels/light_equation.h"
+#include "kernels/surface.h"
+#include "kernels/texture.h"
+#include "pipeline/resolve.h"
+#include "scene/scene.h"
+
+namespace plumbline::pipeline {
+
+inline constexpr std::size_t kAttributes = 1 + kVaryings;
+
+/// Attributes of a vertex: the colour first, then one for each Varying; zero where the draw does not carry it.
+struct Attributes : std::array<Vec4<float>, kAttributes> {
+  using std::array<Vec4<float>, kAttributes>::operator[];
+  Vec4<float>& color() { return front(); }
+  const Vec4<float>& color() const { return front(); }
+  Vec4<float>& operator[](Varying v) { return (*this)[1 + static_cast<std::size_t>(v)]; }
+  const Vec4<float>& operator[](Varying v) const { return (*this)[1 + static_cast<std::size_t>(v)]; }
+};
+
+struct ClipVertex {
+  Vec4<float> p_clip;
+  Attributes attributes;
+  bool cut = false;  ///< made by a cut, not a vertex of the mesh
+};
+/// A convex polygon; a line has 2 corners, a point 1; none: nothing is left.
+struct Polygon {
+  static constexpr std::size_t kMostCorners = 28;  // derived in clip.cpp
+  std::uint32_t primitive = 0;                     ///< numbered over the scene (scene.h, DrawRange)
+  FixedVector<ClipVertex, kMostCorners> corners;
+};
+
+struct ShadedTriangle : WindowTriangle {
+  std::array<Attributes, 3> attributes;
+};
+
+/// Per-draw input of stages 3 and 4.
+struct DrawInput {
+  const Draw* draw;
+  Topology topology;
+  bool depth_clamp;  ///< no near and far plane
+  bool two_sided;    ///< back faces have colours of their own
+  Matrices<float> matrices;
+};
+DrawInput draw_input(const Scene& scene, const Draw& draw, const Matrices<float>& matrices);
+
+/// Offsets of a pass' sample from the pixel's centre [1/256 pixel].
+struct SampleOffsets {
+  glm::ivec2 coverage, depth, color;
+};
+
+/// Planes are anchored at the lower left pixel of the 64 x 64 tile that a fragment lies in: the one rule of tiles that
+/// decides bits. (From a far anchor, the terms of a sliver's sum would be too large for double.)
+inline constexpr int kTile = 64;
+
+/// Per-triangle input of stages 6 to 8, for the fragments of one tile.
+struct TriangleSetup {
+  BarycentricPlanes planes;
+  DepthSetup depth;
+  DepthPlane depth_plane;
+  PerspectiveSetup perspective;
+  std::array<AttributeSetup, kAttributes> attributes;  ///< the colour's, and those that the surface carries
+  GradientSetup gradients;                             ///< of the texture coordinates, where there is a texture
+};
+
+/// Colour of a fragment, not yet clamped.
+struct Shaded {
+  Color<float> color;
+  bool discarded = false;  ///< by a user's program
+};
+
+/// One function a stage, or a few, those with `out` append to it; a fault, a user's program and a test each set one member.
+struct Stages {
+  // 0 matrices
+  Matrices<float> (*matrices)(const Scene&, const Draw&);
+  FixedVector<LightSource<float>, 8> (*lights)(const Scene&);
+  // 1 vertex: one for each vertex of the mesh
+  void (*vertex)(const Matrices<float>&, Normals, const Mesh&, std::vector<Vertex<float>>& out);
+  // 2 light: attributes of each vertex
+  void (*light)(const Scene&, const Draw&, Lights, std::span<const Vertex<float>>, std::vector<Attributes>& out);
+  // 3 clip
+  Polygon (*assemble)(const DrawInput&, const glm::uvec3& corners, std::span<const Vertex<float>>,
+                      std::span<const Attributes>);
+  void (*clip)(const DrawInput&, Polygon&);
+  // 4 window
+  void (*window)(const DrawInput&, const Polygon&, std::vector<ShadedTriangle>& out);
+  // 5 coverage: row by row from the bottom, from left to right
+  SampleOffsets (*sample_offsets)(glm::ivec2 sample);
+  PixelBounds (*scissor)(const Scissor&, const PixelBounds& frame);
+  std::vector<glm::ivec2> (*coverage)(const WindowTriangle& seen_from_sample, const PixelBounds& box);
+  // 6 depth, in the frame's format: a code, or window z
+  DepthSetup (*depth_setup)(const WindowTriangle&, const DepthState&);
+  float (*depth)(const TriangleSetup&, const Pixels<float>&);
+  // 7 attributes: one of them
+  Color<float> (*attributes)(const TriangleSetup&, const AttributeSetup&, const Pixels<float>&);
+  // 8 texture
+  FilteredTexel<float> (*texture)(const TextureSetup&, const TexCoords<float>&, const Gradients<float>&);
+  // 9 shade
+  Shaded (*shade)(const Surface&, bool front, const SurfaceAttributes<float>&);
+  // 10 visibility
+  bool (*depth_passes)(DepthFunc, float incoming, float stored);
+  bool (*alpha_passes)(const AlphaTest&, float alpha, float color_scale);
+  bool (*stencil_passes)(const StencilFace&, bool alive, bool nearer, std::uint8_t* held);
+  // 11 merge, in the frame's format: codes, or floats
+  Merge (*merge_state)(const Merge& of_draw);
+  Color<float> (*merge)(const Color<float>&, float color_scale);
+  Color<float> (*blend)(const Blend&, const Color<float>& source, const Color<float>& stored, float color_scale);
+  Color<float> (*logic)(LogicOp, const Color<float>& source, const Color<float>& stored, float color_scale);
+  // 12 resolve
+  ResolveStage resolve;
+
+  bool operator==(const Stages&) const = default;
+};
+
+}  // namespace plumbline::pipeline

@@ -1,0 +1,45 @@
+#include "pipeline/triangle_setup.h"
+
+namespace plumbline::pipeline {
+
+TriangleSetup set_up(const Stages& stages, const ShadedTriangle& triangle, const Surface& surface,
+                     const DepthState& depth, const SampleOffsets& offsets, glm::ivec2 anchor) {
+  TriangleSetup out;
+  const BarycentricPlanes planes = planes_of(triangle, anchor.x, anchor.y);
+  out.depth = stages.depth_setup(triangle, depth);
+  out.planes = moved(planes, offsets.color);
+  out.depth_plane = moved(depth_plane(out.depth, planes), offsets.depth - offsets.color);
+  out.perspective = perspective_setup(triangle, planes);
+  const auto corners = [&](std::size_t i) {
+    const auto& a = triangle.attributes;
+    return std::array<Vec4<float>, 3>{a[0][i], a[1][i], a[2][i]};
+  };
+  out.attributes[0] = attribute_setup(corners(0));
+  for (const Varying v : surface.carried) {
+    const std::size_t i = 1 + static_cast<std::size_t>(v);
+    out.attributes[i] = attribute_setup(corners(i));
+  }
+  if (surface.texture) {
+    out.gradients = gradient_setup(triangle, corners(1 + static_cast<std::size_t>(Varying::texture)), planes);
+  }
+  return out;
+}
+
+SurfaceAttributes<float> interpolated(const Stages& stages, const Surface& surface, const TriangleSetup& setup,
+                                      const Pixels<float>& pixel) {
+  SurfaceAttributes<float> out{};
+  out.color = stages.attributes(setup, setup.attributes[0], pixel);
+  for (const Varying v : surface.carried) {
+    out[v] = stages.attributes(setup, setup.attributes[1 + static_cast<std::size_t>(v)], pixel);
+  }
+  return out;
+}
+
+FilteredTexel<float> filtered(const Stages& stages, const TextureSetup& texture, const TriangleSetup& setup,
+                              const Color<float>& texcoords, const Pixels<float>& pixel) {
+  const Offset<float> at = from_anchor<float>(setup.planes, pixel);
+  const double q = value_at<float>(setup.perspective.sum, at);
+  return stages.texture(texture, {texcoords.r, texcoords.g}, gradients<float>(setup.gradients, at, q));
+}
+
+}  // namespace plumbline::pipeline

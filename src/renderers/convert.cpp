@@ -1,0 +1,69 @@
+#include "renderers/convert.h"
+
+namespace plumbline::pipeline {
+
+namespace {
+
+// The columns' values at `i`, of those that are there.
+template <class Value>
+Attributes gathered(const Vec4<double>& color, const Varyings<double>& columns, Value value_at) {
+  Attributes out{};
+  out.color() = Vec4<float>(color);
+  for (const Varying v : kAllVaryings) {
+    if (const Vec4<double>* value = value_at(columns[v])) out[v] = Vec4<float>(*value);
+  }
+  return out;
+}
+
+}  // namespace
+
+Matrices<float> narrow(const Matrices<double>& m) {
+  return {Mat4<float>(m.model_view), Mat4<float>(m.projection), Mat3<float>(m.normal), Vec3<float>(m.win_scale),
+          Vec3<float>(m.win_translate)};
+}
+
+std::vector<LightSource<float>> narrow(const std::vector<LightSource<double>>& from) {
+  std::vector<LightSource<float>> out;
+  for (const LightSource<double>& l : from) out.push_back({Vec4<float>(l.p_eye), Vec3<float>(l.spot_eye)});
+  return out;
+}
+
+Vertex<float> narrow(const Vertex<double>& v) {
+  return {Vec4<float>(v.p_eye), Vec4<float>(v.p_clip), Vec3<float>(v.n_eye)};
+}
+
+Attributes attributes_at(const Records<double>& r, std::size_t i) {
+  return gathered(r.lit[i].color, r.varyings, [&](const VaryingColumns<double>& columns) {
+    return i < columns.vertices.size() ? &columns.vertices[i] : nullptr;
+  });
+}
+
+Polygon polygon_at(const Records<double>& r, std::size_t i) {
+  const ClipPolygon& from = r.polygons.polygons[i];
+  Polygon out{from.primitive, {}};
+  for (std::size_t k = from.first; k < from.first + from.count; ++k) {
+    const plumbline::ClipVertex<double>& v = r.polygons.vertices[k];
+    out.corners.push_back({Vec4<float>(v.p_clip),
+                           gathered(v.color, r.varyings,
+                                    [&](const VaryingColumns<double>& columns) {
+                                      return k < columns.clipped.size() ? &columns.clipped[k] : nullptr;
+                                    }),
+                           v.cut});
+  }
+  return out;
+}
+
+ShadedTriangle triangle_at(const Records<double>& r, std::size_t i) {
+  const plumbline::WindowTriangle<double>& from = r.triangles.at(i);
+  ShadedTriangle out{{{}, from.primitive, from.front, from.corners, from.width}, {}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const plumbline::WindowVertex<double>& v = from.v[k];
+    out.v[k] = {Vec3<float>(v.p_win), static_cast<float>(v.inv_w), v.snapped};
+    out.attributes[k] = gathered(v.color, r.varyings, [&](const VaryingColumns<double>& columns) {
+      return i < columns.triangles.size() ? &columns.triangles[i][k] : nullptr;
+    });
+  }
+  return out;
+}
+
+}  // namespace plumbline::pipeline

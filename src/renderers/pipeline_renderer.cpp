@@ -1,0 +1,138 @@
+#include "renderers/pipeline_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "painter/painter.h"
+#include "renderers/run_stage.h"
+
+namespace plumbline::pipeline {
+
+namespace {
+
+Planes planes_of_frame(const Frame& frame, const Formats& formats) {
+  Planes out;
+  const auto as_color = [&](const auto& codes) {
+    Plane<glm::vec4> color(codes.width(), codes.height());
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      color.values()[i] = glm::vec4(codes.values()[i]) / formats.color_scale;
+    }
+    return color;
+  };
+  out.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
+              : !frame.color_rgba12.empty() ? as_color(frame.color_rgba12)
+              : !frame.color_rgba16.empty() ? as_color(frame.color_rgba16)
+                                            : frame.color_rgba32f;
+  out.depth = Plane<double>(out.color.width(), out.color.height());
+  for (std::size_t i = 0; i < out.depth.size(); ++i) {
+    out.depth.values()[i] = frame.depth_z32f.empty() ? frame.depth_code.values()[i] / formats.depth_scale
+                                                     : static_cast<double>(frame.depth_z32f.values()[i]);
+  }
+  out.stencil = frame.stencil;
+  return out;
+}
+
+// The other way round, of colours alone.
+Frame frame_of_colors(const FrameFormat& format, const Plane<glm::vec4>& color) {
+  FrameFormat of_pass = format;
+  of_pass.width = color.width();
+  of_pass.height = color.height();
+  Frame frame(of_pass);
+  const auto scale = static_cast<float>(color_scale(format.color));
+  const auto codes = [&](auto& to, std::size_t i) {
+    if (!to.empty()) to.values()[i] = glm::round(color.values()[i] * scale);
+  };
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    codes(frame.color_rgba8, i);
+    codes(frame.color_rgba12, i);
+    codes(frame.color_rgba16, i);
+  }
+  if (scale == 0.0f) frame.color_rgba32f = color;
+  return frame;
+}
+
+class PipelineRenderer : public Renderer {
+ public:
+  PipelineRenderer(const Stages& stages, bool paints) : stages_(stages), paints_(paints) {}
+
+  RendererInfo info() const override {
+    RendererInfo info{.name = "ours", .version = PLUMBLINE_VERSION, .stages = {}};
+    for (Ability& ability : info.stages) ability = {true, true, ""};
+    if (!paints_) return info;
+    for (const SimdTarget& target : simd_targets()) info.painters.emplace_back(target.name);
+    return info;
+  }
+
+  Capture capture(const Scene& scene, const Request& request) override {
+    require_budget(scene, plane_bytes(scene), request.memory_budget);
+    Capture out = empty_capture(scene);
+    if (request.planes == WantedPlanes::picture && !request.records.any()) {
+      out.planes = planes_of_frame(picture(scene, request.painter), formats_of(scene.frame));
+      return out;
+    }
+    if (scene.frame.antialias.kind != Antialias::Kind::none) {
+      const std::vector<Frame> passes = render_passes(scene, stages_);
+      out.planes = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame));
+      for (const Frame& pass : passes) out.samples.push_back(planes_of_frame(pass, formats_of(scene.frame)).color);
+      return out;
+    }
+    Recorder records(scene, request, plane_bytes(scene), out);
+    const Frame frame = render(scene, stages_, records);
+    Planes finished = planes_of_frame(frame, formats_of(scene.frame));
+    out.planes.color = std::move(finished.color);
+    out.planes.depth = std::move(finished.depth);
+    out.planes.stencil = std::move(finished.stencil);
+    return out;
+  }
+
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override {
+    if (!info()[stage].runs) return Renderer::run_stage(scene, stage, in);
+    if (stage == Stage::resolve) return resolved(scene, in.samples);
+    Capture out = empty_capture(scene);
+    pipeline::run_stage(scene, stage, stages_, in, out);
+    return out;
+  }
+
+ private:
+  static Capture empty_capture(const Scene& scene) {
+    Capture out;
+    out.renderer = "ours";
+    out.version = PLUMBLINE_VERSION;
+    out.width = scene.frame.width;
+    out.height = scene.frame.height;
+    return out;
+  }
+
+  Capture resolved(const Scene& scene, const std::vector<Plane<glm::vec4>>& samples) {
+    require_samples(scene, samples);
+    std::vector<Frame> passes;
+    for (const Plane<glm::vec4>& color : samples) passes.push_back(frame_of_colors(scene.frame, color));
+    Capture out = empty_capture(scene);
+    out.planes.color = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame)).color;
+    return out;
+  }
+
+  Frame picture(const Scene& scene, std::string_view painter) const {
+    if (!paints_) return render(scene, stages_);
+    const auto targets = simd_targets();
+    const auto target =
+        painter.empty() ? std::prev(targets.end()) : std::ranges::find(targets, painter, &SimdTarget::name);
+    if (target == targets.end()) throw std::invalid_argument(fmt::format("no painter is named {}", painter));
+    return std::move(Painter(1, *target).draw(scene));
+  }
+
+  Stages stages_;
+  bool paints_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_pipeline() { return std::make_unique<PipelineRenderer>(production_stages(), true); }
+
+std::unique_ptr<Renderer> make_pipeline(const Stages& stages) {
+  return std::make_unique<PipelineRenderer>(stages, false);
+}
+
+}  // namespace plumbline::pipeline
