@@ -1,12 +1,27 @@
 // The tests between a fragment's colour and its place in the frame, in OpenGL's order (2.1 spec, chapter 4.1): alpha,
-// stencil, depth (depth.h). Scissor is coverage's (coverage.h).
+// stencil, depth. Scissor is coverage's (coverage.h).
 #pragma once
 
-#include "kernels/compare.h"
 #include "kernels/lanes.h"
 #include "scene/scene.h"
 
 namespace plumbline::pipeline {
+
+/// A depth, stencil or alpha function.
+template <class R, class T>
+Mask<R> compares(CompareFunc func, T a, T b) {
+  switch (func) {
+    case CompareFunc::never: return a != a;
+    case CompareFunc::less: return a < b;
+    case CompareFunc::equal: return a == b;
+    case CompareFunc::less_equal: return a <= b;
+    case CompareFunc::greater: return a > b;
+    case CompareFunc::not_equal: return a != b;
+    case CompareFunc::greater_equal: return a >= b;
+    case CompareFunc::always: return a == a;
+  }
+  return a == a;
+}
 
 /// `scale`: the frame's largest code; 0: float, compared as it is. In double, where the product of a float and a scale
 /// is exact and so is its rounding.

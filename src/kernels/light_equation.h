@@ -9,10 +9,39 @@
 #include "capture/stages.h"
 #include "kernels/attributes.h"
 #include "kernels/math.h"
-#include "kernels/vector.h"
 #include "scene/scene.h"
 
 namespace plumbline::pipeline {
+
+template <class R>
+struct Vector {
+  R x, y, z;
+  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vector operator-(const Vector& v) { return {-v.x, -v.y, -v.z}; }
+  friend Vector operator*(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+  friend Vector operator*(R k, const Vector& v) { return {k * v.x, k * v.y, k * v.z}; }
+  friend Vector operator/(const Vector& v, R k) { return {v.x / k, v.y / k, v.z / k}; }
+};
+
+/// The same numbers in every lane; what is of lanes already stays as it is.
+template <class R, class V>
+Vector<R> spread(const V& v) {
+  return {R(v.x), R(v.y), R(v.z)};
+}
+
+template <class R>
+R dot(const Vector<R>& a, const Vector<R>& b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+template <class R>
+Vector<R> unit(const Vector<R>& v) {
+  return v / square_root(dot(v, v));
+}
+template <class R>
+Vector<R> select(Mask<R> mask, const Vector<R>& yes, const Vector<R>& no) {
+  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
 
 /// The scene's lights, as stage 0 hands them on.
 using Lights = std::span<const LightSource<float>>;
@@ -154,6 +183,32 @@ Color<R> lit(const Illumination& illumination, const Reflectance<T>& reflectance
     sum = select<R>(share > R(0), sum + share * color, sum);
   }
   return {clamp01(sum.x), clamp01(sum.y), clamp01(sum.z), clamp01(R(reflectance.alpha))};
+}
+
+// Light per fragment (Phong, Illumination for computer generated pictures, CACM 1975).
+
+/// What a draw's fragments are lit by.
+struct FragmentLight {
+  const Scene* scene;
+  bool by_color;  ///< its colours stand for some of its material
+  Illumination illumination;
+  // Front or back, without and of the specular part:
+  ColoredMaterial material[2][2];
+  Reflectance<float> reflectance[2][2];  ///< of its own material
+};
+/// `lights`: stage 0's.
+FragmentLight fragment_light(const Scene& scene, const Draw& draw, Lights lights);
+
+/// The light equation at a point of a face, the normal brought to unit length. `color`: the interpolated vertex colour.
+template <class R>
+Color<R> lit_fragment(const FragmentLight& light, LitPart part, const Color<R>& color, const Color<R>& n,
+                      const Color<R>& p) {
+  const Vector<R> p_eye{p.r, p.g, p.b}, normal{n.r, n.g, n.b};
+  const R length = square_root(dot(normal, normal));
+  const Vector<R> n_eye = normal / (part.back ? -length : length);
+  if (!light.by_color) return lit(light.illumination, light.reflectance[part.back][part.secondary], p_eye, n_eye);
+  const ColoredMaterial& material = light.material[part.back][part.secondary];
+  return lit(light.illumination, reflectance(*light.scene, material, color), p_eye, n_eye);
 }
 
 }  // namespace plumbline::pipeline

@@ -1,11 +1,64 @@
-// Stage 9: the fragment's colour, from its attributes.
+// Stage 9: the fragment's colour from its attributes: light per fragment, texture environment, sum of colours, fog.
 #pragma once
 
-#include "kernels/environment.h"
-#include "kernels/fog.h"
+#include "kernels/math.h"
 #include "kernels/surface.h"
+#include "scene/scene.h"
+#include "scene/texture.h"
 
 namespace plumbline::pipeline {
+
+/// Texture environment (OpenGL 2.1 spec, tables 3.22 and 3.23). `f`: the fragment's colour, `s`: the texture source, both rgba. A sum is clamped to [0,1].
+template <class R>
+Color<R> apply_environment(TextureFormat format, const DrawTexture& state, const Color<R>& f, const Color<R>& s) {
+  using E = TextureEnvironment;
+  const bool has_color = format != TextureFormat::alpha;
+  const bool has_alpha = format != TextureFormat::luminance && format != TextureFormat::rgb;
+  const bool intensity = format == TextureFormat::intensity;
+  const auto rgb = [&](R cf, R cs, float constant) -> R {
+    if (!has_color) return cf;
+    switch (state.environment) {
+      case E::replace: return cs;
+      case E::modulate: return cf * cs;
+      case E::decal: return format == TextureFormat::rgb ? cs : cf * (R(1) - s.a) + cs * s.a;
+      case E::blend: return cf * (R(1) - cs) + constant * cs;
+      case E::add: return clamp01(cf + cs);
+    }
+    return cf;
+  };
+  const auto alpha = [&]() -> R {
+    if (!has_alpha || state.environment == E::decal) return f.a;
+    if (state.environment == E::replace) return s.a;
+    if (intensity && state.environment == E::blend) return f.a * (R(1) - s.a) + state.color.a * s.a;
+    if (intensity && state.environment == E::add) return clamp01(f.a + s.a);
+    return f.a * s.a;
+  };
+  return {rgb(f.r, s.r, state.color.r), rgb(f.g, s.g, state.color.g), rgb(f.b, s.b, state.color.b), alpha()};
+}
+
+/// Fog factor (OpenGL 2.1 spec 3.10). f, [0,1]: how much of the fragment's own colour is left at the distance c = |z_eye|, as the specification allows for
+/// the distance from the eye. In double, rounded once.
+template <class R>
+R fog_factor(const Fog& fog, R z_eye) {
+  using W = Wide<R>;
+  constexpr double kLog2OfE = 1.4426950408889634;
+  const W z = to_wide(z_eye), c = select(z < 0.0, -z, z);
+  const W x = c * static_cast<double>(fog.density);
+  switch (fog.mode) {
+    case Fog::Mode::linear: return to_float(clamp01((W(fog.end) - c) / (W(fog.end) - W(fog.start))));
+    case Fog::Mode::exp: return to_float(exp2_of(-x * kLog2OfE));
+    case Fog::Mode::exp2: return to_float(exp2_of(-(x * x) * kLog2OfE));
+  }
+  return R(1);
+}
+
+/// f color + (1 - f) fog's; alpha as it is.
+template <class R>
+Color<R> fogged(const Fog& fog, const Color<R>& color, R z_eye) {
+  const R f = fog_factor<R>(fog, z_eye), rest = R(1) - f;
+  const auto mixed = [&](R of_fragment, float of_fog) { return f * of_fragment + rest * R(of_fog); };
+  return {mixed(color.r, fog.color.r), mixed(color.g, fog.color.g), mixed(color.b, fog.color.b), color.a};
+}
 
 /// rgb of the two added up and clamped (OpenGL 2.1 spec 3.9).
 template <class R>

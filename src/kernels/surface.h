@@ -7,7 +7,7 @@
 #include "base/fixed_vector.h"
 #include "capture/stages.h"
 #include "kernels/attributes.h"
-#include "kernels/fragment_light.h"
+#include "kernels/light_equation.h"
 #include "kernels/texture.h"
 #include "scene/scene.h"
 

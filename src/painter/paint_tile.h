@@ -12,11 +12,10 @@
 namespace plumbline::pipeline {
 
 /// Of lines, points, and triangles whose edges do not fit: one by one (lone_triangle.h).
-template <class R>
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, auto& tile) {
   const auto varying = [&](Varying v) { return varying_of(painting, draw, triangle, v); };
-  paint_lone<R>(draw.state, window_triangle_of(painting, triangle), colors_of(painting, draw, triangle), varying,
-                painting.formats, tile);
+  paint_lone(draw.state, window_triangle_of(painting, triangle), colors_of(painting, draw, triangle), varying,
+             painting.formats, tile);
 }
 
 /// A lane's depth, with what of the draw's state changes it.
@@ -53,7 +52,7 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
     const SurfaceSetup surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
     paint_blocks(s, &surface);
   };
-  const auto alone = [&](const PaintTriangle& t) { paint_alone<R>(painting, draw, t, tile); };
+  const auto alone = [&](const PaintTriangle& t) { paint_alone(painting, draw, t, tile); };
   const auto together = [](const auto&, int) { return false; };
   each_lane<R, 1>(painting, run, false, tile.x0, tile.y0, together, alone, paint);
 }
@@ -120,7 +119,7 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* t
   const PaintDraw& draw = painting.draws[run.draw];
   const auto alone = [&](const PaintTriangle& t) {
     each_sample<kSampleCount>(painting, tiles,
-                              [&](const Painting& of, PackedTile& tile) { paint_alone<R>(of, draw, t, tile); });
+                              [&](const Painting& of, PackedTile& tile) { paint_alone(of, draw, t, tile); });
   };
   const auto opaque = [&]<PaintKernel kKernel>() {
     paint_opaque<R, kKernel, Order::first_to_last, kSampleCount>(painting, run, tiles, alone);
@@ -132,7 +131,7 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* t
     case PaintKernel::shades: return opaque.template operator()<PaintKernel::shades>();
     case PaintKernel::lines:
       return each_sample<kSampleCount>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
-        paint_lines<R>(of, run, tile, [&](const PaintTriangle& t) { paint_alone<R>(of, draw, t, tile); });
+        paint_lines<R>(of, run, tile, [&](const PaintTriangle& t) { paint_alone(of, draw, t, tile); });
       });
     case PaintKernel::any: break;
   }

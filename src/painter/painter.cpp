@@ -10,7 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "kernels/fragment_light.h"
+#include "kernels/light_equation.h"
 #include "kernels/surface.h"
 #include "painter/assemble.h"
 #include "painter/scalar_geometry.h"

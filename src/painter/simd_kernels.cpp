@@ -1,7 +1,6 @@
 // Compiled once for each target (src/CMakeLists.txt).
 #include "painter/simd_targets.h"
 
-#include "kernels/simd_coverage.h"
 #include "kernels/simd_fours.h"
 
 #include "painter/cull_lanes.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -55,10 +57,11 @@ Frame frame_of_colors(const FrameFormat& format, const Plane<glm::vec4>& color) 
 
 class PipelineRenderer : public Renderer {
  public:
-  PipelineRenderer(const Stages& stages, bool paints) : stages_(stages), paints_(paints) {}
+  PipelineRenderer(std::string name, const Stages& stages, bool paints)
+      : name_(std::move(name)), stages_(stages), paints_(paints) {}
 
   RendererInfo info() const override {
-    RendererInfo info{.name = "ours", .version = PLUMBLINE_VERSION, .stages = {}};
+    RendererInfo info{.name = name_, .version = PLUMBLINE_VERSION, .stages = {}};
     for (Ability& ability : info.stages) ability = {true, true, ""};
     if (!paints_) return info;
     for (const SimdTarget& target : simd_targets()) info.painters.emplace_back(target.name);
@@ -96,9 +99,9 @@ class PipelineRenderer : public Renderer {
   }
 
  private:
-  static Capture empty_capture(const Scene& scene) {
+  Capture empty_capture(const Scene& scene) const {
     Capture out;
-    out.renderer = "ours";
+    out.renderer = name_;
     out.version = PLUMBLINE_VERSION;
     out.width = scene.frame.width;
     out.height = scene.frame.height;
@@ -123,16 +126,23 @@ class PipelineRenderer : public Renderer {
     return std::move(Painter(1, *target).draw(scene));
   }
 
+  std::string name_;
   Stages stages_;
-  bool paints_;
+  bool paints_;  // pictures are the painter's
 };
 
 }  // namespace
 
-std::unique_ptr<Renderer> make_pipeline() { return std::make_unique<PipelineRenderer>(production_stages(), true); }
+std::unique_ptr<Renderer> make_pipeline() {
+  return std::make_unique<PipelineRenderer>("ours", production_stages(), true);
+}
+
+std::unique_ptr<Renderer> make_definition() {
+  return std::make_unique<PipelineRenderer>("definition", production_stages(), false);
+}
 
 std::unique_ptr<Renderer> make_pipeline(const Stages& stages) {
-  return std::make_unique<PipelineRenderer>(stages, false);
+  return std::make_unique<PipelineRenderer>("ours", stages, false);
 }
 
 }  // namespace plumbline::pipeline

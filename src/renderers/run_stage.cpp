@@ -1,5 +1,6 @@
 #include "renderers/run_stage.h"
 
+#include "capture/require_fitting.h"
 #include "pipeline/coverage.h"
 #include "pipeline/matrices.h"
 #include "pipeline/merge.h"
@@ -7,7 +8,6 @@
 #include "pipeline/triangle_setup.h"
 #include "pipeline/visibility.h"
 #include "renderers/convert.h"
-#include "renderers/input.h"
 #include "scene/antialias.h"
 #include "scene/draw_of.h"
 
@@ -28,7 +28,8 @@ class OneStage {
         records_(in.records),
         out_(out),
         request_{StageSet{stage}, false, {}, {}},
-        ranges_(draw_ranges(scene)) {
+        ranges_(draw_ranges(scene)),
+        carried_(carried(scene)) {
     lights_ = narrow(records_.lights);
     if (lights_.empty()) {
       const auto of_scene = light_sources(scene);
@@ -37,30 +38,13 @@ class OneStage {
   }
 
   void run() {
-    switch (stage_) {
-      case Stage::matrices:
-      case Stage::vertex:
-      case Stage::light: return run_vertices();
-      case Stage::clip: return run_clip();
-      case Stage::window: return run_window();
-      case Stage::coverage: return run_coverage();
-      case Stage::depth: return run_depth();
-      case Stage::attributes: return run_attributes();
-      case Stage::texture: return run_texture();
-      case Stage::shade: return run_shade();
-      default: return run_planes();
-    }
+    if (stage_ <= Stage::window) return run_geometry();
+    if (stage_ == Stage::coverage) return run_coverage();
+    if (stage_ <= Stage::shade) return run_fragments();
+    run_planes();
   }
 
  private:
-  // Records without the planes that a recorder of fragments makes beside them.
-  void record(auto add) {
-    Capture made;
-    Recorder recorder(scene_, request_, 0, made);
-    add(recorder);
-    out_.records = std::move(made.records);
-  }
-
   DrawInput input(std::size_t draw) const {
     const bool known = draw < records_.matrices.size();
     return draw_input(scene_, scene_.draws[draw], known ? narrow(records_.matrices[draw]) : Matrices<float>());
@@ -69,67 +53,57 @@ class OneStage {
   const Draw& draw_at(std::uint32_t triangle) const {
     return scene_.draws[draw_number(records_.triangles[triangle].primitive)];
   }
-  std::vector<Vertex<float>> vertices_of(const DrawRange& range) const {
-    std::vector<Vertex<float>> out;
-    for (std::size_t i = 0; i < range.vertex_count; ++i)
-      out.push_back(narrow(records_.vertices[range.first_vertex + i]));
-    return out;
+  void run_geometry() {
+    Capture made;
+    Recorder recorder(scene_, request_, 0, made);
+    if (stage_ == Stage::matrices) {
+      const auto lights = stages_.lights(scene_);
+      recorder.lights({lights.begin(), lights.end()});
+    }
+    for (std::size_t d = 0; d < scene_.draws.size(); ++d) run_geometry(d, recorder);
+    if (stage_ == Stage::window) run_window(recorder);
+    out_.records = std::move(made.records);  // without a recorder's planes
   }
 
-  void run_vertices() {
-    record([&](Recorder& recorder) {
-      if (stage_ == Stage::matrices) {
-        const auto lights = stages_.lights(scene_);
-        recorder.lights({lights.begin(), lights.end()});
-      }
-      for (std::size_t d = 0; d < scene_.draws.size(); ++d) {
-        const Draw& draw = scene_.draws[d];
-        if (stage_ == Stage::matrices) recorder.draw(draw, stages_.matrices(scene_, draw));
-        if (stage_ == Stage::vertex) {
-          std::vector<Vertex<float>> vertices;
-          stages_.vertex(narrow(records_.matrices[d]), draw.normals, scene_.meshes[draw.mesh], vertices);
-          recorder.vertices(vertices);
-        }
-        if (stage_ == Stage::light) {
-          std::vector<Attributes> attributes;
-          stages_.light(scene_, draw, lights_, vertices_of(ranges_[d]), attributes);
-          recorder.attributes(attributes);
-        }
-      }
-    });
+  void run_geometry(std::size_t d, Recorder& recorder) {
+    const Draw& draw = scene_.draws[d];
+    const Mesh& mesh = scene_.meshes[draw.mesh];
+    const DrawRange& range = ranges_[d];
+    std::vector<Vertex<float>> vertices;
+    std::vector<Attributes> attributes;
+    if (stage_ == Stage::matrices) recorder.draw(draw, stages_.matrices(scene_, draw));
+    if (stage_ == Stage::vertex) {
+      stages_.vertex(narrow(records_.matrices[d]), draw.normals, mesh, vertices);
+      recorder.vertices(vertices);
+    }
+    if (stage_ != Stage::light && stage_ != Stage::clip) return;
+    for (std::size_t i = 0; i < range.vertex_count; ++i) {
+      vertices.push_back(narrow(records_.vertices[range.first_vertex + i]));
+    }
+    if (stage_ == Stage::light) {
+      stages_.light(scene_, draw, lights_, vertices, attributes);
+      return recorder.attributes(attributes);
+    }
+    for (std::size_t i = 0; i < range.vertex_count; ++i) {
+      attributes.push_back(attributes_at(records_, range.first_vertex + i));
+    }
+    const DrawInput in = input(d);
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      Polygon polygon = stages_.assemble(in, mesh.triangles[i], vertices, attributes);
+      polygon.primitive = range.first_primitive + i;
+      stages_.clip(in, polygon);
+      if (!polygon.corners.empty()) recorder.polygon(polygon);
+    }
   }
 
-  void run_clip() {
-    record([&](Recorder& recorder) {
-      for (std::size_t d = 0; d < scene_.draws.size(); ++d) {
-        const DrawRange& range = ranges_[d];
-        const std::vector<Vertex<float>> vertices = vertices_of(range);
-        std::vector<Attributes> attributes;
-        for (std::size_t i = 0; i < range.vertex_count; ++i) {
-          attributes.push_back(attributes_at(records_, range.first_vertex + i));
-        }
-        const DrawInput in = input(d);
-        const std::vector<glm::uvec3>& primitives = scene_.meshes[scene_.draws[d].mesh].triangles;
-        for (std::size_t i = 0; i < primitives.size(); ++i) {
-          Polygon polygon = stages_.assemble(in, primitives[i], vertices, attributes);
-          polygon.primitive = range.first_primitive + static_cast<std::uint32_t>(i);
-          stages_.clip(in, polygon);
-          if (!polygon.corners.empty()) recorder.polygon(polygon);
-        }
-      }
-    });
-  }
-
-  void run_window() {
+  void run_window(Recorder& recorder) {
     std::vector<ShadedTriangle> triangles;
-    record([&](Recorder& recorder) {
-      for (std::size_t i = 0; i < records_.polygons.polygons.size(); ++i) {
-        const Polygon polygon = polygon_at(records_, i);
-        triangles.clear();
-        stages_.window(input(draw_number(polygon.primitive)), polygon, triangles);
-        for (const ShadedTriangle& t : triangles) recorder.triangle(t, t.attributes);
-      }
-    });
+    for (std::size_t i = 0; i < records_.polygons.polygons.size(); ++i) {
+      const Polygon polygon = polygon_at(records_, i);
+      triangles.clear();
+      stages_.window(input(draw_number(polygon.primitive)), polygon, triangles);
+      for (const ShadedTriangle& t : triangles) recorder.triangle(t, t.attributes);
+    }
   }
 
   void run_coverage() {
@@ -149,10 +123,10 @@ class OneStage {
     }
   }
 
-  // visit(fragment's number, surface, set-up, pixel) for each fragment.
-  void each_fragment(auto visit) {
+  void run_fragments() {
     const SampleOffsets offsets = stages_.sample_offsets(sample_place(scene_.frame));
-    const std::vector<Surface> surfaces = surfaces_of_draws();
+    std::vector<Surface> surfaces;
+    for (const Draw& draw : scene_.draws) surfaces.push_back(surface_of(scene_, draw, lights_));
     TriangleSetup setup;
     std::uint32_t triangle = ~0u;
     glm::ivec2 anchor(-1);
@@ -160,63 +134,48 @@ class OneStage {
       const Covered& c = records_.covered[i];
       const glm::ivec2 pixel(c.x, c.y);
       const Surface& surface = surfaces[draw_number(records_.triangles[c.triangle].primitive)];
+      if (stage_ == Stage::shade) {
+        run_shade(i, surface, records_.triangles[c.triangle].front);
+        continue;
+      }
       if (triangle != c.triangle || anchor != anchor_of(pixel)) {
         triangle = c.triangle, anchor = anchor_of(pixel);
         const DepthState depth = depth_state(*surface.draw, scene_.frame.depth, scene_.depth_clamp);
         setup = set_up(stages_, triangle_at(records_, triangle), surface, depth, offsets, anchor);
       }
-      visit(i, surface, setup, pixel_at(pixel));
+      run_fragment(i, surface, setup, pixel_at(pixel));
     }
   }
-  std::vector<Surface> surfaces_of_draws() const {
-    std::vector<Surface> out;
-    for (const Draw& draw : scene_.draws) out.push_back(surface_of(scene_, draw, lights_));
-    return out;
-  }
 
-  void run_depth() {
-    const double scale = formats_of(scene_.frame).depth_scale;
-    each_fragment([&](std::size_t, const Surface&, const TriangleSetup& setup, const Pixels<float>& p) {
-      const double z = stages_.depth(setup, p);
-      out_.records.depth.push_back(scale == 0.0 ? z : z / scale);
-    });
-  }
-
-  void run_attributes() {
-    const std::vector<Varying> carried = plumbline::carried(scene_);
-    each_fragment([&](std::size_t, const Surface& surface, const TriangleSetup& setup, const Pixels<float>& p) {
+  // Depth, attributes or texture.
+  void run_fragment(std::size_t i, const Surface& surface, const TriangleSetup& setup, const Pixels<float>& p) {
+    Records<double>& out = out_.records;
+    if (stage_ == Stage::depth) {
+      const double z = stages_.depth(setup, p), scale = depth_scale(scene_.frame.depth);
+      out.depth.push_back(scale == 0.0 ? z : z / scale);
+    } else if (stage_ == Stage::attributes) {
       const SurfaceAttributes<float> attributes = interpolated(stages_, surface, setup, p);
-      out_.records.attributes.push_back({widen(attributes.color)});
-      for (const Varying v : carried) {
-        if (!is_back(v)) out_.records.varyings[v].fragments.push_back(widen(attributes[v]));
+      out.attributes.push_back({widen(attributes.color)});
+      for (const Varying v : carried_) {
+        if (!is_back(v)) out.varyings[v].fragments.push_back(widen(attributes[v]));
       }
-    });
-  }
-
-  void run_texture() {
-    if (!textured(scene_)) return;
-    const std::vector<Vec4<double>>& texcoords = records_.varyings[Varying::texture].fragments;
-    each_fragment([&](std::size_t i, const Surface& surface, const TriangleSetup& setup, const Pixels<float>& p) {
-      Texel<double>& to = out_.records.texels.emplace_back();
+    } else if (textured(scene_)) {
+      Texel<double>& to = out.texels.emplace_back();
       if (!surface.texture) return;
-      const FilteredTexel<float> texel = filtered(stages_, *surface.texture, setup, narrow(texcoords[i]), p);
+      const Vec4<double>& texcoords = records_.varyings[Varying::texture].fragments[i];
+      const FilteredTexel<float> texel = filtered(stages_, *surface.texture, setup, narrow(texcoords), p);
       to = {widen(texel.color), texel.lod};
-    });
+    }
   }
 
-  void run_shade() {
-    const std::vector<Surface> surfaces = surfaces_of_draws();
-    for (std::size_t i = 0; i < records_.covered.size(); ++i) {
-      const plumbline::WindowTriangle<double>& triangle = records_.triangles[records_.covered[i].triangle];
-      const Surface& surface = surfaces[draw_number(triangle.primitive)];
-      SurfaceAttributes<float> attributes{narrow(records_.attributes[i].color), {}, {}};
-      for (const Varying v : surface.carried) attributes[v] = narrow(records_.varyings[v].fragments[i]);
-      if (surface.texture) {
-        const Texel<double>& texel = records_.texels[i];
-        attributes.texel = {narrow(texel.color), static_cast<float>(texel.lod)};
-      }
-      out_.records.shaded.push_back({widen(stages_.shade(surface, triangle.front, attributes).color)});
+  void run_shade(std::size_t i, const Surface& surface, bool front) {
+    SurfaceAttributes<float> attributes{narrow(records_.attributes[i].color), {}, {}};
+    for (const Varying v : surface.carried) attributes[v] = narrow(records_.varyings[v].fragments[i]);
+    if (surface.texture) {
+      const Texel<double>& texel = records_.texels[i];
+      attributes.texel = {narrow(texel.color), static_cast<float>(texel.lod)};
     }
+    out_.records.shaded.push_back({widen(stages_.shade(surface, front, attributes).color)});
   }
 
   // Stages 10 and 11: the recorded fragments, in draw order, through the tests into the planes.
@@ -280,6 +239,7 @@ class OneStage {
   Capture& out_;
   const Request request_;
   const std::vector<DrawRange> ranges_;
+  const std::vector<Varying> carried_;
   std::vector<LightSource<float>> lights_;
 };
 

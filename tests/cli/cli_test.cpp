@@ -200,6 +200,17 @@ TEST_F(Cli, render_writes_pictures_and_depth) {
   EXPECT_FALSE(fs::exists(at("e.png")));
 }
 
+TEST_F(Cli, the_definition_draws_the_painters_picture) {
+  for (const std::string scene :
+       {"antialias/samples_textured.json", "clip/six_planes.json", "notes/gzrender_cut.json"}) {
+    ASSERT_EQ(plumb("render " + kScenes + scene + " -o " + at("p.png") + " --depth " + at("p.exr")).code, 0);
+    const std::string outputs = " -o " + at("d.png") + " --depth " + at("d.exr");
+    ASSERT_EQ(plumb("render " + kScenes + scene + " --with definition" + outputs).code, 0);
+    EXPECT_EQ(read_image(at("d.png")).values(), read_image(at("p.png")).values()) << scene;
+    EXPECT_EQ(read_image(at("d.exr")).values(), read_image(at("p.exr")).values()) << scene;
+  }
+}
+
 TEST_F(Cli, a_picture_whose_rows_count_from_the_top_stands_upright) {
   const std::string scene = kScenes + "notes/gzrender_cut.json";
   ASSERT_EQ(plumb("render " + scene + " -o " + at("c.exr") + " --depth " + at("d.exr")).code, 0);

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "kernels/fragment_light.h"
+#include "kernels/light_equation.h"
 #include "kernels/merge.h"
 #include "kernels/texture.h"
 

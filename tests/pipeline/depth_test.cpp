@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/compare.h"
 #include "kernels/coverage.h"
+#include "kernels/fragment_tests.h"
 #include "pipeline/stages.h"
 #include "tests/at_weights.h"
 #include "tests/pipeline/window_triangles.h"

@@ -1,5 +1,5 @@
 // Fog: the specification's three equations (2.1, section 3.10), and the way of its distance to the fragments.
-#include "kernels/fog.h"
+#include "kernels/shade.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/compare.h"
+#include "kernels/fragment_tests.h"
 #include "kernels/merge.h"
 #include "tests/notes/ascii_coverage.h"
 #include "tests/pipeline/window_frame.h"

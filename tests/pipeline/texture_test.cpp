@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "kernels/environment.h"
+#include "kernels/shade.h"
 #include "kernels/texture.h"
 #include "scene/texture/texture_images.h"
 

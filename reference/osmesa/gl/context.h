@@ -1,4 +1,4 @@
-// An OpenGL context without a window, as the rest of this folder sees it. osmesa.cpp and egl.cpp each make one.
+// An OpenGL context without a window, as the rest of this folder sees it. osmesa_context.cpp and egl_context.cpp each make one.
 #pragma once
 
 #include <memory>
@@ -26,6 +26,9 @@ enum class ShaderCode { quick_to_make, quick_to_run };
 
 /// OSMesa's, if it is built in. Throws RendererFailed.
 std::unique_ptr<Context> make_osmesa_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
+
+/// EGL's, if it is built in. Throws RendererFailed.
+std::unique_ptr<Context> make_egl_context(MesaDriver driver);
 
 /// All of OpenGL's entry points that are used here. Throws RendererFailed, naming the one that lacks.
 Gl load(const Context& context);

@@ -91,7 +91,7 @@ const std::vector<std::string>& known_reference_names() {
 const std::vector<std::string>& renderer_names() {
   static const std::vector<std::string> kNames = [] {
     std::vector<std::string> names = known_reference_names();
-    names.insert(names.begin(), "ours");
+    names.insert(names.begin(), {"ours", "definition"});
     return names;
   }();
   return kNames;
@@ -99,6 +99,7 @@ const std::vector<std::string>& renderer_names() {
 
 std::unique_ptr<Renderer> make_renderer(const std::string& name) {
   if (name == "ours") return pipeline::make_pipeline();
+  if (name == "definition") return pipeline::make_definition();
   if (name == "exact") return exact::make_exact();
   if (name == "image_order") return image_order::make_image_order();
 #ifdef PLUMBLINE_EGL

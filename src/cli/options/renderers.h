@@ -16,7 +16,7 @@ namespace plumbline::cli {
 const std::vector<std::string>& reference_names();
 /// All references that there are, built in or not, in the order in which they are asked.
 const std::vector<std::string>& known_reference_names();
-/// These and `ours`.
+/// These, `ours` and `definition`.
 const std::vector<std::string>& renderer_names();
 
 /// Within this process, which holds one of Mesa's libraries and drivers. Null if the renderer is known but not built

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "kernels/environment.h"
+#include "kernels/shade.h"
 #include "kernels/texture.h"
 #include "reference/arithmetic/texture.h"
 #include "scene/texture/texture_images.h"

@@ -1,4 +1,4 @@
-#include "renderers/input.h"
+#include "capture/require_fitting.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -6,7 +6,7 @@
 
 #include "scene/draw_of.h"
 
-namespace plumbline::pipeline {
+namespace plumbline {
 
 namespace {
 
@@ -32,10 +32,6 @@ bool corners_fit(const Scene& scene, const std::vector<DrawRange>& ranges, std::
   const bool filled = draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;
   return corners >= (filled ? 3 : least_of_triangle) && corners <= most;
 }
-
-}  // namespace
-
-namespace {
 
 // The columns of the varyings that the stage reads.
 void require_columns(const Scene& scene, Stage stage, const Records<double>& r) {
@@ -102,4 +98,4 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   if (!in.planes.id.empty() && !winners_fit) throw std::invalid_argument("planes.id is not of the frame's size");
 }
 
-}  // namespace plumbline::pipeline
+}  // namespace plumbline
