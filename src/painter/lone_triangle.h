@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "painter/fragments.h"
+#include "painter/painting.h"
 #include "pipeline/triangle_setup.h"
 
 namespace plumbline::pipeline {
@@ -50,6 +50,63 @@ void paint_lone(const DrawState& state, const WindowTriangle& t, const std::arra
       if (coverage<float>(s.edges, {x, y, 0, 0})) paint({x, y});
     }
   }
+}
+
+/// A triangle's varyings at its corners; of those that light made, flat shading takes the provoking one's.
+inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
+                                             Varying v) {
+  const Vec4<float>* column = painting.varyings[static_cast<std::size_t>(v)];
+  const bool flat = draw.flat && is_lit(v);
+  return {column[t.corner[flat ? 1 : 0]], column[t.corner[1]], column[t.corner[flat ? 1 : 2]]};
+}
+
+/// The triangle as stage 4 has it.
+inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTriangle& t) {
+  WindowTriangle out{{}, 0, t.front, t.corners, t.width};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const PaintVertex& v = painting.vertices[t.corner[k]];
+    out.v[k] = {v.p_win, v.inv_w, v.snapped};
+  }
+  return out;
+}
+/// Its colours at the corners.
+inline std::array<Vec4<float>, 3> colors_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t) {
+  const auto color = [&](int k) { return painting.vertices[t.corner[draw.flat ? 1 : k]].color; };
+  return {color(0), color(1), color(2)};
+}
+
+/// (x0, y0): the tile's lower left pixel.
+inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t, int x0,
+                                    int y0) {
+  const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
+  const WindowTriangle triangle = window_triangle_of(painting, t);
+  return set_up_surface(*draw.state.surface, triangle, planes_of(triangle, x0, y0), varying);
+}
+
+/// A triangle, line or point of the painting.
+void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, auto& tile) {
+  const auto varying = [&](Varying v) { return varying_of(painting, draw, triangle, v); };
+  paint_lone(draw.state, window_triangle_of(painting, triangle), colors_of(painting, draw, triangle), varying,
+             painting.formats, tile);
+}
+
+/// paint(painting, tile) of each sample's own.
+template <int kSampleCount>
+void each_sample(const Painting& painting, PackedTile* tiles, auto paint) {
+  if constexpr (kSampleCount == 1) return paint(painting, tiles[0]);
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
+    Painting of_sample = painting;
+    of_sample.samples = painting.samples.subspan(i, 1);
+    of_sample.formats.sample = painting.samples[i];
+    paint(of_sample, tiles[i]);
+  }
+}
+
+/// The same in the tile of each sample.
+template <int kSampleCount>
+void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, PackedTile* tiles) {
+  each_sample<kSampleCount>(painting, tiles,
+                            [&](const Painting& of, PackedTile& tile) { paint_alone(of, draw, triangle, tile); });
 }
 
 }  // namespace plumbline::pipeline

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kernels/line_diamond.h"
+#include "painter/lone_triangle.h"
 #include "painter/paint_pixels.h"
 
 namespace plumbline::pipeline {
@@ -22,14 +23,14 @@ template <class R>
   return planes;
 }
 
-/// alone(line): of wider ones, and of those that share their lanes.
+/// Wider ones, and those that share their lanes, are painted alone.
 template <class R>
-void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile, auto alone) {
+void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile) {
   using I = Int<R>;
   constexpr std::size_t kLanes = Lanes<R>::width;
   const SetupSite site = site_of(painting, run, tile.x0, tile.y0);
   const glm::i64vec2 origin = std::int64_t{kSubpixel} * glm::i64vec2(tile.x0, tile.y0);
-  SetupLanes<R> lanes;
+  LaneTriangles<R> lanes;
   alignas(64) std::int32_t pixel_of[kTile][kLanes] = {};  // x + kTile y; behind a line's last, whichever were there
   for (std::size_t i = 0; i < run.numbers.size(); i += kLanes) {
     const std::size_t count = std::min(kLanes, run.numbers.size() - i);
@@ -45,7 +46,9 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
       all_fit &= t.width == 1;
     }
     if (!all_fit) {
-      for (std::size_t lane = 0; lane < count; ++lane) alone(line(lane));
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        paint_alone(painting, painting.draws[run.draw], line(lane), tile);
+      }
       continue;
     }
     int pixels[kLanes] = {}, most = 0;
@@ -59,8 +62,8 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
     if (most == 0) continue;
     const CornerLanes<R> corners = load_corners<R>(corner);
     set_up_colors<R>(corner, site.flat, lanes);
-    set_up_planes<R, 1>(planes_of_lines<R>(corners.p_win, site), corners.p_win, site, lanes);
-    PixelsOfLanes<R, true, false, kTile> values(lanes, lanes.sample[0].code);
+    set_up_planes<R>(planes_of_lines<R>(corners.p_win, site), corners.p_win, site, lanes);
+    PixelsOfLanes<R, true, false, kTile> values(lanes, 0);
     for (int k = 0; k < most; ++k) {
       const I pixel = load_ints<R>(pixel_of[k]);
       values.work_out(k, pixel & I(kTile - 1), shifted_right<6>(pixel));

@@ -17,25 +17,24 @@ template <class R>
   return {mixed(s, k, 0), mixed(s, k, 1), mixed(s, k, 2), alpha};
 }
 
-/// AttributeSetup, of lanes' triangles.
-template <class R>
-struct AttributeLanes {
-  R color0[4], d_color1[4], d_color2[4];
-};
-
-/// Fragments of rgba8 and z24 that replace what is there where they are nearer. `kPlain`: SetupLanes' of all lanes;
+/// Fragments of rgba8 and z24 that replace what is there where they are nearer. `kPlain`: LaneTriangles' of all lanes;
 /// `kMost`: pixels of each.
 template <class R, bool kColors, bool kPlain, int kMost>
 class PixelsOfLanes {
  public:
-  [[gnu::always_inline]] PixelsOfLanes(const CommonLanes<R>& lanes, const AffineLanes<R>& code)
-      : code_(code.of_all()), q1_(lanes.q1.of_all()), q2_(lanes.q2.of_all()), sum_(lanes.sum.of_all()) {
+  /// `sample`: of which depths are taken.
+  template <int kSampleCount>
+  [[gnu::always_inline]] PixelsOfLanes(const LaneTriangles<R, kSampleCount>& lanes, int sample)
+      : code_(lanes.code[sample].of_all()),
+        q1_(lanes.q1.of_all()),
+        q2_(lanes.q2.of_all()),
+        sum_(lanes.sum.of_all()),
+        constant_(load_ints<R>(lanes.constant_colors) != Int<R>(0)) {
     for (int c = 0; c < 4; ++c) {
       attributes_.color0[c] = load<R>(lanes.color[0][c]);
       attributes_.d_color1[c] = load<R>(lanes.color[1][c]);
       attributes_.d_color2[c] = load<R>(lanes.color[2][c]);
     }
-    constant_ = load_ints<R>(lanes.constant_colors) != Int<R>(0);
   }
 
   /// Each lane's i-th pixel, counted from the tile.
@@ -77,8 +76,10 @@ class PixelsOfLanes {
  private:
   static constexpr int kLanes = Lanes<R>::width;
   Affine<Wide<R>> code_, q1_, q2_, sum_;
-  AttributeLanes<R> attributes_;
   Mask<R> constant_;
+  struct {
+    R color0[4], d_color1[4], d_color2[4];
+  } attributes_;  // AttributeSetup, of all lanes
   alignas(64) float z_of_[kMost][kLanes];
   alignas(64) std::int32_t color_of_[kMost][kLanes], place_of_[kMost][kLanes];
 };

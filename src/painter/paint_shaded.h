@@ -6,40 +6,10 @@
 #include <bit>
 #include <optional>
 
+#include "painter/lone_triangle.h"
 #include "painter/set_up_lanes.h"
 
 namespace plumbline::pipeline {
-
-/// A triangle's varyings at its corners; of those that light made, flat shading takes the provoking one's.
-inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
-                                             Varying v) {
-  const Vec4<float>* column = painting.varyings[static_cast<std::size_t>(v)];
-  const bool flat = draw.flat && is_lit(v);
-  return {column[t.corner[flat ? 1 : 0]], column[t.corner[1]], column[t.corner[flat ? 1 : 2]]};
-}
-
-/// The triangle as stage 4 has it.
-inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTriangle& t) {
-  WindowTriangle out{{}, 0, t.front, t.corners, t.width};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const PaintVertex& v = painting.vertices[t.corner[k]];
-    out.v[k] = {v.p_win, v.inv_w, v.snapped};
-  }
-  return out;
-}
-/// Its colours at the corners.
-inline std::array<Vec4<float>, 3> colors_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t) {
-  const auto color = [&](int k) { return painting.vertices[t.corner[draw.flat ? 1 : k]].color; };
-  return {color(0), color(1), color(2)};
-}
-
-/// (x0, y0): the tile's lower left pixel.
-inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t, int x0,
-                                    int y0) {
-  const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
-  const WindowTriangle triangle = window_triangle_of(painting, t);
-  return set_up_surface(*draw.state.surface, triangle, planes_of(triangle, x0, y0), varying);
-}
 
 /// A triangle's: add() them block by block, then finish(). A pixel is shaded once for all of its samples.
 template <class R, int kSampleCount>

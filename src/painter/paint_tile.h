@@ -5,18 +5,10 @@
 #include <algorithm>
 
 #include "kernels/merge.h"
-#include "painter/lone_triangle.h"
 #include "painter/paint_lines.h"
 #include "painter/paint_opaque.h"
 
 namespace plumbline::pipeline {
-
-/// Of lines, points, and triangles whose edges do not fit: one by one (lone_triangle.h).
-void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, auto& tile) {
-  const auto varying = [&](Varying v) { return varying_of(painting, draw, triangle, v); };
-  paint_lone(draw.state, window_triangle_of(painting, triangle), colors_of(painting, draw, triangle), varying,
-             painting.formats, tile);
-}
 
 /// A lane's depth, with what of the draw's state changes it.
 inline DepthPlane depth_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
@@ -33,28 +25,29 @@ inline DepthPlane depth_of_lane(const Painting& painting, const PaintDraw& draw,
 template <class R>
 void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   const PaintDraw& draw = painting.draws[run.draw];
-  const auto paint_blocks = [&](const LaneSetup<>& setup, const SurfaceSetup* surface) {
-    const auto block = [&](int x, int y, const auto& covered) {
+  LanesOfRun<R, 1> lanes(painting, run, false, tile.x0, tile.y0);
+  const auto paint_lane = [&](const PaintTriangle& t, int lane) {
+    LaneSetup<> s = lanes.lanes.of(lane, t.front, tile.x0, tile.y0);
+    s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
+    std::optional<SurfaceSetup> surface;
+    if (draw.state.surface != nullptr) surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
+    const SurfaceSetup* of_surface = surface ? &*surface : nullptr;
+    const auto all_pixels = [](int) { return ~0u; };
+    visit_covered<R, 1>(s, all_pixels, [&](int x, int y, const auto& covered) {
       for (int part = 0; part < kParts<R>; ++part) {
         if (!any(covered[0][part])) continue;
         const int i = part * Lanes<R>::width;
-        paint_fragments<R>(draw.state, setup, surface, block_pixels<R>(tile.x0 + x, tile.y0 + y, i), covered[0][part],
+        paint_fragments<R>(draw.state, s, of_surface, block_pixels<R>(tile.x0 + x, tile.y0 + y, i), covered[0][part],
                            block_offset(x, y) + i, painting.formats.color_scale, tile);
       }
-    };
-    const auto all_pixels = [](int) { return ~0u; };
-    visit_covered<R, 1>(setup, all_pixels, block);
+    });
   };
-  const auto paint = [&](const PaintTriangle& t, const auto& lanes, int lane) {
-    LaneSetup<> s = lanes.of(lane, t.front, tile.x0, tile.y0);
-    s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
-    if (draw.state.surface == nullptr) return paint_blocks(s, nullptr);
-    const SurfaceSetup surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
-    paint_blocks(s, &surface);
-  };
-  const auto alone = [&](const PaintTriangle& t) { paint_alone(painting, draw, t, tile); };
-  const auto together = [](const auto&, int) { return false; };
-  each_lane<R, 1>(painting, run, false, tile.x0, tile.y0, together, alone, paint);
+  while (lanes.next()) {
+    for (int lane = 0; lane < lanes.count; ++lane) {
+      const PaintTriangle& t = lanes.triangle(lane);
+      lanes.fits(lane) ? paint_lane(t, lane) : paint_alone(painting, draw, t, tile);
+    }
+  }
 }
 
 /// Whether one's triangles may be painted as the other's: all else that a draw says, such kernels are there not to ask.
@@ -83,7 +76,7 @@ inline void find_runs(const Painting& painting, std::size_t tile, std::vector<Pa
   }
 }
 
-/// Of the runs that may be painted by paint_opaque(), those first in the tile; painted from the last to the first where
+/// Of the runs that OpaqueRun may paint, those first in the tile; painted from the last to the first where
 /// that is from near to far.
 template <class R>
 std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun> runs, PackedTile& tile) {
@@ -95,44 +88,25 @@ std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun>
   };
   const PaintRun &first = runs[0], &last = runs[count - 1];
   if (painting.any_long_edge || !(depth(last, last.numbers.back()) < depth(first, first.numbers.front()))) return 0;
-  for (std::size_t i = count; i-- > 0;)
-    paint_opaque<R, PaintKernel::replaces, Order::last_to_first, 1>(painting, runs[i], &tile,
-                                                                    [](const PaintTriangle&) {});
+  for (std::size_t i = count; i-- > 0;) OpaqueRun<R, PaintKernel::replaces, 1>(painting, runs[i], &tile, true).paint();
   return count;
-}
-
-/// paint(painting, tile) of each sample's own.
-template <int kSampleCount>
-void each_sample(const Painting& painting, PackedTile* tiles, auto paint) {
-  if constexpr (kSampleCount == 1) return paint(painting, tiles[0]);
-  for (std::size_t i = 0; i < kSampleCount; ++i) {
-    Painting of_sample = painting;
-    of_sample.samples = painting.samples.subspan(i, 1);
-    of_sample.formats.sample = painting.samples[i];
-    paint(of_sample, tiles[i]);
-  }
 }
 
 /// `tiles`: of each sample one.
 template <class R, int kSampleCount>
 void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
   const PaintDraw& draw = painting.draws[run.draw];
-  const auto alone = [&](const PaintTriangle& t) {
-    each_sample<kSampleCount>(painting, tiles,
-                              [&](const Painting& of, PackedTile& tile) { paint_alone(of, draw, t, tile); });
-  };
-  const auto opaque = [&]<PaintKernel kKernel>() {
-    paint_opaque<R, kKernel, Order::first_to_last, kSampleCount>(painting, run, tiles, alone);
+  const auto paint_opaque = [&]<PaintKernel kKernel>() {
+    OpaqueRun<R, kKernel, kSampleCount>(painting, run, tiles, false).paint();
   };
   switch (draw.kernel) {
-    case PaintKernel::replaces: return opaque.template operator()<PaintKernel::replaces>();
-    case PaintKernel::blends_over: return opaque.template operator()<PaintKernel::blends_over>();
-    case PaintKernel::depth_alone: return opaque.template operator()<PaintKernel::depth_alone>();
-    case PaintKernel::shades: return opaque.template operator()<PaintKernel::shades>();
+    case PaintKernel::replaces: return paint_opaque.template operator()<PaintKernel::replaces>();
+    case PaintKernel::blends_over: return paint_opaque.template operator()<PaintKernel::blends_over>();
+    case PaintKernel::depth_alone: return paint_opaque.template operator()<PaintKernel::depth_alone>();
+    case PaintKernel::shades: return paint_opaque.template operator()<PaintKernel::shades>();
     case PaintKernel::lines:
-      return each_sample<kSampleCount>(painting, tiles, [&](const Painting& of, PackedTile& tile) {
-        paint_lines<R>(of, run, tile, [&](const PaintTriangle& t) { paint_alone(of, draw, t, tile); });
-      });
+      return each_sample<kSampleCount>(painting, tiles,
+                                       [&](const Painting& of, PackedTile& tile) { paint_lines<R>(of, run, tile); });
     case PaintKernel::any: break;
   }
   const DepthFunc func = draw.state.depth_func;

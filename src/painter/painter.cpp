@@ -276,27 +276,6 @@ void Painter::Memory::draw_pass(const Scene& scene, Frame& to) {
 Painter::Painter(int threads, const SimdTarget& target) : memory_(std::make_unique<Memory>(threads, target)) {}
 Painter::~Painter() = default;
 
-std::size_t Painter::bytes() const {
-  const Memory& m = *memory_;
-  std::size_t sum = m.vertices.bytes() + m.outside.bytes() + m.tiles.size() * sizeof(TileMemory);
-  for (const auto& column : m.varyings) sum += column.bytes();
-  for (const Chunk& chunk : m.chunks) {
-    sum += chunk.triangles.bytes() + chunk.boxes.bytes() + chunk.numbers.bytes() + 4 * chunk.first.capacity();
-  }
-  const auto of = [](const auto& plane) { return plane.size() * sizeof(plane.values()[0]); };
-  const auto add = [&](const Frame& f) {
-    sum += of(f.color_rgba8) + of(f.color_rgba12) + of(f.color_rgba16) + of(f.color_rgba32f) + of(f.depth_code) +
-           of(f.depth_z32f) + of(f.stencil);
-  };
-  if (m.frame) add(*m.frame);
-  std::ranges::for_each(m.passes, add);
-  for (const Mesh& mesh : m.pass.meshes) sum += bytes_of(mesh);
-  for (const Texture& texture : m.pass.textures) {
-    for (const auto& level : texture.levels) sum += level.texels.capacity() * sizeof(level.texels[0]);
-  }
-  return sum + m.other_geometry.bytes();
-}
-
 Frame& Painter::draw(const Scene& scene) {
   if (!memory_->frame || !memory_->format || !same_planes(*memory_->format, scene.frame) || memory_->frame->empty()) {
     memory_->frame = std::make_unique<Frame>(scene.frame);

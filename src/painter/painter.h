@@ -23,8 +23,6 @@ class Painter {
 
   /// The frame is the painter's, until it draws the next; a caller may move it away. Another scene each time is fine.
   Frame& draw(const Scene& scene);
-  /// What it keeps from frame to frame, the frame's planes among it.
-  std::size_t bytes() const;
 
  private:
   struct Memory;

@@ -30,7 +30,6 @@ class Scratch {
   }
   T* data() { return values_.get(); }
   const T* data() const { return values_.get(); }
-  std::size_t bytes() const { return count_ * sizeof(T); }
 
  private:
   std::unique_ptr<T[]> values_;

@@ -12,11 +12,6 @@ namespace plumbline::pipeline {
 
 namespace {
 
-template <class T>
-std::size_t bytes_of(const std::vector<T>& values) {
-  return values.capacity() * sizeof(T);
-}
-
 // The primitives of `from`, with vertices of their own.
 void copy_primitives(const Mesh& from, std::span<const std::uint32_t> primitives, Mesh& to) {
   to.topology = from.topology;
@@ -94,17 +89,6 @@ void ScalarGeometry::run_draw(std::size_t number) {
     clip(input, polygon);
     to_window(input, polygon, triangles_);
   }
-}
-
-std::size_t bytes_of(const Mesh& mesh) {
-  return bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(mesh.colors) + bytes_of(mesh.texcoords) +
-         bytes_of(mesh.triangles);
-}
-
-std::size_t ScalarGeometry::bytes() const {
-  std::size_t sum = bytes_of(vertices_) + bytes_of(attributes_) + bytes_of(triangles_) + bytes_of(of_draw_);
-  for (const Mesh& mesh : rest_.meshes) sum += bytes_of(mesh);
-  return sum;
 }
 
 }  // namespace plumbline::pipeline

@@ -9,14 +9,11 @@
 
 namespace plumbline::pipeline {
 
-std::size_t bytes_of(const Mesh& mesh);
-
 /// Its memory is kept from frame to frame.
 class ScalarGeometry {
  public:
   /// `draws`: one for each of the scene's. Window triangles in draw order.
   std::span<const ShadedTriangle> run(const Scene& scene, std::span<const AssemblyWork> draws);
-  std::size_t bytes() const;
 
  private:
   void find(const AssemblyWork& draw);

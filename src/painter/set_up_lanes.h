@@ -5,30 +5,27 @@
 
 namespace plumbline::pipeline {
 
-/// An edge function in 32 bits, counted from the tile: E(x, y) >= 0 (coverage.h) exactly where at_tile + step_x x +
+/// Edge functions are in 32 bits, counted from the tile: E(x, y) >= 0 (coverage.h) exactly where at_tile + step_x x +
 /// step_y y < 0, so that the sign bit of all three is that of their "and". E's steps are multiples of 256, so that of
-/// the rest its floor tells; here they have the other sign.
-struct TileEdge {
-  std::int32_t at_tile, step_x, step_y;
-};
-/// |step| <= 2^22 and 64 pixels reach less than 2^29, so that what is beyond 2^30 has a sign that no pixel of the tile
-/// changes. Corners cut where w is tiny may be rounded to far outside of the frame: such edges do not fit.
+/// the rest its floor tells; here they have the other sign. |step| <= 2^22 and 64 pixels reach less than 2^29, so that
+/// what is beyond 2^30 has a sign that no pixel of the tile changes. Corners cut where w is tiny may be rounded to far
+/// outside of the frame: such edges do not fit.
 inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
 
 /// A triangle in its lane. Edges and depths are taken at each of the pixel's samples, which differ but in what is added
-/// there; `edge` has the least of what is, so that a pixel outside of it is outside for all samples.
+/// there; `at_tile` is the least of `at_sample`, so that a pixel outside of it is outside for all samples.
 template <int kSampleCount = 1>
 struct LaneSetup {
   bool front;
   int x0, y0, x1, y1;  ///< the pixels of the tile in its bounding box, x0 and y0 rounded down to a block's
-  TileEdge edge[3];
-  std::int32_t at_tile[kSampleCount][3];
+  std::int32_t at_tile[3], step_x[3], step_y[3];  ///< per edge
+  std::int32_t at_sample[kSampleCount][3];
   Affine<double> code[kSampleCount];
   Anchor planes;
   DepthPlane depth_plane;
   PerspectiveSetup perspective;
   float nearest;                  ///< a depth code: all its fragments in the tile are farther
-  bool plain_depth, plain_color;  ///< SetupLanes
+  bool plain_depth, plain_color;  ///< LaneTriangles
   AttributeSetup attributes;
 };
 
@@ -38,22 +35,19 @@ struct AffineLanes {
   alignas(64) double at_0[kLanes];
   double x[kLanes], y[kLanes];
 
+  void keep(const Affine<Wide<R>>& plane) { store(plane.at_0, at_0), store(plane.x, x), store(plane.y, y); }
   Affine<double> of(int lane) const { return {at_0[lane], x[lane], y[lane]}; }
   Affine<Wide<R>> of_all() const { return {load_wide<R>(at_0), load_wide<R>(x), load_wide<R>(y)}; }
 };
-/// What a pixel's samples have each of their own.
-template <class R>
-struct SampleLanes {
-  alignas(64) std::int32_t at_tile[3][Lanes<R>::width];
-  AffineLanes<R> code;
-};
-template <class R>
-struct CommonLanes {
+/// As many triangles as there are lanes.
+template <class R, int kSampleCount = 1>
+struct LaneTriangles {
   static constexpr int kLanes = Lanes<R>::width;
   alignas(64) std::int32_t bounds[4][kLanes];  ///< as LaneSetup, x0 and y0 not rounded
   std::int32_t step_x[3][kLanes], step_y[3][kLanes];
-  AffineLanes<R> q1, q2, sum;
-  alignas(64) float color[3][4][kLanes];
+  alignas(64) std::int32_t at_sample[kSampleCount][3][kLanes];
+  AffineLanes<R> code[kSampleCount], q1, q2, sum;
+  alignas(64) float color[3][4][kLanes];  ///< corner 0's, and the others' differences from it
   float nearest[kLanes];
   alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
   unsigned fitting;                                  ///< a bit a lane
@@ -61,36 +55,34 @@ struct CommonLanes {
   /// are small, with no horizon near, and all corners have the same alpha.
   unsigned plain_depth, plain_color;
   int width, height;  ///< the largest box
-};
-template <class R, int kSampleCount = 1>
-struct SetupLanes : CommonLanes<R> {
-  SampleLanes<R> sample[kSampleCount];
 
   /// In the tile whose lower left pixel that is.
   [[gnu::always_inline]] LaneSetup<kSampleCount> of(int lane, bool front, int tile_x, int tile_y) const {
-    const CommonLanes<R>& all = *this;
     LaneSetup<kSampleCount> s;
     s.front = front;
     s.planes = {tile_x + 0.5, tile_y + 0.5};
-    s.x0 = all.bounds[0][lane] & ~(kBlock - 1), s.y0 = all.bounds[1][lane] & ~(kBlock - 1);
-    s.x1 = all.bounds[2][lane], s.y1 = all.bounds[3][lane];
-    for (int i = 0; i < kSampleCount; ++i) s.code[i] = sample[i].code.of(lane);
+    s.x0 = bounds[0][lane] & ~(kBlock - 1), s.y0 = bounds[1][lane] & ~(kBlock - 1);
+    s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
+    for (int i = 0; i < kSampleCount; ++i) s.code[i] = code[i].of(lane);
     for (int k = 0; k < 3; ++k) {
-      for (int i = 0; i < kSampleCount; ++i) s.at_tile[i][k] = sample[i].at_tile[k][lane];
-      s.edge[k] = {s.at_tile[0][k], all.step_x[k][lane], all.step_y[k][lane]};
-      for (int i = 1; i < kSampleCount; ++i) s.edge[k].at_tile = std::min(s.edge[k].at_tile, s.at_tile[i][k]);
+      s.step_x[k] = step_x[k][lane], s.step_y[k] = step_y[k][lane];
+      s.at_tile[k] = at_sample[0][k][lane];
+      for (int i = 0; i < kSampleCount; ++i) {
+        s.at_sample[i][k] = at_sample[i][k][lane];
+        s.at_tile[k] = std::min(s.at_tile[k], s.at_sample[i][k]);
+      }
     }
     s.depth_plane.code = s.code[0];
-    s.perspective.q1 = all.q1.of(lane), s.perspective.q2 = all.q2.of(lane), s.perspective.sum = all.sum.of(lane);
+    s.perspective.q1 = q1.of(lane), s.perspective.q2 = q2.of(lane), s.perspective.sum = sum.of(lane);
     for (int c = 0; c < 4; ++c) {
-      s.attributes.color0[c] = all.color[0][c][lane];
-      s.attributes.d_color1[c] = all.color[1][c][lane];
-      s.attributes.d_color2[c] = all.color[2][c][lane];
+      s.attributes.color0[c] = color[0][c][lane];
+      s.attributes.d_color1[c] = color[1][c][lane];
+      s.attributes.d_color2[c] = color[2][c][lane];
     }
-    s.attributes.constant = all.constant_colors[lane] != 0;
-    s.nearest = all.nearest[lane];
-    s.plain_depth = (all.plain_depth >> lane & 1u) != 0;
-    s.plain_color = (all.plain_color >> lane & 1u) != 0;
+    s.attributes.constant = constant_colors[lane] != 0;
+    s.nearest = nearest[lane];
+    s.plain_depth = (plain_depth >> lane & 1u) != 0;
+    s.plain_color = (plain_color >> lane & 1u) != 0;
     return s;
   }
 };
@@ -144,8 +136,9 @@ template <class R>
 }
 
 /// Colours into `out`; returns which lanes' corners all have the same alpha.
-template <class R>
-[[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat, CommonLanes<R>& out) {
+template <class R, int kSampleCount>
+[[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat,
+                                                    LaneTriangles<R, kSampleCount>& out) {
   const auto color_of = [](const PaintVertex* v) { return &v->color.r; };
   R color[3][4];
   for (int k = 0; k < 3; ++k) load_corner<R>(corner[flat ? 1 : k], color_of, color[k]);
@@ -161,41 +154,32 @@ template <class R>
   return (color[1][3] == color[0][3]) & (color[2][3] == color[0][3]);
 }
 
+/// Planes of depth at each sample, and of the colours' weights, which are the centre's.
 template <class R, int kSampleCount>
-struct PlaneLanes {
-  Affine<Wide<R>> code[kSampleCount], q1, q2, sum;
-};
-/// Of depth at each sample, and of the colours' weights, which are the centre's; into `out`, too.
-template <class R, int kSampleCount>
-[[gnu::always_inline]] inline PlaneLanes<R, kSampleCount> set_up_planes(const CornerPlanes<Wide<R>>& planes,
-                                                                        const R (&p_win)[3][4], const SetupSite& site,
-                                                                        SetupLanes<R, kSampleCount>& out) {
+[[gnu::always_inline]] inline void set_up_planes(const CornerPlanes<Wide<R>>& planes, const R (&p_win)[3][4],
+                                                 const SetupSite& site, LaneTriangles<R, kSampleCount>& out) {
   using W = Wide<R>;
-  const auto corners = [&](int coordinate, double unit) {
+  const auto through_corners = [&](int coordinate, double unit) {
     const W at_0 = to_wide(p_win[0][coordinate]);
     const auto beyond = [&](int k) { return (to_wide(p_win[k][coordinate]) - at_0) * unit; };
     return planes.through(at_0 * unit, beyond(1), beyond(2));
   };
-  const auto keep = [](const Affine<W>& plane, AffineLanes<R>& to) {
-    store(plane.at_0, to.at_0), store(plane.x, to.x), store(plane.y, to.y);
-  };
-  const Affine<W> code = corners(2, site.depth_scale == 0 ? 1 : site.depth_scale);
-  PlaneLanes<R, kSampleCount> of{
-      {}, scaled(planes.l1, to_wide(p_win[1][3])), scaled(planes.l2, to_wide(p_win[2][3])), corners(3, 1)};
+  out.q1.keep(scaled(planes.l1, to_wide(p_win[1][3])));
+  out.q2.keep(scaled(planes.l2, to_wide(p_win[2][3])));
+  out.sum.keep(through_corners(3, 1));
+  const Affine<W> code = through_corners(2, site.depth_scale == 0 ? 1 : site.depth_scale);
   for (int i = 0; i < kSampleCount; ++i) {  // moved(), depth.h
-    of.code[i] = code;
+    Affine<W> at_sample = code;
     const glm::dvec2 by = glm::dvec2(site.samples[static_cast<std::size_t>(i)]) / static_cast<double>(kSubpixel);
-    if (by != glm::dvec2(0)) of.code[i].at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
-    keep(of.code[i], out.sample[i].code);
+    if (by != glm::dvec2(0)) at_sample.at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
+    out.code[i].keep(at_sample);
   }
-  keep(of.q1, out.q1), keep(of.q2, out.q2), keep(of.sum, out.sum);
-  return of;
 }
 
 /// `facing`: 1 of a front face, -1 of a back one.
 template <class R, int kSampleCount>
 void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const SetupSite& site,
-                  SetupLanes<R, kSampleCount>& out) {
+                  LaneTriangles<R, kSampleCount>& out) {
   using I = Int<R>;
   using W = Wide<R>;
   const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(corner);
@@ -204,8 +188,8 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
   const PlaneCorners<W> through =
       plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
                        snapped_y, to_wide(face));
-  const auto [code, q1, q2, sum] =
-      set_up_planes<R, kSampleCount>(corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5), p_win, site, out);
+  set_up_planes<R>(corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5), p_win, site, out);
+  const Affine<W> q1 = out.q1.of_all(), q2 = out.q2.of_all(), sum = out.sum.of_all();
 
   // From here on, corners are counted from the tile.
   const I origin_x(site.tile_x * kSubpixel), origin_y(site.tile_y * kSubpixel);
@@ -236,10 +220,12 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
   const auto least_of = [&](const Affine<W>& f) {
     return f.at_0 + lesser_of(f.x * low_x, f.x * high_x) + lesser_of(f.y * low_y, f.y * high_y) - terms(f) * W(0x1p-48);
   };
-  W least_code = least_of(code[0]), most_code = -least_of({-code[0].at_0, -code[0].x, -code[0].y});
-  for (int i = 1; i < kSampleCount; ++i) {
-    least_code = lesser_of(least_code, least_of(code[i]));
-    most_code = greater_of(most_code, -least_of({-code[i].at_0, -code[i].x, -code[i].y}));
+  W least_code(0), most_code(0);
+  for (int i = 0; i < kSampleCount; ++i) {
+    const Affine<W> code = out.code[i].of_all();
+    const W low = least_of(code), high = -least_of({-code.at_0, -code.x, -code.y});
+    least_code = i == 0 ? low : lesser_of(least_code, low);
+    most_code = i == 0 ? high : greater_of(most_code, high);
   }
   const W least_sum = least_of(sum);
   store(to_float(floor_of(clamped(least_code, W(0), W(site.depth_scale))) - W(1)), out.nearest);
@@ -267,7 +253,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
       const glm::dvec2 sample(site.samples[static_cast<std::size_t>(i)]);
       const W at_sample = e - (wide_y * sample.x - wide_x * sample.y);
       const W at_tile = floor_of((at_sample - less) * W(1.0 / kSubpixel));
-      store(I(-1) - to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.sample[i].at_tile[k]);
+      store(I(-1) - to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.at_sample[i][k]);
     }
     store(d_y, out.step_x[k]);
     store(I(0) - d_x, out.step_y[k]);

@@ -1,4 +1,4 @@
-// Which blocks of the tile a triangle covers, and a run of triangles lane by lane.
+// Blocks of the tile that a triangle covers, and a run of triangles lanes by lanes.
 #pragma once
 
 #include <algorithm>
@@ -25,16 +25,15 @@ template <class R, int kSampleCount>
   I in_block[kSampleCount][3][kParts<R>];  // what E adds to that of the block's first pixel
   I of_blocks[3], least[3];  // of blocks side by side, from the row's first; and the least that it adds in a block
   for (int k = 0; k < 3; ++k) {
-    const TileEdge& e = s.edge[k];
     for (int part = 0; part < kParts<R>; ++part) {
-      const I within = load_ints<R>(kColumnInBlock + part * kLanes) * I(e.step_x) +
-                       load_ints<R>(kRowInBlock + part * kLanes) * I(e.step_y);
+      const I within = load_ints<R>(kColumnInBlock + part * kLanes) * I(s.step_x[k]) +
+                       load_ints<R>(kRowInBlock + part * kLanes) * I(s.step_y[k]);
       for (int i = 0; i < kSampleCount; ++i) {
-        in_block[i][k][part] = kSampleCount == 1 ? within : within + I(s.at_tile[i][k] - e.at_tile);
+        in_block[i][k][part] = kSampleCount == 1 ? within : within + I(s.at_sample[i][k] - s.at_tile[k]);
       }
     }
-    of_blocks[k] = load_ints<R>(kBlockNumbers) * I(kBlock * e.step_x) + I(e.at_tile);
-    least[k] = I((kBlock - 1) * ((e.step_x < 0 ? e.step_x : 0) + (e.step_y < 0 ? e.step_y : 0)));
+    of_blocks[k] = load_ints<R>(kBlockNumbers) * I(kBlock * s.step_x[k]) + I(s.at_tile[k]);
+    least[k] = I((kBlock - 1) * (std::min(s.step_x[k], 0) + std::min(s.step_y[k], 0)));
   }
   for (int y = s.y0; y < s.y1; y += kBlock) {
     const unsigned wanted = row(y);
@@ -44,7 +43,7 @@ template <class R, int kSampleCount>
       alignas(64) std::int32_t at[3][kLanes];
       I some(-1);
       for (int k = 0; k < 3; ++k) {
-        const I here = of_blocks[k] + I(s.edge[k].step_x * x + s.edge[k].step_y * y);
+        const I here = of_blocks[k] + I(s.step_x[k] * x + s.step_y[k] * y);
         store(here, at[k]);
         some = some & (here + least[k]);
       }
@@ -66,42 +65,47 @@ template <class R, int kSampleCount>
   }
 }
 
-/// Sets the run's triangles up, as many at a time as there are lanes; then, in their order (or the other way round),
-/// calls together(lanes, how many) where all fit lanes, and if that does not paint them, paint(triangle, lanes, lane)
-/// for each, or alone(triangle) for those that do not fit.
+/// The triangles of a run, set up as many at a time as there are lanes: `while (next())`, those of `lanes`.
 template <class R, int kSampleCount>
-[[gnu::always_inline]] inline void each_lane(const Painting& painting, const PaintRun& run, bool from_last, int tile_x,
-                                             int tile_y, auto together, auto alone, auto paint) {
-  constexpr std::size_t kLanes = Lanes<R>::width;
-  const SetupSite site = site_of(painting, run, tile_x, tile_y);
-  const std::size_t size = run.numbers.size();
-  SetupLanes<R, kSampleCount> lanes;
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    const std::size_t count = std::min(kLanes, size - i);
-    const auto triangle = [&](std::size_t lane) -> const PaintTriangle& {  // lanes that are too many do as the last
-      const std::size_t n = i + std::min(lane, count - 1);
-      return run.triangles[run.numbers[from_last ? size - 1 - n : n]];
-    };
+class LanesOfRun {
+ public:
+  LanesOfRun(const Painting& painting, const PaintRun& run, bool from_last, int tile_x, int tile_y)
+      : painting_(painting), run_(run), from_last_(from_last), site_(site_of(painting, run, tile_x, tile_y)) {}
+
+  [[gnu::always_inline]] bool next() {
+    begin_ += static_cast<std::size_t>(count);
+    if (begin_ >= run_.numbers.size()) return false;
+    count = static_cast<int>(std::min(kLanes, run_.numbers.size() - begin_));
     const PaintVertex* corner[3][kLanes];
     alignas(64) float facing[kLanes];
-    bool thin = false;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const PaintTriangle& t = triangle(lane);
-      for (std::size_t k = 0; k < 3; ++k) corner[k][lane] = painting.vertices + t.corner[k];
+    bool triangles_alone = true;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {  // lanes that are too many do as the last
+      const PaintTriangle& t = triangle(std::min(static_cast<int>(lane), count - 1));
+      for (std::size_t k = 0; k < 3; ++k) corner[k][lane] = painting_.vertices + t.corner[k];
       facing[lane] = t.front ? 1.0f : -1.0f;
-      thin |= t.corners < 3;
+      triangles_alone &= t.corners == 3;
     }
     lanes.fitting = 0;
-    if (!thin) set_up_lanes<R, kSampleCount>(corner, facing, site, lanes);
-    if (lanes.fitting == ~0u >> (32 - kLanes) && together(lanes, static_cast<int>(count))) continue;
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      if ((lanes.fitting >> lane & 1u) != 0) {
-        paint(triangle(lane), lanes, static_cast<int>(lane));
-      } else {
-        alone(triangle(lane));
-      }
-    }
+    if (triangles_alone) set_up_lanes<R, kSampleCount>(corner, facing, site_, lanes);
+    return true;
   }
-}
+  const PaintTriangle& triangle(int lane) const {
+    const std::size_t n = begin_ + static_cast<std::size_t>(lane);
+    return run_.triangles[run_.numbers[from_last_ ? run_.numbers.size() - 1 - n : n]];
+  }
+  bool fits(int lane) const { return (lanes.fitting >> lane & 1u) != 0; }
+  bool all_fit() const { return lanes.fitting == ~0u >> (32 - kLanes); }
+
+  LaneTriangles<R, kSampleCount> lanes;
+  int count = 0;  ///< of lanes that hold a triangle
+
+ private:
+  static constexpr std::size_t kLanes = Lanes<R>::width;
+  const Painting& painting_;
+  const PaintRun& run_;
+  bool from_last_;
+  SetupSite site_;
+  std::size_t begin_ = 0;
+};
 
 }  // namespace plumbline::pipeline

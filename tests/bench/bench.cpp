@@ -1,6 +1,8 @@
 // Ours against OSMesa's llvmpipe, in one process, frame by frame in turns: scripts/bench.
 #include <benchmark/benchmark.h>
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -61,7 +63,11 @@ double milliseconds(const std::function<void()>& frame) {
 // A sphere's frames in turns; the middle of eleven.
 void print_growth(const std::string& what, int triangles, int size, int threads) {
   const Scene scene = sphere_scene(triangles, size);
+  const auto in_use = [] { return static_cast<double>(::mallinfo2().uordblks + ::mallinfo2().hblkhd); };
+  const double before = in_use();
   pipeline::Painter painter(threads);
+  painter.draw(scene);
+  const double kept = in_use() - before;
   OsmesaFrames theirs(scene);
   std::vector<double> ours_ms, theirs_ms;
   for (int i = 0; i < 12; ++i) {
@@ -73,7 +79,7 @@ void print_growth(const std::string& what, int triangles, int size, int threads)
   std::ranges::sort(ours_ms);
   std::ranges::sort(theirs_ms);
   fmt::print("{:>14} {:9.3f} {:9.3f} {:6.2f} {:9.1f}\n", what, ours_ms[5], theirs_ms[5], ours_ms[5] / theirs_ms[5],
-             static_cast<double>(painter.bytes()) / 1e6);
+             kept / 1e6);
 }
 
 // How time and memory grow.
