@@ -60,7 +60,7 @@ Int<R> stencil_value(StencilOp op, std::uint8_t reference, Int<R> held) {
 /// whether they pass the depth test.
 template <class R>
 Mask<R> stencil_test(const StencilFace& face, Mask<R> alive, Mask<R> nearer, std::uint8_t* at) {
-  const Int<R> held = load_codes<R>(at), write(face.write_mask), kept(255 & ~face.write_mask);
+  const Int<R> held = Lanes<R>::load(at), write(face.write_mask), kept(255 & ~face.write_mask);
   const Mask<R> passes = stencil_passes<R>(face, held);
   const auto value = [&](StencilOp op) { return stencil_value<R>(op, face.reference, held); };
   const Int<R> made = select(passes, select(nearer, value(face.pass), value(face.depth_fail)), value(face.fail));

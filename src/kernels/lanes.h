@@ -13,7 +13,8 @@ namespace plumbline::pipeline {
 inline constexpr int kBlock = 4;  ///< pixels a side: the unit in which triangles are walked and planes are stored
 inline constexpr int kBlockPixels = kBlock * kBlock;
 
-/// The companions of a number type: `width` pixels at a time, doubles (Wide), integers (Int) and a Mask of as many.
+/// The companions of a number type: `width` pixels at a time, doubles (Wide), integers (Int) and a Mask of as many; and
+/// what makes them of memory and plain numbers.
 template <class R>
 struct Lanes;
 template <>
@@ -22,6 +23,19 @@ struct Lanes<float> {
   using Wide = double;
   using Int = std::int64_t;
   using Mask = bool;
+  /// The next `width` values. Integers: of 32 bits, or codes from 0 to 255.
+  static float load(const float* from) { return *from; }
+  static Wide load(const double* from) { return *from; }
+  static Int load(const std::int32_t* from) { return *from; }
+  static Int load(const std::uint32_t* from) { return *from; }
+  static Int load(const std::uint8_t* from) { return *from; }
+  /// Those of a row of pixels: four of each block, from block to block.
+  static float load_row(const float* from) { return *from; }
+  /// The lanes of those bits, the first the lowest.
+  static Mask mask_of(unsigned bits) { return bits != 0; }
+  /// Columns and rows of a block's pixels from the i-th on, row by row.
+  static Wide columns_of_block(int block_x, int i) { return block_x + i % kBlock; }
+  static Wide rows_of_block(int block_y, int i) { return block_y + i / kBlock; }
 };
 template <class R>
 using Wide = typename Lanes<R>::Wide;
@@ -30,19 +44,11 @@ using Int = typename Lanes<R>::Int;
 template <class R>
 using Mask = typename Lanes<R>::Mask;
 
-/// The next Lanes<R>::width pixels of the block at (block_x, block_y), from its i-th on, row by row.
 template <class R>
 struct Pixels {
   Int<R> x, y;           ///< pixel
   Wide<R> x_win, y_win;  ///< centre
 };
-template <class R>
-Pixels<R> block_pixels(int block_x, int block_y, int i);
-template <>
-inline Pixels<float> block_pixels<float>(int block_x, int block_y, int i) {
-  const int x = block_x + i % kBlock, y = block_y + i / kBlock;
-  return {x, y, x + 0.5, y + 0.5};
-}
 
 inline float to_float(double value) { return static_cast<float>(value); }
 inline double to_wide(float value) { return static_cast<double>(value); }
@@ -53,13 +59,6 @@ inline bool any(bool mask) { return mask; }
 inline bool all(bool mask) { return mask; }
 /// One bit a lane, the first lowest.
 inline unsigned bits_of(bool mask) { return mask ? 1 : 0; }
-/// The lanes of those bits.
-template <class R>
-Mask<R> mask_of(unsigned bits);
-template <>
-inline bool mask_of<float>(unsigned bits) {
-  return bits != 0;
-}
 inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }
@@ -133,47 +132,14 @@ inline double power_of_two(double n) {  // 1.5 * 2^52: leaves the biased exponen
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(n + (6755399441055744.0 + 1023.0)) << 52);
 }
 
-template <class R>
-Wide<R> load_wide(const double* from);
-template <>
-inline double load_wide<float>(const double* from) {
-  return *from;
-}
-/// The next Lanes<R>::width values.
-template <class R>
-R load(const float* from);
-template <>
-inline float load<float>(const float* from) {
-  return *from;
-}
-/// Those of a row of pixels: four of each block, from block to block.
-template <class R>
-R load_row(const float* from);
-template <>
-inline float load_row<float>(const float* from) {
-  return *from;
-}
 inline void store(bool mask, float value, float* to) {
   if (mask) *to = value;
 }
 /// Whole numbers from 0 to 255.
-template <class R>
-Int<R> load_codes(const std::uint8_t* from);
-template <>
-inline std::int64_t load_codes<float>(const std::uint8_t* from) {
-  return *from;
-}
 inline void store(bool mask, std::int64_t value, std::uint8_t* to) {
   if (mask) *to = static_cast<std::uint8_t>(value);
 }
 
-/// 32 bits each.
-template <class R>
-Int<R> load_packed(const std::uint32_t* from);
-template <>
-inline std::int64_t load_packed<float>(const std::uint32_t* from) {
-  return *from;
-}
 /// To [0, 255], NaN to 0, and rounded half to even; the first in the lowest byte.
 inline std::int64_t packed_codes(float r, float g, float b, float a) {
   const auto code = [](float value) { return to_int(round_even(clamped(value, 0.0f, 255.0f))); };
@@ -183,13 +149,6 @@ inline std::int64_t packed_codes(float r, float g, float b, float a) {
 inline std::int64_t packed_codes_near(float r, float g, float b, float a) { return packed_codes(r, g, b, a); }
 inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {
   if (mask) *to = static_cast<std::uint32_t>(value);
-}
-/// Small numbers.
-template <class R>
-Int<R> load_ints(const std::int32_t* from);
-template <>
-inline std::int64_t load_ints<float>(const std::int32_t* from) {
-  return *from;
 }
 /// All lanes, side by side.
 inline void store(float value, float* to) { *to = value; }
@@ -222,23 +181,11 @@ inline void fours_of_rows(const double (&rows)[4], float (&out)[4]) {
 inline float greatest_lane(float value) { return value; }
 inline int greatest_lane(std::int64_t value) { return static_cast<int>(value); }
 
-/// Columns and rows alone of block_pixels().
+/// The next Lanes<R>::width pixels of the block at (block_x, block_y), from its i-th on.
 template <class R>
-Wide<R> columns_of_block(int block_x, int i);
-template <class R>
-Wide<R> rows_of_block(int block_y, int i);
-template <>
-inline double columns_of_block<float>(int block_x, int i) {
-  return block_x + i % kBlock;
+Pixels<R> block_pixels(int block_x, int block_y, int i) {
+  const Wide<R> x = Lanes<R>::columns_of_block(block_x, i), y = Lanes<R>::rows_of_block(block_y, i);
+  return {to_int(x), to_int(y), x + 0.5, y + 0.5};
 }
-template <>
-inline double rows_of_block<float>(int block_y, int i) {
-  return block_y + i / kBlock;
-}
-
-/// The value of one lane, for taps.
-inline float lane(float value, int) { return value; }
-inline std::int64_t lane(std::int64_t value, int) { return value; }
-inline bool lane(bool mask, int) { return mask; }
 
 }  // namespace plumbline::pipeline

@@ -270,70 +270,55 @@ inline SimdWide power_of_two(SimdWide n) {
   return {of(biased.low), of(biased.high)};
 }
 
+// Fours go by blocks of 128 bits.
+inline constexpr hn::FixedTag<float, 4> kBlockFloats{};
+template <class Block>
+FloatVector of_blocks(Block block) {
+  if constexpr (kWidth == 4) {
+    return block(0);
+  } else if constexpr (kWidth == 8) {
+    return hn::Combine(kFloats, block(4), block(0));
+  } else {
+    return hn::Combine(kFloats, hn::Combine(kHalfFloats, block(12), block(8)),
+                       hn::Combine(kHalfFloats, block(4), block(0)));
+  }
+}
+
+struct LanesOfSimd {
+  static constexpr int width = kWidth;
+  using Wide = SimdWide;
+  using Int = SimdInt;
+  using Mask = SimdMask;
+  static Simd load(const float* from) { return hn::LoadU(kFloats, from); }
+  static Wide load(const double* from) { return {hn::LoadU(kDoubles, from), hn::LoadU(kDoubles, from + kHalf)}; }
+  static Int load(const std::int32_t* from) { return hn::LoadU(kInts, from); }
+  static Int load(const std::uint32_t* from) { return load(reinterpret_cast<const std::int32_t*>(from)); }
+  static Int load(const std::uint8_t* from) { return hn::PromoteTo(kInts, hn::LoadU(kBytes, from)); }
+  static Simd load_row(const float* from) {
+    return of_blocks([&](int lane) { return hn::LoadU(kBlockFloats, from + lane * kBlock); });
+  }
+  static Mask mask_of(unsigned bits) {
+    HWY_ALIGN static constexpr std::int32_t kBits[] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                                       256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+    return (Int(static_cast<std::int32_t>(bits)) & load(kBits)) != Int(0);
+  }
+  // Halves that are equal are one value, so that what is made of them is made once.
+  [[gnu::always_inline]] static Wide columns_of_block(int block_x, int) {
+    HWY_ALIGN static constexpr double kX[2 * kBlock] = {0, 1, 2, 3, 0, 1, 2, 3};
+    const auto x = hn::Set(kDoubles, block_x), low = hn::Add(x, hn::LoadU(kDoubles, kX));
+    return {low, kHalf < kBlock ? hn::Add(x, hn::LoadU(kDoubles, kX + kHalf)) : low};
+  }
+  [[gnu::always_inline]] static Wide rows_of_block(int block_y, int i) {
+    HWY_ALIGN static constexpr double kY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+    const auto y = hn::Set(kDoubles, block_y), low = hn::Add(y, hn::LoadU(kDoubles, kY + i));
+    return {low, kHalf < kBlock ? low : hn::Add(y, hn::LoadU(kDoubles, kY + i + kHalf))};
+  }
+};
+
 }  // namespace
 }  // namespace PLUMBLINE_TARGET
 
 template <>
-struct Lanes<PLUMBLINE_TARGET::Simd> {
-  static constexpr int width = PLUMBLINE_TARGET::kWidth;
-  using Wide = PLUMBLINE_TARGET::SimdWide;
-  using Int = PLUMBLINE_TARGET::SimdInt;
-  using Mask = PLUMBLINE_TARGET::SimdMask;
-};
-
-template <>
-inline PLUMBLINE_TARGET::Simd load<PLUMBLINE_TARGET::Simd>(const float* from) {
-  return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kFloats, from);
-}
-template <>
-inline PLUMBLINE_TARGET::SimdInt load_codes<PLUMBLINE_TARGET::Simd>(const std::uint8_t* from) {
-  return PLUMBLINE_TARGET::hn::PromoteTo(PLUMBLINE_TARGET::kInts,
-                                         PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kBytes, from));
-}
-
-template <>
-inline PLUMBLINE_TARGET::SimdMask mask_of<PLUMBLINE_TARGET::Simd>(unsigned bits) {
-  using namespace PLUMBLINE_TARGET;
-  HWY_ALIGN static constexpr std::int32_t kBits[] = {1,   2,   4,    8,    16,   32,   64,    128,
-                                                     256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
-  return (SimdInt(static_cast<std::int32_t>(bits)) & SimdInt(hn::LoadU(kInts, kBits))) != SimdInt(0);
-}
-template <>
-inline PLUMBLINE_TARGET::SimdWide load_wide<PLUMBLINE_TARGET::Simd>(const double* from) {
-  using namespace PLUMBLINE_TARGET;
-  return {hn::LoadU(kDoubles, from), hn::LoadU(kDoubles, from + kHalf)};
-}
-template <>
-inline PLUMBLINE_TARGET::SimdInt load_ints<PLUMBLINE_TARGET::Simd>(const std::int32_t* from) {
-  return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kInts, from);
-}
-template <>
-inline PLUMBLINE_TARGET::SimdInt load_packed<PLUMBLINE_TARGET::Simd>(const std::uint32_t* from) {
-  return PLUMBLINE_TARGET::hn::LoadU(PLUMBLINE_TARGET::kInts, reinterpret_cast<const std::int32_t*>(from));
-}
-
-// Halves that are equal are one value, so that what is made of them is made once.
-template <>
-[[gnu::always_inline]] inline PLUMBLINE_TARGET::SimdWide columns_of_block<PLUMBLINE_TARGET::Simd>(int block_x, int) {
-  using namespace PLUMBLINE_TARGET;
-  HWY_ALIGN static constexpr double kX[2 * kBlock] = {0, 1, 2, 3, 0, 1, 2, 3};
-  const auto x = hn::Set(kDoubles, block_x), low = hn::Add(x, hn::LoadU(kDoubles, kX));
-  return {low, kHalf < kBlock ? hn::Add(x, hn::LoadU(kDoubles, kX + kHalf)) : low};
-}
-template <>
-[[gnu::always_inline]] inline PLUMBLINE_TARGET::SimdWide rows_of_block<PLUMBLINE_TARGET::Simd>(int block_y, int i) {
-  using namespace PLUMBLINE_TARGET;
-  HWY_ALIGN static constexpr double kY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-  const auto y = hn::Set(kDoubles, block_y), low = hn::Add(y, hn::LoadU(kDoubles, kY + i));
-  return {low, kHalf < kBlock ? low : hn::Add(y, hn::LoadU(kDoubles, kY + i + kHalf))};
-}
-template <>
-[[gnu::always_inline]] inline Pixels<PLUMBLINE_TARGET::Simd> block_pixels<PLUMBLINE_TARGET::Simd>(int block_x,
-                                                                                                  int block_y, int i) {
-  using namespace PLUMBLINE_TARGET;
-  const SimdInt number = SimdInt(hn::Iota(kInts, 0)) + SimdInt(i);
-  return {SimdInt(block_x) + (number & SimdInt(kBlock - 1)), SimdInt(block_y) + SimdInt(hn::ShiftRight<2>(number.v)),
-          columns_of_block<Simd>(block_x, i) + 0.5, rows_of_block<Simd>(block_y, i) + 0.5};
-}
+struct Lanes<PLUMBLINE_TARGET::Simd> : PLUMBLINE_TARGET::LanesOfSimd {};
 
 }  // namespace plumbline::pipeline

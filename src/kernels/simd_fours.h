@@ -7,19 +7,6 @@ namespace plumbline::pipeline {
 namespace PLUMBLINE_TARGET {
 namespace {
 
-// Fours go by blocks of 128 bits: four lanes a block, transposed in place.
-inline constexpr hn::FixedTag<float, 4> kBlockFloats{};
-template <class Block>
-FloatVector of_blocks(Block block) {
-  if constexpr (kWidth == 4) {
-    return block(0);
-  } else if constexpr (kWidth == 8) {
-    return hn::Combine(kFloats, block(4), block(0));
-  } else {
-    return hn::Combine(kFloats, hn::Combine(kHalfFloats, block(12), block(8)),
-                       hn::Combine(kHalfFloats, block(4), block(0)));
-  }
-}
 inline void transpose_fours(const Simd (&in)[4], Simd (&out)[4]) {
   const auto wide = [](FloatVector v) { return hn::BitCast(kDoubles, v); };
   const auto low = hn::InterleaveLower(kFloats, in[0].v, in[1].v),
@@ -77,11 +64,5 @@ template <class Four>
 
 }  // namespace
 }  // namespace PLUMBLINE_TARGET
-
-template <>
-inline PLUMBLINE_TARGET::Simd load_row<PLUMBLINE_TARGET::Simd>(const float* from) {
-  using namespace PLUMBLINE_TARGET;
-  return of_blocks([&](int lane) { return hn::LoadU(kBlockFloats, from + lane * kBlock); });
-}
 
 }  // namespace plumbline::pipeline

@@ -63,7 +63,7 @@ void paint_fragments(const DrawState& state, const auto& s, const SurfaceSetup* 
   }
   const R z = depth<R>(s.depth_plane, from_anchor<R>(s.planes, p));
   const auto stored = tile.at(place);
-  const Mask<R> nearer = covered & compares<R>(state.depth_func, z, load<R>(stored.depth));
+  const Mask<R> nearer = covered & compares<R>(state.depth_func, z, Lanes<R>::load(stored.depth));
   if (!any(nearer) && !state.stencil) return;
   const glm::bvec4& channels = state.merge.color_mask;
   const bool needs_color = state.alpha_test || channels.r || channels.g || channels.b || channels.a;

@@ -65,7 +65,7 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
     set_up_planes<R>(planes_of_lines<R>(corners.p_win, site), corners.p_win, site, lanes);
     PixelsOfLanes<R, true, false, kTile> values(lanes, 0);
     for (int k = 0; k < most; ++k) {
-      const I pixel = load_ints<R>(pixel_of[k]);
+      const I pixel = Lanes<R>::load(pixel_of[k]);
       values.work_out(k, pixel & I(kTile - 1), shifted_right<6>(pixel));
     }
     for (std::size_t lane = 0; lane < count; ++lane) {

@@ -100,16 +100,16 @@ class OpaqueRun {
     const auto row = [&](int y) {
       unsigned nearer = 0;
       for (int b = 0; b < kTile / kBlock; b += kLanes) {
-        Mask<R> some = mask_of<R>(0);
+        Mask<R> some = Lanes<R>::mask_of(0);
         for (int i = 0; i < kSamples; ++i) {
-          some = some | (load<R>(tiles_[i].farthest + y / kBlock * (kTile / kBlock) + b) > R(s.nearest));
+          some = some | (Lanes<R>::load(tiles_[i].farthest + y / kBlock * (kTile / kBlock) + b) > R(s.nearest));
         }
         nearer |= bits_of(some) << b;
       }
       if (nearer == 0) return nearer;
       hidden = false;
       for (int part = 0; part < kParts<R>; ++part) {
-        const W dy = rows_of_block<R>(y, part * kLanes);
+        const W dy = Lanes<R>::rows_of_block(y, part * kLanes);
         for (int k = 0; k < kPlanes; ++k) of_row[k][part] = plane[k]->at_0 + dy * plane[k]->y;
       }
       return nearer;
@@ -117,17 +117,17 @@ class OpaqueRun {
     visit_covered<R, kSamples>(s, row, [&](int x, int y, const Mask<R>(&covered)[kSamples][kParts<R>]) {
       const int place = block_offset(x, y);
       W of_column[kPlanes];
-      for (int k = kSamples - 1; k < kPlanes; ++k) of_column[k] = columns_of_block<R>(x, 0) * plane[k]->x;
+      for (int k = kSamples - 1; k < kPlanes; ++k) of_column[k] = Lanes<R>::columns_of_block(x, 0) * plane[k]->x;
       const auto value = [&](int k, int part) {  // value_at(); all depths have the same slopes
         const int slope = k < kSamples ? kSamples - 1 : k;
         if constexpr (kLanes >= kBlock) return of_row[k][part] + of_column[slope];
-        return of_row[k][part] + columns_of_block<R>(x, part * kLanes) * plane[slope]->x;
+        return of_row[k][part] + Lanes<R>::columns_of_block(x, part * kLanes) * plane[slope]->x;
       };
       std::array<Mask<R>, kSamples> kept[kParts<R>];
-      Mask<R> some = mask_of<R>(0), full[kSamples];
+      Mask<R> some = Lanes<R>::mask_of(0), full[kSamples];
       R farthest[kSamples];
       for (int i = 0; i < kSamples; ++i) {
-        full[i] = mask_of<R>(~0u), farthest[i] = R(0);
+        full[i] = Lanes<R>::mask_of(~0u), farthest[i] = R(0);
         for (int part = 0; part < kParts<R>; ++part) {
           R z;
           if constexpr (kPlain == Plain::nothing) {
@@ -136,7 +136,7 @@ class OpaqueRun {
             z = to_float(nearest_int(value(i, part)));
           }
           float* const to = tiles_[i].depth + place + part * kLanes;
-          const R held = load<R>(to);
+          const R held = Lanes<R>::load(to);
           Mask<R>& here = kept[part][static_cast<std::size_t>(i)];
           here = covered[i][part] & (z < held + R(tie_));
           if constexpr (kPlain == Plain::nothing) here = here & (z < R(limit_));
@@ -166,7 +166,7 @@ class OpaqueRun {
           };
           if constexpr (kKernel == PaintKernel::blends_over) {
             const Color<R> over = color();
-            store_each([&](const std::uint32_t* held) { return packed_over<R>(over, load_packed<R>(held)); });
+            store_each([&](const std::uint32_t* held) { return packed_over<R>(over, Lanes<R>::load(held)); });
           } else {
             const auto merged = [&] {
               if constexpr (kPlain == Plain::one_color) return one_code;
@@ -197,13 +197,13 @@ class OpaqueRun {
     const auto& lanes = lanes_.lanes;
     PackedTile& tile = tiles_[sample];
     using I = Int<R>;
-    const I x0 = load_ints<R>(lanes.bounds[0]), y0 = load_ints<R>(lanes.bounds[1]);
-    const I columns = load_ints<R>(lanes.bounds[2]) - x0, rows = load_ints<R>(lanes.bounds[3]) - y0;
-    const Mask<R> wanted = load_ints<R>(kBlockNumbers) < I(lanes_.count);
+    const I x0 = Lanes<R>::load(lanes.bounds[0]), y0 = Lanes<R>::load(lanes.bounds[1]);
+    const I columns = Lanes<R>::load(lanes.bounds[2]) - x0, rows = Lanes<R>::load(lanes.bounds[3]) - y0;
+    const Mask<R> wanted = Lanes<R>::load(kBlockNumbers) < I(lanes_.count);
     I e_of_row[3], step_x[3], step_y[3];
     for (int k = 0; k < 3; ++k) {
-      step_x[k] = load_ints<R>(lanes.step_x[k]), step_y[k] = load_ints<R>(lanes.step_y[k]);
-      e_of_row[k] = load_ints<R>(lanes.at_sample[sample][k]) + step_x[k] * x0 + step_y[k] * y0;
+      step_x[k] = Lanes<R>::load(lanes.step_x[k]), step_y[k] = Lanes<R>::load(lanes.step_y[k]);
+      e_of_row[k] = Lanes<R>::load(lanes.at_sample[sample][k]) + step_x[k] * x0 + step_y[k] * y0;
     }
     I covered(0);  // a bit a pixel, row by row
     for (int row = 0, bit = 0; row < lanes.height; ++row) {

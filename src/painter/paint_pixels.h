@@ -29,11 +29,11 @@ class PixelsOfLanes {
         q1_(lanes.q1.of_all()),
         q2_(lanes.q2.of_all()),
         sum_(lanes.sum.of_all()),
-        constant_(load_ints<R>(lanes.constant_colors) != Int<R>(0)) {
+        constant_(Lanes<R>::load(lanes.constant_colors) != Int<R>(0)) {
     for (int c = 0; c < 4; ++c) {
-      attributes_.color0[c] = load<R>(lanes.color[0][c]);
-      attributes_.d_color1[c] = load<R>(lanes.color[1][c]);
-      attributes_.d_color2[c] = load<R>(lanes.color[2][c]);
+      attributes_.color0[c] = Lanes<R>::load(lanes.color[0][c]);
+      attributes_.d_color1[c] = Lanes<R>::load(lanes.color[1][c]);
+      attributes_.d_color2[c] = Lanes<R>::load(lanes.color[2][c]);
     }
   }
 

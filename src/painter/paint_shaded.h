@@ -46,7 +46,7 @@ class ShadedPixels {
     const int x0 = tiles_[0].x0, y0 = tiles_[0].y0;
     if (!surface_) surface_.emplace(surface_of_lane(painting_, draw_, triangle_, x0, y0));
     count_ -= kLanes;
-    const I place = load_ints<R>(places_ + count_);
+    const I place = Lanes<R>::load(places_ + count_);
     const I x = I(x0) + x_of_place(place), y = I(y0) + y_of_place(place);
     const Pixels<R> p{x, y, to_wide(x) + 0.5, to_wide(y) + 0.5};
     const SurfaceAttributes<R> attributes = surface_attributes<R>(setup_, *surface_, p);

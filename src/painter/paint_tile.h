@@ -138,12 +138,12 @@ void copy_out(const PackedTile& tile, Frame& frame) {
   for (int y = 0; y < rows; ++y) {
     auto* to = reinterpret_cast<std::int32_t*>(frame.color_rgba8.row(tile.y0 + y) + tile.x0);
     const auto* from = reinterpret_cast<const float*>(tile.color + block_offset(0, y) + y % kBlock * kBlock);
-    for (int x = 0; x < columns; x += kLanes) store(as_int(load_row<R>(from + x * kBlock)), to + x);
+    for (int x = 0; x < columns; x += kLanes) store(as_int(Lanes<R>::load_row(from + x * kBlock)), to + x);
   }
   for (int y = 0; y < rows; ++y) {
     auto* to = reinterpret_cast<std::int32_t*>(frame.depth_code.row(tile.y0 + y) + tile.x0);
     const float* from = tile.depth + block_offset(0, y) + y % kBlock * kBlock;
-    for (int x = 0; x < columns; x += kLanes) store(to_int(load_row<R>(from + x * kBlock)), to + x);
+    for (int x = 0; x < columns; x += kLanes) store(to_int(Lanes<R>::load_row(from + x * kBlock)), to + x);
   }
 }
 

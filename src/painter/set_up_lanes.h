@@ -37,7 +37,7 @@ struct AffineLanes {
 
   void keep(const Affine<Wide<R>>& plane) { store(plane.at_0, at_0), store(plane.x, x), store(plane.y, y); }
   Affine<double> of(int lane) const { return {at_0[lane], x[lane], y[lane]}; }
-  Affine<Wide<R>> of_all() const { return {load_wide<R>(at_0), load_wide<R>(x), load_wide<R>(y)}; }
+  Affine<Wide<R>> of_all() const { return {Lanes<R>::load(at_0), Lanes<R>::load(x), Lanes<R>::load(y)}; }
 };
 /// As many triangles as there are lanes.
 template <class R, int kSampleCount = 1>
@@ -142,7 +142,7 @@ template <class R, int kSampleCount>
   const auto color_of = [](const PaintVertex* v) { return &v->color.r; };
   R color[3][4];
   for (int k = 0; k < 3; ++k) load_corner<R>(corner[flat ? 1 : k], color_of, color[k]);
-  Mask<R> constant = mask_of<R>(~0u);
+  Mask<R> constant = Lanes<R>::mask_of(~0u);
   for (int c = 0; c < 4; ++c) {
     const R d1 = color[1][c] - color[0][c], d2 = color[2][c] - color[0][c];
     constant = constant & (d1 == R(0)) & (d2 == R(0));
@@ -184,7 +184,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
   using W = Wide<R>;
   const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(corner);
   const Mask<R> same_alpha = set_up_colors<R>(corner, site.flat, out);
-  const R face = load<R>(facing);
+  const R face = Lanes<R>::load(facing);
   const PlaneCorners<W> through =
       plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
                        snapped_y, to_wide(face));

@@ -19,7 +19,7 @@ struct Stored {
 
   template <class R>
   Color<R> load_color() const {
-    return {load<R>(color[0]), load<R>(color[1]), load<R>(color[2]), load<R>(color[3])};
+    return {Lanes<R>::load(color[0]), Lanes<R>::load(color[1]), Lanes<R>::load(color[2]), Lanes<R>::load(color[3])};
   }
   template <class R>
   void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
@@ -37,7 +37,7 @@ struct StoredCodes {
 
   template <class R>
   Color<R> load_color() const {
-    const Int<R> held = load_packed<R>(color), most(255);
+    const Int<R> held = Lanes<R>::load(color), most(255);
     return {to_float(held & most), to_float(shifted_right<8>(held) & most), to_float(shifted_right<16>(held) & most),
             to_float(shifted_right<24>(held) & most)};
   }
@@ -54,7 +54,7 @@ struct StoredCodes {
     const std::uint32_t written = (channels.r ? 0xffu : 0u) | (channels.g ? 0xff00u : 0u) |
                                   (channels.b ? 0xff0000u : 0u) | (channels.a ? 0xff000000u : 0u);
     const Int<R> to(static_cast<std::int32_t>(written)), other(static_cast<std::int32_t>(~written));
-    store_packed(kept, (codes & to) | (load_packed<R>(color) & other), color);
+    store_packed(kept, (codes & to) | (Lanes<R>::load(color) & other), color);
   }
 };
 

@@ -26,13 +26,13 @@ template <class R, int kSampleCount>
   I of_blocks[3], least[3];  // of blocks side by side, from the row's first; and the least that it adds in a block
   for (int k = 0; k < 3; ++k) {
     for (int part = 0; part < kParts<R>; ++part) {
-      const I within = load_ints<R>(kColumnInBlock + part * kLanes) * I(s.step_x[k]) +
-                       load_ints<R>(kRowInBlock + part * kLanes) * I(s.step_y[k]);
+      const I within = Lanes<R>::load(kColumnInBlock + part * kLanes) * I(s.step_x[k]) +
+                       Lanes<R>::load(kRowInBlock + part * kLanes) * I(s.step_y[k]);
       for (int i = 0; i < kSampleCount; ++i) {
         in_block[i][k][part] = kSampleCount == 1 ? within : within + I(s.at_sample[i][k] - s.at_tile[k]);
       }
     }
-    of_blocks[k] = load_ints<R>(kBlockNumbers) * I(kBlock * s.step_x[k]) + I(s.at_tile[k]);
+    of_blocks[k] = Lanes<R>::load(kBlockNumbers) * I(kBlock * s.step_x[k]) + I(s.at_tile[k]);
     least[k] = I((kBlock - 1) * (std::min(s.step_x[k], 0) + std::min(s.step_y[k], 0)));
   }
   for (int y = s.y0; y < s.y1; y += kBlock) {
@@ -51,7 +51,7 @@ template <class R, int kSampleCount>
       for (blocks &= bits_of(some < I(0)); blocks != 0; blocks &= blocks - 1) {
         const int b = std::countr_zero(blocks);
         const I e[3] = {I(at[0][b]), I(at[1][b]), I(at[2][b])};
-        Mask<R> covered[kSampleCount][kParts<R>], any_covered = mask_of<R>(0);
+        Mask<R> covered[kSampleCount][kParts<R>], any_covered = Lanes<R>::mask_of(0);
         for (int i = 0; i < kSampleCount; ++i) {
           const auto& in = in_block[i];
           for (int part = 0; part < kParts<R>; ++part) {

@@ -32,6 +32,28 @@ Vertex<float> narrow(const Vertex<double>& v) {
   return {Vec4<float>(v.p_eye), Vec4<float>(v.p_clip), Vec3<float>(v.n_eye)};
 }
 
+Planes planes_of_frame(const Frame& frame, const Formats& formats) {
+  Planes out;
+  const auto as_color = [&](const auto& codes) {
+    Plane<glm::vec4> color(codes.width(), codes.height());
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      color.values()[i] = glm::vec4(codes.values()[i]) / formats.color_scale;
+    }
+    return color;
+  };
+  out.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
+              : !frame.color_rgba12.empty() ? as_color(frame.color_rgba12)
+              : !frame.color_rgba16.empty() ? as_color(frame.color_rgba16)
+                                            : frame.color_rgba32f;
+  out.depth = Plane<double>(out.color.width(), out.color.height());
+  for (std::size_t i = 0; i < out.depth.size(); ++i) {
+    out.depth.values()[i] = frame.depth_z32f.empty() ? frame.depth_code.values()[i] / formats.depth_scale
+                                                     : static_cast<double>(frame.depth_z32f.values()[i]);
+  }
+  out.stencil = frame.stencil;
+  return out;
+}
+
 Attributes attributes_at(const Records<double>& r, std::size_t i) {
   return gathered(r.lit[i].color, r.varyings, [&](const VaryingColumns<double>& columns) {
     return i < columns.vertices.size() ? &columns.vertices[i] : nullptr;

@@ -1,9 +1,11 @@
-// Records of a capture, in double, as the pipeline's own, in float. (The other way round: pipeline/recorder.h.)
+// Records of a capture, in double, as the pipeline's own, in float (the other way round: pipeline/recorder.h); and a
+// frame as planes of a capture.
 #pragma once
 
 #include <vector>
 
 #include "capture/capture.h"
+#include "pipeline/frame.h"
 #include "pipeline/stages.h"
 
 namespace plumbline::pipeline {
@@ -14,6 +16,9 @@ Vertex<float> narrow(const Vertex<double>& from);
 inline Color<float> narrow(const Vec4<double>& c) {
   return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
 }
+
+/// Colours and depths in [0,1], where their format is one of codes.
+Planes planes_of_frame(const Frame& frame, const Formats& formats);
 
 /// Number `i` of records.vertices with the attributes beside it; of records.polygons.polygons; of records.triangles.
 Attributes attributes_at(const Records<double>& records, std::size_t i);

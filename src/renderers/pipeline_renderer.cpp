@@ -8,35 +8,14 @@
 #include <fmt/format.h>
 
 #include "painter/painter.h"
+#include "renderers/convert.h"
 #include "renderers/run_stage.h"
 
 namespace plumbline::pipeline {
 
 namespace {
 
-Planes planes_of_frame(const Frame& frame, const Formats& formats) {
-  Planes out;
-  const auto as_color = [&](const auto& codes) {
-    Plane<glm::vec4> color(codes.width(), codes.height());
-    for (std::size_t i = 0; i < codes.size(); ++i) {
-      color.values()[i] = glm::vec4(codes.values()[i]) / formats.color_scale;
-    }
-    return color;
-  };
-  out.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
-              : !frame.color_rgba12.empty() ? as_color(frame.color_rgba12)
-              : !frame.color_rgba16.empty() ? as_color(frame.color_rgba16)
-                                            : frame.color_rgba32f;
-  out.depth = Plane<double>(out.color.width(), out.color.height());
-  for (std::size_t i = 0; i < out.depth.size(); ++i) {
-    out.depth.values()[i] = frame.depth_z32f.empty() ? frame.depth_code.values()[i] / formats.depth_scale
-                                                     : static_cast<double>(frame.depth_z32f.values()[i]);
-  }
-  out.stencil = frame.stencil;
-  return out;
-}
-
-// The other way round, of colours alone.
+// A frame of colours alone.
 Frame frame_of_colors(const FrameFormat& format, const Plane<glm::vec4>& color) {
   FrameFormat of_pass = format;
   of_pass.width = color.width();

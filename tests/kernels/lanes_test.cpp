@@ -88,9 +88,9 @@ TEST(PipelineLanes, SelectAndStore) {
   EXPECT_EQ(select(false, 1.0, 2.0), 2.0);
   float at = 5;
   store(false, 7.0f, &at);
-  EXPECT_EQ(load<float>(&at), 5);
+  EXPECT_EQ(Lanes<float>::load(&at), 5);
   store(true, 7.0f, &at);
-  EXPECT_EQ(load<float>(&at), 7);
+  EXPECT_EQ(Lanes<float>::load(&at), 7);
 }
 
 }  // namespace

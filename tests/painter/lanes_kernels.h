@@ -26,7 +26,7 @@ struct Columns {
   std::size_t n, i;
   const float* in;
   float* out;
-  R operator()(std::size_t k) const { return load<R>(in + k * n + i); }
+  R operator()(std::size_t k) const { return Lanes<R>::load(in + k * n + i); }
   Color<R> color(std::size_t k) const { return {(*this)(k), (*this)(k + 1), (*this)(k + 2), (*this)(k + 3)}; }
   void put(R value) {
     store(R(0) == R(0), value, out + i);
