@@ -1,8 +1,6 @@
 // Stages 6 to 11 of fragments of one triangle, line or point, as many at a time as R has lanes.
 #pragma once
 
-#include <optional>
-
 #include "kernels/coverage.h"
 #include "kernels/fragment_tests.h"
 #include "painter/surface_setup.h"
@@ -10,25 +8,18 @@
 
 namespace plumbline::pipeline {
 
-/// State of a draw that its fragments read.
-struct DrawState {
+/// How a draw's triangles and lines are painted: paint_opaque.h and paint_lines.h have those that are commonest.
+enum class PaintKernel { any, replaces, blends_over, depth_alone, shades, lines };
+
+/// A draw, as tiles want it.
+struct PaintDraw {
+  const Draw* draw;
   DepthState depth;
-  DepthFunc depth_func;
-  std::optional<Scissor> scissor;
-  std::optional<AlphaTest> alpha_test;
-  std::optional<Stencil> stencil;
-  Merge merge;
   const Surface* surface;  ///< null: fragments have the interpolated colour
+  PaintKernel kernel;
+
+  bool flat() const { return draw->shading == Shading::flat; }
 };
-inline DrawState draw_state(const Draw& draw, DepthFormat format, bool depth_clamp, const Surface* surface) {
-  return {depth_state(draw, format, depth_clamp),
-          draw.depth_func,
-          draw.scissor,
-          draw.alpha_test,
-          draw.stencil,
-          draw.merge,
-          surface};
-}
 
 /// Whether a fragment's colour replaces what is there.
 inline bool is_opaque(const Merge& state) {
@@ -55,31 +46,31 @@ template <class R>
 /// The pixels `p` of `covered`, which are stored from `place` on. `s`: the triangle's planes, depth_plane, perspective,
 /// attributes, front and surface (null: none).
 template <class R>
-void paint_fragments(const DrawState& state, const auto& s, const SurfaceSetup* surface, const Pixels<R>& p,
-                     Mask<R> covered, int place, float color_scale, auto& tile) {
-  if (state.scissor) {
-    covered = covered & scissor<R>(*state.scissor, p);
+void paint_fragments(const Draw& draw, const auto& s, const SurfaceSetup* surface, const Pixels<R>& p, Mask<R> covered,
+                     int place, float color_scale, auto& tile) {
+  if (draw.scissor) {
+    covered = covered & scissor<R>(*draw.scissor, p);
     if (!any(covered)) return;
   }
   const R z = depth<R>(s.depth_plane, from_anchor<R>(s.planes, p));
   const auto stored = tile.at(place);
-  const Mask<R> nearer = covered & compares<R>(state.depth_func, z, Lanes<R>::load(stored.depth));
-  if (!any(nearer) && !state.stencil) return;
-  const glm::bvec4& channels = state.merge.color_mask;
-  const bool needs_color = state.alpha_test || channels.r || channels.g || channels.b || channels.a;
+  const Mask<R> nearer = covered & compares<R>(draw.depth_func, z, Lanes<R>::load(stored.depth));
+  if (!any(nearer) && !draw.stencil) return;
+  const glm::bvec4& channels = draw.merge.color_mask;
+  const bool needs_color = draw.alpha_test || channels.r || channels.g || channels.b || channels.a;
   Color<R> shaded{};
   if (needs_color && surface != nullptr) {
     shaded = shade<R>(*surface->surface, s.front, surface_attributes<R>(s, *surface, p));
   } else if (needs_color) {
     shaded = mean<R>(s.attributes, weights<R>(s.perspective, from_anchor<R>(s.planes, p)));
   }
-  Mask<R> kept = state.stencil ? covered : nearer;
-  if (state.alpha_test) kept = kept & alpha_passes<R>(*state.alpha_test, shaded.a, color_scale);
-  if (state.stencil) {
-    const StencilFace& face = s.front ? state.stencil->front : state.stencil->back;
+  Mask<R> kept = draw.stencil ? covered : nearer;
+  if (draw.alpha_test) kept = kept & alpha_passes<R>(*draw.alpha_test, shaded.a, color_scale);
+  if (draw.stencil) {
+    const StencilFace& face = s.front ? draw.stencil->front : draw.stencil->back;
     kept = nearer & stencil_test<R>(face, kept, nearer, stored.stencil);
   }
-  write<R>(state.merge, kept, z, shaded, color_scale, stored);
+  write<R>(draw.merge, kept, z, shaded, color_scale, stored);
 }
 
 }  // namespace plumbline::pipeline

@@ -30,18 +30,18 @@ inline LoneSetup set_up(const WindowTriangle& t, const std::array<Vec4<float>, 3
 }
 
 /// Pixel by pixel. `varying_at(v)`: varying v at the corners, where the draw has a surface.
-void paint_lone(const DrawState& state, const WindowTriangle& t, const std::array<Vec4<float>, 3>& color,
+void paint_lone(const PaintDraw& draw, const WindowTriangle& t, const std::array<Vec4<float>, 3>& color,
                 const auto& varying_at, const Formats& formats, auto& tile) {
-  const LoneSetup s = set_up(t, color, state.depth, formats.sample, {tile.x0, tile.y0});
+  const LoneSetup s = set_up(t, color, draw.depth, formats.sample, {tile.x0, tile.y0});
   SurfaceSetup of_surface;
   const SurfaceSetup* surface = nullptr;
-  if (state.surface != nullptr) {
-    of_surface = set_up_surface(*state.surface, t, s.planes, varying_at);
+  if (draw.surface != nullptr) {
+    of_surface = set_up_surface(*draw.surface, t, s.planes, varying_at);
     surface = &of_surface;
   }
   const auto paint = [&](glm::ivec2 p) {
     const int place = tile.offset(p.x, p.y) + p.y % kBlock * kBlock + p.x % kBlock;
-    paint_fragments<float>(state, s, surface, pixel_at(p), true, place, formats.color_scale, tile);
+    paint_fragments<float>(*draw.draw, s, surface, pixel_at(p), true, place, formats.color_scale, tile);
   };
   if (t.corners < 3) return visit_line_or_point(t, {tile.x0, tile.y0}, glm::ivec2(kTile), paint);
   const PixelBounds bounds = pixel_bounds(as_seen_from(t, formats.sample));
@@ -56,7 +56,7 @@ void paint_lone(const DrawState& state, const WindowTriangle& t, const std::arra
 inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
                                              Varying v) {
   const Vec4<float>* column = painting.varyings[static_cast<std::size_t>(v)];
-  const bool flat = draw.flat && is_lit(v);
+  const bool flat = draw.flat() && is_lit(v);
   return {column[t.corner[flat ? 1 : 0]], column[t.corner[1]], column[t.corner[flat ? 1 : 2]]};
 }
 
@@ -71,7 +71,7 @@ inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTr
 }
 /// Its colours at the corners.
 inline std::array<Vec4<float>, 3> colors_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t) {
-  const auto color = [&](int k) { return painting.vertices[t.corner[draw.flat ? 1 : k]].color; };
+  const auto color = [&](int k) { return painting.vertices[t.corner[draw.flat() ? 1 : k]].color; };
   return {color(0), color(1), color(2)};
 }
 
@@ -80,13 +80,13 @@ inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& d
                                     int y0) {
   const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
   const WindowTriangle triangle = window_triangle_of(painting, t);
-  return set_up_surface(*draw.state.surface, triangle, planes_of(triangle, x0, y0), varying);
+  return set_up_surface(*draw.surface, triangle, planes_of(triangle, x0, y0), varying);
 }
 
 /// A triangle, line or point of the painting.
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, auto& tile) {
   const auto varying = [&](Varying v) { return varying_of(painting, draw, triangle, v); };
-  paint_lone(draw.state, window_triangle_of(painting, triangle), colors_of(painting, draw, triangle), varying,
+  paint_lone(draw, window_triangle_of(painting, triangle), colors_of(painting, draw, triangle), varying,
              painting.formats, tile);
 }
 

@@ -13,12 +13,12 @@ namespace plumbline::pipeline {
 /// planes_of() a line (depth.cpp): a triangle whose third corner has the values of the first. Those of a line without
 /// length are not numbers, and it covers nothing.
 template <class R>
-[[gnu::always_inline]] inline CornerPlanes<Wide<R>> planes_of_lines(const R (&p_win)[3][4], const SetupSite& site) {
+[[gnu::always_inline]] inline CornerPlanes<Wide<R>> planes_of_lines(const R (&p_win)[3][4], glm::ivec2 tile) {
   using W = Wide<R>;
   const W x = to_wide(p_win[0][0]), y = to_wide(p_win[0][1]);
   const W d_x = to_wide(p_win[1][0]) - x, d_y = to_wide(p_win[1][1]) - y;
   CornerPlanes<W> planes =
-      corner_planes<W>({x, y, d_x, d_y, -d_y, d_x, d_x * d_x + d_y * d_y}, site.tile_x + 0.5, site.tile_y + 0.5);
+      corner_planes<W>({x, y, d_x, d_y, -d_y, d_x, d_x * d_x + d_y * d_y}, tile.x + 0.5, tile.y + 0.5);
   planes.l2 = {W(0), W(0), W(0)};
   return planes;
 }
@@ -28,7 +28,7 @@ template <class R>
 void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile) {
   using I = Int<R>;
   constexpr std::size_t kLanes = Lanes<R>::width;
-  const SetupSite site = site_of(painting, run, tile.x0, tile.y0);
+  const bool flat = painting.draws[run.draw].flat();
   const glm::i64vec2 origin = std::int64_t{kSubpixel} * glm::i64vec2(tile.x0, tile.y0);
   LaneTriangles<R> lanes;
   alignas(64) std::int32_t pixel_of[kTile][kLanes] = {};  // x + kTile y; behind a line's last, whichever were there
@@ -61,8 +61,8 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
     }
     if (most == 0) continue;
     const CornerLanes<R> corners = load_corners<R>(corner);
-    set_up_colors<R>(corner, site.flat, lanes);
-    set_up_planes<R>(planes_of_lines<R>(corners.p_win, site), corners.p_win, site, lanes);
+    set_up_colors<R>(corner, flat, lanes);
+    set_up_planes<R>(planes_of_lines<R>(corners.p_win, {tile.x0, tile.y0}), corners.p_win, painting, lanes);
     PixelsOfLanes<R, true, false, kTile> values(lanes, 0);
     for (int k = 0; k < most; ++k) {
       const I pixel = Lanes<R>::load(pixel_of[k]);

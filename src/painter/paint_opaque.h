@@ -27,7 +27,7 @@ class OpaqueRun {
         draw_(painting.draws[run.draw]),
         tiles_(tiles),
         lanes_(painting, run, from_last, tiles[0].x0, tiles[0].y0),
-        cleared_(static_cast<float>(depth_code(painting.format.clear_depth, painting.formats.depth_scale))),
+        cleared_(static_cast<float>(painting.clear_code())),
         tie_(from_last ? 1.0f : 0.0f),
         limit_(from_last ? cleared_ : std::numeric_limits<float>::infinity()) {}
 

@@ -14,11 +14,11 @@ namespace plumbline::pipeline {
 inline DepthPlane depth_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
                                 const Affine<double>& code, int x0, int y0) {
   const double scale = painting.formats.depth_scale, unit = scale == 0 ? 1 : scale;
-  if (draw.state.depth.offset == PolygonOffset{}) {
-    return {code, scale, draw.state.depth.low * unit, draw.state.depth.high * unit};
+  if (draw.depth.offset == PolygonOffset{}) {
+    return {code, scale, draw.depth.low * unit, draw.depth.high * unit};
   }
   const WindowTriangle record = window_triangle_of(painting, t);
-  return moved(depth_plane(depth_setup(record, draw.state.depth), planes_of(record, x0, y0)), painting.formats.sample);
+  return moved(depth_plane(depth_setup(record, draw.depth), planes_of(record, x0, y0)), painting.formats.sample);
 }
 
 /// Those of the run, by the draw's state.
@@ -30,14 +30,14 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
     LaneSetup<> s = lanes.lanes.of(lane, t.front, tile.x0, tile.y0);
     s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
     std::optional<SurfaceSetup> surface;
-    if (draw.state.surface != nullptr) surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
+    if (draw.surface != nullptr) surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
     const SurfaceSetup* of_surface = surface ? &*surface : nullptr;
     const auto all_pixels = [](int) { return ~0u; };
     visit_covered<R, 1>(s, all_pixels, [&](int x, int y, const auto& covered) {
       for (int part = 0; part < kParts<R>; ++part) {
         if (!any(covered[0][part])) continue;
         const int i = part * Lanes<R>::width;
-        paint_fragments<R>(draw.state, s, of_surface, block_pixels<R>(tile.x0 + x, tile.y0 + y, i), covered[0][part],
+        paint_fragments<R>(*draw.draw, s, of_surface, block_pixels<R>(tile.x0 + x, tile.y0 + y, i), covered[0][part],
                            block_offset(x, y) + i, painting.formats.color_scale, tile);
       }
     });
@@ -52,7 +52,8 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
 
 /// Whether one's triangles may be painted as the other's: all else that a draw says, such kernels are there not to ask.
 inline bool alike(const PaintDraw& a, const PaintDraw& b) {
-  return a.kernel == b.kernel && a.flat == b.flat && a.kernel != PaintKernel::any && a.kernel != PaintKernel::shades;
+  return a.kernel == b.kernel && a.flat() == b.flat() && a.kernel != PaintKernel::any &&
+         a.kernel != PaintKernel::shades;
 }
 
 /// The tile's triangles, chunk by chunk and draw by draw; those of draws that are alike together.
@@ -109,7 +110,7 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* t
                                        [&](const Painting& of, PackedTile& tile) { paint_lines<R>(of, run, tile); });
     case PaintKernel::any: break;
   }
-  const DepthFunc func = draw.state.depth_func;
+  const DepthFunc func = draw.draw->depth_func;
   const bool farther =
       func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;
   each_sample<kSampleCount>(painting, tiles, [&](const Painting& of, PackedTile& tile) {

@@ -38,20 +38,22 @@ bool draws_as(const Draw& draw, PolygonMode mode) {
   return (draw.cull == Cull::front || draw.front_mode == mode) && (draw.cull == Cull::back || draw.back_mode == mode);
 }
 
-PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const DrawState& s) {
-  const bool plain = s.depth.format == DepthFormat::z24 && s.depth.low == 0.0 && s.depth.high == 1.0 &&
-                     s.depth_func == DepthFunc::less && !s.scissor && !s.alpha_test && !s.stencil && s.merge.depth_mask;
+PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const DepthState& depth, bool has_surface) {
+  const bool plain = depth.format == DepthFormat::z24 && depth.low == 0.0 && depth.high == 1.0 &&
+                     draw.depth_func == DepthFunc::less && !draw.scissor && !draw.alpha_test && !draw.stencil &&
+                     draw.merge.depth_mask;
   if (!plain) return PaintKernel::any;
   const bool triangles = mesh.topology == Topology::triangles;
   // Lines have no offset, whatever their draw's is (depth.cpp).
   if (mesh.topology == Topology::lines || (triangles && draws_as(draw, PolygonMode::line))) {
-    return is_opaque(s.merge) && s.surface == nullptr ? PaintKernel::lines : PaintKernel::any;
+    return is_opaque(draw.merge) && !has_surface ? PaintKernel::lines : PaintKernel::any;
   }
-  if (!triangles || !draws_as(draw, PolygonMode::fill) || s.depth.offset != PolygonOffset{}) return PaintKernel::any;
-  if (!glm::any(s.merge.color_mask)) return PaintKernel::depth_alone;
-  if (is_opaque(s.merge)) return s.surface == nullptr ? PaintKernel::replaces : PaintKernel::shades;
-  const bool over = s.merge.blend && is_over(*s.merge.blend) && !s.merge.logic_op && glm::all(s.merge.color_mask);
-  return over && s.surface == nullptr ? PaintKernel::blends_over : PaintKernel::any;
+  if (!triangles || !draws_as(draw, PolygonMode::fill) || depth.offset != PolygonOffset{}) return PaintKernel::any;
+  if (!glm::any(draw.merge.color_mask)) return PaintKernel::depth_alone;
+  if (is_opaque(draw.merge)) return !has_surface ? PaintKernel::replaces : PaintKernel::shades;
+  const bool over =
+      draw.merge.blend && is_over(*draw.merge.blend) && !draw.merge.logic_op && glm::all(draw.merge.color_mask);
+  return over && !has_surface ? PaintKernel::blends_over : PaintKernel::any;
 }
 
 // Whether tiles take a pixel's samples at once. Other antialiased frames are resolved from whole passes.
@@ -143,11 +145,11 @@ void Painter::Memory::prepare(const Scene& scene) {
   draws.clear();
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];
-    const Surface* surface = is_plain(scene, draw) ? nullptr : &surfaces[d];
-    DrawState state = draw_state(draw, scene.frame.depth, scene.depth_clamp, surface);
-    const PaintKernel kernel = kernel_of(scene.meshes[draw.mesh], draw, state);
-    if (kernel == PaintKernel::depth_alone) state.surface = nullptr;  // nothing asks for colours
-    draws.push_back({state, kernel, draw.shading == Shading::flat});
+    const DepthState depth = depth_state(draw, scene.frame.depth, scene.depth_clamp);
+    const bool plain = is_plain(scene, draw);
+    const PaintKernel kernel = kernel_of(scene.meshes[draw.mesh], draw, depth, !plain);
+    const bool colors = !plain && kernel != PaintKernel::depth_alone;  // which nothing asks for colours
+    draws.push_back({&draw, depth, colors ? &surfaces[d] : nullptr, kernel});
   }
   painting.draws = draws;
 }

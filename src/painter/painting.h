@@ -109,16 +109,6 @@ struct Chunk {
   Scratch<std::uint32_t> numbers;
 };
 
-/// How a draw's triangles and lines are painted: paint_opaque.h and paint_lines.h have those that are commonest.
-enum class PaintKernel { any, replaces, blends_over, depth_alone, shades, lines };
-
-/// A draw, as tiles want it.
-struct PaintDraw {
-  DrawState state;
-  PaintKernel kernel;
-  bool flat;  ///< every corner has the provoking one's colour
-};
-
 /// A draw's triangles in a tile, of one chunk.
 struct PaintRun {
   std::uint32_t draw;
@@ -138,6 +128,9 @@ struct Painting {
   std::span<const Chunk> chunks;
   std::span<const PaintDraw> draws;
   bool any_long_edge;  ///< Chunk's
+
+  /// Of a depth with codes.
+  double clear_code() const { return depth_code(format.clear_depth, formats.depth_scale); }
 };
 
 /// A thread's own.

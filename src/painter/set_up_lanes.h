@@ -87,24 +87,6 @@ struct LaneTriangles {
   }
 };
 
-/// What is the same for all lanes.
-struct SetupSite {
-  int tile_x, tile_y;  ///< the tile's lower left pixel
-  std::span<const glm::ivec2> samples;
-  double depth_scale;  ///< Formats::depth_scale
-  double clear_code;   ///< of depth
-  bool flat;
-};
-inline SetupSite site_of(const Painting& painting, const PaintRun& run, int tile_x, int tile_y) {
-  const Formats& formats = painting.formats;
-  return {tile_x,
-          tile_y,
-          painting.samples,
-          formats.depth_scale,
-          depth_code(painting.format.clear_depth, formats.depth_scale),
-          painting.draws[run.draw].flat};
-}
-
 /// Per corner, each lane's vertex.
 template <class R>
 using CornersOfLanes = const PaintVertex* [3][Lanes<R>::width];
@@ -157,7 +139,7 @@ template <class R, int kSampleCount>
 /// Planes of depth at each sample, and of the colours' weights, which are the centre's.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline void set_up_planes(const CornerPlanes<Wide<R>>& planes, const R (&p_win)[3][4],
-                                                 const SetupSite& site, LaneTriangles<R, kSampleCount>& out) {
+                                                 const Painting& painting, LaneTriangles<R, kSampleCount>& out) {
   using W = Wide<R>;
   const auto through_corners = [&](int coordinate, double unit) {
     const W at_0 = to_wide(p_win[0][coordinate]);
@@ -167,36 +149,36 @@ template <class R, int kSampleCount>
   out.q1.keep(scaled(planes.l1, to_wide(p_win[1][3])));
   out.q2.keep(scaled(planes.l2, to_wide(p_win[2][3])));
   out.sum.keep(through_corners(3, 1));
-  const Affine<W> code = through_corners(2, site.depth_scale == 0 ? 1 : site.depth_scale);
+  const Affine<W> code = through_corners(2, painting.formats.depth_scale == 0 ? 1 : painting.formats.depth_scale);
   for (int i = 0; i < kSampleCount; ++i) {  // moved(), depth.h
     Affine<W> at_sample = code;
-    const glm::dvec2 by = glm::dvec2(site.samples[static_cast<std::size_t>(i)]) / static_cast<double>(kSubpixel);
+    const glm::dvec2 by = glm::dvec2(painting.samples[static_cast<std::size_t>(i)]) / static_cast<double>(kSubpixel);
     if (by != glm::dvec2(0)) at_sample.at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
     out.code[i].keep(at_sample);
   }
 }
 
-/// `facing`: 1 of a front face, -1 of a back one.
+/// In the tile whose lower left pixel is `tile`. `facing`: 1 of a front face, -1 of a back one; `flat`: PaintDraw's.
 template <class R, int kSampleCount>
-void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const SetupSite& site,
-                  LaneTriangles<R, kSampleCount>& out) {
+void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const Painting& painting,
+                  bool flat, glm::ivec2 tile, LaneTriangles<R, kSampleCount>& out) {
   using I = Int<R>;
   using W = Wide<R>;
   const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(corner);
-  const Mask<R> same_alpha = set_up_colors<R>(corner, site.flat, out);
+  const Mask<R> same_alpha = set_up_colors<R>(corner, flat, out);
   const R face = Lanes<R>::load(facing);
   const PlaneCorners<W> through =
       plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
                        snapped_y, to_wide(face));
-  set_up_planes<R>(corner_planes(through, site.tile_x + 0.5, site.tile_y + 0.5), p_win, site, out);
+  set_up_planes<R>(corner_planes(through, tile.x + 0.5, tile.y + 0.5), p_win, painting, out);
   const Affine<W> q1 = out.q1.of_all(), q2 = out.q2.of_all(), sum = out.sum.of_all();
 
   // From here on, corners are counted from the tile.
-  const I origin_x(site.tile_x * kSubpixel), origin_y(site.tile_y * kSubpixel);
+  const I origin_x(tile.x * kSubpixel), origin_y(tile.y * kSubpixel);
   I x[3], y[3];
   for (int k = 0; k < 3; ++k) x[k] = snapped_x[k] - origin_x, y[k] = snapped_y[k] - origin_y;
-  glm::ivec2 low_sample = site.samples[0], high_sample = low_sample;
-  for (const glm::ivec2& sample : site.samples) {
+  glm::ivec2 low_sample = painting.samples[0], high_sample = low_sample;
+  for (const glm::ivec2& sample : painting.samples) {
     low_sample = glm::min(low_sample, sample), high_sample = glm::max(high_sample, sample);
   }
   const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
@@ -228,8 +210,8 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
     most_code = i == 0 ? high : greater_of(most_code, high);
   }
   const W least_sum = least_of(sum);
-  store(to_float(floor_of(clamped(least_code, W(0), W(site.depth_scale))) - W(1)), out.nearest);
-  out.plain_depth = bits_of(Mask<R>((least_code >= W(0)) & (most_code < W(site.clear_code - 1))));
+  store(to_float(floor_of(clamped(least_code, W(0), W(painting.formats.depth_scale))) - W(1)), out.nearest);
+  out.plain_depth = bits_of(Mask<R>((least_code >= W(0)) & (most_code < W(painting.clear_code() - 1))));
   const W most_weight = least_sum * W(1024);  // 255 of them are far from 2^31, too
   const W terms_1 = terms(q1), terms_2 = terms(q2);
   const Mask<R> small = (least_sum > W(0x1p-60)) & (terms_1 < most_weight) & (terms_2 < most_weight);
@@ -250,7 +232,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
     const W less = to_wide(select(owns, I(0), I(1)));
     const W wide_x = to_wide(d_x), wide_y = to_wide(d_y), e = wide_y * to_wide(x[k]) - wide_x * to_wide(y[k]);
     for (int i = 0; i < kSampleCount; ++i) {
-      const glm::dvec2 sample(site.samples[static_cast<std::size_t>(i)]);
+      const glm::dvec2 sample(painting.samples[static_cast<std::size_t>(i)]);
       const W at_sample = e - (wide_y * sample.x - wide_x * sample.y);
       const W at_tile = floor_of((at_sample - less) * W(1.0 / kSubpixel));
       store(I(-1) - to_int(clamped(at_tile, W(-kFarEdge), W(kFarEdge))), out.at_sample[i][k]);

@@ -70,7 +70,7 @@ template <class R, int kSampleCount>
 class LanesOfRun {
  public:
   LanesOfRun(const Painting& painting, const PaintRun& run, bool from_last, int tile_x, int tile_y)
-      : painting_(painting), run_(run), from_last_(from_last), site_(site_of(painting, run, tile_x, tile_y)) {}
+      : painting_(painting), run_(run), from_last_(from_last), tile_(tile_x, tile_y) {}
 
   [[gnu::always_inline]] bool next() {
     begin_ += static_cast<std::size_t>(count);
@@ -86,7 +86,8 @@ class LanesOfRun {
       triangles_alone &= t.corners == 3;
     }
     lanes.fitting = 0;
-    if (triangles_alone) set_up_lanes<R, kSampleCount>(corner, facing, site_, lanes);
+    if (triangles_alone)
+      set_up_lanes<R, kSampleCount>(corner, facing, painting_, painting_.draws[run_.draw].flat(), tile_, lanes);
     return true;
   }
   const PaintTriangle& triangle(int lane) const {
@@ -104,7 +105,7 @@ class LanesOfRun {
   const Painting& painting_;
   const PaintRun& run_;
   bool from_last_;
-  SetupSite site_;
+  glm::ivec2 tile_;  // its lower left pixel
   std::size_t begin_ = 0;
 };
 

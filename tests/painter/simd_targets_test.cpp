@@ -69,8 +69,7 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
   }
   for (std::size_t t = 0; t <= tiles; ++t) chunk[0].first.push_back(static_cast<std::uint32_t>(t * count));
   chunk[0].draws = {{0, count}};
-  const DrawState state = draw_state(draw, format.depth, false, nullptr);
-  const PaintDraw draws[] = {{state, kernel, false}};
+  const PaintDraw draws[] = {{&draw, depth_state(draw, format.depth, false), nullptr, kernel}};
   painting.vertices = vertices.data();
   painting.chunks = chunk;
   painting.draws = draws;
