@@ -189,17 +189,14 @@ inline SimdInt as_int(Simd value) { return hn::BitCast(kInts, value.v); }
 inline Simd as_float(SimdInt bits) { return hn::BitCast(kFloats, bits.v); }
 // x86's own: the nearest, of what fits no int the most negative; and packs that saturate, by blocks of 128 bits.
 inline __m128i rounded(__m128 v) { return _mm_cvtps_epi32(v); }
-inline __m128i rounded(__m128d v) { return _mm_cvtpd_epi32(v); }
 inline __m128i to_shorts(__m128i a, __m128i b) { return _mm_packs_epi32(a, b); }
 inline __m128i to_bytes(__m128i a, __m128i b) { return _mm_packus_epi16(a, b); }
 #if HWY_TARGET <= HWY_AVX2
-inline __m128i rounded(__m256d v) { return _mm256_cvtpd_epi32(v); }
 inline __m256i rounded(__m256 v) { return _mm256_cvtps_epi32(v); }
 inline __m256i to_shorts(__m256i a, __m256i b) { return _mm256_packs_epi32(a, b); }
 inline __m256i to_bytes(__m256i a, __m256i b) { return _mm256_packus_epi16(a, b); }
 #endif
 #if HWY_TARGET <= HWY_AVX3
-inline __m256i rounded(__m512d v) { return _mm512_cvtpd_epi32(v); }
 inline __m512i rounded(__m512 v) { return _mm512_cvtps_epi32(v); }
 inline __m512i to_shorts(__m512i a, __m512i b) { return _mm512_packs_epi32(a, b); }
 inline __m512i to_bytes(__m512i a, __m512i b) { return _mm512_packus_epi16(a, b); }
@@ -217,10 +214,7 @@ inline SimdInt packed_codes(Simd r, Simd g, Simd b, Simd a) {
   const auto least = [](Simd value) { return lesser_of(Simd(255.0f), value); };  // NaN stays NaN
   return packed_codes_near(least(r), least(g), least(b), least(a));
 }
-inline SimdInt nearest_int(SimdWide value) {
-  const auto half = [](DoubleVector v) { return hn::Vec<decltype(kHalfInts)>{rounded(v.raw)}; };
-  return hn::Combine(kInts, half(value.high), half(value.low));
-}
+inline SimdInt nearest_int(SimdWide value) { return to_int(value); }
 inline SimdInt nearest_int(Simd value) { return hn::NearestInt(value.v); }
 
 #if HWY_NATIVE_FMA

@@ -122,14 +122,9 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* t
   });
 }
 
-/// Copies the tile's part of the frame out of its blocks.
+/// write_out(), lanes of a row at once; one plane after the other, for twice as many streams of memory are slower.
 template <class R>
-void copy_out(const Tile& tile, Frame& frame) {
-  write_out(tile, frame);
-}
-/// Lanes of a row at once; one plane after the other, for twice as many streams of memory are slower.
-template <class R>
-void copy_out(const PackedTile& tile, Frame& frame) {
+void copy_out(PackedTile& tile, Frame& frame) {
   constexpr int kLanes = Lanes<R>::width;
   const int columns = std::min(kTile, frame.color_rgba8.width() - tile.x0);
   if (kLanes < kBlock || columns % kLanes != 0 || frame.depth_code.empty() || !frame.stencil.empty()) {
@@ -149,22 +144,19 @@ void copy_out(const PackedTile& tile, Frame& frame) {
 }
 
 template <class R>
-void clear(Tile& tile, const Painting& painting) {
-  clear(tile, painting.format);
-}
-template <class R>
-void clear(PackedTile& tile, const Painting& painting) {
+void clear(auto& tile, const Painting& painting) {
   const FrameFormat& frame = painting.format;
-  const ClearPixel pixel = clear_pixel(frame);
-  const R depth(pixel.depth);
-  const Int<R> codes = packed_codes(R(pixel.color.r), R(pixel.color.g), R(pixel.color.b), R(pixel.color.a));
-  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) store(depth, tile.depth + i);
-  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) {
-    store(codes, reinterpret_cast<std::int32_t*>(tile.color + i));
-  }
-  std::fill(std::begin(tile.farthest), std::end(tile.farthest), pixel.depth);
-  tile.farthest_of_all = pixel.depth;
+  const auto [z, c] = clear_pixel(frame);
+  const Color<R> color{R(c.r), R(c.g), R(c.b), R(c.a)};
+  const Mask<R> all = Lanes<R>::mask_of(~0u);
+  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) store(R(z), tile.depth + i);
+  for (int i = 0; i < kTile * kTile; i += Lanes<R>::width)
+    tile.at(i).template store_color<R>(all, color, glm::bvec4(true));
   if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
+  if constexpr (requires { tile.farthest; }) {
+    std::fill(std::begin(tile.farthest), std::end(tile.farthest), z);
+    tile.farthest_of_all = z;
+  }
 }
 
 /// mean_of_four() (resolve.h) of the samples' codes, into the first's.
@@ -196,7 +188,7 @@ void paint_tile(const Painting& painting, int number, TileMemory& memory, Frame&
   if (painting.format.color != ColorFormat::rgba8) {
     begin(memory.tile);
     for (const PaintRun& run : runs) paint_run<R>(painting, run, memory.tile);
-    return copy_out<R>(memory.tile, frame);
+    return write_out(memory.tile, frame);
   }
   PackedTile& first = memory.packed[0];
   if (painting.samples.size() == 1 || runs.empty()) {

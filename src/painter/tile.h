@@ -90,9 +90,8 @@ struct PackedTile {
   StoredCodes at(int place) { return {depth + place, color + place, stencil + place}; }
 };
 
-void clear(Tile& tile, const FrameFormat& frame);
 /// Copies the tile's part of the frame out of its blocks.
-void write_out(const Tile& tile, Frame& frame);
-void write_out(const PackedTile& tile, Frame& frame);
+void write_out(Tile& tile, Frame& frame);
+void write_out(PackedTile& tile, Frame& frame);
 
 }  // namespace plumbline::pipeline
