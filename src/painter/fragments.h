@@ -1,6 +1,8 @@
 // Stages 6 to 11 of fragments of one triangle, line or point, as many at a time as R has lanes.
 #pragma once
 
+#include <optional>
+
 #include "kernels/coverage.h"
 #include "kernels/fragment_tests.h"
 #include "painter/surface_setup.h"
@@ -43,26 +45,26 @@ template <class R>
   to.template store_color<R>(kept, merged, state.color_mask);
 }
 
-/// The pixels `p` of `covered`, which are stored from `place` on. `s`: the triangle's planes, depth_plane, perspective,
+/// The pixels `p` of `covered`, which are stored from `place` on. `s`: the triangle's anchor, depth_plane, perspective,
 /// attributes, front and surface (null: none).
 template <class R>
-void paint_fragments(const Draw& draw, const auto& s, const SurfaceSetup* surface, const Pixels<R>& p, Mask<R> covered,
-                     int place, float color_scale, auto& tile) {
+void paint_fragments(const Draw& draw, const auto& s, const std::optional<SurfaceSetup>& surface, const Pixels<R>& p,
+                     Mask<R> covered, int place, float color_scale, auto& tile) {
   if (draw.scissor) {
     covered = covered & scissor<R>(*draw.scissor, p);
     if (!any(covered)) return;
   }
-  const R z = depth<R>(s.depth_plane, from_anchor<R>(s.planes, p));
+  const R z = depth<R>(s.depth_plane, from_anchor<R>(s.anchor, p));
   const auto stored = tile.at(place);
   const Mask<R> nearer = covered & compares<R>(draw.depth_func, z, Lanes<R>::load(stored.depth));
   if (!any(nearer) && !draw.stencil) return;
   const glm::bvec4& channels = draw.merge.color_mask;
   const bool needs_color = draw.alpha_test || channels.r || channels.g || channels.b || channels.a;
   Color<R> shaded{};
-  if (needs_color && surface != nullptr) {
+  if (needs_color && surface) {
     shaded = shade<R>(*surface->surface, s.front, surface_attributes<R>(s, *surface, p));
   } else if (needs_color) {
-    shaded = mean<R>(s.attributes, weights<R>(s.perspective, from_anchor<R>(s.planes, p)));
+    shaded = mean<R>(s.attributes, weights<R>(s.perspective, from_anchor<R>(s.anchor, p)));
   }
   Mask<R> kept = draw.stencil ? covered : nearer;
   if (draw.alpha_test) kept = kept & alpha_passes<R>(*draw.alpha_test, shaded.a, color_scale);

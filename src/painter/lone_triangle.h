@@ -2,55 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "painter/painting.h"
 #include "pipeline/triangle_setup.h"
 
 namespace plumbline::pipeline {
-
-struct LoneSetup {
-  bool front;
-  Edges edges;
-  BarycentricPlanes planes;
-  DepthPlane depth_plane;
-  PerspectiveSetup perspective;
-  AttributeSetup attributes;
-};
-/// For the tile whose lower left pixel is `anchor`. `color`: at the corners.
-inline LoneSetup set_up(const WindowTriangle& t, const std::array<Vec4<float>, 3>& color, const DepthState& state,
-                        glm::ivec2 sample, glm::ivec2 anchor) {
-  const BarycentricPlanes planes = planes_of(t, anchor.x, anchor.y);
-  const DepthPlane plane = depth_plane(depth_setup(t, state), planes);
-  return {t.front,
-          edges_of(as_seen_from(t, sample)),
-          planes,
-          moved(plane, sample),
-          perspective_setup(t, planes),
-          attribute_setup(color)};
-}
-
-/// Pixel by pixel. `varying_at(v)`: varying v at the corners, where the draw has a surface.
-void paint_lone(const PaintDraw& draw, const WindowTriangle& t, const std::array<Vec4<float>, 3>& color,
-                const auto& varying_at, const Formats& formats, auto& tile) {
-  const LoneSetup s = set_up(t, color, draw.depth, formats.sample, {tile.x0, tile.y0});
-  SurfaceSetup of_surface;
-  const SurfaceSetup* surface = nullptr;
-  if (draw.surface != nullptr) {
-    of_surface = set_up_surface(*draw.surface, t, s.planes, varying_at);
-    surface = &of_surface;
-  }
-  const auto paint = [&](glm::ivec2 p) {
-    const int place = tile.offset(p.x, p.y) + p.y % kBlock * kBlock + p.x % kBlock;
-    paint_fragments<float>(*draw.draw, s, surface, pixel_at(p), true, place, formats.color_scale, tile);
-  };
-  if (t.corners < 3) return visit_line_or_point(t, {tile.x0, tile.y0}, glm::ivec2(kTile), paint);
-  const PixelBounds bounds = pixel_bounds(as_seen_from(t, formats.sample));
-  for (int y = std::max(bounds.y0, tile.y0); y < std::min(bounds.y1, tile.y0 + kTile); ++y) {
-    for (int x = std::max(bounds.x0, tile.x0); x < std::min(bounds.x1, tile.x0 + kTile); ++x) {
-      if (coverage<float>(s.edges, {x, y, 0, 0})) paint({x, y});
-    }
-  }
-}
 
 /// A triangle's varyings at its corners; of those that light made, flat shading takes the provoking one's.
 inline std::array<Vec4<float>, 3> varying_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t,
@@ -75,19 +32,48 @@ inline std::array<Vec4<float>, 3> colors_of(const Painting& painting, const Pain
   return {color(0), color(1), color(2)};
 }
 
-/// (x0, y0): the tile's lower left pixel.
-inline SurfaceSetup surface_of_lane(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t, int x0,
-                                    int y0) {
+/// Of a draw with a surface; (x0, y0): the tile's lower left pixel.
+inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const PaintDraw& draw,
+                                                 const PaintTriangle& t, int x0, int y0) {
+  if (draw.surface == nullptr) return {};
+  SurfaceSetup out{draw.surface, {}, {}};
   const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
+  for (const Varying v : draw.surface->carried) {
+    out.varyings[static_cast<std::size_t>(v)] = attribute_setup(varying(v));
+  }
+  if (!draw.surface->texture) return out;
   const WindowTriangle triangle = window_triangle_of(painting, t);
-  return set_up_surface(*draw.surface, triangle, planes_of(triangle, x0, y0), varying);
+  out.gradients = gradient_setup(triangle, varying(Varying::texture), planes_of(triangle, x0, y0));
+  return out;
 }
 
-/// A triangle, line or point of the painting.
+struct LoneSetup {
+  bool front;
+  Anchor anchor;
+  DepthPlane depth_plane;
+  PerspectiveSetup perspective;
+  AttributeSetup attributes;
+};
+/// Pixel by pixel.
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, auto& tile) {
-  const auto varying = [&](Varying v) { return varying_of(painting, draw, triangle, v); };
-  paint_lone(draw, window_triangle_of(painting, triangle), colors_of(painting, draw, triangle), varying,
-             painting.formats, tile);
+  const WindowTriangle t = window_triangle_of(painting, triangle), seen = as_seen_from(t, painting.formats.sample);
+  const BarycentricPlanes planes = planes_of(t, tile.x0, tile.y0);
+  const DepthPlane depth = moved(depth_plane(depth_setup(t, draw.depth), planes), painting.formats.sample);
+  const LoneSetup s{t.front, planes, depth, perspective_setup(t, planes),
+                    attribute_setup(colors_of(painting, draw, triangle))};
+  const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, triangle, tile.x0, tile.y0);
+  const auto paint = [&](glm::ivec2 p) {
+    const int place = tile.offset(p.x, p.y) + p.y % kBlock * kBlock + p.x % kBlock;
+    paint_fragments<float>(*draw.draw, s, surface, pixel_at(p), true, place, painting.formats.color_scale, tile);
+  };
+  if (t.corners < 3) return visit_line_or_point(t, {tile.x0, tile.y0}, glm::ivec2(kTile), paint);
+  const Edges edges = edges_of(seen);
+  const PixelBounds bounds = pixel_bounds(seen);
+  for (int y = std::max(bounds.y0, tile.y0); y < std::min(bounds.y1, tile.y0 + kTile); ++y) {
+    for (int x = std::max(bounds.x0, tile.x0); x < std::min(bounds.x1, tile.x0 + kTile); ++x) {
+      if (coverage<float>(edges, {x, y, 0, 0})) paint({x, y});
+    }
+  }
 }
 
 /// paint(painting, tile) of each sample's own.

@@ -44,7 +44,7 @@ class ShadedPixels {
   void shade(int count) {
     using I = Int<R>;
     const int x0 = tiles_[0].x0, y0 = tiles_[0].y0;
-    if (!surface_) surface_.emplace(surface_of_lane(painting_, draw_, triangle_, x0, y0));
+    if (!surface_) surface_ = surface_setup(painting_, draw_, triangle_, x0, y0);
     count_ -= kLanes;
     const I place = Lanes<R>::load(places_ + count_);
     const I x = I(x0) + x_of_place(place), y = I(y0) + y_of_place(place);

@@ -29,15 +29,13 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   const auto paint_lane = [&](const PaintTriangle& t, int lane) {
     LaneSetup<> s = lanes.lanes.of(lane, t.front, tile.x0, tile.y0);
     s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
-    std::optional<SurfaceSetup> surface;
-    if (draw.surface != nullptr) surface = surface_of_lane(painting, draw, t, tile.x0, tile.y0);
-    const SurfaceSetup* of_surface = surface ? &*surface : nullptr;
+    const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, t, tile.x0, tile.y0);
     const auto all_pixels = [](int) { return ~0u; };
     visit_covered<R, 1>(s, all_pixels, [&](int x, int y, const auto& covered) {
       for (int part = 0; part < kParts<R>; ++part) {
         if (!any(covered[0][part])) continue;
         const int i = part * Lanes<R>::width;
-        paint_fragments<R>(*draw.draw, s, of_surface, block_pixels<R>(tile.x0 + x, tile.y0 + y, i), covered[0][part],
+        paint_fragments<R>(*draw.draw, s, surface, block_pixels<R>(tile.x0 + x, tile.y0 + y, i), covered[0][part],
                            block_offset(x, y) + i, painting.formats.color_scale, tile);
       }
     });

@@ -1,5 +1,5 @@
-// Stages 1, 2 and 4 of a mesh's vertices, as many at a time as R has lanes: what transform(), light(), carry() and
-// to_window() do one by one (vertex.h, light.h, carry.h, window.h), and which planes of the view volume each violates.
+// Stages 1, 2 and 4 of a mesh's vertices, as many at a time as R has lanes: what transform(), light() and
+// to_window() do one by one (vertex.h, light.h, window.h), and which planes of the view volume each violates.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Triangles made ready for a tile, as many at a time as R has lanes: what set_up() (lone_triangle.h) makes of one.
+// Triangles made ready for a tile, as many at a time as R has lanes: what paint_alone() (lone_triangle.h) makes of one.
 #pragma once
 
 #include "painter/painting.h"
@@ -21,7 +21,7 @@ struct LaneSetup {
   std::int32_t at_tile[3], step_x[3], step_y[3];  ///< per edge
   std::int32_t at_sample[kSampleCount][3];
   Affine<double> code[kSampleCount];
-  Anchor planes;
+  Anchor anchor;
   DepthPlane depth_plane;
   PerspectiveSetup perspective;
   float nearest;                  ///< a depth code: all its fragments in the tile are farther
@@ -60,7 +60,7 @@ struct LaneTriangles {
   [[gnu::always_inline]] LaneSetup<kSampleCount> of(int lane, bool front, int tile_x, int tile_y) const {
     LaneSetup<kSampleCount> s;
     s.front = front;
-    s.planes = {tile_x + 0.5, tile_y + 0.5};
+    s.anchor = {tile_x + 0.5, tile_y + 0.5};
     s.x0 = bounds[0][lane] & ~(kBlock - 1), s.y0 = bounds[1][lane] & ~(kBlock - 1);
     s.x1 = bounds[2][lane], s.y1 = bounds[3][lane];
     for (int i = 0; i < kSampleCount; ++i) s.code[i] = code[i].of(lane);

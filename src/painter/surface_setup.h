@@ -15,23 +15,13 @@ struct SurfaceSetup {
   GradientSetup gradients;  ///< of the texture coordinates, where there is a texture
 };
 
-/// `varying_at(v)`: varying v at the triangle's three corners.
-SurfaceSetup set_up_surface(const Surface& surface, const WindowTriangle& t, const BarycentricPlanes& planes,
-                            const auto& varying_at) {
-  SurfaceSetup out;
-  out.surface = &surface;
-  for (const Varying v : surface.carried) out.varyings[static_cast<std::size_t>(v)] = attribute_setup(varying_at(v));
-  if (surface.texture) out.gradients = gradient_setup(t, varying_at(Varying::texture), planes);
-  return out;
-}
-
-/// Every varying by the same weights; of texture coordinates s and t alone; and the texel. `of`: the triangle's planes,
+/// Every varying by the same weights; of texture coordinates s and t alone; and the texel. `of`: the triangle's anchor,
 /// perspective and attributes.
 template <class R>
 [[gnu::always_inline]] inline SurfaceAttributes<R> surface_attributes(const auto& of, const SurfaceSetup& s,
                                                                       const Pixels<R>& p) {
   SurfaceAttributes<R> out;
-  const Offset<R> at = from_anchor<R>(of.planes, p);
+  const Offset<R> at = from_anchor<R>(of.anchor, p);
   const Weights<R> k = weights<R>(of.perspective, at);
   out.color = mean<R>(of.attributes, k);
   for (const Varying v : s.surface->carried) {
