@@ -135,8 +135,8 @@ class Assembler {
 
 }  // namespace
 
-void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const OtherTriangles> others,
-              const Painting& painting, CullTriangles cull) {
+void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTriangles& others, const Painting& painting,
+              CullTriangles cull) {
   Assembler to(chunk, painting);
   for (std::size_t d = 0; d < draws.size(); ++d) {
     const AssemblyWork& work = draws[d];
@@ -144,7 +144,7 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const
     const std::uint32_t end = std::min(chunk.end_primitive, work.range.first_primitive + work.range.primitive_count);
     if (begin >= end) continue;
     const auto of_primitive = [&](std::uint32_t primitive) {
-      return std::partition_point(others[d].triangles.begin(), others[d].triangles.end(),
+      return std::partition_point(others.triangles.begin(), others.triangles.end(),
                                   [&](const ShadedTriangle& t) { return t.primitive < primitive; });
     };
     auto other = of_primitive(begin);
@@ -153,8 +153,8 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const
     to.reserve((filled ? 1 : 3) * std::size_t{end - begin} + static_cast<std::size_t>(others_end - other));
     const auto add_others = [&](std::uint32_t up_to) {
       for (; other != others_end && other->primitive <= up_to; ++other) {
-        const auto number = static_cast<std::uint32_t>(other - others[d].triangles.begin());
-        to.add_other(*other, others[d].first_vertex + 3 * number);
+        const auto number = static_cast<std::uint32_t>(other - others.triangles.begin());
+        to.add_other(*other, others.first_vertex + 3 * number);
       }
     };
     const std::span<const glm::uvec3> corners =

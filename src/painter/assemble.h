@@ -35,14 +35,14 @@ struct KeptTriangle {
 /// (cull_lanes.h).
 using CullTriangles = void (*)(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to);
 
-/// Window triangles that came another way (draw.h), by primitive: clipped ones, lines, points.
+/// Window triangles that came another way (scalar_geometry.h), by primitive: clipped ones, lines, points.
 struct OtherTriangles {
   std::span<const ShadedTriangle> triangles;
   std::uint32_t first_vertex;  ///< their corners' numbers from there on, three each
 };
 
-/// The chunk's triangles, and which tiles they touch. `others`: per draw.
-void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, std::span<const OtherTriangles> others,
-              const Painting& painting, CullTriangles cull);
+/// The chunk's triangles, and which tiles they touch.
+void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTriangles& others, const Painting& painting,
+              CullTriangles cull);
 
 }  // namespace plumbline::pipeline

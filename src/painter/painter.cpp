@@ -115,7 +115,7 @@ struct Painter::Memory {
   };
   std::vector<Share> shares;
   std::vector<AssemblyWork> assembly;
-  std::vector<OtherTriangles> others;
+  OtherTriangles others;
   ScalarGeometry other_geometry;
   std::vector<Chunk> chunks;
   Scratch<PaintVertex> vertices;
@@ -211,8 +211,8 @@ void Painter::Memory::run_vertices(const Scene& scene) {
 
 // What goes by the definition, beside what goes in lanes.
 void Painter::Memory::run_others(const Scene& scene) {
-  others.assign(scene.draws.size(), {});
   const std::span<const ShadedTriangle> triangles = other_geometry.run(scene, assembly);
+  others = {triangles, static_cast<std::uint32_t>(vertex_count)};
   if (triangles.empty()) return;
   const std::size_t corners = 3 * triangles.size();
   PaintVertex* to = vertices.of(vertex_count + corners, vertex_count);
@@ -223,16 +223,6 @@ void Painter::Memory::run_others(const Scene& scene) {
   for (const Varying v : carried_varyings) {
     Vec4<float>* fours = varyings[static_cast<std::size_t>(v)].of(vertex_count + corners, vertex_count);
     for (std::size_t i = 0; i < corners; ++i) fours[vertex_count + i] = triangles[i / 3].attributes[i % 3][v];
-  }
-  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
-    const auto from = [&](std::uint32_t primitive) {
-      return std::partition_point(triangles.begin(), triangles.end(),
-                                  [&](const ShadedTriangle& t) { return t.primitive < primitive; });
-    };
-    const auto begin = from(ranges[d].first_primitive);
-    const auto end = from(ranges[d].first_primitive + ranges[d].primitive_count);
-    others[d] = {{begin, end},
-                 static_cast<std::uint32_t>(vertex_count + 3 * static_cast<std::size_t>(begin - triangles.begin()))};
   }
 }
 

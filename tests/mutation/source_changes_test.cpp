@@ -51,7 +51,10 @@ TEST(SourceChanges, ASeedDrawsTheSameChanges) {
     EXPECT_EQ(first[i].at, again[i].at);
     EXPECT_EQ(first[i].replacement, again[i].replacement);
   }
-  EXPECT_NE(drawn(from, 0xe4d66d9, 1)[0].at, first[0].at);
+  const std::vector<Change> other = drawn(from, 0xe4d66d9, 300);
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) equal += other[i].file == first[i].file && other[i].at == first[i].at;
+  EXPECT_LT(equal, 10u) << "by chance, one or two";
 }
 
 TEST(SourceChanges, EachDiffersFromTheSource) {
