@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "reference/osmesa/gl/context.h"
+#include "reference/osmesa/osmesa.h"
 #include "reference/osmesa/readback/polygon_records.h"
 #include "reference/osmesa/scene/default_state.h"
 #include "reference/osmesa/scene/target.h"
