@@ -115,17 +115,6 @@ template <class R>
   return {p.x_win - anchor.x0, p.y_win - anchor.y0};
 }
 
-template <class R>
-struct Barycentric {
-  Wide<R> l0, l1, l2;
-};
-template <class R>
-[[gnu::always_inline]] inline Barycentric<R> barycentric(const BarycentricPlanes& planes, const Pixels<R>& p) {
-  const Offset<R> at = from_anchor<R>(planes, p);
-  const Wide<R> l1 = value_at<R>(planes.l1, at), l2 = value_at<R>(planes.l2, at);
-  return {1.0 - l1 - l2, l1, l2};
-}
-
 /// What a draw says of its fragments' depth.
 struct DepthState {
   DepthFormat format;

@@ -10,6 +10,7 @@
 #include "pipeline/clip.h"
 #include "pipeline/vertex.h"
 #include "pipeline/window.h"
+#include "tests/kernels/barycentric.h"
 
 namespace plumbline::faults {
 
@@ -223,13 +224,13 @@ PixelList larger_box(const Triangle& t, const PixelBounds& box) {
 }
 
 float depth_of_three_weights(const Setup& s, const Pixels<float>& p) {
-  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
+  const Barycentric b = pipeline::barycentric(s.planes, p);
   const pipeline::DepthSetup& d = s.depth;
   return stored_depth(d, b.l0 * d.z0 + b.l1 * (d.z0 + d.dz1) + b.l2 * (d.z0 + d.dz2) + z_of_sample(s));
 }
 
 Color<float> attributes_in_double(const Setup& s, const pipeline::AttributeSetup& of, const Pixels<float>& p) {
-  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
+  const Barycentric b = pipeline::barycentric(s.planes, p);
   const auto& inv_w = s.perspective.inv_w;
   const double q0 = b.l0 * static_cast<double>(inv_w[0]), q1 = b.l1 * static_cast<double>(inv_w[1]),
                q2 = b.l2 * static_cast<double>(inv_w[2]), sum = q0 + q1 + q2;

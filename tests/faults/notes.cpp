@@ -9,6 +9,7 @@
 #include "pipeline/clip.h"
 #include "pipeline/light.h"
 #include "pipeline/matrices.h"
+#include "tests/kernels/barycentric.h"
 #include "tests/pixels_in_order.h"
 #include "transforms/projection.h"
 
@@ -146,7 +147,7 @@ PixelList incremental_line(const Triangle& t, const PixelBounds& box) {
 // the depth of the point whose distance is interpolated on the screen. So 002's z/w and the Z that 004 warns of are one
 // mistake.
 float depth_of_linear_z(const Setup& setup, const Pixels<float>& p) {
-  const Barycentric<float> b = pipeline::barycentric<float>(setup.planes, p);
+  const Barycentric b = pipeline::barycentric(setup.planes, p);
   const pipeline::DepthSetup& s = setup.depth;
   const auto& inv_w = setup.perspective.inv_w;
   const double b0 = b.l0 / pipeline::to_wide(inv_w[0]), b1 = b.l1 / pipeline::to_wide(inv_w[1]),

@@ -4,6 +4,7 @@
 
 #include "faults/lists.h"
 #include "faults/variants.h"
+#include "tests/kernels/barycentric.h"
 #include "tests/pixels_in_order.h"
 
 namespace plumbline::faults {
@@ -159,7 +160,7 @@ using TriangleAttributes = pipeline::AttributeSetup;
 pipeline::SampleOffsets color_of_sample(glm::ivec2 sample) { return {sample, sample, sample}; }
 
 Color<float> of_wrong_corners(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
-  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
+  const Barycentric b = pipeline::barycentric(s.planes, p);
   const auto over_w = [&](double l, std::size_t corner) { return pipeline::to_float(l) * s.perspective.inv_w[corner]; };
   const float q1 = over_w(b.l2, 1), q2 = over_w(b.l1, 2);
   return pipeline::mean<float>(of, pipeline::weights<float>(q1, q2, over_w(b.l0, 0) + q1 + q2));

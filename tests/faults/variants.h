@@ -7,6 +7,7 @@
 #include "pipeline/clip.h"
 #include "pipeline/coverage.h"
 #include "pipeline/stages.h"
+#include "tests/kernels/barycentric.h"
 
 namespace plumbline::faults {
 
@@ -46,7 +47,7 @@ PixelList tied(const Triangle& triangle, const PixelBounds& box) {
 inline bool all_edges_in(std::int64_t, std::int64_t) { return true; }
 
 inline Color<float> affine_attributes(const Setup& s, const pipeline::AttributeSetup& of, const Pixels<float>& p) {
-  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
+  const Barycentric b = pipeline::barycentric(s.planes, p);
   return pipeline::mean<float>(of, {pipeline::to_float(b.l1), pipeline::to_float(b.l2)});
 }
 
@@ -56,7 +57,7 @@ inline double z_of_sample(const Setup& s) {
   return (s.depth_plane.code.at_0 - there) / (s.depth.scale == 0 ? 1 : s.depth.scale);
 }
 inline double window_z(const Setup& s, const Pixels<float>& p) {
-  const Barycentric<float> b = pipeline::barycentric<float>(s.planes, p);
+  const Barycentric b = pipeline::barycentric(s.planes, p);
   return pipeline::clamp01(s.depth.z0 + b.l1 * s.depth.dz1 + b.l2 * s.depth.dz2 + z_of_sample(s));
 }
 /// The pipeline's own.

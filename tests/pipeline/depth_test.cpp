@@ -11,6 +11,7 @@
 #include "kernels/fragment_tests.h"
 #include "pipeline/stages.h"
 #include "tests/at_weights.h"
+#include "tests/kernels/barycentric.h"
 #include "tests/pipeline/window_triangles.h"
 
 namespace plumbline::pipeline {
@@ -23,8 +24,8 @@ constexpr double kZ16 = 65535, kZ24 = 16777215, kZ32f = 0;
 
 Pixels<float> pixel(int x, int y) { return {x, y, x + 0.5, y + 0.5}; }
 /// By planes that are anchored as in a frame: at the lower left pixel of the pixel's tile.
-Barycentric<float> weights_at(const Triangle& t, int x, int y) {
-  return barycentric<float>(planes_of(t, x / kTile * kTile, y / kTile * kTile), pixel(x, y));
+Barycentric weights_at(const Triangle& t, int x, int y) {
+  return barycentric(planes_of(t, x / kTile * kTile, y / kTile * kTile), pixel(x, y));
 }
 float depth_at(const Triangle& t, int x, int y, double scale) {
   DepthSetup setup = depth_setup(t, {DepthFormat::z32f});
@@ -75,14 +76,13 @@ void for_each_covered(const Triangle& t, int size, int reach, Visit visit) {
 TEST(PipelineDepth, BarycentricsByHand) {
   const Triangle t = window_triangle(glm::vec2(1, 1), {5, 1}, {1, 9});
   for (const auto& [x, y, l1, l2] : {std::tuple{0, 0, -0.125, -0.0625}, {1, 1, 0.125, 0.0625}, {2, 4, 0.375, 0.4375}}) {
-    const Barycentric<float> b = weights_at(t, x, y);
+    const Barycentric b = weights_at(t, x, y);
     EXPECT_EQ(b.l1, l1);
     EXPECT_EQ(b.l2, l2);
     EXPECT_EQ(b.l0, 1 - l1 - l2);
   }
   // The other winding: corners 1 and 2 change places.
-  const Barycentric<float> b =
-      barycentric<float>(planes_of(window_triangle(glm::vec2(1, 1), {1, 9}, {5, 1}), 0, 0), pixel(2, 4));
+  const Barycentric b = barycentric(planes_of(window_triangle(glm::vec2(1, 1), {1, 9}, {5, 1}), 0, 0), pixel(2, 4));
   EXPECT_EQ(b.l1, 0.4375);
   EXPECT_EQ(b.l2, 0.375);
 }
@@ -93,7 +93,7 @@ TEST(PipelineDepth, ThePlanesAreTheSameFromAnyAnchor) {
     const BarycentricPlanes planes = planes_of(t, x0, y0);
     EXPECT_EQ(planes.x0, x0 + 0.5);
     EXPECT_EQ(planes.y0, y0 + 0.5);
-    const Barycentric<float> b = barycentric<float>(planes, pixel(2, 4));
+    const Barycentric b = barycentric(planes, pixel(2, 4));
     EXPECT_EQ(b.l1, 0.375);
     EXPECT_EQ(b.l2, 0.4375);
     EXPECT_EQ(b.l0, 0.1875);
@@ -205,7 +205,7 @@ TEST(PipelineDepth, GoesThroughTheSnappedOnesWhereTheUnsnappedAreaIsOfTheOtherSi
     t.v[2].snapped = {1024, side};
     t.front = side > 0;
     // At pixel (4, 1), 256 steps up from the line: l2 is 256 by the snapped corners, -1024 by the others.
-    const Barycentric<float> b = weights_at(t, 4, 1);
+    const Barycentric b = weights_at(t, 4, 1);
     EXPECT_EQ(b.l2, 256 * side);
     EXPECT_EQ(b.l1, 0.5 - 128 * side);
     // Of the same sign as the snapped: the unsnapped ones.
@@ -333,7 +333,7 @@ TEST(PipelineDepth, ClampsToTheRangeOnlyWhereNothingIsCut) {
   draw.depth_range = {0.75f, 0.25f};
   const Triangle t = with_depths(window_triangle({0, 0}, {8, 0}, {0, 8}), -2, 2, -2);
   const auto at = [&](int x, bool clamps) {
-    const Barycentric<float> b = weights_at(t, x, 0);
+    const Barycentric b = weights_at(t, x, 0);
     return test::depth_at(depth_setup(t, depth_state(draw, DepthFormat::z32f, clamps)), b.l1, b.l2);
   };
   EXPECT_EQ(at(0, true), 0.25f);

@@ -11,6 +11,7 @@
 #include "pipeline/coverage.h"
 #include "pipeline/window.h"
 #include "renderers/pipeline_renderer.h"
+#include "tests/kernels/barycentric.h"
 #include "tests/pipeline/window_triangles.h"
 
 namespace plumbline::pipeline {
@@ -208,7 +209,7 @@ TEST(PipelineLines, a_point_has_its_own_depth_and_color) {
   EXPECT_EQ(depth<float>(depth_plane(depth_setup(t, {DepthFormat::z32f}), planes), at), 0.3f);
   EXPECT_EQ(mean<float>(color_setup(t), weights<float>(perspective_setup(t, planes), at)).r, 1.0f);
   const ShadedTriangle nothing = window_line({2.5f, 1.5f, 0.25f}, {2.5f, 1.5f, 0.75f});  // no length: no NaN
-  EXPECT_EQ(barycentric<float>(planes_of(nothing, 0, 0), {2, 1, 2.5, 1.5}).l1, 0);
+  EXPECT_EQ(barycentric(planes_of(nothing, 0, 0), {2, 1, 2.5, 1.5}).l1, 0);
 }
 
 TEST(PipelineLines, records_that_are_not_lines_are_refused) {

@@ -12,6 +12,7 @@
 #include "kernels/coverage.h"
 #include "kernels/depth.h"
 #include "pipeline/stages.h"
+#include "tests/kernels/barycentric.h"
 
 namespace plumbline::test {
 
@@ -48,7 +49,7 @@ inline std::vector<Fragment> fragments(const pipeline::ShadedTriangle& triangle,
   const pipeline::PerspectiveSetup perspective = pipeline::perspective_setup(triangle, planes);
   std::vector<Fragment> out;
   for_each_covered(triangle, [&](const pipeline::Pixels<float>& p) {
-    const pipeline::Barycentric<float> b = pipeline::barycentric<float>(planes, p);
+    const pipeline::Barycentric b = pipeline::barycentric(planes, p);
     const pipeline::Offset<float> at = pipeline::from_anchor<float>(planes, p);
     const pipeline::Color<float> c = pipeline::mean<float>(attributes, pipeline::weights<float>(perspective, at));
     const auto& v = triangle.v;

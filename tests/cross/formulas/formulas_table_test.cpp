@@ -11,6 +11,7 @@
 #include "scene/frame_buffer.h"
 #include "tests/at_weights.h"
 #include "tests/cross/transforms_table.h"
+#include "tests/kernels/barycentric.h"
 #include "tests/pipeline/window_triangles.h"
 #include "transforms/projection.h"
 
@@ -171,7 +172,7 @@ std::vector<Row> integer_rows() {
 
 /// Weights at a pixel of the triangle's neighbourhood, and the largest of the terms that each is the sum of.
 struct Weighed {
-  pipeline::Barycentric<float> ours;
+  pipeline::Barycentric ours;
   WideVec3 at[3];  ///< the corners, less the pixel's centre: exact, and so are products of two
   WideVec3 terms;
 };
@@ -180,7 +181,7 @@ Weighed weighed(Inputs& r) {
   const pipeline::ShadedTriangle t = triangle_within(r, 64 * 256);
   const int x = whole(r, -64, 64), y = whole(r, -64, 64), dx = whole(r, 0, 63), dy = whole(r, 0, 63);
   const pipeline::BarycentricPlanes p = pipeline::planes_of(t, x - dx, y - dy);
-  out.ours = pipeline::barycentric<float>(p, {x, y, x + 0.5, y + 0.5});
+  out.ours = pipeline::barycentric(p, {x, y, x + 0.5, y + 0.5});
   for (std::size_t i = 0; i < 3; ++i) out.at[i] = WideVec3(t.v[i].p_win) - WideVec3(x + 0.5, y + 0.5, 0);
   const auto largest = [&](const pipeline::Affine<double>& f) {
     return std::max({std::abs(f.at_0), std::abs(dx * f.x), std::abs(dy * f.y)});
