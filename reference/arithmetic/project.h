@@ -13,7 +13,7 @@ Projected project(const Scene& scene);
 /// How far float arithmetic may move the triangle's outline near the window point d, per axis in pixels; `w` is its
 /// w there. (Derived in project.cpp.)
 glm::dvec2 float_displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
-/// As a distance, and with snapping: delta.
+/// The length of float_displacement() in pixels, with what snapping adds: delta.
 double displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
 
 /// A piece [from, to] of a segment a + t (b - a), t in [0,1]; empty if from > to.

@@ -1,4 +1,4 @@
-// Varyings (stages/varying.h), stage by stage: each goes the colour's way. All throw std::invalid_argument where the
+// Varyings (capture/varying.h), stage by stage: each goes the colour's way. All throw std::invalid_argument where the
 // records do not fit the scene or each other.
 #pragma once
 

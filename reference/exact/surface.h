@@ -18,8 +18,8 @@ using Fours = std::array<glm::dvec4, kVaryings>;
 glm::dvec4 shade(const Scene& scene, const Draw& draw, math::Lights lights, bool front, const glm::dvec4& color,
                  const Fours& fours, const glm::dvec4& texel);
 
-/// Colour of each of records.covered, lit by lights_of() (geometry.h). Throws std::invalid_argument where the records do not fit
-/// the scene or each other.
+/// Colour of each of records.covered, lit by lights_of() (geometry.h). Throws std::invalid_argument where the records
+/// do not fit the scene or each other.
 std::vector<Shaded<double>> shade_fragments(const Scene& scene, const Records<double>& records);
 
 }  // namespace plumbline::exact

@@ -5,7 +5,7 @@
 
 namespace plumbline {
 
-/// What the stage reads of `in`. Throws std::invalid_argument naming the records that do not fit.
+/// Throws std::invalid_argument that names the records of `in` which the stage reads and which do not fit the scene.
 void require_fitting(const Scene& scene, Stage stage, const Capture& in);
 
 }  // namespace plumbline

@@ -25,7 +25,7 @@ struct CheckOptions {
   std::string json, report, ledger, junit, markdown;
   std::string rows;      ///< a folder: each scene's rows, and what fails, in <group>/<scene>.txt
   std::string failures;  ///< a folder: of each scene that does not hold, a page in <group>/<scene>
-  std::string expect;    ///< a file of known differences (check/expectations.h)
+  std::string expect;    ///< a file of known differences (check/verdict/expectations.h)
   std::string today;     ///< YYYY-MM-DD, for their last days; empty: the clock's, UTC
   std::string shard;     ///< I/N: every Nth scene, from number I on
   std::string golden;    ///< the folder of goldens, whose rows stand beside the references'; or empty

@@ -30,7 +30,7 @@ struct AttributeSetup {
   Vec4<float> color0, d_color1, d_color2;  ///< corner 0's, and the others' differences from it
   bool constant = false;                   ///< no differences
 };
-/// Of an attribute at the corners.
+/// Setup of an attribute from its values at the corners.
 AttributeSetup attribute_setup(const std::array<Vec4<float>, 3>& corners);
 
 /// rgba of `Lanes<R>::width` fragments.

@@ -87,7 +87,7 @@ Mask<R> coverage(const Edges& e, const Pixels<R>& p) {
   return (e0 | e1 | e2) >= 0;  // the sign bit of any
 }
 
-/// Which of the pixels are in the box.
+/// Mask of the pixels in the box.
 template <class R>
 Mask<R> scissor(const Scissor& box, const Pixels<R>& p) {
   return (p.x >= box.x) & (p.x < box.x + box.width) & (p.y >= box.y) & (p.y < box.y + box.height);

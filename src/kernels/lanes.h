@@ -29,7 +29,7 @@ struct Lanes<float> {
   static Int load(const std::int32_t* from) { return *from; }
   static Int load(const std::uint32_t* from) { return *from; }
   static Int load(const std::uint8_t* from) { return *from; }
-  /// Those of a row of pixels: four of each block, from block to block.
+  /// The next `width` values of a row of pixels: four of each block, from block to block.
   static float load_row(const float* from) { return *from; }
   /// The lanes of those bits, the first the lowest.
   static Mask mask_of(unsigned bits) { return bits != 0; }

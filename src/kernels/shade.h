@@ -8,7 +8,8 @@
 
 namespace plumbline::pipeline {
 
-/// Texture environment (OpenGL 2.1 spec, tables 3.22 and 3.23). `f`: the fragment's colour, `s`: the texture source, both rgba. A sum is clamped to [0,1].
+/// Texture environment (OpenGL 2.1 spec, tables 3.22 and 3.23). `f`: the fragment's colour, `s`: the texture source,
+/// both rgba. A sum is clamped to [0,1].
 template <class R>
 Color<R> apply_environment(TextureFormat format, const DrawTexture& state, const Color<R>& f, const Color<R>& s) {
   using E = TextureEnvironment;
@@ -36,8 +37,8 @@ Color<R> apply_environment(TextureFormat format, const DrawTexture& state, const
   return {rgb(f.r, s.r, state.color.r), rgb(f.g, s.g, state.color.g), rgb(f.b, s.b, state.color.b), alpha()};
 }
 
-/// Fog factor (OpenGL 2.1 spec 3.10). f, [0,1]: how much of the fragment's own colour is left at the distance c = |z_eye|, as the specification allows for
-/// the distance from the eye. In double, rounded once.
+/// Fog factor f (OpenGL 2.1 spec 3.10), [0,1]: the share of the fragment's own colour at the distance c = |z_eye|,
+/// which the specification allows in place of the distance from the eye. In double, rounded once.
 template <class R>
 R fog_factor(const Fog& fog, R z_eye) {
   using W = Wide<R>;

@@ -34,8 +34,8 @@ concept VertexProgram = requires(const P& program, typename P::Varyings out) {
 };
 
 /// fragment(in, color) is called for each fragment that passes the depth test, with perspective-correct varyings. The
-/// colour is clamped and rounded to the frame's format. Where it returns true, the fragment is discarded: colour and depth
-/// stay as they are.
+/// colour is clamped and rounded to the frame's format. Where it returns true, the fragment is discarded: colour and
+/// depth stay as they are.
 template <class P>
 concept FragmentProgram = requires(const P& program, const typename P::Varyings& in, glm::vec4 color) {
   { program.fragment(in, color) } -> std::same_as<bool>;

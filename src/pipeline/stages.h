@@ -82,7 +82,7 @@ struct Shaded {
   bool discarded = false;  ///< by a user's program
 };
 
-/// One function a stage, or a few, those with `out` append to it; a fault, a user's program and a test each set one member.
+/// One function a stage, or a few; those with `out` append to it. A fault, a user's program and a test each set one.
 struct Stages {
   // 0 matrices
   Matrices<float> (*matrices)(const Scene&, const Draw&);

@@ -7,8 +7,8 @@
 
 namespace plumbline::pipeline {
 
-/// Appends a polygon's fan of triangles, corners (i-1, i, 0); a line or point as it is; of a polygon that the draw does not
-/// fill, its edges or corners (capture/stages.h). Where the draw is lit from two sides, back faces have the back's
+/// Appends a polygon's fan of triangles, corners (i-1, i, 0); a line or point as it is; of a polygon that the draw does
+/// not fill, its edges or corners (capture/stages.h). Where the draw is lit from two sides, back faces have the back's
 /// colours. Dropped: triangles of zero snapped area, those that the draw culls, and those of a polygon with a corner of
 /// w = 0 or more than 2^20 pixels away.
 ///

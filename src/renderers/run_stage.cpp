@@ -131,6 +131,7 @@ class OneStage {
     for (const Draw& draw : scene_.draws) surfaces.push_back(surface_of(scene_, draw, lights_));
     FrameBuffer frame(scene_.frame);
     ShadedTriangle triangle;
+    const Surface* surface = nullptr;
     TriangleSetup setup;
     glm::ivec2 anchor(-1);
     for (std::size_t i = 0; i < records_.covered.size(); ++i) {
@@ -139,31 +140,31 @@ class OneStage {
       if (i == 0 || c.triangle != records_.covered[i - 1].triangle) {
         triangle = triangle_at(records_, c.triangle);
         begin(triangle);
+        surface = &surfaces[draw_number(triangle.primitive)];
         anchor = glm::ivec2(-1);
       }
-      const Surface& surface = surfaces[draw_number(triangle.primitive)];
       if (stage_ <= Stage::texture && anchor != anchor_of(pixel)) {
         anchor = anchor_of(pixel);
-        const DepthState depth = depth_state(*surface.draw, scene_.frame.depth, scene_.depth_clamp);
-        setup = set_up(stages_, triangle, surface, depth, offsets, anchor);
+        const DepthState depth = depth_state(*surface->draw, scene_.frame.depth, scene_.depth_clamp);
+        setup = set_up(stages_, triangle, *surface, depth, offsets, anchor);
       }
       SurfaceAttributes<float> attributes{};
       Fragment made{pixel, 0, &attributes, {}, false};
       if (stage_ == Stage::depth) made.z = stages_.depth(setup, pixel_at(pixel));
-      if (stage_ == Stage::attributes) attributes = interpolated(stages_, surface, setup, pixel_at(pixel));
-      if (stage_ == Stage::texture && surface.texture) {
+      if (stage_ == Stage::attributes) attributes = interpolated(stages_, *surface, setup, pixel_at(pixel));
+      if (stage_ == Stage::texture && surface->texture) {
         const Color<float> texcoords = narrow(records_.varyings[Varying::texture].fragments[i]);
-        attributes.texel = filtered(stages_, *surface.texture, setup, texcoords, pixel_at(pixel));
+        attributes.texel = filtered(stages_, *surface->texture, setup, texcoords, pixel_at(pixel));
       }
       if (stage_ == Stage::shade)
-        made.shaded = stages_.shade(surface, triangle.front, recorded_attributes(i, surface)).color;
+        made.shaded = stages_.shade(*surface, triangle.front, recorded_attributes(i, *surface)).color;
       if (stage_ >= Stage::visibility) {
         const double z = records_.depth[i];
         made.z = static_cast<float>(formats.depth_scale == 0.0 ? z : depth_code(z, formats.depth_scale));
         if (!records_.shaded.empty()) made.shaded = narrow(records_.shaded[i].color);
         const FramePixel to = frame.at(pixel);
-        made.drawn = is_drawn(i, *surface.draw, triangle, made, to);
-        const Merge merge = stages_.merge_state(surface.draw->merge);
+        made.drawn = is_drawn(i, *surface->draw, triangle, made, to);
+        const Merge merge = stages_.merge_state(surface->draw->merge);
         if (made.drawn) write_fragment(stages_, merge, made.z, made.shaded, formats.color_scale, to);
       }
       recorder_.fragment(made);

@@ -1,4 +1,4 @@
-// plumb notes, as a user meets it. (That what it says is so, notes_map_test.cpp asks.)
+// plumb notes, as a user meets it. (That what it says is so, notes/map_test.cpp asks.)
 #include "notes/notes.h"
 
 #include <fmt/format.h>

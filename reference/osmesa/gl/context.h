@@ -1,4 +1,5 @@
-// An OpenGL context without a window, as the rest of this folder sees it. osmesa_context.cpp and egl_context.cpp each make one.
+// An OpenGL context without a window, as the rest of this folder sees it. osmesa_context.cpp or egl_context.cpp makes
+// it.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// A renderer in a worker process (scene/workers.h): what it is asked is a step that the worker's parent can see, and a
+// A renderer in a worker process (base/workers.h): what it is asked is a step that the worker's parent can see, and a
 // step that has ended a worker before is not asked again.
 #pragma once
 

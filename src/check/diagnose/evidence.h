@@ -1,4 +1,4 @@
-// What diagnosis looks at: one wrong stage.
+// Evidence of a diagnosis: one wrong stage of the candidate, and the same stage as it should be.
 #pragma once
 
 #include "capture/capture.h"

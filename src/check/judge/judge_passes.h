@@ -12,8 +12,8 @@
 
 namespace plumbline::check {
 
-/// As judge_single(), of an antialiased scene: each row is the worst of the passes', with the items of all; row `resolve` is
-/// of the whole.
+/// Verdict of an antialiased scene: each row is the worst of its passes' (judge_single.h), with the items of all; row
+/// `resolve` is of the whole picture.
 SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                           BothCaptures* drawn);
 /// The same, where the passes have been judged: their verdicts in order, and the candidate's colours of each (empty:

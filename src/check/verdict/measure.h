@@ -81,7 +81,8 @@ class Meter {
   std::string why_;
 };
 
-/// Of two measurements of one stage, the one that tells more: that with the larger share beyond tolerance.
+/// The worse of two measurements of one stage: the one with more items beyond tolerance; of as many, with the larger
+/// largest difference.
 inline Measurement worse(Measurement a, Measurement b) {
   const bool a_tells = a.differing != b.differing ? a.differing > b.differing : a.max_ratio >= b.max_ratio;
   return a_tells ? std::move(a) : std::move(b);

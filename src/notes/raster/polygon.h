@@ -14,7 +14,7 @@ namespace plumbline::raster {
 /// so that corners amid a straight side stay corners of the pieces, and no piece is without area. In integers, exact,
 /// in O(n^3) at worst, of the first ear each time: the same on every machine. Corners in 1/256 pixel or any other unit,
 /// within +-2^29. Throws std::invalid_argument for fewer than three, corners beyond that, and a polygon that crosses or
-/// touches itself or has no area. (What may stand in a mesh file is decided in scene/polygon.h.)
+/// touches itself or has no area. (What may stand in a mesh file is decided in scene/mesh/polygon.h.)
 std::vector<glm::uvec3> decompose(std::span<const glm::ivec2> corners);
 
 }  // namespace plumbline::raster

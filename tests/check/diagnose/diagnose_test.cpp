@@ -222,7 +222,7 @@ TEST_F(Diagnose, InBriefNamesTheSameStages) {
   EXPECT_NE(full.findings[1].picture.find('?'), std::string::npos) << full.findings[1].picture;
 }
 
-// What the compiler makes of a conversion there and back is not always nothing (repair.cpp).
+// A compiler may drop a conversion to float and back, and the rounding with it (check/judge/stage_copy.cpp).
 TEST(Repair, RoundsEveryNumber) {
   const auto rounded = [](auto v) { return decltype(v)(glm::vec<decltype(v)::length(), float>(v)) == v; };
   Capture c = exact_capture(two_draws());

@@ -42,7 +42,7 @@ class Changed : public Renderer {
 
 struct Judge : testing::Test {
   Judge() {
-    candidate.on_info = [](RendererInfo& info) { info.painters.clear(); };  // check_picture_test.cpp's
+    candidate.on_info = [](RendererInfo& info) { info.painters.clear(); };  // picture_test.cpp's
     witness.on_info = [](RendererInfo& info) {
       info.painters.clear();
       info.name = "witness";

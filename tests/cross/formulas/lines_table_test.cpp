@@ -1,6 +1,6 @@
 // The line algorithms of class notes (004) 2.2 beside their formulas, in the notes' own octant, in 128 bits: the table
 // goes on (transforms_table_test.cpp). All are integers, and equal. The incremental line is not here: its float k adds
-// up to another number, by how much raster_line_test.cpp tabulates.
+// up to another number, by how much notes/raster/line_test.cpp tabulates.
 #include "notes/raster/line.h"
 #include "reference/exact/wide.h"
 #include "tests/cross/transforms_table.h"

@@ -2,7 +2,8 @@
 // format: here models, cameras, windows and normals; projections_table_test.cpp has the projections. The largest
 // difference allowed is 4 ULP: of each entry where it is a quotient of a few sums, of the largest entry or term where
 // terms cancel. Where the result is rounded once, it is half an ULP; where it is not rounded, 0. Of the roundings of a
-// rotation about an axis the worst could add up to 10.5 (osmesa_transforms_test.cpp); in a million inputs 4.8 is seen.
+// rotation about an axis the worst could add up to 10.5 (cross/osmesa/transforms_test.cpp); in a million inputs 4.8 is
+// seen.
 #include <gtest/gtest-spi.h>
 
 #include <glm/gtc/matrix_inverse.hpp>
