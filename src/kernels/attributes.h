@@ -35,9 +35,16 @@ AttributeSetup attribute_setup(const std::array<Vec4<float>, 3>& corners);
 
 /// rgba of `Lanes<R>::width` fragments.
 template <class R>
-struct Color {
-  R r, g, b, a;
-};
+using Color = Vec4<R>;
+/// f of each channel, or of each channel of two colours.
+template <class R>
+[[gnu::always_inline]] inline auto by_channel(const Color<R>& c, auto f) {
+  return Color<decltype(f(c.r))>{f(c.r), f(c.g), f(c.b), f(c.a)};
+}
+template <class R, class S>
+[[gnu::always_inline]] inline auto by_channel(const Color<R>& c, const Color<S>& d, auto f) {
+  return Color<decltype(f(c.r, d.r))>{f(c.r, d.r), f(c.g, d.g), f(c.b, d.b), f(c.a, d.a)};
+}
 
 /// k_1 and k_2.
 template <class R>

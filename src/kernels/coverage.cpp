@@ -4,19 +4,7 @@
 
 namespace plumbline::pipeline {
 
-namespace {
-
-// The edge's own centres are in if a step into the triangle is a step to +x, or, for a horizontal edge, to +y.
-bool owns_its_centres(std::int64_t step_x, std::int64_t step_y, TieRule rule) {
-  switch (rule) {
-    case TieRule::small_sides_in: return step_x > 0 || (step_x == 0 && step_y > 0);
-  }
-  return false;
-}
-
-}  // namespace
-
-Edges edges_of(const WindowTriangle& triangle, TieRule rule) {
+Edges edges_of(const WindowTriangle& triangle) {
   glm::i64vec2 corner[3] = {triangle.v[0].snapped, triangle.v[1].snapped, triangle.v[2].snapped};
   if (!triangle.front) std::swap(corner[1], corner[2]);  // counter-clockwise
   Edges edges{};
@@ -24,7 +12,9 @@ Edges edges_of(const WindowTriangle& triangle, TieRule rule) {
     const glm::i64vec2 a = corner[i], d = corner[(i + 1) % 3] - a;
     edges.step_x[i] = -d.y * kSubpixel;
     edges.step_y[i] = d.x * kSubpixel;
-    edges.at_origin[i] = d.y * a.x - d.x * a.y - (owns_its_centres(-d.y, d.x, rule) ? 0 : 1);
+    // TieRule::small_sides_in: a step into the triangle is one to +x, or, at a horizontal edge, to +y.
+    const bool owns_its_centres = d.y < 0 || (d.y == 0 && d.x > 0);
+    edges.at_origin[i] = d.y * a.x - d.x * a.y - (owns_its_centres ? 0 : 1);
   }
   return edges;
 }

@@ -29,7 +29,7 @@ struct Edges {
   std::int64_t step_y[3];
 };
 
-Edges edges_of(const WindowTriangle& triangle, TieRule rule = TieRule::small_sides_in);
+Edges edges_of(const WindowTriangle& triangle);
 
 /// The triangle with its snapped corners counted from `sample` [1/256 pixel from the centre]: what holds of the centre
 /// holds of the sample. Lines and points are covered by the centre in every pass.

@@ -7,12 +7,6 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// A line is a triangle whose third corner, at a right angle to it, has the values of the first; a point has no slopes.
-PlaneCorners<double> corners_of_line(const WindowTriangle& line) {
-  const glm::dvec2 p0(line.v[0].p_win), d = glm::dvec2(line.v[1].p_win) - p0;
-  return {p0.x, p0.y, d.x, d.y, -d.y, d.x, glm::dot(d, d)};
-}
-
 PlaneCorners<double> corners_of(const WindowTriangle& t) {
   const auto& v = t.v;
   return plane_corners<float>({v[0].p_win.x, v[1].p_win.x, v[2].p_win.x}, {v[0].p_win.y, v[1].p_win.y, v[2].p_win.y},
@@ -36,7 +30,8 @@ double offset_of(const WindowTriangle& triangle, const DepthState& state) {
 BarycentricPlanes planes_of(const WindowTriangle& triangle, int x0, int y0) {
   const double x = x0 + 0.5, y = y0 + 0.5;
   if (triangle.corners == 3) return {corner_planes(corners_of(triangle), x, y), {x, y}};
-  PlaneCorners<double> line = corners_of_line(triangle);
+  const glm::dvec2 p0(triangle.v[0].p_win), p1(triangle.v[1].p_win);
+  PlaneCorners<double> line = line_corners(p0.x, p0.y, p1.x, p1.y);  // a point has no slopes
   if (line.twice_area == 0) line = {line.p0_x, line.p0_y, 0, 0, 0, 0, 1};
   BarycentricPlanes planes{corner_planes(line, x, y), {x, y}};
   planes.l2 = {0, 0, 0};

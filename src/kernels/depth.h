@@ -47,6 +47,12 @@ template <class W>
   const W d1_x = x[1] - x[0], d1_y = y[1] - y[0], d2_x = x[2] - x[0], d2_y = y[2] - y[0];
   return {x[0], y[0], d1_x, d1_y, d2_x, d2_y, difference_of_products(d1_x, d2_y, d1_y, d2_x)};
 }
+/// A line's: a triangle whose third corner, at a right angle to it, has the values of the first.
+template <class W>
+[[gnu::always_inline]] inline PlaneCorners<W> line_corners(const W& x0, const W& y0, const W& x1, const W& y1) {
+  const W d_x = x1 - x0, d_y = y1 - y0;
+  return {x0, y0, d_x, d_y, -d_y, d_x, d_x * d_x + d_y * d_y};
+}
 /// Where the unsnapped area is zero or of the other sign than the snapped, the snapped corners. `facing`: 1 of a front
 /// face, -1 of a back one.
 template <class R>

@@ -8,16 +8,16 @@ namespace {
 
 EyeLight eye_light(const Light& light, const LightSource<float>& source) {
   const bool directional = light.kind == Light::Kind::directional;
-  const Vector<float> vector = spread<float>(Vec3<float>(source.p_eye));
+  const Vec3<float> vector = Vec3<float>(source.p_eye);
   EyeLight out{directional, vector, {}, false, false, light.attenuation, {}, 0, 0};
   if (directional) {
     out.vector = unit(vector);
-    out.half = unit(out.vector + Vector<float>{0, 0, 1});
+    out.half = unit(out.vector + Vec3<float>{0, 0, 1});
   }
   out.attenuates = !directional && light.attenuation != glm::vec3(1, 0, 0);
   if (!directional && light.spot) {
     out.has_cone = true;
-    out.cone = unit(spread<float>(source.spot_eye));
+    out.cone = unit(source.spot_eye);
     out.cos_cutoff = static_cast<float>(std::cos(light.spot->cutoff_degrees * kRadians));
     out.exponent = light.spot->exponent;
   }

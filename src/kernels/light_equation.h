@@ -14,32 +14,15 @@
 namespace plumbline::pipeline {
 
 template <class R>
-struct Vector {
-  R x, y, z;
-  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Vector operator-(const Vector& v) { return {-v.x, -v.y, -v.z}; }
-  friend Vector operator*(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-  friend Vector operator*(R k, const Vector& v) { return {k * v.x, k * v.y, k * v.z}; }
-  friend Vector operator/(const Vector& v, R k) { return {v.x / k, v.y / k, v.z / k}; }
-};
-
-/// The same numbers in every lane; what is of lanes already stays as it is.
-template <class R, class V>
-Vector<R> spread(const V& v) {
-  return {R(v.x), R(v.y), R(v.z)};
-}
-
-template <class R>
-R dot(const Vector<R>& a, const Vector<R>& b) {
+R dot(const Vec3<R>& a, const Vec3<R>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 template <class R>
-Vector<R> unit(const Vector<R>& v) {
+Vec3<R> unit(const Vec3<R>& v) {
   return v / square_root(dot(v, v));
 }
 template <class R>
-Vector<R> select(Mask<R> mask, const Vector<R>& yes, const Vector<R>& no) {
+Vec3<R> select(Mask<R> mask, const Vec3<R>& yes, const Vec3<R>& no) {
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
 
@@ -49,11 +32,11 @@ using Lights = std::span<const LightSource<float>>;
 /// A light in eye space, ready for the equation.
 struct EyeLight {
   bool directional;
-  Vector<float> vector;  ///< unit direction towards it, or its place
-  Vector<float> half;    ///< of a directional light, unit, half way to a viewer infinitely far away
+  Vec3<float> vector;  ///< unit direction towards it, or its place
+  Vec3<float> half;    ///< of a directional light, unit, half way to a viewer infinitely far away
   bool attenuates, has_cone;
   Vec3<float> attenuation;  ///< k0, k1, k2
-  Vector<float> cone;       ///< unit direction to which it shines
+  Vec3<float> cone;       ///< unit direction to which it shines
   float cos_cutoff, exponent;
 };
 
@@ -76,9 +59,9 @@ ColoredMaterial colored_material(const Scene& scene, const Draw& draw, LitPart p
 template <class R>
 struct Reflectance {
   struct Answer {
-    Vector<R> ambient, diffuse, specular;
+    Vec3<R> ambient, diffuse, specular;
   };
-  Vector<R> base;
+  Vec3<R> base;
   std::array<Answer, 8> answers;  ///< beside the lights
   float shininess;
   R alpha;
@@ -87,17 +70,17 @@ template <class R>
 Reflectance<R> reflectance(const Scene& scene, const ColoredMaterial& material, const Color<R>& color) {
   const Material& own = material.own;
   const auto of = [&](bool of_color, const glm::vec4& v) {
-    return of_color ? Vector<R>{color.r, color.g, color.b} : spread<R>(v);
+    return of_color ? Vec3<R>(color) : Vec3<R>(v);
   };
-  const Vector<R> ambient = of(material.ambient, own.ambient), diffuse = of(material.diffuse, own.diffuse);
-  const Vector<R> specular = of(material.specular, own.specular);
+  const Vec3<R> ambient = of(material.ambient, own.ambient), diffuse = of(material.diffuse, own.diffuse);
+  const Vec3<R> specular = of(material.specular, own.specular);
   Reflectance<R> out;
-  out.base = of(material.emission, own.emission) + ambient * spread<R>(scene.light_model.ambient);
+  out.base = of(material.emission, own.emission) + ambient * Vec3<R>(scene.light_model.ambient);
   out.shininess = own.shininess;
   out.alpha = material.diffuse ? color.a : R(own.diffuse.a);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& l = scene.lights[i];
-    out.answers[i] = {spread<R>(l.ambient) * ambient, spread<R>(l.diffuse) * diffuse, spread<R>(l.specular) * specular};
+    out.answers[i] = {Vec3<R>(l.ambient) * ambient, Vec3<R>(l.diffuse) * diffuse, Vec3<R>(l.specular) * specular};
   }
   return out;
 }
@@ -111,13 +94,13 @@ struct Cosines {
 };
 
 template <class R>
-R positive_dot(const Vector<R>& a, const Vector<R>& b) {
+R positive_dot(const Vec3<R>& a, const Vec3<R>& b) {
   return greater_of(dot(a, b), R(0));
 }
 
 template <class R>
-Cosines<R> cosines(const LightModel& model, const EyeLight& light, Vector<R> n, const Vector<R>& to_light,
-                   const Vector<R>& to_eye) {
+Cosines<R> cosines(const LightModel& model, const EyeLight& light, Vec3<R> n, const Vec3<R>& to_light,
+                   const Vec3<R>& to_eye) {
   Mask<R> seen = n.x == n.x;
   if (model.sides == LightModel::Sides::flip) {
     const R n_dot_l = dot(n, to_light), n_dot_e = dot(n, to_eye);
@@ -128,15 +111,15 @@ Cosines<R> cosines(const LightModel& model, const EyeLight& light, Vector<R> n, 
   const R diffuse = select(seen, positive_dot(n, to_light), R(0));
   if (model.specular == LightModel::Specular::half_vector) {
     const bool fixed = light.directional && !model.local_viewer;
-    return {diffuse, positive_dot(n, fixed ? spread<R>(light.half) : unit(to_light + to_eye))};
+    return {diffuse, positive_dot(n, fixed ? Vec3<R>(light.half) : unit(to_light + to_eye))};
   }
-  const Vector<R> mirrored = (R(2) * diffuse) * n - to_light;
+  const Vec3<R> mirrored = (R(2) * diffuse) * n - to_light;
   return {diffuse, positive_dot(mirrored, to_eye)};
 }
 
 /// What distance and cone leave of a light.
 template <class R>
-R reach(const EyeLight& light, const Vector<R>& from_point, const Vector<R>& to_light) {
+R reach(const EyeLight& light, const Vec3<R>& from_point, const Vec3<R>& to_light) {
   R share(1);
   if (light.attenuates) {
     const R d = square_root(dot(from_point, from_point));
@@ -145,7 +128,7 @@ R reach(const EyeLight& light, const Vector<R>& from_point, const Vector<R>& to_
     share = R(1) / greater_of(R(std::numeric_limits<float>::min()), k.x + (k.y + k.z * d) * d);
   }
   if (light.has_cone) {
-    const R cosine = -dot(to_light, spread<R>(light.cone));
+    const R cosine = -dot(to_light, Vec3<R>(light.cone));
     share = select(cosine >= R(light.cos_cutoff), share * power(cosine, light.exponent), R(0));
   }
   return share;
@@ -155,23 +138,23 @@ R reach(const EyeLight& light, const Vector<R>& from_point, const Vector<R>& to_
 /// specular terms are 0; outside a light's cone, its ambient one too. `n_eye` need not be of unit length.
 /// `T`: float where all lanes are of one material, or R.
 template <class R, class T>
-Color<R> lit(const Illumination& illumination, const Reflectance<T>& reflectance, const Vector<R>& p_eye,
-             const Vector<R>& n_eye) {
-  const Vector<R> to_eye = illumination.model.local_viewer ? unit(-p_eye) : Vector<R>{R(0), R(0), R(1)};
-  Vector<R> sum = spread<R>(reflectance.base);
+Color<R> lit(const Illumination& illumination, const Reflectance<T>& reflectance, const Vec3<R>& p_eye,
+             const Vec3<R>& n_eye) {
+  const Vec3<R> to_eye = illumination.model.local_viewer ? unit(-p_eye) : Vec3<R>{R(0), R(0), R(1)};
+  Vec3<R> sum = Vec3<R>(reflectance.base);
   for (std::size_t i = 0; i < illumination.lights.size(); ++i) {
     const EyeLight& light = illumination.lights[i];
     const typename Reflectance<T>::Answer& answer = reflectance.answers[i];
-    const Vector<R> place = spread<R>(light.vector), from_point = light.directional ? place : place - p_eye;
-    const Vector<R> to_light = light.directional ? place : unit(from_point);
-    Vector<R> color = spread<R>(answer.ambient);
+    const Vec3<R> place = Vec3<R>(light.vector), from_point = light.directional ? place : place - p_eye;
+    const Vec3<R> to_light = light.directional ? place : unit(from_point);
+    Vec3<R> color = Vec3<R>(answer.ambient);
     const Cosines<R> c = cosines<R>(illumination.model, light, n_eye, to_light, to_eye);
     const Mask<R> faces = c.diffuse > R(0);
     if (any(faces)) {
-      Vector<R> bright = color + c.diffuse * spread<R>(answer.diffuse);
-      const Vector<T>& s = answer.specular;
+      Vec3<R> bright = color + c.diffuse * Vec3<R>(answer.diffuse);
+      const Vec3<T>& s = answer.specular;
       if (any((s.x != T(0)) | (s.y != T(0)) | (s.z != T(0)))) {
-        bright = bright + power(c.specular, reflectance.shininess) * spread<R>(s);
+        bright = bright + power(c.specular, reflectance.shininess) * Vec3<R>(s);
       }
       color = select<R>(faces, bright, color);
     }
@@ -203,9 +186,9 @@ FragmentLight fragment_light(const Scene& scene, const Draw& draw, Lights lights
 template <class R>
 Color<R> lit_fragment(const FragmentLight& light, LitPart part, const Color<R>& color, const Color<R>& n,
                       const Color<R>& p) {
-  const Vector<R> p_eye{p.r, p.g, p.b}, normal{n.r, n.g, n.b};
+  const Vec3<R> p_eye(p), normal(n);
   const R length = square_root(dot(normal, normal));
-  const Vector<R> n_eye = normal / (part.back ? -length : length);
+  const Vec3<R> n_eye = normal / (part.back ? -length : length);
   if (!light.by_color) return lit(light.illumination, light.reflectance[part.back][part.secondary], p_eye, n_eye);
   const ColoredMaterial& material = light.material[part.back][part.secondary];
   return lit(light.illumination, reflectance(*light.scene, material, color), p_eye, n_eye);

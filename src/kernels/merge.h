@@ -1,8 +1,6 @@
 // Stage 11: the fragment's colour, blended or combined with the frame's, in the frame's format.
 #pragma once
 
-#include <array>
-
 #include "kernels/attributes.h"
 #include "scene/scene.h"
 
@@ -14,58 +12,51 @@ namespace plumbline::pipeline {
 template <class R>
 [[gnu::always_inline]] inline Color<R> merge(const Color<R>& color, float scale) {
   if (scale == 0.0f) return color;
-  if (scale > 4095.0f) {
-    const auto wide_code = [&](R value) { return to_float(round_even(to_wide(clamp01(value)) * Wide<R>(scale))); };
-    return {wide_code(color.r), wide_code(color.g), wide_code(color.b), wide_code(color.a)};
-  }
-  const auto code = [&](R value) { return round_even(clamp01(value) * scale); };
-  return {code(color.r), code(color.g), code(color.b), code(color.a)};
+  return by_channel(color, [&](const R& value) -> R {
+    if (scale > 4095.0f) return to_float(round_even(to_wide(clamp01(value)) * Wide<R>(scale)));
+    return round_even(clamp01(value) * scale);
+  });
 }
-
-template <class W>
-using Channels = std::array<W, 4>;
 
 /// The same of rgba8, packed.
 template <class R>
 [[gnu::always_inline]] inline Int<R> packed_merge(const Color<R>& color) {
-  const R most(255.0f);
-  return packed_codes(color.r * most, color.g * most, color.b * most, color.a * most);
+  const Color<R> codes = color * R(255.0f);
+  return packed_codes(codes.r, codes.g, codes.b, codes.a);
 }
 
 /// The same where no channel is beyond 2^22.
 template <class R>
 [[gnu::always_inline]] inline Int<R> packed_merge_near(const Color<R>& color) {
-  const R most(255.0f);
-  return packed_codes_near(color.r * most, color.g * most, color.b * most, color.a * most);
+  const Color<R> codes = color * R(255.0f);
+  return packed_codes_near(codes.r, codes.g, codes.b, codes.a);
 }
 
 /// A blend factor's channels, times `unit`, so that those of the frame's colour are its codes and rounded nowhere.
 /// `source` in [0,1] and `stored` in codes, or both as they are, and unit 1.
 template <class W>
-[[gnu::always_inline]] inline Channels<W> blend_factor(BlendFactor factor, const Channels<W>& source,
-                                                       const Channels<W>& stored, const glm::vec4& constant,
-                                                       double unit) {
-  const auto each = [](auto of) { return Channels<W>{of(0u), of(1u), of(2u), of(3u)}; };
-  const auto all = [](const W& value) { return Channels<W>{value, value, value, value}; };
-  const auto given = [&](int i) { return static_cast<double>(constant[i]) * unit; };
+[[gnu::always_inline]] inline Color<W> blend_factor(BlendFactor factor, const Color<W>& source, const Color<W>& stored,
+                                                    const glm::vec4& constant, double unit) {
+  const auto all = [](const W& value) { return Color<W>(value); };
+  const auto rest = [&](const Color<W>& of) { return W(unit) - of; };
+  const Color<W> own = source * W(unit), fixed = Color<W>(constant) * W(unit);
   switch (factor) {
-    case BlendFactor::zero: return all(W(0));
+    case BlendFactor::zero: break;
     case BlendFactor::one: return all(W(unit));
-    case BlendFactor::source_color: return each([&](unsigned i) { return source[i] * unit; });
-    case BlendFactor::one_minus_source_color: return each([&](unsigned i) { return unit - source[i] * unit; });
+    case BlendFactor::source_color: return own;
+    case BlendFactor::one_minus_source_color: return rest(own);
     case BlendFactor::destination_color: return stored;
-    case BlendFactor::one_minus_destination_color: return each([&](unsigned i) { return unit - stored[i]; });
-    case BlendFactor::source_alpha: return all(source[3] * unit);
-    case BlendFactor::one_minus_source_alpha: return all(unit - source[3] * unit);
-    case BlendFactor::destination_alpha: return all(stored[3]);
-    case BlendFactor::one_minus_destination_alpha: return all(unit - stored[3]);
-    case BlendFactor::constant_color: return {W(given(0)), W(given(1)), W(given(2)), W(given(3))};
-    case BlendFactor::one_minus_constant_color:
-      return {W(unit - given(0)), W(unit - given(1)), W(unit - given(2)), W(unit - given(3))};
-    case BlendFactor::constant_alpha: return all(W(given(3)));
-    case BlendFactor::one_minus_constant_alpha: return all(W(unit - given(3)));
+    case BlendFactor::one_minus_destination_color: return rest(stored);
+    case BlendFactor::source_alpha: return all(own.a);
+    case BlendFactor::one_minus_source_alpha: return rest(all(own.a));
+    case BlendFactor::destination_alpha: return all(stored.a);
+    case BlendFactor::one_minus_destination_alpha: return rest(all(stored.a));
+    case BlendFactor::constant_color: return fixed;
+    case BlendFactor::one_minus_constant_color: return rest(fixed);
+    case BlendFactor::constant_alpha: return all(fixed.a);
+    case BlendFactor::one_minus_constant_alpha: return rest(all(fixed.a));
     case BlendFactor::source_alpha_saturate: {
-      const W least = lesser_of(source[3] * unit, unit - stored[3]);
+      const W least = lesser_of(own.a, W(unit) - stored.a);
       return {least, least, least, W(unit)};
     }
   }
@@ -109,29 +100,32 @@ template <class R>
   const auto wide = [&](R value) { return to_wide(codes ? clamp01(value) : value); };
   if (codes && is_over(state)) {
     const W alpha = wide(source.a), alpha_codes = alpha * unit, rest = 1.0 - alpha;
-    const auto code = [&](const R& channel, const R& held) {
+    return by_channel(source, stored, [&](const R& channel, const R& held) {
       return to_float(round_even(over<W>(wide(channel), alpha_codes, to_wide(held), rest)));
-    };
-    return {code(source.r, stored.r), code(source.g, stored.g), code(source.b, stored.b), code(source.a, stored.a)};
+    });
   }
-  const Channels<W> s = {wide(source.r), wide(source.g), wide(source.b), wide(source.a)};
-  const Channels<W> d = {to_wide(stored.r), to_wide(stored.g), to_wide(stored.b), to_wide(stored.a)};
-  const auto blended = [&](const BlendTerm& term) -> Color<R> {
-    const auto each = [&](auto of) -> Color<R> {
-      const auto stored_as = [&](const W& sum) {
-        return to_float(codes ? round_even(clamped<W>(sum, W(0), W(unit))) : sum);
-      };
-      return {stored_as(of(0u)), stored_as(of(1u)), stored_as(of(2u)), stored_as(of(3u))};
+  const Color<W> s = by_channel(source, wide), d = by_channel(stored, [](const R&value) { return to_wide(value); });
+  const auto blended = [&](const BlendTerm& term) {
+    using E = BlendEquation;
+    const bool weighs = term.equation != E::min && term.equation != E::max;
+    const auto weighted = [&](const Color<W>& c, BlendFactor factor) {
+      const Color<W> k = blend_factor<W>(weighs ? factor : BlendFactor::one, s, d, state.color, unit);
+      return c * k;
     };
-    if (term.equation == BlendEquation::min) return each([&](unsigned i) { return lesser_of(s[i] * unit, d[i]); });
-    if (term.equation == BlendEquation::max) return each([&](unsigned i) { return greater_of(s[i] * unit, d[i]); });
-    const Channels<W> k = blend_factor<W>(term.source, s, d, state.color, unit);
-    const Channels<W> m = blend_factor<W>(term.destination, s, d, state.color, unit);
-    if (term.equation == BlendEquation::subtract)
-      return each([&](unsigned i) { return s[i] * k[i] - d[i] * m[i] / unit; });
-    if (term.equation == BlendEquation::reverse_subtract)
-      return each([&](unsigned i) { return d[i] * m[i] / unit - s[i] * k[i]; });
-    return each([&](unsigned i) { return s[i] * k[i] + d[i] * m[i] / unit; });
+    const auto sum = [&](const W& a, const W& b_unit) -> W {
+      const W b = b_unit / W(unit);
+      switch (term.equation) {
+        case E::add: break;
+        case E::subtract: return a - b;
+        case E::reverse_subtract: return b - a;
+        case E::min: return lesser_of(a, b);
+        case E::max: return greater_of(a, b);
+      }
+      return a + b;
+    };
+    return by_channel(weighted(s, term.source), weighted(d, term.destination), [&](const W& a, const W& b) {
+      return to_float(codes ? round_even(clamped<W>(sum(a, b), W(0), W(unit))) : sum(a, b));
+    });
   };
   Color<R> out = blended(state.rgb);
   if (state.alpha != state.rgb) out.a = blended(state.alpha).a;
@@ -148,12 +142,11 @@ Color<R> logic(LogicOp op, const Color<R>& source, const Color<R>& stored, float
   const auto table = static_cast<unsigned>(op);
   const Int<R> all(static_cast<int>(scale)), none(0);
   const auto where = [&](unsigned bit) { return (table >> bit & 1u) != 0 ? all : none; };
-  const auto channel = [&](R from, R to) {
+  return by_channel(code, stored, [&](const R& from, const R& to) {
     const Int<R> s = to_int(from), d = to_int(to);
     return to_float((where(0) & s & d) | (where(1) & s & (d ^ all)) | (where(2) & (s ^ all) & d) |
                     (where(3) & (s ^ all) & (d ^ all)));
-  };
-  return {channel(code.r, stored.r), channel(code.g, stored.g), channel(code.b, stored.b), channel(code.a, stored.a)};
+  });
 }
 
 }  // namespace plumbline::pipeline

@@ -57,15 +57,14 @@ R fog_factor(const Fog& fog, R z_eye) {
 template <class R>
 Color<R> fogged(const Fog& fog, const Color<R>& color, R z_eye) {
   const R f = fog_factor<R>(fog, z_eye), rest = R(1) - f;
-  const auto mixed = [&](R of_fragment, float of_fog) { return f * of_fragment + rest * R(of_fog); };
-  return {mixed(color.r, fog.color.r), mixed(color.g, fog.color.g), mixed(color.b, fog.color.b), color.a};
+  return {f * Vec3<R>(color) + rest * Vec3<R>(fog.color), color.a};
 }
 
 /// rgb of the two added up and clamped (OpenGL 2.1 spec 3.9).
 template <class R>
 Color<R> color_sum(const Color<R>& primary, const Color<R>& secondary) {
-  const auto sum = [](R a, R b) { return clamp01(a + b); };
-  return {sum(primary.r, secondary.r), sum(primary.g, secondary.g), sum(primary.b, secondary.b), primary.a};
+  const Color<R> sum = primary + secondary;
+  return {clamp01(sum.r), clamp01(sum.g), clamp01(sum.b), primary.a};
 }
 
 /// In OpenGL's order (2.1, figure 3.1): light, where it is per fragment, texture environment, sum of colours, fog.

@@ -120,7 +120,7 @@ template <class R>
 
 template <class R>
 Color<R> select(Mask<R> mask, const Color<R>& yes, const Color<R>& no) {
-  return {select(mask, yes.r, no.r), select(mask, yes.g, no.g), select(mask, yes.b, no.b), select(mask, yes.a, no.a)};
+  return by_channel(yes, no, [&](const R& a, const R& b) { return select(mask, a, b); });
 }
 
 /// A mean, 1 - k of `x` and k of `y`.

@@ -1,10 +1,10 @@
 // Stages 5 to 11 of one triangle, line or point at a time: those that do not fit lanes (set_up_lanes.h).
 #pragma once
 
-#include <algorithm>
 #include <optional>
 
 #include "painter/painting.h"
+#include "pipeline/coverage.h"
 #include "pipeline/triangle_setup.h"
 
 namespace plumbline::pipeline {
@@ -66,14 +66,8 @@ void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTri
     const int place = tile.offset(p.x, p.y) + p.y % kBlock * kBlock + p.x % kBlock;
     paint_fragments<float>(*draw.draw, s, surface, pixel_at(p), true, place, painting.formats.color_scale, tile);
   };
-  if (t.corners < 3) return visit_line_or_point(t, {tile.x0, tile.y0}, glm::ivec2(kTile), paint);
-  const Edges edges = edges_of(seen);
-  const PixelBounds bounds = pixel_bounds(seen);
-  for (int y = std::max(bounds.y0, tile.y0); y < std::min(bounds.y1, tile.y0 + kTile); ++y) {
-    for (int x = std::max(bounds.x0, tile.x0); x < std::min(bounds.x1, tile.x0 + kTile); ++x) {
-      if (coverage<float>(edges, {x, y, 0, 0})) paint({x, y});
-    }
-  }
+  const PixelBounds of_tile{tile.x0, tile.y0, tile.x0 + kTile, tile.y0 + kTile};
+  for (const glm::ivec2 p : covered_pixels(seen, of_tile)) paint(p);
 }
 
 /// paint(painting, tile) of each sample's own.

@@ -10,15 +10,13 @@
 
 namespace plumbline::pipeline {
 
-/// planes_of() a line (depth.cpp): a triangle whose third corner has the values of the first. Those of a line without
-/// length are not numbers, and it covers nothing.
+/// planes_of() a line (depth.cpp). Those of a line without length are not numbers, and it covers nothing.
 template <class R>
 [[gnu::always_inline]] inline CornerPlanes<Wide<R>> planes_of_lines(const R (&p_win)[3][4], glm::ivec2 tile) {
   using W = Wide<R>;
-  const W x = to_wide(p_win[0][0]), y = to_wide(p_win[0][1]);
-  const W d_x = to_wide(p_win[1][0]) - x, d_y = to_wide(p_win[1][1]) - y;
-  CornerPlanes<W> planes =
-      corner_planes<W>({x, y, d_x, d_y, -d_y, d_x, d_x * d_x + d_y * d_y}, tile.x + 0.5, tile.y + 0.5);
+  const PlaneCorners<W> line =
+      line_corners(to_wide(p_win[0][0]), to_wide(p_win[0][1]), to_wide(p_win[1][0]), to_wide(p_win[1][1]));
+  CornerPlanes<W> planes = corner_planes(line, tile.x + 0.5, tile.y + 0.5);
   planes.l2 = {W(0), W(0), W(0)};
   return planes;
 }

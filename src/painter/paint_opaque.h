@@ -85,8 +85,7 @@ class OpaqueRun {
                                              [[maybe_unused]] ShadedPixels<R, kSamples>* shaded) {
     using W = Wide<R>;
     constexpr bool kColors = !kDepthFirst && kPlain != Plain::one_color;
-    const Vec4<float>& c0 = s.attributes.color0;
-    const Color<R> one_color{R(c0.r), R(c0.g), R(c0.b), R(c0.a)};
+    const Color<R> one_color(s.attributes.color0);
     const Int<R> one_code = packed_merge(one_color);
 
     constexpr int kPlanes = kSamples + (kColors ? 3 : 0);  // the samples' depths, and the weights

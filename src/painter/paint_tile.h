@@ -129,27 +129,25 @@ void copy_out(PackedTile& tile, Frame& frame) {
     return write_out(tile, frame);
   }
   const int rows = std::min(kTile, frame.color_rgba8.height() - tile.y0);
-  for (int y = 0; y < rows; ++y) {
-    auto* to = reinterpret_cast<std::int32_t*>(frame.color_rgba8.row(tile.y0 + y) + tile.x0);
-    const auto* from = reinterpret_cast<const float*>(tile.color + block_offset(0, y) + y % kBlock * kBlock);
-    for (int x = 0; x < columns; x += kLanes) store(as_int(Lanes<R>::load_row(from + x * kBlock)), to + x);
-  }
-  for (int y = 0; y < rows; ++y) {
-    auto* to = reinterpret_cast<std::int32_t*>(frame.depth_code.row(tile.y0 + y) + tile.x0);
-    const float* from = tile.depth + block_offset(0, y) + y % kBlock * kBlock;
-    for (int x = 0; x < columns; x += kLanes) store(to_int(Lanes<R>::load_row(from + x * kBlock)), to + x);
-  }
+  const auto copy = [&](auto& plane, const float* from, auto convert) {
+    for (int y = 0; y < rows; ++y) {
+      auto* to = reinterpret_cast<std::int32_t*>(plane.row(tile.y0 + y) + tile.x0);
+      const float* row = from + block_offset(0, y) + y % kBlock * kBlock;
+      for (int x = 0; x < columns; x += kLanes) store(convert(Lanes<R>::load_row(row + x * kBlock)), to + x);
+    }
+  };
+  copy(frame.color_rgba8, reinterpret_cast<const float*>(tile.color), [](const R& bits) { return as_int(bits); });
+  copy(frame.depth_code, tile.depth, [](const R& code) { return to_int(code); });
 }
 
 template <class R>
 void clear(auto& tile, const Painting& painting) {
   const FrameFormat& frame = painting.format;
   const auto [z, c] = clear_pixel(frame);
-  const Color<R> color{R(c.r), R(c.g), R(c.b), R(c.a)};
   const Mask<R> all = Lanes<R>::mask_of(~0u);
   for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) store(R(z), tile.depth + i);
   for (int i = 0; i < kTile * kTile; i += Lanes<R>::width)
-    tile.at(i).template store_color<R>(all, color, glm::bvec4(true));
+    tile.at(i).template store_color<R>(all, Color<R>(c), glm::bvec4(true));
   if (frame.stencil != StencilFormat::none) std::fill_n(tile.stencil, kTile * kTile, frame.clear_stencil);
   if constexpr (requires { tile.farthest; }) {
     std::fill(std::begin(tile.farthest), std::end(tile.farthest), z);
@@ -160,16 +158,12 @@ void clear(auto& tile, const Painting& painting) {
 /// mean_of_four() (resolve.h) of the samples' codes, into the first's.
 template <class R>
 void resolve_samples(PackedTile (&samples)[4]) {
-  const auto mean = [](R a, R b, R c, R d) {
-    const R code(1.0f / 255.0f), sum = ((a * code + b * code) + c * code) + d * code;
-    return (sum * R(0.25f)) * R(255.0f);  // packing rounds it half to even
-  };
+  const R code(1.0f / 255.0f);
   for (int i = 0; i < kTile * kTile; i += Lanes<R>::width) {
-    Color<R> of[4];
-    for (int k = 0; k < 4; ++k) of[k] = samples[k].at(i).load_color<R>();
-    store(packed_codes(mean(of[0].r, of[1].r, of[2].r, of[3].r), mean(of[0].g, of[1].g, of[2].g, of[3].g),
-                       mean(of[0].b, of[1].b, of[2].b, of[3].b), mean(of[0].a, of[1].a, of[2].a, of[3].a)),
-          reinterpret_cast<std::int32_t*>(samples[0].color + i));
+    Color<R> sum = samples[0].at(i).load_color<R>() * code;
+    for (int k = 1; k < 4; ++k) sum = sum + samples[k].at(i).load_color<R>() * code;
+    const Color<R> mean = (sum * R(0.25f)) * R(255.0f);  // packed_codes() rounds it half to even
+    store(packed_codes(mean.r, mean.g, mean.b, mean.a), reinterpret_cast<std::int32_t*>(samples[0].color + i));
   }
 }
 

@@ -87,7 +87,7 @@ Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   }
   R color[4];
   if (work.illumination != nullptr) {
-    const Vector<R> p{p_eye[0], p_eye[1], p_eye[2]}, normal{n[0], n[1], n[2]};
+    const Vec3<R> p{p_eye[0], p_eye[1], p_eye[2]}, normal{n[0], n[1], n[2]};
     const Color<R> lit_color = lit(*work.illumination, work.reflectance, p, normal);
     color[0] = lit_color.r, color[1] = lit_color.g, color[2] = lit_color.b, color[3] = lit_color.a;
     if (carries(Varying::secondary)) {

@@ -50,42 +50,26 @@ void ScalarGeometry::find(const AssemblyWork& draw) {
 
 std::span<const ShadedTriangle> ScalarGeometry::run(const Scene& scene, std::span<const AssemblyWork> draws) {
   triangles_.clear();
-  rest_.meshes.resize(draws.size());
-  rest_.draws = scene.draws;
-  rest_.dialect = scene.dialect;
-  rest_.frame = scene.frame;
-  rest_.camera = scene.camera;
-  rest_.projection = scene.projection;
-  rest_.depth_clamp = scene.depth_clamp;
-  rest_.light_model = scene.light_model;
-  rest_.lights = scene.lights;
-  for (std::size_t d = 0; d < draws.size(); ++d) {
-    find(draws[d]);
+  for (const AssemblyWork& work : draws) {
+    find(work);
     if (of_draw_.empty()) continue;
-    rest_.draws[d].mesh = static_cast<std::uint32_t>(d);
-    if (draws[d].outside == nullptr) {
-      rest_.meshes[d] = *draws[d].mesh;
-    } else {
-      copy_primitives(*draws[d].mesh, of_draw_, rest_.meshes[d]);
-    }
-    for (std::uint32_t& primitive : of_draw_) primitive += draws[d].range.first_primitive;
-    run_draw(d);
+    if (work.outside != nullptr) copy_primitives(*work.mesh, of_draw_, clipped_);
+    run_draw(scene, work, work.outside != nullptr ? clipped_ : *work.mesh);
   }
   return triangles_;
 }
 
-void ScalarGeometry::run_draw(std::size_t number) {
-  const Draw& draw = rest_.draws[number];
-  const Mesh& mesh = rest_.meshes[number];
-  const DrawInput input = draw_input(rest_, draw, matrices(rest_, draw));
-  const auto lights = light_sources(rest_);
+void ScalarGeometry::run_draw(const Scene& scene, const AssemblyWork& work, const Mesh& mesh) {
+  const Draw& draw = *work.draw;
+  const DrawInput input = draw_input(scene, draw, matrices(scene, draw));
+  const auto lights = light_sources(scene);
   vertices_.clear();
   transform(input.matrices, draw.normals, mesh, vertices_);
   attributes_.clear();
-  light(rest_, draw, {lights.begin(), lights.end()}, vertices_, attributes_);
+  light(scene, draw, mesh, {lights.begin(), lights.end()}, vertices_, attributes_);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Polygon polygon = assemble(input, mesh.triangles[i], vertices_, attributes_);
-    polygon.primitive = of_draw_[i];
+    polygon.primitive = work.range.first_primitive + of_draw_[i];
     clip(input, polygon);
     to_window(input, polygon, triangles_);
   }

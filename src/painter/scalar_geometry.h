@@ -17,9 +17,9 @@ class ScalarGeometry {
 
  private:
   void find(const AssemblyWork& draw);
-  void run_draw(std::size_t number);
+  void run_draw(const Scene& scene, const AssemblyWork& work, const Mesh& mesh);
 
-  Scene rest_;                           // the scene with the primitives that are drawn here alone
+  Mesh clipped_;                         // of one draw
   std::vector<std::uint32_t> of_draw_;   // the draw's primitives, in the mesh
   std::vector<Vertex<float>> vertices_;  // of one draw
   std::vector<Attributes> attributes_;

@@ -227,7 +227,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
     const I d_x = x[(k + 1) % 3] - x[k], d_y = y[(k + 1) % 3] - y[k];
     longest = greater_of(longest, greater_of(greater_of(d_x, I(0) - d_x), greater_of(d_y, I(0) - d_y)));
     const I step_x = I(0) - d_y;
-    // owns_its_centres (coverage.cpp): else 1 less, so that 0 is outside.
+    // owns_its_centres (edges_of, coverage.cpp): else 1 less, so that 0 is outside.
     const Mask<R> owns = (step_x > I(0)) | ((step_x == I(0)) & (d_x > I(0)));
     const W less = to_wide(select(owns, I(0), I(1)));
     const W wide_x = to_wide(d_x), wide_y = to_wide(d_y), e = wide_y * to_wide(x[k]) - wide_x * to_wide(y[k]);

@@ -9,22 +9,14 @@
 
 #define PLUMBLINE_JOIN(a, b) a##b
 #define PLUMBLINE_NAME(a, b) PLUMBLINE_JOIN(a, b)
+#define PLUMBLINE_TEXT(a) #a
+#define PLUMBLINE_TEXT_OF(a) PLUMBLINE_TEXT(a)
 
 namespace plumbline::pipeline {
 
-std::uint8_t PLUMBLINE_NAME(paint_vertices_, PLUMBLINE_TARGET)(const VertexWork& work, std::size_t from,
-                                                               std::size_t to) {
-  return paint_vertices<PLUMBLINE_TARGET::Simd>(work, from, to);
-}
-
-void PLUMBLINE_NAME(cull_triangles_, PLUMBLINE_TARGET)(const CullWork& work, std::span<const glm::uvec3> corners,
-                                                       KeptTriangle* to) {
-  cull_triangles<PLUMBLINE_TARGET::Simd>(work, corners, to);
-}
-
-void PLUMBLINE_NAME(paint_tile_, PLUMBLINE_TARGET)(const Painting& painting, int number, TileMemory& memory,
-                                                   Frame& frame) {
-  paint_tile<PLUMBLINE_TARGET::Simd>(painting, number, memory, frame);
-}
+extern constinit const SimdTarget PLUMBLINE_NAME(kSimd_, PLUMBLINE_TARGET);
+constinit const SimdTarget PLUMBLINE_NAME(kSimd_, PLUMBLINE_TARGET) = {
+    PLUMBLINE_TEXT_OF(PLUMBLINE_TARGET), paint_vertices<PLUMBLINE_TARGET::Simd>, cull_triangles<PLUMBLINE_TARGET::Simd>,
+    paint_tile<PLUMBLINE_TARGET::Simd>};
 
 }  // namespace plumbline::pipeline

@@ -7,20 +7,14 @@
 
 namespace plumbline::pipeline {
 
-#define PLUMBLINE_KERNELS(target)                                                                            \
-  std::uint8_t paint_vertices_##target(const VertexWork& work, std::size_t from, std::size_t to);            \
-  void cull_triangles_##target(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to); \
-  void paint_tile_##target(const Painting& painting, int number, TileMemory& memory, Frame& frame);
-PLUMBLINE_KERNELS(sse4)
-PLUMBLINE_KERNELS(avx2)
-PLUMBLINE_KERNELS(avx512)
+extern constinit const SimdTarget kSimd_sse4, kSimd_avx2, kSimd_avx512;  // simd_kernels.cpp
 
 std::span<const SimdTarget> simd_targets() {
-  static constexpr std::array<SimdTarget, 4> kTargets = {
+  static const std::array<SimdTarget, 4> kTargets = {
       {{"float", paint_vertices<float>, cull_triangles<float>, paint_tile<float>},
-       {"sse4", paint_vertices_sse4, cull_triangles_sse4, paint_tile_sse4},
-       {"avx2", paint_vertices_avx2, cull_triangles_avx2, paint_tile_avx2},
-       {"avx512", paint_vertices_avx512, cull_triangles_avx512, paint_tile_avx512}}};
+       kSimd_sse4,
+       kSimd_avx2,
+       kSimd_avx512}};
   __builtin_cpu_init();
   const bool has_sse4 = __builtin_cpu_supports("sse4.2") != 0;
   const bool has_avx2 = has_sse4 && __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&

@@ -28,15 +28,14 @@ Formats formats_of(const FrameFormat& frame) {
 
 ClearPixel clear_pixel(const FrameFormat& frame) {
   const Formats formats = formats_of(frame);
-  const glm::vec4& c = frame.clear_color;
   const double z = formats.depth_scale == 0.0 ? frame.clear_depth : depth_code(frame.clear_depth, formats.depth_scale);
-  return {static_cast<float>(z), merge<float>({c.r, c.g, c.b, c.a}, formats.color_scale)};
+  return {static_cast<float>(z), merge<float>(frame.clear_color, formats.color_scale)};
 }
 
 FrameBuffer::FrameBuffer(const FrameFormat& format) {
   const ClearPixel clear = clear_pixel(format);
   depth = Plane<float>(format.width, format.height, clear.depth);
-  color = Plane<glm::vec4>(format.width, format.height, {clear.color.r, clear.color.g, clear.color.b, clear.color.a});
+  color = Plane<glm::vec4>(format.width, format.height, clear.color);
   if (format.stencil != StencilFormat::none) {
     stencil = Plane<std::uint8_t>(format.width, format.height, format.clear_stencil);
   }

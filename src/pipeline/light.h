@@ -14,12 +14,12 @@ namespace plumbline::pipeline {
 ///
 /// Colours are clamped to [0,1]. Lit: by light_equation.h, with the draw's material or what of it the mesh's colours
 /// stand for (2.14.3). Unlit, or to be lit per fragment: the mesh's colour, or the material's diffuse.
-void light(const Scene& scene, const Draw& draw, Lights lights, std::span<const Vertex<float>> vertices,
-           std::vector<Attributes>& out);
+void light(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights,
+           std::span<const Vertex<float>> vertices, std::vector<Attributes>& out);
 
 /// One part of a lit draw's colours, into one attribute of each of `out`, which lie beside `vertices`; of a secondary
 /// part, alpha is 0. `attribute`: 0 the colour, 1 + v a Varying.
-void light_part(const Scene& scene, const Draw& draw, LitPart part, Lights lights,
+void light_part(const Scene& scene, const Draw& draw, const Mesh& mesh, LitPart part, Lights lights,
                 std::span<const Vertex<float>> vertices, std::size_t attribute, std::span<Attributes> out);
 
 }  // namespace plumbline::pipeline

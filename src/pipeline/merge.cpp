@@ -5,9 +5,8 @@ namespace plumbline::pipeline {
 void write_fragment(const Stages& stages, const Merge& state, float z, const Color<float>& color, float color_scale,
                     const FramePixel& to) {
   if (state.depth_mask) *to.depth = z;
-  const Color<float> stored{to.color->r, to.color->g, to.color->b, to.color->a};
-  const Color<float> made = state.logic_op ? stages.logic(*state.logic_op, color, stored, color_scale)
-                            : state.blend  ? stages.blend(*state.blend, color, stored, color_scale)
+  const Color<float> made = state.logic_op ? stages.logic(*state.logic_op, color, *to.color, color_scale)
+                            : state.blend  ? stages.blend(*state.blend, color, *to.color, color_scale)
                                            : stages.merge(color, color_scale);
   if (state.color_mask.r) to.color->r = made.r;
   if (state.color_mask.g) to.color->g = made.g;

@@ -1,4 +1,4 @@
-#include "pipeline/production_stages.h"
+#include "pipeline/stages.h"
 
 #include "kernels/fragment_tests.h"
 #include "kernels/merge.h"

@@ -66,7 +66,7 @@ Shaded shade_program(const Surface& surface, bool /*front*/, const SurfaceAttrib
   if constexpr (!std::is_empty_v<typename P::Varyings>) std::memcpy(&in, &attributes, sizeof in);  // colour, varyings
   glm::vec4 color(0, 0, 0, 1);
   const bool discarded = static_cast<const P*>(surface.program)->fragment(in, color);
-  return {{color.r, color.g, color.b, color.a}, discarded};
+  return {color, discarded};
 }
 
 /// Draws the program's triangles, in order, on a cleared frame. Throws as require_drawable.

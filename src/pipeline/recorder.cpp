@@ -4,13 +4,6 @@
 
 namespace plumbline::pipeline {
 
-namespace {
-
-Vec4<double> widen(const Color<float>& c) { return {c.r, c.g, c.b, c.a}; }
-glm::vec4 as_vector(const Color<float>& c) { return {c.r, c.g, c.b, c.a}; }
-
-}  // namespace
-
 Recorder::Recorder(const Scene& scene, const Request& request, std::size_t bytes, Capture& out)
     : scene_(&scene),
       request_(&request),
@@ -112,13 +105,13 @@ void Recorder::fragment(const Fragment& f) {
   if (out_ == nullptr) return;
   const int x = f.pixel.x, y = f.pixel.y;
   const Texel<double> texel =
-      draw_->texture ? Texel<double>{widen(f.attributes->texel.color), f.attributes->texel.lod} : Texel<double>{};
+      draw_->texture ? Texel<double>{Vec4<double>(f.attributes->texel.color), f.attributes->texel.lod} : Texel<double>{};
   Planes& planes = out_->planes;
   ++planes.count(x, y);
   planes.id_sum(x, y) += id_weight(primitive_);
   if (f.drawn) {
     planes.id(x, y) = static_cast<std::int32_t>(primitive_);
-    planes.shaded(x, y) = as_vector(f.shaded);
+    planes.shaded(x, y) = f.shaded;
     if (!planes.texel.empty()) planes.texel(x, y) = glm::vec4(texel.color);
   }
   if (!keeps_pixels_ || (!wanted_pixels_.empty() && wanted_pixels_(x, y) == 0) || !wanted(primitive_)) return;
@@ -128,13 +121,13 @@ void Recorder::fragment(const Fragment& f) {
   }
   if (keeps(Stage::depth)) r.depth.push_back(depth_scale_ == 0.0 ? f.z : f.z / depth_scale_);
   if (keeps(Stage::attributes)) {
-    r.attributes.push_back({widen(f.attributes->color)});
+    r.attributes.push_back({Vec4<double>(f.attributes->color)});
     for (const Varying v : carried_) {
-      if (!is_back(v)) r.varyings[v].fragments.push_back(widen((*f.attributes)[v]));
+      if (!is_back(v)) r.varyings[v].fragments.push_back(Vec4<double>((*f.attributes)[v]));
     }
   }
   if (keeps(Stage::texture) && !planes.texel.empty()) r.texels.push_back(texel);
-  if (keeps(Stage::shade)) r.shaded.push_back({widen(f.shaded)});
+  if (keeps(Stage::shade)) r.shaded.push_back({Vec4<double>(f.shaded)});
   if (keeps(Stage::visibility)) r.drawn.push_back({f.drawn});
   count(sizeof(Covered) + sizeof(double) + (2 + carried_.size()) * sizeof(Vec4<double>) + sizeof(Texel<double>) +
         sizeof(Drawn));

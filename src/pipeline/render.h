@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "pipeline/frame.h"
-#include "pipeline/production_stages.h"
 #include "pipeline/recorder.h"
 #include "pipeline/stages.h"
 #include "scene/scene.h"

@@ -55,7 +55,10 @@ struct DrawInput {
   bool two_sided;    ///< back faces have colours of their own
   Matrices<float> matrices;
 };
-DrawInput draw_input(const Scene& scene, const Draw& draw, const Matrices<float>& matrices);
+inline DrawInput draw_input(const Scene& scene, const Draw& draw, const Matrices<float>& matrices) {
+  return {&draw, scene.meshes[draw.mesh].topology, scene.depth_clamp, carries(scene, draw, Varying::back_color),
+          matrices};
+}
 
 /// Offsets of a pass' sample from the pixel's centre [1/256 pixel].
 struct SampleOffsets {
@@ -90,7 +93,8 @@ struct Stages {
   // 1 vertex: one for each vertex of the mesh
   void (*vertex)(const Matrices<float>&, Normals, const Mesh&, std::vector<Vertex<float>>& out);
   // 2 light: attributes of each vertex
-  void (*light)(const Scene&, const Draw&, Lights, std::span<const Vertex<float>>, std::vector<Attributes>& out);
+  void (*light)(const Scene&, const Draw&, const Mesh&, Lights, std::span<const Vertex<float>>,
+                std::vector<Attributes>& out);
   // 3 clip
   Polygon (*assemble)(const DrawInput&, const glm::uvec3& corners, std::span<const Vertex<float>>,
                       std::span<const Attributes>);
@@ -124,5 +128,7 @@ struct Stages {
 
   bool operator==(const Stages&) const = default;
 };
+/// The pipeline's own stage functions: those of this folder and of the kernels.
+Stages production_stages();
 
 }  // namespace plumbline::pipeline

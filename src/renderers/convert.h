@@ -13,9 +13,6 @@ namespace plumbline::pipeline {
 Matrices<float> narrow(const Matrices<double>& from);
 std::vector<LightSource<float>> narrow(const std::vector<LightSource<double>>& from);
 Vertex<float> narrow(const Vertex<double>& from);
-inline Color<float> narrow(const Vec4<double>& c) {
-  return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)};
-}
 
 /// Colours and depths in [0,1], where their format is one of codes.
 Planes planes_of_frame(const Frame& frame, const Formats& formats);

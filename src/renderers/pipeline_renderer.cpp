@@ -20,18 +20,12 @@ Frame frame_of_colors(const FrameFormat& format, const Plane<glm::vec4>& color) 
   FrameFormat of_pass = format;
   of_pass.width = color.width();
   of_pass.height = color.height();
-  Frame frame(of_pass);
+  FrameBuffer buffer(of_pass);
   const auto scale = static_cast<float>(color_scale(format.color));
-  const auto codes = [&](auto& to, std::size_t i) {
-    if (!to.empty()) to.values()[i] = glm::round(color.values()[i] * scale);
-  };
   for (std::size_t i = 0; i < color.size(); ++i) {
-    codes(frame.color_rgba8, i);
-    codes(frame.color_rgba12, i);
-    codes(frame.color_rgba16, i);
+    buffer.color.values()[i] = scale == 0.0f ? color.values()[i] : glm::round(color.values()[i] * scale);
   }
-  if (scale == 0.0f) frame.color_rgba32f = color;
-  return frame;
+  return finished(of_pass, buffer);
 }
 
 class PipelineRenderer : public Renderer {

@@ -88,7 +88,7 @@ class OneStage {
       vertices.push_back(narrow(records_.vertices[range.first_vertex + i]));
     }
     if (stage_ == Stage::light) {
-      stages_.light(scene_, draw, lights_, vertices, attributes);
+      stages_.light(scene_, draw, mesh, lights_, vertices, attributes);
       return recorder_.attributes(attributes);
     }
     for (std::size_t i = 0; i < range.vertex_count; ++i) {
@@ -153,7 +153,7 @@ class OneStage {
       if (stage_ == Stage::depth) made.z = stages_.depth(setup, pixel_at(pixel));
       if (stage_ == Stage::attributes) attributes = interpolated(stages_, *surface, setup, pixel_at(pixel));
       if (stage_ == Stage::texture && surface->texture) {
-        const Color<float> texcoords = narrow(records_.varyings[Varying::texture].fragments[i]);
+        const Color<float> texcoords(records_.varyings[Varying::texture].fragments[i]);
         attributes.texel = filtered(stages_, *surface->texture, setup, texcoords, pixel_at(pixel));
       }
       if (stage_ == Stage::shade)
@@ -161,7 +161,7 @@ class OneStage {
       if (stage_ >= Stage::visibility) {
         const double z = records_.depth[i];
         made.z = static_cast<float>(formats.depth_scale == 0.0 ? z : depth_code(z, formats.depth_scale));
-        if (!records_.shaded.empty()) made.shaded = narrow(records_.shaded[i].color);
+        if (!records_.shaded.empty()) made.shaded = Color<float>(records_.shaded[i].color);
         const FramePixel to = frame.at(pixel);
         made.drawn = is_drawn(i, *surface->draw, triangle, made, to);
         const Merge merge = stages_.merge_state(surface->draw->merge);
@@ -177,9 +177,9 @@ class OneStage {
   }
 
   SurfaceAttributes<float> recorded_attributes(std::size_t i, const Surface& surface) const {
-    SurfaceAttributes<float> out{narrow(records_.attributes[i].color), {}, {}};
-    for (const Varying v : surface.carried) out[v] = narrow(records_.varyings[v].fragments[i]);
-    if (surface.texture) out.texel = {narrow(records_.texels[i].color), static_cast<float>(records_.texels[i].lod)};
+    SurfaceAttributes<float> out{Color<float>(records_.attributes[i].color), {}, {}};
+    for (const Varying v : surface.carried) out[v] = Color<float>(records_.varyings[v].fragments[i]);
+    if (surface.texture) out.texel = {Color<float>(records_.texels[i].color), static_cast<float>(records_.texels[i].lod)};
     return out;
   }
 

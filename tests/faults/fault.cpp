@@ -1,6 +1,6 @@
 #include "faults/fault.h"
 
-#include "pipeline/production_stages.h"
+#include "pipeline/stages.h"
 
 namespace plumbline::faults {
 

@@ -21,11 +21,12 @@ using LitVertices = std::vector<pipeline::Attributes>;
 
 // The stage under a scene that says something else, and that scene's lights.
 template <auto change>
-void lit_otherwise(const Scene& scene, const Draw& draw, Lights, Vertices vertices, LitVertices& out) {
+void lit_otherwise(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights, Vertices vertices,
+                   LitVertices& out) {
   Scene wrong = scene;
   Draw wrong_draw = draw;
   change(wrong, wrong_draw);
-  pipeline::light(wrong, wrong_draw, pipeline::light_sources(wrong), vertices, out);
+  pipeline::light(wrong, wrong_draw, mesh, pipeline::light_sources(wrong), vertices, out);
 }
 
 constexpr auto kNoAttenuation = [](Scene& scene, Draw&) {
@@ -77,9 +78,10 @@ constexpr auto kWorldSpace = [](Scene& scene, Draw&) {
 };
 
 // Directional lights' highlights where the surface faces away from them.
-void specular_from_behind(const Scene& scene, const Draw& draw, Lights lights, Vertices vertices, LitVertices& out) {
+void specular_from_behind(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights, Vertices vertices,
+                          LitVertices& out) {
   const std::size_t first = out.size();
-  pipeline::light(scene, draw, lights, vertices, out);
+  pipeline::light(scene, draw, mesh, lights, vertices, out);
   if (!draw.lit || scene.light_model.specular != LightModel::Specular::half_vector) return;
   for (const Light& light : scene.lights) {
     if (light.kind != Light::Kind::directional) continue;
@@ -95,18 +97,19 @@ void specular_from_behind(const Scene& scene, const Draw& draw, Lights lights, V
   }
 }
 
-void back_color_is_the_fronts(const Scene& scene, const Draw& draw, Lights lights, Vertices vertices,
+void back_color_is_the_fronts(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights, Vertices vertices,
                               LitVertices& out) {
   const std::size_t first = out.size();
-  pipeline::light(scene, draw, lights, vertices, out);
+  pipeline::light(scene, draw, mesh, lights, vertices, out);
   if (!carries(scene, draw, Varying::back_color)) return;
   for (std::size_t i = first; i < out.size(); ++i) out[i][Varying::back_color] = out[i].color();
 }
 
 // Of the vertices before their cut: the fog of a primitive that reaches behind the eye grows towards it.
-void positions_by_distance(const Scene& scene, const Draw& draw, Lights lights, Vertices vertices, LitVertices& out) {
+void positions_by_distance(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights, Vertices vertices,
+                           LitVertices& out) {
   const std::size_t first = out.size();
-  pipeline::light(scene, draw, lights, vertices, out);
+  pipeline::light(scene, draw, mesh, lights, vertices, out);
   for (std::size_t i = first; i < out.size(); ++i) {
     float& z_eye = out[i][Varying::position].z;
     z_eye = std::abs(z_eye);

@@ -71,7 +71,7 @@ Matrices<float> whole_centres(const Scene& scene, const Draw& draw) {
 
 // N.L below 0 takes light away: what an opposite light of negative colour does. (Of GzRender's lights, which are
 // directional. A scene has 8 lights at most.)
-void no_clamp_of_n_l(const Scene& scene, const Draw& draw, pipeline::Lights lights,
+void no_clamp_of_n_l(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
                      std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
   Scene wrong = scene;
   std::vector<LightSource<float>> opposite(lights.begin(), lights.end());
@@ -82,17 +82,17 @@ void no_clamp_of_n_l(const Scene& scene, const Draw& draw, pipeline::Lights ligh
       opposite.push_back({-lights[i].p_eye, {}});
     }
   }
-  pipeline::light(wrong, draw, opposite, vertices, out);
+  pipeline::light(wrong, draw, mesh, opposite, vertices, out);
 }
 
 // N.L and N.E both below 0: N is turned; one of them: no light. As though every N with N.E < 0 were turned.
-void flipped_normals(const Scene& scene, const Draw& draw, pipeline::Lights lights,
+void flipped_normals(const Scene& scene, const Draw& draw, const Mesh& mesh, pipeline::Lights lights,
                      std::span<const Vertex<float>> vertices, std::vector<pipeline::Attributes>& out) {
   std::vector<Vertex<float>> facing(vertices.begin(), vertices.end());
   for (Vertex<float>& v : facing) {
     if (v.n_eye.z < 0) v.n_eye = -v.n_eye;
   }
-  pipeline::light(scene, draw, lights, facing, out);
+  pipeline::light(scene, draw, mesh, lights, facing, out);
 }
 
 // One corner with Z < 0, which is before the near plane, and the triangle is gone. Where depths are clamped there is no

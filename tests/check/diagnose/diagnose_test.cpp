@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "faults/faults.h"
-#include "pipeline/production_stages.h"
+#include "pipeline/stages.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 #include "tests/check/judge/judge_fixtures.h"

@@ -14,7 +14,7 @@
 #include "faults/legal.h"
 #include "matrix/matrix.h"
 #include "matrix/report.h"
-#include "pipeline/production_stages.h"
+#include "pipeline/stages.h"
 #include "scene/file/scene_file.h"
 
 namespace plumbline {

@@ -13,7 +13,7 @@
 #include "faults/faults.h"
 #include "faults/legal.h"
 #include "matrix/report.h"
-#include "pipeline/production_stages.h"
+#include "pipeline/stages.h"
 #include "scene/antialias.h"
 #include "scene/file/scene_file.h"
 
