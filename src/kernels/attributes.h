@@ -6,11 +6,10 @@
 #pragma once
 
 #include <array>
-#include <type_traits>
 
 #include "capture/stages.h"
 #include "kernels/depth.h"
-#include "kernels/lanes.h"
+#include "kernels/vectors.h"
 
 namespace plumbline::pipeline {
 
@@ -33,19 +32,6 @@ struct AttributeSetup {
 /// Setup of an attribute from its values at the corners.
 AttributeSetup attribute_setup(const std::array<Vec4<float>, 3>& corners);
 
-/// rgba of `Lanes<R>::width` fragments.
-template <class R>
-using Color = Vec4<R>;
-/// f of each channel, or of each channel of two colours.
-template <class R>
-[[gnu::always_inline]] inline auto by_channel(const Color<R>& c, auto f) {
-  return Color<decltype(f(c.r))>{f(c.r), f(c.g), f(c.b), f(c.a)};
-}
-template <class R, class S>
-[[gnu::always_inline]] inline auto by_channel(const Color<R>& c, const Color<S>& d, auto f) {
-  return Color<decltype(f(c.r, d.r))>{f(c.r, d.r), f(c.g, d.g), f(c.b, d.b), f(c.a, d.a)};
-}
-
 /// k_1 and k_2.
 template <class R>
 struct Weights {
@@ -55,7 +41,7 @@ struct Weights {
 template <class R>
 [[gnu::always_inline]] inline Weights<R> weights(const R& q1, const R& q2, const R& sum) {
   // A plane extrapolated out of a sliver may reach the horizon: no division by (nearly) 0 there.
-  const R reciprocal = where(magnitude(sum) > R(1.17549435e-38f), R(1) / sum);
+  const R reciprocal = select(magnitude(sum) > R(1.17549435e-38f), R(1) / sum, R(0));
   return {q1 * reciprocal, q2 * reciprocal};
 }
 template <class R>
@@ -63,22 +49,16 @@ template <class R>
   return weights<R>(to_float(value_at<R>(s.q1, at)), to_float(value_at<R>(s.q2, at)), to_float(value_at<R>(s.sum, at)));
 }
 
-/// Channel i of the mean.
+/// The mean by these weights. `s`: an AttributeSetup, or one of lanes.
 template <class R>
-[[gnu::always_inline]] inline R mixed(const auto& s, const Weights<R>& k, int i) {
-  return s.color0[i] + k.k1 * s.d_color1[i] + k.k2 * s.d_color2[i];
+[[gnu::always_inline]] inline Color<R> mixed(const auto& s, const Weights<R>& k) {
+  return (Color<R>(s.color0) + k.k1 * Color<R>(s.d_color1)) + k.k2 * Color<R>(s.d_color2);
 }
-/// Of the first `kChannels` channels; the others are 0.
-template <class R, int kChannels = 4, class Setup = AttributeSetup>
-[[gnu::always_inline]] inline Color<R> mean(const Setup& s, const Weights<R>& k) {
-  const auto channel = [&](int i) -> R {
-    if (i >= kChannels) return R(0);
-    if constexpr (std::is_same_v<Setup, AttributeSetup>) {
-      if (s.constant) return s.color0[i] + 0.0f;  // + 0: -0 is 0, as it is where there are differences
-    }
-    return mixed<R>(s, k, i);
-  };
-  return {channel(0), channel(1), channel(2), channel(3)};
+/// The same; where there are no differences, without weights.
+template <class R>
+[[gnu::always_inline]] inline Color<R> mean(const AttributeSetup& s, const Weights<R>& k) {
+  if (s.constant) return Color<R>(s.color0) + R(0);  // + 0: -0 is 0, as it is where there are differences
+  return mixed<R>(s, k);
 }
 
 }  // namespace plumbline::pipeline

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "capture/stages.h"
+
 namespace plumbline::pipeline {
 
 inline constexpr int kBlock = 4;  ///< pixels a side: the unit in which triangles are walked and planes are stored
@@ -31,6 +33,11 @@ struct Lanes<float> {
   static Int load(const std::uint8_t* from) { return *from; }
   /// The next `width` values of a row of pixels: four of each block, from block to block.
   static float load_row(const float* from) { return *from; }
+  /// Each lane's three floats, which lie side by side in memory lane after lane; its four, from where its pointer says.
+  static Vec3<float> load_threes(const float* from) { return {from[0], from[1], from[2]}; }
+  static Vec4<float> load_fours(const float* const (&from)[1]) {
+    return {from[0][0], from[0][1], from[0][2], from[0][3]};
+  }
   /// The lanes of those bits, the first the lowest.
   static Mask mask_of(unsigned bits) { return bits != 0; }
   /// Columns and rows of a block's pixels from the i-th on, row by row.
@@ -62,9 +69,6 @@ inline unsigned bits_of(bool mask) { return mask ? 1 : 0; }
 inline float select(bool mask, float yes, float no) { return mask ? yes : no; }
 inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
 inline std::int64_t select(bool mask, std::int64_t yes, std::int64_t no) { return mask ? yes : no; }
-
-/// `value` or 0.
-inline float where(bool mask, float value) { return mask ? value : 0.0f; }
 
 /// The larger, and the smaller; the second where either is NaN.
 template <class T>
@@ -157,15 +161,8 @@ inline void store(std::int64_t value, std::int32_t* to) { *to = static_cast<std:
 /// Of numbers from 0 to 255.
 inline void store_codes(std::int64_t value, std::uint8_t* to) { *to = static_cast<std::uint8_t>(value); }
 
-/// Three floats of each lane's, which lie side by side in memory lane after lane.
-inline void load_threes(const float* from, float (&out)[3]) {
-  for (int i = 0; i < 3; ++i) out[i] = from[i];
-}
-/// Each lane's four floats, from where its pointer says; and back.
-inline void load_fours(const float* const (&from)[1], float (&out)[4]) {
-  for (int i = 0; i < 4; ++i) out[i] = from[0][i];
-}
-inline void store_fours(const float (&values)[4], float* const (&to)[1]) {
+/// Each lane's four floats, to where its pointer says.
+inline void store_fours(const Vec4<float>& values, float* const (&to)[1]) {
   for (int i = 0; i < 4; ++i) to[0][i] = values[i];
 }
 
@@ -174,9 +171,7 @@ inline void store_fours(const float (&values)[4], float* const (&to)[1]) {
 /// type.
 inline double row_of_fours(float, int row, auto at) { return to_wide(at(0)[row]); }
 inline double row_of_shares(float, int, const double (&k)[1]) { return k[0]; }
-inline void fours_of_rows(const double (&rows)[4], float (&out)[4]) {
-  for (int i = 0; i < 4; ++i) out[i] = to_float(rows[i]);
-}
+inline Vec4<float> fours_of_rows(const double (&rows)[4]) { return {rows[0], rows[1], rows[2], rows[3]}; }
 
 inline float greatest_lane(float value) { return value; }
 inline int greatest_lane(std::int64_t value) { return static_cast<int>(value); }

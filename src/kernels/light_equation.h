@@ -13,19 +13,6 @@
 
 namespace plumbline::pipeline {
 
-template <class R>
-R dot(const Vec3<R>& a, const Vec3<R>& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
-template <class R>
-Vec3<R> unit(const Vec3<R>& v) {
-  return v / square_root(dot(v, v));
-}
-template <class R>
-Vec3<R> select(Mask<R> mask, const Vec3<R>& yes, const Vec3<R>& no) {
-  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
-}
-
 /// The scene's lights, as stage 0 hands them on.
 using Lights = std::span<const LightSource<float>>;
 
@@ -36,7 +23,7 @@ struct EyeLight {
   Vec3<float> half;    ///< of a directional light, unit, half way to a viewer infinitely far away
   bool attenuates, has_cone;
   Vec3<float> attenuation;  ///< k0, k1, k2
-  Vec3<float> cone;       ///< unit direction to which it shines
+  Vec3<float> cone;         ///< unit direction to which it shines
   float cos_cutoff, exponent;
 };
 
@@ -69,9 +56,7 @@ struct Reflectance {
 template <class R>
 Reflectance<R> reflectance(const Scene& scene, const ColoredMaterial& material, const Color<R>& color) {
   const Material& own = material.own;
-  const auto of = [&](bool of_color, const glm::vec4& v) {
-    return of_color ? Vec3<R>(color) : Vec3<R>(v);
-  };
+  const auto of = [&](bool of_color, const glm::vec4& v) { return of_color ? Vec3<R>(color) : Vec3<R>(v); };
   const Vec3<R> ambient = of(material.ambient, own.ambient), diffuse = of(material.diffuse, own.diffuse);
   const Vec3<R> specular = of(material.specular, own.specular);
   Reflectance<R> out;
@@ -122,7 +107,7 @@ template <class R>
 R reach(const EyeLight& light, const Vec3<R>& from_point, const Vec3<R>& to_light) {
   R share(1);
   if (light.attenuates) {
-    const R d = square_root(dot(from_point, from_point));
+    const R d = length(from_point);
     const Vec3<float>& k = light.attenuation;
     // Only a light at the point itself has nothing to divide by.
     share = R(1) / greater_of(R(std::numeric_limits<float>::min()), k.x + (k.y + k.z * d) * d);
@@ -187,8 +172,8 @@ template <class R>
 Color<R> lit_fragment(const FragmentLight& light, LitPart part, const Color<R>& color, const Color<R>& n,
                       const Color<R>& p) {
   const Vec3<R> p_eye(p), normal(n);
-  const R length = square_root(dot(normal, normal));
-  const Vec3<R> n_eye = normal / (part.back ? -length : length);
+  const R size = length(normal);
+  const Vec3<R> n_eye = normal / (part.back ? -size : size);
   if (!light.by_color) return lit(light.illumination, light.reflectance[part.back][part.secondary], p_eye, n_eye);
   const ColoredMaterial& material = light.material[part.back][part.secondary];
   return lit(light.illumination, reflectance(*light.scene, material, color), p_eye, n_eye);

@@ -43,24 +43,50 @@ inline unsigned bits_of(SimdMask mask) {
   return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
 }
 
-/// One float a lane.
-struct Simd {
-  FloatVector v;
-  Simd() = default;
-  Simd(FloatVector of) : v(of) {}
-  Simd(float of) : v(hn::Set(kFloats, of)) {}
-  friend Simd operator+(Simd a, Simd b) { return hn::Add(a.v, b.v); }
-  friend Simd operator-(Simd a, Simd b) { return hn::Sub(a.v, b.v); }
-  friend Simd operator*(Simd a, Simd b) { return hn::Mul(a.v, b.v); }
-  friend Simd operator/(Simd a, Simd b) { return hn::Div(a.v, b.v); }
-  friend Simd operator-(Simd a) { return hn::Neg(a.v); }
-  friend SimdMask operator<(Simd a, Simd b) { return {hn::Lt(a.v, b.v)}; }
-  friend SimdMask operator<=(Simd a, Simd b) { return {hn::Le(a.v, b.v)}; }
-  friend SimdMask operator>(Simd a, Simd b) { return {hn::Gt(a.v, b.v)}; }
-  friend SimdMask operator>=(Simd a, Simd b) { return {hn::Ge(a.v, b.v)}; }
-  friend SimdMask operator==(Simd a, Simd b) { return {hn::Eq(a.v, b.v)}; }
-  friend SimdMask operator!=(Simd a, Simd b) { return {hn::Ne(a.v, b.v)}; }
+/// A float, or an integer of 32 bits, a lane. Integers: pixels, codes, and edge functions counted from a tile.
+template <class Tag>
+struct SimdOf {
+  using Vector = hn::Vec<Tag>;
+  Vector v;
+  SimdOf() = default;
+  SimdOf(Vector of) : v(of) {}
+  SimdOf(hn::TFromD<Tag> of) : v(hn::Set(Tag(), of)) {}
+  static SimdMask mask(hn::Mask<Tag> m) { return {hn::RebindMask(kFloats, m)}; }
+  friend SimdOf operator+(SimdOf a, SimdOf b) { return hn::Add(a.v, b.v); }
+  friend SimdOf operator-(SimdOf a, SimdOf b) { return hn::Sub(a.v, b.v); }
+  friend SimdOf operator*(SimdOf a, SimdOf b) { return hn::Mul(a.v, b.v); }
+  friend SimdOf operator/(SimdOf a, SimdOf b) { return hn::Div(a.v, b.v); }
+  friend SimdOf operator-(SimdOf a) { return hn::Neg(a.v); }
+  friend SimdOf operator&(SimdOf a, SimdOf b) { return hn::And(a.v, b.v); }
+  friend SimdOf operator|(SimdOf a, SimdOf b) { return hn::Or(a.v, b.v); }
+  friend SimdOf operator^(SimdOf a, SimdOf b) { return hn::Xor(a.v, b.v); }
+  friend SimdMask operator<(SimdOf a, SimdOf b) { return mask(hn::Lt(a.v, b.v)); }
+  friend SimdMask operator>(SimdOf a, SimdOf b) { return mask(hn::Gt(a.v, b.v)); }
+  friend SimdMask operator<=(SimdOf a, SimdOf b) {
+    if constexpr (std::is_integral_v<hn::TFromD<Tag>>) {
+      return mask(hn::Not(hn::Gt(a.v, b.v)));
+    } else {
+      return mask(hn::Le(a.v, b.v));
+    }
+  }
+  friend SimdMask operator>=(SimdOf a, SimdOf b) { return b <= a; }
+  friend SimdMask operator==(SimdOf a, SimdOf b) { return mask(hn::Eq(a.v, b.v)); }
+  friend SimdMask operator!=(SimdOf a, SimdOf b) { return mask(hn::Ne(a.v, b.v)); }
+  friend SimdOf select(SimdMask mask, SimdOf yes, SimdOf no) {
+    return hn::IfThenElse(hn::RebindMask(Tag(), mask.m), yes.v, no.v);
+  }
+  // x86's max and min: the second where either is NaN.
+  friend SimdOf greater_of(SimdOf a, SimdOf b) { return hn::Max(a.v, b.v); }
+  friend SimdOf lesser_of(SimdOf a, SimdOf b) { return hn::Min(a.v, b.v); }
+  friend hn::TFromD<Tag> greatest_lane(SimdOf of) { return hn::GetLane(hn::MaxOfLanes(Tag(), of.v)); }
+  friend void store(SimdOf of, hn::TFromD<Tag>* to) { hn::StoreU(of.v, Tag(), to); }
+  // Not by masked stores, which are slow on some machines: the tile is one thread's own.
+  friend void store(SimdMask mask, SimdOf of, hn::TFromD<Tag>* to) {
+    store(select(mask, of, hn::LoadU(Tag(), to)), to);
+  }
 };
+using Simd = SimdOf<hn::FixedTag<float, kWidth>>;
+using SimdInt = SimdOf<hn::FixedTag<std::int32_t, kWidth>>;
 
 /// Of doubles, in two halves.
 struct WideMask {
@@ -93,38 +119,10 @@ struct SimdWide {
   friend WideMask operator!=(SimdWide a, SimdWide b) { return {hn::Ne(a.low, b.low), hn::Ne(a.high, b.high)}; }
 };
 
-/// Integers of 32 bits: of pixels, codes, and edge functions counted from a tile (painter/simd_targets.h).
-struct SimdInt {
-  IntVector v;
-  SimdInt() = default;
-  SimdInt(IntVector of) : v(of) {}
-  SimdInt(std::int32_t of) : v(hn::Set(kInts, of)) {}
-  friend SimdInt operator+(SimdInt a, SimdInt b) { return hn::Add(a.v, b.v); }
-  friend SimdInt operator-(SimdInt a, SimdInt b) { return hn::Sub(a.v, b.v); }
-  friend SimdInt operator*(SimdInt a, SimdInt b) { return hn::Mul(a.v, b.v); }
-  friend SimdInt operator&(SimdInt a, SimdInt b) { return hn::And(a.v, b.v); }
-  friend SimdInt operator|(SimdInt a, SimdInt b) { return hn::Or(a.v, b.v); }
-  friend SimdInt operator^(SimdInt a, SimdInt b) { return hn::Xor(a.v, b.v); }
-  friend SimdMask operator<(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Lt(a.v, b.v))}; }
-  friend SimdMask operator>(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Gt(a.v, b.v))}; }
-  friend SimdMask operator<=(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Not(hn::Gt(a.v, b.v)))}; }
-  friend SimdMask operator>=(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Not(hn::Lt(a.v, b.v)))}; }
-  friend SimdMask operator==(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Eq(a.v, b.v))}; }
-  friend SimdMask operator!=(SimdInt a, SimdInt b) { return {hn::RebindMask(kFloats, hn::Ne(a.v, b.v))}; }
-};
-
-inline Simd select(SimdMask mask, Simd yes, Simd no) { return hn::IfThenElse(mask.m, yes.v, no.v); }
-inline Simd where(SimdMask mask, Simd value) { return hn::IfThenElseZero(mask.m, value.v); }
-inline SimdInt select(SimdMask mask, SimdInt yes, SimdInt no) {
-  return hn::IfThenElse(hn::RebindMask(kInts, mask.m), yes.v, no.v);
-}
 inline SimdWide select(WideMask mask, SimdWide yes, SimdWide no) {
   return {hn::IfThenElse(mask.low, yes.low, no.low), hn::IfThenElse(mask.high, yes.high, no.high)};
 }
 
-// x86's max and min: the second where either is NaN.
-inline Simd greater_of(Simd a, Simd b) { return hn::Max(a.v, b.v); }
-inline Simd lesser_of(Simd a, Simd b) { return hn::Min(a.v, b.v); }
 inline SimdWide greater_of(SimdWide a, SimdWide b) { return {hn::Max(a.low, b.low), hn::Max(a.high, b.high)}; }
 inline SimdWide lesser_of(SimdWide a, SimdWide b) { return {hn::Min(a.low, b.low), hn::Min(a.high, b.high)}; }
 
@@ -145,10 +143,6 @@ inline Simd to_float(SimdInt i) { return hn::ConvertTo(kFloats, i.v); }
 inline Simd round_even(Simd f) { return (f + 12582912.0f) - 12582912.0f; }
 inline SimdWide round_even(SimdWide w) { return (w + 6755399441055744.0) - 6755399441055744.0; }
 
-// Not by masked stores, which are slow on some machines: the tile is one thread's own.
-inline void store(SimdMask mask, Simd value, float* to) {
-  hn::StoreU(hn::IfThenElse(mask.m, value.v, hn::LoadU(kFloats, to)), kFloats, to);
-}
 inline void store(SimdMask mask, SimdInt value, std::uint8_t* to) {
   const SimdInt held = hn::PromoteTo(kInts, hn::LoadU(kBytes, to));
   hn::StoreU(hn::DemoteTo(kBytes, select(mask, value, held).v), kBytes, to);
@@ -161,22 +155,17 @@ inline SimdInt to_int(SimdWide w) {
 }
 
 inline Simd square_root(Simd f) { return hn::Sqrt(f.v); }
-inline void store(Simd value, float* to) { hn::StoreU(value.v, kFloats, to); }
-inline void store(SimdInt value, std::int32_t* to) { hn::StoreU(value.v, kInts, to); }
 inline void store(SimdWide value, double* to) {
   hn::StoreU(value.low, kDoubles, to);
   hn::StoreU(value.high, kDoubles, to + kHalf);
 }
 inline void store_codes(SimdInt value, std::uint8_t* to) { hn::StoreU(hn::DemoteTo(kBytes, value.v), kBytes, to); }
 inline void store_packed(SimdMask mask, SimdInt value, std::uint32_t* to) {
-  auto* ints = reinterpret_cast<std::int32_t*>(to);
-  hn::StoreU(select(mask, value, SimdInt(hn::LoadU(kInts, ints))).v, kInts, ints);
+  store(mask, value, reinterpret_cast<std::int32_t*>(to));
 }
 
 inline bool any(WideMask mask) { return !hn::AllFalse(kDoubles, mask.low) || !hn::AllFalse(kDoubles, mask.high); }
 inline bool all(WideMask mask) { return hn::AllTrue(kDoubles, mask.low) && hn::AllTrue(kDoubles, mask.high); }
-inline SimdInt greater_of(SimdInt a, SimdInt b) { return hn::Max(a.v, b.v); }
-inline SimdInt lesser_of(SimdInt a, SimdInt b) { return hn::Min(a.v, b.v); }
 template <int n>
 SimdInt shifted_left(SimdInt value) {
   return hn::ShiftLeft<n>(value.v);
@@ -237,12 +226,6 @@ inline SimdWide fused(SimdWide a, SimdWide b, SimdWide c) {
 }
 #endif
 
-inline float greatest_lane(Simd value) { return hn::GetLane(hn::MaxOfLanes(kFloats, value.v)); }
-inline int greatest_lane(SimdInt value) { return hn::GetLane(hn::MaxOfLanes(kInts, value.v)); }
-inline void load_threes(const float* from, Simd (&out)[3]) {
-  hn::LoadInterleaved3(kFloats, from, out[0].v, out[1].v, out[2].v);
-}
-
 inline SimdWide mantissa_of(SimdWide w) {
   const auto of = [](DoubleVector v) {
     const auto fraction = hn::And(hn::BitCast(kLongs, v), hn::Set(kLongs, 0xfffffffffffff));
@@ -278,6 +261,53 @@ FloatVector of_blocks(Block block) {
   }
 }
 
+inline Vec4<Simd> transposed(const Vec4<Simd>& in) {
+  const auto wide = [](FloatVector v) { return hn::BitCast(kDoubles, v); };
+  const auto low = hn::InterleaveLower(kFloats, in[0].v, in[1].v),
+             high = hn::InterleaveUpper(kFloats, in[0].v, in[1].v);
+  const auto low2 = hn::InterleaveLower(kFloats, in[2].v, in[3].v),
+             high2 = hn::InterleaveUpper(kFloats, in[2].v, in[3].v);
+  const auto pairs = [](auto of) { return Simd(hn::BitCast(kFloats, of)); };
+  return {pairs(hn::InterleaveLower(kDoubles, wide(low), wide(low2))),
+          pairs(hn::InterleaveUpper(kDoubles, wide(low), wide(low2))),
+          pairs(hn::InterleaveLower(kDoubles, wide(high), wide(high2))),
+          pairs(hn::InterleaveUpper(kDoubles, wide(high), wide(high2)))};
+}
+[[gnu::always_inline]] inline void store_fours(const Vec4<Simd>& values, float* const (&to)[kWidth]) {
+  const Vec4<Simd> rows = transposed(values);
+  for (int i = 0; i < 4; ++i) {
+    HWY_ALIGN float lanes[kWidth];
+    hn::Store(rows[i].v, kFloats, lanes);
+    for (int block = 0; block < kWidth; block += 4) {
+      hn::StoreU(hn::Load(kBlockFloats, lanes + block), kBlockFloats, to[block + i]);
+    }
+  }
+}
+// Of fours: a vector of doubles holds those of one lane, or half of them, or those of two lanes.
+inline constexpr hn::FixedTag<double, kHalf == 2 ? 2 : 4> kFourDoubles{};
+inline constexpr hn::FixedTag<float, kHalf == 2 ? 2 : 4> kFourFloats{};
+template <class Four>
+[[gnu::always_inline]] inline SimdWide row_of(int row, Four four) {
+  if constexpr (kHalf == 2) {
+    return {four(row, 0), four(row, 2)};
+  } else if constexpr (kHalf == 4) {
+    return {four(row, 0), four(row + 4, 0)};
+  } else {
+    return {hn::Combine(kDoubles, four(row + 4, 0), four(row, 0)),
+            hn::Combine(kDoubles, four(row + 12, 0), four(row + 8, 0))};
+  }
+}
+[[gnu::always_inline]] inline SimdWide row_of_fours(Simd, int row, auto at) {
+  return row_of(
+      row, [&](int lane, int first) { return hn::PromoteTo(kFourDoubles, hn::LoadU(kFourFloats, at(lane) + first)); });
+}
+[[gnu::always_inline]] inline SimdWide row_of_shares(Simd, int row, const double (&k)[kWidth]) {
+  return row_of(row, [&](int lane, int) { return hn::Set(kFourDoubles, k[lane]); });
+}
+[[gnu::always_inline]] inline Vec4<Simd> fours_of_rows(const SimdWide (&rows)[4]) {
+  return transposed({to_float(rows[0]), to_float(rows[1]), to_float(rows[2]), to_float(rows[3])});
+}
+
 struct LanesOfSimd {
   static constexpr int width = kWidth;
   using Wide = SimdWide;
@@ -290,6 +320,17 @@ struct LanesOfSimd {
   static Int load(const std::uint8_t* from) { return hn::PromoteTo(kInts, hn::LoadU(kBytes, from)); }
   static Simd load_row(const float* from) {
     return of_blocks([&](int lane) { return hn::LoadU(kBlockFloats, from + lane * kBlock); });
+  }
+  static Vec3<Simd> load_threes(const float* from) {
+    Vec3<Simd> out;
+    hn::LoadInterleaved3(kFloats, from, out.x.v, out.y.v, out.z.v);
+    return out;
+  }
+  [[gnu::always_inline]] static Vec4<Simd> load_fours(const float* const (&from)[kWidth]) {
+    const auto row = [&](int i) {
+      return of_blocks([&](int lane) { return hn::LoadU(kBlockFloats, from[lane + i]); });
+    };
+    return transposed({Simd(row(0)), Simd(row(1)), Simd(row(2)), Simd(row(3))});
   }
   static Mask mask_of(unsigned bits) {
     HWY_ALIGN static constexpr std::int32_t kBits[] = {1,   2,   4,    8,    16,   32,   64,    128,

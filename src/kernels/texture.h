@@ -118,11 +118,6 @@ template <class R>
   return {to_int(wrapped<Wide<R>>(wrap, i, size)), to_int(wrapped<Wide<R>>(wrap, i + 1.0, size))};
 }
 
-template <class R>
-Color<R> select(Mask<R> mask, const Color<R>& yes, const Color<R>& no) {
-  return by_channel(yes, no, [&](const R& a, const R& b) { return select(mask, a, b); });
-}
-
 /// A mean, 1 - k of `x` and k of `y`.
 template <class W>
 W mix(const W& x, const W& y, const W& k) {
@@ -214,12 +209,6 @@ template <class R, bool kBorder>
   const W right = row_of_shares(R(), row, taps.right), above = row_of_shares(R(), row, taps.above);
   return mix<W>(mix<W>(tap(0), tap(1), right), mix<W>(tap(2), tap(3), right), above);
 }
-template <class R>
-[[gnu::always_inline]] inline Color<R> color_of_rows(const Wide<R> (&rows)[4]) {
-  R of[4];
-  fours_of_rows(rows, of);
-  return {of[0], of[1], of[2], of[3]};
-}
 
 /// The level below lambda; whether it is mixed with the next, and how much of that.
 template <class R>
@@ -251,7 +240,7 @@ Color<R> mix_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, 
   find_taps<R>(t, first, linear, at, taps);
   Wide<R> low[4];
   for (int row = 0; row < 4; ++row) low[row] = texel_row<R, kBorder>(t, first, taps, linear, row);
-  if (!any(two)) return color_of_rows<R>(low);
+  if (!any(two)) return fours_of_rows(low);
   find_taps<R>(t, second, linear, at, taps);
   double share[Lanes<R>::width];
   store(k, share);
@@ -260,8 +249,8 @@ Color<R> mix_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, 
     const Wide<R> next = texel_row<R, kBorder>(t, second, taps, linear, row);
     mixed[row] = mix<Wide<R>>(low[row], next, row_of_shares(R(), row, share));
   }
-  const Color<R> color = color_of_rows<R>(mixed);
-  return all(two) ? color : select<R>(two, color, color_of_rows<R>(low));
+  const Color<R> color = fours_of_rows(mixed);
+  return all(two) ? color : select<R>(two, color, fours_of_rows(low));
 }
 template <class R>
 Color<R> sample_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const auto& first,

@@ -30,9 +30,8 @@ void cull_triangles(const CullWork& work, std::span<const glm::uvec3> corners, K
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
         from[lane] = reinterpret_cast<const float*>(&work.vertices[(&of_lane[lane].x)[k]].snapped);
       }
-      R four[4];
-      load_fours(from, four);
-      x[k] = as_int(four[0]), y[k] = as_int(four[1]);
+      const Vec4<R> four = Lanes<R>::load_fours(from);
+      x[k] = as_int(four.x), y[k] = as_int(four.y);
     }
     const I x_min = least(x), x_max = most(x), y_min = least(y), y_max = most(y);
     // Products of differences up to 2^22 (16384 pixels) are exact in double, and so is their difference.

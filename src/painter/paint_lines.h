@@ -12,7 +12,7 @@ namespace plumbline::pipeline {
 
 /// planes_of() a line (depth.cpp). Those of a line without length are not numbers, and it covers nothing.
 template <class R>
-[[gnu::always_inline]] inline CornerPlanes<Wide<R>> planes_of_lines(const R (&p_win)[3][4], glm::ivec2 tile) {
+[[gnu::always_inline]] inline CornerPlanes<Wide<R>> planes_of_lines(const Vec4<R> (&p_win)[3], glm::ivec2 tile) {
   using W = Wide<R>;
   const PlaneCorners<W> line =
       line_corners(to_wide(p_win[0][0]), to_wide(p_win[0][1]), to_wide(p_win[1][0]), to_wide(p_win[1][1]));

@@ -14,7 +14,7 @@ template <class R>
                                                    const R& alpha) {
   const R reciprocal = R(1) / sum;
   const Weights<R> k{q1 * reciprocal, q2 * reciprocal};
-  return {mixed(s, k, 0), mixed(s, k, 1), mixed(s, k, 2), alpha};
+  return {Vec3<R>(mixed<R>(s, k)), alpha};
 }
 
 /// Fragments of rgba8 and z24 that replace what is there where they are nearer. `kPlain`: LaneTriangles' of all lanes;
@@ -51,11 +51,11 @@ class PixelsOfLanes {
     if constexpr (kColors) {
       const R q1 = to_float(value(q1_)), q2 = to_float(value(q2_)), sum = to_float(value(sum_));
       if constexpr (kPlain) {
-        store(packed_merge_near(plain_color(attributes_, q1, q2, sum, attributes_.color0[3])), color_of_[i]);
+        store(packed_merge_near(plain_color(attributes_, q1, q2, sum, attributes_.color0.a)), color_of_[i]);
       } else {
         const Weights<R> k = weights<R>(q1, q2, sum);
         const Weights<R> known{select(constant_, R(0), k.k1), select(constant_, R(0), k.k2)};
-        store(packed_merge(mean<R>(attributes_, known)), color_of_[i]);
+        store(packed_merge(mixed<R>(attributes_, known)), color_of_[i]);
       }
     }
   }
@@ -78,7 +78,7 @@ class PixelsOfLanes {
   Affine<Wide<R>> code_, q1_, q2_, sum_;
   Mask<R> constant_;
   struct {
-    R color0[4], d_color1[4], d_color2[4];
+    Color<R> color0, d_color1, d_color2;
   } attributes_;  // AttributeSetup, of all lanes
   alignas(64) float z_of_[kMost][kLanes];
   alignas(64) std::int32_t color_of_[kMost][kLanes], place_of_[kMost][kLanes];

@@ -93,15 +93,14 @@ using CornersOfLanes = const PaintVertex* [3][Lanes<R>::width];
 
 template <class R>
 struct CornerLanes {
-  R p_win[3][4];
+  Vec4<R> p_win[3];
   Int<R> snapped_x[3], snapped_y[3];
 };
 template <class R>
-[[gnu::always_inline]] inline void load_corner(const PaintVertex* const (&corner)[Lanes<R>::width], auto member,
-                                               R (&four)[4]) {
+[[gnu::always_inline]] inline Vec4<R> load_corner(const PaintVertex* const (&corner)[Lanes<R>::width], auto member) {
   const float* from[Lanes<R>::width];
   for (int lane = 0; lane < Lanes<R>::width; ++lane) from[lane] = member(corner[lane]);
-  load_fours(from, four);
+  return Lanes<R>::load_fours(from);
 }
 template <class R>
 [[gnu::always_inline]] inline CornerLanes<R> load_corners(const CornersOfLanes<R>& corner) {
@@ -109,10 +108,9 @@ template <class R>
   const auto snapped = [](const PaintVertex* v) { return reinterpret_cast<const float*>(&v->snapped); };
   CornerLanes<R> out;
   for (int k = 0; k < 3; ++k) {
-    load_corner<R>(corner[k], p_win, out.p_win[k]);
-    R four[4];
-    load_corner<R>(corner[k], snapped, four);
-    out.snapped_x[k] = as_int(four[0]), out.snapped_y[k] = as_int(four[1]);
+    out.p_win[k] = load_corner<R>(corner[k], p_win);
+    const Vec4<R> four = load_corner<R>(corner[k], snapped);
+    out.snapped_x[k] = as_int(four.x), out.snapped_y[k] = as_int(four.y);
   }
   return out;
 }
@@ -122,23 +120,21 @@ template <class R, int kSampleCount>
 [[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat,
                                                     LaneTriangles<R, kSampleCount>& out) {
   const auto color_of = [](const PaintVertex* v) { return &v->color.r; };
-  R color[3][4];
-  for (int k = 0; k < 3; ++k) load_corner<R>(corner[flat ? 1 : k], color_of, color[k]);
+  Color<R> color[3];
+  for (int k = 0; k < 3; ++k) color[k] = load_corner<R>(corner[flat ? 1 : k], color_of);
+  const Color<R> d1 = color[1] - color[0], d2 = color[2] - color[0];
   Mask<R> constant = Lanes<R>::mask_of(~0u);
   for (int c = 0; c < 4; ++c) {
-    const R d1 = color[1][c] - color[0][c], d2 = color[2][c] - color[0][c];
-    constant = constant & (d1 == R(0)) & (d2 == R(0));
-    store(color[0][c], out.color[0][c]);
-    store(d1, out.color[1][c]);
-    store(d2, out.color[2][c]);
+    constant = constant & (d1[c] == R(0)) & (d2[c] == R(0));
+    store(color[0][c], out.color[0][c]), store(d1[c], out.color[1][c]), store(d2[c], out.color[2][c]);
   }
   store(select(constant, Int<R>(1), Int<R>(0)), out.constant_colors);
-  return (color[1][3] == color[0][3]) & (color[2][3] == color[0][3]);
+  return (color[1].a == color[0].a) & (color[2].a == color[0].a);
 }
 
 /// Planes of depth at each sample, and of the colours' weights, which are the centre's.
 template <class R, int kSampleCount>
-[[gnu::always_inline]] inline void set_up_planes(const CornerPlanes<Wide<R>>& planes, const R (&p_win)[3][4],
+[[gnu::always_inline]] inline void set_up_planes(const CornerPlanes<Wide<R>>& planes, const Vec4<R> (&p_win)[3],
                                                  const Painting& painting, LaneTriangles<R, kSampleCount>& out) {
   using W = Wide<R>;
   const auto through_corners = [&](int coordinate, double unit) {

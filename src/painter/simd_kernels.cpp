@@ -1,7 +1,7 @@
 // Compiled once for each target (src/CMakeLists.txt).
 #include "painter/simd_targets.h"
 
-#include "kernels/simd_fours.h"
+#include "kernels/simd.h"
 
 #include "painter/cull_lanes.h"
 #include "painter/paint_tile.h"

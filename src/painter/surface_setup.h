@@ -15,7 +15,7 @@ struct SurfaceSetup {
   GradientSetup gradients;  ///< of the texture coordinates, where there is a texture
 };
 
-/// Every varying by the same weights; of texture coordinates s and t alone; and the texel. `of`: the triangle's anchor,
+/// Every varying by the same weights, and the texel. `of`: the triangle's anchor,
 /// perspective and attributes.
 template <class R>
 [[gnu::always_inline]] inline SurfaceAttributes<R> surface_attributes(const auto& of, const SurfaceSetup& s,
@@ -25,8 +25,7 @@ template <class R>
   const Weights<R> k = weights<R>(of.perspective, at);
   out.color = mean<R>(of.attributes, k);
   for (const Varying v : s.surface->carried) {
-    const AttributeSetup& setup = s.varyings[static_cast<std::size_t>(v)];
-    out[v] = v != Varying::texture ? mean<R>(setup, k) : mean<R, 2>(setup, k);
+    out[v] = mean<R>(s.varyings[static_cast<std::size_t>(v)], k);
   }
   if (s.surface->texture) {
     const Color<R>& st = out[Varying::texture];

@@ -104,8 +104,9 @@ void Recorder::triangle(const WindowTriangle& t, const std::array<Attributes, 3>
 void Recorder::fragment(const Fragment& f) {
   if (out_ == nullptr) return;
   const int x = f.pixel.x, y = f.pixel.y;
-  const Texel<double> texel =
-      draw_->texture ? Texel<double>{Vec4<double>(f.attributes->texel.color), f.attributes->texel.lod} : Texel<double>{};
+  const Texel<double> texel = draw_->texture
+                                  ? Texel<double>{Vec4<double>(f.attributes->texel.color), f.attributes->texel.lod}
+                                  : Texel<double>{};
   Planes& planes = out_->planes;
   ++planes.count(x, y);
   planes.id_sum(x, y) += id_weight(primitive_);

@@ -179,7 +179,8 @@ class OneStage {
   SurfaceAttributes<float> recorded_attributes(std::size_t i, const Surface& surface) const {
     SurfaceAttributes<float> out{Color<float>(records_.attributes[i].color), {}, {}};
     for (const Varying v : surface.carried) out[v] = Color<float>(records_.varyings[v].fragments[i]);
-    if (surface.texture) out.texel = {Color<float>(records_.texels[i].color), static_cast<float>(records_.texels[i].lod)};
+    if (surface.texture)
+      out.texel = {Color<float>(records_.texels[i].color), static_cast<float>(records_.texels[i].lod)};
     return out;
   }
 

@@ -1,7 +1,7 @@
 // Compiled once for each SIMD target (tests/CMakeLists.txt).
 #include "tests/painter/lanes_kernels.h"
 
-#include "kernels/simd_fours.h"
+#include "kernels/simd.h"
 
 #define PLUMBLINE_JOIN(a, b) a##b
 #define PLUMBLINE_NAME(a, b) PLUMBLINE_JOIN(a, b)
