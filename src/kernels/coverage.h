@@ -79,6 +79,17 @@ void visit_line_or_point(const WindowTriangle& line_or_point, glm::ivec2 origin,
   });
 }
 
+/// The box's pixels that are also the frame's.
+PixelBounds scissored(const Scissor& box, const PixelBounds& frame);
+
+/// Those within `box`, row by row from the bottom, from left to right.
+std::vector<glm::ivec2> covered_pixels(const WindowTriangle& triangle, const PixelBounds& box);
+/// The same of a triangle by other edges, or by other bounds.
+std::vector<glm::ivec2> covered_pixels(const Edges& edges, const PixelBounds& bounds, const PixelBounds& box);
+
+/// The frame's pixels.
+PixelBounds bounds_of(const FrameFormat& frame);
+
 template <class R>
 Mask<R> coverage(const Edges& e, const Pixels<R>& p) {
   const Int<R> e0 = e.at_origin[0] + e.step_x[0] * p.x + e.step_y[0] * p.y;

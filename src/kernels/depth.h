@@ -59,21 +59,17 @@ template <class R>
 PlaneCorners<Wide<R>> plane_corners(const R (&x_win)[3], const R (&y_win)[3], const Int<R> (&snapped_x)[3],
                                     const Int<R> (&snapped_y)[3], const Wide<R>& facing) {
   using W = Wide<R>;
-  const W x[3] = {to_wide(x_win[0]), to_wide(x_win[1]), to_wide(x_win[2])};
-  const W y[3] = {to_wide(y_win[0]), to_wide(y_win[1]), to_wide(y_win[2])};
-  PlaneCorners<W> out = plane_corners<W>(x, y);
-  const auto usable = out.twice_area * facing > W(0);
-  if (all(usable)) return out;
+  W x[3] = {to_wide(x_win[0]), to_wide(x_win[1]), to_wide(x_win[2])};
+  W y[3] = {to_wide(y_win[0]), to_wide(y_win[1]), to_wide(y_win[2])};
+  const PlaneCorners<W> unsnapped = plane_corners<W>(x, y);
+  const auto usable = unsnapped.twice_area * facing > W(0);
+  if (all(usable)) return unsnapped;
   const auto place = [](const Int<R>& snapped) { return to_wide(snapped) * W(1.0 / 256.0) + W(0.5); };
-  const W snapped_corner_x[3] = {place(snapped_x[0]), place(snapped_x[1]), place(snapped_x[2])};
-  const W snapped_corner_y[3] = {place(snapped_y[0]), place(snapped_y[1]), place(snapped_y[2])};
-  const PlaneCorners<W> other = plane_corners<W>(snapped_corner_x, snapped_corner_y);
-  const auto of = [&](auto member) { out.*member = select(usable, out.*member, other.*member); };
-  of(&PlaneCorners<W>::p0_x), of(&PlaneCorners<W>::p0_y);
-  of(&PlaneCorners<W>::d1_x), of(&PlaneCorners<W>::d1_y);
-  of(&PlaneCorners<W>::d2_x), of(&PlaneCorners<W>::d2_y);
-  of(&PlaneCorners<W>::twice_area);
-  return out;
+  for (int k = 0; k < 3; ++k) {
+    x[k] = select(usable, x[k], place(snapped_x[k]));
+    y[k] = select(usable, y[k], place(snapped_y[k]));
+  }
+  return plane_corners<W>(x, y);
 }
 
 /// What a triangle's planes are made of, and its barycentric coordinates l1 and l2 (l0 = 1 - l1 - l2).

@@ -40,17 +40,13 @@ ColoredMaterial colored_material(const Scene& scene, const Draw& draw, LitPart p
           follows(&Material::diffuse), follows(&Material::specular)};
 }
 
-Reflectance<float> reflectance(const Scene& scene, const Material& material) {
-  return reflectance<float>(scene, {material}, {});
-}
-
 FragmentLight fragment_light(const Scene& scene, const Draw& draw, Lights lights) {
   FragmentLight out{&scene, false, illumination(scene, lights), {}, {}};
   out.by_color = draw.color_material != ColorMaterial::none && !scene.meshes[draw.mesh].colors.empty();
   for (const bool back : {false, true}) {
     for (const bool secondary : {false, true}) {
       out.material[back][secondary] = colored_material(scene, draw, {back, secondary});
-      out.reflectance[back][secondary] = reflectance(scene, out.material[back][secondary].own);
+      out.reflectance[back][secondary] = reflectance<float>(scene, {out.material[back][secondary].own}, {});
     }
   }
   return out;

@@ -53,6 +53,7 @@ struct Reflectance {
   float shininess;
   R alpha;
 };
+/// `color`: of what of the material it stands for.
 template <class R>
 Reflectance<R> reflectance(const Scene& scene, const ColoredMaterial& material, const Color<R>& color) {
   const Material& own = material.own;
@@ -69,8 +70,6 @@ Reflectance<R> reflectance(const Scene& scene, const ColoredMaterial& material, 
   }
   return out;
 }
-/// Of a material alone.
-Reflectance<float> reflectance(const Scene& scene, const Material& material);
 
 /// N.L, and the cosine whose power the highlight is; 0 where the light does not reach.
 template <class R>

@@ -23,7 +23,18 @@ struct Surface {
   const void* program = nullptr;  ///< a user's fragment program (program.h)
 };
 /// `lights`: stage 0's.
-Surface surface_of(const Scene& scene, const Draw& draw, Lights lights);
+inline Surface surface_of(const Scene& scene, const Draw& draw, Lights lights) {
+  Surface surface{&scene, &draw, {}, {}, {}};
+  if (draw.texture) {
+    const Texture& texture = scene.textures.at(draw.texture->texture);
+    surface.texture = texture_setup(texture, texture.sampler);
+  }
+  if (is_lit_per_fragment(draw)) surface.light = fragment_light(scene, draw, lights);
+  for (const Varying v : kAllVaryings) {
+    if (!is_back(v) && carries(scene, draw, v)) surface.carried.push_back(v);
+  }
+  return surface;
+}
 
 /// A fragment's attributes, zero where the surface does not carry one; and its texel, where there is a texture.
 template <class R>

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <bit>
+#include <type_traits>
 
 #include "kernels/attributes.h"
 #include "kernels/lanes.h"
@@ -144,29 +145,17 @@ W bounded(const W& u) {
 template <class R>
 struct Taps {
   static constexpr int kLanes = Lanes<R>::width;
-  std::int32_t twice[4][kLanes];  ///< their numbers', for machines scale an address by up to 8; below 0: the border
-  std::int32_t level[kLanes];     ///< unless all have one
+  const glm::vec4* texels[kLanes];  ///< of the level
+  std::int32_t twice[4][kLanes];    ///< their numbers', for machines scale an address by up to 8; below 0: the border
   double right[kLanes], above[kLanes];
 };
-inline void keep_level(int, std::int32_t*) {}
-template <class R>
-void keep_level(const R& level, std::int32_t* to) {
-  store(to_int(level), to);
-}
-template <class R>
-int level_of(int level, const Taps<R>&, int) {
-  return level;
-}
-template <class R>
-int level_of(const R&, const Taps<R>& taps, int lane) {
-  return taps.level[lane];
-}
 /// `level`: one number, or each lane's.
-template <class R>
-[[gnu::always_inline]] inline void find_taps(const TextureSetup& t, const auto& level, bool linear,
+template <class R, class Level>
+[[gnu::always_inline]] inline void find_taps(const TextureSetup& t, const Level& level, bool linear,
                                              const TexCoords<R>& at, Taps<R>& out) {
   using W = Wide<R>;
   using I = Int<R>;
+  constexpr int kLanes = Lanes<R>::width;
   const TextureLevel& image = t.texture->levels[0];
   const Wrap wrap_s = t.sampler.wrap_s, wrap_t = t.sampler.wrap_t;
   const W shift(linear ? 0.5 : 0.0);
@@ -179,30 +168,33 @@ template <class R>
   const W u = place(wrap_s, at.s, width), v = place(wrap_t, at.t, height), i = floor_of(u), j = floor_of(v);
   const auto [x, right] = texel_numbers<R>(wrap_s, i, width, halves(image.width));
   const auto [y, above] = texel_numbers<R>(wrap_t, j, height, halves(image.height));
-  const I none(0), row = y * to_int(width), next_row = above * to_int(width);
-  const auto find = [&](const I& column, const I& row_number, const I& first, std::int32_t* to) {
-    const I number = shifted_left<1>(first + column);
-    store(t.has_border ? select((column < none) | (row_number < none), I(-1), number) : number, to);
+  if constexpr (std::is_same_v<Level, int>) {
+    std::fill_n(out.texels, kLanes, t.texels[static_cast<std::size_t>(level)]);
+  } else {
+    std::int32_t levels[kLanes];
+    store(to_int(level), levels);
+    for (int lane = 0; lane < kLanes; ++lane) out.texels[lane] = t.texels[static_cast<std::size_t>(levels[lane])];
+  }
+  const auto find = [&](const I& column, const I& row, std::int32_t* to) {
+    const I none(0), number = shifted_left<1>(row * to_int(width) + column);
+    store(t.has_border ? select((column < none) | (row < none), I(-1), number) : number, to);
   };
-  keep_level(level, out.level);
-  find(x, y, row, out.twice[0]);
-  find(right, y, row, out.twice[1]);
-  find(x, above, next_row, out.twice[2]);
-  find(right, above, next_row, out.twice[3]);
+  find(x, y, out.twice[0]);
+  find(right, y, out.twice[1]);
+  find(x, above, out.twice[2]);
+  find(right, above, out.twice[3]);
   store(u - i, out.right);
   store(v - j, out.above);
 }
 
 /// Of the taps' mean by area, or of their first, a row.
 template <class R, bool kBorder>
-[[gnu::always_inline]] inline Wide<R> texel_row(const TextureSetup& t, const auto& level, const Taps<R>& taps,
-                                                bool linear, int row) {
+[[gnu::always_inline]] inline Wide<R> texel_row(const TextureSetup& t, const Taps<R>& taps, bool linear, int row) {
   using W = Wide<R>;
   const auto tap = [&](int i) {
     return row_of_fours(R(), row, [&](int lane) {
-      const glm::vec4* texels = t.texels[static_cast<std::size_t>(level_of<R>(level, taps, lane))];
       const std::ptrdiff_t twice = taps.twice[i][lane];
-      return kBorder && twice < 0 ? &t.border.r : reinterpret_cast<const float*>(texels) + 2 * twice;
+      return kBorder && twice < 0 ? &t.border.r : reinterpret_cast<const float*>(taps.texels[lane]) + 2 * twice;
     });
   };
   if (!linear) return tap(0);
@@ -233,25 +225,25 @@ Levels<R> levels(const TextureSetup& t, R lod) {
 }
 
 /// Of the first level and, where `two`, the second, whose share is k; linear or nearest. Rounded once.
-template <class R, bool kBorder>
-Color<R> mix_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const auto& first, const auto& second,
+template <class R, bool kBorder, class Level>
+Color<R> mix_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const Level& first, const Level& second,
                     const Mask<R>& two, const Wide<R>& k) {
   Taps<R> taps;
   find_taps<R>(t, first, linear, at, taps);
   Wide<R> low[4];
-  for (int row = 0; row < 4; ++row) low[row] = texel_row<R, kBorder>(t, first, taps, linear, row);
+  for (int row = 0; row < 4; ++row) low[row] = texel_row<R, kBorder>(t, taps, linear, row);
   if (!any(two)) return fours_of_rows(low);
   find_taps<R>(t, second, linear, at, taps);
   double share[Lanes<R>::width];
   store(k, share);
   Wide<R> mixed[4];
   for (int row = 0; row < 4; ++row) {
-    const Wide<R> next = texel_row<R, kBorder>(t, second, taps, linear, row);
-    mixed[row] = mix<Wide<R>>(low[row], next, row_of_shares(R(), row, share));
+    mixed[row] = mix<Wide<R>>(low[row], texel_row<R, kBorder>(t, taps, linear, row), row_of_shares(R(), row, share));
   }
   const Color<R> color = fours_of_rows(mixed);
   return all(two) ? color : select<R>(two, color, fours_of_rows(low));
 }
+
 template <class R>
 Color<R> sample_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const auto& first,
                        const auto& second, const Mask<R>& two, const Wide<R>& k) {

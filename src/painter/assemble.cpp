@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "scene/antialias.h"
@@ -17,16 +18,12 @@ class Assembler {
     chunk.draws.clear();
     chunk.count = 0;
     chunk.any_long_edge = false;
-    least_ = most_ = painting.samples[0];
-    for (const glm::ivec2& sample : painting.samples) {
-      least_ = glm::min(least_, sample);
-      most_ = glm::max(most_, sample);
-    }
+    std::tie(least_, most_) = painting.sample_bounds();
   }
 
   void reserve(std::size_t more) {
-    triangles_ = chunk_.triangles.of(chunk_.count + more, chunk_.count);
-    boxes_ = chunk_.boxes.of(chunk_.count + more, chunk_.count);
+    triangles_ = room_for(chunk_.count + more, chunk_.triangles);
+    boxes_ = room_for(chunk_.count + more, chunk_.boxes);
   }
 
   // As add_polygon() (window.cpp) has it, of a polygon of three corners, a line or a point.
@@ -51,11 +48,8 @@ class Assembler {
     }
   }
 
-  CullWork cull_work(const AssemblyWork& of) const {
-    return {vertices_ + of.first_vertex, of.draw->cull, least_, most_, painting_.format.width, painting_.format.height};
-  }
   void add_kept(const AssemblyWork& of, const glm::uvec3& v, const KeptTriangle& kept) {
-    const std::uint32_t first = of.first_vertex;
+    const std::uint32_t first = of.range.first_vertex;
     triangles_[chunk_.count] = {{first + v[1], first + v[2], first + v[0]}, kept.kept == Kept::front, 3, 1};
     boxes_[chunk_.count] = kept.box;
     chunk_.count += kept.kept != Kept::none;  // without a branch
@@ -89,7 +83,7 @@ class Assembler {
     if (sum > std::numeric_limits<std::uint32_t>::max()) {
       throw std::length_error("triangles that touch more tiles together than 2^32");
     }
-    std::uint32_t* numbers = chunk_.numbers.of(sum);
+    std::uint32_t* numbers = room_for(sum, chunk_.numbers);
     for (std::uint32_t n = 0; n < chunk_.count; ++n) {
       each_tile(boxes_[n], [&](std::uint32_t& next) { numbers[next++] = n; });
     }
@@ -182,11 +176,11 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTria
       KeptTriangle kept[kMost];
       for (std::size_t from = 0; from < corners.size(); from += kMost) {
         const auto some = corners.subspan(from, std::min(kMost, corners.size() - from));
-        cull(to.cull_work(work), some, kept);
+        cull(painting, work, some, kept);
         each_inside(from, from + some.size(), [&](std::size_t i) { to.add_kept(work, corners[i], kept[i - from]); });
       }
     } else if (work.outside != nullptr) {
-      const std::uint32_t first = work.first_vertex;
+      const std::uint32_t first = work.range.first_vertex;
       each_inside(0, corners.size(), [&](std::size_t i) {
         const glm::uvec3 v = first + corners[i];
         to.add_primitive(*work.draw, work.mesh->topology, {v[0], v[1], v[2]});

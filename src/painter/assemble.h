@@ -5,35 +5,28 @@
 
 namespace plumbline::pipeline {
 
-/// What of a draw its triangles are assembled from.
+/// Per-draw input of triangle assembly.
 struct AssemblyWork {
   const Draw* draw;
   const Mesh* mesh;
   DrawRange range;
-  std::uint8_t planes;  ///< bits of those that cut (clip.h)
-  std::uint32_t first_vertex;
+  std::uint8_t planes;          ///< outcode bits of the planes that cut (clip.h)
   const std::uint8_t* outside;  ///< null: its window triangles are all in `others`
-  std::uint8_t any_outside;     ///< what is so of any of the vertices
+  std::uint8_t any_outside;     ///< OR of `outside[]` over the draw's vertices
 
   bool all_inside() const { return (any_outside & (planes | kNotFinite | kNotDrawable)) == 0; }
 };
 
-/// What is the same for all filled triangles of a draw.
-struct CullWork {
-  const PaintVertex* vertices;  ///< the mesh's
-  Cull cull;
-  glm::ivec2 least, most;  ///< of the samples' places
-  int width, height;       ///< of the frame
-};
 /// Drawn face of a triangle.
 enum class Kept : std::int32_t { none, back, front };
 struct KeptTriangle {
   Kept kept;
   TileBox box;
 };
-/// One for each of `corners`, the vertices' numbers in the mesh. Triangles with a corner outside the view volume get any
+/// One for each of `corners`, numbers of the mesh's vertices, of a draw of filled triangles. Triangles with a corner outside the view volume get any
 /// (cull_lanes.h).
-using CullTriangles = void (*)(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to);
+using CullTriangles = void (*)(const Painting& painting, const AssemblyWork& draw, std::span<const glm::uvec3> corners,
+                               KeptTriangle* to);
 
 /// Window triangles that came another way (scalar_geometry.h), by primitive: clipped ones, lines, points.
 struct OtherTriangles {

@@ -11,10 +11,13 @@
 namespace plumbline::pipeline {
 
 template <class R>
-void cull_triangles(const CullWork& work, std::span<const glm::uvec3> corners, KeptTriangle* to) {
+void cull_triangles(const Painting& painting, const AssemblyWork& work, std::span<const glm::uvec3> corners,
+                    KeptTriangle* to) {
   using I = Int<R>;
   constexpr std::size_t kLanes = Lanes<R>::width;
   const std::size_t count = corners.size();
+  const PaintVertex* const vertices = painting.vertices + work.range.first_vertex;
+  const auto [low_sample, high_sample] = painting.sample_bounds();
   const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
   const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
   glm::uvec3 last[kLanes];  // lanes that are too many do as the last one
@@ -28,7 +31,7 @@ void cull_triangles(const CullWork& work, std::span<const glm::uvec3> corners, K
     for (int k = 0; k < 3; ++k) {
       const float* from[kLanes];
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        from[lane] = reinterpret_cast<const float*>(&work.vertices[(&of_lane[lane].x)[k]].snapped);
+        from[lane] = reinterpret_cast<const float*>(&vertices[(&of_lane[lane].x)[k]].snapped);
       }
       const Vec4<R> four = Lanes<R>::load_fours(from);
       x[k] = as_int(four.x), y[k] = as_int(four.y);
@@ -39,13 +42,13 @@ void cull_triangles(const CullWork& work, std::span<const glm::uvec3> corners, K
     const Mask<R> front = area > R(0), back = area < R(0);
     // The pixels whose centres the box holds (coverage.h, pixel_bounds).
     const auto up = [](I snapped) { return shifted_right<8>(snapped + I(kSubpixel - 1)); };
-    const I x0 = greater_of(up(x_min - I(work.most.x)), I(0)), y0 = greater_of(up(y_min - I(work.most.y)), I(0));
-    const I x1 = lesser_of(shifted_right<8>(x_max - I(work.least.x)), I(work.width - 1)),
-            y1 = lesser_of(shifted_right<8>(y_max - I(work.least.y)), I(work.height - 1));
+    const I x0 = greater_of(up(x_min - I(high_sample.x)), I(0)), y0 = greater_of(up(y_min - I(high_sample.y)), I(0));
+    const I x1 = lesser_of(shifted_right<8>(x_max - I(low_sample.x)), I(painting.format.width - 1)),
+            y1 = lesser_of(shifted_right<8>(y_max - I(low_sample.y)), I(painting.format.height - 1));
     const Mask<R> drawn = (x0 <= x1) & (y0 <= y1);
     I kept(0);
-    if (work.cull != Cull::back) kept = select(drawn & back, I(static_cast<int>(Kept::back)), kept);
-    if (work.cull != Cull::front) kept = select(drawn & front, I(static_cast<int>(Kept::front)), kept);
+    if (work.draw->cull != Cull::back) kept = select(drawn & back, I(static_cast<int>(Kept::back)), kept);
+    if (work.draw->cull != Cull::front) kept = select(drawn & front, I(static_cast<int>(Kept::front)), kept);
     alignas(64) std::int32_t kept_of[kLanes], box_of[kLanes];
     store(kept, kept_of);
     const I low = shifted_right<6>(x0) | shifted_left<8>(shifted_right<6>(y0));

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "kernels/coverage.h"
-#include "kernels/fragment_tests.h"
+#include "kernels/visibility.h"
 #include "painter/surface_setup.h"
 #include "painter/tile.h"
 

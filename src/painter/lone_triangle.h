@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "kernels/coverage.h"
 #include "painter/painting.h"
-#include "pipeline/coverage.h"
-#include "pipeline/triangle_setup.h"
+#include "pipeline/fragment.h"
 
 namespace plumbline::pipeline {
 

@@ -7,6 +7,7 @@
 #include "kernels/line_diamond.h"
 #include "painter/lone_triangle.h"
 #include "painter/paint_pixels.h"
+#include "painter/visit_covered.h"
 
 namespace plumbline::pipeline {
 
@@ -25,50 +26,37 @@ template <class R>
 template <class R>
 void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile) {
   using I = Int<R>;
-  constexpr std::size_t kLanes = Lanes<R>::width;
-  const bool flat = painting.draws[run.draw].flat();
+  constexpr int kLanes = Lanes<R>::width;
+  const PaintDraw& draw = painting.draws[run.draw];
   const glm::i64vec2 origin = std::int64_t{kSubpixel} * glm::i64vec2(tile.x0, tile.y0);
-  LaneTriangles<R> lanes;
+  LanesOfRun<R, 1> lines(painting, run, false, tile.x0, tile.y0);
   alignas(64) std::int32_t pixel_of[kTile][kLanes] = {};  // x + kTile y; behind a line's last, whichever were there
-  for (std::size_t i = 0; i < run.numbers.size(); i += kLanes) {
-    const std::size_t count = std::min(kLanes, run.numbers.size() - i);
-    const auto line = [&](std::size_t lane) -> const PaintTriangle& {  // lanes that are too many do as the last
-      return run.triangles[run.numbers[i + std::min(lane, count - 1)]];
-    };
-    const PaintVertex* corner[3][kLanes];
+  while (lines.next()) {
     bool all_fit = true;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const PaintTriangle& t = line(lane);
-      corner[0][lane] = corner[2][lane] = painting.vertices + t.corner[0];
-      corner[1][lane] = painting.vertices + t.corner[1];
-      all_fit &= t.width == 1;
-    }
+    for (int lane = 0; lane < lines.count; ++lane) all_fit &= lines.triangle(lane).width == 1;
     if (!all_fit) {
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        paint_alone(painting, painting.draws[run.draw], line(lane), tile);
-      }
+      for (int lane = 0; lane < lines.count; ++lane) paint_alone(painting, draw, lines.triangle(lane), tile);
       continue;
     }
     int pixels[kLanes] = {}, most = 0;
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const auto end = [&](int k) { return glm::i64vec2(corner[k][lane]->snapped) - origin; };
+    for (int lane = 0; lane < lines.count; ++lane) {
+      const auto end = [&](int k) { return glm::i64vec2(lines.corner[k][lane]->snapped) - origin; };
       int& n = pixels[lane];
       raster::visit_diamond_exit_line(end(0), end(1), glm::ivec2(kTile),
                                       [&](glm::ivec2 p) { pixel_of[n++][lane] = p.x + kTile * p.y; });
       most = std::max(most, n);
     }
     if (most == 0) continue;
-    const CornerLanes<R> corners = load_corners<R>(corner);
-    set_up_colors<R>(corner, flat, lanes);
-    set_up_planes<R>(planes_of_lines<R>(corners.p_win, {tile.x0, tile.y0}), corners.p_win, painting, lanes);
-    PixelsOfLanes<R, true, false, kTile> values(lanes, 0);
+    std::copy_n(lines.corner[0], kLanes, lines.corner[2]);
+    const CornerLanes<R> corners = load_corners<R>(lines.corner);
+    set_up_colors<R>(lines.corner, draw.flat(), lines.lanes);
+    set_up_planes<R>(planes_of_lines<R>(corners.p_win, {tile.x0, tile.y0}), corners.p_win, painting, lines.lanes);
+    PixelsOfLanes<R, true, false, kTile> values(lines.lanes, 0);
     for (int k = 0; k < most; ++k) {
       const I pixel = Lanes<R>::load(pixel_of[k]);
       values.work_out(k, pixel & I(kTile - 1), shifted_right<6>(pixel));
     }
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      values.paint(static_cast<int>(lane), pixels[lane], false, 0, tile);
-    }
+    for (int lane = 0; lane < lines.count; ++lane) values.paint(lane, pixels[lane], false, 0, tile);
   }
 }
 

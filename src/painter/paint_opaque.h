@@ -33,6 +33,7 @@ class OpaqueRun {
 
   void paint() {
     while (lanes_.next()) {
+      lanes_.set_up();
       if (lanes_.all_fit() && paint_together()) continue;
       for (int lane = 0; lane < lanes_.count; ++lane) {
         if (lanes_.fits(lane)) {

@@ -41,6 +41,7 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
     });
   };
   while (lanes.next()) {
+    lanes.set_up();
     for (int lane = 0; lane < lanes.count; ++lane) {
       const PaintTriangle& t = lanes.triangle(lane);
       lanes.fits(lane) ? paint_lane(t, lane) : paint_alone(painting, draw, t, tile);

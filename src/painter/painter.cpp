@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <optional>
+#include <tuple>
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -62,12 +61,26 @@ bool takes_samples(const FrameFormat& frame) {
          frame.stencil == StencilFormat::none;
 }
 
-bool same_planes(const FrameFormat& a, const FrameFormat& b) {
-  return a.width == b.width && a.height == b.height && a.color == b.color && a.depth == b.depth &&
-         (a.stencil == StencilFormat::none) == (b.stencil == StencilFormat::none);
-}
-
 }  // namespace
+
+// Frames that are kept while scenes have the same planes.
+class KeptFrames {
+ public:
+  std::vector<Frame>& of(const FrameFormat& format, std::size_t count) {
+    const auto planes =
+        std::tuple(format.width, format.height, format.color, format.depth, format.stencil == StencilFormat::none);
+    if (frames_.size() != count || planes_ != planes || frames_[0].empty()) {
+      frames_.clear();  // should there be no memory, none are left that are of another format
+      frames_.assign(count, Frame(format));
+      planes_ = planes;
+    }
+    return frames_;
+  }
+
+ private:
+  std::vector<Frame> frames_;
+  std::tuple<int, int, ColorFormat, DepthFormat, bool> planes_;
+};
 
 struct Painter::Memory {
   static constexpr int kMostThreads = 256;
@@ -118,17 +131,14 @@ struct Painter::Memory {
   OtherTriangles others;
   ScalarGeometry other_geometry;
   std::vector<Chunk> chunks;
-  Scratch<PaintVertex> vertices;
-  Scratch<std::uint8_t> outside;
+  std::vector<PaintVertex> vertices;
+  std::vector<std::uint8_t> outside;
   std::vector<Varying> carried_varyings;  // by any draw's fragments
-  std::array<Scratch<Vec4<float>>, kVaryings> varyings;
+  std::array<std::vector<Vec4<float>>, kVaryings> varyings;
   std::size_t vertex_count = 0;
 
-  std::optional<FrameFormat> format;
-  std::unique_ptr<Frame> frame;
+  KeptFrames frame, passes;
   Scene pass;
-  FrameFormat pass_format;
-  std::vector<Frame> passes;
 };
 
 void Painter::Memory::prepare(const Scene& scene) {
@@ -161,11 +171,11 @@ void Painter::Memory::run_vertices(const Scene& scene) {
   shares.clear();
   assembly.clear();
   vertex_count = ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count;
-  PaintVertex* to = vertices.of(vertex_count);
-  std::uint8_t* outside_of = outside.of(vertex_count);
+  PaintVertex* to = room_for(vertex_count, vertices);
+  std::uint8_t* outside_of = room_for(vertex_count, outside);
   carried(scene, carried_varyings);
   std::erase_if(carried_varyings, is_back);
-  for (const Varying v : carried_varyings) varyings[static_cast<std::size_t>(v)].of(vertex_count);
+  for (const Varying v : carried_varyings) room_for(vertex_count, varyings[static_cast<std::size_t>(v)]);
   constexpr std::size_t kShare = 2048;
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const Draw& draw = scene.draws[d];
@@ -173,21 +183,19 @@ void Painter::Memory::run_vertices(const Scene& scene) {
     const DrawRange& range = ranges[d];
     const unsigned planes = scene.depth_clamp ? 0xfu : 0x3fu;
     const bool in_lanes = goes_in_lanes(scene, draw);
-    assembly.push_back({&draw, &mesh, range, static_cast<std::uint8_t>(planes), range.first_vertex,
+    assembly.push_back({&draw, &mesh, range, static_cast<std::uint8_t>(planes),
                         in_lanes ? outside_of + range.first_vertex : nullptr, 0});
     VertexWork work{};
     work.mesh = &mesh;
     work.matrices = matrices(scene, draw);
     work.to_clip = clip_matrix(work.matrices);
-    const Vec3<float>& third = work.matrices.normal[2];
     work.normal_divisor = draw.normals == Normals::normalize ? 0.0f
-                          : draw.normals == Normals::rescale
-                              ? std::sqrt((third.x * third.x + third.y * third.y) + third.z * third.z)
-                              : 1.0f;
+                          : draw.normals == Normals::rescale ? length(work.matrices.normal[2])
+                                                             : 1.0f;
     if (is_lit_per_vertex(draw)) {
       work.illumination = &illumination;
-      work.reflectance = reflectance(scene, lit_material(scene, draw, {}, nullptr));
-      work.secondary = reflectance(scene, lit_material(scene, draw, {false, true}, nullptr));
+      work.reflectance = reflectance<float>(scene, {lit_material(scene, draw, {}, nullptr)}, {});
+      work.secondary = reflectance<float>(scene, {lit_material(scene, draw, {false, true}, nullptr)}, {});
     }
     work.color = glm::clamp(draw.material.diffuse, 0.0f, 1.0f);
     work.wants_normals = is_lit_per_vertex(draw) || carries(scene, draw, Varying::normal);
@@ -215,13 +223,13 @@ void Painter::Memory::run_others(const Scene& scene) {
   others = {triangles, static_cast<std::uint32_t>(vertex_count)};
   if (triangles.empty()) return;
   const std::size_t corners = 3 * triangles.size();
-  PaintVertex* to = vertices.of(vertex_count + corners, vertex_count);
+  PaintVertex* to = room_for(vertex_count + corners, vertices);
   for (std::size_t i = 0; i < corners; ++i) {
     const WindowVertex& v = triangles[i / 3].v[i % 3];
     to[vertex_count + i] = {v.p_win, v.inv_w, v.snapped, triangles[i / 3].attributes[i % 3].color()};
   }
   for (const Varying v : carried_varyings) {
-    Vec4<float>* fours = varyings[static_cast<std::size_t>(v)].of(vertex_count + corners, vertex_count);
+    Vec4<float>* fours = room_for(vertex_count + corners, varyings[static_cast<std::size_t>(v)]);
     for (std::size_t i = 0; i < corners; ++i) fours[vertex_count + i] = triangles[i / 3].attributes[i % 3][v];
   }
 }
@@ -269,29 +277,20 @@ Painter::Painter(int threads, const SimdTarget& target) : memory_(std::make_uniq
 Painter::~Painter() = default;
 
 Frame& Painter::draw(const Scene& scene) {
-  if (!memory_->frame || !memory_->format || !same_planes(*memory_->format, scene.frame) || memory_->frame->empty()) {
-    memory_->frame = std::make_unique<Frame>(scene.frame);
-    memory_->format = scene.frame;
-  }
+  Frame& frame = memory_->frame.of(scene.frame, 1)[0];
   if (scene.frame.antialias.kind == Antialias::Kind::none || takes_samples(scene.frame)) {
-    memory_->draw_pass(scene, *memory_->frame);
-    return *memory_->frame;
+    memory_->draw_pass(scene, frame);
+    return frame;
   }
-  const std::size_t count = pass_count(scene.frame.antialias);
-  std::vector<Frame>& passes = memory_->passes;
-  pass_of(scene, 0, memory_->pass);
-  const FrameFormat& format = memory_->pass.frame;
-  if (passes.size() != count || !same_planes(memory_->pass_format, format)) {
-    passes.clear();  // should there be no memory, none are left that are of another format
-    passes.assign(count, Frame(format));
-    memory_->pass_format = format;
+  Scene& pass = memory_->pass;
+  pass_of(scene, 0, pass);
+  std::vector<Frame>& passes = memory_->passes.of(pass.frame, pass_count(scene.frame.antialias));
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    pass.frame.pass = own_of_pass(scene.frame, i);
+    memory_->draw_pass(pass, passes[i]);
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    memory_->pass.frame.pass = own_of_pass(scene.frame, i);
-    memory_->draw_pass(memory_->pass, passes[i]);
-  }
-  resolve({}, scene.frame, passes, *memory_->frame);
-  return *memory_->frame;
+  resolve({}, scene.frame, passes, frame);
+  return frame;
 }
 
 Frame paint(const Scene& scene) { return std::move(Painter().draw(scene)); }

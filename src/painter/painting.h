@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernels/light_equation.h"
@@ -14,27 +15,12 @@
 
 namespace plumbline::pipeline {
 
-/// Memory that only grows, and is not cleared.
+/// Room for `count` values in memory that only grows; what is there stays.
 template <class T>
-class Scratch {
- public:
-  /// At least `count` of them; what was there is lost where it had to grow, but for the first `kept`.
-  T* of(std::size_t count, std::size_t kept = 0) {
-    if (count > count_) {
-      auto grown = std::make_unique_for_overwrite<T[]>(count + count / 2);
-      std::copy(values_.get(), values_.get() + kept, grown.get());
-      values_ = std::move(grown);
-      count_ = count + count / 2;
-    }
-    return values_.get();
-  }
-  T* data() { return values_.get(); }
-  const T* data() const { return values_.get(); }
-
- private:
-  std::unique_ptr<T[]> values_;
-  std::size_t count_ = 0;
-};
+T* room_for(std::size_t count, std::vector<T>& values) {
+  if (count > values.size()) values.resize(count);
+  return values.data();
+}
 
 /// Where a tile keeps its pixel (x, y), as block_offset() has it, and back.
 template <class I>
@@ -97,8 +83,8 @@ inline constexpr std::int32_t kLongestEdge = 1 << 22;
 /// A share of the scene's primitives, in draw order, and its own bins.
 struct Chunk {
   std::uint32_t first_primitive, end_primitive;
-  Scratch<PaintTriangle> triangles;
-  Scratch<TileBox> boxes;
+  std::vector<PaintTriangle> triangles;
+  std::vector<TileBox> boxes;
   std::uint32_t count = 0;
   bool any_long_edge = false;  ///< whether any may have an edge longer than kLongestEdge
   struct OfDraw {
@@ -106,7 +92,7 @@ struct Chunk {
   };
   std::vector<OfDraw> draws;
   std::vector<std::uint32_t> first;  ///< tile t has [first[t], first[t + 1]) of numbers
-  Scratch<std::uint32_t> numbers;
+  std::vector<std::uint32_t> numbers;
 };
 
 /// A draw's triangles in a tile, of one chunk.
@@ -129,6 +115,12 @@ struct Painting {
   std::span<const PaintDraw> draws;
   bool any_long_edge;  ///< Chunk's
 
+  /// Bounds of the samples.
+  std::pair<glm::ivec2, glm::ivec2> sample_bounds() const {
+    glm::ivec2 low = samples[0], high = low;
+    for (const glm::ivec2& sample : samples) low = glm::min(low, sample), high = glm::max(high, sample);
+    return {low, high};
+  }
   /// Of a depth with codes.
   double clear_code() const { return depth_code(format.clear_depth, formats.depth_scale); }
 };

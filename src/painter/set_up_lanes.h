@@ -173,10 +173,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
   const I origin_x(tile.x * kSubpixel), origin_y(tile.y * kSubpixel);
   I x[3], y[3];
   for (int k = 0; k < 3; ++k) x[k] = snapped_x[k] - origin_x, y[k] = snapped_y[k] - origin_y;
-  glm::ivec2 low_sample = painting.samples[0], high_sample = low_sample;
-  for (const glm::ivec2& sample : painting.samples) {
-    low_sample = glm::min(low_sample, sample), high_sample = glm::max(high_sample, sample);
-  }
+  const auto [low_sample, high_sample] = painting.sample_bounds();
   const auto least = [](const I(&v)[3]) { return lesser_of(lesser_of(v[0], v[1]), v[2]); };
   const auto most = [](const I(&v)[3]) { return greater_of(greater_of(v[0], v[1]), v[2]); };
   const auto first = [](I low, int sample) {

@@ -20,8 +20,7 @@ void write_planes(auto& tile, Frame& frame) {
       return T(c.r, c.g, c.b, c.a);
     });
   };
-  copy_colors(frame.color_rgba8), copy_colors(frame.color_rgba12);
-  copy_colors(frame.color_rgba16), copy_colors(frame.color_rgba32f);
+  copy_colors(frame.color_rgba8), copy_colors(frame.color_rgba16), copy_colors(frame.color_rgba32f);
   copy(frame.depth_code, [&](int place) { return static_cast<std::uint32_t>(tile.depth[place]); });
   copy(frame.depth_z32f, [&](int place) { return tile.depth[place]; });
   copy(frame.stencil, [&](int place) { return tile.stencil[place]; });

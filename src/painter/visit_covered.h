@@ -65,7 +65,7 @@ template <class R, int kSampleCount>
   }
 }
 
-/// The triangles of a run, set up as many at a time as there are lanes: `while (next())`, those of `lanes`.
+/// The primitives of a run, as many at a time as there are lanes: `while (next())`, those of `corner`.
 template <class R, int kSampleCount>
 class LanesOfRun {
  public:
@@ -76,19 +76,22 @@ class LanesOfRun {
     begin_ += static_cast<std::size_t>(count);
     if (begin_ >= run_.numbers.size()) return false;
     count = static_cast<int>(std::min(kLanes, run_.numbers.size() - begin_));
-    const PaintVertex* corner[3][kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      for (std::size_t k = 0; k < 3; ++k) corner[k][lane] = painting_.vertices + in_lane(lane).corner[k];
+    }
+    return true;
+  }
+  /// Makes `lanes` of them, if all are triangles; else none fits.
+  [[gnu::always_inline]] void set_up() {
     alignas(64) float facing[kLanes];
     bool triangles_alone = true;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {  // lanes that are too many do as the last
-      const PaintTriangle& t = triangle(std::min(static_cast<int>(lane), count - 1));
-      for (std::size_t k = 0; k < 3; ++k) corner[k][lane] = painting_.vertices + t.corner[k];
-      facing[lane] = t.front ? 1.0f : -1.0f;
-      triangles_alone &= t.corners == 3;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      facing[lane] = in_lane(lane).front ? 1.0f : -1.0f;
+      triangles_alone &= in_lane(lane).corners == 3;
     }
     lanes.fitting = 0;
     if (triangles_alone)
       set_up_lanes<R, kSampleCount>(corner, facing, painting_, painting_.draws[run_.draw].flat(), tile_, lanes);
-    return true;
   }
   const PaintTriangle& triangle(int lane) const {
     const std::size_t n = begin_ + static_cast<std::size_t>(lane);
@@ -97,11 +100,15 @@ class LanesOfRun {
   bool fits(int lane) const { return (lanes.fitting >> lane & 1u) != 0; }
   bool all_fit() const { return lanes.fitting == ~0u >> (32 - kLanes); }
 
+  const PaintVertex* corner[3][Lanes<R>::width];
   LaneTriangles<R, kSampleCount> lanes;
-  int count = 0;  ///< of lanes that hold a triangle
+  int count = 0;  ///< of lanes that hold a primitive
 
  private:
   static constexpr std::size_t kLanes = Lanes<R>::width;
+  // Lanes that are too many do as the last.
+  const PaintTriangle& in_lane(std::size_t lane) const { return triangle(std::min(static_cast<int>(lane), count - 1)); }
+
   const Painting& painting_;
   const PaintRun& run_;
   bool from_last_;

@@ -10,7 +10,7 @@ Frame::Frame(const FrameFormat& format) {
   const int w = format.width, h = format.height;
   switch (format.color) {
     case ColorFormat::rgba8: color_rgba8 = Plane<glm::u8vec4>(w, h); break;
-    case ColorFormat::rgba12: color_rgba12 = Plane<glm::u16vec4>(w, h); break;
+    case ColorFormat::rgba12:
     case ColorFormat::rgba16: color_rgba16 = Plane<glm::u16vec4>(w, h); break;
     case ColorFormat::rgba32f: color_rgba32f = Plane<glm::vec4>(w, h); break;
   }
@@ -52,7 +52,6 @@ Frame finished(const FrameFormat& format, const FrameBuffer& buffer) {
     for (std::size_t i = 0; i < to.size(); ++i) to.values()[i] = Value(from.values()[i]);
   };
   copy(buffer.color, frame.color_rgba8);
-  copy(buffer.color, frame.color_rgba12);
   copy(buffer.color, frame.color_rgba16);
   copy(buffer.color, frame.color_rgba32f);
   copy(buffer.depth, frame.depth_code);

@@ -17,8 +17,7 @@ struct Frame {
   bool empty() const { return depth_code.empty() && depth_z32f.empty(); }
 
   Plane<glm::u8vec4> color_rgba8;
-  Plane<glm::u16vec4> color_rgba12;  ///< 0 to 4095
-  Plane<glm::u16vec4> color_rgba16;
+  Plane<glm::u16vec4> color_rgba16;  ///< rgba12, too: 0 to 4095
   Plane<glm::vec4> color_rgba32f;
   Plane<std::uint32_t> depth_code;  ///< z8, z16, z24
   Plane<float> depth_z32f;

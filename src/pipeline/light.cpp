@@ -9,7 +9,7 @@ void light_part(const Scene& scene, const Draw& draw, const Mesh& mesh, LitPart 
   const bool by_color = draw.color_material != ColorMaterial::none && !mesh.colors.empty();
   const Illumination in_eye_space = illumination(scene, lights);
   const ColoredMaterial material = colored_material(scene, draw, part);
-  Reflectance<float> of_vertex = reflectance(scene, material.own);
+  Reflectance<float> of_vertex = reflectance<float>(scene, {material.own}, {});
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (by_color) of_vertex = reflectance<float>(scene, material, mesh.colors[i]);
     const Vec3<float>& n = vertices[i].n_eye;

@@ -1,10 +1,10 @@
 #include "pipeline/stages.h"
 
-#include "kernels/fragment_tests.h"
+#include "kernels/coverage.h"
 #include "kernels/merge.h"
 #include "kernels/shade.h"
+#include "kernels/visibility.h"
 #include "pipeline/clip.h"
-#include "pipeline/coverage.h"
 #include "pipeline/light.h"
 #include "pipeline/matrices.h"
 #include "pipeline/vertex.h"

@@ -1,9 +1,7 @@
 #include "pipeline/render.h"
 
-#include "pipeline/coverage.h"
-#include "pipeline/merge.h"
-#include "pipeline/triangle_setup.h"
-#include "pipeline/visibility.h"
+#include "kernels/coverage.h"
+#include "pipeline/fragment.h"
 #include "scene/antialias.h"
 
 namespace plumbline::pipeline {

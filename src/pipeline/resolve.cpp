@@ -68,7 +68,6 @@ Frame resolve(const ResolveStage& stage, const FrameFormat& format, std::span<co
 void resolve(const ResolveStage& stage, const FrameFormat& format, std::span<const Frame> passes, Frame& frame) {
   const Resolve channel = format.antialias.kind == Antialias::Kind::multisample ? stage.multisample : stage.weighted;
   resolve_colors(channel, format, passes, &Frame::color_rgba8, frame);
-  resolve_colors(channel, format, passes, &Frame::color_rgba12, frame);
   resolve_colors(channel, format, passes, &Frame::color_rgba16, frame);
   resolve_colors(channel, format, passes, &Frame::color_rgba32f, frame);
   take_first_depths(format.antialias.factor, passes[0], &Frame::depth_code, frame);

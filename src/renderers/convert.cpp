@@ -42,7 +42,6 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
     return color;
   };
   out.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
-              : !frame.color_rgba12.empty() ? as_color(frame.color_rgba12)
               : !frame.color_rgba16.empty() ? as_color(frame.color_rgba16)
                                             : frame.color_rgba32f;
   out.depth = Plane<double>(out.color.width(), out.color.height());

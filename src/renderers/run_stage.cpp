@@ -3,12 +3,10 @@
 #include <limits>
 
 #include "capture/require_fitting.h"
-#include "pipeline/coverage.h"
+#include "kernels/coverage.h"
+#include "pipeline/fragment.h"
 #include "pipeline/matrices.h"
-#include "pipeline/merge.h"
 #include "pipeline/recorder.h"
-#include "pipeline/triangle_setup.h"
-#include "pipeline/visibility.h"
 #include "renderers/convert.h"
 #include "scene/antialias.h"
 #include "scene/draw_of.h"

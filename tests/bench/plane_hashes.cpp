@@ -34,7 +34,7 @@ class Hash {
 
 std::uint64_t hash(const Frame& frame) {
   Hash out;
-  out.add(frame.color_rgba8), out.add(frame.color_rgba12), out.add(frame.color_rgba16), out.add(frame.color_rgba32f);
+  out.add(frame.color_rgba8), out.add(frame.color_rgba16), out.add(frame.color_rgba32f);
   out.add(frame.depth_code), out.add(frame.depth_z32f), out.add(frame.stencil);
   return out.value();
 }

@@ -6,8 +6,8 @@
 
 #include "faults/lists.h"
 #include "faults/variants.h"
-#include "kernels/fragment_tests.h"
 #include "kernels/merge.h"
+#include "kernels/visibility.h"
 
 namespace plumbline::faults {
 

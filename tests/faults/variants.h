@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/coverage.h"
 #include "pipeline/clip.h"
-#include "pipeline/coverage.h"
 #include "pipeline/stages.h"
 #include "tests/kernels/barycentric.h"
 

@@ -126,7 +126,6 @@ std::uint64_t bits_of(const Capture& capture) {
 std::uint64_t bits_of(const pipeline::Frame& frame) {
   Bits bits;
   bits.plane("", frame.color_rgba8);
-  bits.plane("", frame.color_rgba12);
   bits.plane("", frame.color_rgba16);
   bits.plane("", frame.color_rgba32f);
   bits.plane("", frame.depth_code);

@@ -16,10 +16,9 @@ bool same_bits(const Plane<T>& a, const Plane<T>& b) {
 }
 
 inline bool same_bits(const Frame& a, const Frame& b) {
-  return same_bits(a.color_rgba8, b.color_rgba8) && same_bits(a.color_rgba12, b.color_rgba12) &&
-         same_bits(a.color_rgba16, b.color_rgba16) && same_bits(a.color_rgba32f, b.color_rgba32f) &&
-         same_bits(a.depth_code, b.depth_code) && same_bits(a.depth_z32f, b.depth_z32f) &&
-         same_bits(a.stencil, b.stencil);
+  return same_bits(a.color_rgba8, b.color_rgba8) && same_bits(a.color_rgba16, b.color_rgba16) &&
+         same_bits(a.color_rgba32f, b.color_rgba32f) && same_bits(a.depth_code, b.depth_code) &&
+         same_bits(a.depth_z32f, b.depth_z32f) && same_bits(a.stencil, b.stencil);
 }
 
 /// Four of them, lit, one behind the other.

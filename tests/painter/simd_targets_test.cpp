@@ -57,8 +57,8 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
   const auto count = static_cast<std::uint32_t>(triangles.size());
   std::vector<PaintVertex> vertices;
   std::array<Chunk, 1> chunk;
-  PaintTriangle* of_chunk = chunk[0].triangles.of(count);
-  std::uint32_t* numbers = chunk[0].numbers.of(count * tiles);
+  PaintTriangle* of_chunk = room_for(count, chunk[0].triangles);
+  std::uint32_t* numbers = room_for(count * tiles, chunk[0].numbers);
   for (std::uint32_t i = 0; i < count; ++i) {
     of_chunk[i] = {{3 * i, 3 * i + 1, 3 * i + 2}, triangles[i].front, 3, 1};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -176,10 +176,16 @@ TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
     for (auto& c : corners) c = {any(300), any(300), any(9) == 0 ? c[1] : any(300)};
     for (const Cull cull : {Cull::none, Cull::back, Cull::front}) {
       for (const bool sampled : {false, true}) {
-        const glm::ivec2 least(sampled ? -96 : 0), most(sampled ? 96 : 0);
+        const glm::ivec2 least(sampled ? -96 : 0), most(sampled ? 96 : 0), samples[] = {least, most};
+        Draw draw;
+        draw.cull = cull;
+        Painting painting{};
+        painting.format.width = 700, painting.format.height = 300;
+        painting.samples = samples;
+        painting.vertices = vertices.data();
         for (const SimdTarget& target : simd_targets()) {
           std::vector<KeptTriangle> known(corners.size());
-          target.cull({vertices.data(), cull, least, most, 700, 300}, corners, known.data());
+          target.cull(painting, {&draw, nullptr, {}, 0, nullptr, 0}, corners, known.data());
           for (std::size_t i = 0; i < corners.size(); ++i) {
             const glm::uvec3 c = corners[i];
             WindowTriangle t;

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/coverage.h"
-#include "kernels/fragment_tests.h"
+#include "kernels/visibility.h"
 #include "pipeline/stages.h"
 #include "tests/at_weights.h"
 #include "tests/kernels/barycentric.h"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/fragment_tests.h"
 #include "kernels/merge.h"
+#include "kernels/visibility.h"
 #include "tests/notes/ascii_coverage.h"
 #include "tests/pipeline/window_frame.h"
 #include "tests/pipeline/window_triangles.h"
@@ -108,7 +108,7 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
 
 void expect_same(const Frame& is, const Frame& expected) {
   EXPECT_EQ(is.color_rgba8.values(), expected.color_rgba8.values());
-  EXPECT_EQ(is.color_rgba12.values(), expected.color_rgba12.values());
+  EXPECT_EQ(is.color_rgba16.values(), expected.color_rgba16.values());
   EXPECT_EQ(is.color_rgba32f.values(), expected.color_rgba32f.values());
   EXPECT_EQ(is.depth_code.values(), expected.depth_code.values());
   EXPECT_EQ(is.depth_z32f.values(), expected.depth_z32f.values());
@@ -131,9 +131,9 @@ TEST(PipelineFrame, FramesHoldThePlanesOfTheirFormats) {
   EXPECT_EQ(large.depth_z32f.height(), 3);
   EXPECT_TRUE(large.color_rgba8.empty() && large.depth_code.empty());
   const Frame gz(format(5, 3, ColorFormat::rgba12, DepthFormat::z8));
-  EXPECT_EQ(gz.color_rgba12.size(), 15u);
+  EXPECT_EQ(gz.color_rgba16.size(), 15u);
   EXPECT_EQ(gz.depth_code.size(), 15u);
-  EXPECT_TRUE(gz.color_rgba8.empty() && gz.color_rgba32f.empty() && small.color_rgba12.empty());
+  EXPECT_TRUE(gz.color_rgba8.empty() && gz.color_rgba32f.empty() && small.color_rgba16.empty());
 }
 
 TEST(PipelineFrame, FormatsScaleToTheirLargestCodes) {
@@ -157,7 +157,7 @@ TEST(PipelineFrame, ClearValuesInEachFormat) {
         if (color == ColorFormat::rgba8) {
           EXPECT_EQ(frame.color_rgba8(x, 1), glm::u8vec4(64, 153, 255, 0)) << "63.75, 153";
         } else if (color == ColorFormat::rgba12) {
-          EXPECT_EQ(frame.color_rgba12(x, 1), glm::u16vec4(1024, 2457, 4095, 0)) << "1023.75, 2457";
+          EXPECT_EQ(frame.color_rgba16(x, 1), glm::u16vec4(1024, 2457, 4095, 0)) << "1023.75, 2457";
         } else {
           EXPECT_EQ(frame.color_rgba32f(x, 1), f.clear_color);
         }

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "kernels/attributes.h"
+#include "kernels/coverage.h"
 #include "kernels/depth.h"
 #include "kernels/line_diamond.h"
 #include "pipeline/clip.h"
-#include "pipeline/coverage.h"
 #include "pipeline/window.h"
 #include "renderers/pipeline_renderer.h"
 #include "tests/kernels/barycentric.h"

@@ -15,10 +15,9 @@ std::size_t bits_apart(const Plane<T>& a, const Plane<T>& b) {
   return apart;
 }
 inline std::size_t bits_apart(const pipeline::Frame& a, const pipeline::Frame& b) {
-  return bits_apart(a.color_rgba8, b.color_rgba8) + bits_apart(a.color_rgba12, b.color_rgba12) +
-         bits_apart(a.color_rgba16, b.color_rgba16) + bits_apart(a.color_rgba32f, b.color_rgba32f) +
-         bits_apart(a.depth_code, b.depth_code) + bits_apart(a.depth_z32f, b.depth_z32f) +
-         bits_apart(a.stencil, b.stencil);
+  return bits_apart(a.color_rgba8, b.color_rgba8) + bits_apart(a.color_rgba16, b.color_rgba16) +
+         bits_apart(a.color_rgba32f, b.color_rgba32f) + bits_apart(a.depth_code, b.depth_code) +
+         bits_apart(a.depth_z32f, b.depth_z32f) + bits_apart(a.stencil, b.stencil);
 }
 
 inline FrameFormat floats(int width, int height, glm::vec4 clear = glm::vec4(0)) {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/coverage.h"
 #include "kernels/line_diamond.h"
-#include "pipeline/coverage.h"
 #include "pipeline/window.h"
 
 namespace plumbline::pipeline {

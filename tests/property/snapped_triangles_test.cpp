@@ -157,7 +157,7 @@ RC_GTEST_PROP(SnappedTriangles, PermutedTrianglesThatDoNotOverlapChangeNoBit, ()
   }
   const pipeline::Frame after = pipeline::render(scene);
   RC_ASSERT(after.color_rgba8.values() == before.color_rgba8.values());
-  RC_ASSERT(after.color_rgba12.values() == before.color_rgba12.values());
+  RC_ASSERT(after.color_rgba16.values() == before.color_rgba16.values());
   RC_ASSERT(after.color_rgba32f.values() == before.color_rgba32f.values());
   RC_ASSERT(after.depth_code.values() == before.depth_code.values());
   RC_ASSERT(after.depth_z32f.values() == before.depth_z32f.values());

@@ -81,7 +81,7 @@ TEST(PipelineRenderer, PlanesAreThoseOfTheFrameThatShips) {
         if (color == ColorFormat::rgba8) {
           ASSERT_EQ(c.planes.color(x, y), glm::vec4(frame.color_rgba8(x, y)) / 255.0f);
         } else if (color == ColorFormat::rgba12) {
-          ASSERT_EQ(c.planes.color(x, y), glm::vec4(frame.color_rgba12(x, y)) / 4095.0f);
+          ASSERT_EQ(c.planes.color(x, y), glm::vec4(frame.color_rgba16(x, y)) / 4095.0f);
         } else {
           ASSERT_EQ(c.planes.color(x, y), frame.color_rgba32f(x, y));
         }

@@ -1,5 +1,5 @@
 // The pixels a triangle covers, by each of the algorithms that the notes teach. The one that ships is
-// pipeline/coverage.h; these four stand beside it, each by its own expression, in integers, and share no predicate, so
+// kernels/coverage.h; these four stand beside it, each by its own expression, in integers, and share no predicate, so
 // that any of them is a witness for the others.
 //
 // Corners are snapped to 1/256 pixel, pixel (i, j)'s centre is at (256 i, 256 j), y counts up. A centre inside is

@@ -14,13 +14,13 @@ void expect_equal_planes(const Scene& scene) {
   constexpr std::size_t kMost = std::size_t{2} << 30;  // all records of a million triangles
   const Capture capture = pipeline::make_pipeline()->capture(scene, {StageSet::all(), false, {}, {}, kMost});
   const double scale = depth_scale(scene.frame.depth);
+  const auto color_codes = static_cast<float>(color_scale(scene.frame.color));
   std::size_t differing = 0;
   for (int y = 0; y < scene.frame.height; ++y) {
     for (int x = 0; x < scene.frame.width; ++x) {
       const glm::vec4 tapped = capture.planes.color(x, y);
       const glm::vec4 shipped = !frame.color_rgba8.empty()    ? glm::vec4(frame.color_rgba8(x, y)) / 255.0f
-                                : !frame.color_rgba12.empty() ? glm::vec4(frame.color_rgba12(x, y)) / 4095.0f
-                                : !frame.color_rgba16.empty() ? glm::vec4(frame.color_rgba16(x, y)) / 65535.0f
+                                : !frame.color_rgba16.empty() ? glm::vec4(frame.color_rgba16(x, y)) / color_codes
                                                               : frame.color_rgba32f(x, y);
       const double z =
           frame.depth_z32f.empty() ? frame.depth_code(x, y) / scale : static_cast<double>(frame.depth_z32f(x, y));

@@ -1,4 +1,4 @@
-#include "pipeline/triangle_setup.h"
+#include "pipeline/fragment.h"
 
 namespace plumbline::pipeline {
 
@@ -40,6 +40,27 @@ FilteredTexel<float> filtered(const Stages& stages, const TextureSetup& texture,
   const Offset<float> at = from_anchor<float>(setup.planes, pixel);
   const double q = value_at<float>(setup.perspective.sum, at);
   return stages.texture(texture, {texcoords.r, texcoords.g}, gradients<float>(setup.gradients, at, q));
+}
+
+bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool nearer, const Shaded& shaded,
+                  float color_scale, std::uint8_t* held) {
+  bool alive = !shaded.discarded && (nearer || draw.stencil);
+  if (draw.alpha_test) alive = alive && stages.alpha_passes(*draw.alpha_test, shaded.color.a, color_scale);
+  if (!draw.stencil) return alive;
+  const StencilFace& face = front ? draw.stencil->front : draw.stencil->back;
+  return stages.stencil_passes(face, alive, nearer, held) && nearer;
+}
+
+void write_fragment(const Stages& stages, const Merge& state, float z, const Color<float>& color, float color_scale,
+                    const FramePixel& to) {
+  if (state.depth_mask) *to.depth = z;
+  const Color<float> made = state.logic_op ? stages.logic(*state.logic_op, color, *to.color, color_scale)
+                            : state.blend  ? stages.blend(*state.blend, color, *to.color, color_scale)
+                                           : stages.merge(color, color_scale);
+  if (state.color_mask.r) to.color->r = made.r;
+  if (state.color_mask.g) to.color->g = made.g;
+  if (state.color_mask.b) to.color->b = made.b;
+  if (state.color_mask.a) to.color->a = made.a;
 }
 
 }  // namespace plumbline::pipeline

@@ -1,5 +1,5 @@
 // Alpha and stencil test by the tables of the specification, and in their order; polygon offset by its formula.
-#include "kernels/fragment_tests.h"
+#include "kernels/visibility.h"
 
 #include <cmath>
 
