@@ -5,14 +5,6 @@
 
 namespace plumbline::pipeline {
 
-namespace {
-
-PixelBounds intersection(const PixelBounds& a, const PixelBounds& b) {
-  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
-}  // namespace
-
 Edges edges_of(const WindowTriangle& triangle) {
   glm::i64vec2 corner[3] = {triangle.v[0].snapped, triangle.v[1].snapped, triangle.v[2].snapped};
   if (!triangle.front) std::swap(corner[1], corner[2]);  // counter-clockwise
@@ -45,13 +37,8 @@ PixelBounds scissored(const Scissor& box, const PixelBounds& frame) {
 }
 
 std::vector<glm::ivec2> covered_pixels(const Edges& edges, const PixelBounds& bounds, const PixelBounds& box) {
-  const PixelBounds b = intersection(bounds, box);
   std::vector<glm::ivec2> out;
-  for (int y = b.y0; y < b.y1; ++y) {
-    for (int x = b.x0; x < b.x1; ++x) {
-      if (coverage<float>(edges, {x, y, 0, 0})) out.emplace_back(x, y);
-    }
-  }
+  visit_inside(edges, intersection(bounds, box), [&](glm::ivec2 pixel) { out.push_back(pixel); });
   return out;
 }
 

@@ -45,6 +45,9 @@ struct PixelBounds {
   int x0, y0, x1, y1;
 };
 PixelBounds pixel_bounds(const WindowTriangle& triangle);
+inline PixelBounds intersection(const PixelBounds& a, const PixelBounds& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
 
 /// Calls visit(pixel) for those of a line (line_diamond.h) or of a point within the box of `size` pixels that begins at
 /// pixel `origin`.
@@ -79,6 +82,23 @@ void visit_line_or_point(const WindowTriangle& line_or_point, glm::ivec2 origin,
   });
 }
 
+template <class R>
+Mask<R> coverage(const Edges& e, const Pixels<R>& p) {
+  const Int<R> e0 = e.at_origin[0] + e.step_x[0] * p.x + e.step_y[0] * p.y;
+  const Int<R> e1 = e.at_origin[1] + e.step_x[1] * p.x + e.step_y[1] * p.y;
+  const Int<R> e2 = e.at_origin[2] + e.step_x[2] * p.x + e.step_y[2] * p.y;
+  return (e0 | e1 | e2) >= 0;  // the sign bit of any
+}
+
+/// Calls visit(pixel) for the pixels of the box that the edges cover: row by row from the bottom, from left to right.
+void visit_inside(const Edges& edges, const PixelBounds& box, auto visit) {
+  for (int y = box.y0; y < box.y1; ++y) {
+    for (int x = box.x0; x < box.x1; ++x) {
+      if (coverage<float>(edges, {x, y, 0, 0})) visit(glm::ivec2(x, y));
+    }
+  }
+}
+
 /// The box's pixels that are also the frame's.
 PixelBounds scissored(const Scissor& box, const PixelBounds& frame);
 
@@ -89,14 +109,6 @@ std::vector<glm::ivec2> covered_pixels(const Edges& edges, const PixelBounds& bo
 
 /// The frame's pixels.
 PixelBounds bounds_of(const FrameFormat& frame);
-
-template <class R>
-Mask<R> coverage(const Edges& e, const Pixels<R>& p) {
-  const Int<R> e0 = e.at_origin[0] + e.step_x[0] * p.x + e.step_y[0] * p.y;
-  const Int<R> e1 = e.at_origin[1] + e.step_x[1] * p.x + e.step_y[1] * p.y;
-  const Int<R> e2 = e.at_origin[2] + e.step_x[2] * p.x + e.step_y[2] * p.y;
-  return (e0 | e1 | e2) >= 0;  // the sign bit of any
-}
 
 /// Mask of the pixels in the box.
 template <class R>

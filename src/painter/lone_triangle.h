@@ -67,7 +67,8 @@ void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTri
     paint_fragments<float>(*draw.draw, s, surface, pixel_at(p), true, place, painting.formats.color_scale, tile);
   };
   const PixelBounds of_tile{tile.x0, tile.y0, tile.x0 + kTile, tile.y0 + kTile};
-  for (const glm::ivec2 p : covered_pixels(seen, of_tile)) paint(p);
+  if (t.corners < 3) return visit_line_or_point(t, {tile.x0, tile.y0}, glm::ivec2(kTile), paint);
+  visit_inside(edges_of(seen), intersection(pixel_bounds(seen), of_tile), paint);
 }
 
 /// paint(painting, tile) of each sample's own.
