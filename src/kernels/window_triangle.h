@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "capture/stages.h"
+#include "scene/scene.h"
 
 namespace plumbline::pipeline {
 
@@ -33,6 +34,24 @@ inline int snap(float win) {
 inline std::int64_t snapped_area(const WindowTriangle& t) {
   const glm::i64vec2 a(t.v[0].snapped), b(t.v[1].snapped), c(t.v[2].snapped);
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// What a convex polygon of `count` corners becomes in the window, less what the draw culls: triangle(i, front) for
+/// corners (i - 1, i, 0) of its fan where they have an area; or, of a face that is not filled, line(a, b, front) for each
+/// edge or point(a, front) for each corner. area(i): twice the snapped area of the fan's triangle i.
+void visit_polygon(const Draw& draw, std::size_t count, auto area, auto triangle, auto line, auto point) {
+  const auto culled = [&](bool front) { return draw.cull != Cull::none && front == (draw.cull == Cull::front); };
+  std::int64_t sum = 0;
+  for (std::size_t i = 2; i < count; ++i) sum += area(i);
+  const bool front = sum > 0, filled = draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;
+  const PolygonMode mode = filled ? PolygonMode::fill : front ? draw.front_mode : draw.back_mode;
+  if (!filled && culled(front)) return;
+  for (std::size_t i = 2; i < count && mode == PolygonMode::fill; ++i) {
+    const std::int64_t of_triangle = area(i);
+    if (of_triangle != 0 && !culled(of_triangle > 0)) triangle(i, of_triangle > 0);
+  }
+  for (std::size_t i = 0; i < count && mode == PolygonMode::line; ++i) line(i == 0 ? count - 1 : i - 1, i, front);
+  for (std::size_t i = 0; i < count && mode == PolygonMode::point; ++i) point(i, front);
 }
 
 }  // namespace plumbline::pipeline

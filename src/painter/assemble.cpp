@@ -26,26 +26,19 @@ class Assembler {
     boxes_ = room_for(chunk_.count + more, chunk_.boxes);
   }
 
-  // As add_polygon() (window.cpp) has it, of a polygon of three corners, a line or a point.
+  // A triangle, line or point.
   void add_primitive(const Draw& draw, Topology topology, const std::uint32_t (&v)[3]) {
     if (topology == Topology::points) return add_point(draw, v[0], true);
     if (topology == Topology::lines) return add_line(draw, v[0], v[1], true);
-    const glm::ivec2 p = vertices_[v[0]].snapped, q = vertices_[v[1]].snapped, r = vertices_[v[2]].snapped;
-    const std::int64_t area =
-        static_cast<std::int64_t>(q.x - p.x) * (r.y - p.y) - static_cast<std::int64_t>(q.y - p.y) * (r.x - p.x);
-    const bool front = area > 0;
-    if (draw.cull != Cull::none && front == (draw.cull == Cull::front)) return;
-    switch (front ? draw.front_mode : draw.back_mode) {
-      case PolygonMode::fill:
-        if (area != 0) add({{v[1], v[2], v[0]}, front, 3, 1}, 0);
-        return;
-      case PolygonMode::line:
-        for (int i = 0; i < 3; ++i) add_line(draw, v[i == 0 ? 2 : i - 1], v[i], front);
-        return;
-      case PolygonMode::point:
-        for (const std::uint32_t corner : v) add_point(draw, corner, front);
-        return;
-    }
+    const auto snapped = [&](std::size_t i) { return glm::i64vec2(vertices_[v[i]].snapped); };
+    const glm::i64vec2 q = snapped(1) - snapped(0), r = snapped(2) - snapped(0);
+    visit_polygon(
+        draw, 3, [&](std::size_t) { return q.x * r.y - q.y * r.x; },
+        [&](std::size_t, bool front) {
+          add({{v[1], v[2], v[0]}, front, 3, 1}, 0);
+        },
+        [&](std::size_t a, std::size_t b, bool front) { add_line(draw, v[a], v[b], front); },
+        [&](std::size_t p, bool front) { add_point(draw, v[p], front); });
   }
 
   void add_kept(const AssemblyWork& of, const glm::uvec3& v, const KeptTriangle& kept) {

@@ -45,11 +45,10 @@ template <class R>
   to.template store_color<R>(kept, merged, state.color_mask);
 }
 
-/// The pixels `p` of `covered`, which are stored from `place` on. `s`: the triangle's anchor, depth_plane, perspective,
-/// attributes, front and surface (null: none).
+/// The pixels `p` of `covered`, which are stored from `place` on.
 template <class R>
-void paint_fragments(const Draw& draw, const auto& s, const std::optional<SurfaceSetup>& surface, const Pixels<R>& p,
-                     Mask<R> covered, int place, float color_scale, auto& tile) {
+void paint_fragments(const Draw& draw, const FragmentSetup& s, const std::optional<SurfaceSetup>& surface,
+                     const Pixels<R>& p, Mask<R> covered, int place, float color_scale, auto& tile) {
   if (draw.scissor) {
     covered = covered & scissor<R>(*draw.scissor, p);
     if (!any(covered)) return;

@@ -47,20 +47,13 @@ inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const
   return out;
 }
 
-struct LoneSetup {
-  bool front;
-  Anchor anchor;
-  DepthPlane depth_plane;
-  PerspectiveSetup perspective;
-  AttributeSetup attributes;
-};
 /// Pixel by pixel.
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, auto& tile) {
   const WindowTriangle t = window_triangle_of(painting, triangle), seen = as_seen_from(t, painting.formats.sample);
   const BarycentricPlanes planes = planes_of(t, tile.x0, tile.y0);
   const DepthPlane depth = moved(depth_plane(depth_setup(t, draw.depth), planes), painting.formats.sample);
-  const LoneSetup s{t.front, planes, depth, perspective_setup(t, planes),
-                    attribute_setup(colors_of(painting, draw, triangle))};
+  const FragmentSetup s{t.front, planes, depth, perspective_setup(t, planes),
+                        attribute_setup(colors_of(painting, draw, triangle))};
   const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, triangle, tile.x0, tile.y0);
   const auto paint = [&](glm::ivec2 p) {
     const int place = tile.offset(p.x, p.y) + p.y % kBlock * kBlock + p.x % kBlock;

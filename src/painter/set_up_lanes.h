@@ -15,18 +15,13 @@ inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
 /// A triangle in its lane. Edges and depths are taken at each of the pixel's samples, which differ but in what is added
 /// there; `at_tile` is the least of `at_sample`, so that a pixel outside of it is outside for all samples.
 template <int kSampleCount = 1>
-struct LaneSetup {
-  bool front;
+struct LaneSetup : FragmentSetup {
   int x0, y0, x1, y1;  ///< the pixels of the tile in its bounding box, x0 and y0 rounded down to a block's
   std::int32_t at_tile[3], step_x[3], step_y[3];  ///< per edge
   std::int32_t at_sample[kSampleCount][3];
   Affine<double> code[kSampleCount];
-  Anchor anchor;
-  DepthPlane depth_plane;
-  PerspectiveSetup perspective;
   float nearest;                  ///< a depth code: all its fragments in the tile are farther
   bool plain_depth, plain_color;  ///< LaneTriangles
-  AttributeSetup attributes;
 };
 
 template <class R>

@@ -8,6 +8,14 @@
 
 namespace plumbline::pipeline {
 
+/// Per-triangle input of stages 6 and 7 in one tile.
+struct FragmentSetup {
+  bool front;
+  Anchor anchor;
+  DepthPlane depth_plane;
+  PerspectiveSetup perspective;
+  AttributeSetup attributes;  ///< the colour's
+};
 /// A triangle's varyings, those that the surface carries.
 struct SurfaceSetup {
   const Surface* surface;
@@ -15,10 +23,9 @@ struct SurfaceSetup {
   GradientSetup gradients;  ///< of the texture coordinates, where there is a texture
 };
 
-/// Every varying by the same weights, and the texel. `of`: the triangle's anchor,
-/// perspective and attributes.
+/// Colour, every varying by the same weights, and the texel.
 template <class R>
-[[gnu::always_inline]] inline SurfaceAttributes<R> surface_attributes(const auto& of, const SurfaceSetup& s,
+[[gnu::always_inline]] inline SurfaceAttributes<R> surface_attributes(const FragmentSetup& of, const SurfaceSetup& s,
                                                                       const Pixels<R>& p) {
   SurfaceAttributes<R> out;
   const Offset<R> at = from_anchor<R>(of.anchor, p);

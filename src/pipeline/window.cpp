@@ -41,7 +41,14 @@ class Fan {
     if (!drawable_ || v_.empty()) return;
     if (v_.size() == 1) return add_point(0, true);
     if (v_.size() == 2) return add_line(0, 1, true);
-    add_polygon();
+    visit_polygon(
+        draw_, v_.size(),
+        [&](std::size_t i) {
+          return snapped_area({{v_[i - 1], v_[i], v_[0]}});
+        },
+        [&](std::size_t i, bool front) { add(triangle(i - 1, i, 0, front), 3, 1); },
+        [&](std::size_t a, std::size_t b, bool front) { add_line(a, b, front); },
+        [&](std::size_t p, bool front) { add_point(p, front); });
   }
 
  private:
@@ -63,32 +70,6 @@ class Fan {
   }
   void add_line(std::size_t a, std::size_t b, bool front) { add(triangle(a, b, b, front), 2, draw_.line_width); }
   void add_point(std::size_t p, bool front) { add(triangle(p, p, p, front), 1, draw_.point_size); }
-
-  std::int64_t area_of(std::size_t i) const { return snapped_area({{v_[i - 1], v_[i], v_[0]}}); }
-  bool culled(bool front) const { return draw_.cull != Cull::none && front == (draw_.cull == Cull::front); }
-
-  void add_fan() {
-    for (std::size_t i = 2; i < v_.size(); ++i) {
-      const std::int64_t area = area_of(i);
-      if (area != 0 && !culled(area > 0)) add(triangle(i - 1, i, 0, area > 0), 3, 1);
-    }
-  }
-  void add_polygon() {
-    if (draw_.front_mode == PolygonMode::fill && draw_.back_mode == PolygonMode::fill) return add_fan();
-    std::int64_t area = 0;
-    for (std::size_t i = 2; i < v_.size(); ++i) area += area_of(i);
-    const bool front = area > 0;
-    if (culled(front)) return;
-    switch (front ? draw_.front_mode : draw_.back_mode) {
-      case PolygonMode::fill: return add_fan();
-      case PolygonMode::line:
-        for (std::size_t i = 0; i < v_.size(); ++i) add_line(i == 0 ? v_.size() - 1 : i - 1, i, front);
-        return;
-      case PolygonMode::point:
-        for (std::size_t i = 0; i < v_.size(); ++i) add_point(i, front);
-        return;
-    }
-  }
 
   const DrawInput& input_;
   const Draw& draw_;
