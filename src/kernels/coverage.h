@@ -84,10 +84,8 @@ void visit_line_or_point(const WindowTriangle& line_or_point, glm::ivec2 origin,
 
 template <class R>
 Mask<R> coverage(const Edges& e, const Pixels<R>& p) {
-  const Int<R> e0 = e.at_origin[0] + e.step_x[0] * p.x + e.step_y[0] * p.y;
-  const Int<R> e1 = e.at_origin[1] + e.step_x[1] * p.x + e.step_y[1] * p.y;
-  const Int<R> e2 = e.at_origin[2] + e.step_x[2] * p.x + e.step_y[2] * p.y;
-  return (e0 | e1 | e2) >= 0;  // the sign bit of any
+  const auto at = [&](int i) { return e.at_origin[i] + e.step_x[i] * p.x + e.step_y[i] * p.y; };
+  return (at(0) | at(1) | at(2)) >= 0;  // the sign bit of any
 }
 
 /// Calls visit(pixel) for the pixels of the box that the edges cover: row by row from the bottom, from left to right.

@@ -41,21 +41,14 @@ BarycentricPlanes planes_of(const WindowTriangle& triangle, int x0, int y0) {
 BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place) {
   if (place == glm::ivec2(0)) return planes;
   const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
-  BarycentricPlanes out = planes;
-  out.x0 -= by.x;
-  out.y0 -= by.y;
-  return out;
+  return {planes, {planes.x0 - by.x, planes.y0 - by.y}};
 }
 
 // What the near and far plane do not cut is clamped to where they are (GL_ARB_depth_clamp); else to what formats hold.
 DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp) {
-  DepthState out{format};
-  out.offset = draw.polygon_offset;
-  if (!depth_clamp) return out;
+  if (!depth_clamp) return {format, 0, 1, draw.polygon_offset};
   const auto [low, high] = std::minmax(draw.depth_range.near, draw.depth_range.far);
-  out.low = low;
-  out.high = high;
-  return out;
+  return {format, low, high, draw.polygon_offset};
 }
 
 DepthSetup depth_setup(const WindowTriangle& triangle, const DepthState& state) {

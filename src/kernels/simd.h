@@ -20,6 +20,7 @@ inline constexpr hn::FixedTag<float, kWidth> kFloats{};
 inline constexpr hn::FixedTag<float, kHalf> kHalfFloats{};
 inline constexpr hn::FixedTag<std::int32_t, kWidth> kInts{};
 inline constexpr hn::FixedTag<std::int32_t, kHalf> kHalfInts{};
+inline constexpr hn::FixedTag<std::int16_t, 2 * kWidth> kShorts{};
 inline constexpr hn::FixedTag<std::uint8_t, kWidth> kBytes{};
 inline constexpr hn::FixedTag<double, kHalf> kDoubles{};
 inline constexpr hn::FixedTag<std::uint64_t, kHalf> kLongs{};
@@ -178,20 +179,18 @@ inline SimdInt as_int(Simd value) { return hn::BitCast(kInts, value.v); }
 inline Simd as_float(SimdInt bits) { return hn::BitCast(kFloats, bits.v); }
 // x86's own: the nearest, of what fits no int the most negative; and packs that saturate, by blocks of 128 bits.
 inline __m128i rounded(__m128 v) { return _mm_cvtps_epi32(v); }
-inline __m128i to_shorts(__m128i a, __m128i b) { return _mm_packs_epi32(a, b); }
 inline __m128i to_bytes(__m128i a, __m128i b) { return _mm_packus_epi16(a, b); }
 #if HWY_TARGET <= HWY_AVX2
 inline __m256i rounded(__m256 v) { return _mm256_cvtps_epi32(v); }
-inline __m256i to_shorts(__m256i a, __m256i b) { return _mm256_packs_epi32(a, b); }
 inline __m256i to_bytes(__m256i a, __m256i b) { return _mm256_packus_epi16(a, b); }
 #endif
 #if HWY_TARGET <= HWY_AVX3
 inline __m512i rounded(__m512 v) { return _mm512_cvtps_epi32(v); }
-inline __m512i to_shorts(__m512i a, __m512i b) { return _mm512_packs_epi32(a, b); }
 inline __m512i to_bytes(__m512i a, __m512i b) { return _mm512_packus_epi16(a, b); }
 #endif
 inline SimdInt packed(SimdInt r, SimdInt g, SimdInt b, SimdInt a) {
-  const IntVector codes{to_bytes(to_shorts(r.v.raw, g.v.raw), to_shorts(b.v.raw, a.v.raw))};
+  const auto shorts = [](SimdInt low, SimdInt high) { return hn::ReorderDemote2To(kShorts, low.v, high.v).raw; };
+  const IntVector codes{to_bytes(shorts(r, g), shorts(b, a))};
   HWY_ALIGN static constexpr std::int32_t kByPixel[4] = {0x0c080400, 0x0d090501, 0x0e0a0602, 0x0f0b0703};
   return hn::TableLookupBytes(codes, hn::LoadDup128(kInts, kByPixel));
 }

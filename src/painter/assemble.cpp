@@ -131,8 +131,7 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTria
     const std::uint32_t end = std::min(chunk.end_primitive, work.range.first_primitive + work.range.primitive_count);
     if (begin >= end) continue;
     const auto of_primitive = [&](std::uint32_t primitive) {
-      return std::partition_point(others.triangles.begin(), others.triangles.end(),
-                                  [&](const ShadedTriangle& t) { return t.primitive < primitive; });
+      return std::ranges::lower_bound(others.triangles, primitive, {}, &ShadedTriangle::primitive);
     };
     auto other = of_primitive(begin);
     const auto others_end = of_primitive(end);

@@ -24,10 +24,7 @@ struct PaintDraw {
 };
 
 /// Whether a fragment's colour replaces what is there.
-inline bool is_opaque(const Merge& state) {
-  const glm::bvec4& channels = state.color_mask;
-  return !state.blend && !state.logic_op && channels.r && channels.g && channels.b && channels.a;
-}
+inline bool is_opaque(const Merge& state) { return !state.blend && !state.logic_op && glm::all(state.color_mask); }
 /// Depth and colour of the fragments `kept` into the frame.
 template <class R>
 [[gnu::always_inline]] inline void write(const Merge& state, Mask<R> kept, R z, const Color<R>& shaded,
@@ -57,8 +54,7 @@ void paint_fragments(const Draw& draw, const FragmentSetup& s, const std::option
   const auto stored = tile.at(place);
   const Mask<R> nearer = covered & compares<R>(draw.depth_func, z, Lanes<R>::load(stored.depth));
   if (!any(nearer) && !draw.stencil) return;
-  const glm::bvec4& channels = draw.merge.color_mask;
-  const bool needs_color = draw.alpha_test || channels.r || channels.g || channels.b || channels.a;
+  const bool needs_color = draw.alpha_test || glm::any(draw.merge.color_mask);
   Color<R> shaded{};
   if (needs_color && surface) {
     shaded = shade<R>(*surface->surface, s.front, surface_attributes<R>(s, *surface, p));

@@ -76,11 +76,4 @@ void each_sample(const Painting& painting, PackedTile* tiles, auto paint) {
   }
 }
 
-/// The same in the tile of each sample.
-template <int kSampleCount>
-void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, PackedTile* tiles) {
-  each_sample<kSampleCount>(painting, tiles,
-                            [&](const Painting& of, PackedTile& tile) { paint_alone(of, draw, triangle, tile); });
-}
-
 }  // namespace plumbline::pipeline

@@ -39,7 +39,9 @@ class OpaqueRun {
         if (lanes_.fits(lane)) {
           paint_lane(lane);
         } else {
-          paint_alone<kSamples>(painting_, draw_, lanes_.triangle(lane), tiles_);
+          each_sample<kSamples>(painting_, tiles_, [&](const Painting& of, PackedTile& tile) {
+            paint_alone(of, draw_, lanes_.triangle(lane), tile);
+          });
         }
       }
     }

@@ -67,8 +67,7 @@ inline void find_runs(const Painting& painting, std::size_t tile, std::vector<Pa
       const std::uint32_t draw = of_draw->draw;
       while (of_draw + 1 != chunk.draws.end() && alike(painting.draws[draw], painting.draws[of_draw[1].draw]))
         ++of_draw;
-      const auto end =
-          std::partition_point(numbers.begin(), numbers.end(), [&](std::uint32_t n) { return n < of_draw->end; });
+      const auto end = std::ranges::lower_bound(numbers, of_draw->end);
       const auto count = static_cast<std::size_t>(end - numbers.begin());
       runs.push_back({draw, chunk.triangles.data(), numbers.first(count)});
       numbers = numbers.subspan(count);

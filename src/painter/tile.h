@@ -1,6 +1,7 @@
 // A tile: a square of the frame, stored block by block while it is painted.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "kernels/attributes.h"
@@ -23,10 +24,9 @@ struct Stored {
   }
   template <class R>
   void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
-    if (channels.r) store(kept, merged.r, color[0]);
-    if (channels.g) store(kept, merged.g, color[1]);
-    if (channels.b) store(kept, merged.b, color[2]);
-    if (channels.a) store(kept, merged.a, color[3]);
+    for (int c = 0; c < 4; ++c) {
+      if (channels[c]) store(kept, merged[c], color[c]);
+    }
   }
 };
 /// The same of rgba8, red in the lowest byte.
@@ -48,9 +48,9 @@ struct StoredCodes {
   }
   template <class R>
   void store_color(Mask<R> kept, const Color<R>& merged, const glm::bvec4& channels) const {
-    if (!channels.r && !channels.g && !channels.b && !channels.a) return;
+    if (!glm::any(channels)) return;
     const Int<R> codes = packed_codes(merged.r, merged.g, merged.b, merged.a);
-    if (channels.r && channels.g && channels.b && channels.a) return store_packed(kept, codes, color);
+    if (glm::all(channels)) return store_packed(kept, codes, color);
     const std::uint32_t written = (channels.r ? 0xffu : 0u) | (channels.g ? 0xff00u : 0u) |
                                   (channels.b ? 0xff0000u : 0u) | (channels.a ? 0xff000000u : 0u);
     const Int<R> to(static_cast<std::int32_t>(written)), other(static_cast<std::int32_t>(~written));
@@ -91,7 +91,24 @@ struct PackedTile {
 };
 
 /// Copies the tile's part of the frame out of its blocks.
-void write_out(Tile& tile, Frame& frame);
-void write_out(PackedTile& tile, Frame& frame);
+void write_out(auto& tile, Frame& frame) {
+  const auto copy = [&](auto& plane, auto value_at) {
+    for (int y = tile.y0; y < std::min(tile.y0 + kTile, plane.height()); ++y) {
+      for (int x = tile.x0; x < std::min(tile.x0 + kTile, plane.width()); ++x) {
+        plane(x, y) = value_at(tile.offset(x, y) + y % kBlock * kBlock + x % kBlock);
+      }
+    }
+  };
+  const auto copy_colors = [&]<class T>(Plane<T>& plane) {
+    copy(plane, [&](int place) {
+      const Color<float> c = tile.at(place).template load_color<float>();
+      return T(c.r, c.g, c.b, c.a);
+    });
+  };
+  copy_colors(frame.color_rgba8), copy_colors(frame.color_rgba16), copy_colors(frame.color_rgba32f);
+  copy(frame.depth_code, [&](int place) { return static_cast<std::uint32_t>(tile.depth[place]); });
+  copy(frame.depth_z32f, [&](int place) { return tile.depth[place]; });
+  copy(frame.stencil, [&](int place) { return tile.stencil[place]; });
+}
 
 }  // namespace plumbline::pipeline

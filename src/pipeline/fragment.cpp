@@ -57,10 +57,9 @@ void write_fragment(const Stages& stages, const Merge& state, float z, const Col
   const Color<float> made = state.logic_op ? stages.logic(*state.logic_op, color, *to.color, color_scale)
                             : state.blend  ? stages.blend(*state.blend, color, *to.color, color_scale)
                                            : stages.merge(color, color_scale);
-  if (state.color_mask.r) to.color->r = made.r;
-  if (state.color_mask.g) to.color->g = made.g;
-  if (state.color_mask.b) to.color->b = made.b;
-  if (state.color_mask.a) to.color->a = made.a;
+  for (int c = 0; c < 4; ++c) {
+    if (state.color_mask[c]) (*to.color)[c] = made[c];
+  }
 }
 
 }  // namespace plumbline::pipeline

@@ -15,6 +15,10 @@ Attributes gathered(const Vec4<double>& color, const Varyings<double>& columns, 
   return out;
 }
 
+const Vec4<double>* value_at(const std::vector<Vec4<double>>& column, std::size_t i) {
+  return i < column.size() ? &column[i] : nullptr;
+}
+
 }  // namespace
 
 Matrices<float> narrow(const Matrices<double>& m) {
@@ -32,8 +36,8 @@ Vertex<float> narrow(const Vertex<double>& v) {
   return {Vec4<float>(v.p_eye), Vec4<float>(v.p_clip), Vec3<float>(v.n_eye)};
 }
 
-Planes planes_of_frame(const Frame& frame, const Formats& formats) {
-  Planes out;
+void copy_planes(const Frame& frame, const FrameFormat& format, Planes& to) {
+  const Formats formats = formats_of(format);
   const auto as_color = [&](const auto& codes) {
     Plane<glm::vec4> color(codes.width(), codes.height());
     for (std::size_t i = 0; i < codes.size(); ++i) {
@@ -41,22 +45,19 @@ Planes planes_of_frame(const Frame& frame, const Formats& formats) {
     }
     return color;
   };
-  out.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
-              : !frame.color_rgba16.empty() ? as_color(frame.color_rgba16)
-                                            : frame.color_rgba32f;
-  out.depth = Plane<double>(out.color.width(), out.color.height());
-  for (std::size_t i = 0; i < out.depth.size(); ++i) {
-    out.depth.values()[i] = frame.depth_z32f.empty() ? frame.depth_code.values()[i] / formats.depth_scale
-                                                     : static_cast<double>(frame.depth_z32f.values()[i]);
+  to.color = !frame.color_rgba8.empty()    ? as_color(frame.color_rgba8)
+             : !frame.color_rgba16.empty() ? as_color(frame.color_rgba16)
+                                           : frame.color_rgba32f;
+  to.depth = Plane<double>(to.color.width(), to.color.height());
+  for (std::size_t i = 0; i < to.depth.size(); ++i) {
+    to.depth.values()[i] = frame.depth_z32f.empty() ? frame.depth_code.values()[i] / formats.depth_scale
+                                                    : static_cast<double>(frame.depth_z32f.values()[i]);
   }
-  out.stencil = frame.stencil;
-  return out;
+  to.stencil = frame.stencil;
 }
 
 Attributes attributes_at(const Records<double>& r, std::size_t i) {
-  return gathered(r.lit[i].color, r.varyings, [&](const VaryingColumns<double>& columns) {
-    return i < columns.vertices.size() ? &columns.vertices[i] : nullptr;
-  });
+  return gathered(r.lit[i].color, r.varyings, [&](const auto& columns) { return value_at(columns.vertices, i); });
 }
 
 Polygon polygon_at(const Records<double>& r, std::size_t i) {
@@ -64,12 +65,8 @@ Polygon polygon_at(const Records<double>& r, std::size_t i) {
   Polygon out{from.primitive, {}};
   for (std::size_t k = from.first; k < from.first + from.count; ++k) {
     const plumbline::ClipVertex<double>& v = r.polygons.vertices[k];
-    out.corners.push_back({Vec4<float>(v.p_clip),
-                           gathered(v.color, r.varyings,
-                                    [&](const VaryingColumns<double>& columns) {
-                                      return k < columns.clipped.size() ? &columns.clipped[k] : nullptr;
-                                    }),
-                           v.cut});
+    const auto value = [&](const auto& columns) { return value_at(columns.clipped, k); };
+    out.corners.push_back({Vec4<float>(v.p_clip), gathered(v.color, r.varyings, value), v.cut});
   }
   return out;
 }

@@ -14,8 +14,8 @@ Matrices<float> narrow(const Matrices<double>& from);
 std::vector<LightSource<float>> narrow(const std::vector<LightSource<double>>& from);
 Vertex<float> narrow(const Vertex<double>& from);
 
-/// Colours and depths in [0,1], where their format is one of codes.
-Planes planes_of_frame(const Frame& frame, const Formats& formats);
+/// Colour, depth and stencil of the frame into `to`; in [0,1], where their format is one of codes.
+void copy_planes(const Frame& frame, const FrameFormat& format, Planes& to);
 
 /// Number `i` of records.vertices with the attributes beside it; of records.polygons.polygons; of records.triangles.
 Attributes attributes_at(const Records<double>& records, std::size_t i);

@@ -45,21 +45,21 @@ class PipelineRenderer : public Renderer {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     Capture out = empty_capture(scene);
     if (request.planes == WantedPlanes::picture && !request.records.any()) {
-      out.planes = planes_of_frame(picture(scene, request.painter), formats_of(scene.frame));
+      copy_planes(picture(scene, request.painter), scene.frame, out.planes);
       return out;
     }
     if (scene.frame.antialias.kind != Antialias::Kind::none) {
       const std::vector<Frame> passes = render_passes(scene, stages_);
-      out.planes = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame));
-      for (const Frame& pass : passes) out.samples.push_back(planes_of_frame(pass, formats_of(scene.frame)).color);
+      copy_planes(resolve(stages_.resolve, scene.frame, passes), scene.frame, out.planes);
+      for (const Frame& pass : passes) {
+        Planes of_pass;
+        copy_planes(pass, scene.frame, of_pass);
+        out.samples.push_back(std::move(of_pass.color));
+      }
       return out;
     }
     Recorder records(scene, request, plane_bytes(scene), out);
-    const Frame frame = render(scene, stages_, records);
-    Planes finished = planes_of_frame(frame, formats_of(scene.frame));
-    out.planes.color = std::move(finished.color);
-    out.planes.depth = std::move(finished.depth);
-    out.planes.stencil = std::move(finished.stencil);
+    copy_planes(render(scene, stages_, records), scene.frame, out.planes);
     return out;
   }
 
@@ -85,8 +85,9 @@ class PipelineRenderer : public Renderer {
     require_samples(scene, samples);
     std::vector<Frame> passes;
     for (const Plane<glm::vec4>& color : samples) passes.push_back(frame_of_colors(scene.frame, color));
-    Capture out = empty_capture(scene);
-    out.planes.color = planes_of_frame(resolve(stages_.resolve, scene.frame, passes), formats_of(scene.frame)).color;
+    Capture made, out = empty_capture(scene);
+    copy_planes(resolve(stages_.resolve, scene.frame, passes), scene.frame, made.planes);
+    out.planes.color = std::move(made.planes.color);
     return out;
   }
 

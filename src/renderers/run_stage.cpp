@@ -168,10 +168,7 @@ class OneStage {
       recorder_.fragment(made);
     }
     if (stage_ < Stage::visibility) return;
-    Planes finished = planes_of_frame(pipeline::finished(scene_.frame, frame), formats);
-    made_.planes.color = std::move(finished.color);
-    made_.planes.depth = std::move(finished.depth);
-    made_.planes.stencil = std::move(finished.stencil);
+    copy_planes(finished(scene_.frame, frame), scene_.frame, made_.planes);
   }
 
   SurfaceAttributes<float> recorded_attributes(std::size_t i, const Surface& surface) const {
