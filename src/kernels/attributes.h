@@ -9,7 +9,7 @@
 
 #include "capture/stages.h"
 #include "kernels/depth.h"
-#include "kernels/vectors.h"
+#include "kernels/math.h"
 
 namespace plumbline::pipeline {
 

@@ -26,10 +26,6 @@ ClipVertex moved(const ClipVertex& v, const ClipVertex& towards, float t) {
   return out;
 }
 
-ClipVertex cut(const ClipVertex& a, float d_a, const ClipVertex& b, float d_b) {
-  return moved(a, b, d_a / (d_a - d_b));
-}
-
 Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
   Polygon out{in.primitive, {}};
   for (std::size_t i = 0; i < in.corners.size(); ++i) {
@@ -41,7 +37,8 @@ Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
     const bool from_inside = d_from >= 0;
     const float d_in = from_inside ? d_from : d_to, d_out = from_inside ? d_to : d_from;
     const bool start_outside = -d_out < d_in;
-    out.corners.push_back(start_outside == from_inside ? cut(to, d_to, from, d_from) : cut(from, d_from, to, d_to));
+    out.corners.push_back(start_outside == from_inside ? moved(to, from, d_to / (d_to - d_from))
+                                                       : moved(from, to, d_from / (d_from - d_to)));
   }
   return out;
 }

@@ -1,6 +1,6 @@
 #include "pipeline/vertex.h"
 
-#include "kernels/vectors.h"
+#include "kernels/math.h"
 
 namespace plumbline::pipeline {
 
