@@ -134,11 +134,6 @@ template <class R>
 [[gnu::always_inline]] inline Wide<R> size_of_level(int base, const R& level) {
   return greater_of(floor_of(static_cast<double>(base) * power_of_two(-to_wide(level))), Wide<R>(1));
 }
-/// Coordinates of texels, for those that a plane extrapolated out of a sliver makes: within what a double counts.
-template <class W>
-W bounded(const W& u) {
-  return clamped(u, W(-0x1p40), W(0x1p40));
-}
 
 /// The texels about a place in each lane's level: it and its neighbours to the right, above, and both; and how far the
 /// place is towards them. The nearest texel is the first.
@@ -160,7 +155,8 @@ template <class R, class Level>
   const Wrap wrap_s = t.sampler.wrap_s, wrap_t = t.sampler.wrap_t;
   const W shift(linear ? 0.5 : 0.0);
   const auto place = [&](Wrap wrap, const R& coordinate, const W& size) {
-    const W u = bounded<W>(to_wide(coordinate) * size);
+    // A plane extrapolated out of a sliver makes any number; a double counts texels up to 2^40 well.
+    const W u = clamped<W>(to_wide(coordinate) * size, W(-0x1p40), W(0x1p40));
     return (wrap == Wrap::mirrored_repeat ? mirrored<W>(u, size) : u) - shift;
   };
   const auto halves = [](int base) { return std::has_single_bit(static_cast<unsigned>(base)); };

@@ -56,11 +56,6 @@ class Assembler {
         t.corners < 3 ? static_cast<int>(t.width) : 0);
   }
 
-  void end_draw(std::uint32_t draw) {
-    if (chunk_.count > (chunk_.draws.empty() ? 0 : chunk_.draws.back().end))
-      chunk_.draws.push_back({draw, chunk_.count});
-  }
-
   // A counting sort: numbers ascend within each tile.
   void fill_bins() {
     std::vector<std::uint32_t>& first = chunk_.first;
@@ -147,10 +142,6 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTria
         std::span(work.mesh->triangles).subspan(begin - work.range.first_primitive, end - begin);
     // add(i), of those that are wholly in the view volume.
     const auto each_inside = [&](std::size_t from, std::size_t to_end, auto add) {
-      if (work.all_inside()) {
-        for (std::size_t i = from; i < to_end; ++i) add(i);
-        return;
-      }
       for (std::size_t i = from; i < to_end; ++i) {
         const glm::uvec3& corner = corners[i];
         const unsigned a = work.outside[corner[0]], b = work.outside[corner[1]], c = work.outside[corner[2]];
@@ -179,7 +170,8 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTria
       });
     }
     add_others(end);
-    to.end_draw(static_cast<std::uint32_t>(d));
+    if (chunk.count > (chunk.draws.empty() ? 0 : chunk.draws.back().end))
+      chunk.draws.push_back({static_cast<std::uint32_t>(d), chunk.count});
   }
   to.fill_bins();
 }

@@ -13,8 +13,6 @@ struct AssemblyWork {
   std::uint8_t planes;          ///< outcode bits of the planes that cut (clip.h)
   const std::uint8_t* outside;  ///< null: its window triangles are all in `others`
   std::uint8_t any_outside;     ///< OR of `outside[]` over the draw's vertices
-
-  bool all_inside() const { return (any_outside & (planes | kNotFinite | kNotDrawable)) == 0; }
 };
 
 /// Drawn face of a triangle.

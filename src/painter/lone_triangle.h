@@ -26,11 +26,6 @@ inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTr
   }
   return out;
 }
-/// Its colours at the corners.
-inline std::array<Vec4<float>, 3> colors_of(const Painting& painting, const PaintDraw& draw, const PaintTriangle& t) {
-  const auto color = [&](int k) { return painting.vertices[t.corner[draw.flat() ? 1 : k]].color; };
-  return {color(0), color(1), color(2)};
-}
 
 /// Of a draw with a surface; (x0, y0): the tile's lower left pixel.
 inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const PaintDraw& draw,
@@ -52,8 +47,9 @@ void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTri
   const WindowTriangle t = window_triangle_of(painting, triangle), seen = as_seen_from(t, painting.formats.sample);
   const BarycentricPlanes planes = planes_of(t, tile.x0, tile.y0);
   const DepthPlane depth = moved(depth_plane(depth_setup(t, draw.depth), planes), painting.formats.sample);
+  const auto color = [&](int k) { return painting.vertices[triangle.corner[draw.flat() ? 1 : k]].color; };
   const FragmentSetup s{t.front, planes, depth, perspective_setup(t, planes),
-                        attribute_setup(colors_of(painting, draw, triangle))};
+                        attribute_setup({color(0), color(1), color(2)})};
   const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, triangle, tile.x0, tile.y0);
   const auto paint = [&](glm::ivec2 p) {
     const int place = tile.offset(p.x, p.y) + p.y % kBlock * kBlock + p.x % kBlock;

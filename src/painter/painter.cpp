@@ -222,15 +222,14 @@ void Painter::Memory::run_others(const Scene& scene) {
   const std::span<const ShadedTriangle> triangles = other_geometry.run(scene, assembly);
   others = {triangles, static_cast<std::uint32_t>(vertex_count)};
   if (triangles.empty()) return;
-  const std::size_t corners = 3 * triangles.size();
-  PaintVertex* to = room_for(vertex_count + corners, vertices);
-  for (std::size_t i = 0; i < corners; ++i) {
-    const WindowVertex& v = triangles[i / 3].v[i % 3];
-    to[vertex_count + i] = {v.p_win, v.inv_w, v.snapped, triangles[i / 3].attributes[i % 3].color()};
-  }
-  for (const Varying v : carried_varyings) {
-    Vec4<float>* fours = room_for(vertex_count + corners, varyings[static_cast<std::size_t>(v)]);
-    for (std::size_t i = 0; i < corners; ++i) fours[vertex_count + i] = triangles[i / 3].attributes[i % 3][v];
+  const std::size_t all = vertex_count + 3 * triangles.size();
+  room_for(all, vertices);
+  for (const Varying v : carried_varyings) room_for(all, varyings[static_cast<std::size_t>(v)]);
+  for (std::size_t to = vertex_count, i = 0; to < all; ++to, ++i) {
+    const ShadedTriangle& t = triangles[i / 3];
+    const WindowVertex& v = t.v[i % 3];
+    vertices[to] = {v.p_win, v.inv_w, v.snapped, t.attributes[i % 3].color()};
+    for (const Varying a : carried_varyings) varyings[static_cast<std::size_t>(a)][to] = t.attributes[i % 3][a];
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace plumbline::pipeline {
 
-Frame render(const Scene& scene, const Stages& stages, Recorder& records) {
+Frame render(const Scene& scene, const Stages& stages, Recorder records) {
   // 12. Resolve: an antialiased scene is drawn in passes, each a scene of its own.
   if (scene.frame.antialias.kind != Antialias::Kind::none) {
     return resolve(stages.resolve, scene.frame, render_passes(scene, stages));
@@ -106,11 +106,6 @@ std::vector<Frame> render_passes(const Scene& scene, const Stages& stages) {
   std::vector<Frame> frames;
   for (const Scene& pass : passes_of(scene)) frames.push_back(render(pass, stages));
   return frames;
-}
-
-Frame render(const Scene& scene, const Stages& stages) {
-  Recorder nothing;
-  return render(scene, stages, nothing);
 }
 
 }  // namespace plumbline::pipeline

@@ -11,8 +11,7 @@
 namespace plumbline::pipeline {
 
 /// Draws the scene by these stage functions; of a scene that is not antialiased, `records` keeps what it is asked for.
-Frame render(const Scene& scene, const Stages& stages, Recorder& records);
-Frame render(const Scene& scene, const Stages& stages = production_stages());
+Frame render(const Scene& scene, const Stages& stages = production_stages(), Recorder records = {});
 
 /// Stages 3 to 11 of the primitives of one draw, whose vertices have been through stages 0 to 2.
 struct DrawVertices {

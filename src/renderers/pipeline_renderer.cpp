@@ -58,8 +58,8 @@ class PipelineRenderer : public Renderer {
       }
       return out;
     }
-    Recorder records(scene, request, plane_bytes(scene), out);
-    copy_planes(render(scene, stages_, records), scene.frame, out.planes);
+    const Frame frame = render(scene, stages_, {scene, request, plane_bytes(scene), out});
+    copy_planes(frame, scene.frame, out.planes);
     return out;
   }
 
