@@ -140,9 +140,11 @@ void assemble(Chunk& chunk, std::span<const AssemblyWork> draws, const OtherTria
     };
     const std::span<const glm::uvec3> corners =
         std::span(work.mesh->triangles).subspan(begin - work.range.first_primitive, end - begin);
+    const bool all_inside = (work.any_outside & (work.planes | kNotFinite | kNotDrawable)) == 0;
     // add(i), of those that are wholly in the view volume.
     const auto each_inside = [&](std::size_t from, std::size_t to_end, auto add) {
-      for (std::size_t i = from; i < to_end; ++i) {
+      for (std::size_t i = from; i < to_end && all_inside; ++i) add(i);
+      for (std::size_t i = from; i < to_end && !all_inside; ++i) {
         const glm::uvec3& corner = corners[i];
         const unsigned a = work.outside[corner[0]], b = work.outside[corner[1]], c = work.outside[corner[2]];
         const unsigned any = a | b | c;

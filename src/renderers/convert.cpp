@@ -26,12 +26,6 @@ Matrices<float> narrow(const Matrices<double>& m) {
           Vec3<float>(m.win_translate)};
 }
 
-std::vector<LightSource<float>> narrow(const std::vector<LightSource<double>>& from) {
-  std::vector<LightSource<float>> out;
-  for (const LightSource<double>& l : from) out.push_back({Vec4<float>(l.p_eye), Vec3<float>(l.spot_eye)});
-  return out;
-}
-
 Vertex<float> narrow(const Vertex<double>& v) {
   return {Vec4<float>(v.p_eye), Vec4<float>(v.p_clip), Vec3<float>(v.n_eye)};
 }

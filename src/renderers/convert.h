@@ -11,7 +11,6 @@
 namespace plumbline::pipeline {
 
 Matrices<float> narrow(const Matrices<double>& from);
-std::vector<LightSource<float>> narrow(const std::vector<LightSource<double>>& from);
 Vertex<float> narrow(const Vertex<double>& from);
 
 /// Colour, depth and stencil of the frame into `to`; in [0,1], where their format is one of codes.

@@ -26,11 +26,11 @@ class OneStage {
         records_(in.records),
         request_{StageSet{stage}, false, {}, {}, std::numeric_limits<std::size_t>::max()},
         recorder_(scene, request_, 0, made_),
-        ranges_(draw_ranges(scene)),
-        lights_(narrow(records_.lights)) {
-    if (!lights_.empty()) return;
-    const auto of_scene = light_sources(scene);
-    lights_.assign(of_scene.begin(), of_scene.end());
+        ranges_(draw_ranges(scene)) {
+    for (const auto& l : records_.lights) lights_.push_back({Vec4<float>(l.p_eye), Vec3<float>(l.spot_eye)});
+    for (const auto& l : light_sources(scene)) {
+      if (records_.lights.empty()) lights_.push_back(l);
+    }
   }
 
   void run(Capture& out) {
