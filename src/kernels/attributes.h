@@ -37,7 +37,7 @@ template <class R>
 struct Weights {
   R k1, k2;
 };
-/// Of q_1, q_2 and their sum with q_0.
+/// Weights from q_1, q_2 and their sum with q_0.
 template <class R>
 [[gnu::always_inline]] inline Weights<R> weights(const R& q1, const R& q2, const R& sum) {
   // A plane extrapolated out of a sliver may reach the horizon: no division by (nearly) 0 there.

@@ -100,9 +100,9 @@ void visit_inside(const Edges& edges, const PixelBounds& box, auto visit) {
 /// The box's pixels that are also the frame's.
 PixelBounds scissored(const Scissor& box, const PixelBounds& frame);
 
-/// Those within `box`, row by row from the bottom, from left to right.
+/// Pixels of `box` that the triangle, line or point covers: row by row from the bottom, from left to right.
 std::vector<glm::ivec2> covered_pixels(const WindowTriangle& triangle, const PixelBounds& box);
-/// The same of a triangle by other edges, or by other bounds.
+/// Pixels of `bounds` and `box` that the edges cover, in that order.
 std::vector<glm::ivec2> covered_pixels(const Edges& edges, const PixelBounds& bounds, const PixelBounds& box);
 
 /// The frame's pixels.

@@ -12,7 +12,7 @@
 
 namespace plumbline::pipeline {
 
-/// What is affine in the window: its value at an anchor, a pixel's centre nearby, and how much it grows by x and by y.
+/// Function affine in the window: its value at an anchor, a pixel's centre nearby, and its slopes by x and y.
 template <class W>
 struct Affine {
   W at_0, x, y;
@@ -36,7 +36,7 @@ W difference_of_products(W a, W b, W c, W d) {
   return fused(a, b, -cd) + error;
 }
 
-/// What a triangle's planes go through: corner 0, and the others' places from it.
+/// Window positions that a triangle's planes go through: corner 0, and the others' differences from it.
 template <class W>
 struct PlaneCorners {
   W p0_x, p0_y, d1_x, d1_y, d2_x, d2_y;
@@ -72,7 +72,7 @@ PlaneCorners<Wide<R>> plane_corners(const R (&x_win)[3], const R (&y_win)[3], co
   return plane_corners<W>(x, y);
 }
 
-/// What a triangle's planes are made of, and its barycentric coordinates l1 and l2 (l0 = 1 - l1 - l2).
+/// Common terms of a triangle's planes, and its barycentric coordinates l1 and l2 (l0 = 1 - l1 - l2).
 template <class W>
 struct CornerPlanes {
   PlaneCorners<W> corners;
@@ -100,7 +100,7 @@ template <class W>
 struct Anchor {
   double x0, y0;  ///< window
 };
-/// Those of a window triangle, and where their anchor is.
+/// Planes of a window triangle, and their anchor.
 struct BarycentricPlanes : CornerPlanes<double>, Anchor {};
 
 /// Along a line, l1 = (p - p0).(p1 - p0) / |p1 - p0|^2 and l2 = 0 (OpenGL 2.1, equation 3.5); of a point both are 0.
@@ -109,7 +109,7 @@ struct BarycentricPlanes : CornerPlanes<double>, Anchor {};
 /// would be so large that double itself is too coarse.
 BarycentricPlanes planes_of(const WindowTriangle& triangle, int x0, int y0);
 
-/// The same for the points `place` (in 1/256 pixel) from those that they are asked for.
+/// Planes that answer for the points `place` [1/256 pixel] from those that are asked for.
 BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place);
 
 template <class R>
@@ -117,7 +117,7 @@ template <class R>
   return {p.x_win - anchor.x0, p.y_win - anchor.y0};
 }
 
-/// What a draw says of its fragments' depth.
+/// A draw's state of stage 6.
 struct DepthState {
   DepthFormat format;
   double low = 0, high = 1;  ///< depths beyond are clamped
@@ -139,7 +139,7 @@ struct DepthPlane {
   double scale, low, high;  ///< as DepthSetup, but in codes
 };
 DepthPlane depth_plane(const DepthSetup& depth, const CornerPlanes<double>& planes);
-/// The same for the points `place` (in 1/256 pixel) from those that it is asked for.
+/// Plane that answers for the points `place` [1/256 pixel] from those that are asked for.
 DepthPlane moved(const DepthPlane& depth, glm::ivec2 place);
 
 /// The code nearest to `scaled` in [0, scale], half to even; of 8 bits half up, as tinyrenderer's int(z + .5) (note
@@ -149,7 +149,7 @@ template <class W>
   const W code = round_even(scaled);
   return scale == 255.0 ? select(scaled - code == 0.5, code + 1.0, code) : code;
 }
-/// Of z in [0,1].
+/// Code of z in [0,1].
 inline double depth_code(double z, double scale) { return rounded_code(z * scale, scale); }
 
 /// In the depth format: a code, which a float holds exactly up to 2^24, or window z itself for z32f.

@@ -59,7 +59,7 @@ struct Pixels {
 
 inline float to_float(double value) { return static_cast<float>(value); }
 inline double to_wide(float value) { return static_cast<double>(value); }
-/// Of whole numbers.
+/// Conversions of whole numbers.
 inline std::int64_t to_int(float value) { return static_cast<std::int64_t>(value); }
 inline float to_float(std::int64_t value) { return static_cast<float>(value); }
 inline bool any(bool mask) { return mask; }
@@ -97,7 +97,7 @@ inline double round_even(double value) { return (value + 6755399441055744.0) - 6
 
 /// The whole number below.
 inline double floor_of(double value) { return std::floor(value); }
-/// Of whole numbers below 2^51; of a SIMD type their lowest 32 bits.
+/// Conversions of whole numbers below 2^51; of a SIMD type their lowest 32 bits.
 inline std::int64_t to_int(double value) { return static_cast<std::int64_t>(value); }
 inline double to_wide(std::int64_t value) { return static_cast<double>(value); }
 /// The nearest, half to even, of |value| below 2^31.
@@ -125,7 +125,7 @@ R magnitude(R value) {
   return as_float(as_int(value) & Int<R>(0x7fffffff));
 }
 inline float square_root(float value) { return std::sqrt(value); }
-/// Of a positive normal number, mantissa in [1, 2) and exponent; and 2^n for a whole n from -1022 to 1023.
+/// Mantissa in [1, 2) and exponent of a positive normal number; and 2^n for a whole n from -1022 to 1023.
 inline double mantissa_of(double value) {
   return std::bit_cast<double>((std::bit_cast<std::uint64_t>(value) & 0xfffffffffffff) | 0x3ff0000000000000);
 }
@@ -149,7 +149,7 @@ inline std::int64_t packed_codes(float r, float g, float b, float a) {
   const auto code = [](float value) { return to_int(round_even(clamped(value, 0.0f, 255.0f))); };
   return code(r) | code(g) << 8 | code(b) << 16 | code(a) << 24;
 }
-/// The same of |value| below 2^31.
+/// packed_codes() of |value| below 2^31.
 inline std::int64_t packed_codes_near(float r, float g, float b, float a) { return packed_codes(r, g, b, a); }
 inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {
   if (mask) *to = static_cast<std::uint32_t>(value);
@@ -158,7 +158,7 @@ inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {
 inline void store(float value, float* to) { *to = value; }
 inline void store(double value, double* to) { *to = value; }
 inline void store(std::int64_t value, std::int32_t* to) { *to = static_cast<std::int32_t>(value); }
-/// Of numbers from 0 to 255.
+/// Bytes of whole numbers from 0 to 255.
 inline void store_codes(std::int64_t value, std::uint8_t* to) { *to = static_cast<std::uint8_t>(value); }
 
 /// Each lane's four floats, to where its pointer says.

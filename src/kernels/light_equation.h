@@ -27,7 +27,7 @@ struct EyeLight {
   float cos_cutoff, exponent;
 };
 
-/// What does not change within a draw.
+/// Light model and lights: the same for all of a scene.
 struct Illumination {
   LightModel model;
   FixedVector<EyeLight, 8> lights;
@@ -42,7 +42,7 @@ struct ColoredMaterial {
 };
 ColoredMaterial colored_material(const Scene& scene, const Draw& draw, LitPart part);
 
-/// What a material makes of the light: emission and ambient light, and each light's colours times its own.
+/// A material's colours times the lights': emission and ambient light, and each light's three.
 template <class R>
 struct Reflectance {
   struct Answer {
@@ -101,7 +101,7 @@ Cosines<R> cosines(const LightModel& model, const EyeLight& light, Vec3<R> n, co
   return {diffuse, positive_dot(mirrored, to_eye)};
 }
 
-/// What distance and cone leave of a light.
+/// Share of a light that distance and cone leave.
 template <class R>
 R reach(const EyeLight& light, const Vec3<R>& from_point, const Vec3<R>& to_light) {
   R share(1);
@@ -154,7 +154,7 @@ Color<R> lit(const Illumination& illumination, const Reflectance<T>& reflectance
 
 // Light per fragment (Phong, Illumination for computer generated pictures, CACM 1975).
 
-/// What a draw's fragments are lit by.
+/// Per-draw input of the light equation at fragments.
 struct FragmentLight {
   const Scene* scene;
   bool by_color;  ///< its colours stand for some of its material

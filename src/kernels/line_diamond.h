@@ -24,7 +24,7 @@ struct DiamondSteps {
   std::int64_t toward;  ///< 1 or -1
   std::int64_t rest, step, divisor;
 };
-/// Of the columns in the frame.
+/// Steps of the line from `a` to `b` over the columns that are in the frame.
 DiamondSteps diamond_steps(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame);
 
 /// Calls visit(pixel) for the pixels of the line from `a` to `b` within [0, frame.x) x [0, frame.y), in the order in

@@ -18,14 +18,14 @@ template <class R>
   });
 }
 
-/// The same of rgba8, packed.
+/// merge() into rgba8, packed.
 template <class R>
 [[gnu::always_inline]] inline Int<R> packed_merge(const Color<R>& color) {
   const Color<R> codes = color * R(255.0f);
   return packed_codes(codes.r, codes.g, codes.b, codes.a);
 }
 
-/// The same where no channel is beyond 2^22.
+/// packed_merge() where no channel is beyond 2^22.
 template <class R>
 [[gnu::always_inline]] inline Int<R> packed_merge_near(const Color<R>& color) {
   const Color<R> codes = color * R(255.0f);

@@ -89,7 +89,7 @@ struct SimdOf {
 using Simd = SimdOf<hn::FixedTag<float, kWidth>>;
 using SimdInt = SimdOf<hn::FixedTag<std::int32_t, kWidth>>;
 
-/// Of doubles, in two halves.
+/// Mask of doubles, in two halves.
 struct WideMask {
   DoubleMask low, high;
   friend WideMask operator&(WideMask a, WideMask b) { return {hn::And(a.low, b.low), hn::And(a.high, b.high)}; }
@@ -123,7 +123,6 @@ struct SimdWide {
 inline SimdWide select(WideMask mask, SimdWide yes, SimdWide no) {
   return {hn::IfThenElse(mask.low, yes.low, no.low), hn::IfThenElse(mask.high, yes.high, no.high)};
 }
-
 inline SimdWide greater_of(SimdWide a, SimdWide b) { return {hn::Max(a.low, b.low), hn::Max(a.high, b.high)}; }
 inline SimdWide lesser_of(SimdWide a, SimdWide b) { return {hn::Min(a.low, b.low), hn::Min(a.high, b.high)}; }
 
@@ -282,7 +281,7 @@ inline Vec4<Simd> transposed(const Vec4<Simd>& in) {
     }
   }
 }
-// Of fours: a vector of doubles holds those of one lane, or half of them, or those of two lanes.
+// A vector of doubles holds the four numbers of one lane, or two of them, or those of two lanes.
 inline constexpr hn::FixedTag<double, kHalf == 2 ? 2 : 4> kFourDoubles{};
 inline constexpr hn::FixedTag<float, kHalf == 2 ? 2 : 4> kFourFloats{};
 template <class Four>

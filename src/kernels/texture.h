@@ -19,7 +19,7 @@ template <class R>
 struct TexCoords {
   R s, t;
 };
-/// Of s and t, by window x and y, times q^2: each is affine in the window, in x or in y alone.
+/// Derivatives of s and t by window x and y, times q^2: each is affine in the window, in x or in y alone.
 template <class R>
 struct Gradients {
   Wide<R> ds_dx, dt_dx, ds_dy, dt_dy;
@@ -48,7 +48,7 @@ template <class R>
           g.dt_dy - at.dx * g.t_turn, q};
 }
 
-/// What of a texture is looked at per fragment, chosen once per draw.
+/// Per-draw input of stage 8.
 struct TextureSetup {
   const Texture* texture;
   Sampler sampler;
@@ -62,8 +62,8 @@ struct TextureSetup {
 };
 TextureSetup texture_setup(const Texture& texture, const Sampler& sampler);
 
-/// Of texels by pixels, times q^4: the squared length of the longer of the two vectors by which texel coordinates go
-/// from one pixel to the next.
+/// Squared length, times q^4, of the longer of the two vectors by which texel coordinates go from one pixel to the next
+/// [texels per pixel].
 template <class R>
 [[gnu::always_inline]] inline Wide<R> longer_squared(const TextureSetup& t, const Gradients<R>& g) {
   const auto squared = [&](const Wide<R>& ds, const Wide<R>& dt) {
@@ -108,7 +108,7 @@ W wrapped(Wrap wrap, const W& i, const W& size) {
   }
   return i;
 }
-/// Of texel `i`, and of the next. `halves`: the base level's size is a power of two, and so are the others'.
+/// Numbers of texel `i` and the next, wrapped. `halves`: all levels' sizes are powers of two.
 template <class R>
 [[gnu::always_inline]] inline std::array<Int<R>, 2> texel_numbers(Wrap wrap, const Wide<R>& i, const Wide<R>& size,
                                                                   bool halves) {
@@ -183,7 +183,7 @@ template <class R, class Level>
   store(v - j, out.above);
 }
 
-/// Of the taps' mean by area, or of their first, a row.
+/// One row (row_of_fours) of the taps' mean by area, or of the first tap.
 template <class R, bool kBorder>
 [[gnu::always_inline]] inline Wide<R> texel_row(const TextureSetup& t, const Taps<R>& taps, bool linear, int row) {
   using W = Wide<R>;
@@ -220,7 +220,7 @@ Levels<R> levels(const TextureSetup& t, R lod) {
   return {to_float(lesser_of(first, last)), first < last, lambda - whole};
 }
 
-/// Of the first level and, where `two`, the second, whose share is k; linear or nearest. Rounded once.
+/// Texel of the first level, mixed where `two` with the second, whose share is k; linear or nearest. Rounded once.
 template <class R, bool kBorder, class Level>
 Color<R> mix_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const Level& first, const Level& second,
                     const Mask<R>& two, const Wide<R>& k) {

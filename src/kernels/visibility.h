@@ -39,7 +39,7 @@ Mask<R> stencil_passes(const StencilFace& face, Int<R> held) {
   return compares<R>(face.func, Int<R>(face.reference & face.mask), held & Int<R>(face.mask));
 }
 
-/// What an op makes of the value held.
+/// Value that an op makes of the value held.
 template <class R>
 Int<R> stencil_value(StencilOp op, std::uint8_t reference, Int<R> held) {
   const Int<R> one(1), most(255);
@@ -56,8 +56,8 @@ Int<R> stencil_value(StencilOp op, std::uint8_t reference, Int<R> held) {
   return held;
 }
 
-/// Of the fragments `alive`, those that pass the stencil test; what is held at `at` changes as the face says. `nearer`:
-/// whether they pass the depth test.
+/// Mask of the fragments `alive` that pass the stencil test; the values at `at` change as the face says. `nearer`: the
+/// depth test's answer.
 template <class R>
 Mask<R> stencil_test(const StencilFace& face, Mask<R> alive, Mask<R> nearer, std::uint8_t* at) {
   const Int<R> held = Lanes<R>::load(at), write(face.write_mask), kept(255 & ~face.write_mask);

@@ -36,9 +36,9 @@ inline std::int64_t snapped_area(const WindowTriangle& t) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// What a convex polygon of `count` corners becomes in the window, less what the draw culls: triangle(i, front) for
-/// corners (i - 1, i, 0) of its fan where they have an area; or, of a face that is not filled, line(a, b, front) for each
-/// edge or point(a, front) for each corner. area(i): twice the snapped area of the fan's triangle i.
+/// Splits a convex polygon of `count` corners, less what the draw culls. Calls triangle(i, front) for each triangle
+/// (i - 1, i, 0) of its fan that has an area; or, of a face that is not filled, line(a, b, front) for each edge or
+/// point(a, front) for each corner. area(i): twice the snapped area of the fan's triangle i.
 void visit_polygon(const Draw& draw, std::size_t count, auto area, auto triangle, auto line, auto point) {
   const auto culled = [&](bool front) { return draw.cull != Cull::none && front == (draw.cull == Cull::front); };
   std::int64_t sum = 0;

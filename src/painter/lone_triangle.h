@@ -27,7 +27,7 @@ inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTr
   return out;
 }
 
-/// Of a draw with a surface; (x0, y0): the tile's lower left pixel.
+/// Varyings of a draw's triangle; none without a surface. (x0, y0): the tile's lower left pixel.
 inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const PaintDraw& draw,
                                                  const PaintTriangle& t, int x0, int y0) {
   if (draw.surface == nullptr) return {};

@@ -25,7 +25,6 @@ template <class R>
 /// Wider ones, and those that share their lanes, are painted alone.
 template <class R>
 void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile) {
-  using I = Int<R>;
   constexpr int kLanes = Lanes<R>::width;
   const PaintDraw& draw = painting.draws[run.draw];
   const glm::i64vec2 origin = std::int64_t{kSubpixel} * glm::i64vec2(tile.x0, tile.y0);
@@ -53,8 +52,8 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
     set_up_planes<R>(planes_of_lines<R>(corners.p_win, {tile.x0, tile.y0}), corners.p_win, painting, lines.lanes);
     PixelsOfLanes<R, true, false, kTile> values(lines.lanes, 0);
     for (int k = 0; k < most; ++k) {
-      const I pixel = Lanes<R>::load(pixel_of[k]);
-      values.work_out(k, pixel & I(kTile - 1), shifted_right<6>(pixel));
+      const Int<R> pixel = Lanes<R>::load(pixel_of[k]);
+      values.work_out(k, pixel & Int<R>(kTile - 1), shifted_right<6>(pixel));
     }
     for (int lane = 0; lane < lines.count; ++lane) values.paint(lane, pixels[lane], false, 0, tile);
   }

@@ -193,7 +193,7 @@ class OpaqueRun {
     }
   }
 
-  // Which pixels of their boxes of lanes.width x lanes.height pixels the triangles cover, and these (paint_pixels.h).
+  // Pixels that the triangles cover in their boxes of lanes.width x lanes.height, found and painted (paint_pixels.h).
   template <bool kPlain>
   void paint_small(int sample) {
     const auto& lanes = lanes_.lanes;

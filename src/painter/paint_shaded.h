@@ -19,7 +19,7 @@ class ShadedPixels {
                const LaneSetup<kSampleCount>& setup, PackedTile* tiles)
       : painting_(painting), draw_(draw), triangle_(triangle), setup_(setup), tiles_(tiles) {}
 
-  /// Those of a part of a block, from `place` on.
+  /// Adds the pixels `kept` of a part of a block, which begins at `place`.
   void add(int place, const std::array<Mask<R>, kSampleCount>& kept) {
     unsigned of_sample[kSampleCount], some = 0;
     for (int i = 0; i < kSampleCount; ++i) some |= of_sample[i] = bits_of(kept[static_cast<std::size_t>(i)]);

@@ -21,7 +21,7 @@ inline DepthPlane depth_of_lane(const Painting& painting, const PaintDraw& draw,
   return moved(depth_plane(depth_setup(record, draw.depth), planes_of(record, x0, y0)), painting.formats.sample);
 }
 
-/// Those of the run, by the draw's state.
+/// Paints the triangles, lines and points of the run, whatever the draw's state.
 template <class R>
 void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   const PaintDraw& draw = painting.draws[run.draw];
@@ -75,8 +75,8 @@ inline void find_runs(const Painting& painting, std::size_t tile, std::vector<Pa
   }
 }
 
-/// Of the runs that OpaqueRun may paint, those first in the tile; painted from the last to the first where
-/// that is from near to far.
+/// Paints the tile's first runs of PaintKernel::replaces, from the last to the first, if that is from near to far;
+/// returns how many.
 template <class R>
 std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun> runs, PackedTile& tile) {
   const auto opaque = [&](const PaintRun& run) { return painting.draws[run.draw].kernel == PaintKernel::replaces; };

@@ -87,7 +87,7 @@ Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   return outside;
 }
 
-/// [from, to) of the draw's vertices; returns what of any lies outside.
+/// Vertices [from, to) of the draw; returns the OR of their outcodes.
 template <class R>
 std::uint8_t paint_vertices(const VertexWork& work, std::size_t from, std::size_t to) {
   std::size_t i = from;

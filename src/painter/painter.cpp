@@ -217,7 +217,7 @@ void Painter::Memory::run_vertices(const Scene& scene) {
   for (const Share& share : shares) assembly[share.draw].any_outside |= share.outside;
 }
 
-// What goes by the definition, beside what goes in lanes.
+// Stages 0 to 4 by the definition, of primitives that do not go in lanes.
 void Painter::Memory::run_others(const Scene& scene) {
   const std::span<const ShadedTriangle> triangles = other_geometry.run(scene, assembly);
   others = {triangles, static_cast<std::uint32_t>(vertex_count)};

@@ -121,7 +121,7 @@ struct Painting {
     for (const glm::ivec2& sample : samples) low = glm::min(low, sample), high = glm::max(high, sample);
     return {low, high};
   }
-  /// Of a depth with codes.
+  /// Depth code that a tile is cleared to; for depth formats with codes.
   double clear_code() const { return depth_code(format.clear_depth, formats.depth_scale); }
 };
 

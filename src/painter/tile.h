@@ -29,7 +29,7 @@ struct Stored {
     }
   }
 };
-/// The same of rgba8, red in the lowest byte.
+/// Stored values of rgba8 tiles, red in the lowest byte.
 struct StoredCodes {
   float* depth;
   std::uint32_t* color;
@@ -58,7 +58,7 @@ struct StoredCodes {
   }
 };
 
-/// Of the block whose lower left pixel is (x, y) in the tile, its first pixel's place.
+/// Place of a block's first pixel; (x, y): any pixel of the block, in the tile.
 inline int block_offset(int x, int y) {
   static_assert(kBlock == 4 && kTile == 64);
   return (y >> 2 << 8) + (x >> 2 << 4);
@@ -76,7 +76,7 @@ struct Tile {
     return {depth + place, {color[0] + place, color[1] + place, color[2] + place, color[3] + place}, stencil + place};
   }
 };
-/// Of rgba8 frames: half the memory, written out as it is.
+/// Tile of rgba8 frames: half the memory, written out as it is.
 struct PackedTile {
   int x0, y0;
   alignas(64) float depth[kTile * kTile];

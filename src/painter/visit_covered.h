@@ -77,7 +77,8 @@ class LanesOfRun {
     if (begin_ >= run_.numbers.size()) return false;
     count = static_cast<int>(std::min(kLanes, run_.numbers.size() - begin_));
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      for (std::size_t k = 0; k < 3; ++k) corner[k][lane] = painting_.vertices + in_lane(lane).corner[k];
+      const PaintTriangle& t = in_lane(lane);
+      for (std::size_t k = 0; k < 3; ++k) corner[k][lane] = painting_.vertices + t.corner[k];
     }
     return true;
   }
@@ -86,8 +87,9 @@ class LanesOfRun {
     alignas(64) float facing[kLanes];
     bool triangles_alone = true;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      facing[lane] = in_lane(lane).front ? 1.0f : -1.0f;
-      triangles_alone &= in_lane(lane).corners == 3;
+      const PaintTriangle& t = in_lane(lane);
+      facing[lane] = t.front ? 1.0f : -1.0f;
+      triangles_alone &= t.corners == 3;
     }
     lanes.fitting = 0;
     if (triangles_alone)

@@ -32,7 +32,7 @@ struct Formats {
 };
 Formats formats_of(const FrameFormat& frame);
 
-/// What a cleared pixel holds, in the frame's formats.
+/// Values of a cleared pixel, in the frame's formats.
 struct ClearPixel {
   float depth;
   Color<float> color;

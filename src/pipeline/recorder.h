@@ -28,7 +28,7 @@ class Recorder {
   /// Whether every fragment is wanted, hidden ones too.
   bool keeps_fragments() const { return out_ != nullptr; }
 
-  /// Of a scene that draws something.
+  /// Lights of a scene that draws something.
   void lights(std::span<const LightSource<float>> lights);
   /// The draw whose records come next.
   void draw(const Draw& draw, const Matrices<float>& matrices);
@@ -36,7 +36,7 @@ class Recorder {
   void attributes(std::span<const Attributes> attributes);
   void polygon(const Polygon& polygon);
   void triangle(const WindowTriangle& triangle, const std::array<Attributes, 3>& attributes);
-  /// Of the last triangle.
+  /// Next fragment of the last triangle.
   void fragment(const Fragment& fragment);
 
  private:

@@ -20,7 +20,7 @@ float mean_of_four(std::span<const float> values, std::span<const PixelSample> s
 /// The weighted mean, in double, rounded once: of codes exact but for that, halves up.
 float weighted_mean(std::span<const float> values, std::span<const PixelSample> samples, float scale);
 
-/// What resolves which kind; a test can put others in their place.
+/// Functions that resolve each kind of antialiasing; a test can put others in their place.
 struct ResolveStage {
   Resolve multisample = mean_of_four;
   Resolve weighted = weighted_mean;
