@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@
 #include "mutation/kept.h"
 #include "mutation/run.h"
 #include "mutation/score.h"
+#include "mutation/tokens.h"
 
 namespace plumbline::mutation {
 namespace {
@@ -94,6 +96,12 @@ TEST(SourceChanges, LeaveAloneWhatDrawsNothing) {
   EXPECT_EQ(changes_of("f.h", "struct S {\n  int f(int a) { return [] { return 7; }(); }\n};\n")[0].function, "f");
 }
 
+TEST(SourceChanges, ATextWithoutAnEndEndsWithTheFile) {
+  for (const char* source : {"int f() { return 'a", "int f() { return \"a\\", "int f() { return 1; } '"}) {
+    EXPECT_EQ(tokens_of(source).back().at + tokens_of(source).back().text.size(), std::string_view(source).size());
+  }
+}
+
 TEST(SourceChanges, EachFileOfTheSourcesHasARule) {
   const auto rules = read_file_rules(kRoot / "tests/mutation/files.tsv");
   EXPECT_EQ(rule_of(rules, "src/pipeline/light.cpp", "light")->names, std::vector<std::string>{"light"});
@@ -104,6 +112,8 @@ TEST(SourceChanges, EachFileOfTheSourcesHasARule) {
     if (!entry.is_regular_file()) continue;
     const std::string path = entry.path().lexically_relative(kRoot).generic_string();
     used.insert(rule_of(rules, path, ""));
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".cpp" && extension != ".h") continue;
     for (const Change& change : changes_of(path, text_of(entry.path()))) {
       used.insert(rule_of(rules, path, change.function));
     }

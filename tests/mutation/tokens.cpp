@@ -19,6 +19,7 @@ class Scanner {
     while (skip_space()) {
       const std::size_t from = at_;
       const TokenKind kind = take();
+      at_ = std::min(at_, source_.size());  // a text without an end ends with the file
       Token token{kind, source_.substr(from, at_ - from), from, line_};
       token.space_before = from == 0 || std::isspace(static_cast<unsigned char>(source_[from - 1])) != 0;
       token.space_after = at_ == source_.size() || std::isspace(static_cast<unsigned char>(source_[at_])) != 0;

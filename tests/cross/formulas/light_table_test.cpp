@@ -23,6 +23,7 @@ struct Lamps {
 float share(Inputs& r) { return static_cast<float>(r.between(0.01, 0.4)); }
 Lamps lamps(Inputs& r) {
   Lamps out;
+  out.scene.meshes.emplace_back();                       // which the draw names
   out.scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}};  // directions are the same in world and eye space
   out.scene.light_model.ambient = glm::vec3(0);
   out.draw.material = {glm::vec4(0), glm::vec4(0), glm::vec4(0), glm::vec4(0), 1};
