@@ -200,7 +200,7 @@ TEST_F(Cli, render_writes_pictures_and_depth) {
   EXPECT_FALSE(fs::exists(at("e.png")));
 }
 
-TEST_F(Cli, the_definition_draws_the_painters_picture) {
+TEST_F(Cli, TheDefinitionDrawsThePaintersPicture) {
   for (const std::string scene :
        {"antialias/samples_textured.json", "clip/six_planes.json", "notes/gzrender_cut.json"}) {
     ASSERT_EQ(plumb("render " + kScenes + scene + " -o " + at("p.png") + " --depth " + at("p.exr")).code, 0);

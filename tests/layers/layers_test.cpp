@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 using Graph = std::map<std::string, std::set<std::string>>;
 
 constexpr std::size_t kMostFiles = 32;  // of a folder
+constexpr std::string_view kEndings[] = {".h", ".cpp", ".hpp", ".cc", ".c", ".inc", ".inl", ".ipp"};
 
 struct Include {
   std::string from, to;  ///< files, from the project's folder
@@ -34,13 +36,20 @@ std::vector<std::string> source_files() {
   for (const char* top : {"src", "reference", "tests"}) {
     for (const auto& file : fs::recursive_directory_iterator(project / top)) {
       const std::string ending = file.path().extension();
-      if (ending == ".h" || ending == ".cpp") out.push_back(file.path().lexically_relative(project));
+      if (std::ranges::count(kEndings, ending) > 0) out.push_back(file.path().lexically_relative(project));
     }
   }
   return out;
 }
 
-/// The file that an #include "name" of `from` means; empty: none of `files`.
+/// The name that a line includes, however it is spelt; empty: none.
+std::string name_in(const std::string& line) {
+  static const std::regex kInclude("^\\s*#(?:\\s|/\\*.*?\\*/)*include(?:\\s|/\\*.*?\\*/)*[\"<]([^\">]+)[\">]");
+  std::smatch match;
+  return std::regex_search(line, match, kInclude) ? match[1].str() : "";
+}
+
+/// The file that an #include of `name` in `from` means; empty: none of `files`.
 std::string included(const std::set<std::string>& files, const std::string& from, const std::string& name) {
   const fs::path beside = (fs::path(from).parent_path() / name).lexically_normal();
   for (const std::string& candidate : {"src/" + name, "tests/" + name, name, beside.string()}) {
@@ -51,15 +60,14 @@ std::string included(const std::set<std::string>& files, const std::string& from
 
 std::vector<Include> includes_of(const std::vector<std::string>& names) {
   const std::set<std::string> files(names.begin(), names.end());
-  const std::regex line_of_include("^#include \"([^\"]+)\"");
   std::vector<Include> out;
   for (const std::string& from : names) {
     std::ifstream in(fs::path(PLUMBLINE_SOURCE_DIR) / from);
-    std::smatch match;
     for (std::string line; std::getline(in, line);) {
-      if (!std::regex_search(line, match, line_of_include)) continue;
-      const std::string to = included(files, from, match[1]);
-      EXPECT_NE(to, "") << from << " includes " << match[1] << ", which is no source file";
+      const std::string name = name_in(line), to = name.empty() ? "" : included(files, from, name);
+      EXPECT_EQ(name.find(".."), name.npos) << from << " includes " << name << ": name it from src or the project";
+      EXPECT_TRUE(to != "" || line.find('"') == line.npos || name.empty())
+          << from << " includes " << name << ", which is no source file";
       if (!to.empty()) out.push_back({from, to});
     }
   }
@@ -130,17 +138,31 @@ TEST(Layers, NoFolderHasMoreThan32SourceFiles) {
 }
 
 TEST(Layers, NoReferenceSeesTheRenderer) {
-  const Graph folders = graph_of(includes_of(source_files()), folder_of);
+  const std::vector<Include> includes = includes_of(source_files());
+  const Graph folders = graph_of(includes, folder_of);
+  std::set<std::string> seen;  // folders
   int references = 0;
   for (const auto& [folder, next] : folders) {
     if (!folder.starts_with("reference/")) continue;
     ++references;
-    for (const std::string& seen : reached(folders, folder)) {
-      const bool renderer = std::regex_search(seen, std::regex("^src/(pipeline|painter|kernels|renderers)"));
-      EXPECT_FALSE(renderer) << folder << " sees " << seen;
-    }
+    seen.merge(reached(folders, folder));
   }
   EXPECT_GE(references, 5);
+  const std::regex renderer("^src/(pipeline|painter|kernels|renderers)/");
+  for (const Include& include : includes) {
+    const bool sees = seen.contains(folder_of(include.from)) && std::regex_search(include.to, renderer);
+    EXPECT_FALSE(sees && !std::regex_search(include.from, renderer)) << include.from << " includes " << include.to;
+  }
+}
+
+TEST(Layers, AnIncludeIsReadHoweverItIsSpelt) {
+  for (const char* line : {"#include \"a/b.h\"", "  #  include <a/b.h>", "#\tinclude\t\"a/b.h\"",
+                           "#include/**/\"a/b.h\"", "# /* x */ include /* y */ <a/b.h>  // z"}) {
+    EXPECT_EQ(name_in(line), "a/b.h") << line;
+  }
+  for (const char* line : {"// #include \"a/b.h\"", "#define include \"a/b.h\"", "include \"a/b.h\""}) {
+    EXPECT_EQ(name_in(line), "") << line;
+  }
 }
 
 TEST(Layers, ACycleIsSeen) {
