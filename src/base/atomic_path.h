@@ -22,9 +22,9 @@ struct OutputError : std::runtime_error {
 /// Throws OutputError, as all below do.
 std::filesystem::path resolved(const std::filesystem::path& path);
 
-/// A file or folder under a hidden name beside the target; commit() renames it to the target. Without a commit, whatever
-/// was written is removed, also where the program is killed (base/temporary_path.h). A link as the target stays, what it
-/// points to is replaced.
+/// A file or folder under a hidden name beside the target; commit() renames it to the target. Without a commit,
+/// whatever was written is removed, also where the program is killed (base/temporary_path.h). A link as the target
+/// stays, what it points to is replaced.
 class AtomicPath {
  public:
   explicit AtomicPath(const std::filesystem::path& target);

@@ -6,11 +6,11 @@
 
 namespace plumbline {
 
-/// Splits the process in two. The child returns from this call and is the program. The parent, the supervisor, waits for
-/// the child's end and ends likewise: by the same exit status or signal. SIGINT, SIGTERM and SIGHUP end the child at
-/// once, unless the caller of this program ignores them. Before the supervisor ends, it kills all descendants, those in
-/// sessions of their own too, and removes what RemovedAtEnd names. After SIGKILL of the supervisor the kernel kills the
-/// child. Call it first in main(), before there are threads.
+/// Splits the process in two. The child returns from this call and is the program. The parent, the supervisor, waits
+/// for the child's end and ends likewise: by the same exit status or signal. SIGINT, SIGTERM and SIGHUP end the child
+/// at once, unless the caller of this program ignores them. Before the supervisor ends, it kills all descendants, those
+/// in sessions of their own too, and removes what RemovedAtEnd names. After SIGKILL of the supervisor the kernel kills
+/// the child. Call it first in main(), before there are threads.
 void supervise();
 
 /// Kills all children of this process, and theirs, and waits for their end. A process must be a child subreaper

@@ -8,9 +8,9 @@
 
 namespace plumbline {
 
-/// A new file, or a new folder, of a hidden name, which its destructor removes with all that is in it. Where the program
-/// ends before: the supervisor removes it (supervise.h), or after SIGKILL the next TemporaryPath that is made with the
-/// same prefix in the same folder.
+/// A new file, or a new folder, of a hidden name, which its destructor removes with all that is in it. Where the
+/// program ends before: the supervisor removes it (supervise.h), or after SIGKILL the next TemporaryPath that is made
+/// with the same prefix in the same folder.
 class TemporaryPath {
  public:
   enum class Kind { file, folder, private_folder };  ///< modes 0666 and 0777 less the umask; 0700

@@ -74,8 +74,8 @@ struct Vertex {
   Vec3<T> n_eye;  ///< unit length, unless the draw has it otherwise (scene.h, Normals)
 };
 
-// 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours. Whatever else its
-//    fragments will need is laid beside it (varying.h), and goes the colour's way from here on.
+// 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours. Whatever else
+// its    fragments will need is laid beside it (varying.h), and goes the colour's way from here on.
 template <class T>
 struct Lit {
   Vec4<T> color;

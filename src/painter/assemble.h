@@ -1,7 +1,11 @@
 // Stages 3 and 4 of triangles whose vertices have been through them already: assembled, culled, and put into bins.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "painter/painting.h"
+#include "pipeline/stages.h"
 
 namespace plumbline::pipeline {
 
@@ -10,7 +14,7 @@ struct AssemblyWork {
   const Draw* draw;
   const Mesh* mesh;
   DrawRange range;
-  std::uint8_t planes;          ///< outcode bits of the planes that cut (clip.h)
+  std::uint8_t planes;          ///< outcode bits of the planes that cut (geometry.h)
   const std::uint8_t* outside;  ///< null: its window triangles are all in `others`
   std::uint8_t any_outside;     ///< OR of `outside[]` over the draw's vertices
 };
@@ -21,12 +25,29 @@ struct KeptTriangle {
   Kept kept;
   TileBox box;
 };
-/// One for each of `corners`, numbers of the mesh's vertices, of a draw of filled triangles. Triangles with a corner outside the view volume get any
-/// (cull_lanes.h).
+/// One for each of `corners`, numbers of the mesh's vertices, of a draw of filled triangles (cull_lanes.h). Any value,
+/// where a corner is outside the view volume.
 using CullTriangles = void (*)(const Painting& painting, const AssemblyWork& draw, std::span<const glm::uvec3> corners,
                                KeptTriangle* to);
 
-/// Window triangles that came another way (scalar_geometry.h), by primitive: clipped ones, lines, points.
+/// Stages 0 to 4 by the definition, of primitives that do not go through them in lanes (clipped triangles, for one). Its
+/// memory is kept from frame to frame.
+class ScalarGeometry {
+ public:
+  /// `draws`: one for each of the scene's. Window triangles in draw order.
+  std::span<const ShadedTriangle> run(const Scene& scene, std::span<const AssemblyWork> draws);
+
+ private:
+  void find(const AssemblyWork& draw);
+  void run_draw(const Scene& scene, const AssemblyWork& work, const Mesh& mesh);
+
+  Mesh clipped_;                         // of one draw
+  std::vector<std::uint32_t> of_draw_;   // the draw's primitives, in the mesh
+  std::vector<Vertex<float>> vertices_;  // of one draw
+  std::vector<Attributes> attributes_;
+  std::vector<ShadedTriangle> triangles_;
+};
+/// Window triangles that came another way (ScalarGeometry), by primitive: clipped ones, lines, points.
 struct OtherTriangles {
   std::span<const ShadedTriangle> triangles;
   std::uint32_t first_vertex;  ///< their corners' numbers from there on, three each

@@ -1,5 +1,5 @@
 // Stages 1, 2 and 4 of a mesh's vertices, as many at a time as R has lanes: what transform(), light() and
-// to_window() do one by one (vertex.h, light.h, window.h), and which planes of the view volume each violates.
+// to_window() do one by one (geometry.h), and which planes of the view volume each violates.
 #pragma once
 
 #include <cstddef>

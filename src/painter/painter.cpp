@@ -10,12 +10,9 @@
 #include <tbb/task_arena.h>
 
 #include "kernels/light_equation.h"
-#include "kernels/surface.h"
-#include "painter/assemble.h"
-#include "painter/scalar_geometry.h"
-#include "pipeline/matrices.h"
+#include "kernels/shade.h"
+#include "pipeline/geometry.h"
 #include "pipeline/resolve.h"
-#include "pipeline/vertex.h"
 #include "scene/antialias.h"
 
 namespace plumbline::pipeline {

@@ -38,9 +38,9 @@ template <class I>
   return (shifted_right<6>(place) & I(kTile - kBlock)) | (shifted_right<2>(place) & I(kBlock - 1));
 }
 
-/// Vertex outcode. Bits 0-5: violated clip planes in clip.h's order.
+/// Vertex outcode. Bits 0-5: violated clip planes in the order of geometry.h's view_volume().
 inline constexpr std::uint8_t kNotFinite = 1 << 6;    ///< bit 6: a coordinate is not finite
-inline constexpr std::uint8_t kNotDrawable = 1 << 7;  ///< bit 7: outside the drawable window range (window.h)
+inline constexpr std::uint8_t kNotDrawable = 1 << 7;  ///< bit 7: outside the drawable window range (geometry.h)
 
 /// A vertex in window space, as lanes load it.
 struct PaintVertex {

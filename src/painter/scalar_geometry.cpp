@@ -1,12 +1,8 @@
-#include "painter/scalar_geometry.h"
+#include "painter/assemble.h"
 
 #include <algorithm>
 
-#include "pipeline/clip.h"
-#include "pipeline/light.h"
-#include "pipeline/matrices.h"
-#include "pipeline/vertex.h"
-#include "pipeline/window.h"
+#include "pipeline/geometry.h"
 
 namespace plumbline::pipeline {
 

@@ -1,8 +1,7 @@
 // Compiled once for each target (src/CMakeLists.txt).
-#include "painter/simd_targets.h"
+#include "painter/painter.h"
 
 #include "kernels/simd.h"
-
 #include "painter/cull_lanes.h"
 #include "painter/paint_tile.h"
 #include "painter/paint_vertices.h"

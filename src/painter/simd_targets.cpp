@@ -3,7 +3,7 @@
 #include "painter/cull_lanes.h"
 #include "painter/paint_tile.h"
 #include "painter/paint_vertices.h"
-#include "painter/simd_targets.h"
+#include "painter/painter.h"
 
 namespace plumbline::pipeline {
 

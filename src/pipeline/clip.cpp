@@ -1,4 +1,4 @@
-#include "pipeline/clip.h"
+#include "pipeline/geometry.h"
 
 #include <algorithm>
 #include <array>

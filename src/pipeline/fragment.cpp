@@ -4,7 +4,7 @@ namespace plumbline::pipeline {
 
 TriangleSetup set_up(const Stages& stages, const ShadedTriangle& triangle, const Surface& surface,
                      const DepthState& depth, const SampleOffsets& offsets, glm::ivec2 anchor) {
-  TriangleSetup out;
+  TriangleSetup out{};
   const BarycentricPlanes planes = planes_of(triangle, anchor.x, anchor.y);
   out.depth = stages.depth_setup(triangle, depth);
   out.planes = moved(planes, offsets.color);

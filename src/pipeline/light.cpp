@@ -1,4 +1,4 @@
-#include "pipeline/light.h"
+#include "pipeline/geometry.h"
 
 #include <algorithm>
 

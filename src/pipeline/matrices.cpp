@@ -1,4 +1,4 @@
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 
 #include <cmath>
 

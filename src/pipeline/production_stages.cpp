@@ -4,11 +4,7 @@
 #include "kernels/merge.h"
 #include "kernels/shade.h"
 #include "kernels/visibility.h"
-#include "pipeline/clip.h"
-#include "pipeline/light.h"
-#include "pipeline/matrices.h"
-#include "pipeline/vertex.h"
-#include "pipeline/window.h"
+#include "pipeline/geometry.h"
 
 namespace plumbline::pipeline {
 

@@ -9,10 +9,9 @@ namespace plumbline::pipeline {
 void require_drawable(std::size_t triangles, const FrameFormat& format) {
   constexpr std::size_t kMostTriangles = std::size_t{1} << 24;
   constexpr int kLargestFrame = 16384;
-  if (triangles > kMostTriangles) {
+  if (triangles > kMostTriangles)
     throw std::invalid_argument(
         fmt::format("a program of {} triangles: expected at most {}", triangles, kMostTriangles));
-  }
   const auto fits = [](int side) { return side >= 1 && side <= kLargestFrame; };
   if (!fits(format.width) || !fits(format.height)) {
     throw std::invalid_argument(fmt::format("a program's frame of {} x {} pixels: expected 1 to {} a side",

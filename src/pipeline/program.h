@@ -23,26 +23,19 @@
 namespace plumbline::pipeline {
 
 /// Varyings: a struct of floats and of vectors and matrices of floats, nothing else; it may be empty.
-template <class V>
-concept VaryingStruct = (std::is_empty_v<V> || alignof(V) == alignof(float)) && std::is_trivially_copyable_v<V>;
-
-/// vertex(triangle, corner, out) returns p_clip. It is called once for each corner (0, 1, 2) of each triangle, in order.
-/// A triangle with a p_clip that is not finite is dropped.
-template <class P>
-concept VertexProgram = requires(const P& program, typename P::Varyings out) {
-  { program.vertex(std::size_t{0}, 0, out) } -> std::same_as<glm::vec4>;
-};
-
+///
+/// vertex(triangle, corner, out) returns p_clip. It is called once for each corner (0, 1, 2) of each triangle, in
+/// order. A triangle with a p_clip that is not finite is dropped.
+///
 /// fragment(in, color) is called for each fragment that passes the depth test, with perspective-correct varyings. The
 /// colour is clamped and rounded to the frame's format. Where it returns true, the fragment is discarded: colour and
 /// depth stay as they are.
-template <class P>
-concept FragmentProgram = requires(const P& program, const typename P::Varyings& in, glm::vec4 color) {
+template <class P, class V = typename P::Varyings>
+concept Program = (std::is_empty_v<V> || alignof(V) == alignof(float)) &&
+                  std::is_trivially_copyable_v<V>&& requires(const P& program, V out, const V& in, glm::vec4 color) {
+  { program.vertex(std::size_t{0}, 0, out) } -> std::same_as<glm::vec4>;
   { program.fragment(in, color) } -> std::same_as<bool>;
 };
-
-template <class P>
-concept Program = VaryingStruct<typename P::Varyings> && VertexProgram<P> && FragmentProgram<P>;
 
 /// The fixed state under which a program draws (scene.h, Draw).
 struct ProgramState {
@@ -54,7 +47,8 @@ struct ProgramState {
 /// Throws std::invalid_argument for more than 2^24 triangles, or a frame of no or more than 16384 pixels a side.
 void require_drawable(std::size_t triangles, const FrameFormat& format);
 
-/// A program's vertices and varyings, three vertices to a triangle, drawn on a cleared frame. Throws as require_drawable.
+/// A program's vertices and varyings, three vertices to a triangle, drawn on a cleared frame. Throws as
+/// require_drawable.
 Frame draw_program(std::span<const Vertex<float>> vertices, std::span<const Attributes> varyings,
                    std::size_t varying_fours, const FrameFormat& format, const ProgramState& state,
                    decltype(Stages::shade) shade, const void* program);

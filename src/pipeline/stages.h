@@ -13,7 +13,7 @@
 #include "kernels/coverage.h"
 #include "kernels/depth.h"
 #include "kernels/light_equation.h"
-#include "kernels/surface.h"
+#include "kernels/shade.h"
 #include "kernels/texture.h"
 #include "pipeline/resolve.h"
 #include "scene/scene.h"

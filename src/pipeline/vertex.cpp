@@ -1,4 +1,4 @@
-#include "pipeline/vertex.h"
+#include "pipeline/geometry.h"
 
 #include "kernels/math.h"
 

@@ -1,4 +1,4 @@
-#include "pipeline/window.h"
+#include "pipeline/geometry.h"
 
 #include <cmath>
 

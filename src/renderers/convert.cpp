@@ -1,4 +1,4 @@
-#include "renderers/convert.h"
+#include "renderers/run_stage.h"
 
 namespace plumbline::pipeline {
 

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "painter/painter.h"
-#include "renderers/convert.h"
 #include "renderers/run_stage.h"
 
 namespace plumbline::pipeline {

@@ -5,9 +5,8 @@
 #include "capture/require_fitting.h"
 #include "kernels/coverage.h"
 #include "pipeline/fragment.h"
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 #include "pipeline/recorder.h"
-#include "renderers/convert.h"
 #include "scene/antialias.h"
 #include "scene/draw_of.h"
 
@@ -28,9 +27,8 @@ class OneStage {
         recorder_(scene, request_, 0, made_),
         ranges_(draw_ranges(scene)) {
     for (const auto& l : records_.lights) lights_.push_back({Vec4<float>(l.p_eye), Vec3<float>(l.spot_eye)});
-    for (const auto& l : light_sources(scene)) {
-      if (records_.lights.empty()) lights_.push_back(l);
-    }
+    const auto of_scene = light_sources(scene);
+    if (records_.lights.empty()) lights_.assign(of_scene.begin(), of_scene.end());
   }
 
   void run(Capture& out) {

@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "faults/variants.h"
-#include "pipeline/clip.h"
-#include "pipeline/vertex.h"
-#include "pipeline/window.h"
+#include "pipeline/geometry.h"
 #include "tests/kernels/barycentric.h"
 
 namespace plumbline::faults {

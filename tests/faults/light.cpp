@@ -8,8 +8,7 @@
 #include "faults/variants.h"
 #include "kernels/math.h"
 #include "kernels/shade.h"
-#include "pipeline/light.h"
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 
 namespace plumbline::faults {
 

@@ -6,9 +6,7 @@
 #include <cstdlib>
 
 #include "faults/variants.h"
-#include "pipeline/clip.h"
-#include "pipeline/light.h"
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 #include "tests/kernels/barycentric.h"
 #include "tests/pixels_in_order.h"
 #include "transforms/projection.h"

@@ -4,8 +4,7 @@
 
 #include "faults/lists.h"
 #include "faults/variants.h"
-#include "pipeline/clip.h"
-#include "pipeline/window.h"
+#include "pipeline/geometry.h"
 
 namespace plumbline::faults {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kernels/coverage.h"
-#include "pipeline/clip.h"
+#include "pipeline/geometry.h"
 #include "pipeline/stages.h"
 #include "tests/kernels/barycentric.h"
 

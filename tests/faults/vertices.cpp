@@ -3,8 +3,7 @@
 
 #include "faults/lists.h"
 #include "faults/variants.h"
-#include "pipeline/matrices.h"
-#include "pipeline/vertex.h"
+#include "pipeline/geometry.h"
 
 namespace plumbline::faults {
 

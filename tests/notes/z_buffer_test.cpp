@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/light.h"
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 #include "pipeline/program.h"
 
 namespace plumbline::pipeline {

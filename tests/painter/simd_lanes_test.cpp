@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
-#include "painter/simd_targets.h"
-#include "pipeline/matrices.h"
+#include "painter/painter.h"
+#include "pipeline/geometry.h"
 #include "scene/texture/texture_images.h"
 #include "tests/painter/lanes_kernels.h"
 

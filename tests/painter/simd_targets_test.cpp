@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "kernels/coverage.h"
-#include "painter/simd_targets.h"
+#include "painter/painter.h"
 #include "tests/pipeline/window_frame.h"
 
 namespace plumbline::pipeline {
@@ -106,7 +106,7 @@ void expect_same(const Triangles& triangles, const FrameFormat& format, const st
   }
 }
 
-// Corners as far away as stage 4 lets them be (window.h), where an edge's steps do not fit 32 bits.
+// Corners as far away as stage 4 lets them be (geometry.h), where an edge's steps do not fit 32 bits.
 TEST(SimdTargets, PaintTrianglesOfFarCorners) {
   constexpr float far = 1 << 20;
   const std::array<glm::vec3, 3> corners[] = {{{{-far, 3, 0}, {far, 70, .25f}, {60, far, .5f}}},
@@ -160,7 +160,7 @@ TEST(SimdTargets, PaintRandomTriangles) {
   }
 }
 
-// By the definition's area and bounds (window.h, coverage.h), of triangles of all sizes that fit a frame, some of no
+// By the definition's area and bounds (geometry.h, coverage.h), of triangles of all sizes that fit a frame, some of no
 // area; seen from the centre, and from all samples.
 TEST(SimdTargets, TellWhatOfATriangleIsDrawn) {
   std::mt19937 random(9);

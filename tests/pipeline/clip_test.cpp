@@ -1,5 +1,5 @@
 // Stage 3. Colours red, green and blue of the three corners tell how far along an edge a cut lies.
-#include "pipeline/clip.h"
+#include "pipeline/geometry.h"
 
 #include <cmath>
 #include <limits>

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "kernels/surface.h"
 #include "pipeline/render.h"
 
 namespace plumbline::pipeline {

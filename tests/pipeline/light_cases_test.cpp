@@ -1,8 +1,7 @@
 // Stage 2 by hand: light_cases.h.
 #include <gtest/gtest.h>
 
-#include "pipeline/light.h"
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 #include "tests/pipeline/light_cases.h"
 
 namespace plumbline::pipeline {

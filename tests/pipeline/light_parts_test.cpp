@@ -2,8 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/shade.h"
-#include "pipeline/light.h"
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 #include "pipeline/render.h"
 
 namespace plumbline::pipeline {

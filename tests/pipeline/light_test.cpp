@@ -1,5 +1,5 @@
 // Stage 2, and the transcendental functions under it (math.h) against long double.
-#include "pipeline/light.h"
+#include "pipeline/geometry.h"
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "kernels/math.h"
-#include "pipeline/matrices.h"
 
 namespace plumbline::pipeline {
 namespace {

@@ -1,6 +1,6 @@
 // Stage 0. Expected numbers are worked out by hand from the definitions of gluLookAt, gluPerspective, glOrtho,
 // glRotate.
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 
 #include <cmath>
 

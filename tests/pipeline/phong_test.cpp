@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernels/surface.h"
+#include "kernels/shade.h"
 #include "pipeline/render.h"
 
 namespace plumbline::pipeline {

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 #include "pipeline/render.h"
-#include "pipeline/vertex.h"
 #include "scene/file/scene_file.h"
 #include "tests/pipeline/programs.h"
 

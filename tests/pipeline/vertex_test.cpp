@@ -1,5 +1,5 @@
 // Stage 1: the float recipe to the bit, and normals.
-#include "pipeline/vertex.h"
+#include "pipeline/geometry.h"
 
 #include <array>
 #include <cmath>

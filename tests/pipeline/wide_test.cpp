@@ -9,7 +9,7 @@
 
 #include "kernels/coverage.h"
 #include "kernels/line_diamond.h"
-#include "pipeline/window.h"
+#include "pipeline/geometry.h"
 
 namespace plumbline::pipeline {
 namespace {

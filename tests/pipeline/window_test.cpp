@@ -1,5 +1,5 @@
 // Stage 4: division, viewport, snapping, fans, facing, culling.
-#include "pipeline/window.h"
+#include "pipeline/geometry.h"
 
 #include <cmath>
 #include <limits>

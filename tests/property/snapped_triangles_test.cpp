@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "pipeline/geometry.h"
 #include "pipeline/render.h"
-#include "pipeline/window.h"
 #include "scene/mesh/mesh_shapes.h"
 #include "tests/property/fragments.h"
 #include "tests/property/random_scene.h"

@@ -16,9 +16,9 @@ void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<dou
                    Records<double>& records);
 
 /// Whether read_polygons() ends the process for this scene. Mesa 25 segfaults there in LLVM (LLVMBuildSelect) where
-/// feedback mode runs a vertex program that branches; such a program lights the draws that are lit on two sides and that
-/// needs_light_program(). Measured: Mesa 22.3.6 does not, 25.0.7 does, versions between were not tried; softpipe does
-/// not. feedback_crash_test.cpp fails where the Mesa at hand does otherwise. `gl_version`: GL_VERSION.
+/// feedback mode runs a vertex program that branches; such a program lights the draws that are lit on two sides and
+/// that needs_light_program(). Measured: Mesa 22.3.6 does not, 25.0.7 does, versions between were not tried; softpipe
+/// does not. feedback_crash_test.cpp fails where the Mesa at hand does otherwise. `gl_version`: GL_VERSION.
 bool crashes_in_feedback(const Scene& scene, MesaDriver driver, std::string_view gl_version);
 
 }  // namespace plumbline::osmesa

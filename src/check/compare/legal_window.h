@@ -59,8 +59,8 @@ class LegalWindow {
 std::size_t run_end(std::span<const WindowTriangle<double>> records, std::size_t begin);
 
 /// Primitives that are not filled, of open facing, that both sides draw legally and maybe as other faces: in another
-/// polygon mode, culled on one side alone, or, where the face shows, in its colours or stencil operations. In order. The
-/// reference's facing may go by either area; of edges and corners, it need not tell it.
+/// polygon mode, culled on one side alone, or, where the face shows, in its colours or stencil operations. In order.
+/// The reference's facing may go by either area; of edges and corners, it need not tell it.
 std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<double>& candidate,
                                            const Records<double>& reference);
 

@@ -1,8 +1,7 @@
 // The terms of note 000's colour, Shading, beside a sum of their own in a wider format: the table goes on
 // (transforms_table_test.cpp). The unit is an ULP of the terms' magnitudes added up: at most 4; in a million inputs 3.4
 // is seen.
-#include "pipeline/light.h"
-#include "pipeline/matrices.h"
+#include "pipeline/geometry.h"
 #include "tests/cross/transforms_table.h"
 
 namespace plumbline::test {
