@@ -50,6 +50,7 @@ class OpaqueRun {
  private:
   static constexpr int kLanes = Lanes<R>::width;
   static constexpr int kSmall = 30;  // pixels of a box: as many bits a float's exponent tells apart
+  static constexpr bool kFromEither = kKernel == PaintKernel::replaces && kSamples == 1;  // paint_first_runs()
   static constexpr bool kDepthFirst = kKernel == PaintKernel::depth_alone || kKernel == PaintKernel::shades;
 
   // All lanes' triangles at once, where their boxes are small.
@@ -97,6 +98,7 @@ class OpaqueRun {
     plane[kSamples] = &s.perspective.q1, plane[kSamples + 1] = &s.perspective.q2,
     plane[kSamples + 2] = &s.perspective.sum;
 
+    [[maybe_unused]] const R tie(tie_), limit(limit_);
     bool hidden = true;
     W of_row[kPlanes][kParts<R>];
     const auto row = [&](int y) {
@@ -140,8 +142,8 @@ class OpaqueRun {
           float* const to = tiles_[i].depth + place + part * kLanes;
           const R held = Lanes<R>::load(to);
           Mask<R>& here = kept[part][static_cast<std::size_t>(i)];
-          here = covered[i][part] & (z < held + R(tie_));
-          if constexpr (kPlain == Plain::nothing) here = here & (z < R(limit_));
+          here = covered[i][part] & (kFromEither ? z < held + tie : z < held);
+          if constexpr (kFromEither && kPlain == Plain::nothing) here = here & (z < limit);
           some = some | here;
           full[i] = full[i] & here;
           farthest[i] = greater_of(farthest[i], z);
@@ -188,8 +190,7 @@ class OpaqueRun {
     });
     const bool all_blocks = s.x0 == 0 && s.y0 == 0 && s.x1 == kTile && s.y1 == kTile;
     for (int i = 0; i < kSamples && hidden && all_blocks; ++i) {  // the next that it would hide are not even looked at
-      PackedTile& tile = tiles_[i];
-      tile.farthest_of_all = *std::max_element(std::begin(tile.farthest), std::end(tile.farthest));
+      tiles_[i].farthest_of_all = *std::ranges::max_element(tiles_[i].farthest);
     }
   }
 
@@ -197,7 +198,6 @@ class OpaqueRun {
   template <bool kPlain>
   void paint_small(int sample) {
     const auto& lanes = lanes_.lanes;
-    PackedTile& tile = tiles_[sample];
     using I = Int<R>;
     const I x0 = Lanes<R>::load(lanes.bounds[0]), y0 = Lanes<R>::load(lanes.bounds[1]);
     const I columns = Lanes<R>::load(lanes.bounds[2]) - x0, rows = Lanes<R>::load(lanes.bounds[3]) - y0;
@@ -235,7 +235,7 @@ class OpaqueRun {
       covered = rest;
     }
     for (int lane = 0; lane < lanes_.count; ++lane) {
-      values.paint(lane, std::popcount(static_cast<unsigned>(covered_of[lane])), tie_ != 0, cleared_, tile);
+      values.paint(lane, std::popcount(static_cast<unsigned>(covered_of[lane])), tie_ != 0, cleared_, tiles_[sample]);
     }
   }
 
