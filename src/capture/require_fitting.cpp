@@ -46,20 +46,18 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
     require(r.lights.empty() || r.lights.size() == scene.lights.size(), "lights");
   if (read_by({Stage::light, Stage::clip})) require(r.vertices.size() == vertices, "vertices");
   if (stage == Stage::clip) require(r.lit.size() == vertices, "lit");
-  const auto& [corners, polygons] = r.polygons;
-  const auto in_corners = [&](const ClipPolygon& p) {
-    return p.first <= corners.size() && p.count <= corners.size() - p.first;
-  };
+  const std::size_t corners = r.polygons.vertices.size();
+  const auto in_corners = [&](const ClipPolygon& p) { return p.first <= corners && p.count <= corners - p.first; };
   if (stage == Stage::window)
     require(fit(
-                scene, polygons, [](const ClipPolygon& p) { return p.count; }, 3, 9) &&
-                std::ranges::all_of(polygons, in_corners),
+                scene, r.polygons.polygons, [](const ClipPolygon& p) { return p.count; }, 3, 9) &&
+                std::ranges::all_of(r.polygons.polygons, in_corners),
             "polygons");
   for (const Varying v : carried(scene)) {
     const VaryingColumns<double>& columns = r.varyings[v];
     const bool of_texture = stage == Stage::texture && v == Varying::texture;
     bool fits = (stage != Stage::clip || columns.vertices.size() == r.vertices.size()) &&
-                (stage != Stage::window || columns.clipped.size() == corners.size());
+                (stage != Stage::window || columns.clipped.size() == corners);
     if (!is_back(v) && (stage == Stage::attributes || of_texture)) fits &= columns.triangles.size() == triangles;
     if (!is_back(v) && (stage == Stage::shade || of_texture)) fits &= columns.fragments.size() == fragments;
     require(fits, fmt::format("varyings.{}", name_of(v)));
