@@ -70,6 +70,20 @@ TEST_F(MeshFile, ReadsGltfWithNodesColoursAndBaseColour) {
   EXPECT_EQ(parts[0].material->specular, glm::vec4(0, 0, 0, 1));
 }
 
+// A mesh of the file without colours, and after it one with: the first's vertices are white.
+TEST_F(MeshFile, MakesVerticesWithoutColoursWhiteBesideColouredOnes) {
+  std::string text = gltf();
+  const std::string from = "\"primitives\": [";
+  text.insert(text.find(from) + from.size(), R"({"attributes": {"POSITION": 0}, "indices": 2, "material": 0}, )");
+  const std::vector<MeshPart> parts = load_parts(write(text, "mesh.gltf"));
+  ASSERT_EQ(parts.size(), 1u);
+  const std::vector<glm::vec4>& colors = parts[0].mesh.colors;
+  ASSERT_EQ(parts[0].mesh.positions.size(), 6u);
+  ASSERT_EQ(colors.size(), 6u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(colors[i], glm::vec4(1)) << i;
+  EXPECT_EQ(std::ranges::count(colors, glm::vec4(0, 1, 0, 1)), 1);
+}
+
 TEST_F(MeshFile, RefusesGltf) {
   const auto refuse = [&](const std::string& text, const std::string& expected) {
     refused(write(text, "mesh.gltf"), expected);
