@@ -1,256 +1,28 @@
-// The schema that editors use says what the loader does: the same keys, the same ones needed, the same values.
+// The scene format is written once, in the schema: the parser has its keys, required keys, values and defaults, and
+// README.md of src/scene names them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "scene/file/scene_file.h"
 #include "scene/json/json_file.h"
+#include "tests/property/scene_text.h"
+#include "tests/scene/schema_samples.h"
 #include "tests/test_folder.h"
 
 namespace plumbline {
 namespace {
 
-namespace fs = std::filesystem;
-
-using Members = std::map<std::string, std::string>;  // key and value, as JSON
-
-std::string object(const Members& members) {
-  std::string text;
-  for (const auto& [key, value] : members) text += (text.empty() ? "\"" : ", \"") + key + "\": " + value;
-  return "{" + text + "}";
-}
-
-/// One of the schema's objects: good values for all of its keys (of alternatives, each good alone), and where in a
-/// scene it stands, as the "$" of `scene`.
-struct Sample {
-  std::string definition;  ///< empty: the scene
-  std::string scene;
-  Members members;
-};
-
-const std::string kTexture = R"("textures": {"t": {"image": {"noise": {}}}}, )";
-const std::string kTop = R"({"description": "d", "draws": [{"mesh": {"cube": {}}}])";
-const std::string kInTop = kTop + ", ";
-const std::string kInDraw = R"({"description": "d", )" + kTexture + R"("draws": [{"mesh": {"cube": {}}, )";
-std::string in_mesh(const std::string& kind) {
-  return R"({"description": "d", "draws": [{"mesh": {")" + kind + R"(": $}}]})";
-}
-std::string in_textures(const std::string& texture) { return kTop + R"(, "textures": {"t": )" + texture + "}}"; }
-std::string in_image(const std::string& kind) { return in_textures(R"({"image": {")" + kind + R"(": $}})"); }
-const Members kCells = {{"width", "4"}, {"height", "3"}, {"columns", "2"}, {"rows", "3"}};
-const Members kSides = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"}, {"top", "1"}, {"near", "1"}, {"far", "2"}};
-const Members kCoordinates = {{"left", "-1"}, {"right", "1"}, {"bottom", "-1"},
-                              {"top", "1"},   {"near", "1"},  {"far", "-2"}};
-const Members kState = {{"transforms", "[]"},
-                        {"material", "{}"},
-                        {"back_material", "{}"},
-                        {"lit", "true"},
-                        {"color_material", "\"diffuse\""},
-                        {"normals", "\"rescale\""},
-                        {"shading", "\"flat\""},
-                        {"cull", "\"none\""},
-                        {"front_mode", "\"fill\""},
-                        {"back_mode", "\"fill\""},
-                        {"line_width", "16"},
-                        {"point_size", "64"},
-                        {"depth_func", "\"less\""},
-                        {"depth_range", "[1, 0]"},
-                        {"polygon_offset", "{}"},
-                        {"alpha_test", R"({"func": "less"})"},
-                        {"stencil", "{}"},
-                        {"fog", R"({"exp": {"density": 1}})"},
-                        {"scissor", "[0, 0, 1, 1]"},
-                        {"depth_mask", "true"},
-                        {"blend", "{}"},
-                        {"logic_op", "\"xor\""},
-                        {"color_mask", "[true, true, true, false]"},
-                        {"texture", R"({"name": "t"})"}};
-const Members kTerm = {{"source", "\"source_alpha_saturate\""}, {"destination", "\"zero\""}, {"equation", "\"min\""}};
-const Members kStencil = {{"func", "\"less\""},       {"reference", "1"},     {"mask", "255"},    {"fail", "\"keep\""},
-                          {"depth_fail", "\"zero\""}, {"pass", "\"invert\""}, {"write_mask", "7"}};
-const std::string kThree = "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]", kWhite = "[1, 1, 1, 1]";
-
-Members with(Members members, const std::string& key, const std::string& value) {
-  members[key] = value;
-  return members;
-}
-
-const std::vector<Sample> kSamples = {
-    {"",
-     "$",
-     {{"$schema", "\"s\""},
-      {"include", "[\"empty.part.json\"]"},
-      {"description", "\"d\""},
-      {"dialect", "\"gl\""},
-      {"frame", "{}"},
-      {"camera", "{}"},
-      {"projection", R"({"perspective": {"fov_y": 9, "near": 1, "far": 2}})"},
-      {"ambient", "[0, 0, 0]"},
-      {"light_model", "{}"},
-      {"lights", "[]"},
-      {"textures", "{}"},
-      {"defaults", "{}"},
-      {"draws", R"([{"mesh": {"cube": {}}}])"}}},
-    {"frame",
-     kInTop + R"("frame": $})",
-     {{"width", "3"},
-      {"height", "3"},
-      {"color", "\"rgba8\""},
-      {"depth", "\"z16\""},
-      {"clear_color", kWhite},
-      {"clear_depth", "1"},
-      {"stencil", "\"s8\""},
-      {"clear_stencil", "255"},
-      {"antialias", R"({"samples": 4})"}}},
-    {"polygon_offset", kInDraw + R"("polygon_offset": $}]})", {{"factor", "1"}, {"units", "-2"}}},
-    {"alpha_test", kInDraw + R"("alpha_test": $}]})", {{"func", "\"less\""}, {"reference", "0.5"}}},
-    {"stencil", kInDraw + R"("stencil": $}], "frame": {"stencil": "s8"}})", with(kStencil, "back", "{}")},
-    {"stencil_back", kInDraw + R"("stencil": {"back": $}}], "frame": {"stencil": "s8"}})", kStencil},
-    {"antialias",
-     kInTop + R"("frame": {"antialias": $}})",
-     {{"samples", "4"}, {"supersample", "8"}, {"taps", "\"gzrender\""}}},
-    {"camera", kInTop + R"("camera": $})", {{"eye", "[1, 2, 3]"}, {"center", "[0, 0, 0]"}, {"up", "[0, 1, 0]"}}},
-    {"projection",
-     kInTop + R"("projection": $})",
-     {{"perspective", R"({"fov_y": 9, "near": 1, "far": 2})"},
-      {"orthographic", object(kSides)},
-      {"frustum", object(kSides)}}},
-    {"perspective", kInTop + R"("projection": {"perspective": $}})", {{"fov_y", "9"}, {"near", "1"}, {"far", "2"}}},
-    {"orthographic", kInTop + R"("projection": {"orthographic": $}})", kSides},
-    {"frustum", kInTop + R"("projection": {"frustum": $}})", kSides},
-    {"games101_projection",
-     kInTop + R"("dialect": "games101", "projection": $})",
-     {{"perspective", R"({"fov_y": 9, "near": -1, "far": -2})"}, {"orthographic", object(kCoordinates)}}},
-    {"games101_perspective",
-     kInTop + R"("dialect": "games101", "projection": {"perspective": $}})",
-     {{"fov_y", "9"}, {"near", "-1"}, {"far", "-2"}}},
-    {"games101_orthographic", kInTop + R"("dialect": "games101", "projection": {"orthographic": $}})", kCoordinates},
-    {"gzrender_projection", kInTop + R"("dialect": "gzrender", "projection": $})", {{"x_pi", R"({"fov": 9})"}}},
-    {"x_pi", kInTop + R"("dialect": "gzrender", "projection": {"x_pi": $}})", {{"fov", "9"}}},
-    {"tinyrenderer_projection", kInTop + R"("dialect": "tinyrenderer", "projection": $})", {{"pinhole", "{}"}}},
-    {"pinhole", kInTop + R"("dialect": "tinyrenderer", "projection": {"pinhole": $}})", {{"c", "2"}}},
-    {"light",
-     kInTop + R"("lights": [$]})",
-     {{"point", "[0, 0, 0]"},
-      {"ambient", "[0, 0, 0]"},
-      {"diffuse", "[0, 0, 0]"},
-      {"specular", "[0, 0, 0]"},
-      {"attenuation", "[1, 0, 0]"},
-      {"spot", R"({"direction": [0, 0, 1], "cutoff": 9})"}}},
-    {"spot",
-     kInTop + R"("lights": [{"point": [0, 0, 0], "spot": $}]})",
-     {{"direction", "[0, 0, 1]"}, {"cutoff", "9"}, {"exponent", "2"}}},
-    {"light_model",
-     kInTop + R"("light_model": $})",
-     {{"local_viewer", "true"}, {"specular", "\"reflection\""}, {"sides", "\"flip\""}, {"separate_specular", "true"}}},
-    {"material",
-     kInDraw + R"("material": $}]})",
-     {{"ambient", kWhite}, {"diffuse", kWhite}, {"specular", kWhite}, {"emission", kWhite}, {"shininess", "3"}}},
-    {"texture",
-     in_textures("$"),
-     {{"image", R"({"noise": {}})"},
-      {"format", "\"rgb\""},
-      {"texels", "\"float32\""},
-      {"min", "\"linear\""},
-      {"mag", "\"nearest\""},
-      {"wrap_s", "\"repeat\""},
-      {"wrap_t", "\"clamp_to_edge\""},
-      {"border", kWhite},
-      {"lod_bias", "1"},
-      {"min_lod", "-1"},
-      {"max_lod", "2"},
-      {"base_level", "1"},
-      {"max_level", "3"}}},
-    {"image",
-     in_textures(R"({"image": $})"),
-     {{"file", "\"image.tga\""},
-      {"texels", "[[" + kWhite + "]]"},
-      {"checker", "{}"},
-      {"gradient", "{}"},
-      {"bricks", "{}"},
-      {"uv_grid", "{}"},
-      {"noise", "{}"}}},
-    {"checker", in_image("checker"), with(kCells, "colors", "[" + kWhite + ", " + kWhite + "]")},
-    {"bricks", in_image("bricks"), with(kCells, "colors", "[" + kWhite + ", " + kWhite + "]")},
-    {"gradient",
-     in_image("gradient"),
-     {{"width", "3"}, {"height", "2"}, {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + ", " + kWhite + "]"}}},
-    {"uv_grid", in_image("uv_grid"), kCells},
-    {"noise", in_image("noise"), {{"width", "3"}, {"height", "2"}, {"seed", "7"}}},
-    {"draw_texture",
-     kInDraw + R"("texture": $}]})",
-     {{"name", "\"t\""}, {"environment", "\"blend\""}, {"color", kWhite}}},
-    {"fog",
-     kInDraw + R"("fog": $}]})",
-     {{"exp", R"({"density": 1})"}, {"exp2", R"({"density": 1})"}, {"linear", R"({"start": 1, "end": 2})"}}},
-    {"linear_fog", kInDraw + R"("fog": {"linear": $}}]})", {{"color", "[1, 1, 1]"}, {"start", "1"}, {"end", "2"}}},
-    {"exponential_fog", kInDraw + R"("fog": {"exp": $}}]})", {{"color", "[1, 1, 1]"}, {"density", "1"}}},
-    {"blend", kInDraw + R"("blend": $}]})", with(with(kTerm, "alpha", "{}"), "color", kWhite)},
-    {"blend_alpha", kInDraw + R"("blend": {"alpha": $}}]})", kTerm},
-    {"transform",
-     kInDraw + R"("transforms": [$]}]})",
-     {{"translate", "[0, 0, 0]"}, {"rotate", R"({"degrees": 1, "axis": [0, 0, 1]})"}, {"scale", "[1, 1, 1]"}}},
-    {"rotate", kInDraw + R"("transforms": [{"rotate": $}]}]})", {{"degrees", "1"}, {"axis", "[0, 0, 1]"}}},
-    {"defaults", kInTop + kTexture + R"("frame": {"stencil": "s8"}, "defaults": $})", kState},
-    {"draw", R"({"description": "d", "frame": {"stencil": "s8"}, )" + kTexture + R"("draws": [$]})",
-     with(kState, "mesh", R"({"cube": {}})")},
-    {"mesh",
-     R"({"description": "d", "draws": [{"mesh": $}]})",
-     {{"file", "\"mesh.obj\""},
-      {"triangle", "{\"positions\": " + kThree + "}"},
-      {"triangles", "{\"positions\": " + kThree + ", \"indices\": [[0, 1, 2]]}"},
-      {"lines", R"({"positions": [[0, 0, 0], [1, 0, 0]], "indices": [[0, 1]]})"},
-      {"points", R"({"positions": [[0, 0, 0]]})"},
-      {"quad", "{}"},
-      {"grid", R"({"columns": 1, "rows": 1})"},
-      {"cube", "{}"},
-      {"uv_sphere", R"({"slices": 3, "stacks": 2})"},
-      {"globe", R"({"slices": 3, "stacks": 2})"},
-      {"icosphere", R"({"subdivisions": 0})"},
-      {"torus_knot", R"({"segments": 9, "sides": 3})"},
-      {"revolution", R"({"profile": [[1, 0], [1, 1], [1, 2], [1, 3]], "steps": 1, "slices": 3})"},
-      {"soup", R"({"triangles": 1, "seed": 0, "extent": 1, "size": 1})"}}},
-    {"triangle",
-     in_mesh("triangle"),
-     {{"positions", kThree},
-      {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + "]"},
-      {"texcoords", "[[0, 0], [1, 0], [0, 1]]"}}},
-    {"triangles",
-     in_mesh("triangles"),
-     {{"positions", kThree},
-      {"indices", "[[0, 1, 2]]"},
-      {"normals", "[[0, 0, 1], [0, 1, 0], [0.707, 0, -0.707]]"},
-      {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + "]"},
-      {"texcoords", "[[0, 0], [1, 0], [0, 1]]"}}},
-    {"lines",
-     in_mesh("lines"),
-     {{"positions", "[[0, 0, 0], [1, 0, 0]]"},
-      {"indices", "[[1, 0]]"},
-      {"colors", "[" + kWhite + ", " + kWhite + "]"}}},
-    {"points", in_mesh("points"), {{"positions", "[[0, 0, 0]]"}, {"colors", "[" + kWhite + "]"}}},
-    {"quad",
-     in_mesh("quad"),
-     {{"positions", "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]"},
-      {"colors", "[" + kWhite + ", " + kWhite + ", " + kWhite + ", " + kWhite + "]"},
-      {"texcoords", "[[0, 0], [1, 0], [1, 1], [0, 1]]"}}},
-    {"grid", in_mesh("grid"), {{"columns", "1"}, {"rows", "1"}}},
-    {"cube", in_mesh("cube"), {}},
-    {"uv_sphere", in_mesh("uv_sphere"), {{"slices", "3"}, {"stacks", "2"}}},
-    {"globe", in_mesh("globe"), {{"slices", "3"}, {"stacks", "2"}}},
-    {"icosphere", in_mesh("icosphere"), {{"subdivisions", "0"}}},
-    {"torus_knot", in_mesh("torus_knot"), {{"p", "2"}, {"q", "3"}, {"tube", "0.1"}, {"segments", "9"}, {"sides", "3"}}},
-    {"revolution",
-     in_mesh("revolution"),
-     {{"profile", "[[1, 0], [1, 1], [1, 2], [1, 3]]"}, {"steps", "1"}, {"slices", "3"}}},
-    {"soup", in_mesh("soup"), {{"triangles", "1"}, {"seed", "0"}, {"extent", "1"}, {"size", "1"}}},
-};
+using namespace test;
 
 class SceneSchema : public TestFolder {
  protected:
@@ -262,20 +34,43 @@ class SceneSchema : public TestFolder {
     std::ofstream(root_ / "mesh.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   }
 
-  JsonNode definition(const std::string& name) const { return name.empty() ? schema_ : schema_["definitions"][name]; }
-  /// What a property's schema is, through "$ref".
-  JsonNode resolved(JsonNode node) const {
+  /// A definition by its path below "definitions"; empty: the scene.
+  JsonNode definition(std::string path) const {
+    JsonNode node = schema_;
+    if (!path.empty()) node = node["definitions"];
+    while (!path.empty()) {
+      const std::size_t end = std::min(path.find('/'), path.size());
+      node = node[path.substr(0, end)];
+      path.erase(0, end + 1);
+    }
+    return node;
+  }
+  /// The schema that "$ref" or "allOf" name, if they are there.
+  std::optional<JsonNode> referred(JsonNode node) const {
     if (const auto all = node.find("allOf")) node = (*all)[0u];
     const auto ref = node.find("$ref");
-    return ref ? resolved(definition(ref->text().substr(std::string("#/definitions/").size()))) : node;
+    if (!ref) return std::nullopt;
+    return definition(ref->text().substr(std::string("#/definitions/").size()));
   }
-  /// What the loader says, without file and place; "" if it reads the scene.
-  std::string said_of(const Sample& sample, const Members& members) const {
+  JsonNode resolved(JsonNode node) const {
+    const auto other = referred(node);
+    return other ? resolved(*other) : node;
+  }
+  std::optional<JsonNode> default_of(JsonNode node) const {
+    if (const auto value = node.find("default")) return value;
+    const auto other = referred(node);
+    return other ? default_of(*other) : std::nullopt;
+  }
+  Scene load(const Sample& sample, const Members& members) const {
     std::string text = sample.scene;
     text.replace(text.find('$'), 1, object(members));
     std::ofstream(root_ / "scene.json") << text;
+    return load_scene(root_ / "scene.json", {.asset_folders = {}});
+  }
+  /// The loader's error, without file and place; "" if it reads the scene.
+  std::string said_of(const Sample& sample, const Members& members) const {
     try {
-      load_scene(root_ / "scene.json", {.asset_folders = {}});
+      load(sample, members);
     } catch (const SceneError& error) {
       const std::string what = error.what();
       return what.substr(what.find(": expected ") + 2);
@@ -322,7 +117,7 @@ std::string expectation(const JsonNode& schema) {
 }
 
 TEST_F(SceneSchema, HasTheLoadersKeys) {
-  for (const Sample& sample : kSamples) {
+  for (const Sample& sample : kSchemaSamples) {
     const JsonNode schema = definition(sample.definition);
     const std::string said = said_of(sample, with({}, "?", "0"));
     const std::string head = "expected a key among ";
@@ -342,13 +137,13 @@ TEST_F(SceneSchema, EveryObjectOfItIsHere) {
   for (const auto& [name, value] : schema_["definitions"].value().members) {
     if (value.members.contains("properties")) objects.insert(name);
   }
-  for (const Sample& sample : kSamples) here.insert(sample.definition);
+  for (const Sample& sample : kSchemaSamples) here.insert(sample.definition);
   here.erase("");
   EXPECT_EQ(here, objects);
 }
 
 TEST_F(SceneSchema, ItsKeysAreReadAndNeededAsItSays) {
-  for (const Sample& sample : kSamples) {
+  for (const Sample& sample : kSchemaSamples) {
     const JsonNode schema = definition(sample.definition);
     std::set<std::string> keys;
     for (const auto& [key, value] : sample.members) keys.insert(key);
@@ -374,7 +169,7 @@ TEST_F(SceneSchema, ItsKeysAreReadAndNeededAsItSays) {
 }
 
 TEST_F(SceneSchema, ItsValuesAreTheLoaders) {
-  for (const Sample& sample : kSamples) {
+  for (const Sample& sample : kSchemaSamples) {
     const JsonNode schema = definition(sample.definition);
     for (const auto& [key, value] : sample.members) {
       const bool corners =
@@ -394,6 +189,81 @@ TEST_F(SceneSchema, ItsValuesAreTheLoaders) {
           << sample.definition << " " << key << said;
     }
   }
+}
+
+/// A JSON value as text.
+std::string text_of(const JsonValue& value) {
+  switch (value.kind) {
+    case JsonValue::Kind::null: return "null";
+    case JsonValue::Kind::boolean: return value.boolean ? "true" : "false";
+    case JsonValue::Kind::integer: return fmt::format("{}", value.integer);
+    case JsonValue::Kind::real: return fmt::format("{}", value.real);
+    case JsonValue::Kind::text: return "\"" + value.text + "\"";
+    case JsonValue::Kind::array: break;
+    case JsonValue::Kind::object: ADD_FAILURE() << "no default is an object";
+  }
+  std::vector<std::string> items;
+  for (const JsonValue& item : value.items) items.push_back(text_of(item));
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
+/// Everything that a scene file can say of a scene, as text.
+std::string content_of(const Scene& scene) {
+  std::string text = test::scene_text(scene, "");
+  text += fmt::format("{} {}\n", static_cast<int>(scene.frame.antialias.kind), scene.frame.antialias.factor);
+  for (const Texture& t : scene.textures) {
+    const Sampler& s = t.sampler;
+    text += fmt::format("{} {} {} {} {} {} {} {} {} {} {}\n", static_cast<int>(t.format), static_cast<int>(t.type),
+                        static_cast<int>(s.min), static_cast<int>(s.mag), static_cast<int>(s.wrap_s),
+                        static_cast<int>(s.wrap_t), s.lod_bias, s.min_lod, s.max_lod, s.base_level, s.max_level);
+    text += test::text::vector(s.border);
+    for (const glm::vec4& texel : t.levels.at(0).texels) text += test::text::vector(texel);
+  }
+  for (const Draw& d : scene.draws) {
+    if (!d.texture) continue;
+    text += fmt::format("{} {} ", d.texture->texture, static_cast<int>(d.texture->environment));
+    text += test::text::vector(d.texture->color);
+  }
+  return text;
+}
+
+TEST_F(SceneSchema, ItsDefaultsAreTheLoaders) {
+  int defaults = 0, others_count = 0;
+  for (const Sample& sample : kSchemaSamples) {
+    const JsonNode schema = definition(sample.definition);
+    for (const auto& [key, value] : sample.members) {
+      const auto as_said = default_of(schema["properties"][key]);
+      if (!as_said) continue;
+      ++defaults;
+      Members others = alternatives(schema) ? Members{} : sample.members;
+      others.erase(key);
+      const std::string left_out = content_of(load(sample, others));
+      EXPECT_TRUE(content_of(load(sample, with(others, key, text_of(as_said->value())))) == left_out)
+          << sample.definition << " " << key;
+      if (content_of(load(sample, sample.members)) != left_out) ++others_count;
+    }
+  }
+  EXPECT_GE(defaults, 90);
+  EXPECT_GE(others_count, 50) << "samples that are not the default: their keys count";
+}
+
+// The table of the format: a row for each part, its keys in backquotes.
+TEST_F(SceneSchema, ItsKeysAreTheReadmes) {
+  std::ifstream readme(PLUMBLINE_SOURCE_DIR "/src/scene/README.md");
+  std::set<std::string> listed;
+  bool in_format = false;
+  for (std::string line; std::getline(readme, line);) {
+    if (line.starts_with("## ")) in_format = line == "## The format";
+    if (!in_format || !line.starts_with("| ")) continue;
+    for (std::size_t at = line.find('`'); at != line.npos; at = line.find('`', at + 1)) {
+      const std::size_t end = line.find('`', at + 1);
+      listed.insert(line.substr(at + 1, end - at - 1));
+      at = end;
+    }
+  }
+  std::set<std::string> keys = keys_of(schema_["properties"]);
+  for (const char* part : {"frame", "draw"}) keys.merge(keys_of(definition(part)["properties"]));
+  EXPECT_EQ(listed, keys);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 namespace plumbline {
 
-/// Makes or loads the mesh that the node describes (scene_file.h): one part, or of a file one for each stretch of one
-/// material. More than `most_triangles` are refused before they are made. Throws JsonError.
+/// Makes or loads the mesh that the node describes (scene.schema.json): one part, or of a file one for each stretch of
+/// one material. More than `most_triangles` are refused before they are made. Throws JsonError.
 std::vector<MeshPart> read_mesh(const JsonNode& node, const AssetFolders& folders, std::size_t most_triangles);
 
 }  // namespace plumbline
