@@ -26,6 +26,7 @@ class EmbreeRenderer final : public Renderer {
     info[Stage::texture].reason = "a ray sees the final colour; see shade";
     info[Stage::resolve].reason = "a ray finds a sample, not what is made of it";
     info.legal = true;
+    info.profile = Profile::oracle;
     return info;
   }
 

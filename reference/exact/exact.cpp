@@ -28,7 +28,7 @@ class Exact : public Renderer {
 };
 
 RendererInfo Exact::info() const {
-  RendererInfo info{.name = "exact", .version = "1", .stages = {}, .legal = true};
+  RendererInfo info{.name = "exact", .version = "1", .stages = {}, .legal = true, .profile = Profile::exact};
   for (Ability& ability : info.stages) ability = {.shows = true, .runs = true, .reason = {}};
   return info;
 }

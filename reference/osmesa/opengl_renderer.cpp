@@ -55,6 +55,7 @@ class OpenGlRenderer final : public Renderer {
     RendererInfo info;
     info.name = name_;
     info.version = version_;
+    info.profile = Profile::opengl;
     for (Ability& ability : info.stages) ability.shows = true;
     return info;
   }

@@ -1,5 +1,7 @@
 #include "capture/renderer.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "scene/antialias.h"
@@ -8,6 +10,10 @@ namespace plumbline {
 
 Capture Renderer::run_stage(const Scene&, Stage stage, const Capture&) {
   throw Unsupported(fmt::format("{} cannot run stage {} alone", info().name, name_of(stage)));
+}
+
+bool is_referee(const RendererInfo& info) {
+  return info.profile == Profile::exact && std::ranges::any_of(info.stages, &Ability::runs);
 }
 
 void require_samples(const Scene& scene, const std::vector<Plane<glm::vec4>>& samples) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/capture.h"
+#include "capture/profile.h"
 #include "capture/stages.h"
 #include "scene/scene.h"
 
@@ -54,9 +55,10 @@ struct Request {
 
 /// What a renderer is able to show of one stage.
 struct Ability {
-  bool shows = false;  ///< capture() hands the stage's records or planes out
-  bool runs = false;   ///< run_stage() serves the stage
-  std::string reason;  ///< why not, where neither
+  bool shows = false;         ///< capture() hands the stage's records or planes out
+  bool runs = false;          ///< run_stage() serves the stage
+  std::string reason;         ///< why not, where neither
+  bool planes_alone = false;  ///< what it shows are planes, without records
 };
 
 struct RendererInfo {
@@ -64,12 +66,16 @@ struct RendererInfo {
   std::string version;
   std::array<Ability, kStageNames.size()> stages;
   bool legal = false;  ///< capture() hands legal answers out
+  Profile profile = Profile::foreign;
   /// Names of the codes that draw a picture alone (WantedPlanes::picture), the one that ships last: each draws the bits
   /// of the watched frame. Empty: a picture is drawn by the code that is watched.
   std::vector<std::string> painters = {};
   const Ability& operator[](Stage s) const { return stages[static_cast<std::size_t>(s)]; }
   Ability& operator[](Stage s) { return stages[static_cast<std::size_t>(s)]; }
 };
+
+/// Whether the renderer judges single stages of others' records.
+bool is_referee(const RendererInfo& info);
 
 /// The renderer cannot do what was asked: outcome `unsupported`.
 struct Unsupported : std::runtime_error {

@@ -57,8 +57,8 @@ std::vector<Stage> unjudged(const check::SceneVerdict& verdict, const CheckOptio
 std::vector<check::Settled> settle(check::SceneVerdict& verdict, const CheckOptions& o,
                                    const std::vector<check::Expectation>& expectations, std::chrono::sys_days today) {
   std::vector<std::string> asked = o.against;
-  if (!o.golden.empty()) asked.emplace_back(check::kGolden);
-  if (o.fault.empty()) asked.emplace_back(check::kPicture);
+  if (!o.golden.empty()) asked.emplace_back("golden");
+  if (o.fault.empty()) asked.emplace_back("picture");
   std::vector<check::Settled> out = check::settle(expectations, asked, today, verdict);
   std::string lines;
   for (const check::Settled& settled : out) {

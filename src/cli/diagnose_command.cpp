@@ -65,7 +65,7 @@ std::vector<report::Pictured> pictured(const Scene& scene, Renderer& candidate, 
                                                  : fmt::format("the first of its {} passes", passes.size());
   out.push_back({title, passes.front(), std::move(mine), {}});
   for (const check::Reference& r : references.list) {
-    if (r.renderer == nullptr || !r.renderer->info()[Stage::vertex].runs) continue;
+    if (r.renderer == nullptr || !is_referee(r.renderer->info())) continue;
     out.back().expected = all_that_fits([&] { return check::expected_capture(passes.front(), *r.renderer); });
     if (antialiased) out.front().expected = all_that_fits([&] { return r.renderer->capture(scene, Request{}); });
   }
@@ -93,6 +93,11 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   }
   const References references = make_references(without_repeats(o.against), o.scene_arguments.assets, watch);
   const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list, o.most_fragments);
+  if (outside && check::judged_stages(diagnosis.verdict).empty()) {
+    throw std::invalid_argument(fmt::format("{}: expected the arrays of a stage that can be judged, found {}",
+                                            o.folder.empty() ? "--program" : o.folder,
+                                            check::judged_text(diagnosis.verdict)));
+  }
   std::string out = fmt::format("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
   std::string history, history_text;
   if (subject.pixel) {

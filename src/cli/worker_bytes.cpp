@@ -124,7 +124,7 @@ void visit(Archive& archive, check::Measurement& m) {
 }
 template <class Archive>
 void visit(Archive& archive, check::Comparison& c) {
-  all(archive, c.scene, c.reference, c.stage, c.outcome, c.measurement, c.ledger_row, c.note);
+  all(archive, c.scene, c.judge.reference, c.judge.kind, c.stage, c.outcome, c.measurement, c.ledger_row, c.note);
 }
 template <class Archive>
 void visit(Archive& archive, report::HtmlReport::Drawing& d) {

@@ -135,7 +135,7 @@ class Caster {
 class ImageOrderRenderer final : public Renderer {
  public:
   RendererInfo info() const override {
-    RendererInfo info{.name = "image_order", .version = PLUMBLINE_VERSION, .stages = {}};
+    RendererInfo info{.name = "image_order", .version = PLUMBLINE_VERSION, .stages = {}, .profile = Profile::opengl};
     for (Ability& ability : info.stages) ability.reason = "a ray finds what is visible, and nothing else is drawn";
     info[Stage::depth].reason = "handed out, but through corners that were never rounded: a matter of legal answers";
     info[Stage::visibility] = {true, false, ""};

@@ -33,7 +33,7 @@ class PipelineRenderer : public Renderer {
       : name_(std::move(name)), stages_(stages), paints_(paints) {}
 
   RendererInfo info() const override {
-    RendererInfo info{.name = name_, .version = PLUMBLINE_VERSION, .stages = {}};
+    RendererInfo info{.name = name_, .version = PLUMBLINE_VERSION, .stages = {}, .profile = Profile::dialect};
     for (Ability& ability : info.stages) ability = {true, true, ""};
     if (!paints_) return info;
     for (const SimdTarget& target : simd_targets()) info.painters.emplace_back(target.name);

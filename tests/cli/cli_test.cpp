@@ -67,8 +67,8 @@ TEST_F(Cli, a_limit_of_file_sizes_is_an_error_with_a_message) {
 TEST_F(Cli, check_holds_and_prints_a_row_for_each_reference_and_stage) {
   const Outcome run = plumb("check " + kScenes + "cull/both_windings.json --against exact");
   EXPECT_EQ(run.code, 0) << run.text;
-  EXPECT_NE(run.text.find("exact from its records"), std::string::npos);
-  EXPECT_NE(run.text.find("exact from scene"), std::string::npos);
+  EXPECT_NE(run.text.find("exact, per stage"), std::string::npos);
+  EXPECT_NE(run.text.find("exact, from scene"), std::string::npos);
   for (const char* stage :
        {"matrices", "vertex", "light", "clip", "window", "coverage", "depth", "attributes", "merge"}) {
     EXPECT_NE(run.text.find(stage), std::string::npos) << stage;

@@ -42,14 +42,14 @@ TEST_F(FailingRenderers, may_lack_memory_from_their_start_on) {
   EXPECT_TRUE(run.says("failed cull/both_windings: osmesa, merge: ")) << run.text;
   EXPECT_TRUE(run.says("failed scissor/windows: osmesa, merge: ")) << run.text;
   EXPECT_TRUE(run.says(": while it was made")) << run.text;
-  EXPECT_TRUE(run.says("exact from its records   matrices   ") || run.says("exact from its records   window     "))
+  EXPECT_TRUE(run.says("exact, per stage         matrices   ") || run.says("exact, per stage         window     "))
       << run.text;
 }
 
 TEST_F(FailingRenderers, are_judged_up_to_the_stage_that_fails) {
   const Outcome run = plumb("check " + kWindings + " --against exact --fault endings.crash");
-  EXPECT_TRUE(run.says("exact from its records   light      equal")) << run.text;
-  EXPECT_TRUE(run.says("exact from its records   clip       unsupported")) << run.text;
+  EXPECT_TRUE(run.says("exact, per stage         light      equal")) << run.text;
+  EXPECT_TRUE(run.says("exact, per stage         clip       unsupported")) << run.text;
   EXPECT_TRUE(run.says("ours failed at stage clip")) << run.text;
 }
 

@@ -12,7 +12,7 @@ TEST_F(Cli, osmesa_and_egl_and_softpipe_vote_in_one_run) {
                     softpipe = run.text.find(" softpipe ");
   EXPECT_LT(osmesa, egl) << run.text;
   EXPECT_LT(egl, softpipe) << run.text;
-  EXPECT_LT(softpipe, run.text.find(" exact from scene ")) << run.text;
+  EXPECT_LT(softpipe, run.text.find(" exact, from scene ")) << run.text;
 }
 
 // The child process hands on the reason.

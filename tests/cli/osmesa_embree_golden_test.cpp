@@ -172,7 +172,7 @@ TEST_F(GoldenCommand, a_fault_is_refused_with_the_reason_and_nothing_is_written)
   EXPECT_EQ(update.code, 1);
   EXPECT_TRUE(update.says("refused coverage/shared_edges")) << update.text;
   EXPECT_TRUE(update.says("because of osmesa, coverage: different")) << update.text;
-  EXPECT_TRUE(update.says("because of exact from its records, coverage: different")) << update.text;
+  EXPECT_TRUE(update.says("because of exact, per stage, coverage: different")) << update.text;
   EXPECT_TRUE(files() == before);
 }
 

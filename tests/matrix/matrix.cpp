@@ -48,7 +48,7 @@ Answer answer_of(const Scene& scene, std::size_t number, const Subject& subject,
   const check::Diagnosis diagnosis = check::diagnose_in_brief(scene, *candidate, references);
   Answer out{number, "", diagnosis.first, diagnosis.wrong, ""};
   if (const check::Comparison* row = check::first_different(diagnosis.verdict)) {
-    out.by = fmt::format("{}: {}", row->reference, name_of(row->stage));
+    out.by = fmt::format("{}: {}", title_of(row->judge), name_of(row->stage));
   }
   for (const check::Comparison& c : diagnosis.verdict.comparisons) {
     if (c.outcome == check::Outcome::failed) out.failed = fmt::format("{}: {}", name_of(c.stage), c.note);

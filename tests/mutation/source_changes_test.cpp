@@ -172,16 +172,16 @@ TEST(SourceChanges, AScenesFirstStageIsNamed) {
   const auto named = named_by_check(R"({"comparisons": [
     {"scene": "a", "reference": "osmesa", "stage": "merge", "outcome": "different"},
     {"scene": "a", "reference": "embree", "stage": "depth", "outcome": "different"},
-    {"scene": "a", "reference": "exact from scene", "stage": "clip", "outcome": "within"},
+    {"scene": "a", "reference": "exact, from scene", "stage": "clip", "outcome": "within"},
     {"scene": "a", "reference": "picture", "stage": "merge", "outcome": "different"},
     {"scene": "b", "reference": "picture", "stage": "merge", "outcome": "failed", "note": "SIGSEGV"},
     {"scene": "c", "reference": "osmesa", "stage": "merge", "outcome": "dispute"},
     {"scene": "d", "reference": "osmesa", "stage": "depth", "outcome": "different"}],
     "scenes": [{"scene": "b", "failure": "failed b: picture, merge: SIGSEGV"},
-    {"scene": "d", "failure": "different d: first different stage: merge (against exact from its records): 1 of 2"}]})");
+    {"scene": "d", "failure": "different d: first different stage: merge (against exact, per stage): 1 of 2"}]})");
   ASSERT_EQ(named.size(), 3u);
   EXPECT_EQ(named.at("d").first, "merge") << "as it says";
-  EXPECT_EQ(named.at("d").by, "exact from its records, merge");
+  EXPECT_EQ(named.at("d").by, "exact, per stage, merge");
   EXPECT_EQ(named.at("a").first, "depth");
   EXPECT_EQ(named.at("a").by, "embree, depth");
   EXPECT_EQ(named.at("b").first, "picture");

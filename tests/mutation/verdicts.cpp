@@ -34,7 +34,7 @@ struct First {
     if (here >= at) return;
     at = here;
     named.first = is_picture(row) ? "picture" : row["stage"].get<std::string>();
-    named.by = row["reference"].get<std::string>() + ", " + row["stage"].get<std::string>();
+    named.by = row.value("title", row["reference"].get<std::string>()) + ", " + row["stage"].get<std::string>();
     crashed = row["outcome"] == "failed";
     if (crashed) named.by += " (failed: " + row.value("note", "") + ")";
   }

@@ -72,7 +72,7 @@ RC_GTEST_PROP(RandomScenes, OfNumbersOfAnySizeLeaveNoNaN, ()) {
 RC_GTEST_PROP(RandomScenes, OfNumbersOfAnySizeAreJudged, ()) {
   const Scene scene = test::random_scene(test::any_float());
   for (const check::Comparison& c : test::judge_by_all(scene).comparisons) {
-    if (c.outcome == check::Outcome::failed) RC_FAIL(c.reference + ": " + c.note);
+    if (c.outcome == check::Outcome::failed) RC_FAIL(title_of(c.judge) + ": " + c.note);
   }
 }
 

@@ -40,9 +40,9 @@ inline std::string failures(const check::SceneVerdict& verdict) {
   for (const check::Comparison& c : verdict.comparisons) {
     if (!is_failure(c.outcome)) continue;
     const check::Measurement& m = c.measurement;
-    out += fmt::format("{} {} {}: {} of {}, {}, ours {}, theirs {}, {} > {} {} {}\n", c.reference, name_of(c.stage),
-                       name_of(c.outcome), m.differing, m.items, to_string(m.worst.place), m.worst.candidate,
-                       m.worst.reference, m.worst.difference, m.worst.tolerance, m.unit, c.note);
+    out += fmt::format("{} {} {}: {} of {}, {}, ours {}, theirs {}, {} > {} {} {}\n", title_of(c.judge),
+                       name_of(c.stage), name_of(c.outcome), m.differing, m.items, to_string(m.worst.place),
+                       m.worst.candidate, m.worst.reference, m.worst.difference, m.worst.tolerance, m.unit, c.note);
   }
   return out;
 }

@@ -73,7 +73,7 @@ Shown scene_of(HtmlReport& page, const fs::path& folder) {
 TEST_F(Pages, PagesAreNoScriptOfAHostileText) {
   const std::string odd = "</script><script>\"a\" & 'b'</script><!--";
   Comparison c = not_compared(Outcome::failed, odd);
-  c.reference = odd;
+  c.judge.reference = odd;
   SceneVerdict verdict = verdict_of({c, compared(Outcome::within, 2, 8)});
   verdict.scene = "group/<a & \"b\">";
   HtmlReport page(folder / "page", 1);

@@ -19,14 +19,14 @@ using check::SceneVerdict;
 
 Comparison scene_row(const std::string& scene, Stage stage, Outcome outcome, double largest = 0) {
   Comparison c;
-  c.scene = scene, c.reference = "osmesa", c.stage = stage, c.outcome = outcome;
+  c.scene = scene, c.judge = "osmesa", c.stage = stage, c.outcome = outcome;
   check::Measurement& m = c.measurement;
   m.unit = "steps", m.items = 100, m.differing = outcome == Outcome::different ? 7 : 0;
   m.max_difference = m.max_ratio = m.worst.difference = largest;
   m.worst.place = {3, 4, 5, "depth"};
   m.worst.candidate = 0.1, m.worst.reference = 1.0 / 3, m.worst.tolerance = 1e-300;
   m.histogram[19] = 2;
-  c.ledger_row = "osmesa.depth", c.note = "a \"note\" & <more>";
+  c.ledger_row = "opengl.depth", c.note = "a \"note\" & <more>";
   return c;
 }
 

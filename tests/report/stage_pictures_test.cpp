@@ -126,8 +126,8 @@ TEST(DiagnosisPage, BeginsAtTheFirstDifferentStageAndMarksItsPixels) {
   check::Measurement m;
   m.items = 10, m.differing = 1;
   m.differing_at = {{4, 2}};
-  for (const char* reference : {"osmesa", "exact from its records"})
-    diagnosis.verdict.comparisons.push_back(check::judged("s", reference, Stage::texture, m));
+  for (const check::JudgeId& judge : {check::JudgeId("osmesa"), check::JudgeId("exact", check::Kind::per_stage)})
+    diagnosis.verdict.comparisons.push_back(check::judged("s", judge, Stage::texture, m));
   diagnosis.first = Stage::texture;
   const Pictured one[] = {{"stage by stage", scene, drawn(scene), check::expected_capture(scene, *exact)}};
   const nlohmann::json views = views_of(scene, one, diagnosis);
@@ -150,7 +150,7 @@ TEST(DiagnosisPage, OfAnAntialiasedSceneShowsTheFrameAndAPass) {
   check::Measurement m;
   m.items = 10, m.differing = 1;
   for (const Stage stage : {Stage::shade, Stage::resolve})
-    diagnosis.verdict.comparisons.push_back(check::judged("s", "exact from its records", stage, m));
+    diagnosis.verdict.comparisons.push_back(check::judged("s", {"exact", check::Kind::per_stage}, stage, m));
   diagnosis.first = Stage::resolve;
   const Pictured both[] = {{"the frame", scene, frame, frame}, {"a pass", pass, drawn(pass), {}}};
   const nlohmann::json views = views_of(scene, both, diagnosis);

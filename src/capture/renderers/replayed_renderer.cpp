@@ -9,36 +9,61 @@ namespace plumbline {
 
 namespace {
 
-// Whether it holds what comparing the stage takes.
-bool holds(const Capture& c, const Scene& scene, Stage stage) {
+// Parts of a stage that a capture holds.
+struct Held {
+  bool records, planes;
+};
+Held held(const Capture& c, const Scene& scene, Stage stage) {
   const Records<double>& r = c.records;
   const Planes& p = c.planes;
-  const bool winners = !p.id.empty();
   switch (stage) {
-    case Stage::matrices: return !r.matrices.empty();
-    case Stage::vertex: return !r.vertices.empty();
-    case Stage::light: return !r.lit.empty();
-    case Stage::clip: return !r.polygons.polygons.empty();
-    case Stage::window: return !r.triangles.empty();
-    case Stage::coverage: return !p.count.empty() && !p.id_sum.empty();
-    case Stage::depth: return winners && !p.depth.empty();
-    case Stage::attributes: return winners && !p.shaded.empty();
-    case Stage::texture: return winners && !p.texel.empty();
-    case Stage::shade: return winners && !p.shaded.empty();
-    case Stage::visibility: return winners && p.stencil.empty() == (scene.frame.stencil == StencilFormat::none);
-    case Stage::merge: return winners && !p.color.empty() && !p.depth.empty();
-    case Stage::resolve: return false;
+    case Stage::matrices: return {!r.matrices.empty(), false};
+    case Stage::vertex: return {!r.vertices.empty(), false};
+    case Stage::light: return {!r.lit.empty(), false};
+    case Stage::clip: return {!r.polygons.polygons.empty(), false};
+    case Stage::window: return {!r.triangles.empty(), false};
+    case Stage::coverage: return {!r.covered.empty() && !r.triangles.empty(), !p.count.empty()};
+    case Stage::depth: return {!r.depth.empty(), !p.depth.empty()};
+    case Stage::attributes: return {!r.attributes.empty(), !p.shaded.empty()};
+    case Stage::texture: return {!r.texels.empty(), !p.texel.empty() && !p.id.empty()};
+    case Stage::shade: return {!r.shaded.empty(), !p.shaded.empty()};
+    case Stage::visibility:
+      return {!r.drawn.empty(), !p.id.empty() && p.stencil.empty() == (scene.frame.stencil == StencilFormat::none)};
+    case Stage::merge: return {false, !p.color.empty()};
+    case Stage::resolve: break;
   }
-  return false;
+  return {false, false};
+}
+
+// Planes of coverage and visibility that records of fragments come to, where the capture has none.
+void add_planes_of_records(Capture& c) {
+  const std::vector<Covered>& covered = c.records.covered;
+  if (covered.empty()) return;
+  const bool known = !c.records.triangles.empty();  // which primitives the fragments are of
+  const bool counts = c.planes.count.empty(), sums = known && c.planes.id_sum.empty();
+  const bool winners = known && c.planes.id.empty() && c.records.drawn.size() == covered.size();
+  if (counts) c.planes.count = Plane<std::uint32_t>(c.width, c.height);
+  if (sums) c.planes.id_sum = Plane<std::uint64_t>(c.width, c.height);
+  if (winners) c.planes.id = Plane<std::int32_t>(c.width, c.height, kBackground);
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    const auto [triangle, x, y] = covered[i];
+    const std::uint32_t primitive = known ? c.records.triangles[triangle].primitive : 0;
+    if (counts) ++c.planes.count(x, y);
+    if (sums) c.planes.id_sum(x, y) += id_weight(primitive);
+    if (winners && c.records.drawn[i].drawn) c.planes.id(x, y) = static_cast<std::int32_t>(primitive);
+  }
 }
 
 class ReplayedRenderer : public Renderer {
  public:
   ReplayedRenderer(Capture capture, const Scene& scene) : capture_(std::move(capture)) {
+    add_planes_of_records(capture_);
     info_.name = capture_.renderer;
     info_.version = capture_.version;
     for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-      info_.stages[i].shows = holds(capture_, scene, static_cast<Stage>(i));
+      const Held here = held(capture_, scene, static_cast<Stage>(i));
+      info_.stages[i].shows = here.records || here.planes;
+      info_.stages[i].planes_alone = !here.records;
       if (!info_.stages[i].shows) info_.stages[i].reason = "its capture does not hold it";
     }
   }

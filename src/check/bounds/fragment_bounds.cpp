@@ -55,8 +55,9 @@ std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, 
       const Material material =
           lit_material(scene, draw, {is_back(v), is_secondary(v)}, colors.empty() ? nullptr : &colors[i]);
       const LightBounds bounds = light_bounds(scene, material, vertex, {}, r.lights);
-      out[ranges[d].first_vertex + i] = {
-          tolerance("osmesa.light").factor * u * bounds.magnitude + bounds.jump + Vec3<double>(bounds.overflows), u};
+      out[ranges[d].first_vertex + i] = {tolerance(Profile::opengl, Stage::light).factor * u * bounds.magnitude +
+                                             bounds.jump + Vec3<double>(bounds.overflows),
+                                         u};
     }
   }
   return out;
@@ -113,7 +114,7 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
       factor_(factor),
       ranges_(draw_ranges(scene)),
       lit_apart_(larger(columns_apart(candidate.records.lit, reference.records.lit, &Lit<double>::color,
-                                      u * tolerance("osmesa.light").factor),
+                                      u * tolerance(Profile::opengl, Stage::light).factor),
                         granted(scene, candidate.records, Varying::back_color))),
       secondary_apart_(larger(granted(scene, candidate.records, Varying::secondary),
                               granted(scene, candidate.records, Varying::back_secondary))),
@@ -122,7 +123,7 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
       drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
   for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));
   for (const Texture& texture : scene.textures)
-    texel_arithmetic_.push_back(tolerance("osmesa.texture").factor * u * largest_texel(texture));
+    texel_arithmetic_.push_back(tolerance(Profile::opengl, Stage::texture).factor * u * largest_texel(texture));
 }
 
 Vec4<double> FragmentBounds::largest_of(std::uint32_t primitive, const std::vector<Vec4<double>>& column,
@@ -171,7 +172,8 @@ Vec4<double> FragmentBounds::cut_error(std::uint32_t primitive, Varying v) const
   const auto corners = std::span(vertices).subspan(polygon->first, polygon->count);
   if (std::ranges::none_of(corners, [](const ClipVertex<double>& corner) { return corner.cut; }))
     return Vec4<double>(0);
-  return tolerance("osmesa.clip").factor * u * largest_of(primitive, records_.varyings[v].vertices, false);
+  return tolerance(Profile::opengl, Stage::clip).factor * u *
+         largest_of(primitive, records_.varyings[v].vertices, false);
 }
 
 Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
@@ -251,7 +253,8 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
         glm::max(glm::abs(bound.range.hi - fours.texel), glm::abs(fours.texel - bound.range.lo)) + bound.slack;
   }
   FragmentBound out;
-  out.color = shade_error(scene_, draw, fours, errors, {tolerance("osmesa.shade").factor, kFlushedUnderflow});
+  out.color =
+      shade_error(scene_, draw, fours, errors, {tolerance(Profile::opengl, Stage::shade).factor, kFlushedUnderflow});
   if (draw.texture && i < texels_.size())
     out.reason = mesas_other_level(scene_.textures.at(draw.texture->texture), texels_[i]);
   const bool summed = is_lit_per_vertex(draw) && scene_.light_model.separate_specular;

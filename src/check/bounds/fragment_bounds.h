@@ -73,7 +73,7 @@ class FragmentBounds {
   std::optional<WindowTriangle<double>> as_color(std::size_t i, Varying v) const;
   Vec4<double> varying_error(std::size_t i, Varying v) const;
   /// Where the primitive is cut: what a renderer's cut may be off by, in proportion to the values at both ends (the
-  /// ledger's osmesa.clip). Of a share near 1 of a way of 10^6 that is more than all that comes after.
+  /// ledger's opengl.clip). Of a share near 1 of a way of 10^6 that is more than all that comes after.
   Vec4<double> cut_error(std::uint32_t primitive, Varying v) const;
   /// How far the values of other edges or corners of the fragment's triangle that the pixel may hold (bounds.h,
   /// EdgeValue) are from its own: of the columns' varying, or of the colour.

@@ -16,6 +16,13 @@ namespace plumbline::check {
 
 inline constexpr double u = kUnitRoundoff;
 
+// The nearest float. Volatile: GCC 12 takes a vector's way to float and back for nothing, and leaves it out (-O2, two
+// lanes at a time).
+inline double to_float(double value) {
+  const volatile auto rounded = static_cast<float>(value);
+  return static_cast<double>(rounded);
+}
+
 // Compares each of n records by visit(meter, i); none if their numbers differ.
 template <class Visit>
 Measurement each(const char* what, const std::string& unit, std::size_t candidate, std::size_t reference, Visit visit) {
@@ -61,6 +68,21 @@ inline const LegalAnswer* find(const Legal& legal, const Planes& planes, int x, 
     if (answer.primitive == id && answer.stencil == planes.stencil(x, y)) return &answer;
   }
   return nullptr;
+}
+
+// The answers that a pixel's depth and colour are held to: its winner's, or all where no winners are shown. None: its
+// winner is not legal.
+inline std::span<const LegalAnswer> held_to(const Legal& legal, const Planes& planes, int x, int y) {
+  if (planes.id.empty()) return legal.at(x, y);
+  const LegalAnswer* own = find(legal, planes, x, y);
+  return own == nullptr ? std::span<const LegalAnswer>() : std::span(own, 1);
+}
+
+// Whether several counts of fragments are legal at the pixel, and the candidate's is one of them.
+inline bool is_open(const Legal& legal, const Planes& planes, int x, int y) {
+  if (legal.empty() || planes.count.size() != legal.certain.size()) return false;
+  const std::uint32_t count = planes.count(x, y), low = legal.certain(x, y), high = legal.possible(x, y);
+  return low != high && low <= count && count <= high;
 }
 
 inline double outside(double value, double low, double high) {

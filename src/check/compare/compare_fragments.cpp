@@ -8,7 +8,10 @@
 
 namespace plumbline::check {
 
-Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference) {
+namespace {
+
+// `open(fragment)`: whether one more or less is legal.
+Measurement covered_but(const Records<double>& candidate, const Records<double>& reference, auto open) {
   Meter meter("fragments");
   const auto key = [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); };
   auto a = candidate.covered.begin();
@@ -17,7 +20,9 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
     const bool extra = b == reference.covered.end() || (a != candidate.covered.end() && key(*a) < key(*b));
     const bool lacks = a == candidate.covered.end() || (b != reference.covered.end() && key(*b) < key(*a));
     const Covered& c = lacks ? *b : *a;
-    if (extra || lacks) {
+    if ((extra || lacks) && open(c)) {
+      meter.ambiguous();
+    } else if (extra || lacks) {
       meter.value(1, 0, {c.x, c.y, static_cast<std::int64_t>(c.triangle), extra ? "extra" : "lacking"}, extra, lacks);
     }
     if (!lacks) ++a;
@@ -26,8 +31,6 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
   }
   return meter.done();
 }
-
-namespace {
 
 // each(), of records that lie beside the candidate's fragments.
 template <class Visit>
@@ -40,6 +43,16 @@ Measurement each_fragment(const char* what, const std::string& unit, const Recor
 }
 
 }  // namespace
+
+Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference) {
+  return covered_but(candidate, reference, [](const Covered&) { return false; });
+}
+
+Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal) {
+  const auto open = [&](const Covered& c) { return is_open(legal, candidate.planes, c.x, c.y); };
+  Measurement illegal = covered_but(candidate.records, reference, open);
+  return illegal.differing > 0 ? illegal : compare_covered(candidate.records, reference);
+}
 
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "check/bounds/units.h"
 #include "check/compare/compare_planes.h"
 
@@ -23,29 +25,39 @@ Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
 
 namespace {
 
+// A plane of other winners than its own is compared with nothing.
+bool fits_winners(const Planes& candidate, const Legal& legal, std::string& why) {
+  return candidate.id.empty() || same_size(candidate.id, legal.certain, why);
+}
+std::int32_t winner_at(const Planes& planes, int x, int y) { return planes.id.empty() ? kBackground : planes.id(x, y); }
+
 // `half_code`: what rounding to the frame's format adds to the oracle's bound.
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
                                 double half_code, bool clamped, double factor) {
-  const Plane<std::int32_t>& id = candidate.id;
   std::string why;
-  if (!same_size(id, legal.certain, why)) return mismatch("bound", why, color.size());
+  if (!fits_winners(candidate, legal, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
-    const auto answers = legal.at(x, y);
-    if (answers.size() > 1) meter.ambiguous();
+    if (legal.at(x, y).size() > 1) meter.ambiguous();
     const glm::vec4 c = color(x, y);
-    const LegalAnswer* answer = find(legal, candidate, x, y);
-    if (answer == nullptr) {  // visibility's matter, but for what is no number
+    const auto wanted = [&](const LegalAnswer& a) { return clamped ? glm::clamp(a.color, 0.0f, 1.0f) : a.color; };
+    const auto apart = [&](const LegalAnswer& a, int i) {
+      const double diff = difference(c[i], wanted(a)[i]);
+      return diff == 0 ? 0 : diff / (static_cast<double>(a.color_bound) + half_code);
+    };
+    const auto farthest = [&](const LegalAnswer& a) {
+      return std::max({apart(a, 0), apart(a, 1), apart(a, 2), apart(a, 3)});
+    };
+    const auto answers = held_to(legal, candidate, x, y);
+    if (answers.empty()) {  // visibility's matter, but for what is no number
       for (int i = 0; i < 4; ++i) {
-        meter.value(std::isfinite(c[i]) ? 0 : kInfinite, 0, {x, y, id(x, y), "color"}, c[i], 0);
+        meter.value(std::isfinite(c[i]) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "color"}, c[i], 0);
       }
       return;
     }
-    if (!std::isfinite(answer->color_bound) && answers.size() == 1) meter.ambiguous();  // open: any colour is legal
-    const double bound = static_cast<double>(answer->color_bound) + half_code;
+    const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, farthest);
+    if (!std::isfinite(nearest.color_bound) && legal.at(x, y).size() == 1) meter.ambiguous();  // any colour is legal
     for (int i = 0; i < 4; ++i) {
-      const double v = c[i], w = clamped ? glm::clamp(answer->color[i], 0.0f, 1.0f) : answer->color[i],
-                   diff = difference(v, w);
-      meter.value(diff == 0 ? 0 : diff / bound, factor, {x, y, answer->primitive, "color"}, v, w);
+      meter.value(apart(nearest, i), factor, {x, y, nearest.primitive, "color"}, c[i], wanted(nearest)[i]);
     }
   });
 }
@@ -54,17 +66,17 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
 
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
   std::string why;
-  if (!same_size(candidate.id, legal.certain, why)) return mismatch("step", why, candidate.depth.size());
+  if (!fits_winners(candidate, legal, why)) return mismatch("step", why, candidate.depth.size());
   return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
-    const auto answers = legal.at(x, y);
-    if (answers.size() > 1) meter.ambiguous();
+    if (legal.at(x, y).size() > 1) meter.ambiguous();
     const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
-    const LegalAnswer* answer = find(legal, candidate, x, y);
-    if (answer == nullptr) {
-      return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, candidate.id(x, y), "z"}, z, 0);
+    const auto apart = [&](const LegalAnswer& a) { return outside(z, a.z_lo, a.z_hi) / step; };
+    const auto answers = held_to(legal, candidate, x, y);
+    if (answers.empty()) {
+      return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "z"}, z, 0);
     }
-    meter.value(outside(z, answer->z_lo, answer->z_hi) / step, factor, {x, y, answer->primitive, "z"}, z,
-                std::clamp(z, answer->z_lo, answer->z_hi));
+    const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, apart);
+    meter.value(apart(nearest), factor, {x, y, nearest.primitive, "z"}, z, std::clamp(z, nearest.z_lo, nearest.z_hi));
   });
 }
 

@@ -94,17 +94,21 @@ bool factors_read_frame(const Scene& scene) {
 
 }  // namespace
 
-Measurement compare_coverage(const Planes& candidate, const Planes& reference) {
+Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal) {
   std::string why;
   if (!same_size(candidate.id_sum, reference.id_sum, why) || !same_size(candidate.id_sum, candidate.count, why))
     return mismatch("fragments", why, candidate.id_sum.size());
-  return compare_planes(candidate.count, reference.count, "fragments", [&](Meter& meter, int x, int y) {
-    const double a = candidate.count(x, y), b = reference.count(x, y);
-    meter.value(difference(a, b), 0, {x, y, -1, "count"}, a, b);
-    // Other primitives, as many: reported as one fragment apart.
-    const bool same = candidate.id_sum(x, y) == reference.id_sum(x, y);
-    meter.value(same ? 0 : 1, 0, {x, y, -1, "id sum"}, a, b);
-  });
+  const auto compare = [&](const Legal& open) {
+    return compare_planes(candidate.count, reference.count, "fragments", [&](Meter& meter, int x, int y) {
+      const double a = candidate.count(x, y), b = reference.count(x, y);
+      const bool other = a == b && candidate.id_sum(x, y) != reference.id_sum(x, y);
+      if ((a != b || other) && is_open(open, candidate, x, y)) return meter.ambiguous();
+      meter.value(difference(a, b), 0, {x, y, -1, "count"}, a, b);
+      meter.value(other ? 1 : 0, 0, {x, y, -1, "fragments of other primitives"}, other ? 1 : 0, 0);
+    });
+  };
+  Measurement illegal = compare(legal);
+  return legal.empty() || illegal.differing > 0 ? illegal : compare({});
 }
 
 Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal) {

@@ -7,8 +7,9 @@
 
 namespace plumbline::check {
 
-/// Overdraw count and sum of weights, both with tolerance zero.
-Measurement compare_coverage(const Planes& candidate, const Planes& reference);
+/// Overdraw count and sum of weights, both with tolerance zero. `legal` (empty: nothing is open): where it allows
+/// several counts, the candidate's among them, a difference is ambiguous, as long as other pixels differ.
+Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal = {});
 
 /// Winners against winners. Where they differ, `legal` decides (empty: nothing is ambiguous): both among the legal
 /// answers: ambiguous; the reference alone outside: disputed; else different. Stencil values go with them.
@@ -41,7 +42,8 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
                           const Legal& bounds = {});
 
 /// Against legal answers. Pixels with more than one are counted as ambiguous. Depth and colour are held to the answer
-/// of the pixel's own winner, `factor` times its bound; where that is not legal, it is visibility's matter alone.
+/// of the pixel's own winner, `factor` times its bound; where that is not legal, it is visibility's matter alone. Where
+/// the candidate shows no winners, each is held to the nearest of all answers.
 Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);

@@ -16,13 +16,14 @@ namespace {
 // below 1e-12 become 0.
 constexpr double kDoubleError = 1e-12;
 
+// The candidate's entries are rounded to float: a renderer may hold matrices in double.
 template <class Matrix, class Unit>
 void add_entries(Meter& meter, const Matrix& a, const Matrix& b, Unit unit, double factor, const Place& place) {
   for (int column = 0; column < Matrix::length(); ++column) {
     double largest = 0;  // of the column: a far translation is no excuse for a rotation
     for (int row = 0; row < Matrix::length(); ++row) largest = std::max(largest, std::abs(b[column][row]));
     for (int row = 0; row < Matrix::length(); ++row) {
-      const double x = a[column][row], y = b[column][row], diff = difference(x, y);
+      const double x = to_float(a[column][row]), y = b[column][row], diff = difference(x, y);
       meter.value(diff == 0 ? 0 : diff / unit(y, largest), factor, place, x, y);
     }
   }
@@ -42,8 +43,11 @@ Measurement compare_matrices_by(const Records<double>& candidate, const Records<
     add_entries(meter, a.projection, b.projection, unit, factor, at("projection"));
     if (normal) add_entries(meter, a.normal, b.normal, unit, factor, at("normal"));
     const auto units = [&](const Vec3<double>& v) { return Vec3<double>(unit(v.x, 0), unit(v.y, 0), unit(v.z, 0)); };
-    add(meter, a.win_scale, b.win_scale, units(b.win_scale), factor, at("win_scale"));
-    add(meter, a.win_translate, b.win_translate, units(b.win_translate), factor, at("win_translate"));
+    const auto rounded = [](const Vec3<double>& v) {
+      return Vec3<double>(to_float(v.x), to_float(v.y), to_float(v.z));
+    };
+    add(meter, rounded(a.win_scale), b.win_scale, units(b.win_scale), factor, at("win_scale"));
+    add(meter, rounded(a.win_translate), b.win_translate, units(b.win_translate), factor, at("win_translate"));
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "capture/capture.h"
 #include "capture/stages.h"
 #include "check/bounds/bounds.h"
 #include "check/verdict/measure.h"
@@ -53,14 +54,17 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
 /// clip polygons leave them open (legal_window.h); the colours are those of the face.
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor);
-/// Bit for bit (as floats), but 1/w, which has the tolerance osmesa.window. Colours are not compared: feedback has none
-/// of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h, turned_outlines):
+/// Bit for bit (as floats), but 1/w, which has the tolerance `factor` [ULP]. Colours are not compared: feedback has
+/// none of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h, turned_outlines):
 /// ambiguous.
-Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference,
+Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference, double factor,
                                  std::span<const std::uint32_t> turned = {});
 
 /// The same fragments.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
+/// Likewise; a fragment more or less is ambiguous where `legal` leaves open how many there are (compare_planes.h), as
+/// long as others differ.
+Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal);
 /// In steps of the depth format.
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor);

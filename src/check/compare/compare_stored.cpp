@@ -19,7 +19,7 @@ using Channel = StoredImage::Channel;
 using Pairs = std::vector<std::pair<const Channel*, const Channel*>>;
 
 StoredComparison row(std::string what, Measurement m, double codes = 0, std::string note = "") {
-  Comparison c = judged("", "", Stage::merge, std::move(m), "", std::move(note));
+  Comparison c = judged("", "", Stage::merge, std::move(m), nullptr, std::move(note));
   return {std::move(what), c.outcome, std::move(c.measurement), codes, std::move(c.note)};
 }
 

@@ -152,9 +152,8 @@ std::vector<std::size_t> records_beside(const std::vector<WindowTriangle<double>
 
 }  // namespace
 
-Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference,
+Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference, double factor,
                                  std::span<const std::uint32_t> turned) {
-  const double inv_w = tolerance("osmesa.window").factor;
   const std::vector<std::size_t> mine = records_beside(candidate.triangles, turned),
                                  theirs = records_beside(reference.triangles, turned);
   Measurement m = each("window triangles", "ULP", mine.size(), theirs.size(), [&](Meter& meter, std::size_t number) {
@@ -180,7 +179,7 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
         meter.value(diff == 0 ? 0 : diff / ulp(w.p_win[c]), 0, at("p_win"), v.p_win[c], w.p_win[c]);
       }
       const double diff_w = difference(v.inv_w, w.inv_w);
-      meter.value(diff_w == 0 ? 0 : diff_w / ulp(w.inv_w), inv_w, at("inv_w"), v.inv_w, w.inv_w,
+      meter.value(diff_w == 0 ? 0 : diff_w / ulp(w.inv_w), factor, at("inv_w"), v.inv_w, w.inv_w,
                   kFlushedUnderflow / ulp(w.inv_w));
       for (int c = 0; c < 2; ++c) {
         const double x = v.snapped[c], y = w.snapped[c];

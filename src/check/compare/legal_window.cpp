@@ -216,7 +216,7 @@ std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<dou
     return scene.meshes[draw.mesh].topology == Topology::triangles && !is_filled(draw);
   };
   if (std::ranges::none_of(scene.draws, outlines) || candidate.matrices.size() != scene.draws.size()) return out;
-  const LegalWindow legal(scene, candidate, tolerance("exact.window").factor, FacingArea::either);
+  const LegalWindow legal(scene, candidate, tolerance(Profile::exact, Stage::window).factor, FacingArea::either);
   const std::span a(candidate.triangles), b(reference.triangles);
   for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
     const bool has_a = i < a.size() && (j == b.size() || a[i].primitive <= b[j].primitive);

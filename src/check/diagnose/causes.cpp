@@ -14,10 +14,13 @@ namespace {
 // How many records of the candidate's stage differ from what was made.
 std::uint64_t differing(const Evidence& e, const Capture& made) {
   if (e.stage == Stage::matrices) {
-    return compare_matrices(e.candidate.records, made.records, factor("exact.matrices")).differing +
-           compare_lights(e.scene, e.candidate.records, made.records, factor("exact.matrices")).differing;
+    const double factor = tolerance(Profile::exact, e.stage).factor;
+    return compare_matrices(e.candidate.records, made.records, factor).differing +
+           compare_lights(e.scene, e.candidate.records, made.records, factor).differing;
   }
-  if (e.stage == Stage::resolve) return compare_resolved(e.scene, e.candidate, made, factor("exact.resolve")).differing;
+  if (e.stage == Stage::resolve) {
+    return compare_resolved(e.scene, e.candidate, made, tolerance(Profile::exact, e.stage).factor).differing;
+  }
   std::vector<Comparison> rows;
   const Legal none;
   Case c{e.scene, e.candidate, none, nullptr, rows};

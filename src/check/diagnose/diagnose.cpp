@@ -1,11 +1,13 @@
 #include "check/diagnose/diagnose.h"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <utility>
 
 #include "check/diagnose/causes.h"
 #include "check/diagnose/coverage_differences.h"
+#include "check/diagnose/effect.h"
 #include "check/diagnose/worst_record.h"
 #include "check/judge/failing_stage.h"
 #include "check/judge/judge_passes.h"
@@ -19,32 +21,29 @@ namespace {
 
 Renderer* referee_of(std::span<const Reference> references) {
   for (const Reference& r : references) {
-    if (r.renderer != nullptr && r.renderer->info()[Stage::vertex].runs) return r.renderer;
+    if (r.renderer != nullptr && is_referee(r.renderer->info())) return r.renderer;
   }
   return nullptr;
 }
 
 bool is_wrong(const Comparison& c) { return c.outcome == Outcome::different || c.outcome == Outcome::failed; }
 
-// Whether the row judges its stage by itself.
-bool judges_alone(const Comparison& c) {
-  return c.reference.ends_with(kFromRecords) || c.reference.ends_with(kRepaired) || c.reference.ends_with(kAtWorst) ||
-         (c.stage == Stage::matrices && c.reference.ends_with("from scene"));
-}
-
 // What a finding says beyond who judged and by how much.
 using Explain = void (*)(const Evidence&, Finding&);
 
 void in_full(const Evidence& evidence, Finding& finding) {
   finding.numbers = worst_record(evidence, finding.measurement);
+  if (finding.judge.kind != Kind::at_worst && !over_budget(evidence.candidate)) {
+    finding.explains = pixels_explained(evidence);
+  }
   for (const Cause& cause : likely_causes(evidence)) finding.causes.push_back(cause.words);
-  if (finding.stage != Stage::coverage || over_budget(evidence.candidate))
-    return;  // without fragments, all would be missing
+  if (finding.stage != Stage::coverage || over_budget(evidence.candidate) || over_budget(evidence.expected))
+    return;  // of a side without records of fragments, all would be missing
   if (const auto worst = worst_triangle(evidence)) finding.picture = coverage_picture(*worst);
 }
 void in_brief(const Evidence&, Finding&) {}
 
-Finding finding_of(const Comparison& row) { return {row.stage, row.reference, row.measurement, {}, {}, ""}; }
+Finding finding_of(const Comparison& row) { return {row.stage, row.judge, row.measurement, {}, {}, 0, ""}; }
 
 // One scene of one sample a pixel.
 struct Pass {
@@ -98,7 +97,7 @@ void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<
     if (!info[stage].runs || !referee_info[stage].runs) return;
     bool wrong = known.contains(stage);
     if (!wrong) {
-      const std::string name = referee_info.name + " " + std::string(kRepaired);
+      const JudgeId name(referee_info.name, Kind::repaired);
       std::vector<Comparison> rows;
       const Legal none;
       Case c{scene, in, none, &referee, rows};
@@ -129,7 +128,8 @@ std::optional<Finding> first_finding(const Scene& scene, const SceneVerdict& ver
   if (row == nullptr) return std::nullopt;
   Finding out = finding_of(*row);
   for (std::size_t i = 0; i < theirs.size(); ++i) {
-    if (row->reference == references[i].name) explain({scene, row->stage, mine, theirs[i], nullptr}, out);
+    if (!judges_alone(*row) && row->judge.reference == references[i].name)
+      explain({scene, row->stage, mine, theirs[i], nullptr}, out);
   }
   return out;
 }
@@ -155,7 +155,7 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
   if (pixels.empty()) return;
   try {
     const Capture mine = candidate.capture(find.scene, {StageSet::all(), false, {}, pixels});
-    const std::string name = find.referee.info().name + " " + std::string(kAtWorst);
+    const JudgeId name(find.referee.info().name, Kind::at_worst);
     const Legal none;
     Case c{find.scene, mine, none, &find.referee, pass.verdict.comparisons};
     for (const Stage stage : {Stage::depth, Stage::attributes, Stage::texture, Stage::shade}) {
@@ -179,7 +179,7 @@ Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference>
       if (judges_alone(c) && is_wrong(c)) pass.findings.push_back(finding_of(c));
     }
     const auto at = referee != nullptr ? failing_stage(scene, candidate, *referee) : std::nullopt;
-    if (at) pass.findings.push_back({at->stage, candidate.info().name, {}, {at->how}, {}, ""});
+    if (at) pass.findings.push_back({at->stage, candidate.info().name, {}, {at->how}, {}, 0, ""});
     return pass;
   }
   std::set<Stage> wrong;
@@ -207,13 +207,13 @@ void judge_repaired_samples(const Finder& find, std::span<const Pass> passes, Re
   if (!candidate.info()[Stage::resolve].runs || !std::ranges::all_of(passes, reached_the_end)) return;
   Capture in;
   for (const Pass& pass : passes) in.samples.push_back(pass.repaired.planes.color);
-  const std::string name = find.referee.info().name + " " + std::string(kRepaired);
+  const JudgeId name(find.referee.info().name, Kind::repaired);
   Comparison row;
   try {
     copy_stage(Stage::resolve, candidate.run_stage(scene, Stage::resolve, in), in);
     const Capture made = find.referee.run_stage(scene, Stage::resolve, in);
-    row = judged(scene.name, name, Stage::resolve, compare_resolved(scene, in, made, tolerance("exact.resolve").factor),
-                 "exact.resolve");
+    const Tolerance& limit = tolerance(Profile::exact, Stage::resolve);
+    row = judged(scene.name, name, Stage::resolve, compare_resolved(scene, in, made, limit.factor), &limit);
   } catch (const std::exception& e) {
     row = not_judged(scene.name, name, Stage::resolve, Outcome::failed, e.what());
   }
@@ -286,6 +286,11 @@ Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Ref
   }
   out.findings = worst_of_each(std::move(out.findings));
   for (const Finding& f : out.findings) out.wrong.push_back(f.stage);
+  const bool by_tie_rule = candidate.info().profile == Profile::foreign && is_legal(out.verdict, Stage::coverage);
+  const auto matters = std::ranges::find_if(
+      out.findings, [&](const Finding& f) { return f.explains > 0 && !(f.stage == Stage::coverage && by_tie_rule); });
+  const auto headline = matters != out.findings.end() ? std::optional(matters->stage) : std::nullopt;
+  std::ranges::stable_sort(out.findings, std::greater(), &Finding::explains);
   if (const Comparison* row = first_different(out.verdict)) {
     out.first = row->stage;
     if (!out.wrong.empty() && row->stage < out.wrong[0] && holds_alone(out.verdict, row->stage))
@@ -293,6 +298,12 @@ Diagnosis diagnosed(const Scene& scene, Renderer& candidate, std::span<const Ref
     if (out.wrong.empty()) out.findings.push_back(first ? *first : finding_of(*row));
   } else if (!out.wrong.empty()) {
     out.first = out.wrong[0];  // which failed
+  }
+  if (headline) {
+    out.first = headline;
+  } else if (by_tie_rule && out.first == Stage::coverage) {
+    const auto other = std::ranges::find_if(out.wrong, [](Stage stage) { return stage != Stage::coverage; });
+    out.first = other != out.wrong.end() ? std::optional(*other) : std::nullopt;
   }
   return out;
 }

@@ -17,30 +17,30 @@ namespace plumbline::check {
 /// What is wrong with one stage.
 struct Finding {
   Stage stage = Stage::matrices;
-  std::string reference;             ///< who judged it (Comparison::reference)
+  JudgeId judge{""};                 ///< who judged it
   Measurement measurement;           ///< and by how much it is off
   std::vector<std::string> numbers;  ///< the worst record: what came in, what came out, what was expected and from whom
   std::vector<std::string> causes;   ///< likely causes in words, with the evidence (causes.h)
+  std::size_t explains = 0;          ///< pixels of the final picture (effect.h); not where fragments are too many
   std::string picture;  ///< coverage: the worst triangle, `#` both, `?` missing, `!` extra; rows from the top; or empty
 };
 
 struct Diagnosis {
   SceneVerdict verdict;  ///< judge()'s, and the rows of repaired records
-  std::optional<Stage>
-      first;  ///< the first different stage; not one that does right by itself, before the first that does not
-  std::vector<Stage> wrong;       ///< every stage that is wrong by itself, in order
-  std::vector<Finding> findings;  ///< one for each of `wrong`; of the first different stage where there is none
+  /// The first stage that is wrong by itself and explains pixels of the picture; else the first that is wrong by
+  /// itself; else the first different stage. Never coverage of a foreign candidate that differs by legal fragments
+  /// alone.
+  std::optional<Stage> first;
+  std::vector<Stage> wrong;  ///< every stage that is wrong by itself, in order
+  /// One for each of `wrong`, those first that explain most pixels; of the first different stage where there is none.
+  std::vector<Finding> findings;
 };
 
-/// The rows that diagnose() adds: of the stages after the first one that is wrong by itself. The candidate's own
-/// records of the stages before are taken, but exact's, rounded to float, in place of those of each stage that is
-/// wrong; the candidate's stage is run on them, and compared with exact's. It shows what a fault before it hides. Only
-/// where the candidate runs stages.
-inline constexpr std::string_view kRepaired = "from repaired records";
-
-/// And of a scene of more fragments than are looked at one by one: stages 6 to 9 of the fragments about the pixels that
-/// are worst in the planes, captured once more.
-inline constexpr std::string_view kAtWorst = "from its records at the worst pixels";
+/// Rows that diagnose() adds to judge()'s. Kind::repaired: of the stages after the first one that is wrong by itself,
+/// where the candidate runs stages. Each stage is run on the candidate's own records of the stages before it, but on
+/// exact's, rounded to float, in place of those of a stage that is wrong, and compared with exact's: it shows what a
+/// fault before it hides. Kind::at_worst: of a scene of more fragments than are looked at one by one, stages 6 to 9 of
+/// the fragments about the worst pixels of the planes, captured once more.
 
 /// The fragments that a diagnosis looks at one by one, an antialiased scene's passes together: some seconds' work.
 inline constexpr std::uint64_t kMostFragments = std::uint64_t{1} << 20;

@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "check/diagnose/coverage_differences.h"
+#include "check/judge/scene_case.h"
 
 namespace plumbline::check {
 
@@ -366,6 +367,7 @@ std::vector<std::string> worst_record(const Evidence& e, const Measurement& m) {
     }
     case Stage::coverage:
       if (place.x >= 0) worded.pixel(place.x, place.y, e.stage, out);
+      if (over_budget(e.candidate) || over_budget(e.expected)) break;  // one side has planes alone
       if (const auto worst = worst_triangle(e)) worded.fragment(worst->triangle, -1, -1, e.stage, out);
       break;
     default:

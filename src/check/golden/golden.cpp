@@ -83,7 +83,7 @@ std::string describe(const GoldenDifference& d) {
 }
 
 std::vector<Comparison> golden_rows(const Scene& scene, Renderer& candidate, const GoldenSet& goldens) {
-  const std::string name(kGolden);
+  const JudgeId name("golden", Kind::golden);
   const GoldenDifference d = compare_golden(scene, candidate, goldens);
   if (!d.why.empty()) return {not_judged(scene.name, name, Stage::merge, Outcome::failed, d.why)};
   const Stage last = d.drawn.stages.back() ? Stage::resolve : Stage::merge;
@@ -103,7 +103,7 @@ std::vector<Comparison> golden_rows(const Scene& scene, Renderer& candidate, con
       m.differing = 1;
       m.max_difference = m.max_ratio = HUGE_VAL;
     }
-    out.push_back(judged(scene.name, name, stage, std::move(m), "", differs ? hashes_at(d, stage) : ""));
+    out.push_back(judged(scene.name, name, stage, std::move(m), nullptr, differs ? hashes_at(d, stage) : ""));
   }
   return out;
 }
@@ -117,20 +117,20 @@ Vouch vouch(const SceneVerdict& verdict, const std::string& candidate, std::span
   std::set<Stage> judged, agreed;
   std::set<std::string> against;
   for (const Comparison& c : verdict.comparisons) {
-    rows[c.reference][c.outcome].insert(c.stage);
-    const std::string reference = voter(c);
+    rows[title_of(c.judge)][c.outcome].insert(c.stage);
+    const std::string& reference = c.judge.reference;
     if (is_failure(c.outcome)) {
       const std::string more = remark(c);
       against.insert(reference);
-      out.refusals.push_back(fmt::format("{}, {}: {}{}{}", c.reference, name_of(c.stage), name_of(c.outcome),
+      out.refusals.push_back(fmt::format("{}, {}: {}{}{}", title_of(c.judge), name_of(c.stage), name_of(c.outcome),
                                          more.empty() ? "" : ": ", more));
     } else if (!votes(c)) {
       continue;
     } else if (reference == candidate) {
       out.refusals.push_back(fmt::format("{} cannot vouch for itself", candidate));
     } else if (c.outcome == Outcome::dispute) {
-      out.disputed.push_back(fmt::format("{}, {}: {} of {}: {}", c.reference, name_of(c.stage), c.measurement.disputed,
-                                         c.measurement.items, c.measurement.reason));
+      out.disputed.push_back(fmt::format("{}, {}: {} of {}: {}", title_of(c.judge), name_of(c.stage),
+                                         c.measurement.disputed, c.measurement.items, c.measurement.reason));
       judged.insert(c.stage);
     } else if (agrees(c.outcome)) {
       judged.insert(c.stage);

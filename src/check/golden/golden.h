@@ -26,7 +26,7 @@ GoldenDifference compare_golden(const Scene& scene, Renderer& candidate, const G
 /// For a person: the first stage that differs, the pixels, the worst one. Lines.
 std::string describe(const GoldenDifference& difference);
 
-/// As rows of a verdict, of the reference kGolden, one for each stage that hands on anything; a picture that differs
+/// Rows of Kind::golden, one for each stage that hands on anything; a picture that differs
 /// counts its pixels in the last. `failed` where there is nothing to compare.
 std::vector<Comparison> golden_rows(const Scene& scene, Renderer& candidate, const GoldenSet& goldens);
 

@@ -7,7 +7,7 @@
 //      "scene": hash of the scene and all it draws from, "producer": "ours 0.1.0", "versions": "1f3c9a02",
 //      "files": {"color": {"file": "coverage/tie_rule/color.0123456789abcdef.png", "format": "rgba8", "bytes": 1234,
 //                          "hash": ...}, "depth": ..., "stages": ...},
-//      "references": {"osmesa": {"equal": "matrices vertex ...", "within": "..."}, "exact from scene": ...},
+//      "references": {"osmesa": {"equal": "matrices vertex ...", "within": "..."}, "exact, from scene": ...},
 //      "vouched": ["osmesa", "embree", "exact"], "disputed": ["osmesa, lines: 3 of 96: why"], "seal": hash}}}
 //
 // A scene is a line, so that two people's updates of two scenes merge. Its seal is the hash of the line without it:
@@ -42,7 +42,7 @@ struct Golden {
   std::string producer;                     ///< whose picture it is
   std::string versions;                     ///< of everything at the time: key of GoldenManifest::versions
   std::map<std::string, GoldenFile> files;  ///< "color", "depth", "stages"
-  /// By a row's reference and its outcome there, the stages, in order, with spaces between.
+  /// By a row's title and its outcome there, the stages, in order, with spaces between.
   std::map<std::string, std::map<std::string, std::string>> references;
   std::vector<std::string> vouched;   ///< references that agree and whose fault nothing is
   std::vector<std::string> disputed;  ///< what is, and why

@@ -78,7 +78,7 @@ std::vector<Comparison> joined(std::span<const SceneVerdict> passes) {
   std::vector<Comparison> out;
   for (std::size_t pass = 0; pass < passes.size(); ++pass) {
     for (Comparison c : passes[pass].comparisons) {
-      const auto same = [&](const Comparison& o) { return o.reference == c.reference && o.stage == c.stage; };
+      const auto same = [&](const Comparison& o) { return o.judge == c.judge && o.stage == c.stage; };
       if (passes.size() > 1 && severity(c.outcome) > 0 && c.outcome != Outcome::unsupported) {
         c.note = fmt::format("pass {}{}{}", pass, c.note.empty() ? "" : ": ", c.note);
       }
@@ -99,15 +99,13 @@ Disputed disputed_by(const std::string& reference, std::span<const SceneVerdict>
   for (std::size_t pass = 0; pass < passes.size(); ++pass) {
     for (const Comparison& c : passes[pass].comparisons) {
       const Measurement& m = c.measurement;
-      if (c.reference != reference || m.disputed_at.empty()) continue;
+      if (c.judge.reference != reference || m.disputed_at.empty()) continue;
       for (const glm::ivec2 p : m.disputed_at) out.at[pass].emplace(p.x, p.y);
       out.reason = m.reason;
     }
   }
   return out;
 }
-
-bool is_exact(const RendererInfo& info) { return info[Stage::resolve].runs; }
 
 }  // namespace
 
@@ -188,7 +186,7 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
                             std::span<const Reference> references, BothCaptures* drawn) {
   SceneVerdict verdict{scene.name, scene.path, joined(passes), 0};
   for (const SceneVerdict& pass : passes) verdict.seconds += pass.seconds;
-  const auto skip = [&](const std::string& name, Outcome outcome, const std::string& why) {
+  const auto skip = [&](const JudgeId& name, Outcome outcome, const std::string& why) {
     verdict.comparisons.push_back(not_judged(scene.name, name, Stage::resolve, outcome, why));
   };
   std::optional<Capture> mine;
@@ -206,16 +204,17 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
     if (references[i].renderer == nullptr) continue;  // the passes have said so
     Renderer& renderer = *references[i].renderer;
     const RendererInfo info = renderer.info();
-    const std::string name = is_exact(info) ? info.name + " from its records" : info.name;
+    const JudgeId name(info.name, is_referee(info) ? Kind::per_stage : info.legal ? Kind::legal : Kind::side_by_side);
     try {
-      if (is_exact(info) && mine) {
+      if (is_referee(info) && mine) {
         const Capture made = renderer.run_stage(scene, Stage::resolve, *mine);
-        Measurement m = compare_resolved(scene, *mine, made, tolerance("exact.resolve").factor);
+        const Tolerance& row = tolerance(Profile::exact, Stage::resolve);
+        Measurement m = compare_resolved(scene, *mine, made, row.factor);
         if (!candidate.info().painters.empty()) m = worse(std::move(m), compare_samples(scene, *mine, colors));
-        verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve, std::move(m), "exact.resolve"));
+        verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve, std::move(m), &row));
       }
       if (!info[Stage::resolve].shows) skip(name, Outcome::unsupported, info[Stage::resolve].reason);
-      const bool compared = mine && info[Stage::resolve].shows && !is_exact(info);
+      const bool compared = mine && info[Stage::resolve].shows && !is_referee(info);
       if (!compared) continue;
       theirs[i] = renderer.capture(scene, Request{});
       require_samples(scene, theirs[i].samples);

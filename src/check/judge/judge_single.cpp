@@ -17,6 +17,7 @@
 #include "check/judge/failing_stage.h"
 #include "check/judge/scene_case.h"
 #include "check/judge/stage_copy.h"
+#include "check/judge/stage_inputs.h"
 #include "check/verdict/votes.h"
 
 namespace plumbline::check {
@@ -30,15 +31,17 @@ std::string ambiguity_note(const Legal& legal, std::uint64_t ambiguous) {
 }
 
 // Coverage, depth, colour and visibility against an oracle's legal answers.
-void ask_oracle(Case& c, const Legal& legal, Stage stage, const std::string& name) {
+void ask_oracle(Case& c, const Legal& legal, Stage stage, const JudgeId& name) {
   const Planes& planes = c.candidate.planes;
+  const auto add = [&](auto compare, std::optional<Stage> as = {}) {
+    const Tolerance& row = tolerance(Profile::oracle, as.value_or(stage));
+    c.add(name, stage, compare(row.factor), &row);
+  };
   switch (stage) {
     case Stage::coverage: return c.add(name, stage, compare_legal_count(planes, legal));
-    case Stage::depth:
-      return c.add(name, stage, compare_legal_depth(c.scene, planes, legal, factor("legal.depth")), "legal.depth");
+    case Stage::depth: return add([&](double f) { return compare_legal_depth(c.scene, planes, legal, f); });
     case Stage::attributes:
-    case Stage::shade:
-      return c.add(name, stage, compare_legal_shaded(planes, legal, factor("legal.attributes")), "legal.attributes");
+    case Stage::shade: return add([&](double f) { return compare_legal_shaded(planes, legal, f); }, Stage::attributes);
     case Stage::visibility: {
       Measurement m = compare_legal_winner(planes, legal);
       const double budget = 2 * legal.predicted_ambiguous;
@@ -48,10 +51,9 @@ void ask_oracle(Case& c, const Legal& legal, Stage stage, const std::string& nam
         note += ": more than twice as many";
         m.differing = std::max(m.differing, m.ambiguous);
       }
-      return c.add(name, stage, std::move(m), "", std::move(note));
+      return c.add(name, stage, std::move(m), nullptr, std::move(note));
     }
-    case Stage::merge:
-      return c.add(name, stage, compare_legal_merge(c.scene, planes, legal, factor("legal.merge")), "legal.merge");
+    case Stage::merge: return add([&](double f) { return compare_legal_merge(c.scene, planes, legal, f); });
     default: return;
   }
 }
@@ -62,23 +64,12 @@ StageSet oracle_stages(const Scene& scene) {
           Stage::merge};
 }
 
-bool runs_stages(const RendererInfo& info) {
-  return std::any_of(info.stages.begin(), info.stages.end(), [](const Ability& a) { return a.runs; });
-}
+constexpr StageSet kGeometry{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
 
-// The first stage up to `stage` whose records or planes the candidate does not show, or null.
-const Ability* first_hidden(const Scene& scene, const RendererInfo& candidate, Stage stage) {
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(stage); ++i) {
-    if ((static_cast<Stage>(i) != Stage::texture || textured(scene)) && !candidate.stages[i].shows)
-      return &candidate.stages[i];
-  }
-  return nullptr;
-}
-
-// What a reference says of the scene: records and planes side by side, coverage to colour by an oracle's answers.
+// Rows of a reference that draws the scene: records and planes side by side, coverage to colour by an oracle's answers.
 void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, const RendererInfo& candidate) {
-  const bool exact = runs_stages(info);
-  const std::string name = exact ? info.name + " from scene" : info.name;
+  const bool exact = is_referee(info);
+  const JudgeId name(info.name, exact ? Kind::from_scene : info.legal ? Kind::legal : Kind::side_by_side);
   const StageSet of_oracle = oracle_stages(c.scene);
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
@@ -89,19 +80,23 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
       c.skip(name, stage, Outcome::unsupported,
              draws_lines_or_points(c.scene) ? "its legal answers are of triangles alone"
                                             : "too many fragments for legal answers");
+    } else if (info.legal && of_oracle.has(stage) && !has_plane(c.candidate.planes, stage)) {
+      c.skip(name, stage, Outcome::unsupported, "it shows no plane of it");
     } else if (info.legal && of_oracle.has(stage)) {
       ask_oracle(c, theirs.legal, stage, name);
+    } else if (const std::string lacking = lacking_beside(c.scene, c.candidate.planes, candidate, stage);
+               !lacking.empty()) {
+      c.skip(name, stage, Outcome::unsupported, lacking);
     } else if (exact && stage == Stage::matrices) {
       const Records<double>& mine = c.candidate.records;
+      const Tolerance& row = tolerance(Profile::exact, stage);
       c.add(name, stage,
-            worse(compare_matrices(mine, theirs.records, factor("exact.matrices")),
-                  compare_lights(c.scene, mine, theirs.records, factor("exact.matrices"))),
-            "exact.matrices");
+            worse(compare_matrices(mine, theirs.records, row.factor),
+                  compare_lights(c.scene, mine, theirs.records, row.factor)),
+            &row);
     } else if (exact && stage == Stage::vertex) {
-      c.add(name, stage,
-            compare_vertices(c.scene, c.candidate.records, theirs.records, factor("exact.vertex.scene"),
-                             factor("exact.vertex.scene")),
-            "exact.vertex.scene");
+      const Tolerance& row = tolerance(Profile::exact, stage, "scene");
+      c.add(name, stage, compare_vertices(c.scene, c.candidate.records, theirs.records, row.factor, row.factor), &row);
     } else if (!info[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, info[stage].reason);
     } else if (stage == Stage::attributes && info.legal && !exact) {
@@ -117,7 +112,7 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
         continue;
       }
       Capture settled = theirs;
-      c.open = settle_alpha(c.scene, c.candidate, stage, factor("osmesa.attributes"), settled);
+      c.open = settle_alpha(c.scene, c.candidate, stage, tolerance(info.profile, Stage::attributes).factor, settled);
       side_by_side(c, settled, stage, name);
       c.open = 0;
     } else if (!exact) {
@@ -125,8 +120,6 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
     }  // An exact reference judges the other stages from the candidate's own records.
   }
 }
-
-constexpr StageSet kGeometry{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
 
 bool more_than(std::uint64_t most_fragments, const Capture& capture) {
   const std::vector<std::uint32_t>& count = capture.planes.count.values();
@@ -152,7 +145,7 @@ Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal) {
   const RendererInfo info = renderer.info();
   Request request{kGeometry, legal && info.legal, {}, {}};
   if (draws(scene, Topology::lines)) request.records.add(Stage::coverage);  // which line covers what
-  if (runs_stages(info) || (info.legal && !legal)) request.planes = WantedPlanes::none;
+  if (is_referee(info) || (info.legal && !legal)) request.planes = WantedPlanes::none;
   try {
     return renderer.capture(scene, request);
   } catch (const OverBudget&) {
@@ -245,19 +238,22 @@ Capture run_alone(const Scene& scene, Renderer& candidate, RendererInfo& shown) 
 }  // namespace
 
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
-                                      const RendererInfo* shown, const MadeStages& made) {
+                                      const RendererInfo* shown, const MadeStages& made, const Legal& legal) {
   std::vector<Comparison> out;
-  const Legal none;
-  Case c{scene, candidate, none, &referee, out};
+  Case c{scene, candidate, legal, &referee, out};
+  c.foreign = shown != nullptr && shown->profile == Profile::foreign;
   const RendererInfo info = referee.info();
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const bool of_none = stage == Stage::matrices || stage == Stage::resolve;
     if (of_none || !info[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
-    const std::string name = fmt::format("{} {}", info.name, kFromRecords);
-    if (const Ability* hidden = shown != nullptr ? first_hidden(scene, *shown, stage) : nullptr) {
-      c.skip(name, stage, Outcome::unsupported, hidden->reason);
-      continue;
+    const JudgeId name(info.name, Kind::per_stage);
+    if (shown != nullptr) {
+      const std::string lacking = lacking_per_stage(scene, *shown, stage);
+      if (!lacking.empty()) {
+        c.skip(name, stage, Outcome::unsupported, lacking);
+        continue;
+      }
     }
     try {
       const auto known = made.find(stage);
@@ -266,6 +262,8 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
       } else {
         run_exact_stage(c, referee, stage, name);
       }
+      if (shown != nullptr && (*shown)[stage].planes_alone && out.back().note == kOverBudget)
+        out.back().note = "by its planes: it shows no records";
     } catch (const OverBudget& e) {
       c.skip(name, stage, Outcome::unsupported, e.what());
     } catch (const std::exception& e) {
@@ -276,6 +274,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
 }
 
 Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture& watched) {
+  const JudgeId kPicture("picture", Kind::picture);
   const Stage stage = scene.frame.antialias.kind == Antialias::Kind::none ? Stage::merge : Stage::resolve;
   try {
     Comparison row;
@@ -284,15 +283,14 @@ Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture&
       request.planes = WantedPlanes::picture;
       request.painter = painter;
       const Capture shipped = candidate.capture(scene, request);
-      row = judged(scene.name, std::string(kPicture), stage,
-                   compare_picture(scene.frame, shipped.planes, watched.planes));
+      row = judged(scene.name, kPicture, stage, compare_picture(scene.frame, shipped.planes, watched.planes));
       if (row.outcome == Outcome::equal) continue;
       row.note = fmt::format("painter {}{}{}", painter, row.note.empty() ? "" : ": ", row.note);
       break;
     }
     return row;
   } catch (const std::exception& e) {
-    return not_judged(scene.name, std::string(kPicture), stage, Outcome::failed, e.what());
+    return not_judged(scene.name, kPicture, stage, Outcome::failed, e.what());
   }
 }
 
@@ -328,7 +326,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     try {
       theirs[i] = capture_reference(scene, *references[i].renderer, ask_legal);
       if (legal->empty()) legal = &theirs[i].legal;
-      if (runs_stages(references[i].renderer->info())) referee = references[i].renderer;
+      if (is_referee(references[i].renderer->info())) referee = references[i].renderer;
     } catch (const Unsupported& e) {
       failures[i] = e.what();
       outcomes[i] = Outcome::unsupported;
@@ -362,14 +360,16 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
       Case c{scene, *mine, *legal, referee, verdict.comparisons};
       try {
         const RendererInfo info = references[i].renderer->info();
+        c.profile = info.profile;
+        c.foreign = mine_info.profile == Profile::foreign;
         {
           const DrawnAsMade drawn_as_made(*mine, made);
           judge_from_scene(c, theirs[i], info, mine_info);
         }
-        if (runs_stages(info)) {
+        if (is_referee(info)) {
           const bool same = references[i].renderer == referee;
           std::ranges::move(
-              judge_records(scene, *mine, *references[i].renderer, &mine_info, same ? made : MadeStages()),
+              judge_records(scene, *mine, *references[i].renderer, &mine_info, same ? made : MadeStages(), *legal),
               std::back_inserter(verdict.comparisons));
         }
       } catch (const std::exception& e) {

@@ -25,7 +25,7 @@ struct BothCaptures {
 };
 
 /// References are told apart by what they are able to do (renderer.h), not by name: one that runs stages is a judge of
-/// the candidate's own records, stage by stage ("from its records"); one that hands out legal answers is an oracle
+/// the candidate's own records, stage by stage (Kind::per_stage); one that hands out legal answers is an oracle
 /// for coverage, depth, visibility and colour; of any, what it shows is compared side by side.
 ///
 /// Where the candidate's planes count more than `most_fragments`, or its fragments do not fit the memory budget, their
@@ -41,8 +41,10 @@ Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture&
 using MadeStages = std::map<Stage, Capture>;
 
 /// The part of it that needs no scene but for what is drawn: each stage but the first as `referee` makes it of the
-/// candidate's own records, against the candidate's. `made`: stages that it made already.
+/// candidate's own records, against the candidate's. `made`: stages that it made already. `legal`: answers that are no
+/// difference where the candidate's conventions are not known (Profile::foreign).
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
-                                      const RendererInfo* shown = nullptr, const MadeStages& made = {});
+                                      const RendererInfo* shown = nullptr, const MadeStages& made = {},
+                                      const Legal& legal = {});
 
 }  // namespace plumbline::check

@@ -17,10 +17,11 @@ Measurement compare_varying(const Scene& scene, Stage stage, Varying v, const Re
   Records<double> a = seen_as(mine, v);
   const Records<double> b = seen_as(theirs, v);
   if (v == Varying::secondary) a.varyings[Varying::back_color] = mine.varyings[Varying::back_secondary];
-  if (stage == Stage::light) return compare_lit(scene, a, b, factor("exact.light"), {is_back(v), is_secondary(v)});
-  if (stage == Stage::clip) return compare_polygons(scene, a, b, factor("exact.clip"), is_lit(v));
-  if (stage == Stage::window) return compare_window(scene, a, b, factor("exact.window"));
-  return compare_attributes(a, b, factor("exact.attributes"));
+  const double factor = tolerance(Profile::exact, stage).factor;
+  if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
+  if (stage == Stage::clip) return compare_polygons(scene, a, b, factor, is_lit(v));
+  if (stage == Stage::window) return compare_window(scene, a, b, factor);
+  return compare_attributes(a, b, factor);
 }
 
 // It is told by its own name, not by that of the colour which it was compared as.
@@ -42,51 +43,46 @@ Measurement with_varyings(const Scene& scene, Stage stage, Measurement color, co
 
 }  // namespace
 
-void run_exact_stage(Case& c, Renderer& referee, Stage stage, const std::string& name) {
+void run_exact_stage(Case& c, Renderer& referee, Stage stage, const JudgeId& name) {
   if (stage >= Stage::depth && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
   compare_stage(c, referee.run_stage(c.scene, stage, c.candidate), stage, name);
 }
 
-void compare_stage(Case& c, const Capture& made, Stage stage, const std::string& name) {
+void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& name) {
   const Records<double>&mine = c.candidate.records, &theirs = made.records;
+  const auto add = [&](auto compare, std::string_view part = "") {
+    const Tolerance& row = tolerance(Profile::exact, stage, part);
+    c.add(name, stage, compare(row.factor), &row);
+  };
   const auto varyings = [&](Measurement color) {
     return with_varyings(c.scene, stage, std::move(color), mine, theirs);
   };
   switch (stage) {
     case Stage::matrices: break;
-    case Stage::vertex:
-      return c.add(name, stage, compare_vertices(c.scene, mine, theirs, factor("exact.vertex"), factor("exact.vertex")),
-                   "exact.vertex");
-    case Stage::light:
-      return c.add(name, stage, varyings(compare_lit(c.scene, mine, theirs, factor("exact.light"))), "exact.light");
-    case Stage::clip:
-      return c.add(name, stage, varyings(compare_polygons(c.scene, mine, theirs, factor("exact.clip"))), "exact.clip");
-    case Stage::window:
-      return c.add(name, stage, varyings(compare_window(c.scene, mine, theirs, factor("exact.window"))),
-                   "exact.window");
+    case Stage::vertex: return add([&](double f) { return compare_vertices(c.scene, mine, theirs, f, f); });
+    case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
+    case Stage::clip: return add([&](double f) { return varyings(compare_polygons(c.scene, mine, theirs, f)); });
+    case Stage::window: return add([&](double f) { return varyings(compare_window(c.scene, mine, theirs, f)); });
     case Stage::coverage: {
-      Measurement planes = compare_coverage(c.candidate.planes, made.planes);
-      if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), "", std::string(kOverBudget));
-      return c.add(name, stage, worse(std::move(planes), compare_covered(mine, theirs)));
+      Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
+      if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
+      return c.add(name, stage, worse(std::move(planes), compare_open_covered(c.candidate, theirs, c.open_coverage())));
     }
-    case Stage::depth:
-      return c.add(name, stage, compare_depth(c.scene, mine, theirs, factor("exact.depth")), "exact.depth");
-    case Stage::attributes:
-      return c.add(name, stage, varyings(compare_attributes(mine, theirs, factor("exact.attributes"))),
-                   "exact.attributes");
-    case Stage::texture:
-      return c.add(name, stage, compare_texels(c.scene, mine, theirs, factor("exact.texture")), "exact.texture");
+    case Stage::depth: return add([&](double f) { return compare_depth(c.scene, mine, theirs, f); });
+    case Stage::attributes: return add([&](double f) { return varyings(compare_attributes(mine, theirs, f)); });
+    case Stage::texture: return add([&](double f) { return compare_texels(c.scene, mine, theirs, f); });
     case Stage::shade:
-      return c.add(name, stage, compare_shaded(c.scene, mine, theirs, factor("exact.shade")),
-                   is_plain(c.scene) ? "" : "exact.shade");
+      if (is_plain(c.scene)) return c.add(name, stage, compare_shaded(c.scene, mine, theirs, 0));
+      return add([&](double f) { return compare_shaded(c.scene, mine, theirs, f); });
     case Stage::visibility:
       return c.add(name, stage,
                    worse(compare_winners(c.candidate.planes, made.planes, Legal{}), compare_drawn(mine, theirs)));
     case Stage::merge: {
-      const bool codes = c.scene.frame.color != ColorFormat::rgba32f;
-      return c.add(name, stage,
-                   compare_merge(c.scene, c.candidate.planes, made.planes, factor("exact.merge.codes"), made.legal),
-                   codes ? "exact.merge.codes" : "");
+      const auto compare = [&](double f) {
+        return compare_merge(c.scene, c.candidate.planes, made.planes, f, made.legal);
+      };
+      if (c.scene.frame.color == ColorFormat::rgba32f) return c.add(name, stage, compare(1));
+      return add(compare, "codes");
     }
     case Stage::resolve: break;  // of passes together (judge_passes.h)
   }

@@ -26,27 +26,32 @@ struct Case {
   const Legal& legal;  // an oracle's, or empty
   Renderer* referee;   // runs stages, or null
   std::vector<Comparison>& out;
+  Profile profile = Profile::exact;  // of the reference
+  bool foreign = false;              // the candidate's conventions are not known: what is legal is no difference
   std::uint64_t open = 0;  // pixels that the stage at hand leaves out, for the alpha test may go either way there
 
-  void add(const std::string& reference, Stage stage, Measurement m, std::string_view row = "", std::string note = "") {
+  void add(const JudgeId& judge, Stage stage, Measurement m, const Tolerance* row = nullptr, std::string note = "") {
     m.ambiguous += open;
-    out.push_back(judged(scene.name, reference, stage, std::move(m), row, std::move(note)));
+    out.push_back(judged(scene.name, judge, stage, std::move(m), row, std::move(note)));
+  }
+  // Legal answers of coverage where the candidate's tie rule is not known, else none.
+  const Legal& open_coverage() const {
+    static const Legal none;
+    return foreign ? legal : none;
   }
   // The row of stage `of` once more, for another stage that the same plane shows.
-  void repeat(const std::string& reference, Stage of, Stage stage) {
-    const auto same = [&](const Comparison& c) { return c.reference == reference && c.stage == of; };
+  void repeat(const JudgeId& judge, Stage of, Stage stage) {
+    const auto same = [&](const Comparison& c) { return c.judge == judge && c.stage == of; };
     const auto row = std::find_if(out.begin(), out.end(), same);
     if (row == out.end()) return;
     Comparison copy = *row;
     copy.stage = stage;
     out.push_back(std::move(copy));
   }
-  void skip(const std::string& reference, Stage stage, Outcome outcome, std::string_view note) {
-    out.push_back(not_judged(scene.name, reference, stage, outcome, std::string(note)));
+  void skip(const JudgeId& judge, Stage stage, Outcome outcome, std::string_view note) {
+    out.push_back(not_judged(scene.name, judge, stage, outcome, std::string(note)));
   }
 };
-
-inline double factor(std::string_view row) { return tolerance(row).factor; }
 
 /// Fragments were drawn, but none are recorded.
 inline bool over_budget(const Capture& c) {
@@ -59,13 +64,13 @@ inline bool draws_lines_or_points(const Scene& scene) {
 }
 
 /// The stage as `referee` makes it of the candidate's own records, against the candidate's.
-void run_exact_stage(Case& c, Renderer& referee, Stage stage, const std::string& name);
+void run_exact_stage(Case& c, Renderer& referee, Stage stage, const JudgeId& name);
 
 /// The stage as it was made of the candidate's own records, against the candidate's. Not of matrices, nor of resolve.
-void compare_stage(Case& c, const Capture& made, Stage stage, const std::string& name);
+void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& name);
 
 /// What the reference shows, beside the candidate's.
-void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name);
+void side_by_side(Case& c, const Capture& theirs, Stage stage, const JudgeId& name);
 
 /// Whether the stage's comparison needs to know which texels are legal, and nobody told.
 bool lacks_texels(const Case& c, Stage stage);

@@ -54,11 +54,12 @@ bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
   });
 }
 
-void compare_covers(Case& c, const Capture& mine, const Capture& theirs, const std::string& name) {
+void compare_covers(Case& c, const Capture& mine, const Capture& theirs, const JudgeId& name) {
   if (draws(c.scene, Topology::lines)) {
-    c.add(name, Stage::coverage, compare_covered_lines(c.scene, mine, theirs, factor("osmesa.lines")), "osmesa.lines");
+    const Tolerance& row = tolerance(c.profile, Stage::coverage, "lines");
+    c.add(name, Stage::coverage, compare_covered_lines(c.scene, mine, theirs, row.factor), &row);
   } else {
-    c.add(name, Stage::coverage, compare_coverage(mine.planes, theirs.planes));
+    c.add(name, Stage::coverage, compare_coverage(mine.planes, theirs.planes, c.open_coverage()));
   }
   if (c.out.back().outcome == Outcome::different && contradicts_itself(c, mine, theirs)) {
     to_dispute(c.out.back(), "its coverage is not that of its own window triangles, ours is");
@@ -74,25 +75,21 @@ bool lacks_texels(const Case& c, Stage stage) {
 
 namespace {
 
-void compare_shown(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const Records<double>& mine = c.candidate.records;
+  const auto factor_of = [&](Stage of, std::string_view part = "") { return tolerance(c.profile, of, part).factor; };
+  const auto add = [&](Measurement m, std::string_view part = "", std::string note = "") {
+    c.add(name, stage, std::move(m), &tolerance(c.profile, stage, part), std::move(note));
+  };
   switch (stage) {
-    case Stage::matrices:
-      return c.add(name, stage, compare_rounded_matrices(mine, theirs.records, factor("osmesa.matrices")),
-                   "osmesa.matrices");
+    case Stage::matrices: return add(compare_rounded_matrices(mine, theirs.records, factor_of(stage)));
     case Stage::vertex:
-      return c.add(name, stage,
-                   compare_vertices(c.scene, mine, theirs.records, 0, factor("osmesa.vertex"), Inversion::in_float),
-                   "osmesa.vertex");
-    case Stage::light:
-      return c.add(name, stage, compare_lit(c.scene, mine, theirs.records, factor("osmesa.light"), {}, kOfMesa),
-                   "osmesa.light");
-    case Stage::clip:
-      return c.add(name, stage, compare_polygon_positions(mine, theirs.records, factor("osmesa.clip")), "osmesa.clip");
-    case Stage::window: {
-      const std::vector<std::uint32_t> turned = turned_outlines(c.scene, mine, theirs.records);
-      return c.add(name, stage, compare_window_equal(mine, theirs.records, turned), "osmesa.window");
-    }
+      return add(compare_vertices(c.scene, mine, theirs.records, 0, factor_of(stage), Inversion::in_float));
+    case Stage::light: return add(compare_lit(c.scene, mine, theirs.records, factor_of(stage), {}, kOfMesa));
+    case Stage::clip: return add(compare_polygon_positions(mine, theirs.records, factor_of(stage)));
+    case Stage::window:
+      return add(
+          compare_window_equal(mine, theirs.records, factor_of(stage), turned_outlines(c.scene, mine, theirs.records)));
     case Stage::coverage:
       if (draws(c.scene, Topology::lines) && over_budget(c.candidate)) {
         return c.skip(name, stage, Outcome::unsupported, kOverBudget);
@@ -102,26 +99,23 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const std::strin
       if (!draws_depth_codes(c.scene, theirs)) {
         return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
       }
-      return c.add(name, stage, compare_depth_planes(c.scene, c.candidate, theirs, factor("osmesa.depth")),
-                   "osmesa.depth");
+      return add(compare_depth_planes(c.scene, c.candidate, theirs, factor_of(stage)));
     case Stage::attributes:
       if (!is_plain(c.scene)) return c.skip(name, stage, Outcome::unsupported, kOnlyShaded);
-      return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
-                   "osmesa.attributes");
+      return add(compare_shaded_planes(c.scene, c.candidate, theirs, factor_of(stage)));
     case Stage::texture: {
       if (theirs.planes.texel.empty()) {
         return c.skip(name, stage, Outcome::unsupported, "where alpha is tested, its texels are not drawn alone");
       }
       std::string note;
-      Measurement m = compare_texel_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes"), note);
-      return c.add(name, stage, std::move(m), "osmesa.texture", std::move(note));
+      Measurement m = compare_texel_planes(c.scene, c.candidate, theirs, factor_of(Stage::attributes), note);
+      return add(std::move(m), "", std::move(note));
     }
     case Stage::shade:
       // Without textures, lights or fog per fragment, both are the one plane of the winners' colours.
       if (is_plain(c.scene)) return c.repeat(name, Stage::attributes, stage);
       if (over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
-      return c.add(name, stage, compare_shaded_planes(c.scene, c.candidate, theirs, factor("osmesa.attributes")),
-                   "osmesa.shade");
+      return add(compare_shaded_planes(c.scene, c.candidate, theirs, factor_of(Stage::attributes)));
     case Stage::visibility:
       if (!draws_depth_codes(c.scene, theirs)) {
         return c.skip(name, stage, Outcome::unsupported, no_such_depth(c.scene.frame));
@@ -140,28 +134,26 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const std::strin
         return c.skip(name, stage, Outcome::unsupported, "which fragments are blended is not told");
       }
       if (!replaced && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      const double attributes = factor_of(Stage::attributes);
       switch (c.scene.frame.color) {
         case ColorFormat::rgba8:
         case ColorFormat::rgba16: {
           const bool bytes = c.scene.frame.color == ColorFormat::rgba8;
-          const std::string_view row = replaced ? (bytes ? "osmesa.merge.rgba8" : "osmesa.merge.rgba16")
-                                                : (bytes ? "osmesa.merge.blend" : "osmesa.merge.blend.rgba16");
-          return c.add(name, stage,
-                       replaced ? compare_codes(c.scene, c.candidate, theirs, factor(row), factor("osmesa.attributes"))
-                                : compare_blended(c.scene, c.candidate, theirs, c.legal, factor(row),
-                                                  factor("osmesa.attributes")),
-                       row);
+          const std::string_view part = replaced ? (bytes ? "rgba8" : "rgba16") : (bytes ? "blend" : "blend.rgba16");
+          const double codes = factor_of(stage, part);
+          return add(replaced ? compare_codes(c.scene, c.candidate, theirs, codes, attributes)
+                              : compare_blended(c.scene, c.candidate, theirs, c.legal, codes, attributes),
+                     part);
         }
         case ColorFormat::rgba12:
           return c.skip(name, stage, Outcome::unsupported,
                         "asked for 12 bits a channel, OpenGL gives 16; attributes are compared");
-        case ColorFormat::rgba32f:
-          if (!replaced) {
-            return c.add(name, stage,
-                         compare_blended(c.scene, c.candidate, theirs, c.legal, 0, factor("osmesa.merge.blend.float")),
-                         "osmesa.merge.blend.float");
-          }
-          return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
+        case ColorFormat::rgba32f: {
+          constexpr std::string_view kPart = "blend.float";
+          if (replaced)
+            return c.skip(name, stage, Outcome::unsupported, "rgba32f: the colour of attributes, unrounded");
+          return add(compare_blended(c.scene, c.candidate, theirs, c.legal, 0, factor_of(stage, kPart)), kPart);
+        }
       }
       return;
     }
@@ -172,7 +164,7 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const std::strin
 // Where snapping decides which face an outline is of, the two sides may draw different things (legal_window.h): they
 // are taken out of coverage; the planes after it are open where they lie. Exact judges them by the candidate's records.
 // False: there are none, or nobody says what they cover.
-bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const bool lines_untold = draws(c.scene, Topology::lines) && over_budget(c.candidate);
   if (stage < Stage::coverage || c.referee == nullptr || lines_untold) return false;
   const std::vector<std::uint32_t> turned = turned_outlines(c.scene, c.candidate.records, theirs.records);
@@ -193,7 +185,7 @@ bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const st
 
 }  // namespace
 
-void side_by_side(Case& c, const Capture& theirs, Stage stage, const std::string& name) {
+void side_by_side(Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const std::size_t before = c.out.size();
   if (!compare_beside_turned(c, theirs, stage, name)) compare_shown(c, theirs, stage, name);
   // The depths that are left may be codes (the clear depth's, say) where those of other fragments were none.

@@ -1,30 +1,82 @@
 #include "check/judge/stage_copy.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "check/bounds/units.h"
 
 namespace plumbline::check {
 
 namespace {
 
-// Volatile: GCC 12 takes a vector's way to float and back for nothing, and leaves it out (-O2, two lanes at a time).
-double to_float(double value) {
-  const volatile auto rounded = static_cast<float>(value);
-  return static_cast<double>(rounded);
+// Calls visit(array of each capture...) for every array of records and every plane that the stage hands on.
+template <class Visit, class... Captures>
+void visit_stage(Stage stage, Visit visit, Captures&... c) {
+  using Columns = VaryingColumns<double>;
+  const auto varyings = [&](auto column) {
+    for (const Varying v : kAllVaryings) visit(c.records.varyings[v].*column...);
+  };
+  switch (stage) {
+    case Stage::matrices: return visit(c.records.matrices...), visit(c.records.lights...);
+    case Stage::vertex: return visit(c.records.vertices...);
+    case Stage::light: return visit(c.records.lit...), varyings(&Columns::vertices);
+    case Stage::clip:
+      return visit(c.records.polygons.vertices...), visit(c.records.polygons.polygons...), varyings(&Columns::clipped);
+    case Stage::window: return visit(c.records.triangles...), varyings(&Columns::triangles);
+    case Stage::coverage: return visit(c.records.covered...), visit(c.planes.count...), visit(c.planes.id_sum...);
+    case Stage::depth: return visit(c.records.depth...);
+    case Stage::attributes: return visit(c.records.attributes...), varyings(&Columns::fragments);
+    case Stage::texture: return visit(c.records.texels...), visit(c.legal.texels...);
+    case Stage::shade: return visit(c.records.shaded...);
+    case Stage::visibility: return visit(c.records.drawn...), visit(c.planes.id...), visit(c.planes.stencil...);
+    case Stage::merge: return visit(c.planes.color...), visit(c.planes.depth...);
+    case Stage::resolve: return visit(c.planes.color...);
+  }
 }
-Vec3<double> to_float(const Vec3<double>& v) { return {to_float(v.x), to_float(v.y), to_float(v.z)}; }
-Vec4<double> to_float(const Vec4<double>& v) { return {to_float(v.x), to_float(v.y), to_float(v.z), to_float(v.w)}; }
 
+// A record's real numbers are rounded to float; integers, and answers that are no records, stay.
+void round_record(ClipPolygon&) {}
+void round_record(Covered&) {}
+void round_record(Drawn&) {}
+void round_record(TexelRange&) {}
+void round_record(double& value) { value = to_float(value); }
+void round_record(Vec3<double>& v) { v = {to_float(v.x), to_float(v.y), to_float(v.z)}; }
+void round_record(Vec4<double>& v) { v = {to_float(v.x), to_float(v.y), to_float(v.z), to_float(v.w)}; }
+template <class T, std::size_t n>
+void round_record(std::array<T, n>& items) {
+  for (T& item : items) round_record(item);
+}
 // Entries below 1e-12 become 0, as stages.h has it.
-template <class Matrix>
-void round_matrix(Matrix& m) {
-  for (int column = 0; column < Matrix::length(); ++column) {
-    for (int row = 0; row < Matrix::length(); ++row) {
+template <glm::length_t n>
+void round_record(glm::mat<n, n, double>& m) {
+  for (glm::length_t column = 0; column < n; ++column) {
+    for (glm::length_t row = 0; row < n; ++row) {
       double& entry = m[column][row];
       entry = std::abs(entry) < 1e-12 ? 0 : to_float(entry);
     }
   }
 }
+void round_record(Matrices<double>& m) {
+  round_record(m.model_view), round_record(m.projection), round_record(m.normal);
+  round_record(m.win_scale), round_record(m.win_translate);
+}
+void round_record(LightSource<double>& l) { round_record(l.p_eye), round_record(l.spot_eye); }
+void round_record(Vertex<double>& v) { round_record(v.p_eye), round_record(v.p_clip), round_record(v.n_eye); }
+void round_record(Lit<double>& l) { round_record(l.color); }
+void round_record(ClipVertex<double>& v) { round_record(v.p_clip), round_record(v.color); }
+void round_record(WindowVertex<double>& v) {
+  round_record(v.p_win), round_record(v.color);
+  round_record(v.inv_w);
+}
+void round_record(WindowTriangle<double>& t) {
+  for (WindowVertex<double>& v : t.v) round_record(v);
+}
+void round_record(Attributes<double>& a) { round_record(a.color); }
+void round_record(Texel<double>& t) {
+  round_record(t.color);
+  round_record(t.lod);
+}
+void round_record(Shaded<double>& s) { round_record(s.color); }
 
 double to_code(double value, double scale) {
   return scale == 0 ? to_float(value) : std::nearbyint(value * scale) / scale;
@@ -33,110 +85,24 @@ double to_code(double value, double scale) {
 }  // namespace
 
 void copy_stage(Stage stage, const Capture& from, Capture& to) {
-  const Records<double>& r = from.records;
-  Records<double>& out = to.records;
-  switch (stage) {
-    case Stage::matrices:
-      out.matrices = r.matrices;
-      out.lights = r.lights;
-      return;
-    case Stage::vertex: out.vertices = r.vertices; return;
-    case Stage::light:
-      out.lit = r.lit;
-      for (const Varying v : kAllVaryings) out.varyings[v].vertices = r.varyings[v].vertices;
-      return;
-    case Stage::clip:
-      out.polygons = r.polygons;
-      for (const Varying v : kAllVaryings) out.varyings[v].clipped = r.varyings[v].clipped;
-      return;
-    case Stage::window:
-      out.triangles = r.triangles;
-      for (const Varying v : kAllVaryings) out.varyings[v].triangles = r.varyings[v].triangles;
-      return;
-    case Stage::coverage:
-      out.covered = r.covered;
-      to.planes.count = from.planes.count;
-      to.planes.id_sum = from.planes.id_sum;
-      return;
-    case Stage::depth: out.depth = r.depth; return;
-    case Stage::attributes:
-      out.attributes = r.attributes;
-      for (const Varying v : kAllVaryings) out.varyings[v].fragments = r.varyings[v].fragments;
-      return;
-    case Stage::texture:
-      out.texels = r.texels;
-      to.legal.texels = from.legal.texels;
-      return;
-    case Stage::shade: out.shaded = r.shaded; return;
-    case Stage::visibility:
-      out.drawn = r.drawn;
-      to.planes.id = from.planes.id;
-      to.planes.stencil = from.planes.stencil;
-      return;
-    case Stage::merge:
-      to.planes.color = from.planes.color;
-      to.planes.depth = from.planes.depth;
-      return;
-    case Stage::resolve: to.planes.color = from.planes.color; return;
-  }
+  visit_stage(
+      stage, [](const auto& source, auto& target) { target = source; }, from, to);
 }
 
 void round_to_formats(const Scene& scene, Stage stage, Capture& capture) {
-  Records<double>& r = capture.records;
-  const auto fours = [](auto& values) {
-    for (Vec4<double>& v : values) v = to_float(v);
-  };
-  switch (stage) {
-    case Stage::matrices:
-      for (Matrices<double>& m : r.matrices) {
-        round_matrix(m.model_view);
-        round_matrix(m.projection);
-        round_matrix(m.normal);
-        m.win_scale = to_float(m.win_scale);
-        m.win_translate = to_float(m.win_translate);
+  if (stage == Stage::depth) {
+    for (double& z : capture.records.depth) z = to_code(z, depth_scale(scene.frame.depth));
+  } else if (stage >= Stage::merge) {
+    for (glm::vec4& color : capture.planes.color.values()) {
+      for (int c = 0; c < 4; ++c) color[c] = static_cast<float>(to_code(color[c], color_scale(scene.frame.color)));
+    }
+  } else {
+    const auto round_all = [](auto& items) {
+      if constexpr (requires { items.begin(); }) {
+        for (auto& item : items) round_record(item);
       }
-      for (LightSource<double>& l : r.lights) l = {to_float(l.p_eye), to_float(l.spot_eye)};
-      return;
-    case Stage::vertex:
-      for (Vertex<double>& v : r.vertices) v = {to_float(v.p_eye), to_float(v.p_clip), to_float(v.n_eye)};
-      return;
-    case Stage::light:
-      for (Lit<double>& l : r.lit) l.color = to_float(l.color);
-      for (const Varying v : kAllVaryings) fours(r.varyings[v].vertices);
-      return;
-    case Stage::clip:
-      for (ClipVertex<double>& v : r.polygons.vertices) v = {to_float(v.p_clip), to_float(v.color), v.cut};
-      for (const Varying v : kAllVaryings) fours(r.varyings[v].clipped);
-      return;
-    case Stage::window:
-      for (WindowTriangle<double>& t : r.triangles) {
-        for (WindowVertex<double>& v : t.v) v = {to_float(v.p_win), to_float(v.inv_w), v.snapped, to_float(v.color)};
-      }
-      for (const Varying v : kAllVaryings) {
-        for (auto& corners : r.varyings[v].triangles) fours(corners);
-      }
-      return;
-    case Stage::depth:
-      for (double& z : r.depth) z = to_code(z, depth_scale(scene.frame.depth));
-      return;
-    case Stage::attributes:
-      for (Attributes<double>& a : r.attributes) a.color = to_float(a.color);
-      for (const Varying v : kAllVaryings) fours(r.varyings[v].fragments);
-      return;
-    case Stage::texture:
-      for (Texel<double>& t : r.texels) t = {to_float(t.color), to_float(t.lod)};
-      return;
-    case Stage::shade:
-      for (Shaded<double>& s : r.shaded) s.color = to_float(s.color);
-      return;
-    case Stage::merge:
-    case Stage::resolve:
-      for (glm::vec4& color : capture.planes.color.values()) {
-        for (int c = 0; c < 4; ++c) color[c] = static_cast<float>(to_code(color[c], color_scale(scene.frame.color)));
-      }
-      return;
-    case Stage::coverage:
-    case Stage::visibility: return;  // integers
+    };
+    visit_stage(stage, round_all, capture);
   }
 }
 

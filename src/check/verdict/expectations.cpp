@@ -14,15 +14,27 @@ namespace plumbline::check {
 
 namespace {
 
-std::string row_of(const Expectation& e) { return fmt::format("{}, {}, {}", e.scene, e.reference, name_of(e.stage)); }
-
-std::string renderer_of(const Expectation& e) { return e.reference.substr(0, e.reference.find(' ')); }
+std::string row_of(const Expectation& e) {
+  return fmt::format("{}, {}, {}", e.scene, title_of({e.reference, e.kind.value_or(Kind::side_by_side)}),
+                     name_of(e.stage));
+}
 
 Stage stage_at(const JsonNode& node) {
   const auto found = std::ranges::find(kStageNames, std::string_view(node.text()));
   if (found == kStageNames.end())
     node.refuse(fmt::format("a stage ({} to {})", kStageNames.front(), kStageNames.back()));
   return static_cast<Stage>(found - kStageNames.begin());
+}
+
+bool is_of(const Expectation& e, const JudgeId& judge) {
+  const bool of_exact = judge.kind >= Kind::from_scene && judge.kind <= Kind::repaired;
+  return judge.reference == e.reference && (e.kind ? judge.kind == *e.kind : !of_exact);
+}
+
+Kind kind_at(const JsonNode& node) {
+  const auto found = std::ranges::find(kKindNames, std::string_view(node.text()));
+  if (found == kKindNames.end()) node.refuse(fmt::format("one of {}", fmt::join(kKindNames, ", ")));
+  return static_cast<Kind>(found - kKindNames.begin());
 }
 
 std::chrono::sys_days day_at(const JsonNode& node) {
@@ -59,15 +71,16 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& path, st
   const JsonFile file(path);
   file.root().only({"expectations"});
   std::vector<Expectation> out;
-  std::set<std::tuple<std::string, std::string, Stage>> rows;
+  std::set<std::tuple<std::string, std::string, std::optional<Kind>, Stage>> rows;
   for (const JsonNode& node : file.root()["expectations"].elements(0, 10'000)) {
-    node.only({"scene", "reference", "stage", "outcome", "reason", "issue", "expires"});
+    node.only({"scene", "reference", "kind", "stage", "outcome", "reason", "issue", "expires"});
     Expectation e;
     e.scene = node["scene"].text();
     e.reference = node["reference"].text();
-    if (std::ranges::count(renderers, renderer_of(e)) == 0) {
-      node["reference"].refuse(fmt::format("a row's reference, which begins with {}", fmt::join(renderers, ", ")));
+    if (std::ranges::count(renderers, e.reference) == 0) {
+      node["reference"].refuse(fmt::format("a reference, one of {}", fmt::join(renderers, ", ")));
     }
+    if (const auto kind = node.find("kind")) e.kind = kind_at(*kind);
     e.stage = stage_at(node["stage"]);
     if (const auto outcome = node.find("outcome")) {
       e.outcome = outcome->choice<Outcome>(
@@ -76,7 +89,8 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& path, st
     e.reason = node["reason"].text();
     e.issue = node["issue"].text();
     e.expires = day_at(node["expires"]);
-    if (!rows.emplace(e.scene, e.reference, e.stage).second) node.refuse("each comparison once", row_of(e) + " twice");
+    if (!rows.emplace(e.scene, e.reference, e.kind, e.stage).second)
+      node.refuse("each comparison once", row_of(e) + " twice");
     out.push_back(std::move(e));
   }
   return out;
@@ -86,8 +100,8 @@ std::vector<Settled> settle(std::span<const Expectation> expectations, std::span
                             std::chrono::sys_days today, SceneVerdict& verdict) {
   std::vector<Settled> out;
   for (const Expectation& e : expectations) {
-    if (e.scene != verdict.scene || std::ranges::count(asked, renderer_of(e)) == 0) continue;
-    const auto is_it = [&](const Comparison& c) { return c.reference == e.reference && c.stage == e.stage; };
+    if (e.scene != verdict.scene || std::ranges::count(asked, e.reference) == 0) continue;
+    const auto is_it = [&](const Comparison& c) { return is_of(e, c.judge) && c.stage == e.stage; };
     std::vector<Comparison*> rows;
     for (Comparison& c : verdict.comparisons) {
       if (is_it(c)) rows.push_back(&c);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,16 +13,18 @@
 namespace plumbline::check {
 
 struct Expectation {
-  std::string scene;      ///< its name: group/scene
-  std::string reference;  ///< as a row of the table names it, such as "osmesa" or "exact from scene"
+  std::string scene;         ///< its name: group/scene
+  std::string reference;     ///< of the row
+  std::optional<Kind> kind;  ///< of the row; none: any but from_scene and those of single stages
   Stage stage = Stage::matrices;
   Outcome outcome = Outcome::different;  ///< or missing, failed
   std::string reason, issue;
   std::chrono::sys_days expires;  ///< the last day
 };
 
-/// {"expectations": [{"scene", "reference", "stage", "outcome" ("different" where left out), "reason", "issue",
-/// "expires": "YYYY-MM-DD"}]}. Throws JsonError (json_tree.h), also where two rows are of one comparison, or a
+/// {"expectations": [{"scene", "reference": a renderer, "golden" or "picture", "kind": one of kKindNames, "stage",
+/// "outcome", "reason", "issue", "expires": "YYYY-MM-DD"}]}. "kind" is needed for the rows of exact; "outcome" is
+/// "different" where it is left out. Throws JsonError (json_tree.h), also where two rows are of one comparison, or a
 /// reference is none of `renderers`.
 std::vector<Expectation> read_expectations(const std::filesystem::path& file, std::span<const std::string> renderers);
 

@@ -2,14 +2,20 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+
+#include "capture/profile.h"
+#include "capture/stages.h"
 
 namespace plumbline::check {
 
 /// A tolerance is `factor` times a magnitude that its formula names. The largest difference seen over the suite must
 /// reach a quarter of it, or `loose_because` says why no scene can.
 struct Tolerance {
-  std::string_view name;  ///< reference.stage, and what of it
+  Profile profile;        ///< of the reference
+  Stage stage;            ///< that is compared
+  std::string_view part;  ///< of the stage; empty: all of it
   double factor;
   std::string_view unit;
   std::string_view derivation;
@@ -17,7 +23,9 @@ struct Tolerance {
 };
 
 std::span<const Tolerance> ledger();
-/// The row of that name. Throws std::logic_error if there is none.
-const Tolerance& tolerance(std::string_view name);
+/// Name for people: profile.stage or profile.stage.part.
+std::string name_of(const Tolerance& row);
+/// The row of that key. Throws std::logic_error if there is none.
+const Tolerance& tolerance(Profile profile, Stage stage, std::string_view part = "");
 
 }  // namespace plumbline::check

@@ -14,11 +14,25 @@ std::string_view name_of(Outcome outcome) {
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
+std::string title_of(const JudgeId& judge) {
+  switch (judge.kind) {
+    case Kind::from_scene: return judge.reference + ", from scene";
+    case Kind::per_stage: return judge.reference + ", per stage";
+    case Kind::at_worst: return judge.reference + ", at the worst pixels";
+    case Kind::repaired: return judge.reference + ", repaired";
+    case Kind::side_by_side:
+    case Kind::legal:
+    case Kind::golden:
+    case Kind::picture: break;
+  }
+  return judge.reference;
+}
+
 bool is_failure(Outcome outcome) {
   return outcome == Outcome::different || outcome == Outcome::failed || outcome == Outcome::missing;
 }
 
-Comparison judged(std::string scene, std::string reference, Stage stage, Measurement m, std::string_view ledger_row,
+Comparison judged(std::string scene, JudgeId judge, Stage stage, Measurement m, const Tolerance* tolerance,
                   std::string note) {
   Outcome outcome = Outcome::equal;
   if (m.differing > 0) {
@@ -31,8 +45,9 @@ Comparison judged(std::string scene, std::string reference, Stage stage, Measure
     outcome = Outcome::within;
   }
   if (!m.mismatch.empty()) note = m.mismatch;
-  return {std::move(scene), std::move(reference),    stage,          outcome,
-          std::move(m),     std::string(ledger_row), std::move(note)};
+  return {std::move(scene), std::move(judge), stage,
+          outcome,          std::move(m),     tolerance == nullptr ? "" : name_of(*tolerance),
+          std::move(note)};
 }
 
 void to_dispute(Comparison& c, std::string why) {
@@ -60,14 +75,31 @@ std::string remark(const Comparison& c) {
   return out;
 }
 
-Comparison not_judged(std::string scene, std::string reference, Stage stage, Outcome outcome, std::string note) {
-  return {std::move(scene), std::move(reference), stage, outcome, {}, "", std::move(note)};
+Comparison not_judged(std::string scene, JudgeId judge, Stage stage, Outcome outcome, std::string note) {
+  return {std::move(scene), std::move(judge), stage, outcome, {}, "", std::move(note)};
+}
+
+namespace {
+
+bool holds(Outcome outcome) {
+  return outcome == Outcome::equal || outcome == Outcome::within || outcome == Outcome::ambiguous_only;
+}
+
+}  // namespace
+
+bool is_legal(const SceneVerdict& verdict, Stage stage) {
+  bool legal = false;
+  for (const Comparison& c : verdict.comparisons) {
+    if (c.stage != stage || !judges_legality(c)) continue;
+    if (is_failure(c.outcome)) return false;
+    legal |= holds(c.outcome);
+  }
+  return legal;
 }
 
 bool holds_alone(const SceneVerdict& verdict, Stage stage) {
   return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
-    return c.stage == stage && c.reference.ends_with(kFromRecords) &&
-           (c.outcome == Outcome::equal || c.outcome == Outcome::within || c.outcome == Outcome::ambiguous_only);
+    return c.stage == stage && c.judge.kind == Kind::per_stage && holds(c.outcome);
   });
 }
 
@@ -76,19 +108,55 @@ const Comparison* first_different(const SceneVerdict& verdict) {
   for (const Comparison& c : verdict.comparisons) {
     if (c.outcome != Outcome::different) continue;
     if (first == nullptr || c.stage < first->stage) first = &c;
-    if (c.reference.ends_with(kFromRecords) && (alone == nullptr || c.stage < alone->stage)) alone = &c;
+    if (c.judge.kind == Kind::per_stage && (alone == nullptr || c.stage < alone->stage)) alone = &c;
   }
   return alone != nullptr && holds_alone(verdict, first->stage) ? alone : first;
+}
+
+namespace {
+
+bool was_judged(const SceneVerdict& verdict, Stage stage) {
+  return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
+    return c.stage == stage && votes(c) && c.outcome != Outcome::unsupported && c.outcome != Outcome::missing &&
+           c.outcome != Outcome::failed;
+  });
+}
+
+}  // namespace
+
+std::vector<Stage> judged_stages(const SceneVerdict& verdict) {
+  std::vector<Stage> out;
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    if (was_judged(verdict, static_cast<Stage>(i))) out.push_back(static_cast<Stage>(i));
+  }
+  return out;
+}
+
+std::string judged_text(const SceneVerdict& verdict) {
+  std::vector<std::pair<std::string, std::string>> lacking;  // a reason, and its stages
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (was_judged(verdict, stage)) continue;
+    const auto row = std::ranges::find_if(
+        verdict.comparisons, [&](const Comparison& c) { return c.stage == stage && votes(c) && !c.note.empty(); });
+    const std::string reason = row == verdict.comparisons.end() ? "not in this scene" : row->note;
+    const auto known = std::ranges::find(lacking, reason, &std::pair<std::string, std::string>::first);
+    if (known != lacking.end()) {
+      known->second += fmt::format(", {}", kStageNames[i]);
+    } else {
+      lacking.emplace_back(reason, kStageNames[i]);
+    }
+  }
+  std::string out = fmt::format("{} of {} stages judged\n", judged_stages(verdict).size(), kStageNames.size());
+  for (const auto& [reason, stages] : lacking) out += fmt::format("  not judged: {}: {}\n", stages, reason);
+  return out;
 }
 
 std::vector<Stage> unjudged_stages(const SceneVerdict& verdict) {
   std::vector<Stage> out;
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    const bool judged_by_any = std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
-      return c.stage == stage && votes(c) && c.outcome != Outcome::unsupported && c.outcome != Outcome::missing &&
-             c.outcome != Outcome::failed;
-    });
+    const bool judged_by_any = was_judged(verdict, stage);
     // Of a scene without textures, or that is not antialiased, nobody says anything of their stages.
     const bool of_some = stage == Stage::texture || stage == Stage::resolve;
     const bool asked =
@@ -117,9 +185,10 @@ std::vector<LedgerUse> ledger_use(std::span<const SceneVerdict> verdicts) {
     for (const Comparison& c : verdict.comparisons) {
       if (c.outcome == Outcome::dispute) continue;  // the reference's fault, where it is a small one too
       for (LedgerUse& use : uses) {
-        if (c.ledger_row != use.row->name || c.measurement.max_ratio <= use.largest_ratio) continue;
+        const std::string name = name_of(*use.row);
+        if (c.ledger_row != name || c.measurement.max_ratio <= use.largest_ratio) continue;
         use.largest_ratio = c.measurement.max_ratio;
-        use.where = fmt::format("{}, {}, {}", c.scene, c.reference, to_string(c.measurement.worst.place));
+        use.where = fmt::format("{}, {}, {}", c.scene, title_of(c.judge), to_string(c.measurement.worst.place));
       }
     }
   }

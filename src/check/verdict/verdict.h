@@ -1,11 +1,13 @@
 // A verdict: per scene, reference and stage, one comparison with its outcome.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "capture/stages.h"
@@ -30,34 +32,65 @@ std::string_view name_of(Outcome outcome);
 /// different, failed, missing.
 bool is_failure(Outcome outcome);
 
+/// How a row judges.
+enum class Kind {
+  side_by_side,  ///< by a reference's records and planes of the same scene
+  legal,         ///< by a reference's legal answers (legal.h) of the same scene
+  from_scene,    ///< by the referee's records and legal answers of the same scene
+  per_stage,     ///< by the stage as the referee makes it of the candidate's own records
+  at_worst,      ///< per_stage, of the fragments about the worst pixels alone (diagnose.h)
+  repaired,      ///< per_stage, of records whose wrong stages are replaced by the referee's (diagnose.h)
+  golden,        ///< by the scene's golden (golden.h), which was drawn before and judges nothing
+  picture        ///< the frame as it ships, of each painter, by the frame that was watched: judges nothing
+};
+inline constexpr std::array<std::string_view, 8> kKindNames = {"side_by_side", "legal",    "from_scene", "per_stage",
+                                                               "at_worst",     "repaired", "golden",     "picture"};
+constexpr std::string_view name_of(Kind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
+
+/// Who judges in a row, and how.
+struct JudgeId {
+  std::string reference;  ///< the renderer's name; "golden", "picture" of these kinds
+  Kind kind = Kind::side_by_side;
+  JudgeId(std::string name, Kind how = Kind::side_by_side) : reference(std::move(name)), kind(how) {}
+  JudgeId(const char* name) : reference(name) {}
+  bool operator==(const JudgeId&) const = default;
+};
+/// The judge's name for people, such as "exact, per stage".
+std::string title_of(const JudgeId& judge);
+
 struct Comparison {
   std::string scene;
-  std::string reference;  ///< renderer, and for one that runs stages: "from scene" or "from its records"
+  JudgeId judge{""};
   Stage stage = Stage::matrices;
   Outcome outcome = Outcome::equal;
   Measurement measurement;
-  std::string ledger_row;  ///< of the tolerance, or empty: zero
+  std::string ledger_row;  ///< name of the tolerance (ledger.h), or empty: zero
   std::string note;        ///< why unsupported, missing, failed; what is ambiguous
 };
 
-/// The reference of rows that compare a scene with its golden (golden.h): what was drawn before, which judges nothing.
-inline constexpr std::string_view kGolden = "golden";
-/// The reference of rows that compare the frame as it ships with the frame that was watched, bit for bit: each of the
-/// candidate's painters, the first that differs.
-inline constexpr std::string_view kPicture = "picture";
-/// Whether the row's reference judges a stage: goldens and pictures repeat the candidate, and have no vote.
-inline bool votes(const Comparison& row) { return row.reference != kGolden && row.reference != kPicture; }
+/// Whether the row judges a stage: goldens and pictures repeat the candidate, and have no vote.
+inline bool votes(const Comparison& row) { return row.judge.kind < Kind::golden; }
+/// Whether the row says what is legal, whatever the conventions.
+inline bool judges_legality(const Comparison& row) {
+  return row.judge.kind == Kind::legal || (row.judge.kind == Kind::from_scene && row.stage >= Stage::coverage);
+}
+/// Whether the row judges its stage by the records before it alone: an earlier stage's error is not seen in it.
+inline bool judges_alone(const Comparison& row) {
+  const Kind kind = row.judge.kind;
+  return kind == Kind::per_stage || kind == Kind::at_worst || kind == Kind::repaired ||
+         (kind == Kind::from_scene && row.stage == Stage::matrices);
+}
 
 /// The outcome that a measurement comes to.
-Comparison judged(std::string scene, std::string reference, Stage stage, Measurement measurement,
-                  std::string_view ledger_row = "", std::string note = "");
+Comparison judged(std::string scene, JudgeId judge, Stage stage, Measurement measurement,
+                  const Tolerance* tolerance = nullptr, std::string note = "");
 /// Makes what differs in the row the reference's fault, and says why.
 void to_dispute(Comparison& comparison, std::string why);
 /// What a row shows: of a dispute its largest difference, else the worst of all; null where nothing differs.
 const Worst* shown(const Comparison& comparison);
 /// Where that is, what is disputed and why, and the note.
 std::string remark(const Comparison& comparison);
-Comparison not_judged(std::string scene, std::string reference, Stage stage, Outcome outcome, std::string note);
+Comparison not_judged(std::string scene, JudgeId judge, Stage stage, Outcome outcome, std::string note);
 
 /// All comparisons of one scene, in stage order for each reference.
 struct SceneVerdict {
@@ -69,9 +102,7 @@ struct SceneVerdict {
   std::string repeat{};   ///< the command that repeats the failure
 };
 
-/// Suffix of the references' names in rows that a reference makes of the candidate's own records.
-inline constexpr std::string_view kFromRecords = "from its records";
-/// Whether a row of that suffix finds nothing wrong with the stage.
+/// Whether a row of Kind::per_stage finds nothing wrong with the stage.
 bool holds_alone(const SceneVerdict& verdict, Stage stage);
 
 /// The comparison to be named: the first by stage that is different; of several at one stage, the first listed. Null if
@@ -80,6 +111,12 @@ bool holds_alone(const SceneVerdict& verdict, Stage stage);
 /// wrong frame, is seen in them, too.
 const Comparison* first_different(const SceneVerdict& verdict);
 
+/// Whether a row says that the stage is legal, and none that it is not.
+bool is_legal(const SceneVerdict& verdict, Stage stage);
+/// Stages that a reference judged.
+std::vector<Stage> judged_stages(const SceneVerdict& verdict);
+/// For people: how many of the 13 stages were judged, and why the others were not.
+std::string judged_text(const SceneVerdict& verdict);
 /// The stages, but texture, that nobody judged: none compared them, or all that are there declined (`unsupported`).
 std::vector<Stage> unjudged_stages(const SceneVerdict& verdict);
 /// Those of them that a reference which is missing may have judged: none that is there declined them.
@@ -89,7 +126,7 @@ std::vector<Stage> stages_lost_to_missing(const SceneVerdict& verdict);
 struct LedgerUse {
   const Tolerance* row;
   double largest_ratio;
-  std::string where;  ///< scene, reference, place
+  std::string where;  ///< scene, judge, place
 };
 std::vector<LedgerUse> ledger_use(std::span<const SceneVerdict> verdicts);
 

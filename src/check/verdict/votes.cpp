@@ -10,20 +10,6 @@ namespace plumbline::check {
 
 namespace {
 
-constexpr std::string_view kFromScene = " from scene", kOfRecords = " from its records";
-
-}  // namespace
-
-std::string voter(const Comparison& row) {
-  std::string name = row.reference;
-  for (const std::string_view kind : {kFromScene, kOfRecords}) {
-    if (name.ends_with(kind)) name.resize(name.size() - kind.size());
-  }
-  return name;
-}
-
-namespace {
-
 bool holds(const Comparison& row) {
   return row.outcome == Outcome::equal || row.outcome == Outcome::within || row.outcome == Outcome::ambiguous_only;
 }
@@ -33,7 +19,7 @@ bool fails(const Comparison& row) { return row.outcome == Outcome::different || 
 // Who speaks with the row. From texture on Embree's texels, light, fog, formats and blending are those of exact's
 // records (reference/math), so that the two are one voice.
 std::string voice(const Comparison& row) {
-  const std::string name = voter(row);
+  const std::string& name = row.judge.reference;
   return row.stage >= Stage::texture && name == "embree" ? "exact" : name;
 }
 
@@ -42,11 +28,11 @@ std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Compa
   std::set<std::string> against;
   std::string exact;
   for (const Comparison& other : rows) {
-    const bool own = voter(other) == voter(row);
+    const bool own = other.judge.reference == row.judge.reference;
     if (!votes(other) || other.stage > row.stage || (own && other.stage == row.stage)) continue;
     if (fails(other)) return {};
     if (other.stage < row.stage || !holds(other)) continue;
-    if (other.reference.ends_with(kFromRecords)) exact = voice(other);
+    if (other.judge.kind == Kind::per_stage) exact = voice(other);
     against.insert(voice(other));
   }
   return exact.empty() || against.size() < 2 ? std::set<std::string>() : against;
@@ -60,7 +46,7 @@ void settle_votes(std::vector<Comparison>& rows) {
   std::ranges::stable_sort(by_stage, {}, &Comparison::stage);
   for (Comparison* each : by_stage) {
     Comparison& row = *each;
-    if (!votes(row) || row.outcome != Outcome::different || row.reference.ends_with(kFromRecords)) continue;
+    if (!votes(row) || row.outcome != Outcome::different || row.judge.kind == Kind::per_stage) continue;
     if (row.measurement.max_ratio <= 1) continue;  // its budget of ambiguity alone: no number that others contradict
     const std::set<std::string> against = outvoted_by(row, rows);
     if (against.empty()) continue;

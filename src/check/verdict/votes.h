@@ -15,7 +15,4 @@ namespace plumbline::check {
 /// on they share that, too, and are one vote in all.)
 void settle_votes(std::vector<Comparison>& rows);
 
-/// Who makes the row: exact has rows of two kinds, and one vote.
-std::string voter(const Comparison& row);
-
 }  // namespace plumbline::check

@@ -38,8 +38,7 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& names) 
 
 std::vector<std::string> names_of_rows() {
   std::vector<std::string> out = known_reference_names();
-  out.emplace_back(check::kGolden);
-  out.emplace_back(check::kPicture);
+  for (const check::Kind own : {check::Kind::golden, check::Kind::picture}) out.emplace_back(name_of(own));
   return out;
 }
 

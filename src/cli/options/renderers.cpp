@@ -69,6 +69,7 @@ RendererInfo opengl_info(const std::string& name) {
   RendererInfo info;
   info.name = name;
   info.version = "in a process of its own";
+  info.profile = Profile::opengl;
   for (Ability& ability : info.stages) ability.shows = true;
   if (name == "softpipe") {
     info[Stage::window] = {false, false, "its window positions are rounded otherwise: it has no fused multiply-add"};

@@ -38,7 +38,9 @@ Json json_number(double value) {
 Json comparison_json(const check::Comparison& c) {
   const check::Measurement& m = c.measurement;
   Json out{{"scene", c.scene},
-           {"reference", c.reference},
+           {"reference", c.judge.reference},
+           {"kind", name_of(c.judge.kind)},
+           {"title", title_of(c.judge)},
            {"stage", name_of(c.stage)},
            {"outcome", name_of(c.outcome)},
            {"pixels", m.items},
@@ -70,7 +72,7 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
            {"shard", {{"index", shard.index}, {"of", shard.of}, {"scenes", std::max(shard.scenes, verdicts.size())}}},
            {"scenes", Json::array()},
            {"comparisons", Json::array()}};
-  for (const check::Tolerance& row : check::ledger()) out["tolerances"][std::string(row.name)] = row.factor;
+  for (const check::Tolerance& row : check::ledger()) out["tolerances"][name_of(row)] = row.factor;
   for (const check::SceneVerdict& verdict : verdicts) {
     Json scene{{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}};
     if (!verdict.failure.empty()) scene["failure"] = verdict.failure, scene["repeat"] = verdict.repeat;
@@ -92,9 +94,12 @@ void write_json(const std::filesystem::path& file, const check::Diagnosis& diagn
   for (const Stage stage : diagnosis.wrong) out["wrong"].push_back(name_of(stage));
   for (const check::Finding& f : diagnosis.findings) {
     out["findings"].push_back({{"stage", name_of(f.stage)},
-                               {"reference", f.reference},
+                               {"reference", f.judge.reference},
+                               {"kind", name_of(f.judge.kind)},
+                               {"title", title_of(f.judge)},
                                {"pixels", f.measurement.items},
                                {"differing", f.measurement.differing},
+                               {"explains", f.explains},
                                {"numbers", f.numbers},
                                {"causes", f.causes},
                                {"picture", f.picture}});
@@ -141,7 +146,8 @@ Json groups(std::span<const check::SceneVerdict> verdicts) {
     ++group.scenes;
     for (const check::Comparison& c : verdict.comparisons) {
       if (!(c.measurement.max_difference > 0)) continue;
-      double& largest = group.largest[fmt::format("{}, {}, {}", c.reference, name_of(c.stage), c.measurement.unit)];
+      double& largest =
+          group.largest[fmt::format("{}, {}, {}", title_of(c.judge), name_of(c.stage), c.measurement.unit)];
       largest = std::max(largest, c.measurement.max_difference);
     }
   }
@@ -159,7 +165,7 @@ Json groups(std::span<const check::SceneVerdict> verdicts) {
 void write_ledger(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts) {
   Json rows = Json::array();
   for (const check::LedgerUse& use : check::ledger_use(verdicts)) {
-    rows.push_back({{"name", use.row->name},
+    rows.push_back({{"name", name_of(*use.row)},
                     {"factor", use.row->factor},
                     {"unit", use.row->unit},
                     {"largest_seen", use.largest_ratio < 0 ? Json(nullptr) : share(use.largest_ratio)},

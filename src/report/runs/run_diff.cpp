@@ -36,7 +36,7 @@ std::map<std::string, const Comparison*> rows_of(const CheckRun& run) {
   std::map<std::string, const Comparison*> out;
   for (const SceneVerdict& verdict : run.verdicts) {
     for (const Comparison& c : verdict.comparisons) {
-      insert(out, fmt::format("{}, {}, {}", c.scene, c.reference, name_of(c.stage)), &c);
+      insert(out, fmt::format("{}, {}, {}", c.scene, title_of(c.judge), name_of(c.stage)), &c);
     }
   }
   return out;

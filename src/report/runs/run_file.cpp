@@ -83,11 +83,11 @@ check::Worst worst_at(const JsonNode& node, std::set<std::string>& words) {
 }
 
 Comparison comparison_at(const JsonNode& node, std::set<std::string>& words) {
-  node.only({"scene", "reference", "stage", "outcome", "pixels", "differing", "ambiguous", "max_difference", "unit",
-             "worst", "disputed", "max_ratio", "histogram", "dispute", "ledger", "note"});
+  node.only({"scene", "reference", "kind", "title", "stage", "outcome", "pixels", "differing", "ambiguous",
+             "max_difference", "unit", "worst", "disputed", "max_ratio", "histogram", "dispute", "ledger", "note"});
   Comparison c;
   c.scene = node["scene"].text();
-  c.reference = node["reference"].text();
+  c.judge = {node["reference"].text(), named<check::Kind>(node["kind"], "a kind of judge", check::kKindNames)};
   c.stage = named<Stage>(node["stage"], "a stage", kStageNames);
   c.outcome = named<Outcome>(node["outcome"], "an outcome", outcome_names());
   check::Measurement& m = c.measurement;

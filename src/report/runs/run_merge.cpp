@@ -22,7 +22,7 @@ bool same(const Comparison& a, const Comparison& b) {
     return fmt::format("{} {} {} {} {} {}", x.items, x.differing, x.ambiguous, x.disputed, x.max_difference,
                        x.max_ratio);
   };
-  return a.reference == b.reference && a.stage == b.stage && a.outcome == b.outcome && a.note == b.note &&
+  return a.judge == b.judge && a.stage == b.stage && a.outcome == b.outcome && a.note == b.note &&
          numbers(m) == numbers(n) && m.histogram == n.histogram;
 }
 
@@ -49,7 +49,7 @@ void require_one_run(const CheckRun& first, const CheckRun& other) {
 
 void require_these_tolerances(const CheckRun& run) {
   std::map<std::string, double> ours;
-  for (const check::Tolerance& row : check::ledger()) ours[std::string(row.name)] = row.factor;
+  for (const check::Tolerance& row : check::ledger()) ours[name_of(row)] = row.factor;
   if (ours != run.tolerances) {
     throw std::runtime_error(
         fmt::format("{}: its tolerances are not this program's: another version wrote it", run.file));

@@ -33,10 +33,13 @@ std::string stage_names(const std::vector<Stage>& stages) {
 }
 
 std::string first_line(const check::Diagnosis& diagnosis) {
+  if (!diagnosis.first && !diagnosis.wrong.empty()) {
+    return fmt::format("none; legal, but not by the dialect's tie rule: {}", stage_names(diagnosis.wrong));
+  }
   if (!diagnosis.first) return "none";
   std::vector<std::string> by;
   for (const Comparison& c : diagnosis.verdict.comparisons) {
-    if (c.stage == *diagnosis.first && c.outcome == Outcome::different) by.push_back(c.reference);
+    if (c.stage == *diagnosis.first && c.outcome == Outcome::different) by.push_back(title_of(c.judge));
   }
   if (by.empty()) return fmt::format("{} (failed)", name_of(*diagnosis.first));
   return fmt::format("{} (against {})", name_of(*diagnosis.first), fmt::join(by, "; "));
@@ -44,9 +47,10 @@ std::string first_line(const check::Diagnosis& diagnosis) {
 
 std::string finding_text(const check::Finding& f) {
   const check::Measurement& m = f.measurement;
-  std::string out = m.items == 0 ? fmt::format("\n{}, of {}: failed\n", name_of(f.stage), f.reference)
+  std::string out = m.items == 0 ? fmt::format("\n{}, of {}: failed\n", name_of(f.stage), title_of(f.judge))
                                  : fmt::format("\n{}, against {}: {} of {} beyond tolerance\n", name_of(f.stage),
-                                               f.reference, m.differing, m.items);
+                                               title_of(f.judge), m.differing, m.items);
+  if (f.explains > 0) out += fmt::format("  explains {} pixels of the picture\n", f.explains);
   for (const std::string& line : f.numbers) out += fmt::format("  {}\n", line);
   for (const std::string& cause : f.causes) out += fmt::format("  likely cause: {}\n", cause);
   return out + f.picture;
@@ -54,12 +58,13 @@ std::string finding_text(const check::Finding& f) {
 
 }  // namespace
 
-std::string stage_table(const check::SceneVerdict& verdict) {
+std::string stage_table(const check::SceneVerdict& verdict, std::optional<Stage> first) {
   std::vector<std::string> columns;  // in the order in which they were asked
   std::map<std::pair<std::size_t, std::string>, std::string> cells;
   for (const Comparison& c : verdict.comparisons) {
-    if (std::ranges::count(columns, c.reference) == 0) columns.push_back(c.reference);
-    cells[{static_cast<std::size_t>(c.stage), c.reference}] = cell_of(c);
+    const std::string column = title_of(c.judge);
+    if (std::ranges::count(columns, column) == 0) columns.push_back(column);
+    cells[{static_cast<std::size_t>(c.stage), column}] = cell_of(c);
   }
   const auto of = [&](std::size_t stage, const std::string& column) {
     const auto found = cells.find({stage, column});
@@ -71,14 +76,13 @@ std::string stage_table(const check::SceneVerdict& verdict) {
     for (std::size_t i = 0; i < kStageNames.size(); ++i) width = std::max(width, of(i, column).size());
     widths.push_back(width);
   }
-  const Comparison* first = check::first_different(verdict);
   std::string out = fmt::format("   {:<10}", "stage");
   const auto end_line = [&] { out.erase(out.find_last_not_of(' ') + 1), out += '\n'; };
   for (std::size_t k = 0; k < columns.size(); ++k) out += fmt::format("  {:<{}}", columns[k], widths[k]);
   end_line();
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     if (std::ranges::none_of(verdict.comparisons, [&](const Comparison& c) { return c.stage == Stage(i); })) continue;
-    out += fmt::format("{} {:<10}", first != nullptr && first->stage == Stage(i) ? "->" : "  ", kStageNames[i]);
+    out += fmt::format("{} {:<10}", first == Stage(i) ? "->" : "  ", kStageNames[i]);
     for (std::size_t k = 0; k < columns.size(); ++k) out += fmt::format("  {:<{}}", of(i, columns[k]), widths[k]);
     end_line();
   }
@@ -86,16 +90,17 @@ std::string stage_table(const check::SceneVerdict& verdict) {
 }
 
 std::string diagnosis_text(const check::Diagnosis& diagnosis) {
-  std::string out = stage_table(diagnosis.verdict);
+  std::string out = stage_table(diagnosis.verdict, diagnosis.first);
   out += fmt::format("\nfirst different stage: {}\nwrong by itself: {}\n", first_line(diagnosis),
                      stage_names(diagnosis.wrong));
+  out += check::judged_text(diagnosis.verdict);
   if (std::ranges::any_of(diagnosis.verdict.comparisons,
                           [](const Comparison& c) { return c.note == check::kOverBudget; }))
     out += fmt::format("{}: those about the worst pixels alone were (--fragments)\n", check::kOverBudget);
   for (const check::Finding& f : diagnosis.findings) out += finding_text(f);
   for (const Comparison& c : diagnosis.verdict.comparisons) {
     if (c.outcome == Outcome::failed || c.outcome == Outcome::missing || c.outcome == Outcome::dispute)
-      out += fmt::format("{}: {}, {}: {}\n", name_of(c.outcome), c.reference, name_of(c.stage), check::remark(c));
+      out += fmt::format("{}: {}, {}: {}\n", name_of(c.outcome), title_of(c.judge), name_of(c.stage), check::remark(c));
   }
   return out;
 }

@@ -28,7 +28,7 @@ std::string failures(std::span<const SceneVerdict> verdicts) {
                                              : verdict.failure.substr(0, verdict.failure.find('\n'));
     out +=
         fmt::format("| {} | {} | {} | {} | {} |\n", cell(verdict.scene), first == nullptr ? "" : name_of(first->stage),
-                    cell(first == nullptr ? "" : first->reference), cell(why), cell(verdict.repeat));
+                    cell(first == nullptr ? "" : title_of(first->judge)), cell(why), cell(verdict.repeat));
   }
   if (count == 0) return "";
   out = "\n### Failures\n\n| scene | first different stage | against | what | repeat |\n|---|---|---|---|---|\n" + out;
@@ -43,7 +43,7 @@ std::string listed(std::span<const SceneVerdict> verdicts, Outcome outcome) {
   for (const SceneVerdict& verdict : verdicts) {
     for (const Comparison& c : verdict.comparisons) {
       if (c.outcome != outcome || ++count > kMostListed) continue;
-      out += fmt::format("| {} | {} | {} | {} |\n", cell(c.scene), cell(c.reference), name_of(c.stage),
+      out += fmt::format("| {} | {} | {} | {} |\n", cell(c.scene), cell(title_of(c.judge)), name_of(c.stage),
                          cell(check::remark(c)));
     }
   }

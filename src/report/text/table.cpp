@@ -39,10 +39,11 @@ std::string table_rows(const SceneVerdict& verdict) {
   for (const Comparison& c : verdict.comparisons) {
     const check::Measurement& m = c.measurement;
     if (was_judged(c)) {
-      out += fmt::format(kRow, c.scene, c.reference, name_of(c.stage), name_of(c.outcome), m.items, m.differing,
+      out += fmt::format(kRow, c.scene, title_of(c.judge), name_of(c.stage), name_of(c.outcome), m.items, m.differing,
                          m.ambiguous, largest(c), check::remark(c));
     } else {
-      out += fmt::format(kRow, c.scene, c.reference, name_of(c.stage), name_of(c.outcome), "-", "-", "-", "-", c.note);
+      out += fmt::format(kRow, c.scene, title_of(c.judge), name_of(c.stage), name_of(c.outcome), "-", "-", "-", "-",
+                         c.note);
     }
   }
   return out;
@@ -53,7 +54,8 @@ std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> un
   std::string out;
   for (const Comparison& c : verdict.comparisons) {
     if (c.outcome == Outcome::failed || c.outcome == Outcome::missing) {
-      out += fmt::format("{} {}: {}, {}: {}\n", name_of(c.outcome), c.scene, c.reference, name_of(c.stage), c.note);
+      out +=
+          fmt::format("{} {}: {}, {}: {}\n", name_of(c.outcome), c.scene, title_of(c.judge), name_of(c.stage), c.note);
     }
   }
   for (Stage stage : unjudged) {
@@ -62,7 +64,8 @@ std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> un
   if (const Comparison* first = check::first_different(verdict)) {
     const check::Worst& w = first->measurement.worst;
     out += fmt::format("different {}: first different stage: {} (against {}): {} of {} beyond tolerance", first->scene,
-                       name_of(first->stage), first->reference, first->measurement.differing, first->measurement.items);
+                       name_of(first->stage), title_of(first->judge), first->measurement.differing,
+                       first->measurement.items);
     if (!first->note.empty()) out += "; " + first->note;
     if (w.difference > 0) {
       out += fmt::format("\n  worst: {}: {:.9g}, the reference {:.9g}, {:.4g} {} apart, tolerance {:.4g}",

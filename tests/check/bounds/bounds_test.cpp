@@ -120,9 +120,10 @@ TEST(Bounds, OfAPlaneFromTheOriginHoldForFloatArithmetic) {
   RecordProperty("depth", std::to_string(depth.ratio));
   RecordProperty("color", std::to_string(color.ratio));
   EXPECT_GT(depth.items, 50000u);
-  for (const auto& [largest, row] : {std::pair(depth, "osmesa.depth"), std::pair(color, "osmesa.attributes")}) {
-    EXPECT_LE(largest.ratio, tolerance(row).factor) << row << " is not sound";
-    EXPECT_GE(largest.ratio, tolerance(row).factor / 20) << row << " is absurdly loose";
+  for (const auto& [largest, stage] : {std::pair(depth, Stage::depth), std::pair(color, Stage::attributes)}) {
+    const Tolerance& row = tolerance(Profile::opengl, stage);
+    EXPECT_LE(largest.ratio, row.factor) << name_of(row) << " is not sound";
+    EXPECT_GE(largest.ratio, row.factor / 20) << name_of(row) << " is absurdly loose";
   }
 }
 
@@ -154,8 +155,9 @@ TEST(Bounds, OfAMeanHoldForFloatArithmetic) {
   }
   RecordProperty("mean", std::to_string(largest.ratio));
   EXPECT_LE(largest.ratio, 12);
-  EXPECT_LE(largest.ratio, tolerance("exact.attributes").factor) << "exact.attributes is not sound";
-  EXPECT_GE(largest.ratio, tolerance("exact.attributes").factor / 20) << "exact.attributes is absurdly loose";
+  EXPECT_LE(largest.ratio, tolerance(Profile::exact, Stage::attributes).factor) << "exact.attributes is not sound";
+  EXPECT_GE(largest.ratio, tolerance(Profile::exact, Stage::attributes).factor / 20)
+      << "exact.attributes is absurdly loose";
 }
 
 TEST(Bounds, OfAFlatTriangleAreThoseOfItsValue) {
@@ -172,7 +174,8 @@ TEST(Bounds, OfAFlatTriangleAreThoseOfItsValue) {
 TEST(Bounds, OfOpenGLsPlanesLetWhatIsBelowNormalNumbersBecomeZero) {
   WindowTriangle<double> t = triangle_of({{{0.5, 0.5, 0.5}, {8.5, 0.5, 0.5}, {0.5, 8.5, 0.5}}});
   for (auto& v : t.v) v.color = {0x1p-127, 0x1p-110, 0, 1};
-  const Vec4<double> bound = tolerance("osmesa.attributes").factor * kU * bounds_from_origin(t, 3, 3).color;
+  const Vec4<double> bound =
+      tolerance(Profile::opengl, Stage::attributes).factor * kU * bounds_from_origin(t, 3, 3).color;
   EXPECT_GT(bound.r, 0x1p-127) << "flushed";
   EXPECT_LT(bound.g, 0x1p-110) << "a number whose products are normal is not";
 }

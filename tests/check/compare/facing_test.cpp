@@ -106,11 +106,11 @@ TEST_F(Outline, FacesByAnAreaBeforeSnappingAreLegalToAReference) {
     EXPECT_EQ(o.turned(o.front(), o.back()), open ? Numbers{0} : Numbers{}) << steps;
     EXPECT_TRUE(o.turned(o.front(), o.front()).empty());
   }
-  const Measurement m = compare_window_equal(back(), front(), Numbers{0});
+  const Measurement m = compare_window_equal(back(), front(), 1, Numbers{0});
   EXPECT_TRUE(passes(m));
   EXPECT_EQ(m.ambiguous, 1u);
   EXPECT_EQ(m.items, 1u);
-  EXPECT_FALSE(passes(compare_window_equal(back(), front())));
+  EXPECT_FALSE(passes(compare_window_equal(back(), front(), 1)));
   EXPECT_TRUE(turned(as(true, PolygonMode::point), front()).empty()) << "no legal outline";
   scene.draws[0].back_mode = PolygonMode::fill;
   EXPECT_EQ(turned(records, front()), Numbers{0}) << "a filled triangle of no area covers nothing";

@@ -85,9 +85,39 @@ TEST_F(LegalAnswers, OtherSizesFail) {
   for (const Measurement& m : all()) EXPECT_FALSE(passes(m)) << "an oracle that says nothing";
 }
 
-TEST_F(LegalAnswers, WithoutWinnersFailsAndDoesNotCrash) {
+TEST_F(LegalAnswers, WithoutWinnersAnyOfThemIsLegal) {
   planes.id = {};
-  for (const Measurement& m : {winner(), depth(), shaded(), merge()}) EXPECT_FALSE(passes(m)) << m.unit;
+  EXPECT_FALSE(passes(winner())) << "there is none";
+  for (const Measurement& m : {depth(), shaded(), merge()}) EXPECT_TRUE(passes(m)) << m.unit;
+  planes.depth(kX, kY) = 0.75;
+  planes.shaded(kX, kY) = glm::vec4(1.5, 0.5, -0.5, 1);
+  planes.color(kX, kY) = glm::vec4(1, 0.5, 0, 1);
+  for (const Measurement& m : {depth(), shaded(), merge()}) EXPECT_TRUE(passes(m)) << m.unit;
+  planes.depth(kX, kY) = 0.5;
+  planes.shaded(kX, kY) = planes.color(kX, kY) = glm::vec4(0.5, 0.5, 0.125, 1);  // green of one, the rest of the other
+  for (const Measurement& m : {depth(), shaded(), merge()}) EXPECT_TRUE(fails(m)) << m.unit;
+  planes.depth(kX, kY) = NAN;
+  planes.shaded(kX, kY).b = planes.color(kX, kY).b = NAN;
+  for (const Measurement& m : {depth(), shaded(), merge()}) EXPECT_TRUE(fails(m)) << m.unit;
+  planes.depth(kX, kY) = 0.25;
+  planes.depth(0, 0) = 0.25;
+  EXPECT_TRUE(fails(depth())) << "legal elsewhere";
+}
+
+// Counts of a renderer whose tie rule is not known.
+TEST_F(LegalAnswers, OtherCountsAreAmbiguousBesideIllegalOnes) {
+  planes.id_sum = Plane<std::uint64_t>(kWidth, kHeight);
+  Planes other = planes;
+  other.count(kX, kY) = 1;  // ours is 2: both are legal
+  EXPECT_TRUE(fails(compare_coverage(planes, other)));
+  EXPECT_TRUE(fails(compare_coverage(planes, other, legal))) << "nothing else differs: another tie rule";
+  planes.count(0, 0) = 1;
+  const Measurement m = compare_coverage(planes, other, legal);
+  EXPECT_TRUE(fails(m));
+  EXPECT_EQ(m.worst.place.x, 0);
+  EXPECT_EQ(m.ambiguous, 1u);
+  planes.count(kX, kY) = 4;
+  EXPECT_TRUE(fails(compare_coverage(planes, other, legal), 2)) << "more than are legal";
 }
 
 TEST_F(LegalAnswers, CountsLieBetweenCertainAndPossible) {

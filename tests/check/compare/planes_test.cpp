@@ -75,7 +75,9 @@ TEST_F(PlanePairs, CoverageByAnotherPrimitiveFails) {
   EXPECT_TRUE(fails(m));
   EXPECT_EQ(m.max_difference, 1);
   EXPECT_EQ(m.worst.place.x, 6);
-  EXPECT_STREQ(m.worst.place.field, "id sum");
+  EXPECT_STREQ(m.worst.place.field, "fragments of other primitives");
+  EXPECT_EQ(m.worst.candidate, 1);
+  EXPECT_EQ(m.worst.reference, 0);
   const std::uint64_t big = std::uint64_t{1} << 60;
   EXPECT_TRUE(fails(run(
       coverage(), [=](Planes& p) { p.id_sum(6, 0) = big; }, [=](Planes& p) { p.id_sum(6, 0) = big + 1; })))
@@ -224,8 +226,9 @@ TEST_F(PlanePairs, AReferenceWithoutColoursOfVerticesIsGrantedLightsTolerance) {
   const auto moved = [&](double by) {
     Capture a = capture, b = capture;
     b.records.lit.clear();
-    const double limit =
-        (64 * bounds_from_origin(capture.records.triangles[0], 3, 1).color.r + tolerance("osmesa.light").factor) * kU;
+    const double limit = (64 * bounds_from_origin(capture.records.triangles[0], 3, 1).color.r +
+                          tolerance(Profile::opengl, Stage::light).factor) *
+                         kU;
     a.planes.shaded(3, 1).r += static_cast<float>(by * limit);
     return compare_shaded_planes(scene, a, b, 64);
   };

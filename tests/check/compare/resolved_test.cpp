@@ -109,7 +109,7 @@ TEST_F(JudgePasses, EachStageHasOneRowOfAllPassesAndTheWholeItsOwn) {
   EXPECT_EQ(rows.at({"witness", Stage::coverage}).outcome, Outcome::equal);
   EXPECT_EQ(rows.at({"witness", Stage::resolve}).measurement.items, pixels);
   EXPECT_EQ(rows.at({"witness", Stage::resolve}).outcome, Outcome::equal);
-  EXPECT_EQ(rows.at({"exact from its records", Stage::resolve}).ledger_row, "exact.resolve");
+  EXPECT_EQ(rows.at({"exact, per stage", Stage::resolve}).ledger_row, "exact.resolve");
   EXPECT_EQ(first_different(verdict), nullptr);
 }
 
@@ -128,6 +128,7 @@ TEST_F(JudgePasses, OnePassThatDiffersIsNamed) {
 TEST_F(JudgePasses, AWitnessWithoutSamplesHasNotFailedButAWrongOneHas) {
   witness.on_info = [](RendererInfo& info) {
     info.name = "witness";
+    info.profile = Profile::opengl;
     for (Ability& a : info.stages) a.runs = false;
     info.legal = false;
     info[Stage::resolve] = {false, false, "no samples"};
@@ -135,6 +136,7 @@ TEST_F(JudgePasses, AWitnessWithoutSamplesHasNotFailedButAWrongOneHas) {
   EXPECT_EQ(run({{"witness", &witness}}).at({"witness", Stage::resolve}).outcome, Outcome::unsupported);
   witness.on_info = [](RendererInfo& info) {
     info.name = "witness";
+    info.profile = Profile::opengl;
     for (Ability& a : info.stages) a.runs = false;
     info.legal = false;
   };

@@ -342,7 +342,7 @@ TEST_F(TexelPlanes, BothSidesAreHeldToTheLegalTexels) {
   // A texel that is read, not interpolated, is granted the ledger's u; a float below 1 rounds by half of one at most.
   const auto moved = [&](double share) {
     Capture other = capture;
-    other.planes.texel(3, 4).g += static_cast<float>(share * tolerance("osmesa.texture").factor * u);
+    other.planes.texel(3, 4).g += static_cast<float>(share * tolerance(Profile::opengl, Stage::texture).factor * u);
     return other;
   };
   const Capture near = moved(0.75), far = moved(1.25);

@@ -57,7 +57,7 @@ struct Window : testing::Test {
     Records<double> a = records, b = records;
     candidate(a);
     reference(b);
-    return compare_window_equal(a, b);
+    return compare_window_equal(a, b, 1);
   }
   static Change erase(std::size_t i) {
     return [i](auto& r) { r.triangles.erase(r.triangles.begin() + static_cast<std::ptrdiff_t>(i)); };

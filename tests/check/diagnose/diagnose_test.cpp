@@ -89,8 +89,8 @@ TEST_F(Diagnose, NamesWhatAFaultBeforeItHides) {
   EXPECT_EQ(d.first, Stage::window);
   EXPECT_EQ(d.wrong, (Stages{Stage::window, Stage::attributes}));
   ASSERT_EQ(d.findings.size(), 2u);
-  EXPECT_EQ(d.findings[0].reference, "exact from its records");
-  EXPECT_EQ(d.findings[1].reference, "exact from repaired records");
+  EXPECT_EQ(title_of(d.findings[0].judge), "exact, per stage");
+  EXPECT_EQ(title_of(d.findings[1].judge), "exact, repaired");
   // Where the candidate's stages cannot be called, the first alone shows.
   Changed captured(pipeline::make_pipeline(stages));
   captured.on_info = [](RendererInfo& info) {
@@ -138,7 +138,7 @@ TEST_F(Diagnose, WhatDoesNotFitTheBudgetIsLookedAtAboutTheWorstPixels) {
   EXPECT_GE(pixels, 9u);
   EXPECT_LE(pixels, 200u);
   ASSERT_EQ(d.findings.size(), 1u);
-  EXPECT_EQ(d.findings[0].reference, "exact from its records at the worst pixels");
+  EXPECT_EQ(title_of(d.findings[0].judge), "exact, at the worst pixels");
   ASSERT_EQ(d.findings[0].causes.size(), 1u);
   EXPECT_TRUE(d.findings[0].causes[0].starts_with("error grows with the spread of 1/w"));
 }
@@ -195,6 +195,7 @@ TEST_F(Diagnose, WithoutExactTheFirstDifferentStageIsTheFinding) {
   Changed witness(pipeline::make_pipeline());
   witness.on_info = [](RendererInfo& info) {
     info.name = "witness";
+    info.profile = Profile::opengl;
     for (Ability& a : info.stages) a.runs = false;
   };
   Spoiled candidate(pipeline::make_pipeline(), {Stage::window});
@@ -265,7 +266,7 @@ TEST_F(Diagnose, RaisesNothingElseOnAnySceneWhereEveryOtherStageIsRepaired) {
     const Reference references[] = {{"exact", exact.get()}};
     for (const Finding& f : diagnose_in_brief(scene, candidate, references).findings) {
       EXPECT_TRUE(wrong.contains(f.stage))
-          << scene.name << ": " << name_of(f.stage) << ", " << f.reference << ": " << f.numbers[0];
+          << scene.name << ": " << name_of(f.stage) << ", " << title_of(f.judge) << ": " << f.numbers[0];
     }
   }
   EXPECT_GT(scenes, 100u);

@@ -223,7 +223,7 @@ TEST_F(Goldens, the_picture_is_the_one_that_is_drawn_unwatched) {
 }
 
 TEST_F(Goldens, the_golden_is_no_judge) {
-  SceneVerdict verdict{"group/scene", "", {judged("group/scene", std::string(kGolden), Stage::light, {})}, 0};
+  SceneVerdict verdict{"group/scene", "", {judged("group/scene", {"golden", Kind::golden}, Stage::light, {})}, 0};
   EXPECT_EQ(std::ranges::count(unjudged_stages(verdict), Stage::light), 1);
   verdict.comparisons.push_back(judged("group/scene", "exact", Stage::light, {}));
   EXPECT_EQ(std::ranges::count(unjudged_stages(verdict), Stage::light), 0);
@@ -243,11 +243,11 @@ TEST_F(Goldens, minus_zero_is_not_zero) {
 // A row for each of three references and each stage, all of them agreeing.
 SceneVerdict agreeing() {
   SceneVerdict out{"group/scene", "", {}, 0};
-  for (const char* reference : {"osmesa", "embree", "exact from its records"}) {
+  for (const JudgeId& judge : {JudgeId("osmesa"), JudgeId("embree"), JudgeId("exact", Kind::per_stage)}) {
     for (std::size_t i = 0; i < kStageNames.size(); ++i) {
       const auto stage = static_cast<Stage>(i);
       if (stage != Stage::texture && stage != Stage::resolve)
-        out.comparisons.push_back(judged("group/scene", reference, stage, {}));
+        out.comparisons.push_back(judged("group/scene", judge, stage, {}));
     }
   }
   return out;

@@ -24,7 +24,7 @@ TEST_F(Judge, AnOracleWhoseAnswersExcludeOursIsDifferent) {
     EXPECT_EQ(glm::ivec2(c.measurement.worst.place.x, c.measurement.worst.place.y), where) << name_of(stage);
   }
   EXPECT_EQ(first_different(verdict)->stage, Stage::coverage);
-  EXPECT_EQ(first_different(verdict)->reference, "oracle");
+  EXPECT_EQ(first_different(verdict)->judge.reference, "oracle");
 }
 
 TEST_F(Judge, OfManyFragmentsAWinnerApartIsSettledByTheAnswersAtThatPixel) {
@@ -48,7 +48,7 @@ TEST_F(Judge, OfManyFragmentsAWinnerApartIsSettledByTheAnswersAtThatPixel) {
   const auto visibility = [&] {
     const Reference references[] = {{"witness", &witness}, {"exact", &referee}};
     for (const Comparison& c : judge(scene, candidate, references, nullptr, 0).comparisons) {
-      if (c.reference == "witness" && c.stage == Stage::visibility) return c.outcome;
+      if (c.judge.reference == "witness" && c.stage == Stage::visibility) return c.outcome;
     }
     return Outcome::missing;
   };
@@ -96,10 +96,10 @@ TEST_F(Judge, ARefereeBeyondItsBudgetIsNoFailure) {
     if (stage == Stage::depth) throw std::runtime_error("too many fragments");
   };
   const Results results = run();
-  const Comparison& c = results.at({"exact from its records", Stage::coverage});
+  const Comparison& c = results.at({"exact, per stage", Stage::coverage});
   EXPECT_EQ(c.outcome, Outcome::unsupported);
   EXPECT_EQ(c.note, "too many fragments");
-  EXPECT_EQ(results.at({"exact from its records", Stage::depth}).outcome, Outcome::failed);
+  EXPECT_EQ(results.at({"exact, per stage", Stage::depth}).outcome, Outcome::failed);
 }
 
 TEST_F(Judge, ARefereeThatThrowsOverADisputeDoesNotFailTheWitness) {
@@ -162,7 +162,7 @@ TEST_F(Judge, AReferenceThatTheOthersOutvoteIsADispute) {
 TEST_F(Judge, ACandidateThatIsWrongIsDifferentNotADispute) {
   candidate.on_capture = [](Capture& c) { c.planes.count(5, 5) += 1; };
   const Results results = run();
-  for (const char* reference : {"witness", "oracle", "exact from its records"}) {
+  for (const char* reference : {"witness", "oracle", "exact, per stage"}) {
     EXPECT_EQ(results.at({reference, Stage::coverage}).outcome, Outcome::different) << reference;
   }
   EXPECT_EQ(first_different(verdict)->stage, Stage::coverage);

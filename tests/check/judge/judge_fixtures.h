@@ -46,6 +46,7 @@ struct Judge : testing::Test {
     witness.on_info = [](RendererInfo& info) {
       info.painters.clear();
       info.name = "witness";
+      info.profile = Profile::opengl;
       for (Ability& a : info.stages) a.runs = false;
       info.legal = false;
     };
@@ -62,8 +63,8 @@ struct Judge : testing::Test {
     Results out;
     for (const Comparison& c : verdict.comparisons) {
       EXPECT_EQ(c.scene, scene.name);
-      EXPECT_TRUE(out.emplace(std::pair(c.reference, c.stage), c).second)
-          << c.reference << " judged " << name_of(c.stage) << " twice";
+      EXPECT_TRUE(out.emplace(std::pair(title_of(c.judge), c.stage), c).second)
+          << title_of(c.judge) << " judged " << name_of(c.stage) << " twice";
     }
     return out;
   }

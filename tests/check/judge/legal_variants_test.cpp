@@ -45,7 +45,7 @@ TEST_P(LegalVariants, raises_nothing) {
       EXPECT_TRUE(same_picture(pipeline::render(*said, stages), pipeline::render(scene))) << scene.name;
     }
     for (const check::Comparison& c : check::judge(*said, *candidate, references).comparisons) {
-      EXPECT_FALSE(check::is_failure(c.outcome)) << scene.name << ": " << name_of(c.stage) << ", " << c.reference;
+      EXPECT_FALSE(check::is_failure(c.outcome)) << scene.name << ": " << name_of(c.stage) << ", " << title_of(c.judge);
     }
   }
   EXPECT_GT(judged, 0);

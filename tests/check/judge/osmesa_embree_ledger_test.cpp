@@ -49,12 +49,13 @@ TEST_F(Suite, holds_every_scene_and_more_than_a_thousand_comparisons) {
 TEST_F(Suite, uses_every_row_of_the_ledger_and_none_is_loose) {
   const report::CheckRun run = all();
   for (const check::LedgerUse& use : check::ledger_use(run.verdicts)) {
-    ASSERT_GE(use.largest_ratio, 0) << use.row->name << ": no comparison uses the row";
-    EXPECT_LE(use.largest_ratio, 1) << use.row->name << ": " << use.where;
+    ASSERT_GE(use.largest_ratio, 0) << name_of(*use.row) << ": no comparison uses the row";
+    EXPECT_LE(use.largest_ratio, 1) << name_of(*use.row) << ": " << use.where;
     if (use.row->loose_because.empty()) {
-      EXPECT_GE(use.largest_ratio, 0.25) << use.row->name << ": looser than four times what was seen, " << use.where;
+      EXPECT_GE(use.largest_ratio, 0.25) << name_of(*use.row) << ": looser than four times what was seen, "
+                                         << use.where;
     } else {
-      EXPECT_LT(use.largest_ratio, 0.5) << use.row->name << ": it is not loose, the excuse can go";
+      EXPECT_LT(use.largest_ratio, 0.5) << name_of(*use.row) << ": it is not loose, the excuse can go";
     }
   }
 }

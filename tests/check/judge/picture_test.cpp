@@ -72,7 +72,7 @@ TEST_F(JudgePicture, TheShippedFrameIsHeldToTheWatchedOne) {
   EXPECT_EQ(row.outcome, Outcome::different);
   EXPECT_EQ(row.measurement.differing, 1u);
   EXPECT_EQ(count(results, Outcome::different), 1u) << "nothing else";
-  EXPECT_EQ(first_different(verdict)->reference, "picture");
+  EXPECT_EQ(first_different(verdict)->judge.reference, "picture");
 }
 
 TEST_F(JudgePicture, EveryPainterIsHeldAndTheFirstThatDiffersIsNamed) {
@@ -117,21 +117,22 @@ TEST_F(JudgePicture, ARendererWithoutAPainterHasNoSuchRow) {
 }
 
 TEST(Picture, HasNoVote) {
-  const auto row = [](const char* reference, Outcome outcome) {
-    Comparison c{"s", reference, Stage::merge, outcome, {}, "", ""};
+  const JudgeId kShips("picture", Kind::picture);
+  const auto row = [](const JudgeId& judge, Outcome outcome) {
+    Comparison c{"s", judge, Stage::merge, outcome, {}, "", ""};
     c.measurement.differing = outcome == Outcome::different ? 1 : 0;
     c.measurement.max_ratio = outcome == Outcome::different ? HUGE_VAL : 0;
     return c;
   };
-  std::vector<Comparison> rows = {row("osmesa", Outcome::different), row("exact from its records", Outcome::equal),
-                                  row("picture", Outcome::equal)};
+  std::vector<Comparison> rows = {row("osmesa", Outcome::different), row({"exact", Kind::per_stage}, Outcome::equal),
+                                  row(kShips, Outcome::equal)};
   settle_votes(rows);
   EXPECT_EQ(rows[0].outcome, Outcome::different) << "exact alone is no majority";
-  rows = {row("picture", Outcome::different), row("exact from its records", Outcome::equal),
+  rows = {row(kShips, Outcome::different), row({"exact", Kind::per_stage}, Outcome::equal),
           row("embree", Outcome::equal)};
   settle_votes(rows);
   EXPECT_EQ(rows[0].outcome, Outcome::different) << "nobody outvotes it";
-  EXPECT_EQ(std::ranges::count(unjudged_stages({"s", "", {row("picture", Outcome::equal)}, 0}), Stage::merge), 1);
+  EXPECT_EQ(std::ranges::count(unjudged_stages({"s", "", {row(kShips, Outcome::equal)}, 0}), Stage::merge), 1);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct JudgeWatched : Judge {
         const Reference references[] = {{"witness", b.get()}, {"exact", c.get()}};
         std::string text;
         for (const Comparison& row : judge(scene, *a, references).comparisons) {
-          text += fmt::format("{} {} {} {}\n", row.reference, name_of(row.stage), name_of(row.outcome), row.note);
+          text += fmt::format("{} {} {} {}\n", title_of(row.judge), name_of(row.stage), name_of(row.outcome), row.note);
         }
         return text;
       };
@@ -75,7 +75,7 @@ TEST_F(JudgeWatched, AReferenceThatCrashesIsARowAndTheOthersAreJudged) {
   const std::string all =
       rows([](Changed&, Changed& theirs, Changed&) { theirs.before_capture = [](const Request&) { raise(SIGFPE); }; });
   EXPECT_TRUE(has(all, "witness merge failed was killed by signal 8 (Floating point exception)")) << all;
-  EXPECT_TRUE(has(all, "exact from its records merge ")) << all;
+  EXPECT_TRUE(has(all, "exact, per stage merge ")) << all;
   EXPECT_TRUE(has(all, "picture merge equal")) << all;
 }
 
@@ -89,7 +89,7 @@ TEST_F(JudgeWatched, AReferenceThatCannotBeMadeIsARowAndTheOthersAreJudged) {
     before_made = end;
     const std::string all = rows([](Changed&, Changed&, Changed&) {});
     EXPECT_TRUE(has(all, fmt::format("witness merge failed {}: while it was made\n", how))) << all;
-    EXPECT_TRUE(has(all, "exact from its records merge ")) << all;
+    EXPECT_TRUE(has(all, "exact, per stage merge ")) << all;
     EXPECT_TRUE(has(all, "picture merge equal")) << all;
   }
 }
@@ -100,9 +100,9 @@ TEST_F(JudgeWatched, AStageOfExactsThatCrashesIsThatStagesRow) {
       if (stage == Stage::window) raise(SIGSEGV);
     };
   });
-  EXPECT_TRUE(has(all, "exact from its records window failed was killed by signal 11 (Segmentation fault)")) << all;
-  EXPECT_TRUE(has(all, "exact from its records clip ")) << all;
-  EXPECT_TRUE(has(all, "exact from its records coverage equal")) << all;
+  EXPECT_TRUE(has(all, "exact, per stage window failed was killed by signal 11 (Segmentation fault)")) << all;
+  EXPECT_TRUE(has(all, "exact, per stage clip ")) << all;
+  EXPECT_TRUE(has(all, "exact, per stage coverage equal")) << all;
   EXPECT_TRUE(has(all, "witness window equal")) << all;
 }
 
@@ -124,9 +124,9 @@ TEST_F(JudgeWatched, ACandidateThatCrashesIsNamedAtItsStage) {
     };
   });
   EXPECT_TRUE(has(all, "ours depth failed was killed by signal 11")) << all;
-  EXPECT_TRUE(has(all, "exact from its records window ")) << all;
+  EXPECT_TRUE(has(all, "exact, per stage window ")) << all;
   EXPECT_TRUE(has(all, "witness light equal")) << all;
-  EXPECT_TRUE(has(all, "exact from its records depth unsupported")) << all;
+  EXPECT_TRUE(has(all, "exact, per stage depth unsupported")) << all;
   EXPECT_FALSE(has(all, "picture")) << all;
 }
 

@@ -34,7 +34,7 @@ struct Expectations : TestFolder {
 
 SceneVerdict verdict(Outcome outcome, Stage stage = Stage::depth) {
   SceneVerdict out{"light/a", "light/a.json", {not_judged("light/a", "osmesa", stage, outcome, "so")}, 0};
-  out.comparisons.push_back(not_judged("light/a", "exact from scene", Stage::depth, Outcome::equal, ""));
+  out.comparisons.push_back(not_judged("light/a", {"exact", Kind::from_scene}, Stage::depth, Outcome::equal, ""));
   return out;
 }
 
@@ -109,7 +109,7 @@ TEST_F(Expectations, FilesAreRefusedWithTheirPlace) {
   refused(with("2030-06-30", "2030-06-31"), "/expectations/0/expires", "a day as YYYY-MM-DD");
   refused(with("2030-06-30", "2030-6-30"), "/expectations/0/expires", "a day as YYYY-MM-DD");
   refused(with("\"depth\"", "\"dept\""), "/expectations/0/stage", "a stage (matrices to resolve)");
-  refused(with("\"osmesa\"", "\"mesa from scene\""), "/expectations/0/reference", "a row's reference");
+  refused(with("\"osmesa\"", "\"mesa\""), "/expectations/0/reference", "a reference, one of");
   refused(with("a driver's bug", ""), "/expectations/0/reason", "");
   refused(with("\"issue\": \"mesa 123\",", ""), "/expectations/0/issue", "a value");
   refused(with("\"issue\"", "\"isue\""), "/expectations/0/isue", "");

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <set>
 #include <stdexcept>
 
+#include "scene/json/json_file.h"
 #include "tests/check/fixtures.h"
 
 namespace plumbline::check {
@@ -38,15 +38,16 @@ TEST(Judged, EachOutcome) {
 }
 
 TEST(Judged, KeepsWhatItIsAbout) {
-  const Comparison c = judged("scene", "ref", Stage::window, measured(1, 0, 0, 3), "exact.window", "a note");
+  const Comparison c =
+      judged("scene", "ref", Stage::window, measured(1, 0, 0, 3), &tolerance(Profile::exact, Stage::window), "a note");
   EXPECT_EQ(c.scene, "scene");
-  EXPECT_EQ(c.reference, "ref");
+  EXPECT_EQ(title_of(c.judge), "ref");
   EXPECT_EQ(c.stage, Stage::window);
   EXPECT_EQ(c.ledger_row, "exact.window");
   EXPECT_EQ(c.note, "a note");
   EXPECT_EQ(c.measurement.max_difference, 3);
   EXPECT_EQ(judged("s", "r", Stage::clip, mismatch("u", "3 against 4", 4)).note, "3 against 4");
-  const std::string both = judged("s", "r", Stage::clip, mismatch("u", "3 against 4", 4), "", "a note").note;
+  const std::string both = judged("s", "r", Stage::clip, mismatch("u", "3 against 4", 4), nullptr, "a note").note;
   EXPECT_NE(both.find("3 against 4"), std::string::npos);
 }
 
@@ -55,10 +56,10 @@ TEST(Judged, ADisputeShowsItsOwnNumbers) {
   m.worst = {{1, 2, -1, "z"}, 5, 8, 3, 4};
   m.dispute = {{3, 4, -1, "color"}, 0.5, 0.75, 0.25, 0.125};
   m.reason = "it is late";
-  const Comparison dispute = judged("s", "r", Stage::clip, m, "", "a note");
+  const Comparison dispute = judged("s", "r", Stage::clip, m, nullptr, "a note");
   EXPECT_EQ(shown(dispute)->difference, 0.25);
   EXPECT_EQ(remark(dispute), "pixel 3,4 color; 0.5, the reference 0.75; 7 disputed: it is late; a note");
-  const Comparison within = judged("s", "r", Stage::clip, measured(0, 0, 0, 3), "", "a note");
+  const Comparison within = judged("s", "r", Stage::clip, measured(0, 0, 0, 3), nullptr, "a note");
   EXPECT_EQ(shown(within)->difference, 0) << "of the worst, which is not given here";
   EXPECT_EQ(remark(within), "a note");
   EXPECT_EQ(shown(judged("s", "r", Stage::clip, measured(0, 0, 0, 0))), nullptr);
@@ -103,7 +104,7 @@ TEST(FirstDifferent, IsTheFirstStageNotTheFirstListed) {
 // The depths of the frame are the winners': a wrong test of depths shows in them.
 TEST(FirstDifferent, IsTheStageThatIsWrongAloneWhereThatOfThePlanesHolds) {
   const Measurement bad = measured(1, 0, 0, 3), good = measured(0, 0, 0, 0);
-  const std::string alone = "exact from its records";
+  const JudgeId alone("exact", Kind::per_stage);
   SceneVerdict verdict;
   verdict.comparisons = {judged("s", "osmesa", Stage::depth, bad), judged("s", alone, Stage::depth, good),
                          judged("s", alone, Stage::merge, bad), judged("s", alone, Stage::visibility, bad)};
@@ -114,7 +115,7 @@ TEST(FirstDifferent, IsTheStageThatIsWrongAloneWhereThatOfThePlanesHolds) {
   EXPECT_FALSE(holds_alone(verdict, Stage::depth));
   verdict.comparisons[1] = not_judged("s", alone, Stage::depth, Outcome::unsupported, "");
   EXPECT_EQ(first_different(verdict), &verdict.comparisons[0]) << "nobody judged depth alone";
-  verdict.comparisons[1] = judged("s", "osmesa from its planes", Stage::depth, good);
+  verdict.comparisons[1] = judged("s", {"exact", Kind::from_scene}, Stage::depth, good);
   EXPECT_EQ(first_different(verdict), &verdict.comparisons[0]) << "who holds judged no records";
   verdict.comparisons = {judged("s", "osmesa", Stage::depth, bad), judged("s", alone, Stage::depth, good),
                          judged("s", "osmesa", Stage::merge, bad)};
@@ -161,60 +162,57 @@ TEST(UnjudgedStages, AreLostToAMissingReferenceWhereNobodyElseDeclined) {
 }
 
 TEST(Ledger, RowsAreUniqueAndSayWhy) {
-  std::set<std::string_view> names;
+  std::set<std::string> names;
   for (const Tolerance& row : ledger()) {
-    EXPECT_TRUE(names.insert(row.name).second) << row.name << " stands twice";
-    EXPECT_GT(row.factor, 0) << row.name << ": what is zero is not here";
-    EXPECT_TRUE(std::isfinite(row.factor)) << row.name;
-    EXPECT_FALSE(row.unit.empty()) << row.name;
-    EXPECT_GT(row.derivation.size(), 20u) << row.name;
-    EXPECT_EQ(&tolerance(row.name), &row);
+    const std::string name = name_of(row);
+    EXPECT_TRUE(names.insert(name).second) << name << " stands twice";
+    EXPECT_GT(row.factor, 0) << name << ": what is zero is not here";
+    EXPECT_TRUE(std::isfinite(row.factor)) << name;
+    EXPECT_FALSE(row.unit.empty()) << name;
+    EXPECT_GT(row.derivation.size(), 20u) << name;
+    EXPECT_EQ(&tolerance(row.profile, row.stage, row.part), &row);
   }
   EXPECT_FALSE(names.empty());
-  EXPECT_THROW(tolerance("exact.nothing"), std::logic_error);
-  EXPECT_THROW(tolerance(""), std::logic_error);
+  EXPECT_THROW(tolerance(Profile::exact, Stage::vertex, "nothing"), std::logic_error);
+  EXPECT_THROW(tolerance(Profile::foreign, Stage::vertex), std::logic_error) << "nobody is judged as another";
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-TEST(Ledger, RowsAndUsesAreTheSame) {
-  std::string code;
-  for (const auto& file : std::filesystem::recursive_directory_iterator(PLUMBLINE_SOURCE_DIR "/src/check")) {
-    if (file.path().extension() == ".cpp" && file.path().filename() != "ledger.cpp") code += text_of(file.path());
-  }
-  ASSERT_FALSE(code.empty());
+// golden/tolerances.json is the suite's use of the ledger.
+TEST(Ledger, EachRowIsUsedByTheSuite) {
+  const JsonFile file(PLUMBLINE_SOURCE_DIR "/golden/tolerances.json");
   std::set<std::string> used, rows;
-  const std::regex name("\"((exact|osmesa|embree|legal)\\.[a-z0-9.]+)\"");
-  for (std::sregex_iterator it(code.begin(), code.end(), name), end; it != end; ++it) used.insert((*it)[1]);
-  for (const Tolerance& row : ledger()) rows.emplace(row.name);
+  for (const JsonNode& row : file.root()["tolerances"].elements(0, 1000)) {
+    EXPECT_NE(row["largest_seen"].value().kind, JsonValue::Kind::null) << row["name"].text();
+    used.insert(row["name"].text());
+  }
+  for (const Tolerance& row : ledger()) rows.insert(name_of(row));
   EXPECT_EQ(used, rows);
 }
 
 TEST(LedgerUse, KeepsTheLargestRatioOfEachRow) {
-  const auto compared = [](double ratio, std::int64_t record, std::string_view row) {
+  const Tolerance* const clip = &tolerance(Profile::exact, Stage::clip);
+  const Tolerance* const light = &tolerance(Profile::exact, Stage::light);
+  const auto compared = [](double ratio, std::int64_t record, const Tolerance* row) {
     Measurement m = measured(0, 0, 0, ratio);
     m.max_ratio = ratio;
     m.worst.place.record = record;
     return judged("scene" + std::to_string(record), "ref", Stage::clip, m, row);
   };
   std::vector<SceneVerdict> verdicts(2);
-  verdicts[0].comparisons = {compared(0.25, 1, "exact.clip"), compared(0.75, 2, "exact.clip"), compared(9, 3, "")};
-  verdicts[1].comparisons = {compared(0.5, 4, "exact.clip"), compared(0, 5, "exact.light")};
-  verdicts[1].comparisons.push_back(compared(0.9, 6, "exact.clip"));
+  verdicts[0].comparisons = {compared(0.25, 1, clip), compared(0.75, 2, clip), compared(9, 3, nullptr)};
+  verdicts[1].comparisons = {compared(0.5, 4, clip), compared(0, 5, light)};
+  verdicts[1].comparisons.push_back(compared(0.9, 6, clip));
   verdicts[1].comparisons.back().outcome = Outcome::dispute;  // of which nobody knows what is the tolerance's
   std::size_t seen = 0;
   for (const LedgerUse& use : ledger_use(verdicts)) {
     ++seen;
-    if (use.row->name == "exact.clip") {
+    if (use.row == clip) {
       EXPECT_EQ(use.largest_ratio, 0.75);
       EXPECT_EQ(use.where, "scene2, ref, record 2");
-    } else if (use.row->name == "exact.light") {
+    } else if (use.row == light) {
       EXPECT_EQ(use.largest_ratio, 0) << "used, though nothing was apart";
     } else {
-      EXPECT_LT(use.largest_ratio, 0) << use.row->name << " was not used";
+      EXPECT_LT(use.largest_ratio, 0) << name_of(*use.row) << " was not used";
     }
   }
   EXPECT_EQ(seen, ledger().size());

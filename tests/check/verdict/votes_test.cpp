@@ -9,8 +9,8 @@
 namespace plumbline::check {
 namespace {
 
-Comparison row(const std::string& reference, Stage stage, Outcome outcome) {
-  Comparison c{"test", reference, stage, outcome, {}, "", ""};
+Comparison row(const JudgeId& judge, Stage stage, Outcome outcome) {
+  Comparison c{"test", judge, stage, outcome, {}, "", ""};
   c.measurement.items = 10;
   c.measurement.differing = outcome == Outcome::different ? 3 : 0;
   c.measurement.max_ratio = outcome == Outcome::different ? HUGE_VAL : 0;
@@ -21,8 +21,8 @@ Comparison row(const std::string& reference, Stage stage, Outcome outcome) {
 std::vector<Comparison> rows(std::vector<Comparison> more = {}) {
   std::vector<Comparison> out = {
       row("osmesa", Stage::coverage, Outcome::different), row("embree", Stage::coverage, Outcome::ambiguous_only),
-      row("exact from its records", Stage::coverage, Outcome::equal), row("osmesa", Stage::window, Outcome::within),
-      row("exact from its records", Stage::window, Outcome::equal)};
+      row({"exact", Kind::per_stage}, Stage::coverage, Outcome::equal), row("osmesa", Stage::window, Outcome::within),
+      row({"exact", Kind::per_stage}, Stage::window, Outcome::equal)};
   out.insert(out.end(), more.begin(), more.end());
   return out;
 }
@@ -74,13 +74,13 @@ TEST(Votes, ABudgetOfAmbiguityIsNobodysNumber) {
 
 TEST(Votes, ExactHasOneVoteAndIsNeverOutvoted) {
   std::vector<Comparison> twice = rows();
-  twice[1].reference = "exact from scene";
+  twice[1].judge = {"exact", Kind::from_scene};
   EXPECT_EQ(settled(twice).outcome, Outcome::different);
   std::vector<Comparison> alone = rows({row("egl", Stage::coverage, Outcome::equal)});
-  for (const char* kind : {"exact from scene", "exact from its records"}) {
-    alone[0].reference = kind;
-    alone[2].outcome = kind == std::string("exact from scene") ? Outcome::equal : Outcome::different;
-    EXPECT_EQ(settled(alone).outcome, Outcome::different) << kind;
+  for (const Kind kind : {Kind::from_scene, Kind::per_stage}) {
+    alone[0].judge = {"exact", kind};
+    alone[2].outcome = kind == Kind::from_scene ? Outcome::equal : Outcome::different;
+    EXPECT_EQ(settled(alone).outcome, Outcome::different) << name_of(kind);
   }
 }
 
@@ -89,7 +89,7 @@ TEST(Votes, WhoSharesArithmeticIsOneVoice) {
     std::vector<Comparison> all = rows();
     for (Comparison& c : std::span(all).first(3)) c.stage = stage;
     EXPECT_EQ(settled(all).outcome, Outcome::different) << name_of(stage) << ": embree and exact share it";
-    all[1].reference = "softpipe";
+    all[1].judge = "softpipe";
     EXPECT_EQ(settled(all).outcome, Outcome::dispute) << name_of(stage);
   }
 }
@@ -97,7 +97,7 @@ TEST(Votes, WhoSharesArithmeticIsOneVoice) {
 TEST(Votes, WhatIsSettledStandsInNoLaterStagesWay) {
   std::vector<Comparison> all = {row("embree", Stage::visibility, Outcome::different),
                                  row("osmesa", Stage::visibility, Outcome::equal),
-                                 row("exact from its records", Stage::visibility, Outcome::equal)};
+                                 row({"exact", Kind::per_stage}, Stage::visibility, Outcome::equal)};
   const std::vector<Comparison> of_coverage = rows();
   all.insert(all.end(), of_coverage.begin(), of_coverage.end());
   EXPECT_EQ(settled(all).outcome, Outcome::dispute);

@@ -20,7 +20,7 @@ TEST(OsmesaRandom, coverage_is_the_same_and_values_within_their_bounds) {
     for (std::uint64_t seed = 0; seed < 14 / one_of(7); ++seed) {
       const Scene scene = random_scene(kind, 200, seed);
       for (const check::Comparison& c : check::judge(scene, *ours, references).comparisons) {
-        if (c.reference != "osmesa") continue;
+        if (c.judge.reference != "osmesa") continue;
         EXPECT_FALSE(check::is_failure(c.outcome))
             << scene.name << ": " << name_of(c.stage) << ": " << c.measurement.differing << " of "
             << c.measurement.items << " differ, worst " << to_string(c.measurement.worst.place) << ": "

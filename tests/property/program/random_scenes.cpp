@@ -63,7 +63,7 @@ struct Row {
   bool operator==(const Row&) const = default;
 };
 Row row_of(const check::Comparison& c) {
-  return {c.reference, c.stage, c.outcome, c.outcome == check::Outcome::dispute ? c.measurement.reason : ""};
+  return {title_of(c.judge), c.stage, c.outcome, c.outcome == check::Outcome::dispute ? c.measurement.reason : ""};
 }
 
 class Judge {

@@ -32,7 +32,7 @@ function sizeText(row) {
 /** Rows are stages, columns who judged them. `chosen(row)` is called for the row of a cell. */
 class StageTable {
   constructor(rows, stages, first, chosen) {
-    const judges = [...new Set(rows.map((row) => row.reference))];
+    const judges = [...new Set(rows.map((row) => row.title))];
     this.buttons = new Map();
     const table = element('table', {className: 'stages'});
     table.append(element('tr', {}, element('th', {scope: 'col'}, 'stage'),
@@ -41,7 +41,7 @@ class StageTable {
       const of = rows.filter((row) => row.stage === stage);
       if (of.length === 0) continue;
       const cells = judges.map((judge) => {
-        const row = of.find((r) => r.reference === judge);
+        const row = of.find((r) => r.title === judge);
         return element('td', {}, row ? this.button(row, chosen) : '');
       });
       const isFirst = first !== null && first.stage === stage;
@@ -87,7 +87,7 @@ function rowDetails(row) {
     say('disputed, for', row.dispute?.reason);
   }
   say('note', row.note);
-  return element('div', {className: 'row'}, element('div', {}, element('h3', {}, `${row.stage}, by ${row.reference}`), list),
+  return element('div', {className: 'row'}, element('div', {}, element('h3', {}, `${row.stage}, by ${row.title}`), list),
                  isJudged(row) ? histogram(row) : '');
 }
 
@@ -122,7 +122,7 @@ function histogram(row) {
 /** The row that says most of a layer, against a side (what is expected, any judge says); or null. */
 function rowOf(rows, layer, side) {
   for (const stage of layer.judged) {
-    const found = rows.filter((row) => row.stage === stage && (side === 'expected' || row.reference.split(' ')[0] === side));
+    const found = rows.filter((row) => row.stage === stage && (side === 'expected' || row.reference === side));
     const told = found.find((row) => row.mark !== undefined) ?? found.find(isJudged);
     if (told) return told;
   }
@@ -131,6 +131,6 @@ function rowOf(rows, layer, side) {
 /** What to look at for a row: a layer's name, and a side's. */
 function lookAt(view, row) {
   const layer = view.layers.find((l) => l.judged[0] === row.stage) ?? view.layers.find((l) => l.judged.includes(row.stage));
-  const side = view.sides.find((s) => s === row.reference.split(' ')[0]);
+  const side = view.sides.find((s) => s === row.reference);
   return {layer: layer?.name, against: side};
 }

@@ -1,0 +1,55 @@
+#include "check/diagnose/effect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "check/bounds/bounds.h"
+#include "check/judge/stage_copy.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// The frame that the referee makes of a capture's records up to `stage`.
+Planes finished(const Scene& scene, Renderer& referee, Stage stage, Capture of) {
+  for (auto i = static_cast<std::size_t>(stage) + 1; i <= static_cast<std::size_t>(Stage::merge); ++i) {
+    copy_stage(static_cast<Stage>(i), {}, of);  // made of other records
+  }
+  for (auto i = static_cast<std::size_t>(stage) + 1; i <= static_cast<std::size_t>(Stage::merge); ++i) {
+    const auto next = static_cast<Stage>(i);
+    if (next == Stage::texture && !textured(scene)) continue;
+    copy_stage(next, referee.run_stage(scene, next, of), of);
+    round_to_formats(scene, next, of);
+  }
+  return std::move(of.planes);
+}
+
+bool differs(const Scene& scene, const Planes& a, const Planes& b, std::size_t i) {
+  const glm::vec4 apart = glm::abs(a.color.values()[i] - b.color.values()[i]);
+  const double z = a.depth.values()[i], depth = std::abs(z - b.depth.values()[i]);
+  return !(std::max({apart.r, apart.g, apart.b, apart.a}) <= 1.001f / 255) ||
+         !(depth <= 1.001 * depth_step(scene.frame.depth, z));
+}
+
+}  // namespace
+
+std::size_t pixels_explained(const Evidence& e) {
+  if (e.referee == nullptr || e.stage > Stage::merge) return 0;
+  try {
+    Capture right = e.candidate;
+    copy_stage(e.stage, e.expected, right);
+    round_to_formats(e.scene, e.stage, right);
+    const Planes a = finished(e.scene, *e.referee, e.stage, e.candidate),
+                 b = finished(e.scene, *e.referee, e.stage, std::move(right));
+    if (a.color.size() != b.color.size() || a.depth.size() != a.color.size() || b.depth.size() != a.color.size())
+      return 0;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < a.color.size(); ++i) n += differs(e.scene, a, b, i) ? 1 : 0;
+    return n;
+  } catch (const std::exception&) {
+    return 0;
+  }
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,71 @@
+#include "check/judge/stage_inputs.h"
+
+#include <fmt/format.h>
+
+namespace plumbline::check {
+
+StageSet inputs_of(Stage stage) {
+  using enum Stage;
+  switch (stage) {
+    case matrices: return {};
+    case vertex: return {matrices};
+    case light: return {matrices, vertex};
+    case clip: return {vertex, light};
+    case window: return {matrices, clip};
+    case coverage: return {window};
+    case depth:
+    case attributes: return {window, coverage};
+    case texture: return {window, coverage, attributes};
+    case shade: return {matrices, window, coverage, attributes, texture};
+    case visibility: return {window, coverage, depth, shade};
+    case merge: return {window, coverage, depth, shade};
+    case resolve: return {merge};
+  }
+  return {};
+}
+
+bool has_plane(const Planes& planes, Stage stage) {
+  switch (stage) {
+    case Stage::coverage: return !planes.count.empty();
+    case Stage::depth: return !planes.depth.empty();
+    case Stage::visibility: return !planes.id.empty();
+    case Stage::merge: return !planes.color.empty();
+    default: return !planes.shaded.empty();
+  }
+}
+
+namespace {
+
+// The first of `inputs` whose records the candidate does not show, with the reason; empty: it shows all.
+std::string lacking_records(const Scene& scene, const RendererInfo& candidate, StageSet inputs) {
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (!inputs.has(stage) || (stage == Stage::texture && !textured(scene))) continue;
+    if (!candidate[stage].shows) return fmt::format("{}: {}", kStageNames[i], candidate[stage].reason);
+    if (candidate[stage].planes_alone) return fmt::format("{}: it shows planes, no records", kStageNames[i]);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string lacking_beside(const Scene& scene, const Planes& planes, const RendererInfo& candidate, Stage stage) {
+  if (stage == Stage::coverage && planes.id_sum.empty()) return "it shows counts of fragments alone";
+  if (stage == Stage::visibility && planes.id.empty()) return "it shows no winners";
+  if (stage == Stage::coverage || stage == Stage::visibility) return "";
+  StageSet inputs = inputs_of(stage);
+  if (stage > Stage::coverage) {
+    if (planes.id.empty()) return "visibility: it shows no winners";
+    for (const Stage each : {Stage::matrices, Stage::vertex, Stage::light, Stage::clip}) inputs.add(each);
+  }
+  return lacking_records(scene, candidate, inputs);
+}
+
+std::string lacking_per_stage(const Scene& scene, const RendererInfo& candidate, Stage stage) {
+  const bool has_planes = stage == Stage::coverage || stage >= Stage::visibility;
+  if (!candidate[stage].shows) return candidate[stage].reason;
+  if (candidate[stage].planes_alone && !has_planes) return "it shows planes, no records";
+  return lacking_records(scene, candidate, inputs_of(stage));
+}
+
+}  // namespace plumbline::check
