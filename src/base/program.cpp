@@ -95,7 +95,7 @@ ProgramEnd wait_for(pid_t program, Clock::time_point deadline, const sigset_t& w
     const pid_t self = ::getpid(), program = ::fork();
     if (program == 0) {
       const int error = become(call, argv, environment, self);
-      [[maybe_unused]] const ssize_t told = ::write(failure[1], &error, sizeof error);
+      [[maybe_unused]] const ssize_t written = ::write(failure[1], &error, sizeof error);
       ::_exit(127);
     }
     if (program < 0) end.start_error = errno;
@@ -105,7 +105,7 @@ ProgramEnd wait_for(pid_t program, Clock::time_point deadline, const sigset_t& w
     if (end.start_error == 0) end = wait_for(program, deadline, waited);
     kill_children();
   }
-  [[maybe_unused]] const ssize_t told = ::write(answer, &end, sizeof end);
+  [[maybe_unused]] const ssize_t written = ::write(answer, &end, sizeof end);
   ::_exit(0);
 }
 

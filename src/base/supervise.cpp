@@ -88,19 +88,19 @@ void sleep_ms(int ms) {
 
 /// Waits for the program's end. Returns its wait status, and the signal by which the supervisor was told to end, or 0.
 std::pair<int, int> wait_for_program(pid_t program, const sigset_t& waited, const Shared& memory) {
-  int told = 0, status = 0;
+  int ended_by = 0, status = 0;
   while (true) {
     const int signal = ::sigwaitinfo(&waited, nullptr);
-    if (signal > 0 && signal != SIGCHLD && told == 0) {
-      told = signal;
+    if (signal > 0 && signal != SIGCHLD && ended_by == 0) {
+      ended_by = signal;
       for (int ms = 0; memory.held > 0 && ms < kHoldMs; ms += 2) sleep_ms(2);
       ::kill(program, SIGKILL);
     }
     pid_t ended;
     while ((ended = ::waitpid(-1, &status, WNOHANG)) > 0) {
-      if (ended == program) return {status, told};
+      if (ended == program) return {status, ended_by};
     }
-    if (ended < 0 && errno == ECHILD) return {status, told};  // cannot be, for the program is a child
+    if (ended < 0 && errno == ECHILD) return {status, ended_by};  // cannot be, for the program is a child
   }
 }
 
@@ -162,10 +162,10 @@ void supervise() {
     shared() = memory;
     return;
   }
-  const auto [status, told] = wait_for_program(program, waited, *memory);
+  const auto [status, ended_by] = wait_for_program(program, waited, *memory);
   kill_children();
   remove_registered(*memory);
-  if (told != 0) end_by(told);
+  if (ended_by != 0) end_by(ended_by);
   if (WIFSIGNALED(status)) end_by(WTERMSIG(status));
   ::_exit(WEXITSTATUS(status));
 }

@@ -1,4 +1,4 @@
-// What the tests of a fragment come to, for those who judge: of one number, and of all that may be.
+// Outcomes of a fragment's depth, alpha and stencil tests, of one number or of an interval: for judges.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace plumbline {
 
-/// What a comparison of a number within [lo, hi] with another may come to.
+/// Outcomes that a comparison of a number within [lo, hi] with another may have.
 struct Outcomes {
   bool may_pass, may_fail;
 };

@@ -32,7 +32,7 @@ struct Hit {
   double color_bound = 0;  ///< and how far, per channel, float arithmetic from the scene on may be from that
   bool depth_mask = true;  ///< whether its depth is written where it is drawn
   bool alpha_passes = true, alpha_fails = false;  ///< what the alpha test may come to
-  /// What its stencil test is by; that of the other side too where it is open which one it shows. No test: null.
+  /// Stencil state of the face that the hit shows; `or_stencil`: of the other face where facing is open. Null: no test.
   const StencilFace* stencil = nullptr;
   const StencilFace* or_stencil = nullptr;
   bool twice = false;  ///< two pieces of it may cover the pixel, which matters to stencil values
@@ -85,8 +85,8 @@ class LegalFold {
 /// either way. `out` is emptied first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
-/// What a fragment's texel may be where its level of detail is taken for four pixels at a time, by a logarithm that is
-/// linear between powers of two (as Mesa's drivers do), and its texture coordinates are off by a little.
+/// Legal texels of a fragment: its level of detail may be taken for four pixels together, by a logarithm that is linear
+/// between powers of two (as Mesa's drivers do), and its texture coordinates may be off by a little.
 struct TexelRange {
   glm::dvec4 lo{0}, hi{0};                                  ///< per channel, over the interval of lambda
   glm::dvec4 slope_s{0}, slope_t{0};                        ///< by how much per unit of s and of t, within half a texel

@@ -35,7 +35,7 @@ class StageSet {
   std::uint32_t bits_ = 0;
 };
 
-/// The planes that a capture is wanted for. What is not wanted may be handed out all the same.
+/// Planes that the caller needs. A renderer may hand out more.
 enum class WantedPlanes {
   all,
   picture,  ///< color and depth are enough: drawn as it ships, nothing is watched
@@ -67,8 +67,8 @@ struct RendererInfo {
   std::array<Ability, kStageNames.size()> stages;
   bool legal = false;  ///< capture() hands legal answers out
   Profile profile = Profile::foreign;
-  /// Names of the codes that draw a picture alone (WantedPlanes::picture), the one that ships last: each draws the bits
-  /// of the watched frame. Empty: a picture is drawn by the code that is watched.
+  /// Names of the code paths that draw pictures alone (WantedPlanes::picture), the default path last. Each must draw the
+  /// bits of the recorded frame. Empty: the recorded path draws pictures, too.
   std::vector<std::string> painters = {};
   const Ability& operator[](Stage s) const { return stages[static_cast<std::size_t>(s)]; }
   Ability& operator[](Stage s) { return stages[static_cast<std::size_t>(s)]; }

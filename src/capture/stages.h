@@ -74,8 +74,8 @@ struct Vertex {
   Vec3<T> n_eye;  ///< unit length, unless the draw has it otherwise (scene.h, Normals)
 };
 
-// 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours. Whatever else
-// its    fragments will need is laid beside it (varying.h), and goes the colour's way from here on.
+// 2. Each vertex is lit (or takes its own colour): rgba clamped to [0,1], as GL clamps vertex colours. Varyings
+//    (varying.h) are stored beside the colour; from here on they are clipped and interpolated as it is.
 template <class T>
 struct Lit {
   Vec4<T> color;
@@ -103,8 +103,8 @@ struct ClipPolygons {
 
 // 4. Each polygon is divided by w, moved to the window, and becomes a fan of triangles: corners (i-1, i, 0). Positions
 //    are snapped to 1/256 pixel; facing is the sign of the snapped area. Culled triangles and those of zero snapped
-//    area are gone. A line is a triangle whose last corner stands there twice, a point one of three equal corners; they
-//    face the front, and none is culled. Where a polygon is not to be filled (scene.h, PolygonMode), it becomes its
+//    area are gone. A line is a degenerate triangle whose last corner is repeated, a point one of three equal corners;
+//    they face the front, and none is culled. Where a polygon is not to be filled (scene.h, PolygonMode), it becomes its
 //    edges, from the one that ends in its first corner on, or its corners; facing, and with it the mode and culling,
 //    goes by its whole area's sign (0: the back), which they keep.
 inline constexpr int kSubpixel = 256;

@@ -1,5 +1,4 @@
-// What travels from the vertices to the fragments beside the colour: varyings, four numbers each. Clip, window and
-// attributes do with each of them what they do with the colour.
+// Varyings: vertex attributes of four numbers beside the colour. Clip, window and attributes treat each as the colour.
 #pragma once
 
 #include <array>
@@ -38,8 +37,7 @@ constexpr bool is_back(Varying v) { return v == Varying::back_color || v == Vary
 
 constexpr bool is_secondary(Varying v) { return v == Varying::secondary || v == Varying::back_secondary; }
 
-/// Whether the draw's fragments, or the faces that they are of, need it. Those of a draw that does not are zeros where
-/// another draw's are there.
+/// Whether the draw uses the varying. Where another draw of the scene does, this draw's entries of the columns are 0.
 bool carries(const Scene& scene, const Draw& draw, Varying v);
 /// Those that any draw carries, in their order.
 std::vector<Varying> carried(const Scene& scene);

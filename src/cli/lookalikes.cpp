@@ -90,12 +90,12 @@ int diagnose_picture(const DiagnoseOptions& o) {
   }
   std::erase_if(nearer, [&](const Lookalike& l) { return l.apart >= apart; });
   std::ranges::stable_sort(nearer, {}, &Lookalike::apart);
-  if (nearer.empty()) fmt::print("no known bug draws a picture that is nearer to it\n");
+  if (nearer.empty()) fmt::print("no known fault draws a picture that is nearer\n");
   constexpr std::size_t kShown = 8;
   for (const Lookalike& l : std::span(nearer).first(std::min(nearer.size(), kShown))) {
     fmt::print("{:>8} {:<36} {}\n", l.apart, l.name, l.says);
   }
-  if (!nearer.empty()) fmt::print("the nearest: pixels apart, bug, what it does; --capture tells which stage it is\n");
+  if (!nearer.empty()) fmt::print("columns: pixels that differ, fault, its effect; --capture FOLDER names the stage\n");
   return kDiffers;
 }
 

@@ -1,4 +1,4 @@
-// Stage 6: the depth of each fragment, and the depth test.
+// Stage 6: the depth of each fragment.
 //
 // Depth is affine in the window, and so are barycentric coordinates, over w or not: planes in double serve depth here
 // and attributes in stage 7. They go through the *unsnapped* positions: the snapped ones only decide coverage (through

@@ -166,9 +166,8 @@ inline void store_fours(const Vec4<float>& values, float* const (&to)[1]) {
   for (int i = 0; i < 4; ++i) to[0][i] = values[i];
 }
 
-/// Each lane's four floats, which lie where at(lane) says, in double, in four rows that suit the memory's order: of
-/// float, each a row. Of shares `k`, as many rows of each lane's own. The first argument is of no use, but for its
-/// type.
+/// Row `row` [0, 3] of the lanes' four floats at at(lane), widened to double, in the target's own order; of shares `k`,
+/// as many rows of each lane's own. The first argument selects the overload by its type.
 inline double row_of_fours(float, int row, auto at) { return to_wide(at(0)[row]); }
 inline double row_of_shares(float, int, const double (&k)[1]) { return k[0]; }
 inline Vec4<float> fours_of_rows(const double (&rows)[4]) { return {rows[0], rows[1], rows[2], rows[3]}; }

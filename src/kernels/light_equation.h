@@ -53,7 +53,7 @@ struct Reflectance {
   float shininess;
   R alpha;
 };
-/// `color`: of what of the material it stands for.
+/// `color`: the vertex colour, in place of those parts of the material that `material` says it stands for.
 template <class R>
 Reflectance<R> reflectance(const Scene& scene, const ColoredMaterial& material, const Color<R>& color) {
   const Material& own = material.own;

@@ -49,13 +49,14 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   }
 }
 
-/// Whether one's triangles may be painted as the other's: all else that a draw says, such kernels are there not to ask.
-inline bool alike(const PaintDraw& a, const PaintDraw& b) {
+/// Whether both draws' triangles may be of one run: of one kernel and shading. No other state changes what such kernels
+/// do.
+inline bool can_share_run(const PaintDraw& a, const PaintDraw& b) {
   return a.kernel == b.kernel && a.flat() == b.flat() && a.kernel != PaintKernel::any &&
          a.kernel != PaintKernel::shades;
 }
 
-/// The tile's triangles, chunk by chunk and draw by draw; those of draws that are alike together.
+/// The tile's triangles, chunk by chunk and draw by draw; those of draws that can share a run together.
 inline void find_runs(const Painting& painting, std::size_t tile, std::vector<PaintRun>& runs) {
   runs.clear();
   for (const Chunk& chunk : painting.chunks) {
@@ -65,7 +66,7 @@ inline void find_runs(const Painting& painting, std::size_t tile, std::vector<Pa
     while (!numbers.empty()) {
       while (numbers.front() >= of_draw->end) ++of_draw;
       const std::uint32_t draw = of_draw->draw;
-      while (of_draw + 1 != chunk.draws.end() && alike(painting.draws[draw], painting.draws[of_draw[1].draw]))
+      while (of_draw + 1 != chunk.draws.end() && can_share_run(painting.draws[draw], painting.draws[of_draw[1].draw]))
         ++of_draw;
       const auto end = std::ranges::lower_bound(numbers, of_draw->end);
       const auto count = static_cast<std::size_t>(end - numbers.begin());

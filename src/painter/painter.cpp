@@ -126,7 +126,7 @@ struct Painter::Memory {
   std::vector<Share> shares;
   std::vector<AssemblyWork> assembly;
   OtherTriangles others;
-  ScalarGeometry other_geometry;
+  ScalarGeometry scalar_geometry;
   std::vector<Chunk> chunks;
   std::vector<PaintVertex> vertices;
   std::vector<std::uint8_t> outside;
@@ -216,7 +216,7 @@ void Painter::Memory::run_vertices(const Scene& scene) {
 
 // Stages 0 to 4 by the definition, of primitives that do not go in lanes.
 void Painter::Memory::run_others(const Scene& scene) {
-  const std::span<const ShadedTriangle> triangles = other_geometry.run(scene, assembly);
+  const std::span<const ShadedTriangle> triangles = scalar_geometry.run(scene, assembly);
   others = {triangles, static_cast<std::uint32_t>(vertex_count)};
   if (triangles.empty()) return;
   const std::size_t all = vertex_count + 3 * triangles.size();

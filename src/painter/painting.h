@@ -106,8 +106,8 @@ struct PaintRun {
 struct Painting {
   FrameFormat format;
   Formats formats;
-  std::span<const glm::ivec2>
-      samples;        ///< Formats::sample, one of them, or of all that a pixel's colour is the mean of
+  /// Formats::sample, one of them, or of all that a pixel's colour is the mean of
+  std::span<const glm::ivec2> samples;
   int columns, rows;  ///< of tiles
   const PaintVertex* vertices;
   std::array<const Vec4<float>*, kVaryings> varyings;  ///< beside vertices

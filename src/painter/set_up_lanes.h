@@ -5,11 +5,11 @@
 
 namespace plumbline::pipeline {
 
-/// Edge functions are in 32 bits, counted from the tile: E(x, y) >= 0 (coverage.h) exactly where at_tile + step_x x +
-/// step_y y < 0, so that the sign bit of all three is that of their "and". E's steps are multiples of 256, so that of
-/// the rest its floor tells; here they have the other sign. |step| <= 2^22 and 64 pixels reach less than 2^29, so that
-/// what is beyond 2^30 has a sign that no pixel of the tile changes. Corners cut where w is tiny may be rounded to far
-/// outside of the frame: such edges do not fit.
+/// Edge functions of 32 bits, relative to the tile, negated and divided by 256, which is exact: E's steps are multiples
+/// of 256, and of the rest its floor decides. E(x, y) >= 0 (coverage.h) exactly where at_tile + step_x x + step_y y < 0,
+/// so that the sign bit of all three is that of their "and". Values are clamped to +-2^30: |step| <= 2^22, so that 64
+/// pixels change E by less than 2^29, and a clamped value keeps its sign. Corners cut where w is tiny may be rounded to
+/// far outside of the frame: such edges do not fit.
 inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
 
 /// A triangle in its lane. Edges and depths are taken at each of the pixel's samples, which differ but in what is added

@@ -49,7 +49,7 @@ using PixelSamples = FixedVector<PixelSample, 64>;
 /// glBlitFramebuffer too takes sample 0's.
 PixelSamples samples_of(const Antialias& antialias);
 
-/// From the pixel's centre to where coverage and depth are taken, in 1/256 pixel.
+/// Offset from the pixel's centre of the pass' sample, where coverage and depth are taken [1/256 pixel].
 inline glm::ivec2 sample_place(const FrameFormat& frame) {
   return frame.pass.sample ? kSamples[static_cast<std::size_t>(*frame.pass.sample)] : glm::ivec2(0);
 }

@@ -28,8 +28,8 @@ enum class Topology { triangles, lines, points };
 /// How many corners a primitive has: 3, 2 or 1.
 constexpr std::uint32_t corner_count(Topology topology) { return 3 - static_cast<std::uint32_t>(topology); }
 
-/// An indexed mesh in model space. Every primitive names three corners, so that what runs over corners need not ask
-/// what it is: a line's last stands there twice, a point's three times.
+/// An indexed mesh in model space. Every primitive has three indices, so that loops over corners need no case: a line
+/// repeats its last, a point has three equal ones.
 struct Mesh {
   std::vector<glm::vec3> positions;   ///< model space, finite
   std::vector<glm::vec3> normals;     ///< unit length, as many as positions
@@ -201,7 +201,8 @@ struct Merge {
   std::optional<Blend> blend;   ///< none: it replaces what is there
   glm::bvec4 color_mask{true};  ///< channels that are written
   bool depth_mask = true;       ///< whether its depth is written
-  /// Of codes, in blending's place (OpenGL 2.1 spec 4.1.10); a float colour replaces what is there.
+  /// Logic op of colour codes, in blending's place (OpenGL 2.1 spec 4.1.10). In a float frame the colour replaces what
+  /// is stored.
   std::optional<LogicOp> logic_op = std::nullopt;
 };
 
@@ -237,7 +238,7 @@ struct Draw {
 inline bool is_lit_per_vertex(const Draw& draw) { return draw.lit && draw.shading != Shading::phong; }
 inline bool is_lit_per_fragment(const Draw& draw) { return draw.lit && draw.shading == Shading::phong; }
 
-/// What a pixel's colour is the mean of (antialias.h), but for `none`, where it is that at its centre.
+/// Samples that a pixel's colour is the mean of (antialias.h); `none`: the colour at the pixel's centre.
 struct Antialias {
   enum class Kind {
     none,
@@ -299,7 +300,7 @@ struct LitPart {
 /// 2.1 spec 2.14.3); null: the mesh has none. Of the secondary part, alpha means nothing.
 Material lit_material(const Scene& scene, const Draw& draw, LitPart part, const glm::vec4* color);
 
-/// Whether any draw makes such primitives: is of such a mesh, or of triangles of which it draws edges or corners.
+/// Whether any draw makes primitives of that topology, by its mesh or by its polygon modes.
 bool draws(const Scene& scene, Topology topology);
 /// Whether a pixel's colour is that of its last fragment alone: nothing is blended, combined or masked.
 inline bool colors_replace(const Scene& scene) {

@@ -92,6 +92,14 @@ TEST(Readme, IsReadInFiveMinutes) {
   EXPECT_LE(words, 1300u);
 }
 
+TEST(Readme, QuotesTheFaultsCode) {
+  const std::string readme = read(PLUMBLINE_SOURCE_DIR "/README.md"), file = "tests/faults/raster.cpp";
+  const std::size_t from = readme.find('`', readme.find("`" + file + "`") + file.size() + 2) + 1;
+  const std::string quoted = readme.substr(from, readme.find('`', from) - from);
+  EXPECT_GT(quoted.size(), 20u);
+  EXPECT_NE(read(PLUMBLINE_SOURCE_DIR "/" + file).find(quoted), std::string::npos) << quoted;
+}
+
 TEST(Readme, HoldsTheFirstSceneAndItsPicture) {
   const std::string scene = read(kScenes + "texture/first_scene.json");
   EXPECT_NE(read(PLUMBLINE_SOURCE_DIR "/README.md").find("```json\n" + scene + "```"), std::string::npos);

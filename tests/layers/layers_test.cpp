@@ -143,7 +143,7 @@ TEST(Layers, NoReferenceSeesTheRenderer) {
   std::set<std::string> seen;  // folders
   int references = 0;
   for (const auto& [folder, next] : folders) {
-    if (!folder.starts_with("reference/")) continue;
+    if (folder != "reference" && !folder.starts_with("reference/")) continue;
     ++references;
     seen.merge(reached(folders, folder));
   }

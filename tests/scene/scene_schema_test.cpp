@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -168,6 +169,22 @@ TEST_F(SceneSchema, ItsKeysAreReadAndNeededAsItSays) {
   }
 }
 
+/// The first values beyond the limits of a number.
+std::vector<std::string> beyond(const JsonNode& schema) {
+  const auto type = schema.find("type");
+  std::vector<std::string> out;
+  for (const auto& [limit, sign] : {std::pair("minimum", -1), std::pair("maximum", 1)}) {
+    if (!type || !schema.find(limit)) continue;
+    const JsonValue& value = schema[limit].value();
+    if (type->text() == "number") {
+      out.push_back(fmt::format("{}", value.real + sign * std::max(1e-9, 1e-9 * std::abs(value.real))));
+    } else if (std::abs(value.real) < 1e15) {
+      out.push_back(fmt::format("{}", value.integer + sign));
+    }
+  }
+  return out;
+}
+
 TEST_F(SceneSchema, ItsValuesAreTheLoaders) {
   for (const Sample& sample : kSchemaSamples) {
     const JsonNode schema = definition(sample.definition);
@@ -182,6 +199,11 @@ TEST_F(SceneSchema, ItsValuesAreTheLoaders) {
       const Members bad =
           alternatives(schema) ? Members{{key, "false"}} : with(sample.members, key, boolean ? "0" : "false");
       const std::string expected = "expected " + expectation(property);
+      for (const std::string& value_beyond : beyond(property)) {
+        const Members members =
+            alternatives(schema) ? Members{{key, value_beyond}} : with(sample.members, key, value_beyond);
+        EXPECT_TRUE(said_of(sample, members).starts_with(expected)) << sample.definition << " " << key << value_beyond;
+      }
       std::string said = said_of(sample, bad);
       EXPECT_EQ(said.substr(0, expected.size()), expected) << sample.definition << " " << key;
       said.erase(0, expected.size());

@@ -37,19 +37,18 @@ double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
 /// matrix comes to in its inverse; in the largest component.
 double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n);
 
-/// What rounding may do to a lit colour.
+/// Bounds of what rounding does to a lit colour.
 struct LightBounds {
   /// Per channel, in units of u, how it may differ in float from the spec's equation in double: the sum over the lights
   /// of |ambient| + k |n| |diffuse| + (k + s e) |specular|, at least 1 (the clamped result).
   /// s: shininess, by which a power multiplies its argument's error (of cosines above 1, by s n^(s-1)); e: that error,
   /// |n| k (1 + 1 / |L + E|) of the half vector (|L + E|: its length before it is normalised; 1 / |L + E| more of a
   /// local viewer), 4 |n|^2 (k + 1) of 2 (N.L) (N.E) - L.E; k: of a point light, (|light| + |p_eye|) / |light - p_eye|
-  /// +
-  /// 1. Attenuation has 2 k, a cone the slope of its power times k + 1. Infinite where no direction is left (a light at
+  /// + 1. Attenuation has 2 k, a cone the slope of its power times k + 1. Infinite where no direction is left (a light at
   /// the vertex).
   Vec3<double> magnitude{0};
-  /// Per channel, what may come or go: the specular terms of lights whose N.L is within rounding of 0; all of a light
-  /// whose cone ends within rounding; in GzRender's rule, where N.E is.
+  /// Per channel, the light that rounding may add or take away: the specular terms of lights whose N.L is within
+  /// rounding of 0; all of a light whose cone ends within rounding; in GzRender's rule, where N.E is.
   Vec3<double> jump{0};
   /// Per channel, what the inputs' errors come to, to which the magnitude knows nothing.
   Vec3<double> inherited{0};
@@ -61,7 +60,7 @@ struct LightBounds {
 struct LightInputs {
   double p_eye = 0, n_eye = 0, color = 0;
 };
-/// `material`: the draw's at the vertex (scene.h, colored).
+/// `material`: the draw's at the vertex (scene.h, lit_material).
 /// `lights`: recorded ones; where there are none, the scene's.
 LightBounds light_bounds(const Scene& scene, const Material& material, const Vertex<double>& vertex,
                          const LightInputs& errors = {}, std::span<const LightSource<double>> lights = {});

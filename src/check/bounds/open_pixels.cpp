@@ -135,11 +135,11 @@ std::vector<LegalAnswer> LegalWinners::at(int x, int y) const {
     hit.z_hi = std::isfinite(error) ? std::min(z + error, 1.0) : 1;
     hit.depth_mask = draw.merge.depth_mask;
     if (draw.alpha_test) {
-      const bool told = i < records_.shaded.size();
-      const double alpha = told ? records_.shaded[i].color.a : 0;
+      const bool known = i < records_.shaded.size();
+      const double alpha = known ? records_.shaded[i].color.a : 0;
       const Outcomes test = alpha_outcomes(*draw.alpha_test, scene_.frame.color, alpha, alpha);
-      hit.alpha_passes = !told || test.may_pass;
-      hit.alpha_fails = !told || test.may_fail;
+      hit.alpha_passes = !known || test.may_pass;
+      hit.alpha_fails = !known || test.may_fail;
     }
     if (draw.stencil) hit.stencil = triangle.front ? &draw.stencil->front : &draw.stencil->back;
   });

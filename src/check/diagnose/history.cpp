@@ -354,8 +354,8 @@ History pixel_history(const Scene& scene, Renderer& candidate, std::span<const R
       for (const SampleHistory& s : out.samples) {
         if (s.pass == pass) pixels.push_back(s.pixel);
       }
-      std::vector<PixelHistory> told = histories(passes[pass], r, pixels);
-      auto next = told.begin();
+      std::vector<PixelHistory> of_pass = histories(passes[pass], r, pixels);
+      auto next = of_pass.begin();
       for (SampleHistory& s : out.samples) {
         if (s.pass == pass) s.renderers.push_back(std::move(*next++));
       }

@@ -26,8 +26,8 @@ GoldenDifference compare_golden(const Scene& scene, Renderer& candidate, const G
 /// For a person: the first stage that differs, the pixels, the worst one. Lines.
 std::string describe(const GoldenDifference& difference);
 
-/// Rows of Kind::golden, one for each stage that hands on anything; a picture that differs
-/// counts its pixels in the last. `failed` where there is nothing to compare.
+/// Rows of Kind::golden, one for each stage that hands on anything; a picture that differs counts its pixels in the
+/// last. `failed` where there is nothing to compare.
 std::vector<Comparison> golden_rows(const Scene& scene, Renderer& candidate, const GoldenSet& goldens);
 
 /// Whether the references vouch for what was judged.
@@ -37,8 +37,8 @@ struct Vouch {
   std::vector<std::string> disputed;  ///< where a reference is at fault, and why
   std::map<std::string, std::map<std::string, std::string>> references;  ///< as in the manifest
 };
-/// Of all that `asked` says: three references or more, none of them the candidate. They vouch if no comparison is a
-/// failure, every stage is judged, and at each a reference agrees whose own fault nothing there is.
+/// The rule of vouching. `asked`: three references or more, none of them the candidate. They vouch if no comparison is
+/// a failure, every stage is judged, and at each stage a reference agrees of which nothing there is disputed.
 Vouch vouch(const SceneVerdict& verdict, const std::string& candidate, std::span<const std::string> asked);
 
 }  // namespace plumbline::check

@@ -24,9 +24,9 @@ struct BothCaptures {
   std::vector<Capture> references;  ///< in the references' order; empty captures where there is none
 };
 
-/// References are told apart by what they are able to do (renderer.h), not by name: one that runs stages is a judge of
-/// the candidate's own records, stage by stage (Kind::per_stage); one that hands out legal answers is an oracle
-/// for coverage, depth, visibility and colour; of any, what it shows is compared side by side.
+/// A reference's role follows from its info (renderer.h), not from its name. The referee judges the candidate's own
+/// records, stage by stage (Kind::per_stage); a reference of legal answers is an oracle for coverage, depth, visibility
+/// and colour; everything else that a reference shows is compared side by side.
 ///
 /// Where the candidate's planes count more than `most_fragments`, or its fragments do not fit the memory budget, their
 /// records are not asked for; with the first, an oracle's answers are where another winner is seen, and nowhere else.

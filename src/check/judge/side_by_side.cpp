@@ -125,13 +125,13 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
       }
       if (over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
       if (mine.depth.size() != mine.covered.size()) {
-        return c.skip(name, stage, Outcome::unsupported, "how deep fragments are is not told");
+        return c.skip(name, stage, Outcome::unsupported, "it shows no depths of fragments");
       }
       return c.add(name, stage, compare_thin_winners(c.scene, c.candidate, theirs));
     case Stage::merge: {
       const bool replaced = colors_replace(c.scene);
       if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {
-        return c.skip(name, stage, Outcome::unsupported, "which fragments are blended is not told");
+        return c.skip(name, stage, Outcome::unsupported, "it shows not which fragments are drawn");
       }
       if (!replaced && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
       const double attributes = factor_of(Stage::attributes);

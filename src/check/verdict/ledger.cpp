@@ -132,7 +132,7 @@ constexpr std::array kLedger = {
     Tolerance{Profile::oracle, Stage::depth, "", 1, "step",
               "The legal interval, and one step of the depth format for the rounding."},
     Tolerance{Profile::oracle, Stage::attributes, "", 1, "bound",
-              "The oracle's own bound of float arithmetic from the scene on (reference/math, color_error.h)."},
+              "The oracle's own bound of float arithmetic from the scene on (reference/arithmetic/color_error.h)."},
     Tolerance{Profile::oracle, Stage::merge, "", 1, "bound",
               "oracle.attributes' bound and, where the frame has codes, half a code for the rounding."},
 };

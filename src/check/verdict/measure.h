@@ -64,8 +64,8 @@ class Meter {
   /// that is not finite as 0. `allowance`: of another row, granted before this tolerance is touched.
   void value(double diff, double tolerance, const Place& place, double candidate, double reference,
              double allowance = 0);
-  /// What the item at hand still gets beyond its tolerance is the reference's fault, and why: disputed. (Not what is no
-  /// number.) An empty reason: nothing is.
+  /// Marks later differences of the current item beyond their tolerance as disputed, the reference's fault, with the
+  /// reason; NaN excepted. An empty reason: no more.
   void suspect(std::string_view why) { why_ = why; }
   void ambiguous() { item_ambiguous_ = true; }
   /// Ends an item that has got its values.

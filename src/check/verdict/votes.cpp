@@ -17,7 +17,7 @@ bool holds(const Comparison& row) {
 bool fails(const Comparison& row) { return row.outcome == Outcome::different || row.outcome == Outcome::failed; }
 
 // Who speaks with the row. From texture on Embree's texels, light, fog, formats and blending are those of exact's
-// records (reference/math), so that the two are one voice.
+// records (reference/arithmetic), so that the two are one voice.
 std::string voice(const Comparison& row) {
   const std::string& name = row.judge.reference;
   return row.stage >= Stage::texture && name == "embree" ? "exact" : name;

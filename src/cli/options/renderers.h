@@ -27,8 +27,8 @@ std::unique_ptr<Renderer> make_renderer(const std::string& name);
 inline constexpr std::chrono::minutes kOwnProcessLimit{10};  // softpipe takes its time
 /// Whether it would be a second Mesa in this process.
 bool in_own_process(const std::string& name);
-/// One of several in a run: what in_own_process() is this program once more, which looks for meshes in `assets` as
-/// well. Else as make_renderer().
+/// A reference of a run with several: as make_renderer(), but a second Mesa (in_own_process) is a child process of this
+/// program, which is given `assets`.
 std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets);
 
 struct FaultInfo {

@@ -189,10 +189,10 @@ class Block {
     std::vector<std::string> cells;
     for (const PixelHistory& h : renderers_) {
       const PixelFragment* f = find(h, key);
-      const std::optional<std::string> told = f == nullptr ? std::nullopt : tell(*f);
+      const std::optional<std::string> text = f == nullptr ? std::nullopt : tell(*f);
       const auto reason = h.lacks.find(f == nullptr ? "fragments" : lack);
-      if (told) {
-        cells.push_back(*told);
+      if (text) {
+        cells.push_back(*text);
       } else if (!h.absent.empty()) {
         cells.push_back(notes_.unsupported(h.renderer, h.absent));
       } else if (reason != h.lacks.end()) {
@@ -207,9 +207,9 @@ class Block {
   std::string frames(const char* label, auto tell) {
     std::vector<std::string> cells;
     for (const PixelHistory& h : renderers_) {
-      const std::optional<std::string> told = tell(h);
+      const std::optional<std::string> text = tell(h);
       const std::string reason = h.absent.empty() ? fmt::format("it shows no {} of the frame", label) : h.absent;
-      cells.push_back(told ? *told : notes_.unsupported(h.renderer, reason));
+      cells.push_back(text ? *text : notes_.unsupported(h.renderer, reason));
     }
     return row(label, cells);
   }

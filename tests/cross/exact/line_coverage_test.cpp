@@ -1,4 +1,4 @@
-// The diamond-exit rule twice: by columns (src/raster), and by intersecting the segment with every diamond
+// The diamond-exit rule twice: by columns (src/kernels), and by intersecting the segment with every diamond
 // (reference/exact).
 #include <algorithm>
 #include <random>

@@ -1,4 +1,4 @@
-// Textures drawn by OSMesa, against the filter in double: its levels of detail are what reference/math says of them.
+// Textures drawn by OSMesa, against the filter in double: its levels of detail are what reference/arithmetic says of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
