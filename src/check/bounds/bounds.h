@@ -22,9 +22,7 @@ struct Roundings {
   double count;
   double underflow = kGradualUnderflow;
   /// Error of a result whose terms come to `magnitude`. A sum of nothing but zeros is not rounded.
-  double operator()(double magnitude) const {
-    return magnitude == 0 ? 0 : count * (kUnitRoundoff * magnitude + underflow);
-  }
+  double operator()(double magnitude) const;
 };
 
 /// |M| |p|: what the rounding errors of M p are proportional to.

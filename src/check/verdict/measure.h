@@ -1,6 +1,7 @@
 // Measurements: what a comparator returns. It measures; the verdict decides.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -54,6 +55,9 @@ struct Measurement {
 
 /// |a - b|; 0 for equal numbers, equal infinities included; infinite where anything else is not finite.
 double difference(double a, double b);
+
+/// greater - less, modulo 2^64: integers do not all fit a double, nor a signed difference its type.
+double integers_apart(std::uint64_t greater, std::uint64_t less);
 
 /// Gathers a measurement item by item.
 class Meter {
@@ -124,9 +128,8 @@ template <class T>
 Measurement compare_equal(const Plane<T>& candidate, const Plane<T>& reference, const std::string& unit) {
   return compare_planes(candidate, reference, unit, [&](Meter& meter, int x, int y) {
     const T a = candidate(x, y), b = reference(x, y);
-    // Subtracted as 64-bit integers, modulo 2^64: they do not all fit a double, nor a signed difference its type.
-    const auto wide_a = static_cast<std::uint64_t>(a), wide_b = static_cast<std::uint64_t>(b);
-    const auto diff = static_cast<double>(a > b ? wide_a - wide_b : wide_b - wide_a);
+    const double diff =
+        integers_apart(static_cast<std::uint64_t>(std::max(a, b)), static_cast<std::uint64_t>(std::min(a, b)));
     meter.value(diff, 0, {x, y, -1, ""}, static_cast<double>(a), static_cast<double>(b));
   });
 }
