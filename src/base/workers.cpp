@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -112,6 +113,8 @@ void set_limits(const WorkerLimits& limits) {
 [[noreturn]] void be_worker(int socket, const WorkerLimits& limits, Progress& progress,
                             const std::function<Workers::Answer(Progress&)>& make) {
   set_limits(limits);
+  // exit() in a renderer ends the process at once: what the parent registered to run may wait for the parent's threads.
+  ::on_exit([](int status, void*) { ::_exit(status); }, nullptr);
   Workers::Answer answer;
   std::string received;
   while (true) {

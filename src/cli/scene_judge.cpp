@@ -18,7 +18,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   if (!candidate_) {  // here, since what is made may have ended a worker before
     const Watch watch{progress_, &ended_, o.limits.step};
     candidate_ = make_watched(make_candidate(o.fault), 0, watch);
-    references_ = make_references(o.against, o.scene_arguments.assets, watch);
+    references_ = make_references(o.against, o.scene_arguments.assets, watch, o.fault);
   }
   JudgedScene out;
   check::BothCaptures drawn;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <map>
 #include <numeric>
 #include <set>
@@ -106,6 +107,14 @@ TEST(Workers, ACrashEndsOneWorkerAndItsStepIsKnown) {
   expect_one_end(harmed([] { raise(SIGSEGV); }), "was killed by signal 11 (Segmentation fault)");
   expect_one_end(harmed([] { raise(SIGKILL); }), "was killed by signal 9 (Killed)");
   expect_one_end(harmed([] { _exit(3); }), "ended its process with status 3");
+}
+
+TEST(Workers, AnExitDoesNotWaitForWhatTheParentRegistered) {
+  static const pid_t parent = getpid();
+  std::atexit([] {
+    while (getpid() != parent) pause();
+  });
+  expect_one_end(harmed([] { std::exit(4); }, {.step = 30s}), "ended its process with status 4");
 }
 
 TEST(Workers, AHangEndsOneWorker) {

@@ -1,5 +1,9 @@
 // Renderers that crash, hang, take all memory or throw: a row each, and everything else is judged.
+#include <algorithm>
 #include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/run_plumb.h"
 
@@ -60,6 +64,53 @@ TEST_F(FailingRenderers, leave_the_other_scenes_alone) {
   EXPECT_TRUE(run.says("failed cull/both_windings: ours, clip: ")) << run.text;
   EXPECT_TRUE(run.says("failed scissor/windows: ours, clip: ")) << run.text;
   EXPECT_TRUE(run.says("FAILED: 2 scenes")) << run.text;
+}
+
+// One of 50 scenes fails, in one row; a reference that ends its worker takes no other scene with it.
+TEST_F(FailingRenderers, fail_one_scene_of_a_run) {
+  std::vector<fs::path> scenes;
+  for (const char* group : {"coverage", "cull", "scissor", "depth", "masks", "stencil"}) {
+    for (const auto& file : fs::directory_iterator(kScenes + group)) {
+      const std::string name = file.path().filename();
+      if (name.ends_with(".json") && !name.ends_with(".part.json")) scenes.push_back(file.path());
+    }
+  }
+  std::erase(scenes, fs::path(kWindings));
+  ASSERT_GE(scenes.size(), 48u);
+  scenes.resize(48);
+  scenes.insert(scenes.begin() + 24, kWindings);
+  scenes.push_back(kScenes + "blend/factors.json");
+  std::string run = "check";
+  for (const fs::path& scene : scenes) run += " " + scene.string();
+  run += " --against exact,image_order --time-limit 10 --memory-limit 1024 --json " + at("run.json");
+  const std::pair<const char*, const char*> kEndings[] = {{"throw", "a scene too many"},
+                                                          {"memory", "took more memory than a worker may have"},
+                                                          {"crash", "was killed by signal 11 (Segmentation fault)"},
+                                                          {"exit", "ended its process with status 0"},
+                                                          {"hang", "took longer than 10s and was killed"}};
+  for (const auto& [how, says] : kEndings) {
+#ifdef __SANITIZE_ADDRESS__
+    if (std::string_view(how) == "memory") continue;  // AddressSanitizer's new ends the process instead of throwing
+#endif
+    const Outcome check = plumb(run + " --fault endings." + how + ":image_order:cull/both_windings");
+    EXPECT_EQ(check.code, 1) << check.text;
+    EXPECT_TRUE(check.says("FAILED: 50 scenes, ") && check.says(", 1 failed")) << check.text;
+    EXPECT_TRUE(check.says("failed cull/both_windings: image_order, merge: ")) << check.text;
+    EXPECT_TRUE(check.says(says)) << check.text;
+    std::set<std::string> judged, failed;
+    std::size_t failed_rows = 0;
+    const auto json = nlohmann::json::parse(read(at("run.json")));
+    for (const auto& row : json.at("comparisons")) {
+      const bool fails = row.at("outcome") == "failed";
+      failed_rows += fails ? 1 : 0;
+      if (fails) failed.insert(row.at("scene"));
+      if (row.at("outcome") == "equal" || row.at("outcome") == "within") judged.insert(row.at("scene"));
+    }
+    std::erase_if(judged, [&](const std::string& scene) { return failed.contains(scene); });
+    EXPECT_EQ(judged.size(), 49u) << how;
+    EXPECT_EQ(failed, std::set<std::string>{"cull/both_windings"}) << how;
+    EXPECT_EQ(failed_rows, 1u) << how;
+  }
 }
 
 }  // namespace

@@ -17,13 +17,13 @@ References make_references(const std::vector<std::string>& names, const std::vec
 }
 
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
-                           const Watch& watch) {
+                           const Watch& watch, const std::string& fault) {
   References out;
   std::uint32_t number = 0;
   for (const std::string& name : names) {
     Watch own = watch;
     if (in_own_process(name)) own.limit += kOwnProcessLimit;  // which ends it before
-    const auto make = [&] { return make_reference(name, assets); };
+    const auto make = [&] { return make_reference(name, assets, fault); };
     out.owned.push_back(make_watched(name, make, ++number, own));
     out.list.push_back({name, out.owned.back().get()});
   }

@@ -17,9 +17,9 @@ struct References {
 };
 /// `assets`: where those in processes of their own look for meshes as well.
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets);
-/// In a worker: each is watched, numbered from 1.
+/// In a worker: each is watched, numbered from 1. `fault`: of one of them (faults/endings.h), or of none.
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
-                           const Watch& watch);
+                           const Watch& watch, const std::string& fault = "");
 
 /// Each once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
 std::vector<std::string> without_repeats(const std::vector<std::string>& names);

@@ -124,12 +124,24 @@ bool in_own_process(const std::string& name) {
   return name == "softpipe" ? kOsmesa || kEgl : name == "egl" && kEgl && kOsmesa;
 }
 
-std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets) {
+namespace {
+
+std::unique_ptr<Renderer> sound_reference(const std::string& name, const std::vector<std::string>& assets) {
   if (in_own_process(name)) return std::make_unique<OwnProcess>(opengl_info(name), assets);
   return make_renderer(name);
 }
 
+}  // namespace
+
 #ifdef PLUMBLINE_FAULTS
+std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets,
+                                         const std::string& fault) {
+  std::unique_ptr<Renderer> reference = sound_reference(name, assets);
+  const auto ending = faults::reference_ending(fault);
+  return ending && ending->reference == name ? faults::make_ending(std::move(reference), *ending)
+                                             : std::move(reference);
+}
+
 std::vector<FaultInfo> fault_infos() {
   std::vector<FaultInfo> out;
   for (const faults::Fault& fault : faults::all()) {
@@ -139,7 +151,7 @@ std::vector<FaultInfo> fault_infos() {
 }
 
 std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
-  if (fault.empty()) return pipeline::make_pipeline();
+  if (fault.empty() || faults::reference_ending(fault)) return pipeline::make_pipeline();
   for (const faults::Fault& f : faults::all()) {
     if (f.name == fault) return pipeline::make_pipeline(f.stages());
   }
@@ -152,6 +164,11 @@ std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
       fmt::format("no fault '{}'{}: plumb list faults shows all", fault, did_you_mean(fault, names)));
 }
 #else
+std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets,
+                                         const std::string&) {
+  return sound_reference(name, assets);
+}
+
 std::vector<FaultInfo> fault_infos() { return {}; }
 
 std::unique_ptr<Renderer> make_candidate(const std::string& fault) {

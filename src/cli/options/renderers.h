@@ -28,15 +28,17 @@ inline constexpr std::chrono::minutes kOwnProcessLimit{10};  // softpipe takes i
 /// Whether it would be a second Mesa in this process.
 bool in_own_process(const std::string& name);
 /// A reference of a run with several: as make_renderer(), but a second Mesa (in_own_process) is a child process of this
-/// program, which is given `assets`.
-std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets);
+/// program, which is given `assets`. With the named fault, if that is one of this reference (faults/endings.h).
+std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets,
+                                         const std::string& fault = "");
 
 struct FaultInfo {
   std::string_view name, stage, changes;
   std::string_view report;  ///< who reports such a bug (faults.h), or empty
 };
 std::vector<FaultInfo> fault_infos();
-/// Our pipeline; with the named fault unless the name is empty. Throws std::invalid_argument if it is unknown.
+/// Our pipeline, with the named fault unless that is none or a reference's. Throws std::invalid_argument if it is
+/// unknown.
 std::unique_ptr<Renderer> make_candidate(const std::string& fault);
 
 }  // namespace plumbline::cli
