@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/draw_of.h"
+#include "scene/draw_index.h"
 
 namespace plumbline {
 
@@ -20,13 +20,12 @@ void require(bool fits, std::string_view records) {
 // Whether records are in draw order, of primitives that the scene has, and each with as many corners as its primitive
 // may have: a line 2, a point 1, what is left of a triangle 3 to `most`; of one that is not filled `least` are enough.
 bool fit(const Scene& scene, const auto& records, auto corners_of, std::uint32_t least, std::uint32_t most) {
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const DrawIndex draws(scene);
   const auto fits = [&](const auto& record) {
-    const auto number = draw_of(ranges, record.primitive);
-    if (!number || record.primitive - ranges[*number].first_primitive >= ranges[*number].primitive_count) return false;
-    const Draw& draw = scene.draws[*number];
-    const std::uint32_t corners = corners_of(record), of_mesh = corner_count(scene.meshes[draw.mesh].topology);
-    const bool filled = draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;
+    const Draw* draw = draws.draw(record.primitive);
+    if (draw == nullptr) return false;
+    const std::uint32_t corners = corners_of(record), of_mesh = corner_count(scene.meshes[draw->mesh].topology);
+    const bool filled = draw->front_mode == PolygonMode::fill && draw->back_mode == PolygonMode::fill;
     return of_mesh < 3 ? corners == of_mesh : corners >= (filled ? 3 : least) && corners <= most;
   };
   return std::ranges::is_sorted(records, {}, [](const auto& r) { return r.primitive; }) &&
@@ -37,8 +36,7 @@ bool fit(const Scene& scene, const auto& records, auto corners_of, std::uint32_t
 
 void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   const Records<double>& r = in.records;
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  const std::size_t vertices = ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count;
+  const std::size_t vertices = DrawIndex(scene).vertices();
   const std::size_t triangles = r.triangles.size(), fragments = r.covered.size();
   const auto read_by = [&](std::initializer_list<Stage> stages) { return std::ranges::count(stages, stage) > 0; };
   if (read_by({Stage::vertex, Stage::window})) require(r.matrices.size() == scene.draws.size(), "matrices");

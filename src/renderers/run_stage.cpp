@@ -8,7 +8,7 @@
 #include "pipeline/geometry.h"
 #include "pipeline/recorder.h"
 #include "scene/antialias.h"
-#include "scene/draw_of.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::pipeline {
 
@@ -25,7 +25,7 @@ class OneStage {
         records_(in.records),
         request_{StageSet{stage}, false, {}, {}, std::numeric_limits<std::size_t>::max()},
         recorder_(scene, request_, 0, made_),
-        ranges_(draw_ranges(scene)) {
+        draws_(scene) {
     for (const auto& l : records_.lights) lights_.push_back({Vec4<float>(l.p_eye), Vec3<float>(l.spot_eye)});
     const auto of_scene = light_sources(scene);
     if (records_.lights.empty()) lights_.assign(of_scene.begin(), of_scene.end());
@@ -47,7 +47,7 @@ class OneStage {
   }
 
  private:
-  std::size_t draw_number(std::uint32_t primitive) const { return draw_of(ranges_, primitive).value(); }
+  std::size_t draw_number(std::uint32_t primitive) const { return draws_.of_primitive(primitive).value(); }
   DrawInput input(std::size_t draw) const {
     const bool known = draw < records_.matrices.size();
     return draw_input(scene_, scene_.draws[draw], known ? narrow(records_.matrices[draw]) : Matrices<float>());
@@ -71,7 +71,7 @@ class OneStage {
   void run_geometry(std::size_t d) {
     const Draw& draw = scene_.draws[d];
     const Mesh& mesh = scene_.meshes[draw.mesh];
-    const DrawRange& range = ranges_[d];
+    const DrawRange& range = draws_.ranges()[d];
     std::vector<Vertex<float>> vertices;
     std::vector<Attributes> attributes;
     if (stage_ == Stage::matrices) recorder_.draw(draw, stages_.matrices(scene_, draw));
@@ -205,7 +205,7 @@ class OneStage {
   Capture made_;
   const Request request_;
   Recorder recorder_;
-  const std::vector<DrawRange> ranges_;
+  const DrawIndex draws_;
   std::vector<LightSource<float>> lights_;
 };
 

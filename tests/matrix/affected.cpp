@@ -101,17 +101,16 @@ struct Bits {
     std::memcpy(words.data(), &value, sizeof value);
     for (const std::uint32_t word : words) hash = ((hash ^ word) * 0x9e3779b97f4a7c15u) ^ (hash >> 29);
   }
-  void group(std::string_view, const auto& records, const auto&... columns) {
+  void group(Handed, const auto& columns, const auto& records) {
     add(records.size());
-    const auto add_column = [&](const auto& column) {
-      const std::size_t corners = column.kCorners == 0 ? 1 : column.kCorners;
+    columns.each([&](const auto& column) {
       for (const auto& record : records) {
-        for (std::size_t i = 0; i < corners; ++i) add(column.at(record, i));
+        for (std::size_t i = 0; i < kPerRecord<decltype(column)>; ++i) add(column.at(record, i));
       }
-    };
-    (add_column(columns), ...);
+    });
   }
-  void plane(std::string_view, const auto& plane) {
+  void plane(Handed, const auto& plane) { add_plane(plane); }
+  void add_plane(const auto& plane) {
     add(plane.size());
     for (const auto& value : plane.values()) add(value);
   }
@@ -119,18 +118,18 @@ struct Bits {
 
 std::uint64_t bits_of(const Capture& capture) {
   Bits bits;
-  visit_capture(capture, bits);
+  visit_capture(bits, capture);
   return bits.hash;
 }
 
 std::uint64_t bits_of(const pipeline::Frame& frame) {
   Bits bits;
-  bits.plane("", frame.color_rgba8);
-  bits.plane("", frame.color_rgba16);
-  bits.plane("", frame.color_rgba32f);
-  bits.plane("", frame.depth_code);
-  bits.plane("", frame.depth_z32f);
-  bits.plane("", frame.stencil);
+  bits.add_plane(frame.color_rgba8);
+  bits.add_plane(frame.color_rgba16);
+  bits.add_plane(frame.color_rgba32f);
+  bits.add_plane(frame.depth_code);
+  bits.add_plane(frame.depth_z32f);
+  bits.add_plane(frame.stencil);
   return bits.hash;
 }
 

@@ -1,11 +1,14 @@
-// The one list of what a capture folder holds: written and read by visitors of it, so that the two cannot drift apart.
+// All that a capture holds, by stage, in one list: written, read, copied, rounded, compared and hashed by visitors of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -103,59 +106,110 @@ CornerColumn(std::string_view, Member) -> CornerColumn<Member>;
 template <class C, class Record>
 using ColumnType = std::remove_cvref_t<decltype(std::declval<C>().at(std::declval<Record&>(), 0))>;
 
-/// Calls visit.group(name, records, columns...) and visit.plane(name, plane) for all that a capture folder holds.
-/// An array's name is "group.column", or the plane's.
-template <class CaptureRef, class Visitor>
-void visit_capture(CaptureRef& capture, Visitor& visit) {
-  auto& records = capture.records;
-  using M = Matrices<double>;
-  visit.group("matrices", records.matrices, Column{"model_view", &M::model_view}, Column{"projection", &M::projection},
-              Column{"normal", &M::normal}, Column{"win_scale", &M::win_scale},
-              Column{"win_translate", &M::win_translate});
-  using L = LightSource<double>;
-  visit.group("matrices.light", records.lights, Column{"p_eye", &L::p_eye}, Column{"spot_eye", &L::spot_eye});
-  using V = Vertex<double>;
-  visit.group("vertex", records.vertices, Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
-              Column{"n_eye", &V::n_eye});
-  visit.group("light", records.lit, Column{"color", &Lit<double>::color});
-  using C = ClipVertex<double>;
-  visit.group("clip", records.polygons.vertices, Column{"p_clip", &C::p_clip}, Column{"color", &C::color},
-              Column{"cut", &C::cut});
-  using P = ClipPolygon;
-  visit.group("clip.polygon", records.polygons.polygons, Column{"primitive", &P::primitive}, Column{"first", &P::first},
-              Column{"count", &P::count});
-  using W = WindowVertex<double>;
-  using T = WindowTriangle<double>;
-  visit.group("window", records.triangles, CornerColumn{"p_win", &W::p_win}, CornerColumn{"inv_w", &W::inv_w},
-              CornerColumn{"snapped", &W::snapped}, CornerColumn{"color", &W::color},
-              Column{"primitive", &T::primitive}, Column{"front", &T::front}, Column{"corners", &T::corners},
-              Column{"width", &T::width});
-  visit.group("coverage", records.covered, Column{"triangle", &Covered::triangle}, Column{"x", &Covered::x},
-              Column{"y", &Covered::y});
-  visit.group("depth", records.depth, ItselfColumn{"value"});
-  visit.group("attributes", records.attributes, Column{"color", &Attributes<double>::color});
-  visit.group("texture", records.texels, Column{"color", &Texel<double>::color}, Column{"lod", &Texel<double>::lod});
-  visit.group("shade", records.shaded, Column{"color", &Shaded<double>::color});
-  visit.group("visibility", records.drawn, Column{"drawn", &Drawn::drawn});
+/// Values of a column in one record.
+template <class C>
+inline constexpr std::size_t kPerRecord = std::max<std::size_t>(std::remove_cvref_t<C>::kCorners, 1);
 
-  for (const Varying v : kAllVaryings) {
-    auto& columns = records.varyings[v];
-    const std::string name = "varyings." + std::string(name_of(v));
-    visit.group(name + ".vertices", columns.vertices, ItselfColumn{"value"});
-    visit.group(name + ".clipped", columns.clipped, ItselfColumn{"value"});
-    visit.group(name + ".window", columns.triangles, CornerItselfColumn{"value"});
-    visit.group(name + ".fragments", columns.fragments, ItselfColumn{"value"});
+/// A column's values, one after the other: the records without their gaps.
+template <class Record, class C>
+std::vector<char> packed(const std::vector<Record>& records, const C& column) {
+  constexpr std::size_t kSize = sizeof(ColumnType<C, const Record>);
+  std::vector<char> bytes(records.size() * kPerRecord<C> * kSize);
+  char* to = bytes.data();
+  for (const Record& record : records) {
+    for (std::size_t k = 0; k < kPerRecord<C>; ++k, to += kSize) std::memcpy(to, &column.at(record, k), kSize);
+  }
+  return bytes;
+}
+
+/// The columns of a group.
+template <class... C>
+class Columns {
+ public:
+  explicit Columns(C... columns) : all_(columns...) {}
+  static constexpr std::size_t kCount = sizeof...(C);
+  /// Calls visit(column) for each.
+  void each(auto visit) const {
+    std::apply([&](const C&... column) { (visit(column), ...); }, all_);
   }
 
-  auto& planes = capture.planes;
-  visit.plane("planes.count", planes.count);
-  visit.plane("planes.id_sum", planes.id_sum);
-  visit.plane("planes.id", planes.id);
-  visit.plane("planes.stencil", planes.stencil);
-  visit.plane("planes.texel", planes.texel);
-  visit.plane("planes.shaded", planes.shaded);
-  visit.plane("planes.color", planes.color);
-  visit.plane("planes.depth", planes.depth);
+ private:
+  std::tuple<C...> all_;
+};
+
+/// The name of a group or plane, and the stage that hands it on.
+struct Handed {
+  Stage stage;
+  std::string_view name;
+};
+
+/// Calls visit.group(handed, columns, records...) and visit.plane(handed, plane...), with the vectors and planes of each
+/// of the captures, for all that a capture folder holds. An array's name is "group.column", or the plane's.
+template <class Visitor, class... Captures>
+void visit_capture(Visitor&& visit, Captures&... captures) {
+  const auto group = [&](Stage stage, std::string_view name, auto records_of, auto... columns) {
+    visit.group(Handed{stage, name}, Columns(columns...), records_of(captures.records)...);
+  };
+  using R = Records<double>;
+  const auto of = [](auto member) {
+    return [member](auto& records) -> auto& { return records.*member; };
+  };
+  using M = Matrices<double>;
+  group(Stage::matrices, "matrices", of(&R::matrices), Column{"model_view", &M::model_view},
+        Column{"projection", &M::projection}, Column{"normal", &M::normal}, Column{"win_scale", &M::win_scale},
+        Column{"win_translate", &M::win_translate});
+  using L = LightSource<double>;
+  group(Stage::matrices, "matrices.light", of(&R::lights), Column{"p_eye", &L::p_eye},
+        Column{"spot_eye", &L::spot_eye});
+  using V = Vertex<double>;
+  group(Stage::vertex, "vertex", of(&R::vertices), Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
+        Column{"n_eye", &V::n_eye});
+  group(Stage::light, "light", of(&R::lit), Column{"color", &Lit<double>::color});
+  using C = ClipVertex<double>;
+  group(
+      Stage::clip, "clip", [](auto& r) -> auto& { return r.polygons.vertices; }, Column{"p_clip", &C::p_clip},
+      Column{"color", &C::color}, Column{"cut", &C::cut});
+  using P = ClipPolygon;
+  group(
+      Stage::clip, "clip.polygon", [](auto& r) -> auto& { return r.polygons.polygons; },
+      Column{"primitive", &P::primitive}, Column{"first", &P::first}, Column{"count", &P::count});
+  using W = WindowVertex<double>;
+  using T = WindowTriangle<double>;
+  group(Stage::window, "window", of(&R::triangles), CornerColumn{"p_win", &W::p_win}, CornerColumn{"inv_w", &W::inv_w},
+        CornerColumn{"snapped", &W::snapped}, CornerColumn{"color", &W::color}, Column{"primitive", &T::primitive},
+        Column{"front", &T::front}, Column{"corners", &T::corners}, Column{"width", &T::width});
+  group(Stage::coverage, "coverage", of(&R::covered), Column{"triangle", &Covered::triangle}, Column{"x", &Covered::x},
+        Column{"y", &Covered::y});
+  group(Stage::depth, "depth", of(&R::depth), ItselfColumn{"value"});
+  group(Stage::attributes, "attributes", of(&R::attributes), Column{"color", &Attributes<double>::color});
+  group(Stage::texture, "texture", of(&R::texels), Column{"color", &Texel<double>::color},
+        Column{"lod", &Texel<double>::lod});
+  group(Stage::shade, "shade", of(&R::shaded), Column{"color", &Shaded<double>::color});
+  group(Stage::visibility, "visibility", of(&R::drawn), Column{"drawn", &Drawn::drawn});
+
+  for (const Varying v : kAllVaryings) {
+    using A = VaryingColumns<double>;
+    const std::string name = "varyings." + std::string(name_of(v));
+    const auto of_varying = [v](auto member) {
+      return [=](auto& r) -> auto& { return r.varyings[v].*member; };
+    };
+    group(Stage::light, name + ".vertices", of_varying(&A::vertices), ItselfColumn{"value"});
+    group(Stage::clip, name + ".clipped", of_varying(&A::clipped), ItselfColumn{"value"});
+    group(Stage::window, name + ".window", of_varying(&A::triangles), CornerItselfColumn{"value"});
+    group(Stage::attributes, name + ".fragments", of_varying(&A::fragments), ItselfColumn{"value"});
+  }
+
+  const auto plane = [&](Stage stage, std::string_view name, auto member) {
+    visit.plane(Handed{stage, name}, captures.planes.*member...);
+  };
+  plane(Stage::coverage, "planes.count", &Planes::count);
+  plane(Stage::coverage, "planes.id_sum", &Planes::id_sum);
+  plane(Stage::visibility, "planes.id", &Planes::id);
+  plane(Stage::visibility, "planes.stencil", &Planes::stencil);
+  plane(Stage::texture, "planes.texel", &Planes::texel);
+  plane(Stage::shade, "planes.shaded", &Planes::shaded);
+  plane(Stage::merge, "planes.color", &Planes::color);
+  plane(Stage::merge, "planes.depth", &Planes::depth);
 }
 
 }  // namespace plumbline

@@ -24,9 +24,6 @@ constexpr std::string_view kFormat = "plumbline capture";
 constexpr int kVersion = 1;
 constexpr int kLargestFrame = 16384;
 
-template <class C>
-constexpr std::size_t kPerRecord = C::kCorners == 0 ? 1 : C::kCorners;
-
 using Shape = std::vector<std::size_t>;
 
 /// The extents of `count` records' array.
@@ -60,15 +57,15 @@ class Writer {
     manifest_["arrays"] = nlohmann::ordered_json::array();
   }
 
-  template <class Record, class... Columns>
-  void group(std::string_view name, const std::vector<Record>& records, const Columns&... columns) {
-    if (!records.empty()) (column(name, records, columns), ...);
+  template <class Record>
+  void group(Handed group, const auto& columns, const std::vector<Record>& records) {
+    if (!records.empty()) columns.each([&](const auto& c) { column(group.name, records, c); });
   }
 
   template <class T>
-  void plane(std::string_view name, const Plane<T>& plane) {
+  void plane(Handed of, const Plane<T>& plane) {
     if (plane.empty()) return;
-    array(name, Element<T>::dtype, plane_shape<T>(plane.width(), plane.height()), plane.values().data(),
+    array(of.name, Element<T>::dtype, plane_shape<T>(plane.width(), plane.height()), plane.values().data(),
           plane.size() * sizeof(T));
   }
 
@@ -80,15 +77,9 @@ class Writer {
  private:
   template <class Record, class C>
   void column(std::string_view group, const std::vector<Record>& records, const C& column) {
-    using T = ColumnType<C, const Record>;
-    std::vector<char> bytes(records.size() * kPerRecord<C> * sizeof(T));
-    char* to = bytes.data();
-    for (const Record& record : records) {
-      for (std::size_t k = 0; k < kPerRecord<C>; ++k, to += sizeof(T))
-        std::memcpy(to, &column.at(record, k), sizeof(T));
-    }
-    array(fmt::format("{}.{}", group, column.name), Element<T>::dtype, record_shape<C, const Record>(records.size()),
-          bytes.data(), bytes.size());
+    const std::vector<char> bytes = packed(records, column);
+    array(fmt::format("{}.{}", group, column.name), Element<ColumnType<C, const Record>>::dtype,
+          record_shape<C, const Record>(records.size()), bytes.data(), bytes.size());
   }
 
   void array(std::string_view name, std::string_view dtype, const Shape& shape, const void* bytes, std::size_t size) {
@@ -129,26 +120,28 @@ class Reader {
     }
   }
 
-  template <class Record, class... Columns>
-  void group(std::string_view name, std::vector<Record>& records, const Columns&... columns) {
+  template <class Record>
+  void group(Handed group, const auto& columns, std::vector<Record>& records) {
     std::optional<std::size_t> count;  // before any memory is taken, every file is known to be of its right size
-    const std::size_t present = (std::size_t{0} + ... + std::size_t{check<Record>(name, columns, count)});
+    std::size_t present = 0;
+    columns.each([&](const auto& column) { present += check<Record>(group.name, column, count) ? 1 : 0; });
     if (present == 0) return;
-    if (present != sizeof...(columns)) {
-      throw CaptureError(fmt::format("{}: expected all arrays {}.*, found {} of {}", folder_.string(), name, present,
-                                     sizeof...(columns)));
+    if (present != columns.kCount) {
+      throw CaptureError(fmt::format("{}: expected all arrays {}.*, found {} of {}", folder_.string(), group.name,
+                                     present, columns.kCount));
     }
     records.resize(*count);
-    (read(name, records, columns), ...);
+    columns.each([&](const auto& column) { read(group.name, records, column); });
   }
 
   template <class T>
-  void plane(std::string_view name, Plane<T>& plane) {
-    const auto array = take(name);
+  void plane(Handed of, Plane<T>& plane) {
+    const auto array = take(of.name);
     if (!array) return;
     const Shape shape = plane_shape<T>(capture_.width, capture_.height);
     check_type<T>(*array);
-    if (read_shape(*array) != shape) (*array)["shape"].refuse(fmt::format("[{}] of {}", fmt::join(shape, ", "), name));
+    if (read_shape(*array) != shape)
+      (*array)["shape"].refuse(fmt::format("[{}] of {}", fmt::join(shape, ", "), of.name));
     const auto pixels = static_cast<std::size_t>(capture_.width) * static_cast<std::size_t>(capture_.height);
     check_size(*array, pixels, sizeof(T));
     plane = Plane<T>(capture_.width, capture_.height);
@@ -350,7 +343,7 @@ void write_capture(const Capture& capture, const fs::path& folder) {
   AtomicPath atomic(folder);
   atomic.make_folder();
   Writer writer(capture, atomic);
-  visit_capture(capture, writer);
+  visit_capture(writer, capture);
   writer.finish();
   atomic.commit();
 }
@@ -359,7 +352,7 @@ Capture read_capture(const fs::path& folder) {
   try {
     Capture capture;
     Reader reader(folder, capture);
-    visit_capture(capture, reader);
+    visit_capture(reader, capture);
     reader.finish();
     check_indices(capture, folder);
     return capture;

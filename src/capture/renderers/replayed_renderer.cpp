@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/draw_index.h"
+
 namespace plumbline {
 
 namespace {
@@ -86,16 +88,15 @@ std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& s
   require(capture.width == scene.frame.width && capture.height == scene.frame.height,
           fmt::format("a capture of the scene's {} x {} pixels", scene.frame.width, scene.frame.height),
           fmt::format("one of {} x {}", capture.width, capture.height));
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  const std::size_t vertices = ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count;
+  const DrawIndex draws(scene);
   const auto fits = [&](const char* what, std::size_t is, std::size_t expected) {
     require(is == 0 || is == expected, fmt::format("{} {}, as the scene has", expected, what), std::to_string(is));
   };
   fits("draws' matrices", capture.records.matrices.size(), scene.draws.size());
   fits("lights", capture.records.lights.size(), scene.lights.size());
-  fits("vertices", capture.records.vertices.size(), vertices);
-  fits("lit vertices", capture.records.lit.size(), vertices);
-  const std::size_t primitives = ranges.empty() ? 0 : ranges.back().first_primitive + ranges.back().primitive_count;
+  fits("vertices", capture.records.vertices.size(), draws.vertices());
+  fits("lit vertices", capture.records.lit.size(), draws.vertices());
+  const std::size_t primitives = draws.primitives();
   for (const WindowTriangle<double>& t : capture.records.triangles)
     require(t.primitive < primitives, fmt::format("primitives of the scene's {}", primitives),
             std::to_string(t.primitive));

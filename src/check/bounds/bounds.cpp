@@ -6,8 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "scene/draw_of.h"
-
 namespace plumbline::check {
 
 double Roundings::operator()(double magnitude) const {
@@ -169,10 +167,10 @@ Barycentrics along_major(const WindowTriangle<double>& t, const Vec2<double>& e1
 
 }  // namespace
 
-DepthLimits depth_limits(const Scene& scene, const std::vector<DrawRange>& ranges, std::int32_t primitive) {
-  const auto draw = draw_of(ranges, static_cast<std::uint32_t>(primitive));
-  if (!scene.depth_clamp || !draw) return {};
-  const auto [low, high] = std::minmax(scene.draws[*draw].depth_range.near, scene.draws[*draw].depth_range.far);
+DepthLimits depth_limits(const DrawIndex& draws, std::int32_t primitive) {
+  const Draw* draw = draws.scene().depth_clamp ? draws.draw(static_cast<std::uint32_t>(primitive)) : nullptr;
+  if (draw == nullptr) return {};
+  const auto [low, high] = std::minmax(draw->depth_range.near, draw->depth_range.far);
   return {low, high};
 }
 
@@ -228,33 +226,27 @@ double offset_unit(DepthFormat format, double z) {
 
 }  // namespace
 
-OffsetErrors::OffsetErrors(const Scene& scene) : scene_(scene) {
-  const auto moves = [](const Draw& draw) { return draw.polygon_offset != PolygonOffset{}; };
-  if (std::ranges::any_of(scene.draws, moves)) ranges_ = draw_ranges(scene);
+OffsetErrors::OffsetErrors(const Scene& scene) : draws_(scene) {
+  any_ = std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.polygon_offset != PolygonOffset{}; });
 }
 
 double OffsetErrors::of(const WindowTriangle<double>& t) const {
-  const auto draw = draw_of(ranges_, t.primitive);
-  if (!draw || t.corners < 3) return 0;
-  const PolygonOffset& offset = scene_.draws[*draw].polygon_offset;
-  if (offset == PolygonOffset{}) return 0;
+  const Draw* draw = any_ && t.corners == 3 ? draws_.draw(t.primitive) : nullptr;
+  if (draw == nullptr || draw->polygon_offset == PolygonOffset{}) return 0;
+  const PolygonOffset& offset = draw->polygon_offset;
   const auto& v = t.v;
   const Vec3<double> z(v[0].p_win.z, v[1].p_win.z, v[2].p_win.z);
   const Barycentrics b = barycentrics(t, v[0].p_win.x, v[0].p_win.y);
   const double m = std::max(std::abs(glm::dot(b.d_dx, z)), std::abs(glm::dot(b.d_dy, z)));
   const double factor = std::abs(static_cast<double>(offset.factor)), units = static_cast<double>(offset.units);
-  const double r = offset_unit(scene_.frame.depth, std::max({z.x, z.y, z.z}));
+  const double r = offset_unit(draws_.scene().frame.depth, std::max({z.x, z.y, z.z}));
   return factor * (4 * m + gradient_bound(t, z.x, z.y, z.z, m)) + 2 * (factor * m + std::abs(units) * r);
 }
 
 double OffsetErrors::of(const Records<double>& r, std::int32_t primitive) const {
   double most = 0;
-  if (ranges_.empty()) return most;
-  auto it = std::partition_point(r.triangles.begin(), r.triangles.end(), [&](const WindowTriangle<double>& t) {
-    return static_cast<std::int32_t>(t.primitive) < primitive;
-  });
-  for (; it != r.triangles.end() && static_cast<std::int32_t>(it->primitive) == primitive; ++it)
-    most = std::max(most, of(*it));
+  if (!any_) return most;
+  for (const WindowTriangle<double>& t : triangles_of(r, primitive)) most = std::max(most, of(t));
   return most;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capture/stages.h"
+#include "scene/draw_index.h"
 #include "scene/scene.h"
 
 namespace plumbline::check {
@@ -83,7 +84,7 @@ struct PlaneBounds {
 struct DepthLimits {
   double low = 0, high = 1;
 };
-DepthLimits depth_limits(const Scene& scene, const std::vector<DrawRange>& ranges, std::int32_t primitive);
+DepthLimits depth_limits(const DrawIndex& draws, std::int32_t primitive);
 
 /// For a renderer that evaluates a = a0 + da/dx x + da/dy y in float from the window's origin, as llvmpipe does:
 /// |a|max + |da/dx| (x + x0) + |da/dy| (y + y0), x0, y0 the triangle's farthest corner, and the gradients' own error,
@@ -110,8 +111,8 @@ class OffsetErrors {
   double of(const Records<double>& records, std::int32_t primitive) const;
 
  private:
-  const Scene& scene_;
-  std::vector<DrawRange> ranges_;  // none: no draw has an offset
+  DrawIndex draws_;
+  bool any_;  // whether any draw has an offset
 };
 
 /// What a pixel may hold where edges of a triangle that is not filled meet, of any of those that pass it by no more

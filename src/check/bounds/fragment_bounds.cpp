@@ -9,7 +9,6 @@
 
 #include "check/bounds/units.h"
 #include "check/verdict/ledger.h"
-#include "scene/draw_of.h"
 
 namespace plumbline::check {
 
@@ -44,21 +43,20 @@ std::vector<Vec4<double>> normals_apart(const Records<double>& a, const Records<
 std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, Varying v) {
   if (std::ranges::none_of(scene.draws, [&](const Draw& draw) { return carries(scene, draw, v); })) return {};
   std::vector<Vec4<double>> out(r.vertices.size(), Vec4<double>(0));
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  for (std::size_t d = 0; d < ranges.size(); ++d) {
+  const DrawIndex draws(scene);
+  for (std::size_t i = 0; i < std::min(out.size(), draws.vertices()); ++i) {
+    const std::size_t d = draws.of_vertex(i).value();
     const Draw& draw = scene.draws[d];
     if (!carries(scene, draw, v)) continue;
     const std::vector<glm::vec4>& colors = scene.meshes[draw.mesh].colors;
-    for (std::size_t i = 0; i < ranges[d].vertex_count && ranges[d].first_vertex + i < out.size(); ++i) {
-      Vertex<double> vertex = r.vertices[ranges[d].first_vertex + i];
-      if (is_back(v)) vertex.n_eye = -vertex.n_eye;
-      const Material material =
-          lit_material(scene, draw, {is_back(v), is_secondary(v)}, colors.empty() ? nullptr : &colors[i]);
-      const LightBounds bounds = light_bounds(scene, material, vertex, {}, r.lights);
-      out[ranges[d].first_vertex + i] = {tolerance(Profile::opengl, Stage::light).factor * u * bounds.magnitude +
-                                             bounds.jump + Vec3<double>(bounds.overflows),
-                                         u};
-    }
+    Vertex<double> vertex = r.vertices[i];
+    if (is_back(v)) vertex.n_eye = -vertex.n_eye;
+    const glm::vec4* color = colors.empty() ? nullptr : &colors[i - draws.ranges()[d].first_vertex];
+    const LightBounds bounds =
+        light_bounds(scene, lit_material(scene, draw, {is_back(v), is_secondary(v)}, color), vertex, {}, r.lights);
+    out[i] = {tolerance(Profile::opengl, Stage::light).factor * u * bounds.magnitude + bounds.jump +
+                  Vec3<double>(bounds.overflows),
+              u};
   }
   return out;
 }
@@ -112,7 +110,7 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
       records_(candidate.records),
       texels_(candidate.legal.texels),
       factor_(factor),
-      ranges_(draw_ranges(scene)),
+      draws_(scene),
       lit_apart_(larger(columns_apart(candidate.records.lit, reference.records.lit, &Lit<double>::color,
                                       u * tolerance(Profile::opengl, Stage::light).factor),
                         granted(scene, candidate.records, Varying::back_color))),
@@ -128,32 +126,22 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
 
 Vec4<double> FragmentBounds::largest_of(std::uint32_t primitive, const std::vector<Vec4<double>>& column,
                                         bool flat_applies) const {
-  const auto number = plumbline::draw_of(ranges_, primitive);
-  if (!number) return Vec4<double>(0);
-  const DrawRange& range = ranges_[*number];
-  const Draw& draw = scene_.draws[*number];
-  if (primitive - range.first_primitive >= range.primitive_count) return Vec4<double>(0);  // none of the scene
-  const glm::uvec3 corner = scene_.meshes[draw.mesh].triangles[primitive - range.first_primitive];
   Vec4<double> out(0);
-  for (int i = flat_applies && draw.shading == Shading::flat ? 2 : 0; i < 3; ++i) {
-    const std::size_t vertex = range.first_vertex + corner[i];
-    if (vertex < column.size()) out = glm::max(out, glm::abs(column[vertex]));
+  const Draw* draw = draws_.draw(primitive);
+  if (draw == nullptr) return out;
+  const glm::uvec3 corners = draws_.corners(primitive);
+  for (int i = flat_applies && draw->shading == Shading::flat ? 2 : 0; i < 3; ++i) {
+    if (corners[i] < column.size()) out = glm::max(out, glm::abs(column[corners[i]]));
   }
   return out;
 }
 
-bool FragmentBounds::reaches_behind_eye(std::size_t draw, std::uint32_t primitive) const {
-  const DrawRange& range = ranges_[draw];
-  const glm::uvec3 corner = scene_.meshes[scene_.draws[draw].mesh].triangles[primitive - range.first_primitive];
+bool FragmentBounds::reaches_behind_eye(std::uint32_t primitive) const {
+  const glm::uvec3 corners = draws_.corners(primitive);
   for (int i = 0; i < 3; ++i) {
-    const std::size_t vertex = range.first_vertex + corner[i];
-    if (vertex < records_.vertices.size() && records_.vertices[vertex].p_eye.z > 0) return true;
+    if (corners[i] < records_.vertices.size() && records_.vertices[corners[i]].p_eye.z > 0) return true;
   }
   return false;
-}
-
-const Draw& FragmentBounds::draw_of(std::uint32_t primitive) const {
-  return scene_.draws[plumbline::draw_of(ranges_, primitive).value()];
 }
 
 std::optional<WindowTriangle<double>> FragmentBounds::as_color(std::size_t i, Varying v) const {
@@ -237,8 +225,7 @@ TexelBound FragmentBounds::texel(std::size_t i) const {
 FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Covered& c = records_.covered[i];
   const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
-  const std::size_t number = plumbline::draw_of(ranges_, triangle.primitive).value();
-  const Draw& draw = scene_.draws[number];
+  const Draw& draw = draw_of(triangle.primitive);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   FragmentFours errors;
   errors.color = factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), by_other_edges(i, nullptr)) +
@@ -266,14 +253,14 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Vec3<double> sum(primary + fours[Varying::secondary]);
   const bool clamped = summed && (std::max({sum.x, sum.y, sum.z}) > 1 || std::min({sum.x, sum.y, sum.z}) < 0);
   if (draw.fog && clamped) out.reason = kClampedLate;
-  if (draw.fog && reaches_behind_eye(number, triangle.primitive)) out.reason = kBehindEye;
+  if (draw.fog && reaches_behind_eye(triangle.primitive)) out.reason = kBehindEye;
   return out;
 }
 
 FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
   const Covered& c = records_.covered[i];
   const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
-  if (!plain_[plumbline::draw_of(ranges_, triangle.primitive).value()]) return surface(i);
+  if (!plain_[draws_.of_primitive(triangle.primitive).value()]) return surface(i);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   const Vec4<double> apart = enlarged(triangle, c.x, c.y) * largest_of(triangle.primitive, lit_apart_, true);
   return {factor_ * u * plane.color, plane.along_color, apart, {}};
@@ -281,7 +268,7 @@ FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
 
 FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
   const auto p = static_cast<std::uint32_t>(primitive);
-  const auto draw = plumbline::draw_of(ranges_, p);
+  const auto draw = draws_.of_primitive(p);
   if (!draw || plain_[*draw]) {
     const PlaneBounds plane = primitive_bounds(records_, primitive, x, y);
     return {factor_ * u * plane.color, plane.along_color, largest_of(p, lit_apart_, true), {}};

@@ -11,6 +11,7 @@
 #include "check/bounds/bounds.h"
 #include "check/bounds/shade_bounds.h"
 #include "check/bounds/texture_bounds.h"
+#include "scene/draw_index.h"
 #include "scene/scene.h"
 
 namespace plumbline::check {
@@ -56,7 +57,8 @@ class FragmentBounds {
 
   /// Of the candidate's fragment number `i`.
   FragmentBound of_fragment(std::size_t i) const;
-  const Draw& draw_of(std::uint32_t primitive) const;
+  /// The primitive's, one of the scene.
+  const Draw& draw_of(std::uint32_t primitive) const { return *draws_.draw(primitive); }
   /// Of a fragment's texel; the draw has a texture, and the candidate's legal answers its texels.
   TexelBound texel(std::size_t i) const;
   /// How much of the fragment's pixel is open, by the triangle's planes (texture_bounds.h).
@@ -67,7 +69,7 @@ class FragmentBounds {
  private:
   /// The largest of a column's values at a primitive's vertices, by their absolute values.
   Vec4<double> largest_of(std::uint32_t primitive, const std::vector<Vec4<double>>& column, bool flat_applies) const;
-  bool reaches_behind_eye(std::size_t draw, std::uint32_t primitive) const;
+  bool reaches_behind_eye(std::uint32_t primitive) const;
   FragmentBound surface(std::size_t i) const;
   /// The fragment's triangle, a varying's corners for its colours; none: nothing can be said.
   std::optional<WindowTriangle<double>> as_color(std::size_t i, Varying v) const;
@@ -83,7 +85,7 @@ class FragmentBounds {
   const Records<double>& records_;
   const std::vector<TexelRange>& texels_;
   double factor_;
-  std::vector<DrawRange> ranges_;
+  DrawIndex draws_;
   std::vector<Vec4<double>> lit_apart_, secondary_apart_, eye_apart_, normals_apart_;  // per vertex
   std::vector<bool> plain_;                                                            // per draw
   std::vector<double> texel_arithmetic_;                                               // per texture

@@ -8,7 +8,6 @@
 #include "capture/fragment_outcomes.h"
 #include "check/bounds/fragment_bounds.h"
 #include "check/verdict/ledger.h"
-#include "scene/draw_of.h"
 
 namespace plumbline::check {
 
@@ -37,20 +36,19 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
                                   ColorFormat theirs, double factor) {
   const Records<double>& r = candidate.records;
   Plane<std::uint8_t> open(scene.frame.width, scene.frame.height, 0);
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const DrawIndex draws(scene);
   const FragmentBounds bounds(scene, candidate, reference, factor);
   for (std::size_t i = 0; i < std::min(r.covered.size(), r.shaded.size()); ++i) {
     const Covered& c = r.covered[i];
     if (c.triangle >= r.triangles.size() || c.x >= open.width() || c.y >= open.height()) continue;
-    const auto number = draw_of(ranges, r.triangles[c.triangle].primitive);
-    if (!number || !scene.draws[*number].alpha_test) continue;
-    const Draw& draw = scene.draws[*number];
+    const Draw* draw = draws.draw(r.triangles[c.triangle].primitive);
+    if (draw == nullptr || !draw->alpha_test) continue;
     const double alpha = r.shaded[i].color.a;
     const FragmentBound bound = bounds.of_fragment(i);
     const double off = bound.color.a + std::abs(bound.along.a) + bound.apart.a;
-    const bool mine = alpha_outcomes(*draw.alpha_test, scene.frame.color, alpha, alpha).may_pass;
+    const bool mine = alpha_outcomes(*draw->alpha_test, scene.frame.color, alpha, alpha).may_pass;
     const Outcomes other =
-        std::isfinite(off) ? theirs_of(*draw.alpha_test, theirs, alpha - off, alpha + off) : Outcomes{true, true};
+        std::isfinite(off) ? theirs_of(*draw->alpha_test, theirs, alpha - off, alpha + off) : Outcomes{true, true};
     if (mine ? other.may_fail : other.may_pass) open(c.x, c.y) = 1;
   }
   return open;
@@ -89,24 +87,21 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) 
     double z, error;
   };
   Plane<Held> held(width, height, {scene.frame.clear_depth, 0});
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const DrawIndex draws(scene);
   const OffsetErrors offsets(scene);
   for (std::size_t i = 0; i < r.covered.size(); ++i) {
     const Covered& c = r.covered[i];
     if (c.triangle >= r.triangles.size() || c.x >= width || c.y >= height) continue;
-    const auto number = draw_of(ranges, r.triangles[c.triangle].primitive);
-    if (!number) continue;
-    const Draw& draw = scene.draws[*number];
+    const std::uint32_t primitive = r.triangles[c.triangle].primitive;
+    const Draw* draw = draws.draw(primitive);
+    if (draw == nullptr) continue;
     Held& before = held(c.x, c.y);
-    const double z = r.depth[i],
-                 error = depth_error(
-                     r, offsets, i,
-                     depth_limits(scene, ranges, static_cast<std::int32_t>(r.triangles[c.triangle].primitive)),
-                     scene.frame.depth);
-    const bool compares = draw.depth_func != DepthFunc::always && draw.depth_func != DepthFunc::never;
+    const DepthLimits limits = depth_limits(draws, static_cast<std::int32_t>(primitive));
+    const double z = r.depth[i], error = depth_error(r, offsets, i, limits, scene.frame.depth);
+    const bool compares = draw->depth_func != DepthFunc::always && draw->depth_func != DepthFunc::never;
     const double apart = std::abs(z - before.z);  // rounded, two depths are equal only within a step of each other
     if (compares && !(apart > error + before.error + depth_step(scene.frame.depth, z))) open(c.x, c.y) = 1;
-    if (r.drawn[i].drawn && draw.merge.depth_mask) before = {z, error};
+    if (r.drawn[i].drawn && draw->merge.depth_mask) before = {z, error};
   }
   return open;
 }
@@ -114,7 +109,7 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) 
 LegalWinners::LegalWinners(const Scene& scene, const Records<double>& records)
     : scene_(scene),
       records_(records),
-      ranges_(draw_ranges(scene)),
+      draws_(scene),
       offsets_(scene),
       fragments_(DrawnAt::covered(scene.frame, records)) {}
 
@@ -122,26 +117,25 @@ std::vector<LegalAnswer> LegalWinners::at(int x, int y) const {
   std::vector<Hit> hits;
   fragments_.each(x, y, [&](std::size_t i) {
     const WindowTriangle<double>& triangle = records_.triangles[records_.covered[i].triangle];
-    const auto number = draw_of(ranges_, triangle.primitive);
-    if (!number) return;
-    const Draw& draw = scene_.draws[*number];
-    const DepthLimits limits = depth_limits(scene_, ranges_, static_cast<std::int32_t>(triangle.primitive));
+    const Draw* draw = draws_.draw(triangle.primitive);
+    if (draw == nullptr) return;
+    const DepthLimits limits = depth_limits(draws_, static_cast<std::int32_t>(triangle.primitive));
     const double z = records_.depth[i], error = depth_error(records_, offsets_, i, limits, scene_.frame.depth);
     Hit& hit = hits.emplace_back();
     hit.primitive = triangle.primitive;
-    hit.depth_func = draw.depth_func;
+    hit.depth_func = draw->depth_func;
     hit.certain = true;
     hit.z_lo = std::isfinite(error) ? std::max(z - error, 0.0) : 0;
     hit.z_hi = std::isfinite(error) ? std::min(z + error, 1.0) : 1;
-    hit.depth_mask = draw.merge.depth_mask;
-    if (draw.alpha_test) {
+    hit.depth_mask = draw->merge.depth_mask;
+    if (draw->alpha_test) {
       const bool known = i < records_.shaded.size();
       const double alpha = known ? records_.shaded[i].color.a : 0;
-      const Outcomes test = alpha_outcomes(*draw.alpha_test, scene_.frame.color, alpha, alpha);
+      const Outcomes test = alpha_outcomes(*draw->alpha_test, scene_.frame.color, alpha, alpha);
       hit.alpha_passes = !known || test.may_pass;
       hit.alpha_fails = !known || test.may_fail;
     }
-    if (draw.stencil) hit.stencil = triangle.front ? &draw.stencil->front : &draw.stencil->back;
+    if (draw->stencil) hit.stencil = triangle.front ? &draw->stencil->front : &draw->stencil->back;
   });
   std::vector<LegalAnswer> out;
   fold_hits(hits, scene_.frame, out);

@@ -41,7 +41,7 @@ class LegalWinners {
  private:
   const Scene& scene_;
   const Records<double>& records_;
-  std::vector<DrawRange> ranges_;
+  DrawIndex draws_;
   OffsetErrors offsets_;
   DrawnAt fragments_;
 };

@@ -5,6 +5,7 @@
 #include "check/bounds/shade_bounds.h"
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::check {
 
@@ -92,32 +93,31 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
 
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor) {
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  std::size_t d = 0;
-  return each_fragment(
-      "colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(), [&](Meter& meter, std::size_t i) {
-        const Covered& c = candidate.covered[i];
-        const Vec4<double>&a = candidate.shaded[i].color, &b = reference.shaded[i].color;
-        const Place place{c.x, c.y, c.triangle, "color"};
-        if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
-        const std::uint32_t primitive = candidate.triangles[c.triangle].primitive;
-        while (d + 1 < ranges.size() && primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
-        if (d >= scene.draws.size() || is_plain(scene, scene.draws[d]))
-          return add(meter, a, b, Vec4<double>(u), 0, place);
-        const Vec4<double> bound = shade_error(scene, scene.draws[d], fours_of(candidate, i), {}, {1});
-        if (!std::isfinite(bound.x)) {  // a light may come or go
-          meter.ambiguous();
-          for (int k = 0; k < 4; ++k) meter.value(a[k] >= 0 && a[k] <= 1 ? 0 : kInfinite, 0, place, a[k], b[k]);
-          return;
-        }
-        for (int k = 0; k < 4; ++k) {
-          if (bound[k] == 0) {
-            meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k]);
-          } else {
-            meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k]);
-          }
-        }
-      });
+  const DrawIndex draws(scene);
+  return each_fragment("colours", "u", candidate, candidate.shaded.size(), reference.shaded.size(),
+                       [&](Meter& meter, std::size_t i) {
+                         const Covered& c = candidate.covered[i];
+                         const Vec4<double>&a = candidate.shaded[i].color, &b = reference.shaded[i].color;
+                         const Place place{c.x, c.y, c.triangle, "color"};
+                         if (c.triangle >= candidate.triangles.size()) return meter.value(kInfinite, 0, place, 0, 0);
+                         const Draw* draw = draws.draw(candidate.triangles[c.triangle].primitive);
+                         if (draw == nullptr || is_plain(scene, *draw))
+                           return add(meter, a, b, Vec4<double>(u), 0, place);
+                         const Vec4<double> bound = shade_error(scene, *draw, fours_of(candidate, i), {}, {1});
+                         if (!std::isfinite(bound.x)) {  // a light may come or go
+                           meter.ambiguous();
+                           for (int k = 0; k < 4; ++k)
+                             meter.value(a[k] >= 0 && a[k] <= 1 ? 0 : kInfinite, 0, place, a[k], b[k]);
+                           return;
+                         }
+                         for (int k = 0; k < 4; ++k) {
+                           if (bound[k] == 0) {
+                             meter.value(difference(a[k], b[k]) / u, 0, place, a[k], b[k]);
+                           } else {
+                             meter.value(difference(a[k], b[k]) / bound[k], factor, place, a[k], b[k]);
+                           }
+                         }
+                       });
 }
 
 Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference) {

@@ -9,7 +9,7 @@
 
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
-#include "scene/draw_of.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::check {
 
@@ -95,11 +95,11 @@ struct Box {
 };
 
 // The pixels of the frame that a primitive's draw may cover.
-Box box_of(const Scene& scene, const std::vector<DrawRange>& ranges, std::uint32_t primitive, glm::ivec2 extent) {
+Box box_of(const DrawIndex& draws, std::uint32_t primitive, glm::ivec2 extent) {
   Box out{glm::ivec2(0), extent};
-  const auto draw = draw_of(ranges, primitive);
-  if (!draw || !scene.draws[*draw].scissor) return out;
-  const Scissor& scissor = *scene.draws[*draw].scissor;
+  const Draw* draw = draws.draw(primitive);
+  if (draw == nullptr || !draw->scissor) return out;
+  const Scissor& scissor = *draw->scissor;
   out.low = glm::max(out.low, glm::ivec2(scissor.x, scissor.y));
   out.high = glm::min(out.high, glm::ivec2(scissor.x + scissor.width, scissor.y + scissor.height));
   return out;
@@ -153,13 +153,13 @@ Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, 
   LinesOfPixels all = mine;
   all.insert(theirs.begin(), theirs.end());
   const glm::ivec2 extent(a.count.width(), a.count.height());
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const DrawIndex draws(scene);
   for (const auto& [key, line] : all) {
     const auto at = [&, wanted = key](const LinesOfPixels& lines) {
       const auto found = lines.find(wanted);
       return found == lines.end() ? Line{} : found->second;
     };
-    compare_line(meter, key.first, at(mine), at(theirs), box_of(scene, ranges, key.first, extent), factor);
+    compare_line(meter, key.first, at(mine), at(theirs), box_of(draws, key.first, extent), factor);
     meter.item();
   }
   const Rest rest_a = without(mine, a), rest_b = without(theirs, b);

@@ -10,7 +10,7 @@
 #include "check/bounds/open_pixels.h"
 #include "check/bounds/units.h"
 #include "check/verdict/ledger.h"
-#include "scene/draw_of.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::check {
 
@@ -136,10 +136,10 @@ namespace {
 // (open_pixels.h), those of fragments that either may have hidden.
 class DepthsBeneath {
  public:
-  DepthsBeneath(const Scene& scene, const Capture& candidate, const std::vector<DrawRange>& ranges)
+  DepthsBeneath(const Scene& scene, const Capture& candidate, const DrawIndex& draws)
       : scene_(scene),
         records_(depths_replace(scene) ? none_ : candidate.records),
-        ranges_(ranges),
+        draws_(draws),
         fragments_(DrawnAt::covered(scene.frame, records_)),
         offsets_(scene) {
     known_ = records_.drawn.size() == records_.covered.size() && records_.depth.size() == records_.covered.size();
@@ -150,8 +150,8 @@ class DepthsBeneath {
   void each(int x, int y, double z, double factor, Visit visit) const {
     if (!known_) return;
     const auto leaves = [&](std::size_t i) {
-      const auto draw = draw_of(ranges_, triangle_of(i).primitive);
-      return draw && scene_.draws[*draw].merge.depth_mask;
+      const Draw* draw = draws_.draw(triangle_of(i).primitive);
+      return draw != nullptr && draw->merge.depth_mask;
     };
     std::optional<Values> left;
     fragments_.each(x, y, [&](std::size_t i) {
@@ -181,7 +181,7 @@ class DepthsBeneath {
   Values values(std::size_t i, int x, int y) const {
     const WindowTriangle<double>& triangle = triangle_of(i);
     const auto primitive = static_cast<std::int32_t>(triangle.primitive);
-    const DepthLimits limits = depth_limits(scene_, ranges_, primitive);
+    const DepthLimits limits = depth_limits(draws_, primitive);
     const PlaneBounds bounds = bounds_from_origin(triangle, x, y, limits);
     Values out{{records_.depth[i], records_.depth[i] + bounds.along_depth}, bounds.depth + offsets_.of(triangle)};
     for (const EdgeValue& edge : edge_values(triangles_of(records_, primitive), x, y, limits)) {
@@ -193,7 +193,7 @@ class DepthsBeneath {
   const Scene& scene_;
   const Records<double> none_;
   const Records<double>& records_;
-  const std::vector<DrawRange>& ranges_;
+  const DrawIndex& draws_;
   DrawnAt fragments_;
   OffsetErrors offsets_;
   Plane<std::uint8_t> open_;
@@ -206,8 +206,8 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
                                  double factor) {
   const Planes &a = candidate.planes, &b = reference.planes;
   const OffsetErrors offsets(scene);
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  const DepthsBeneath beneath(scene, candidate, ranges);
+  const DrawIndex draws(scene);
+  const DepthsBeneath beneath(scene, candidate, draws);
   const OthersCover others_cover(a, b);
   // Another fragment, which the winner leaves in place, may have left its depth.
   const auto others_left_it = [&](int x, int y) { return !depths_replace(scene) && others_cover(x, y); };
@@ -219,7 +219,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
       return;
     }
     if (others_left_it(x, y)) return open_value(meter, z, place, z_ref);
-    const DepthLimits limits = depth_limits(scene, ranges, id);
+    const DepthLimits limits = depth_limits(draws, id);
     const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y, limits);
     double bound = bounds.depth + offsets.of(candidate.records, id),
            diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));

@@ -11,6 +11,8 @@
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/legal_polygon.h"
+#include "check/compare/matched_by_primitive.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::check {
 
@@ -18,17 +20,16 @@ namespace {
 
 using Vec8 = std::array<double, 8>;  // clip position over the scale, and colour
 
-Corners corners_of(const Scene& scene, const std::vector<DrawRange>& ranges, std::size_t d, std::uint32_t primitive,
-                   const Records<double>& r, bool flat_applies) {
-  const Draw& draw = scene.draws[d];
-  const glm::uvec3 corners = scene.meshes[draw.mesh].triangles[primitive - ranges[d].first_primitive];
+Corners corners_of(const DrawIndex& draws, std::uint32_t primitive, const Records<double>& r, bool flat_applies) {
+  const glm::uvec3 corners = draws.corners(primitive);
+  const bool flat = flat_applies && draws.draw(primitive)->shading == Shading::flat;
   Corners out{};
   out.color_scale = 1;
-  out.planes = scene.depth_clamp ? 4 : 6;
+  out.planes = draws.scene().depth_clamp ? 4 : 6;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    out.p_clip[k] = r.vertices[ranges[d].first_vertex + corners[i]].p_clip;
-    out.color[k] = r.lit[ranges[d].first_vertex + corners[flat_applies && draw.shading == Shading::flat ? 2 : i]].color;
+    out.p_clip[k] = r.vertices[corners[i]].p_clip;
+    out.color[k] = r.lit[corners[flat ? 2 : i]].color;
     for (int c = 0; c < 4; ++c) {
       out.scale = std::max(out.scale, std::abs(out.p_clip[k][c]));
       out.color_scale = std::max(out.color_scale, std::abs(out.color[k][c]));
@@ -222,41 +223,35 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   }
 }
 
-// Walks both lists by primitive: visit(a, b) with null for the one that lacks it.
+// visit(mine, theirs) of each primitive's polygon, null on the side that lacks it.
 template <class Visit>
-void matched(const std::vector<ClipPolygon>& a, const std::vector<ClipPolygon>& b, Visit visit) {
-  std::size_t i = 0, j = 0;
-  while (i < a.size() || j < b.size()) {
-    const bool has_a = i < a.size() && (j == b.size() || a[i].primitive <= b[j].primitive);
-    const bool has_b = j < b.size() && (i == a.size() || b[j].primitive <= a[i].primitive);
-    visit(has_a ? &a[i] : nullptr, has_b ? &b[j] : nullptr);
-    i += has_a ? 1 : 0;
-    j += has_b ? 1 : 0;
-  }
+void each_polygon(const Records<double>& candidate, const Records<double>& reference, Visit visit) {
+  using Run = std::span<const ClipPolygon>;
+  matched_by_primitive(Run(candidate.polygons.polygons), Run(reference.polygons.polygons), [&](Run mine, Run theirs) {
+    for (std::size_t i = 0; i < std::max(mine.size(), theirs.size()); ++i)
+      visit(i < mine.size() ? &mine[i] : nullptr, i < theirs.size() ? &theirs[i] : nullptr);
+  });
 }
 
 }  // namespace
 
 Measurement compare_polygons(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double factor, bool flat_applies) {
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  const std::uint32_t primitives = ranges.back().first_primitive + ranges.back().primitive_count;
+  const DrawIndex draws(scene);
   for (const auto* list : {&candidate.polygons.polygons, &reference.polygons.polygons}) {
-    const bool fits = std::all_of(list->begin(), list->end(), [&](const auto& p) { return p.primitive < primitives; });
+    const bool fits =
+        std::all_of(list->begin(), list->end(), [&](const auto& p) { return p.primitive < draws.primitives(); });
     if (!fits) return mismatch("u", "a polygon of a primitive that the scene does not have", list->size());
     const auto before = [](const ClipPolygon& a, const ClipPolygon& b) { return a.primitive < b.primitive; };
     if (!std::is_sorted(list->begin(), list->end(), before)) return mismatch("u", "not in draw order", list->size());
   }
-  const std::size_t vertices = ranges.back().first_vertex + ranges.back().vertex_count;
-  if (candidate.vertices.size() != vertices || candidate.lit.size() != vertices) {
+  if (candidate.vertices.size() != draws.vertices() || candidate.lit.size() != draws.vertices()) {
     return mismatch("u", "not one vertex and colour for each of the scene's", reference.polygons.polygons.size());
   }
-  std::size_t d = 0;
   Meter meter("u");
-  matched(candidate.polygons.polygons, reference.polygons.polygons, [&](const ClipPolygon* a, const ClipPolygon* b) {
+  each_polygon(candidate, reference, [&](const ClipPolygon* a, const ClipPolygon* b) {
     const std::uint32_t primitive = a != nullptr ? a->primitive : b->primitive;
-    while (primitive >= ranges[d].first_primitive + ranges[d].primitive_count) ++d;
-    const Corners corners = corners_of(scene, ranges, d, primitive, candidate, flat_applies);
+    const Corners corners = corners_of(draws, primitive, candidate, flat_applies);
     if (a != nullptr && b != nullptr) {
       compare_polygon(meter, *a, *b, candidate, reference, corners, factor);
     } else {
@@ -280,7 +275,7 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
 Measurement compare_polygon_positions(const Records<double>& candidate, const Records<double>& reference,
                                       double factor) {
   Meter meter("u");
-  matched(candidate.polygons.polygons, reference.polygons.polygons, [&](const ClipPolygon* a, const ClipPolygon* b) {
+  each_polygon(candidate, reference, [&](const ClipPolygon* a, const ClipPolygon* b) {
     const ClipPolygon& any = a != nullptr ? *a : *b;
     const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(any.primitive), field}; };
     if (a == nullptr || b == nullptr) {

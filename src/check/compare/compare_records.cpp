@@ -7,6 +7,7 @@
 
 #include "check/bounds/shade_bounds.h"
 #include "check/bounds/units.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::check {
 
@@ -27,11 +28,6 @@ void add_entries(Meter& meter, const Matrix& a, const Matrix& b, Unit unit, doub
       meter.value(diff == 0 ? 0 : diff / unit(y, largest), factor, place, x, y);
     }
   }
-}
-
-// Whether there is one record for each vertex of the scene.
-bool one_per_vertex(const std::vector<DrawRange>& ranges, std::size_t records) {
-  return records == (ranges.empty() ? 0 : ranges.back().first_vertex + ranges.back().vertex_count);
 }
 
 Measurement compare_matrices_by(const Records<double>& candidate, const Records<double>& reference, bool normal,
@@ -90,19 +86,18 @@ Measurement compare_lights(const Scene& scene, const Records<double>& candidate,
 
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double positions, double normals, Inversion inversion) {
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  std::size_t d = 0;
+  const DrawIndex draws(scene);
   if (candidate.matrices.size() != scene.draws.size()) {
     return mismatch("u", "no matrices", std::max(candidate.vertices.size(), reference.vertices.size()));
   }
-  if (candidate.vertices.size() == reference.vertices.size() && !one_per_vertex(ranges, candidate.vertices.size())) {
+  if (candidate.vertices.size() == reference.vertices.size() && candidate.vertices.size() != draws.vertices()) {
     return mismatch("u", "not one record for each vertex", candidate.vertices.size());
   }
   return each("vertices", "u", candidate.vertices.size(), reference.vertices.size(), [&](Meter& meter, std::size_t i) {
-    while (i >= ranges[d].first_vertex + ranges[d].vertex_count) ++d;
+    const std::size_t d = draws.of_vertex(i).value();
     const Matrices<double>& m = candidate.matrices[d];
     const Mesh& mesh = scene.meshes[scene.draws[d].mesh];
-    const Vec4<double> p(mesh.positions[i - ranges[d].first_vertex], 1.0);
+    const Vec4<double> p(mesh.positions[i - draws.ranges()[d].first_vertex], 1.0);
     // Matrix entries below 1e-12 became 0.
     const Vec4<double> eye =
         magnitude(m.model_view, p) + 1e-12 / u * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + 1);
@@ -110,7 +105,7 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
     const Vertex<double>&a = candidate.vertices[i], &b = reference.vertices[i];
     add(meter, a.p_eye, b.p_eye, u * eye, positions, at("p_eye"));
     add(meter, a.p_clip, b.p_clip, u * magnitude(m.projection, eye), positions, at("p_clip"));
-    const Vec3<double> normal(mesh.normals[i - ranges[d].first_vertex]);
+    const Vec3<double> normal(mesh.normals[i - draws.ranges()[d].first_vertex]);
     const auto condition = [&](const Vec3<double>& of) {
       return inversion == Inversion::in_float ? inverted_normal_magnitude(m.model_view, m.normal, of)
                                               : normal_magnitude(m.normal, of);
@@ -125,16 +120,15 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
 
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                         double factor, LitPart part, const FloatRange& range) {
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
-  std::size_t d = 0;
+  const DrawIndex draws(scene);
   if (candidate.vertices.size() != candidate.lit.size()) {
     return mismatch("u", "not a colour for each vertex", std::max(candidate.lit.size(), reference.lit.size()));
   }
-  if (candidate.lit.size() == reference.lit.size() && !one_per_vertex(ranges, candidate.lit.size())) {
+  if (candidate.lit.size() == reference.lit.size() && candidate.lit.size() != draws.vertices()) {
     return mismatch("u", "not one record for each vertex", candidate.lit.size());
   }
   return each("colours", "u", candidate.lit.size(), reference.lit.size(), [&](Meter& meter, std::size_t i) {
-    while (i >= ranges[d].first_vertex + ranges[d].vertex_count) ++d;
+    const std::size_t d = draws.of_vertex(i).value();
     const Draw& draw = scene.draws[d];
     const Place place{-1, -1, static_cast<std::int64_t>(i), "color"};
     const Vec4<double>&a = candidate.lit[i].color, &b = reference.lit[i].color;
@@ -145,7 +139,7 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
       return;
     }
     const Mesh& mesh = scene.meshes[draw.mesh];
-    const glm::vec4* color = mesh.colors.empty() ? nullptr : &mesh.colors[i - ranges[d].first_vertex];
+    const glm::vec4* color = mesh.colors.empty() ? nullptr : &mesh.colors[i - draws.ranges()[d].first_vertex];
     Vertex<double> vertex = candidate.vertices[i];
     if (part.back) vertex.n_eye = -vertex.n_eye;
     const LightBounds bounds =

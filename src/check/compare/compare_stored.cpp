@@ -72,13 +72,6 @@ std::string note_of(const Channel& a, const Channel& b) {
 
 // ---- captures
 
-// Where the groups and planes of a capture are, in the order of visit_capture.
-struct Addresses {
-  std::vector<const void*> all;
-  void group(std::string_view, const auto& records, const auto&...) { all.push_back(&records); }
-  void plane(std::string_view, const auto& plane) { all.push_back(&plane); }
-};
-
 template <class T>
 void add_value(Meter& meter, const T& a, const T& b, double tolerance, const Place& place) {
   if constexpr (std::is_floating_point_v<T>) {
@@ -92,21 +85,20 @@ void add_value(Meter& meter, const T& a, const T& b, double tolerance, const Pla
   }
 }
 
-class Side {
+class ArrayComparison {
  public:
-  Side(std::vector<const void*> other, double tolerance) : other_(std::move(other)), tolerance_(tolerance) {}
+  explicit ArrayComparison(double tolerance) : tolerance_(tolerance) {}
 
-  template <class Record, class... Columns>
-  void group(std::string_view name, const std::vector<Record>& a, const Columns&... columns) {
-    const auto& b = *static_cast<const std::vector<Record>*>(other_[next_++]);
-    if (in_both(name, a.size(), b.size(), "records")) (column(name, a, b, columns), ...);
+  template <class Record>
+  void group(Handed group, const auto& columns, const std::vector<Record>& a, const std::vector<Record>& b) {
+    if (!in_both(group.name, a.size(), b.size(), "records")) return;
+    columns.each([&](const auto& c) { column(group.name, a, b, c); });
   }
 
   template <class T>
-  void plane(std::string_view name, const Plane<T>& a) {
-    const auto& b = *static_cast<const Plane<T>*>(other_[next_++]);
-    if (!in_both(name, a.size(), b.size(), "pixels")) return;
-    rows.push_back(row(std::string(name), compare_planes(a, b, "", [&](Meter& meter, int x, int y) {
+  void plane(Handed of, const Plane<T>& a, const Plane<T>& b) {
+    if (!in_both(of.name, a.size(), b.size(), "pixels")) return;
+    rows.push_back(row(std::string(of.name), compare_planes(a, b, "", [&](Meter& meter, int x, int y) {
                          add_value(meter, a(x, y), b(x, y), tolerance_, {x, y, -1, ""});
                        })));
   }
@@ -132,7 +124,7 @@ class Side {
     }
     Meter meter("");
     for (std::size_t i = 0; i < a.size(); ++i) {
-      for (std::size_t k = 0; k < std::max<std::size_t>(C::kCorners, 1); ++k) {
+      for (std::size_t k = 0; k < kPerRecord<C>; ++k) {
         const Place place{-1, -1, static_cast<std::int64_t>(i), column.name.data()};  // a literal
         add_value(meter, column.at(a[i], k), column.at(b[i], k), tolerance_, place);
       }
@@ -141,8 +133,6 @@ class Side {
     rows.push_back(row(name, meter.done()));
   }
 
-  std::vector<const void*> other_;
-  std::size_t next_ = 0;
   double tolerance_;
 };
 
@@ -177,15 +167,13 @@ std::vector<StoredComparison> compare_images(const StoredImage& a, const StoredI
 }
 
 std::vector<StoredComparison> compare_captures(const Capture& a, const Capture& b, double tolerance) {
-  Addresses of_b;
-  visit_capture(b, of_b);
-  Side side(std::move(of_b.all), tolerance);
+  ArrayComparison arrays(tolerance);
   if (a.width != b.width || a.height != b.height) {
     const std::string why = fmt::format("{} x {} against {} x {}", a.width, a.height, b.width, b.height);
-    side.rows.push_back(row("frame", mismatch("", why, 1)));
+    arrays.rows.push_back(row("frame", mismatch("", why, 1)));
   }
-  visit_capture(a, side);
-  return std::move(side.rows);
+  visit_capture(arrays, a, b);
+  return std::move(arrays.rows);
 }
 
 Plane<glm::vec4> amplified_difference(const StoredImage& a, const StoredImage& b, std::optional<double> amplify) {

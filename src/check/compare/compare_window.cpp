@@ -6,8 +6,8 @@
 #include "check/bounds/units.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/legal_window.h"
+#include "check/compare/matched_by_primitive.h"
 #include "check/verdict/ledger.h"
-#include "scene/draw_of.h"
 
 namespace plumbline::check {
 
@@ -42,7 +42,7 @@ class RunComparison {
   }
 
   Vec3<double> error_of(const WindowTriangle<double>& t, std::size_t k) const {
-    return legal_.error(draw_of(legal_.ranges(), t.primitive).value(), t.v[k].p_win);
+    return legal_.error(t.primitive, t.v[k].p_win);
   }
 
   void strictly(Run mine, Run theirs, std::size_t first) {
@@ -127,14 +127,9 @@ Measurement compare_window(const Scene& scene, const Records<double>& candidate,
   }
   Meter meter("u");
   RunComparison compare(meter, scene, candidate, factor);
-  // Matched by primitive: draws are in order, and so are each draw's primitives.
-  for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
-    const bool has_a = i < a.size() && (j == b.size() || a[i].primitive <= b[j].primitive);
-    const bool has_b = j < b.size() && (i == a.size() || b[j].primitive <= a[i].primitive);
-    const std::size_t i_end = has_a ? run_end(a, i) : i, j_end = has_b ? run_end(b, j) : j;
-    compare(Run(a).subspan(i, i_end - i), Run(b).subspan(j, j_end - j), i);
-    i = i_end, j = j_end;
-  }
+  matched_by_primitive(Run(a), Run(b), [&](Run mine, Run theirs) {
+    compare(mine, theirs, mine.empty() ? 0 : static_cast<std::size_t>(mine.data() - a.data()));
+  });
   return meter.done();
 }
 

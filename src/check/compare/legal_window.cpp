@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "check/bounds/units.h"
+#include "check/compare/matched_by_primitive.h"
 #include "check/verdict/ledger.h"
-#include "scene/draw_of.h"
 
 namespace plumbline::check {
 
@@ -125,17 +125,17 @@ std::vector<WindowAnswer> outline(const Draw& draw, std::uint32_t primitive, boo
 }  // namespace
 
 LegalWindow::LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area)
-    : scene_(scene), records_(records), factor_(factor), area_(area), ranges_(draw_ranges(scene)) {}
+    : scene_(scene), records_(records), factor_(factor), area_(area), draws_(scene) {}
 
-Vec3<double> LegalWindow::error(std::size_t draw, const Vec3<double>& p_win) const {
-  const Vec3<double>& t = records_.matrices[draw].win_translate;
+Vec3<double> LegalWindow::error(std::uint32_t primitive, const Vec3<double>& p_win) const {
+  const Vec3<double>& t = records_.matrices[draws_.of_primitive(primitive).value()].win_translate;
   return factor_ * u * (glm::abs(p_win - t) + glm::abs(t));
 }
 
 std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) const {
   const auto& polygons = records_.polygons.polygons;
   const auto polygon = std::ranges::lower_bound(polygons, primitive, {}, &ClipPolygon::primitive);
-  const auto number = draw_of(ranges_, primitive);
+  const auto number = draws_.of_primitive(primitive);
   if (polygon == polygons.end() || polygon->primitive != primitive || !number || polygon->count < 3 ||
       *number >= records_.matrices.size() ||
       std::size_t{polygon->first} + polygon->count > records_.polygons.vertices.size()) {
@@ -151,7 +151,7 @@ std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) 
     Corner& c = corners.emplace_back();
     c.vertex = {Vec3<double>(v.p_clip) / v.p_clip.w * m.win_scale + m.win_translate, 1 / v.p_clip.w, {}, v.color};
     c.back_color = two_sided ? back[i] : v.color;
-    c.error = error(*number, c.vertex.p_win);
+    c.error = error(primitive, c.vertex.p_win);
     const Vec3<double>& p = c.vertex.p_win;
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return {};
   }
@@ -175,9 +175,8 @@ std::vector<std::vector<WindowAnswer>> LegalWindow::of(std::uint32_t primitive) 
 bool LegalWindow::fits(const WindowTriangle<double>& t, const WindowAnswer& answer) const {
   const WindowTriangle<double>& r = answer.record;
   if (t.corners != r.corners || t.width != r.width || !(t.front ? answer.front : answer.back)) return false;
-  const std::size_t draw = draw_of(ranges_, r.primitive).value();
   const auto near = [&](const WindowVertex<double>& a, const WindowVertex<double>& b) {
-    const Vec3<double> error = this->error(draw, b.p_win);
+    const Vec3<double> error = this->error(r.primitive, b.p_win);
     for (int c = 0; c < 3; ++c) {
       if (!(std::abs(a.p_win[c] - b.p_win[c]) <= error[c])) return false;
     }
@@ -203,12 +202,6 @@ std::optional<std::vector<std::size_t>> LegalWindow::match(std::span<const Windo
   return out;
 }
 
-std::size_t run_end(std::span<const WindowTriangle<double>> records, std::size_t begin) {
-  std::size_t end = begin;
-  while (end < records.size() && records[end].primitive == records[begin].primitive) ++end;
-  return end;
-}
-
 std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<double>& candidate,
                                            const Records<double>& reference) {
   std::vector<std::uint32_t> out;
@@ -218,22 +211,16 @@ std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<dou
   if (std::ranges::none_of(scene.draws, outlines) || candidate.matrices.size() != scene.draws.size()) return out;
   const LegalWindow legal(scene, candidate, tolerance(Profile::exact, Stage::window).factor, FacingArea::either);
   const std::span a(candidate.triangles), b(reference.triangles);
-  for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
-    const bool has_a = i < a.size() && (j == b.size() || a[i].primitive <= b[j].primitive);
-    const bool has_b = j < b.size() && (i == a.size() || b[j].primitive <= a[i].primitive);
-    const std::uint32_t primitive = has_a ? a[i].primitive : b[j].primitive;
-    const std::size_t i_end = has_a ? run_end(a, i) : i, j_end = has_b ? run_end(b, j) : j;
-    const auto mine = a.subspan(i, i_end - i), theirs = b.subspan(j, j_end - j);
-    i = i_end, j = j_end;
-    const auto number = draw_of(legal.ranges(), primitive);
-    if (!number || !outlines(scene.draws[*number])) continue;
-    const Draw& draw = scene.draws[*number];
+  matched_by_primitive(a, b, [&](auto mine, auto theirs) {
+    const std::uint32_t primitive = (mine.empty() ? theirs : mine).front().primitive;
+    const Draw* draw = legal.draws().draw(primitive);
+    if (draw == nullptr || !outlines(*draw)) return;
     const bool same =
         std::ranges::equal(mine, theirs, {}, &WindowTriangle<double>::corners, &WindowTriangle<double>::corners);
-    const bool face_shows = carries(scene, draw, Varying::back_color) || draw.stencil;
-    if (same && !face_shows) continue;
+    const bool face_shows = carries(scene, *draw, Varying::back_color) || draw->stencil;
+    if (same && !face_shows) return;
     const auto answers = legal.of(primitive);
-    if (answers.size() < 2) continue;
+    if (answers.size() < 2) return;
     const auto is_legal = [&](std::span<const WindowTriangle<double>> run) {
       return std::ranges::any_of(answers, [&](const auto& list) { return legal.match(run, list).has_value(); });
     };
@@ -246,7 +233,7 @@ std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<dou
       });
     };
     if (is_legal(mine) && is_legal_of_any_face(theirs)) out.push_back(primitive);
-  }
+  });
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/stages.h"
+#include "scene/draw_index.h"
 #include "scene/scene.h"
 
 namespace plumbline::check {
@@ -40,10 +41,10 @@ class LegalWindow {
   std::optional<std::vector<std::size_t>> match(std::span<const WindowTriangle<double>> run,
                                                 const std::vector<WindowAnswer>& answers) const;
 
-  /// Error of a window position of the draw, per coordinate.
-  Vec3<double> error(std::size_t draw, const Vec3<double>& p_win) const;
+  /// Error of a window position of the primitive, which the scene has, per coordinate.
+  Vec3<double> error(std::uint32_t primitive, const Vec3<double>& p_win) const;
 
-  const std::vector<DrawRange>& ranges() const { return ranges_; }
+  const DrawIndex& draws() const { return draws_; }
 
  private:
   bool fits(const WindowTriangle<double>& t, const WindowAnswer& answer) const;
@@ -52,11 +53,8 @@ class LegalWindow {
   const Records<double>& records_;
   double factor_;
   FacingArea area_;
-  std::vector<DrawRange> ranges_;
+  DrawIndex draws_;
 };
-
-/// Runs of records of one primitive each, from `begin` on: the end of the first.
-std::size_t run_end(std::span<const WindowTriangle<double>> records, std::size_t begin);
 
 /// Primitives that are not filled, of open facing, that both sides draw legally and maybe as other faces: in another
 /// polygon mode, culled on one side alone, or, where the face shows, in its colours or stencil operations. In order.

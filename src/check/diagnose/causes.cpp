@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "check/compare/compare_records.h"
-#include "check/diagnose/hypotheses.h"
+#include "check/diagnose/known_causes.h"
 #include "check/judge/judge_passes.h"
 #include "check/judge/scene_case.h"
 
@@ -30,23 +30,23 @@ std::uint64_t differing(const Evidence& e, const Capture& made) {
 
 }  // namespace
 
-Capture made_with(const Hypothesis& h, const Scene& scene, const Capture& in, Renderer& renderer) {
+Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer) {
   Capture made;
-  if (h.before != nullptr) {
+  if (cause.before != nullptr) {
     Scene wrong = scene;
     Capture changed = in;
-    h.before(wrong, changed);
-    made = renderer.run_stage(wrong, h.stage, changed);
+    cause.before(wrong, changed);
+    made = renderer.run_stage(wrong, cause.stage, changed);
   } else {
-    made = renderer.run_stage(scene, h.stage, in);
+    made = renderer.run_stage(scene, cause.stage, in);
   }
-  if (h.after != nullptr) h.after(scene, in, made);
+  if (cause.after != nullptr) cause.after(scene, in, made);
   return made;
 }
 
-std::vector<Hypothesis> all_hypotheses() {
-  std::vector<Hypothesis> out;
-  for (const auto& list : {geometry_hypotheses(), raster_hypotheses(), fragment_hypotheses()})
+std::vector<KnownCause> all_causes() {
+  std::vector<KnownCause> out;
+  for (const auto& list : {geometry_causes(), raster_causes(), fragment_causes()})
     out.insert(out.end(), list.begin(), list.end());
   return out;
 }
@@ -56,16 +56,16 @@ std::vector<Cause> likely_causes(const Evidence& e) {
   if (e.referee == nullptr) return out;
   const std::uint64_t all = differing(e, e.expected);
   if (all == 0) return out;
-  for (const Hypothesis& h : all_hypotheses()) {
-    if (h.stage != e.stage) continue;
+  for (const KnownCause& cause : all_causes()) {
+    if (cause.stage != e.stage) continue;
     try {
-      if (h.shows != nullptr) {
-        if (h.shows(e)) out.push_back({h.name, std::string(h.words)});
+      if (cause.shows != nullptr) {
+        if (cause.shows(e)) out.push_back({cause.name, std::string(cause.words)});
         continue;
       }
-      const std::uint64_t left = differing(e, made_with(h, e.scene, e.candidate, *e.referee));
+      const std::uint64_t left = differing(e, made_with(cause, e.scene, e.candidate, *e.referee));
       if (left <= all / 50)
-        out.push_back({h.name, fmt::format("{} (explains {} of {} that differ)", h.words, all - left, all)});
+        out.push_back({cause.name, fmt::format("{} (explains {} of {} that differ)", cause.words, all - left, all)});
     } catch (const std::exception&) {  // the bug makes what exact refuses: it is not this one
     }
   }

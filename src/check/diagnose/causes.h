@@ -15,7 +15,7 @@ struct Cause {
   std::string words;      ///< the bug, and what shows it
 };
 
-/// Those that explain at least 49 in 50 of the records that differ, in the order of hypotheses.h; empty where none do.
+/// Those that explain at least 49 in 50 of the records that differ, in the order of known_causes.h; empty where none do.
 /// (The rest: ties, and what rounding decides.)
 std::vector<Cause> likely_causes(const Evidence& evidence);
 

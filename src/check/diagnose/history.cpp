@@ -10,6 +10,7 @@
 #include "capture/fragment_outcomes.h"
 #include "check/judge/scene_case.h"
 #include "scene/antialias.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::check {
 
@@ -32,15 +33,8 @@ bool leaves_out(const Scene& scene, std::span<const glm::ivec2> pixels) {
   });
 }
 
-std::size_t draw_number(const std::vector<DrawRange>& ranges, std::uint32_t primitive) {
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    if (primitive - ranges[i].first_primitive < ranges[i].primitive_count) return i;
-  }
-  throw RendererFailed(fmt::format("a fragment of primitive {}, which the scene does not have", primitive));
-}
-
 std::vector<PixelFragment> fragments_at(const Scene& scene, const Records<double>& r, glm::ivec2 pixel) {
-  const std::vector<DrawRange> ranges = draw_ranges(scene);
+  const DrawIndex draws(scene);
   const std::size_t all = r.covered.size();
   std::vector<PixelFragment> out;
   for (std::size_t i = 0; i < all; ++i) {
@@ -49,7 +43,10 @@ std::vector<PixelFragment> fragments_at(const Scene& scene, const Records<double
     const WindowTriangle<double>& triangle = r.triangles[r.covered[i].triangle];
     PixelFragment& f = out.emplace_back();
     f.primitive = triangle.primitive;
-    f.draw = draw_number(ranges, f.primitive);
+    const auto number = draws.of_primitive(f.primitive);
+    if (!number)
+      throw RendererFailed(fmt::format("a fragment of primitive {}, which the scene does not have", f.primitive));
+    f.draw = *number;
     if (triangle.corners > 0) f.triangle = r.covered[i].triangle;
     f.front = triangle.front;
     const Draw& draw = scene.draws[f.draw];

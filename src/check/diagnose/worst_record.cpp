@@ -9,6 +9,7 @@
 
 #include "check/diagnose/coverage_differences.h"
 #include "check/judge/scene_case.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::check {
 
@@ -63,7 +64,7 @@ const T* at(const std::vector<T>& v, std::size_t i) {
 class RecordPrinter {
  public:
   explicit RecordPrinter(const Evidence& e)
-      : scene_(e.scene), mine_(e.candidate), theirs_(e.expected), ranges_(draw_ranges(e.scene)) {}
+      : scene_(e.scene), mine_(e.candidate), theirs_(e.expected), draws_(e.scene) {}
 
   void matrices(std::size_t d, TextLines& out) const {
     const auto *a = at(mine_.records.matrices, d), *b = at(theirs_.records.matrices, d);
@@ -96,7 +97,7 @@ class RecordPrinter {
   void vertex(std::size_t i, TextLines& out) const {
     const auto *a = at(mine_.records.vertices, i), *b = at(theirs_.records.vertices, i);
     if (a == nullptr || b == nullptr) return;
-    const std::size_t d = draw_of_vertex(i);
+    const std::size_t d = draws_.of_vertex(i).value();
     came_in(i, out);
     if (const auto* m = at(mine_.records.matrices, d)) {
       for (int row = 0; row < 4; ++row) {
@@ -204,19 +205,10 @@ class RecordPrinter {
   const Records<double>& records() const { return mine_.records; }
 
  private:
-  std::size_t draw_of_vertex(std::size_t i) const {
-    std::size_t d = 0;
-    while (d + 1 < ranges_.size() && i >= ranges_[d].first_vertex + ranges_[d].vertex_count) ++d;
-    return d;
-  }
-  std::size_t draw_of(std::uint32_t primitive) const {
-    std::size_t d = 0;
-    while (d + 1 < ranges_.size() && primitive >= ranges_[d].first_primitive + ranges_[d].primitive_count) ++d;
-    return d;
-  }
   std::string primitive_text(std::uint32_t primitive) const {
+    const std::size_t d = draws_.of_primitive(primitive).value();
     return fmt::format("primitive {} (the {}. of draw {})", primitive,
-                       primitive - ranges_[draw_of(primitive)].first_primitive + 1, draw_of(primitive));
+                       primitive - draws_.ranges()[d].first_primitive + 1, d);
   }
   std::string winner(std::int32_t id) const {
     return id == kBackground ? "background" : primitive_text(static_cast<std::uint32_t>(id));
@@ -227,17 +219,16 @@ class RecordPrinter {
   }
 
   void came_in(std::size_t i, TextLines& out) const {
-    const std::size_t d = draw_of_vertex(i), k = i - ranges_[d].first_vertex;
+    const std::size_t d = draws_.of_vertex(i).value(), k = i - draws_.ranges()[d].first_vertex;
     const Mesh& mesh = scene_.meshes[scene_.draws[d].mesh];
     out.push_back(fmt::format("vertex {} (the {}. of draw {}): p_model {}, normal {}", i, k + 1, d,
                               text(mesh.positions.at(k)), text(mesh.normals.at(k))));
   }
   // The primitive's vertices, as they came into the clipper.
   void corners(std::uint32_t primitive, TextLines& out) const {
-    const std::size_t d = draw_of(primitive);
-    const glm::uvec3 of = scene_.meshes[scene_.draws[d].mesh].triangles.at(primitive - ranges_[d].first_primitive);
+    const glm::uvec3 of = draws_.corners(primitive);
     for (int c = 0; c < 3; ++c) {
-      const std::size_t i = ranges_[d].first_vertex + of[c];
+      const std::size_t i = of[c];
       const auto* v = at(mine_.records.vertices, i);
       const auto* l = at(mine_.records.lit, i);
       if (v != nullptr && l != nullptr)
@@ -333,7 +324,7 @@ class RecordPrinter {
 
   const Scene& scene_;
   const Capture &mine_, &theirs_;
-  std::vector<DrawRange> ranges_;
+  DrawIndex draws_;
 };
 
 }  // namespace

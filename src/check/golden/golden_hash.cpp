@@ -1,7 +1,6 @@
 #include "check/golden/golden_hash.h"
 
 #include <charconv>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -55,24 +54,11 @@ void add_material(Hasher& hasher, const Material& m) {
   hasher.add_value(m.shininess);
 }
 
-// What a capture's array belongs to: "clip.polygon", "planes.id", "varyings.normal.window" ... The winners' texels and
-// colours are other ones where another fragment wins: beside the records of all fragments they say no more than that.
-Stage stage_of(std::string_view name, bool fragments) {
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    if (name.substr(0, name.find('.')) == kStageNames[i]) return static_cast<Stage>(i);
-  }
-  const std::string_view last = name.substr(name.rfind('.') + 1);
-  if (name.starts_with("varyings.")) {
-    return last == "vertices"  ? Stage::light
-           : last == "clipped" ? Stage::clip
-           : last == "window"  ? Stage::window
-                               : Stage::attributes;
-  }
-  if (last == "count" || last == "id_sum") return Stage::coverage;
-  if (last == "id" || last == "stencil") return Stage::visibility;
-  if (last == "texel") return fragments ? Stage::visibility : Stage::texture;
-  if (last == "shaded") return fragments ? Stage::visibility : Stage::shade;
-  return Stage::merge;
+// The stage that an array is hashed with. The winners' texels and colours are other ones where another fragment wins:
+// beside the records of all fragments they say no more than that.
+Stage hashed_with(Handed of, bool fragments) {
+  const bool of_winners = of.name == "planes.texel" || of.name == "planes.shaded";
+  return of_winners && fragments ? Stage::visibility : of.stage;
 }
 
 // Lights in eye space, recorded since goldens have been kept: the lit colours that they make are hashed.
@@ -82,14 +68,14 @@ class StageHashers {
  public:
   /// Whether a capture holds the records of all fragments.
   void next(const Capture& capture) { fragments_ = !capture.records.shaded.empty(); }
-  template <class Record, class... Columns>
-  void group(std::string_view name, const std::vector<Record>& records, const Columns&... columns) {
-    if (name == kNotHashed) return;
-    if (!records.empty()) (column(name, records, columns), ...);
+  template <class Record>
+  void group(Handed group, const auto& columns, const std::vector<Record>& records) {
+    if (group.name == kNotHashed || records.empty()) return;
+    columns.each([&](const auto& c) { column(group, records, c); });
   }
   template <class T>
-  void plane(std::string_view name, const Plane<T>& plane) {
-    if (!plane.empty()) array(stage_of(name, fragments_), name, plane.values().data(), plane.size() * sizeof(T));
+  void plane(Handed of, const Plane<T>& plane) {
+    if (!plane.empty()) array(hashed_with(of, fragments_), of.name, plane.values().data(), plane.size() * sizeof(T));
   }
   void array(Stage stage, std::string_view name, const void* bytes, std::size_t size) {
     const auto i = static_cast<std::size_t>(stage);
@@ -107,15 +93,9 @@ class StageHashers {
 
  private:
   template <class Record, class C>
-  void column(std::string_view group, const std::vector<Record>& records, const C& column) {
-    using T = ColumnType<C, const Record>;
-    constexpr std::size_t kPerRecord = C::kCorners == 0 ? 1 : C::kCorners;
-    std::vector<char> bytes(records.size() * kPerRecord * sizeof(T));  // without the gaps of a struct
-    char* to = bytes.data();
-    for (const Record& record : records) {
-      for (std::size_t k = 0; k < kPerRecord; ++k, to += sizeof(T)) std::memcpy(to, &column.at(record, k), sizeof(T));
-    }
-    array(stage_of(group, fragments_), fmt::format("{}.{}", group, column.name), bytes.data(), bytes.size());
+  void column(Handed group, const std::vector<Record>& records, const C& column) {
+    const std::vector<char> bytes = packed(records, column);
+    array(group.stage, fmt::format("{}.{}", group.name, column.name), bytes.data(), bytes.size());
   }
 
   bool fragments_ = false;
@@ -165,7 +145,7 @@ Fingerprint fingerprint(const Scene& scene, Renderer& renderer) {
   for (const Scene& pass : passes_of(scene)) {
     const Capture all = all_that_fits(pass, renderer);
     hashers.next(all);
-    visit_capture(all, hashers);
+    visit_capture(hashers, all);
   }
   if (scene.frame.antialias.kind != Antialias::Kind::none) {
     const Planes resolved = renderer.capture(scene, Request{}).planes;

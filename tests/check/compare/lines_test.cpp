@@ -159,10 +159,10 @@ TEST(CheckLines, depths_along_a_line_end_where_the_range_clamps_them) {
   scene.draws.resize(1);
   scene.draws[0].depth_range.near = 0.75f;
   scene.draws[0].depth_range.far = 0.25f;
-  EXPECT_EQ(depth_limits(scene, draw_ranges(scene), 1).high, 1) << "not clamped";
+  EXPECT_EQ(depth_limits(DrawIndex(scene), 1).high, 1) << "not clamped";
   scene.depth_clamp = true;
-  EXPECT_EQ(depth_limits(scene, draw_ranges(scene), 1).low, 0.25);
-  EXPECT_EQ(depth_limits(scene, draw_ranges(scene), 1).high, 0.75);
+  EXPECT_EQ(depth_limits(DrawIndex(scene), 1).low, 0.25);
+  EXPECT_EQ(depth_limits(DrawIndex(scene), 1).high, 0.75);
 }
 
 TEST(CheckLines, corners_drawn_over_each_other_tie_within_a_step) {

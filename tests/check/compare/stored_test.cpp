@@ -30,19 +30,19 @@ struct Harm {
   std::string name{};
 
   template <class Record>
-  void group(std::string_view group, std::vector<Record>& records, const auto&... columns) {
-    (column(group, records, columns), ...);
+  void group(Handed group, const auto& columns, std::vector<Record>& records) {
+    columns.each([&](const auto& c) { column(group.name, records, c); });
   }
   template <class T>
-  void plane(std::string_view plane, Plane<T>& values) {
+  void plane(Handed plane, Plane<T>& values) {
     if (values.empty() || seen++ != array) return;
     bump(values.values().back());
-    name = plane;
+    name = plane.name;
   }
   template <class Record, class C>
   void column(std::string_view group, std::vector<Record>& records, const C& column) {
     if (records.empty() || seen++ != array) return;
-    auto& value = column.at(records.back(), std::max<std::size_t>(C::kCorners, 1) - 1);
+    auto& value = column.at(records.back(), kPerRecord<C> - 1);
     bump(value);
     name = std::string(group) + "." + std::string(column.name);
   }
@@ -64,7 +64,7 @@ TEST(StoredCaptures, EveryArrayIsComparedAndNamed) {
   for (;; ++arrays) {
     Capture harmed = whole;
     Harm harm{arrays};
-    visit_capture(harmed, harm);
+    visit_capture(harm, harmed);
     if (harm.name.empty()) break;
     SCOPED_TRACE(harm.name);
     for (const auto& rows : {compare_captures(whole, harmed, 0.25), compare_captures(harmed, whole, 0.25)}) {

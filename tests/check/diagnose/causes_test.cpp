@@ -6,7 +6,7 @@
 #include <set>
 
 #include "check/diagnose/diagnose.h"
-#include "check/diagnose/hypotheses.h"
+#include "check/diagnose/known_causes.h"
 #include "check/judge/stage_copy.h"
 #include "faults/faults.h"
 #include "renderers/pipeline_renderer.h"
@@ -20,7 +20,7 @@ namespace plumbline::check {
 namespace {
 
 std::string_view name_by_words(const std::string& words) {
-  for (const Hypothesis& h : all_hypotheses()) {
+  for (const KnownCause& h : all_causes()) {
     if (words.starts_with(h.words)) return h.name;
   }
   return "no such cause";
@@ -120,12 +120,12 @@ TEST(Causes, SayNothingWhereNoPatternFits) {
   }
 }
 
-// A bug that a hypothesis puts into the stage is found again, and on some scene it alone is.
+// A bug that a known cause puts into the stage is found again, and on some scene it alone is.
 TEST(Causes, EachThatCanBeMadeIsTold) {
   const auto exact = exact::make_exact();
   const auto ours = pipeline::make_pipeline();
   std::set<std::string_view> open, alone;
-  for (const Hypothesis& h : all_hypotheses()) {
+  for (const KnownCause& h : all_causes()) {
     if (h.shows == nullptr) open.insert(h.name);
   }
   for (const char* name : {"camera/transform_chain",
@@ -169,7 +169,7 @@ TEST(Causes, EachThatCanBeMadeIsTold) {
                            "masks/sixteen"}) {
     const Scene scene = passes_of(suite_scene(name))[0];
     const Capture in = ours->capture(scene, {StageSet::all(), false, {}, {}});
-    for (const Hypothesis& h : all_hypotheses()) {
+    for (const KnownCause& h : all_causes()) {
       if (alone.contains(h.name) || h.shows != nullptr || (h.stage == Stage::texture && !textured(scene))) continue;
       Capture wrong = in;
       copy_stage(h.stage, {}, wrong);
@@ -189,7 +189,7 @@ TEST(Causes, EachThatCanBeMadeIsTold) {
     }
   }
   for (const std::string_view name : open) ADD_FAILURE() << name << " is never told";
-  for (const Hypothesis& h : all_hypotheses()) {
+  for (const KnownCause& h : all_causes()) {
     EXPECT_TRUE(h.shows != nullptr || alone.contains(h.name)) << h.name << " is nowhere told from others";
   }
 }

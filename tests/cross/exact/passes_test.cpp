@@ -9,7 +9,7 @@
 #include "reference/arithmetic/draw_ranges.h"
 #include "reference/arithmetic/passes.h"
 #include "scene/antialias.h"
-#include "scene/draw_of.h"
+#include "scene/draw_index.h"
 
 namespace plumbline {
 namespace {
@@ -77,6 +77,7 @@ TEST(DrawNumbers, AreTheSameToRendererAndReferences) {
     mesh.triangles.resize(triangles);
   }
   const std::vector<DrawRange> mine = draw_ranges(scene), theirs = math::ranges_of_draws(scene);
+  const DrawIndex draws(scene);
   ASSERT_EQ(mine.size(), theirs.size());
   for (std::size_t i = 0; i < mine.size(); ++i) {
     EXPECT_EQ(mine[i].first_vertex, theirs[i].first_vertex);
@@ -87,8 +88,20 @@ TEST(DrawNumbers, AreTheSameToRendererAndReferences) {
   const std::size_t expected[] = {1, 1, 1, 2, 5, 5};
   for (std::uint32_t primitive = 0; primitive < 6; ++primitive) {
     EXPECT_EQ(math::draw_with(theirs, primitive), expected[primitive]);
-    EXPECT_EQ(draw_of(mine, primitive), expected[primitive]);
+    EXPECT_EQ(draws.of_primitive(primitive), expected[primitive]);
+    EXPECT_EQ(draws.draw(primitive), &scene.draws[expected[primitive]]);
   }
+  EXPECT_FALSE(draws.of_primitive(6));
+  EXPECT_EQ(draws.draw(6), nullptr);
+  EXPECT_EQ(draws.primitives(), 6u);
+  EXPECT_EQ(draws.vertices(), 25u);
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    EXPECT_EQ(draws.of_vertex(mine[i].first_vertex), i);
+    EXPECT_EQ(draws.of_vertex(mine[i].first_vertex + mine[i].vertex_count - 1), i);
+  }
+  EXPECT_FALSE(draws.of_vertex(25));
+  scene.meshes[2].triangles[0] = {0, 3, 1};
+  EXPECT_EQ(draws.corners(3), glm::uvec3(11, 14, 12));
   EXPECT_FALSE(math::draw_with(theirs, 6));
   EXPECT_FALSE(math::draw_with({}, 0));
 }

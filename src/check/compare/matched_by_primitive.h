@@ -1,0 +1,27 @@
+// Two lists of records in draw order, walked together.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+namespace plumbline::check {
+
+/// Calls visit(run of `a`, run of `b`) for each primitive that either list has, in order: its records, none where a list
+/// lacks it. Both lists: records with a number `primitive`, in ascending order.
+template <class Record, class Visit>
+void matched_by_primitive(std::span<const Record> a, std::span<const Record> b, Visit visit) {
+  const auto take_run = [](std::span<const Record>& list, auto primitive) {
+    const auto end = std::ranges::find_if(list, [&](const Record& r) { return r.primitive != primitive; });
+    const std::span<const Record> run(list.begin(), end);
+    list = list.subspan(run.size());
+    return run;
+  };
+  while (!a.empty() || !b.empty()) {
+    const bool a_first = b.empty() || (!a.empty() && a.front().primitive <= b.front().primitive);
+    const auto primitive = a_first ? a.front().primitive : b.front().primitive;
+    const auto mine = take_run(a, primitive), theirs = take_run(b, primitive);
+    visit(mine, theirs);
+  }
+}
+
+}  // namespace plumbline::check

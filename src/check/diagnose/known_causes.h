@@ -1,0 +1,133 @@
+// Bugs that people make, as what each does to a stage (causes.h).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "check/diagnose/evidence.h"
+
+namespace plumbline::check {
+
+/// One bug. Of the functions, those that are there act.
+struct KnownCause {
+  Stage stage;
+  std::string_view name;   ///< stage.bug
+  std::string_view words;  ///< what is wrong
+  /// Puts it into what the stage is given.
+  void (*before)(Scene& scene, Capture& in) = nullptr;
+  /// Puts it into what the stage made; `in` is what it was given.
+  void (*after)(const Scene& scene, const Capture& in, Capture& made) = nullptr;
+  /// Or says of the differences themselves whether they are the bug's.
+  bool (*shows)(const Evidence& evidence) = nullptr;
+};
+
+template <class T>
+void change_all(std::vector<T>& items, auto change) {
+  for (T& item : items) change(item);
+}
+
+/// Calls change(x) for every x of the scene, the type of change's parameter: the scene itself, or its draws, their
+/// rotations or materials, lights, samplers.
+template <class Change>
+void change_scene(Scene& scene, Change change) {
+  if constexpr (std::is_invocable_v<Change, Scene&>) change(scene);
+  if constexpr (std::is_invocable_v<Change, Draw&>) change_all(scene.draws, change);
+  if constexpr (std::is_invocable_v<Change, Light&>) change_all(scene.lights, change);
+  if constexpr (std::is_invocable_v<Change, Sampler&>) {
+    change_all(scene.textures, [&](Texture& texture) { change(texture.sampler); });
+  }
+  for (Draw& draw : scene.draws) {
+    if constexpr (std::is_invocable_v<Change, Material&>) {
+      change(draw.material);
+      if (draw.back_material) change(*draw.back_material);
+    }
+    if constexpr (std::is_invocable_v<Change, Rotate&>) {
+      for (Transform& transform : draw.transforms) {
+        if (Rotate* rotate = std::get_if<Rotate>(&transform)) change(*rotate);
+      }
+    }
+  }
+}
+
+/// Likewise of a capture, or of its records of one type.
+template <class Change>
+void change_records(const Scene& scene, Capture& capture, Change change) {
+  Records<double>& r = capture.records;
+  if constexpr (std::is_invocable_v<Change, Capture&>) change(capture);
+  if constexpr (std::is_invocable_v<Change, Matrices<double>&>) change_all(r.matrices, change);
+  if constexpr (std::is_invocable_v<Change, const Scene&, Matrices<double>&>) {
+    change_all(r.matrices, [&](Matrices<double>& m) { change(scene, m); });
+  }
+  if constexpr (std::is_invocable_v<Change, Vertex<double>&>) change_all(r.vertices, change);
+  if constexpr (std::is_invocable_v<Change, Texel<double>&>) change_all(r.texels, change);
+  if constexpr (std::is_invocable_v<Change, WindowTriangle<double>&>) change_all(r.triangles, change);
+  if constexpr (std::is_invocable_v<Change, WindowVertex<double>&>) {
+    for (WindowTriangle<double>& triangle : r.triangles) std::ranges::for_each(triangle.v, change);
+  }
+}
+
+/// A bug in what the stage is given.
+template <auto change>
+constexpr KnownCause given(Stage stage, std::string_view name, std::string_view words) {
+  return {stage, name, words, [](Scene& scene, Capture& in) {
+            if constexpr (std::is_invocable_v<decltype(change), Scene&, Capture&>) change(scene, in);
+            change_scene(scene, change);
+            change_records(scene, in, change);
+          }};
+}
+/// A bug in what the stage made.
+template <auto change>
+constexpr KnownCause made(Stage stage, std::string_view name, std::string_view words) {
+  return {stage, name, words, nullptr, [](const Scene& scene, const Capture& in, Capture& out) {
+            if constexpr (std::is_invocable_v<decltype(change), const Scene&, const Capture&, Capture&>)
+              change(scene, in, out);
+            change_records(scene, out, change);
+          }};
+}
+/// A bug that the stage's differences show.
+constexpr KnownCause seen(Stage stage, std::string_view name, std::string_view words, bool (*shows)(const Evidence&)) {
+  return {stage, name, words, nullptr, nullptr, shows};
+}
+
+/// Stages 0 to 4, 5 to 7, and 8 to 12; by stage.
+std::span<const KnownCause> geometry_causes();
+std::span<const KnownCause> raster_causes();
+std::span<const KnownCause> fragment_causes();
+/// All of them.
+std::vector<KnownCause> all_causes();
+
+/// What the stage makes where the bug is in it (one with `before` or `after`), as real numbers.
+Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer);
+
+/// Codes beside the real numbers that they stand for: whether they are those below, not the nearest. (Of a number that
+/// is a whole code but for rounding, either.)
+class Truncation {
+ public:
+  void add(double code, double expected) {
+    constexpr double kRounding = 1e-3;
+    ++all_;
+    fit_ += std::floor(expected - kRounding) <= code && code <= std::floor(expected + kRounding) ? 1 : 0;
+    lower_ += code < std::nearbyint(expected) ? 1 : 0;
+  }
+  bool shows() const { return lower_ > 0 && (all_ - fit_) * 50 <= lower_; }
+
+ private:
+  std::size_t all_ = 0, fit_ = 0, lower_ = 0;
+};
+
+template <class T>
+void swap_red_and_blue(std::vector<T>& records) {
+  for (T& r : records) std::swap(r.color.r, r.color.b);
+}
+
+/// Whether pixel's centre, or what lies `place` (1/256 pixel) from it, is exactly on one of the snapped edges.
+bool on_an_edge(const WindowTriangle<double>& triangle, glm::ivec2 pixel, glm::ivec2 place);
+
+}  // namespace plumbline::check
