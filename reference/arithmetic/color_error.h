@@ -11,9 +11,12 @@
 
 namespace plumbline::math {
 
-/// Per channel, for vertex number `vertex` of the draw's mesh; `m` and `view` unrounded. At most 1: colours are
-/// clamped. Infinite where a cone's edge may be on either side of the vertex.
-double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, const glm::dmat4& view,
+/// The lights' places and directions in eye space, in length: the largest error.
+double light_place_error(const Scene& scene, const glm::dmat4& view);
+
+/// Per channel, for vertex number `vertex` of the draw's mesh; `m` and `lights` unrounded, the latter's error
+/// `light_places`. At most 1: colours are clamped.
+double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, Lights lights, double light_places,
                    std::uint32_t vertex, LitPart part = {});
 
 /// A vector of eye space and how far it may be off, in length.
@@ -21,11 +24,6 @@ struct Known {
   glm::dvec3 v;
   double error;
 };
-
-/// What color_error is of a vertex, of any point that is lit: per channel, from the errors of its position, its normal,
-/// which is as long as the light equation has it, and its material's colours, if these follow the vertex colour.
-double light_error(const Scene& scene, const DoubleMaterial& material, const glm::dmat4& view, const Known& p_eye,
-                   const Known& n_eye, double of_color);
 
 /// Brought to unit length: 4 u for that. Without a direction to rely on it may be anywhere: an error of 2.
 Known unit(const Known& a);

@@ -5,36 +5,26 @@
 
 namespace plumbline::math {
 
-double fog_factor(const Fog& fog, double z_eye) {
-  const double c = std::abs(z_eye), density = fog.density, start = fog.start, end = fog.end;
-  double f = 1;
-  switch (fog.mode) {
-    case Fog::Mode::linear: f = (end - c) / (end - start); break;
-    case Fog::Mode::exp: f = std::exp(-density * c); break;
-    case Fog::Mode::exp2: f = std::exp(-(density * c) * (density * c)); break;
-  }
-  return std::clamp(f, 0.0, 1.0);
-}
-
-double fog_factor_error(const Fog& fog, double z_eye, double error) {
-  if (!std::isfinite(error)) return 1;
-  constexpr double kRounding = 16.0 / (1 << 24);
-  const double c = std::abs(z_eye), density = fog.density, start = fog.start, end = fog.end;
-  const double nearest = density * std::max(c - error, 0.0), farthest = density * (c + error);
-  double slope = 0, argument = 0;  // of f over the distance; its argument's size
+Bounded fog_factor(const Fog& fog, Bounded z_eye, const Roundings& roundings) {
+  const double c = std::abs(z_eye.value), dz = z_eye.error, density = fog.density, x = density * c;
+  const double start = fog.start, end = fog.end, range = std::abs(end - start);
   switch (fog.mode) {
     case Fog::Mode::linear:
-      slope = 1 / std::abs(end - start);
-      argument = (std::abs(end) + c) * slope;
-      break;
-    case Fog::Mode::exp: slope = density * std::exp(-nearest); break;  // x exp(-x) < 1
-    case Fog::Mode::exp2: slope = 2 * density * farthest * std::exp(-nearest * nearest); break;
+      return {std::clamp((end - c) / (end - start), 0.0, 1.0), dz / range + roundings((std::abs(end) + c) / range)};
+    case Fog::Mode::exp: {
+      const double f = std::exp(-std::max(x - density * dz, 0.0));
+      return {std::exp(-x), f * density * dz + roundings(f * (1 + x))};
+    }
+    case Fog::Mode::exp2: {
+      const double near = std::max(x - density * dz, 0.0), f = std::exp(-near * near);
+      return {std::exp(-x * x), f * (2 * x + density * dz) * density * dz + roundings(f * (1 + 2 * x * x))};
+    }
   }
-  return std::min(1.0, slope * error + kRounding * (1 + argument));
+  return {1, 0};
 }
 
 glm::dvec4 fogged(const Fog& fog, const glm::dvec4& color, double z_eye) {
-  const double f = fog_factor(fog, z_eye);
+  const double f = fog_factor(fog, {z_eye, 0}, {0}).value;
   return {f * glm::dvec3(color) + (1 - f) * glm::dvec3(fog.color), color.a};
 }
 

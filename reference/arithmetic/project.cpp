@@ -70,7 +70,7 @@ std::vector<std::uint32_t> weld(const Mesh& mesh) {
 void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
   const Mesh& mesh = scene.meshes[draw.mesh];
   const Matrices<double> m = double_matrices(scene, draw);
-  const glm::dmat4 view = view_matrix(scene), clip = m.projection * m.model_view;
+  const glm::dmat4 clip = m.projection * m.model_view;
   const glm::dmat4 clip_size = sizes(m.projection) * sizes(m.model_view);
   const glm::dvec2 half(0.5 * scene.frame.width, 0.5 * scene.frame.height);
   const std::vector<std::uint32_t> point = weld(mesh);
@@ -85,12 +85,12 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.z = c.z;
     corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
     corner.color = vertex_color(scene, draw, out.lights, i, p_eye, n_eye);
-    corner.color_error = color_error(scene, draw, m, view, i);
+    corner.color_error = color_error(scene, draw, m, out.lights, out.light_places, i);
     corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
     const auto lit_part = [&](LitPart part, glm::dvec4& of_part, double& error) {
       if (!two && !separate) return;
       of_part = vertex_color(scene, draw, out.lights, i, p_eye, n_eye, part);
-      error = color_error(scene, draw, m, view, i, part);
+      error = color_error(scene, draw, m, out.lights, out.light_places, i, part);
     };
     lit_part({true, false}, corner.back_color, corner.back_color_error);
     lit_part({false, true}, corner.secondary, corner.secondary_error);
@@ -298,8 +298,8 @@ Projected project(const Scene& scene) {
   Projected out;
   out.width = scene.frame.width;
   out.height = scene.frame.height;
-  out.view = view_matrix(scene);
   out.lights = light_sources(scene);
+  out.light_places = light_place_error(scene, view_matrix(scene));
   out.depth_clamp = scene.depth_clamp;
   out.depth = scene.frame.depth;
   out.sample = sample_offset(scene.frame);

@@ -16,11 +16,11 @@
 #include <glm/glm.hpp>
 
 #include "capture/stages.h"
+#include "reference/arithmetic/bounded.h"
 #include "scene/scene.h"
 
 namespace plumbline::math {
 
-inline constexpr double kFloatRounding = 1.0 / (1 << 24);  ///< u: half an ULP of 1
 inline constexpr double kHalfStep = 1.0 / 512;             ///< h: half a snapping step, in pixels
 inline constexpr double kSnap = 1.4142135623730951 / 512;  ///< the farthest that snapping moves a vertex, in pixels
 
@@ -78,8 +78,8 @@ inline double range_scale(const Triangle& t) { return std::abs(double{t.range.fa
 /// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange).
 struct Projected {
   int width = 0, height = 0;
-  glm::dmat4 view{1};  ///< world to eye space
   std::vector<LightSource<double>> lights;
+  double light_places = 0;  ///< their error (color_error.h)
   bool perspective = true;
   bool depth_clamp = false;  ///< no near and far plane
   DepthFormat depth = DepthFormat::z24;

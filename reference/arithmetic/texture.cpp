@@ -236,56 +236,12 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
 
 glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const glm::dvec4& fragment,
                           const glm::dvec4& texel) {
-  using F = TextureFormat;
-  const glm::dvec3 cf(fragment), cs(texel), cc(state.color);
-  const double af = fragment.a, as = texel.a, ac = static_cast<double>(state.color.a);
-  const glm::dvec3 one(1);
-  // The tables, column by column; decal is defined for rgb and rgba.
-  switch (state.environment) {
-    case TextureEnvironment::replace:
-      switch (format) {
-        case F::alpha: return {cf, as};
-        case F::luminance:
-        case F::rgb: return {cs, af};
-        case F::luminance_alpha:
-        case F::intensity:
-        case F::rgba: return {cs, as};
-      }
-      break;
-    case TextureEnvironment::modulate:
-      switch (format) {
-        case F::alpha: return {cf, af * as};
-        case F::luminance:
-        case F::rgb: return {cf * cs, af};
-        case F::luminance_alpha:
-        case F::intensity:
-        case F::rgba: return {cf * cs, af * as};
-      }
-      break;
-    case TextureEnvironment::decal:
-      return format == F::rgb ? glm::dvec4(cs, af) : glm::dvec4(cf * (1 - as) + cs * as, af);
-    case TextureEnvironment::blend:
-      switch (format) {
-        case F::alpha: return {cf, af * as};
-        case F::luminance:
-        case F::rgb: return {cf * (one - cs) + cc * cs, af};
-        case F::luminance_alpha:
-        case F::rgba: return {cf * (one - cs) + cc * cs, af * as};
-        case F::intensity: return {cf * (one - cs) + cc * cs, af * (1 - as) + ac * as};
-      }
-      break;
-    case TextureEnvironment::add:
-      switch (format) {
-        case F::alpha: return {cf, af * as};
-        case F::luminance:
-        case F::rgb: return {glm::clamp(cf + cs, 0.0, 1.0), af};
-        case F::luminance_alpha:
-        case F::rgba: return {glm::clamp(cf + cs, 0.0, 1.0), af * as};
-        case F::intensity: return glm::clamp(fragment + texel, 0.0, 1.0);
-      }
-      break;
+  glm::dvec4 out;
+  for (int c = 0; c < 4; ++c) {
+    out[c] = textured_channel<double>(format, state.environment, c == 3, fragment[c], texel[c], texel.a,
+                                      static_cast<double>(state.color[c]), Exactly());
   }
-  return fragment;
+  return out;
 }
 
 namespace {
@@ -317,7 +273,7 @@ BoundedColor bounded_textured_color(const Texture& texture, const DrawTexture& s
     const glm::dvec4 apart = glm::abs(textured_color(texture.format, state, f, s) - out.value);
     out.bound = std::max({out.bound, apart.r, apart.g, apart.b, apart.a});
   }
-  constexpr double kRoundings = 8.0 / 16777216.0;
+  constexpr double kRoundings = 8 * kFloatRounding;
   const glm::dvec4 size = glm::max(glm::abs(lo), glm::abs(hi));
   out.bound += kRoundings * std::max({1.0, size.r, size.g, size.b, size.a});
   return out;

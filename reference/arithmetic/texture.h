@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "capture/legal.h"
+#include "reference/arithmetic/bounded.h"
 #include "scene/scene.h"
 
 namespace plumbline::math {
@@ -28,7 +29,31 @@ bool depends_on_lambda(const Sampler& sampler);
 /// What filtered_texel() comes to where lambda is in an interval, and (s, t) not quite known.
 TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi);
 
-/// The fragment's colour and the texel's as one (tables 3.22 and 3.23). Sums are clamped to [0,1].
+/// One channel of a fragment's colour and a texel as one (tables 3.22 and 3.23), by the operations `by` (bounded.h).
+/// `alpha`: it is alpha. Of `fragment`, `texel` and the environment's `constant`, that channel.
+template <class Number, class Operations>
+Number textured_channel(TextureFormat format, TextureEnvironment environment, bool alpha, Number fragment, Number texel,
+                        Number texel_alpha, Number constant, const Operations& by) {
+  using F = TextureFormat;
+  using E = TextureEnvironment;
+  const bool intensity = format == F::intensity;
+  if (alpha ? format == F::luminance || format == F::rgb || environment == E::decal : format == F::alpha)
+    return fragment;
+  switch (environment) {
+    case E::replace: return texel;
+    case E::decal: return format == F::rgb ? texel : by.mixed(fragment, texel, texel_alpha);
+    case E::blend:
+      if (alpha && !intensity) break;
+      return by.mixed(fragment, constant, texel);
+    case E::add:
+      if (alpha && !intensity) break;
+      return by.clamped_sum(fragment, texel);
+    case E::modulate: break;
+  }
+  return by.product(fragment, texel);
+}
+
+/// All channels. Sums are clamped to [0,1].
 glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const glm::dvec4& fragment,
                           const glm::dvec4& texel);
 

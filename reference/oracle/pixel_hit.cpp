@@ -7,6 +7,7 @@
 #include "capture/fragment_outcomes.h"
 #include "reference/arithmetic/color_error.h"
 #include "reference/arithmetic/fog.h"
+#include "reference/arithmetic/light_bounds.h"
 #include "reference/arithmetic/polygon_offset.h"
 #include "reference/arithmetic/texture.h"
 
@@ -140,17 +141,10 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
   set_window_depth(t, polygon_offset(t, offset, scene.depth), clamps, lo, hi, weight, out);
 }
 
-/// A value at the pixel and how far a legal renderer's may be from it; infinite: any, and not only of the corners'
-/// range.
-struct Bounded {
-  glm::dvec4 value{0};
-  double bound = 0;
-};
-
 /// Perspective-correct, the plane going on beyond the triangle's border, as renderers' do. `corners`: with their
 /// bounds.
-Bounded at_pixel(const Projected& scene, const Triangle& t, const std::array<Bounded, 3>& corners, glm::dvec3 d,
-                 const Place& at, glm::dvec2 moved, bool certain) {
+BoundedColor at_pixel(const Projected& scene, const Triangle& t, const std::array<BoundedColor, 3>& corners,
+                      glm::dvec3 d, const Place& at, glm::dvec2 moved, bool certain) {
   const glm::dvec3 centre = scene.to_centre(d);
   const glm::dvec3 e(glm::dot(t.n[0], centre), glm::dot(t.n[1], centre), glm::dot(t.n[2], centre));
   const double weight = centre_weight(scene, t, at, d, certain), sum = e.x + e.y + e.z;
@@ -171,7 +165,7 @@ Bounded at_pixel(const Projected& scene, const Triangle& t, const std::array<Bou
     error = std::max(error, corners[i].bound);
     size = std::max(size, largest(corners[i].value));
   }
-  for (const Bounded& corner : corners) spread = std::max(spread, largest(corner.value - value));
+  for (const BoundedColor& corner : corners) spread = std::max(spread, largest(corner.value - value));
   // A far point of a triangle that comes near has small e_i: their errors are those of the near end, w / w_min larger.
   // The relative error of 1/w_i moves the value by its share of the spread, and so does that of w's plane.
   const double w = std::max(std::clamp(at.w, t.w_min, t.w_max), centre == d ? 0 : 1 / glm::dot(t.w_plane, centre));
@@ -188,7 +182,7 @@ Bounded at_pixel(const Projected& scene, const Triangle& t, const std::array<Bou
 /// Where in its texture the hit is, and the levels of detail at the four pixels of its square of two by two: ray
 /// differentials, d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j.
 BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const std::array<glm::dvec2, 3>& texcoords,
-                              const Bounded& st, glm::dvec3 d, glm::ivec2 pixel) {
+                              const BoundedColor& st, glm::dvec3 d, glm::ivec2 pixel) {
   BoundedPlace out{glm::dvec2(st.value), st.bound, 0, kInfinity, -kInfinity};
   const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
   for (int k = 0; k < 4; ++k) {
@@ -227,23 +221,28 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   const bool two = draw.lit && model.sides == LightModel::Sides::two, back = two && t.sign < 0;
   const auto lit_part = [&](auto of_corner) {
     if (draw.shading != Shading::flat) return attribute(of_corner);
-    Bounded last = of_corner(corner(2));
+    BoundedColor last = of_corner(corner(2));
     last.bound += 4 * kFloatRounding;
     return last;
   };
-  Bounded color = lit_part([&](const Corner& c) {
-    return back && is_lit_per_vertex(draw) ? Bounded{c.back_color, c.back_color_error}
-                                           : Bounded{c.color, c.color_error};
+  BoundedColor color = lit_part([&](const Corner& c) {
+    return back && is_lit_per_vertex(draw) ? BoundedColor{c.back_color, c.back_color_error}
+                                           : BoundedColor{c.color, c.color_error};
   });
-  Bounded secondary;
+  BoundedColor secondary;
   if (is_lit_per_vertex(draw) && model.separate_specular) {
     secondary = lit_part([&](const Corner& c) {
-      return back ? Bounded{c.back_secondary, c.back_secondary_error} : Bounded{c.secondary, c.secondary_error};
+      return back ? BoundedColor{c.back_secondary, c.back_secondary_error}
+                  : BoundedColor{c.secondary, c.secondary_error};
     });
   }
   if (is_lit_per_fragment(draw)) {
-    const Bounded p = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
-    const Bounded n = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
+    const BoundedColor p = attribute([](const Corner& c) {
+      return BoundedColor{glm::dvec4(c.p_eye, 0), c.p_eye_error};
+    });
+    const BoundedColor n = attribute([](const Corner& c) {
+      return BoundedColor{glm::dvec4(c.n_eye, 0), c.n_eye_error};
+    });
     const Known p_eye{glm::dvec3(p.value), p.bound};
     Known n_eye = unit({glm::dvec3(n.value), n.bound});
     if (back) n_eye.v = -n_eye.v;
@@ -252,27 +251,32 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
     const auto of_fragment = [&](bool specular) {
       const DoubleMaterial material = material_of(scene, draw, {back, specular}, color.value);
       const double bound =
-          known ? light_error(scene, material, projected.view, p_eye, n_eye, follows ? color.bound : 0) : kInfinity;
-      return Bounded{light(scene, material, projected.lights, p_eye.v, n_eye.v), bound};
+          known ? light_error(scene, material, {glm::dvec4(p_eye.v, 1), glm::dvec4(0), n_eye.v},
+                              {p_eye.error, n_eye.error, follows ? color.bound : 0, projected.light_places},
+                              projected.lights)
+                : kInfinity;
+      return BoundedColor{light(scene, material, projected.lights, p_eye.v, n_eye.v), bound};
     };
     if (model.separate_specular) secondary = of_fragment(true);
     color = of_fragment(false);
   }
   if (draw.texture) {
-    const Bounded st = attribute([](const Corner& c) { return Bounded{glm::dvec4(c.texcoord, 0, 0), 0}; });
+    const BoundedColor st = attribute([](const Corner& c) { return BoundedColor{glm::dvec4(c.texcoord, 0, 0), 0}; });
     const Texture& texture = scene.textures.at(draw.texture->texture);
     const BoundedPlace place = place_in_texture(
         texture, t, {corner(0).texcoord, corner(1).texcoord, corner(2).texcoord}, st, projected.to_centre(d), pixel);
-    const BoundedColor textured = bounded_textured_color(texture, *draw.texture, {color.value, color.bound}, place);
-    color = {textured.value, textured.bound};
+    color = bounded_textured_color(texture, *draw.texture, color, place);
   }
   if (draw.lit && model.separate_specular) {
     color = {color_sum(color.value, secondary.value), color.bound + secondary.bound + kFloatRounding};
   }
   if (two && (t.thin || t.sign == 0)) color.bound = kInfinity;  // it may show either face
   if (draw.fog && std::isfinite(color.bound)) {
-    const Bounded p = attribute([](const Corner& c) { return Bounded{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error}; });
-    const double f_error = fog_factor_error(*draw.fog, p.value.z, p.bound);
+    const BoundedColor p = attribute([](const Corner& c) {
+      return BoundedColor{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error};
+    });
+    const double f_error =
+        std::isfinite(p.bound) ? std::min(1.0, fog_factor(*draw.fog, {p.value.z, p.bound}, {16}).error) : 1;
     const glm::dvec3 from_fog = glm::abs(glm::dvec3(color.value) - glm::dvec3(draw.fog->color));
     color.bound += f_error * (std::max({from_fog.x, from_fog.y, from_fog.z}) + color.bound) + 4 * kFloatRounding;
     color.value = fogged(*draw.fog, color.value, p.value.z);

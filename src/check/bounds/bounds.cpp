@@ -8,10 +8,6 @@
 
 namespace plumbline::check {
 
-double Roundings::operator()(double magnitude) const {
-  return magnitude == 0 ? 0 : count * (kUnitRoundoff * magnitude + underflow);
-}
-
 namespace {
 
 // A triangle's barycentric planes through its unsnapped corners (stages.h, 6), or the snapped where those fail; a

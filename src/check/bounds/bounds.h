@@ -6,25 +6,16 @@
 #include <vector>
 
 #include "capture/stages.h"
+#include "reference/arithmetic/bounded.h"
 #include "scene/draw_index.h"
 #include "scene/scene.h"
 
 namespace plumbline::check {
 
-inline constexpr double kUnitRoundoff = 1.0 / 16777216.0;
-
-/// Absolute error of one rounding below float's smallest normal number, 2^-126, where u of the number is too little.
-/// Gradual underflow (IEEE 754, 7.5): half of the smallest step, 2^-149. Flushed: numbers below 2^-126 become 0, as
-/// operands and as results; Mesa sets the processor so for its vertices and for llvmpipe (util_fpstate).
-inline constexpr double kGradualUnderflow = 0x1p-150, kFlushedUnderflow = 0x1p-126;
-
-/// Roundings of a stage in float: `count` of them, and the renderer's underflow.
-struct Roundings {
-  double count;
-  double underflow = kGradualUnderflow;
-  /// Error of a result whose terms come to `magnitude`. A sum of nothing but zeros is not rounded.
-  double operator()(double magnitude) const;
-};
+using math::kFlushedUnderflow;
+using math::kGradualUnderflow;
+using math::Roundings;
+inline constexpr double kUnitRoundoff = math::kFloatRounding;
 
 /// |M| |p|: what the rounding errors of M p are proportional to.
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
@@ -35,34 +26,6 @@ double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
 /// For a renderer that inverts the model-view in float, as Mesa does: |N| |M|^T |N| |n| / |N n|, what an error of the
 /// matrix comes to in its inverse; in the largest component.
 double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n);
-
-/// Bounds of what rounding does to a lit colour.
-struct LightBounds {
-  /// Per channel, in units of u, how it may differ in float from the spec's equation in double: the sum over the lights
-  /// of |ambient| + k |n| |diffuse| + (k + s e) |specular|, at least 1 (the clamped result).
-  /// s: shininess, by which a power multiplies its argument's error (of cosines above 1, by s n^(s-1)); e: that error,
-  /// |n| k (1 + 1 / |L + E|) of the half vector (|L + E|: its length before it is normalised; 1 / |L + E| more of a
-  /// local viewer), 4 |n|^2 (k + 1) of 2 (N.L) (N.E) - L.E; k: of a point light, (|light| + |p_eye|) / |light - p_eye|
-  /// + 1. Attenuation has 2 k, a cone the slope of its power times k + 1. Infinite where no direction is left (a light at
-  /// the vertex).
-  Vec3<double> magnitude{0};
-  /// Per channel, the light that rounding may add or take away: the specular terms of lights whose N.L is within
-  /// rounding of 0; all of a light whose cone ends within rounding; in GzRender's rule, where N.E is.
-  Vec3<double> jump{0};
-  /// Per channel, what the inputs' errors come to, to which the magnitude knows nothing.
-  Vec3<double> inherited{0};
-  /// Per channel: a specular term of 0 with a power that may be beyond float, of which a renderer that does not limit
-  /// its power makes 0 times infinity.
-  glm::bvec3 overflows{false};
-};
-/// How far position and normal (in length), and the material's colours that follow the vertex', may be off.
-struct LightInputs {
-  double p_eye = 0, n_eye = 0, color = 0;
-};
-/// `material`: the draw's at the vertex (scene.h, lit_material).
-/// `lights`: recorded ones; where there are none, the scene's.
-LightBounds light_bounds(const Scene& scene, const Material& material, const Vertex<double>& vertex,
-                         const LightInputs& errors = {}, std::span<const LightSource<double>> lights = {});
 
 /// What the triangle's plane of colours comes to at a pixel's centre, perspective-correct, and its slopes per pixel.
 struct PlaneValue {

@@ -9,6 +9,7 @@
 
 #include "check/bounds/units.h"
 #include "check/verdict/ledger.h"
+#include "reference/arithmetic/light_bounds.h"
 
 namespace plumbline::check {
 
@@ -51,9 +52,9 @@ std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, 
     const std::vector<glm::vec4>& colors = scene.meshes[draw.mesh].colors;
     Vertex<double> vertex = r.vertices[i];
     if (is_back(v)) vertex.n_eye = -vertex.n_eye;
-    const glm::vec4* color = colors.empty() ? nullptr : &colors[i - draws.ranges()[d].first_vertex];
-    const LightBounds bounds =
-        light_bounds(scene, lit_material(scene, draw, {is_back(v), is_secondary(v)}, color), vertex, {}, r.lights);
+    const Vec4<double> color(colors.empty() ? glm::vec4(0) : colors[i - draws.ranges()[d].first_vertex]);
+    const math::LightBounds bounds = math::light_bounds(
+        scene, math::material_of(scene, draw, {is_back(v), is_secondary(v)}, color), vertex, {}, r.lights);
     out[i] = {tolerance(Profile::opengl, Stage::light).factor * u * bounds.magnitude + bounds.jump +
                   Vec3<double>(bounds.overflows),
               u};

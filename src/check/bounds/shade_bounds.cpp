@@ -6,37 +6,10 @@
 
 #include "check/bounds/texture_bounds.h"
 #include "check/bounds/units.h"
+#include "reference/arithmetic/fog.h"
+#include "reference/arithmetic/light_bounds.h"
 
 namespace plumbline::check {
-
-namespace {
-
-// f, and how far it may be off where z_eye may be off by `dz`.
-struct Factor {
-  double f, error;
-};
-Factor fog_factor(const Fog& fog, double z_eye, double dz, const Roundings& roundings) {
-  const double c = std::abs(z_eye), density = fog.density, x = density * c;
-  const double range = std::abs(static_cast<double>(fog.end) - fog.start);
-  switch (fog.mode) {
-    case Fog::Mode::linear: {
-      const double f = (fog.end - c) / (static_cast<double>(fog.end) - fog.start);
-      return {std::clamp(f, 0.0, 1.0), dz / range + roundings((std::abs(fog.end) + c) / range)};
-    }
-    // x exp(-x) <= 1/e: the argument's relative error comes to less than its absolute one.
-    case Fog::Mode::exp: {
-      const double f = std::exp(-std::max(x - density * dz, 0.0));
-      return {std::exp(-x), f * density * dz + roundings(f * (1 + x))};
-    }
-    case Fog::Mode::exp2: {
-      const double near = std::max(x - density * dz, 0.0), f = std::exp(-near * near);
-      return {std::exp(-x * x), f * (2 * x + density * dz) * density * dz + roundings(f * (1 + 2 * x * x))};
-    }
-  }
-  return {1, 0};
-}
-
-}  // namespace
 
 FragmentFours fours_of(const Records<double>& records, std::size_t i) {
   FragmentFours out;
@@ -63,10 +36,9 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, con
   at.n_eye = Vec3<double>(attributes[Varying::normal]) / (part.back ? -n : n);
   const bool colors = !scene.meshes[draw.mesh].colors.empty() && draw.color_material != ColorMaterial::none;
   const double d_color = colors ? glm::length(errors.color) : 0;
-  const glm::vec4 color(attributes.color);
-  const LightBounds bounds =
-      light_bounds(scene, lit_material(scene, draw, part, colors ? &color : nullptr), at,
-                   {length(errors[Varying::position]), dn / n + 4 * u, d_color}, attributes.lights);
+  const math::LightBounds bounds =
+      math::light_bounds(scene, math::material_of(scene, draw, part, attributes.color), at,
+                         {length(errors[Varying::position]), dn / n + 4 * u, d_color}, attributes.lights);
   if (!std::isfinite(bounds.magnitude.x) || bounds.jump != Vec3<double>(0)) return anything;
   return Vec4<double>(bounds.inherited + 4 * roundings.count * u * bounds.magnitude, d_color + u);
 }
@@ -103,7 +75,8 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
     error += Vec4<double>(Vec3<double>(apart) + roundings(1), 0);
   }
   if (draw.fog) {
-    const auto [f, df] = fog_factor(*draw.fog, attributes[Varying::position].z, errors[Varying::position].z, roundings);
+    const auto [f, df] =
+        math::fog_factor(*draw.fog, {attributes[Varying::position].z, errors[Varying::position].z}, roundings);
     for (int c = 0; c < 3; ++c) {
       const double of_fog = draw.fog->color[c];
       if (per_fragment || summed) color[c] = of_fog > 0.5 ? 0 : 1;  // as far from the fog's as light can be

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "check/bounds/units.h"
+#include "reference/arithmetic/texture.h"
 
 namespace plumbline::check {
 
@@ -77,53 +78,14 @@ std::string_view mesas_other_level(const Texture& texture, const TexelRange& ran
 Environed environ_error(TextureFormat format, const DrawTexture& state, const Vec4<double>& f,
                         const Vec4<double>& f_error, const Vec4<double>& s, const Vec4<double>& s_error,
                         const Roundings& roundings) {
-  using E = TextureEnvironment;
-  const bool has_color = format != TextureFormat::alpha, intensity = format == TextureFormat::intensity;
-  const bool has_alpha = format != TextureFormat::luminance && format != TextureFormat::rgb;
-  // f (1 - k) + c k of a fragment's f, a constant or texel c, and a share k.
-  struct Value {
-    double value, error;
-  };
-  const auto mixed = [&](Value a, Value b, Value k) -> Value {
-    const double v = a.value * (1 - k.value) + b.value * k.value;
-    const double error = std::abs(1 - k.value) * a.error + std::abs(k.value) * b.error +
-                         (std::abs(b.value - a.value) + a.error + b.error) * k.error;
-    return {v, error + roundings(std::abs(a.value * (1 - k.value)) + std::abs(b.value * k.value))};
-  };
-  const auto product = [&](Value a, Value b) -> Value {
-    return {a.value * b.value, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error +
-                                   roundings(std::abs(a.value * b.value))};
-  };
-  const auto sum = [&](Value a, Value b) -> Value {
-    const double v = a.value + b.value;
-    return {std::clamp(v, 0.0, 1.0), a.error + b.error + roundings(std::abs(v))};
-  };
-  const auto of_f = [&](int k) { return Value{f[k], f_error[k]}; };
-  const auto of_s = [&](int k) { return Value{s[k], s_error[k]}; };
-  const auto constant = [&](int k) { return Value{static_cast<double>(state.color[k]), 0}; };
-  const auto channel = [&](int k) -> Value {
-    if (!has_color) return of_f(k);
-    switch (state.environment) {
-      case E::replace: return of_s(k);
-      case E::modulate: return product(of_f(k), of_s(k));
-      case E::decal: return format == TextureFormat::rgb ? of_s(k) : mixed(of_f(k), of_s(k), of_s(3));
-      case E::blend: return mixed(of_f(k), constant(k), of_s(k));
-      case E::add: return sum(of_f(k), of_s(k));
-    }
-    return of_f(k);
-  };
-  const auto alpha = [&]() -> Value {
-    if (!has_alpha || state.environment == E::decal) return of_f(3);
-    if (state.environment == E::replace) return of_s(3);
-    if (intensity && state.environment == E::blend) return mixed(of_f(3), constant(3), of_s(3));
-    if (intensity && state.environment == E::add) return sum(of_f(3), of_s(3));
-    return product(of_f(3), of_s(3));
-  };
+  using math::Bounded;
   Environed out{};
-  for (int k = 0; k < 4; ++k) {
-    const Value v = k < 3 ? channel(k) : alpha();
-    out.color[k] = v.value;
-    out.error[k] = v.error;
+  for (int c = 0; c < 4; ++c) {
+    const Bounded v = math::textured_channel<Bounded>(
+        format, state.environment, c == 3, {f[c], f_error[c]}, {s[c], s_error[c]}, {s.a, s_error.a},
+        {static_cast<double>(state.color[c]), 0}, math::Rounding{roundings});
+    out.color[c] = v.value;
+    out.error[c] = v.error;
   }
   return out;
 }

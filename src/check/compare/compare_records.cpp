@@ -7,6 +7,7 @@
 
 #include "check/bounds/shade_bounds.h"
 #include "check/bounds/units.h"
+#include "reference/arithmetic/light_bounds.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::check {
@@ -138,12 +139,11 @@ Measurement compare_lit(const Scene& scene, const Records<double>& candidate, co
       }
       return;
     }
-    const Mesh& mesh = scene.meshes[draw.mesh];
-    const glm::vec4* color = mesh.colors.empty() ? nullptr : &mesh.colors[i - draws.ranges()[d].first_vertex];
+    const auto of_mesh = static_cast<std::uint32_t>(i - draws.ranges()[d].first_vertex);
     Vertex<double> vertex = candidate.vertices[i];
     if (part.back) vertex.n_eye = -vertex.n_eye;
-    const LightBounds bounds =
-        light_bounds(scene, lit_material(scene, draw, part, color), vertex, {}, candidate.lights);
+    const math::LightBounds bounds =
+        math::light_bounds(scene, math::material_at(scene, draw, part, of_mesh), vertex, {}, candidate.lights);
     const bool both = reference.vertices.size() == candidate.vertices.size();
     const double turned = both ? glm::distance(candidate.vertices[i].n_eye, reference.vertices[i].n_eye) : 0;
     if (bounds.jump != Vec3<double>(0) || !std::isfinite(bounds.magnitude.x)) meter.ambiguous();

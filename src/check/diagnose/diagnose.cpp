@@ -11,9 +11,9 @@
 #include "check/diagnose/worst_record.h"
 #include "check/judge/failing_stage.h"
 #include "check/judge/judge_passes.h"
-#include "check/judge/passes.h"
 #include "check/judge/scene_case.h"
 #include "check/judge/stage_copy.h"
+#include "reference/arithmetic/passes.h"
 
 namespace plumbline::check {
 
@@ -248,7 +248,7 @@ Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<con
   std::vector<Pass> passes;
   std::vector<SceneVerdict> verdicts;
   std::vector<Plane<glm::vec4>> colors;
-  const std::vector<Scene> scenes = pass_scenes(scene);
+  const std::vector<Scene> scenes = math::pass_scenes(scene);
   for (const Scene& pass : scenes) {
     passes.push_back(look_at(pass, candidate, references, most_fragments / scenes.size(), explain));
     verdicts.push_back(passes.back().verdict);

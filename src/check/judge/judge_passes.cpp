@@ -9,9 +9,9 @@
 
 #include "check/bounds/units.h"
 #include "check/compare/compare_bits.h"
-#include "check/judge/passes.h"
 #include "check/judge/scene_case.h"
 #include "check/verdict/ledger.h"
+#include "reference/arithmetic/passes.h"
 #include "scene/antialias.h"
 
 namespace plumbline::check {
@@ -173,7 +173,7 @@ SceneVerdict judge_passes(const Scene& scene, Renderer& candidate, std::span<con
                           BothCaptures* drawn) {
   std::vector<SceneVerdict> passes;
   std::vector<Plane<glm::vec4>> colors;
-  for (const Scene& pass : pass_scenes(scene)) {
+  for (const Scene& pass : math::pass_scenes(scene)) {
     BothCaptures drawn_pass;
     passes.push_back(judge_single(pass, candidate, references, &drawn_pass));
     colors.push_back(std::move(drawn_pass.candidate.planes.color));

@@ -34,7 +34,7 @@ constexpr std::array kLedger = {
     Tolerance{Profile::exact, Stage::light, "", 16, "u",
               "Per light a normalised vector (3 u), two dot products of unit vectors (3 u each), products and sums (4 "
               "u), the power (below 1 u, times the shininess for its argument's error): 16 u of the magnitude of "
-              "bounds.h, light_bounds.",
+              "light_bounds.h, light_bounds.",
               "A chain of some 20 roundings: they do not all go one way, and where the power multiplies them it is "
               "also small."},
     Tolerance{Profile::opengl, Stage::vertex, "", 8, "u",

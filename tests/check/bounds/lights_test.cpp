@@ -1,6 +1,7 @@
 // Lights in eye space: their comparator, and who is named where they are wrong.
 #include "check/compare/compare_records.h"
 #include "check/judge/stage_copy.h"
+#include "reference/arithmetic/light_bounds.h"
 #include "tests/check/judge/judge_fixtures.h"
 
 namespace plumbline::check {
@@ -138,7 +139,8 @@ TEST_F(LightRecords, ALightInTheWrongPlaceIsTheFaultOfMatrices) {
 TEST_F(LightRecords, TheBoundOfLightIsOfTheRecordedLights) {
   const Vertex<double> vertex{{0, 0, -5, 1}, {}, {0, 0, 1}};
   const auto bound = [&](std::span<const LightSource<double>> lights) {
-    return light_bounds(scene, scene.draws[0].material, vertex, {}, lights).magnitude.r;
+    const math::DoubleMaterial material = math::material_at(scene, scene.draws[0], {}, 0);
+    return math::light_bounds(scene, material, vertex, {}, lights).magnitude.r;
   };
   EXPECT_NEAR(bound(reference.lights) / bound({}), 1, 1e-9);
   std::vector<LightSource<double>> near = reference.lights;

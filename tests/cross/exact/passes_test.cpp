@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "capture/stages.h"
-#include "check/judge/passes.h"
 #include "reference/arithmetic/draw_ranges.h"
 #include "reference/arithmetic/passes.h"
 #include "scene/antialias.h"
@@ -51,7 +50,6 @@ TEST(Passes, AreTheSameToRendererReferencesAndJudges) {
   for (const Antialias& antialias : all_antialiasing()) {
     const Scene scene = scene_with(antialias);
     expect_same_passes(math::pass_scenes(scene), passes_of(scene));
-    expect_same_passes(check::pass_scenes(scene), passes_of(scene));
   }
 }
 

@@ -1,5 +1,5 @@
 // The bound of a lit colour's rounding: each of its terms, on scenes where that term alone counts.
-#include "check/bounds/bounds.h"
+#include "reference/arithmetic/light_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "tests/check/fixtures.h"
 
-namespace plumbline::check {
+namespace plumbline::math {
 namespace {
 
 struct LightBoundsTest : testing::Test {
@@ -22,8 +22,12 @@ struct LightBoundsTest : testing::Test {
     light.diffuse = {4, 2, 1};
     light.specular = {2, 2, 0.5};
   }
+  DoubleMaterial material() const {
+    const Material& m = draw.material;
+    return {m.ambient, m.diffuse, m.specular, m.emission, m.shininess};
+  }
   LightBounds at(glm::dvec3 p_eye, glm::dvec3 n_eye) const {
-    return light_bounds(scene, draw.material, {glm::dvec4(p_eye, 1), glm::dvec4(0), n_eye});
+    return light_bounds(scene, material(), {glm::dvec4(p_eye, 1), glm::dvec4(0), n_eye});
   }
   glm::dvec3 magnitude_at(glm::dvec3 p_eye) const { return at(p_eye, {0, 0, 1}).magnitude; }
   Scene scene;
@@ -86,7 +90,7 @@ TEST_F(LightBoundsTest, TheHighlightMayComeOrGoWhereTheLightGrazes) {
   EXPECT_NEAR(at({0, 0, 0}, {0, 0, 1}).jump.r, 2 * 0.25 / 32, 1e-12);
   EXPECT_NEAR(at({0, 0, 0}, {0, 0, 1}).jump.b, 0.5 * 1 / 32.0, 1e-12);
   const auto tilted = [&](double sine) { return at({0, 0, 0}, {sine, 0, std::sqrt(1 - sine * sine)}).jump.r; };
-  constexpr double kU = kUnitRoundoff;
+  constexpr double kU = kFloatRounding;
   EXPECT_GT(tilted(15 * kU), 0);
   EXPECT_GT(tilted(-15 * kU), 0);
   EXPECT_EQ(tilted(17 * kU), 0);
@@ -139,7 +143,7 @@ TEST_F(LightBoundsTest, LongNormalsSteepenThePower) {
 
 TEST_F(LightBoundsTest, InheritWhatTheInputsAreOffBy) {
   const auto inherited = [&](const LightInputs& errors) {
-    return light_bounds(scene, draw.material, {glm::dvec4(0, 0, -6, 1), glm::dvec4(0), glm::dvec3(0, 0.6, 0.8)}, errors)
+    return light_bounds(scene, material(), {glm::dvec4(0, 0, -6, 1), glm::dvec4(0), glm::dvec3(0, 0.6, 0.8)}, errors)
         .inherited.r;
   };
   draw.material.specular = glm::vec4(0);
@@ -164,4 +168,4 @@ TEST_F(LightBoundsTest, OfAHighlightSeenAgainstTheLightGrows) {
 }
 
 }  // namespace
-}  // namespace plumbline::check
+}  // namespace plumbline::math

@@ -1,16 +1,16 @@
+#include "reference/arithmetic/light_bounds.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "check/bounds/bounds.h"
-#include "dialect/dialect.h"
+#include "reference/arithmetic/bounded.h"
 
-namespace plumbline::check {
+namespace plumbline::math {
 
 namespace {
 
-constexpr double kRoundings = 16;  // of N.L, as of the whole (ledger, exact.light)
-constexpr double kError = kRoundings * kUnitRoundoff;
+constexpr double kError = 16 * kFloatRounding;  // of N.L, as of the whole (ledger, exact.light)
 
 // A light as it meets the vertex.
 struct Ray {
@@ -84,19 +84,15 @@ Highlight highlight(const LightModel& model, const Vec3<double>& n, const Ray& r
   return {glm::dot(2 * n_dot_l * n - r.to_light, e), 4 * length * length * (r.condition + 1)};
 }
 
-LightSource<double> in_eye_space(const Light& light, const glm::dmat4& view) {
-  const double w = light.kind == Light::Kind::point ? 1.0 : 0.0;
-  return {view * glm::dvec4(light.vector, w), light.spot ? glm::dmat3(view) * light.spot->direction : Vec3<double>(0)};
-}
-
 }  // namespace
 
-LightBounds light_bounds(const Scene& scene, const Material& m, const Vertex<double>& vertex, const LightInputs& errors,
-                         std::span<const LightSource<double>> lights) {
+LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vertex<double>& vertex,
+                         const LightInputs& errors, Lights lights) {
   const LightModel& model = scene.light_model;
   const bool flips = model.sides == LightModel::Sides::flip;
   const Vec3<double> p_eye(vertex.p_eye);
-  const glm::dmat4 view = view_matrix(scene);
+  const std::vector<LightSource<double>> own =
+      lights.size() < scene.lights.size() ? light_sources(scene) : std::vector<LightSource<double>>();
   LightBounds out;
   const auto anything = [&] {
     out.magnitude = Vec3<double>(std::numeric_limits<double>::infinity());
@@ -112,15 +108,16 @@ LightBounds light_bounds(const Scene& scene, const Material& m, const Vertex<dou
   out.inherited = errors.color * (Vec3<double>(1) + Vec3<double>(model.ambient));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    const LightSource<double> source = i < lights.size() ? lights[i] : in_eye_space(light, view);
+    const LightSource<double>& source = i < lights.size() ? lights[i] : own[i];
     const Ray r = ray(light, source, p_eye);
-    const double off = light.kind == Light::Kind::point ? errors.p_eye : 0;
+    const double off = errors.lights + (light.kind == Light::Kind::point ? errors.p_eye : 0);
     if (!(r.condition * kError < 1 && r.distance > 2 * off)) return anything();
     const Share share = share_of(light, source, r, off);
     const Highlight h = highlight(model, n, r, e, length);
     const Power p = power(h.cosine, m.shininess, h.error * kError);
-    const Vec3<double> ambient(light.ambient * glm::vec3(m.ambient)), diffuse(light.diffuse * glm::vec3(m.diffuse));
-    const Vec3<double> specular(light.specular * glm::vec3(m.specular));
+    const Vec3<double> ambient = Vec3<double>(light.ambient) * Vec3<double>(m.ambient);
+    const Vec3<double> diffuse = Vec3<double>(light.diffuse) * Vec3<double>(m.diffuse);
+    const Vec3<double> specular = Vec3<double>(light.specular) * Vec3<double>(m.specular);
     if (std::pow(std::max(h.cosine + h.error * kError, 0.0), m.shininess) >= 0x1p127) {
       for (int c = 0; c < 3; ++c) out.overflows[c] = out.overflows[c] || share.value * specular[c] == 0;
     }
@@ -152,4 +149,12 @@ LightBounds light_bounds(const Scene& scene, const Material& m, const Vertex<dou
   return out;
 }
 
-}  // namespace plumbline::check
+double light_error(const Scene& scene, const DoubleMaterial& material, const Vertex<double>& vertex,
+                   const LightInputs& errors, Lights lights) {
+  const LightBounds b = light_bounds(scene, material, vertex, errors, lights);
+  const Vec3<double> error = kError * b.magnitude + b.inherited + b.jump;
+  const double largest = std::max({error.r, error.g, error.b});
+  return std::isfinite(largest) ? std::min(1.0, largest) : 1;
+}
+
+}  // namespace plumbline::math

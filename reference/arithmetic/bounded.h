@@ -1,0 +1,57 @@
+// Numbers known to a bound, and the rounding errors of float arithmetic.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::math {
+
+inline constexpr double kFloatRounding = 1.0 / (1 << 24);  ///< u, the unit roundoff of float: half an ULP of 1
+
+/// Absolute error of one rounding below float's smallest normal number, 2^-126, where u of the number is too little.
+/// Gradual underflow (IEEE 754, 7.5): half of the smallest step, 2^-149. Flushed: numbers below 2^-126 become 0, as
+/// operands and as results; Mesa sets the processor so for its vertices and for llvmpipe (util_fpstate).
+inline constexpr double kGradualUnderflow = 0x1p-150, kFlushedUnderflow = 0x1p-126;
+
+/// Roundings of a step in float: `count` of them, and the renderer's underflow.
+struct Roundings {
+  double count;
+  double underflow = kGradualUnderflow;
+  /// Error of a result whose terms come to `magnitude`. A sum of nothing but zeros is not rounded.
+  double operator()(double magnitude) const {
+    return magnitude == 0 ? 0 : count * (kFloatRounding * magnitude + underflow);
+  }
+};
+
+/// A number, and how far another renderer's may be from it.
+struct Bounded {
+  double value = 0, error = 0;
+};
+
+/// What a fragment's colour is made by, on real numbers.
+struct Exactly {
+  static double product(double a, double b) { return a * b; }
+  static double mixed(double a, double b, double share) { return a * (1 - share) + b * share; }
+  static double clamped_sum(double a, double b) { return std::clamp(a + b, 0.0, 1.0); }
+};
+
+/// The same on numbers known to a bound, by a renderer that rounds each result.
+struct Rounding {
+  Roundings roundings;
+  Bounded product(Bounded a, Bounded b) const {
+    const double v = a.value * b.value;
+    return {v, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error + roundings(std::abs(v))};
+  }
+  Bounded mixed(Bounded a, Bounded b, Bounded share) const {
+    const double k = share.value, terms = std::abs(a.value * (1 - k)) + std::abs(b.value * k);
+    return {a.value * (1 - k) + b.value * k, std::abs(1 - k) * a.error + std::abs(k) * b.error +
+                                                 (std::abs(b.value - a.value) + a.error + b.error) * share.error +
+                                                 roundings(terms)};
+  }
+  Bounded clamped_sum(Bounded a, Bounded b) const {
+    const double v = a.value + b.value;
+    return {std::clamp(v, 0.0, 1.0), a.error + b.error + roundings(std::abs(v))};
+  }
+};
+
+}  // namespace plumbline::math
