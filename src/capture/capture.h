@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 
 #include "capture/legal.h"
@@ -50,6 +51,8 @@ struct Capture {
   /// Of an antialiased scene: each pass' frame colours. Its records, and the other planes, are those of the passes
   /// alone.
   std::vector<Plane<glm::vec4>> samples;
+  /// Columns that a capture folder leaves out, for they follow from others: "window.front" (complete_records.h).
+  std::set<std::string> derived;
   Legal legal;  ///< an oracle's answer: what may be at each pixel
 };
 

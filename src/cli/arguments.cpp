@@ -58,7 +58,7 @@ void add_drawing(CLI::App& command, Options& o) {
   text(command, "scene", o.scene, "Scene file")->required();
   text(command, "--with", o.with, fmt::format("Renderer: {}", fmt::join(renderer_names(), ", ")))
       ->capture_default_str();
-  text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
   add_assets(command, o.scene_arguments);
 }
 
@@ -82,7 +82,7 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--today", o.today, "YYYY-MM-DD, for their last days (default: the clock's)");
   text(command, "--shard", o.shard, "I/N: every Nth scene, from number I on");
   text(command, "--golden", o.golden, "Compare with the goldens in this folder as well, stage by stage");
-  text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
   command
       .add_option("--jobs", o.jobs,
                   "Scenes judged at a time, each in a process of its own (default: the number of processors)")
@@ -105,7 +105,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
                   "Of a scene with more fragments, look at those about the worst pixels alone")
       ->capture_default_str();
   add_limits(command, o.limits);
-  CLI::Option* fault = text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  CLI::Option* fault = text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
   text(
       command, "--program", o.command,
@@ -115,7 +115,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
       ->excludes(folder);
   folder->excludes(fault);
   CLI::Option* picture = text(command, "--picture", o.picture,
-                              "Name the known bugs that draw pictures like this one, which is all there is");
+                              "Name the known faults that draw pictures like this one, which is all there is");
   for (const char* other :
        {"--against", "--json", "--report", "--pixel", "--fragments", "--fault", "--capture", "--program"})
     picture->excludes(command.get_option(other));
@@ -142,7 +142,7 @@ void add_golden(CLI::App& command, GoldenOptions& o) {
   text(command, "scenes", o.scenes, "Scene files, and folders of them (default: the whole suite)");
   text(command, "--suite", o.suite, "The folder of all scenes that have goldens")->capture_default_str();
   text(command, "--golden", o.golden, "The folder of goldens")->capture_default_str();
-  text(command, "--fault", o.fault, "Put a bug into our renderer (plumb list faults)");
+  text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
   add_assets(command, o.scene_arguments);
 }
 

@@ -29,7 +29,7 @@ struct CheckOptions {
   std::string today;     ///< YYYY-MM-DD, for their last days; empty: the clock's, UTC
   std::string shard;     ///< I/N: every Nth scene, from number I on
   std::string golden;    ///< the folder of goldens, whose rows stand beside the references'; or empty
-  std::string fault;     ///< a bug to put into our renderer, or empty
+  std::string fault;     ///< a fault to put into our renderer, or empty
   int jobs = 0;          ///< scenes judged at a time; 0: as many as there are processors
   WorkerLimits limits;   ///< of the processes that judge
   bool allow_missing = false;
@@ -53,7 +53,7 @@ struct DiagnoseOptions {
   SceneArguments scene_arguments;
 };
 int diagnose(const DiagnoseOptions& options);
-/// The same of a picture alone: the known bugs whose pictures are nearest to it.
+/// The same of a picture alone: the known faults whose pictures are nearest to it.
 int diagnose_picture(const DiagnoseOptions& options);
 
 /// A scene to a picture.

@@ -1,4 +1,4 @@
-// plumb diagnose --picture: what a picture alone can tell. Each known bug draws the scene, and those whose picture is
+// plumb diagnose --picture: what a picture alone can tell. Each known fault draws the scene, and those whose picture is
 // nearest to the one given are named.
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,8 @@
 // Captures that hold a part: each stage is judged whose inputs are there, and what was not judged never passes.
+#include <algorithm>
 #include <functional>
+
+#include <nlohmann/json.hpp>
 
 #include "capture/files/capture_folder.h"
 #include "renderers/pipeline_renderer.h"
@@ -115,6 +118,28 @@ TEST_F(IncompleteCaptures, AreJudgedAsFarAsTheyGo) {
     EXPECT_EQ(run.code, part.code) << run.text;
     EXPECT_TRUE(run.says(part.says)) << run.text;
   }
+}
+
+// A rasterizer need not invent what follows from its other arrays, nor keep its records in an order.
+TEST_F(IncompleteCaptures, MayLeaveOutWhatFollowsFromOthers) {
+  const Scene scene = load_scene(kSharedEdges, {});
+  Capture capture = pipeline::make_pipeline()->capture(scene, {StageSet::all(), false, {}, {}});
+  std::ranges::reverse(capture.records.polygons.polygons);
+  write_capture(capture, at("capture"));
+  auto manifest = nlohmann::json::parse(read(at("capture/manifest.json")));
+  nlohmann::json kept = nlohmann::json::array();
+  for (const auto& array : manifest["arrays"]) {
+    const std::string name = array["name"];
+    const std::set<std::string> derivable = {"vertex.n_eye",   "clip.cut",     "window.snapped",
+                                             "window.corners", "window.width", "window.front"};
+    if (!derivable.contains(name)) kept.push_back(array);
+  }
+  EXPECT_EQ(manifest["arrays"].size() - kept.size(), 6u);
+  manifest["arrays"] = kept;
+  write(at("capture/manifest.json"), manifest.dump());
+  const Outcome run = plumb("diagnose " + kSharedEdges + " --against exact,embree --capture " + at("capture"));
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("11 of 13 stages judged")) << run.text;
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ struct Column {
   static constexpr std::size_t kCorners = 0;
   std::string_view name;
   Member member;
+  bool derivable = false;  ///< a capture folder may leave it out: it follows from others (complete_records.h)
   auto& at(auto& record, std::size_t) const { return record.*member; }
 };
 /// One member of each of a triangle's three corners.
@@ -84,24 +85,28 @@ struct CornerColumn {
   static constexpr std::size_t kCorners = 3;
   std::string_view name;
   Member member;
+  bool derivable = false;
   auto& at(auto& triangle, std::size_t corner) const { return triangle.v[corner].*member; }
 };
 /// The records are plain numbers.
 struct ItselfColumn {
   static constexpr std::size_t kCorners = 0;
+  static constexpr bool derivable = false;
   std::string_view name;
   auto& at(auto& record, std::size_t) const { return record; }
 };
 /// Each of three corners is plain numbers.
 struct CornerItselfColumn {
   static constexpr std::size_t kCorners = 3;
+  static constexpr bool derivable = false;
   std::string_view name;
   auto& at(auto& corners, std::size_t corner) const { return corners[corner]; }
 };
 template <class Member>
-Column(std::string_view, Member) -> Column<Member>;
+Column(std::string_view, Member, bool = false) -> Column<Member>;
 template <class Member>
-CornerColumn(std::string_view, Member) -> CornerColumn<Member>;
+CornerColumn(std::string_view, Member, bool = false) -> CornerColumn<Member>;
+inline constexpr bool kDerivable = true;
 
 template <class C, class Record>
 using ColumnType = std::remove_cvref_t<decltype(std::declval<C>().at(std::declval<Record&>(), 0))>;
@@ -163,12 +168,12 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
         Column{"spot_eye", &L::spot_eye});
   using V = Vertex<double>;
   group(Stage::vertex, "vertex", of(&R::vertices), Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
-        Column{"n_eye", &V::n_eye});
+        Column{"n_eye", &V::n_eye, kDerivable});
   group(Stage::light, "light", of(&R::lit), Column{"color", &Lit<double>::color});
   using C = ClipVertex<double>;
   group(
       Stage::clip, "clip", [](auto& r) -> auto& { return r.polygons.vertices; }, Column{"p_clip", &C::p_clip},
-      Column{"color", &C::color}, Column{"cut", &C::cut});
+      Column{"color", &C::color}, Column{"cut", &C::cut, kDerivable});
   using P = ClipPolygon;
   group(
       Stage::clip, "clip.polygon", [](auto& r) -> auto& { return r.polygons.polygons; },
@@ -176,8 +181,9 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
   using W = WindowVertex<double>;
   using T = WindowTriangle<double>;
   group(Stage::window, "window", of(&R::triangles), CornerColumn{"p_win", &W::p_win}, CornerColumn{"inv_w", &W::inv_w},
-        CornerColumn{"snapped", &W::snapped}, CornerColumn{"color", &W::color}, Column{"primitive", &T::primitive},
-        Column{"front", &T::front}, Column{"corners", &T::corners}, Column{"width", &T::width});
+        CornerColumn{"snapped", &W::snapped, kDerivable}, CornerColumn{"color", &W::color},
+        Column{"primitive", &T::primitive}, Column{"front", &T::front, kDerivable},
+        Column{"corners", &T::corners, kDerivable}, Column{"width", &T::width, kDerivable});
   group(Stage::coverage, "coverage", of(&R::covered), Column{"triangle", &Covered::triangle}, Column{"x", &Covered::x},
         Column{"y", &Covered::y});
   group(Stage::depth, "depth", of(&R::depth), ItselfColumn{"value"});

@@ -123,15 +123,19 @@ class Reader {
   template <class Record>
   void group(Handed group, const auto& columns, std::vector<Record>& records) {
     std::optional<std::size_t> count;  // before any memory is taken, every file is known to be of its right size
-    std::size_t present = 0;
-    columns.each([&](const auto& column) { present += check<Record>(group.name, column, count) ? 1 : 0; });
-    if (present == 0) return;
-    if (present != columns.kCount) {
-      throw CaptureError(fmt::format("{}: expected all arrays {}.*, found {} of {}", folder_.string(), group.name,
-                                     present, columns.kCount));
+    std::vector<std::string> lacking, derived;
+    columns.each([&](const auto& column) {
+      const std::string name = fmt::format("{}.{}", group.name, column.name);
+      if (!check<Record>(name, column, count)) (column.derivable ? derived : lacking).push_back(name);
+    });
+    if (!count) return;
+    if (!lacking.empty()) {
+      throw CaptureError(fmt::format("{}: expected all arrays {}.*, found none of {}", folder_.string(), group.name,
+                                     fmt::join(lacking, ", ")));
     }
     records.resize(*count);
-    columns.each([&](const auto& column) { read(group.name, records, column); });
+    capture_.derived.insert(derived.begin(), derived.end());
+    columns.each([&](const auto& column) { read(fmt::format("{}.{}", group.name, column.name), records, column); });
   }
 
   template <class T>
@@ -200,21 +204,21 @@ class Reader {
 
   /// Checks a column's entry and file; false: it is not there.
   template <class Record, class C>
-  bool check(std::string_view group, const C& column, std::optional<std::size_t>& count) {
+  bool check(const std::string& name, const C&, std::optional<std::size_t>& count) {
     using T = ColumnType<C, Record>;
-    const auto found = arrays_.find(fmt::format("{}.{}", group, column.name));
+    const auto found = arrays_.find(name);
     if (found == arrays_.end()) return false;
     const JsonNode& array = found->second;
     check_type<T>(array);
     const Shape shape = read_shape(array), expected = record_shape<C, Record>(shape[0]);
     if (shape != expected) {
-      array["shape"].refuse(fmt::format("[{}] of {}", fmt::join(expected, ", "), found->first),
+      array["shape"].refuse(fmt::format("[{}] of {}", fmt::join(expected, ", "), name),
                             fmt::format("[{}]", fmt::join(shape, ", ")));
     }
     if (count && *count != shape[0]) {
-      array["shape"].refuse(
-          fmt::format("as many records in {} as in the other arrays {}.*, {}", found->first, group, *count),
-          fmt::format("{}", shape[0]));
+      array["shape"].refuse(fmt::format("as many records in {} as in the other arrays {}.*, {}", name,
+                                        name.substr(0, name.rfind('.')), *count),
+                            fmt::format("{}", shape[0]));
     }
     count = shape[0];
     check_size(array, shape[0], kPerRecord<C> * sizeof(T));
@@ -222,9 +226,11 @@ class Reader {
   }
 
   template <class Record, class C>
-  void read(std::string_view group, std::vector<Record>& records, const C& column) {
+  void read(const std::string& name, std::vector<Record>& records, const C& column) {
     using T = ColumnType<C, Record>;
-    const JsonNode array = *take(fmt::format("{}.{}", group, column.name));
+    const auto taken = take(name);
+    if (!taken) return;
+    const JsonNode& array = *taken;
     std::vector<char> bytes(records.size() * kPerRecord<C> * sizeof(T));
     read_bytes(array, bytes.data(), bytes.size());
     if constexpr (std::is_same_v<T, bool>) {

@@ -18,6 +18,7 @@
 
 #include "base/program.h"
 #include "base/temporary_path.h"
+#include "capture/files/capture_columns.h"
 #include "capture/files/capture_folder.h"
 
 namespace plumbline {
@@ -89,21 +90,13 @@ std::uintmax_t bytes_below(const fs::path& folder) {
   return sum;
 }
 
-void keep_only(Records<double>& records, const StageSet& stages) {
-  if (!stages.has(Stage::matrices)) {
-    records.matrices.clear();
-    records.lights.clear();
+struct KeepOnly {
+  StageSet stages;
+  void group(Handed group, const auto&, auto& records) const {
+    if (!stages.has(group.stage)) records.clear();
   }
-  if (!stages.has(Stage::vertex)) records.vertices.clear();
-  if (!stages.has(Stage::light)) records.lit.clear();
-  if (!stages.has(Stage::clip)) records.polygons = {};
-  if (!stages.has(Stage::window)) records.triangles.clear();
-  if (!stages.has(Stage::coverage)) records.covered.clear();
-  if (!stages.has(Stage::depth)) records.depth.clear();
-  if (!stages.has(Stage::attributes)) records.attributes.clear();
-  if (!stages.has(Stage::shade)) records.shaded.clear();
-  if (!stages.has(Stage::visibility)) records.drawn.clear();
-}
+  void plane(Handed, auto&) const {}
+};
 
 class ProcessRenderer : public Renderer {
  public:
@@ -155,7 +148,7 @@ class ProcessRenderer : public Renderer {
                          scene.frame.width, scene.frame.height),
              log);
       }
-      keep_only(capture.records, request.records);
+      visit_capture(KeepOnly{request.records}, capture);
       capture.renderer = spec_.name;
       return capture;
     } catch (const CaptureError& error) {

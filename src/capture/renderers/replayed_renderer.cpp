@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/complete_records.h"
 #include "scene/draw_index.h"
 
 namespace plumbline {
@@ -97,12 +98,20 @@ std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& s
   fits("vertices", capture.records.vertices.size(), draws.vertices());
   fits("lit vertices", capture.records.lit.size(), draws.vertices());
   const std::size_t primitives = draws.primitives();
+  for (const ClipPolygon& p : capture.records.polygons.polygons)
+    require(p.primitive < primitives, fmt::format("primitives of the scene's {}", primitives),
+            std::to_string(p.primitive));
   for (const WindowTriangle<double>& t : capture.records.triangles)
     require(t.primitive < primitives, fmt::format("primitives of the scene's {}", primitives),
             std::to_string(t.primitive));
   for (const std::int32_t id : capture.planes.id.values())
     require(id < static_cast<std::int64_t>(primitives), fmt::format("winners of the scene's {} primitives", primitives),
             std::to_string(id));
+  try {
+    complete_records(scene, capture);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", from, error.what()));
+  }
   return std::make_unique<ReplayedRenderer>(std::move(capture), scene);
 }
 

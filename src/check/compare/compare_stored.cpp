@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -87,7 +89,9 @@ void add_value(Meter& meter, const T& a, const T& b, double tolerance, const Pla
 
 class ArrayComparison {
  public:
-  explicit ArrayComparison(double tolerance) : tolerance_(tolerance) {}
+  /// Without the columns that a side leaves out.
+  ArrayComparison(const Capture& a, const Capture& b, double tolerance)
+      : left_out_a_(a.derived), left_out_b_(b.derived), tolerance_(tolerance) {}
 
   template <class Record>
   void group(Handed group, const auto& columns, const std::vector<Record>& a, const std::vector<Record>& b) {
@@ -117,6 +121,10 @@ class ArrayComparison {
   template <class Record, class C>
   void column(std::string_view group, const std::vector<Record>& a, const std::vector<Record>& b, const C& column) {
     const std::string name = fmt::format("{}.{}", group, column.name);
+    if (left_out_a_.contains(name) || left_out_b_.contains(name)) {
+      in_both(name, left_out_a_.contains(name) ? 0 : a.size(), left_out_b_.contains(name) ? 0 : b.size(), "records");
+      return;
+    }
     if (a.size() != b.size()) {
       const std::string why = fmt::format("{} records against {}", a.size(), b.size());
       rows.push_back(row(name, mismatch("", why, std::max(a.size(), b.size()))));
@@ -133,6 +141,7 @@ class ArrayComparison {
     rows.push_back(row(name, meter.done()));
   }
 
+  const std::set<std::string>&left_out_a_, &left_out_b_;
   double tolerance_;
 };
 
@@ -167,7 +176,7 @@ std::vector<StoredComparison> compare_images(const StoredImage& a, const StoredI
 }
 
 std::vector<StoredComparison> compare_captures(const Capture& a, const Capture& b, double tolerance) {
-  ArrayComparison arrays(tolerance);
+  ArrayComparison arrays(a, b, tolerance);
   if (a.width != b.width || a.height != b.height) {
     const std::string why = fmt::format("{} x {} against {} x {}", a.width, a.height, b.width, b.height);
     arrays.rows.push_back(row("frame", mismatch("", why, 1)));

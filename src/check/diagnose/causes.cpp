@@ -66,7 +66,7 @@ std::vector<Cause> likely_causes(const Evidence& e) {
       const std::uint64_t left = differing(e, made_with(cause, e.scene, e.candidate, *e.referee));
       if (left <= all / 50)
         out.push_back({cause.name, fmt::format("{} (explains {} of {} that differ)", cause.words, all - left, all)});
-    } catch (const std::exception&) {  // the bug makes what exact refuses: it is not this one
+    } catch (const std::exception&) {  // exact refuses what this cause makes: it is another
     }
   }
   return out;

@@ -1,5 +1,5 @@
-// Likely causes of a wrong stage, in words: exact makes the same mistake if the bug is put into what it is given, or
-// into what it made of it; or the differences of all records show the bug's pattern.
+// Likely causes of a wrong stage, in words: exact comes to the candidate's records with the cause in its input or output,
+// or the differences of all records show the cause's pattern.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace plumbline::check {
 
 struct Cause {
   std::string_view name;  ///< such as "window.y_flipped"
-  std::string words;      ///< the bug, and what shows it
+  std::string words;      ///< the cause, and what shows it
 };
 
 /// Those that explain at least 49 in 50 of the records that differ, in the order of known_causes.h; empty where none do.

@@ -13,7 +13,7 @@ struct Evidence {
   Stage stage;
   const Capture& candidate;     ///< with the records that came in
   const Capture& expected;      ///< exact's, of that stage alone: real numbers
-  Renderer* referee = nullptr;  ///< that made it; null: nobody to try a bug with
+  Renderer* referee = nullptr;  ///< that made it; null: nobody to try a cause with
 };
 
 }  // namespace plumbline::check

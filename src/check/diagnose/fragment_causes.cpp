@@ -1,4 +1,4 @@
-// Bugs of stages 8 to 12.
+// Known causes of stages 8 to 12.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Bugs of stages 0 to 4.
+// Known causes of stages 0 to 4.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Bugs that people make, as what each does to a stage (causes.h).
+// Known causes of wrong stages, as what each does to a stage (causes.h).
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,16 @@
 
 namespace plumbline::check {
 
-/// One bug. Of the functions, those that are there act.
+/// One cause. Of its functions, those that are not null act.
 struct KnownCause {
   Stage stage;
-  std::string_view name;   ///< stage.bug
+  std::string_view name;   ///< stage.cause
   std::string_view words;  ///< what is wrong
-  /// Puts it into what the stage is given.
+  /// Changes the input of the stage.
   void (*before)(Scene& scene, Capture& in) = nullptr;
-  /// Puts it into what the stage made; `in` is what it was given.
+  /// Changes the output of the stage; `in` is its input.
   void (*after)(const Scene& scene, const Capture& in, Capture& made) = nullptr;
-  /// Or says of the differences themselves whether they are the bug's.
+  /// Whether the differences themselves show the cause's pattern.
   bool (*shows)(const Evidence& evidence) = nullptr;
 };
 
@@ -73,7 +73,7 @@ void change_records(const Scene& scene, Capture& capture, Change change) {
   }
 }
 
-/// A bug in what the stage is given.
+/// A cause in the input of the stage.
 template <auto change>
 constexpr KnownCause given(Stage stage, std::string_view name, std::string_view words) {
   return {stage, name, words, [](Scene& scene, Capture& in) {
@@ -82,7 +82,7 @@ constexpr KnownCause given(Stage stage, std::string_view name, std::string_view 
             change_records(scene, in, change);
           }};
 }
-/// A bug in what the stage made.
+/// A cause in the output of the stage.
 template <auto change>
 constexpr KnownCause made(Stage stage, std::string_view name, std::string_view words) {
   return {stage, name, words, nullptr, [](const Scene& scene, const Capture& in, Capture& out) {
@@ -91,7 +91,7 @@ constexpr KnownCause made(Stage stage, std::string_view name, std::string_view w
             change_records(scene, out, change);
           }};
 }
-/// A bug that the stage's differences show.
+/// A cause that the stage's differences show.
 constexpr KnownCause seen(Stage stage, std::string_view name, std::string_view words, bool (*shows)(const Evidence&)) {
   return {stage, name, words, nullptr, nullptr, shows};
 }
@@ -103,7 +103,7 @@ std::span<const KnownCause> fragment_causes();
 /// All of them.
 std::vector<KnownCause> all_causes();
 
-/// What the stage makes where the bug is in it (one with `before` or `after`), as real numbers.
+/// Output of the stage with the cause in it (one with `before` or `after`), as real numbers.
 Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer);
 
 /// Codes beside the real numbers that they stand for: whether they are those below, not the nearest. (Of a number that

@@ -1,4 +1,4 @@
-// Bugs of stages 5 to 7.
+// Known causes of stages 5 to 7.
 #include <algorithm>
 #include <array>
 #include <cmath>

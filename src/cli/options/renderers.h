@@ -34,7 +34,7 @@ std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vec
 
 struct FaultInfo {
   std::string_view name, stage, changes;
-  std::string_view report;  ///< who reports such a bug (faults.h), or empty
+  std::string_view report;  ///< who reports such a fault (faults.h), or empty
 };
 std::vector<FaultInfo> fault_infos();
 /// Our pipeline, with the named fault unless that is none or a reference's. Throws std::invalid_argument if it is

@@ -77,6 +77,17 @@ TEST(StoredCaptures, EveryArrayIsComparedAndNamed) {
   EXPECT_EQ(arrays, 38);
 }
 
+TEST(StoredCaptures, ColumnsThatOneSideLeavesOutAreMissing) {
+  const Capture whole = whole_capture();
+  Capture less = whole;
+  less.derived = {"window.front"};
+  less.records.triangles[0].front = !less.records.triangles[0].front;
+  EXPECT_EQ(outcomes(compare_captures(whole, less, 0))["window.front"], Outcome::missing);
+  EXPECT_EQ(outcomes(compare_captures(less, whole, 0))["window.front"], Outcome::missing);
+  EXPECT_EQ(outcomes(compare_captures(less, whole, 0))["window.p_win"], Outcome::equal);
+  EXPECT_FALSE(outcomes(compare_captures(less, less, 0)).contains("window.front"));
+}
+
 TEST(StoredCaptures, ToleranceIsForFloatsAlone) {
   const Capture whole = whole_capture();
   Capture near = whole;
