@@ -40,22 +40,22 @@ Known eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, 
   return {n, kFloatRounding * (sum + (draw.normals == Normals::rescale ? 6 : 3) * glm::length(n))};
 }
 
-double light_place_error(const Scene& scene, const glm::dmat4& view) {
-  double most = 0;
+std::vector<double> light_errors(const Scene& scene, const glm::dmat4& view) {
+  std::vector<double> out;
   for (const Light& light : scene.lights) {
     const bool point = light.kind == Light::Kind::point;
-    most = std::max(most, place_error(point ? view : glm::dmat4(glm::dmat3(view)), light.vector));
+    out.push_back(place_error(point ? view : glm::dmat4(glm::dmat3(view)), light.vector));
   }
-  return most;
+  return out;
 }
 
-double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, Lights lights, double light_places,
-                   std::uint32_t vertex, LitPart part) {
+double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, Lights lights,
+                   std::span<const double> light_errors, std::uint32_t vertex, LitPart part) {
   if (!is_lit_per_vertex(draw)) return kFloatRounding;
   const Mesh& mesh = scene.meshes[draw.mesh];
   const Known p = eye_position(mesh, m, vertex), n = eye_normal(draw, mesh, m, vertex);
   return light_error(scene, material_at(scene, draw, part, vertex),
-                     {glm::dvec4(p.v, 1), glm::dvec4(0), part.back ? -n.v : n.v}, {p.error, n.error, 0, light_places},
+                     {glm::dvec4(p.v, 1), glm::dvec4(0), part.back ? -n.v : n.v}, {p.error, n.error, 0, light_errors},
                      lights);
 }
 

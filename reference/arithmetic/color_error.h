@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -11,13 +13,13 @@
 
 namespace plumbline::math {
 
-/// The lights' places and directions in eye space, in length: the largest error.
-double light_place_error(const Scene& scene, const glm::dmat4& view);
+/// Error of each light's place or direction in eye space, in length.
+std::vector<double> light_errors(const Scene& scene, const glm::dmat4& view);
 
-/// Per channel, for vertex number `vertex` of the draw's mesh; `m` and `lights` unrounded, the latter's error
-/// `light_places`. At most 1: colours are clamped.
-double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, Lights lights, double light_places,
-                   std::uint32_t vertex, LitPart part = {});
+/// Per channel, for vertex number `vertex` of the draw's mesh; `m` and `lights` unrounded, the latter's errors
+/// `light_errors`. At most 1: colours are clamped.
+double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, Lights lights,
+                   std::span<const double> light_errors, std::uint32_t vertex, LitPart part = {});
 
 /// A vector of eye space and how far it may be off, in length.
 struct Known {

@@ -46,7 +46,7 @@ double moved_power(double x, double s, double error) {
 
 // What distance and cone leave of a light, its error in units of kError, and whether the cone ends here.
 struct Share {
-  double value = 1, error = 0, beyond = 0;  ///< beyond: what it would be if the cone ended elsewhere
+  double value = 1, error = 0, beyond = 0;  ///< beyond: `value`, if the cone may end on either side
   double inherited = 0;                     ///< of the point being off by so much
 };
 Share share_of(const Light& light, const LightSource<double>& source, const Ray& r, double off) {
@@ -62,8 +62,9 @@ Share share_of(const Light& light, const LightSource<double>& source, const Ray&
   const double cosine = -glm::dot(r.to_light, glm::normalize(source.spot_eye));
   const double edge = std::cos(glm::radians(light.spot->cutoff_degrees)), error = (r.condition + 1) * kError;
   const Power p = power(cosine, light.spot->exponent, error);
-  if (std::abs(cosine - edge) <= error + off / r.distance) out.beyond = out.value * p.value;
-  if (cosine < edge) return {0, 0, out.beyond, 0};
+  const bool open = std::abs(cosine - edge) <= error + off / r.distance;
+  if (cosine < edge && !open) return {0, 0, 0, 0};
+  if (open) out.beyond = out.value * p.value;
   const double moved = moved_power(cosine, light.spot->exponent, off / r.distance);
   return {out.value * p.value, out.error * p.value + out.value * p.slope, out.beyond,
           out.inherited * (p.value + moved) + out.value * moved};
@@ -110,7 +111,8 @@ LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vert
     const Light& light = scene.lights[i];
     const LightSource<double>& source = i < lights.size() ? lights[i] : own[i];
     const Ray r = ray(light, source, p_eye);
-    const double off = errors.lights + (light.kind == Light::Kind::point ? errors.p_eye : 0);
+    const double off_light = i < errors.lights.size() ? errors.lights[i] : 0;
+    const double off = off_light + (light.kind == Light::Kind::point ? errors.p_eye : 0);
     if (!(r.condition * kError < 1 && r.distance > 2 * off)) return anything();
     const Share share = share_of(light, source, r, off);
     const Highlight h = highlight(model, n, r, e, length);

@@ -1,6 +1,8 @@
 // Error of stage 2's light equation in float arithmetic.
 #pragma once
 
+#include <span>
+
 #include <glm/glm.hpp>
 
 #include "capture/stages.h"
@@ -28,10 +30,11 @@ struct LightBounds {
   /// its power makes 0 times infinity.
   glm::bvec3 overflows{false};
 };
-/// How far position and normal (in length), the material's colours that follow the vertex', and the lights' places and
-/// directions (in length) may be off.
+/// How far position and normal (in length), the material's colours that follow the vertex', and each light's place or
+/// direction (in length; none: 0) may be off.
 struct LightInputs {
-  double p_eye = 0, n_eye = 0, color = 0, lights = 0;
+  double p_eye = 0, n_eye = 0, color = 0;
+  std::span<const double> lights{};
 };
 /// `material`: the draw's at the vertex (light.h). `lights`: recorded ones; where there are none, the scene's.
 LightBounds light_bounds(const Scene& scene, const DoubleMaterial& material, const Vertex<double>& vertex,

@@ -85,12 +85,12 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.z = c.z;
     corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
     corner.color = vertex_color(scene, draw, out.lights, i, p_eye, n_eye);
-    corner.color_error = color_error(scene, draw, m, out.lights, out.light_places, i);
+    corner.color_error = color_error(scene, draw, m, out.lights, out.light_errors, i);
     corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
     const auto lit_part = [&](LitPart part, glm::dvec4& of_part, double& error) {
       if (!two && !separate) return;
       of_part = vertex_color(scene, draw, out.lights, i, p_eye, n_eye, part);
-      error = color_error(scene, draw, m, out.lights, out.light_places, i, part);
+      error = color_error(scene, draw, m, out.lights, out.light_errors, i, part);
     };
     lit_part({true, false}, corner.back_color, corner.back_color_error);
     lit_part({false, true}, corner.secondary, corner.secondary_error);
@@ -299,7 +299,7 @@ Projected project(const Scene& scene) {
   out.width = scene.frame.width;
   out.height = scene.frame.height;
   out.lights = light_sources(scene);
-  out.light_places = light_place_error(scene, view_matrix(scene));
+  out.light_errors = light_errors(scene, view_matrix(scene));
   out.depth_clamp = scene.depth_clamp;
   out.depth = scene.frame.depth;
   out.sample = sample_offset(scene.frame);

@@ -79,7 +79,7 @@ inline double range_scale(const Triangle& t) { return std::abs(double{t.range.fa
 struct Projected {
   int width = 0, height = 0;
   std::vector<LightSource<double>> lights;
-  double light_places = 0;  ///< their error (color_error.h)
+  std::vector<double> light_errors;  ///< beside lights (color_error.h)
   bool perspective = true;
   bool depth_clamp = false;  ///< no near and far plane
   DepthFormat depth = DepthFormat::z24;

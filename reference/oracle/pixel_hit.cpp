@@ -252,7 +252,7 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
       const DoubleMaterial material = material_of(scene, draw, {back, specular}, color.value);
       const double bound =
           known ? light_error(scene, material, {glm::dvec4(p_eye.v, 1), glm::dvec4(0), n_eye.v},
-                              {p_eye.error, n_eye.error, follows ? color.bound : 0, projected.light_places},
+                              {p_eye.error, n_eye.error, follows ? color.bound : 0, projected.light_errors},
                               projected.lights)
                 : kInfinity;
       return BoundedColor{light(scene, material, projected.lights, p_eye.v, n_eye.v), bound};

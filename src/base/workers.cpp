@@ -113,7 +113,7 @@ void set_limits(const WorkerLimits& limits) {
 [[noreturn]] void be_worker(int socket, const WorkerLimits& limits, Progress& progress,
                             const std::function<Workers::Answer(Progress&)>& make) {
   set_limits(limits);
-  // exit() in a renderer ends the process at once: what the parent registered to run may wait for the parent's threads.
+  // exit() in a renderer runs none of the handlers that the parent registered: they may wait for the parent's threads.
   ::on_exit([](int status, void*) { ::_exit(status); }, nullptr);
   Workers::Answer answer;
   std::string received;

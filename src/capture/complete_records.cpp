@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+
+#include <fmt/format.h>
 
 #include "scene/draw_index.h"
 
@@ -38,35 +38,32 @@ void reorder(std::vector<T>& column, const Order& order) {
 
 // ---- columns
 
-void derive_normals(const DrawIndex& draws, Records<double>& r) {
-  if (r.matrices.size() != draws.ranges().size()) return;
-  for (std::size_t i = 0; i < std::min(r.vertices.size(), draws.vertices()); ++i) {
-    const std::size_t d = draws.of_vertex(i).value();
-    const Draw& draw = draws.scene().draws[d];
-    const Mat3<double>& m = r.matrices[d].normal;
-    const Vec3<double> n(draws.scene().meshes[draw.mesh].normals[i - draws.ranges()[d].first_vertex]);
-    const double scale = draw.normals == Normals::normalize ? glm::length(m * n)
-                         : draw.normals == Normals::rescale ? glm::length(glm::transpose(m)[2])
-                                                            : 1;
-    r.vertices[i].n_eye = scale > 0 ? m * n / scale : m * n;
+glm::ivec2 snapped(const Vec3<double>& p_win, std::size_t record) {
+  const glm::dvec2 steps = (glm::dvec2(p_win) - 0.5) * double{kSubpixel};
+  if (!(std::max(std::abs(steps.x), std::abs(steps.y)) < 0x1p30)) {
+    throw std::invalid_argument(fmt::format(
+        "window.snapped: left out, and the p_win of record {} is ({} {}): expected a place within 2^22 pixels", record,
+        p_win.x, p_win.y));
   }
+  return {std::nearbyint(steps.x), std::nearbyint(steps.y)};
 }
 
-void derive_cuts(const DrawIndex& draws, Records<double>& r) {
-  for (const ClipPolygon& polygon : r.polygons.polygons) {
-    const glm::uvec3 corners = draws.corners(polygon.primitive);
-    for (ClipVertex<double>& v : std::span(r.polygons.vertices).subspan(polygon.first, polygon.count)) {
-      const auto stands_on = [&](int k) {
-        return corners[k] < r.vertices.size() && r.vertices[corners[k]].p_clip == v.p_clip;
-      };
-      v.cut = !stands_on(0) && !stands_on(1) && !stands_on(2);
-    }
-  }
+// Positions below 2^31: differences below 2^32, products that only long double holds.
+bool faces_front(const WindowTriangle<double>& t) {
+  const glm::i64vec2 a(t.v[0].snapped), e1 = glm::i64vec2(t.v[1].snapped) - a, e2 = glm::i64vec2(t.v[2].snapped) - a;
+  const auto product = [](std::int64_t p, std::int64_t q) {
+    return static_cast<long double>(p) * static_cast<long double>(q);
+  };
+  return product(e1.x, e2.y) > product(e1.y, e2.x);
 }
 
 void derive_window(const DrawIndex& draws, Capture& c) {
   const auto lacks = [&](const char* column) { return c.derived.contains(column); };
-  for (WindowTriangle<double>& t : c.records.triangles) {
+  for (std::size_t i = 0; i < c.records.triangles.size(); ++i) {
+    WindowTriangle<double>& t = c.records.triangles[i];
+    if (draws.draw(t.primitive) == nullptr)
+      throw std::invalid_argument(
+          fmt::format("window.primitive: record {} is of primitive {}, which the scene does not have", i, t.primitive));
     const Draw& draw = *draws.draw(t.primitive);
     const Topology topology = draws.scene().meshes[draw.mesh].topology;
     const bool filled = draw.front_mode == PolygonMode::fill && draw.back_mode == PolygonMode::fill;
@@ -79,61 +76,13 @@ void derive_window(const DrawIndex& draws, Capture& c) {
       t.width = static_cast<std::uint32_t>(t.corners == 3 ? 1 : t.corners == 2 ? draw.line_width : draw.point_size);
     }
     if (lacks("window.snapped")) {
-      for (WindowVertex<double>& v : t.v) {
-        const glm::dvec2 steps = (glm::dvec2(v.p_win) - 0.5) * double{kSubpixel};
-        const bool fits = glm::length(steps) < 0x1p30;
-        v.snapped = fits ? glm::ivec2(std::nearbyint(steps.x), std::nearbyint(steps.y)) : glm::ivec2(0);
-      }
+      for (WindowVertex<double>& v : t.v) v.snapped = snapped(v.p_win, i);
     }
-    if (lacks("window.front")) {
-      const glm::i64vec2 a(t.v[0].snapped), e1 = glm::i64vec2(t.v[1].snapped) - a,
-                                            e2 = glm::i64vec2(t.v[2].snapped) - a;
-      t.front = t.corners < 3 || e1.x * e2.y - e1.y * e2.x > 0;
-    }
+    if (lacks("window.front")) t.front = t.corners < 3 || faces_front(t);
   }
 }
 
 // ---- order
-
-/// Window positions of polygons' first corners.
-class FirstCorners {
- public:
-  FirstCorners(const DrawIndex& draws, const Records<double>& r)
-      : draws_(draws), records_(r), known_(r.matrices.size() == draws.ranges().size()) {}
-
-  /// Nothing where the primitive has no polygon.
-  std::optional<Vec3<double>> of(std::uint32_t primitive) const {
-    const auto& [vertices, polygons] = records_.polygons;
-    const auto polygon = std::ranges::lower_bound(polygons, primitive, {}, &ClipPolygon::primitive);
-    if (!known_ || polygon == polygons.end() || polygon->primitive != primitive) return std::nullopt;
-    const Matrices<double>& m = records_.matrices[draws_.of_primitive(primitive).value()];
-    const Vec4<double>& p_clip = vertices[polygon->first].p_clip;
-    return Vec3<double>(p_clip) / p_clip.w * m.win_scale + m.win_translate;
-  }
-
- private:
-  const DrawIndex& draws_;
-  const Records<double>& records_;
-  bool known_;
-};
-
-/// Turned so that the corner nearest to its polygon's first is the last.
-void turn_triangles(const FirstCorners& corners, Records<double>& r) {
-  for (std::size_t i = 0; i < r.triangles.size(); ++i) {
-    WindowTriangle<double>& t = r.triangles[i];
-    const auto first = corners.of(t.primitive);
-    if (t.corners != 3 || !first) continue;
-    const auto distance = [&](std::size_t k) { return glm::distance(t.v[k].p_win, *first); };
-    const std::size_t nearest = distance(0) < distance(1) ? 0 : 1;
-    if (!(distance(nearest) < distance(2))) continue;
-    const auto turn = static_cast<std::ptrdiff_t>(nearest) + 1;
-    std::ranges::rotate(t.v, t.v.begin() + turn);
-    for (const Varying v : kAllVaryings) {
-      auto& column = r.varyings[v].triangles;
-      if (i < column.size()) std::ranges::rotate(column[i], column[i].begin() + turn);
-    }
-  }
-}
 
 void sort_triangles(Records<double>& r) {
   const Order order = order_by(r.triangles, [&](std::size_t i) { return r.triangles[i].primitive; });
@@ -162,10 +111,7 @@ void complete_records(const Scene& scene, Capture& capture) {
   const DrawIndex draws(scene);
   Records<double>& r = capture.records;
   std::ranges::stable_sort(r.polygons.polygons, {}, &ClipPolygon::primitive);
-  if (capture.derived.contains("vertex.n_eye")) derive_normals(draws, r);
-  if (capture.derived.contains("clip.cut")) derive_cuts(draws, r);
   derive_window(draws, capture);
-  turn_triangles(FirstCorners(draws, r), r);
   sort_triangles(r);
   sort_fragments(r);
 }

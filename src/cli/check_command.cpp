@@ -152,6 +152,9 @@ void judge_in_workers(std::span<const Scene> scenes, const CheckRules& rules, st
 int check(const CheckOptions& given) {
   CheckOptions o = given;
   o.against = without_repeats(given.against);
+  if (const std::string faulted = faulted_reference(o.fault);
+      !faulted.empty() && std::ranges::count(o.against, faulted) == 0)
+    throw std::invalid_argument(fmt::format("--fault: {} is not among the references asked", faulted));
   const auto start = std::chrono::steady_clock::now();
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
   std::vector<std::filesystem::path> files = find_scenes(paths);

@@ -17,7 +17,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   ended_ = std::move(ended);
   if (!candidate_) {  // here, since what is made may have ended a worker before
     const Watch watch{progress_, &ended_, o.limits.step};
-    candidate_ = make_watched(make_candidate(o.fault), 0, watch);
+    candidate_ = make_watched(make_candidate(faulted_reference(o.fault).empty() ? o.fault : ""), 0, watch);
     references_ = make_references(o.against, o.scene_arguments.assets, watch, o.fault);
   }
   JudgedScene out;

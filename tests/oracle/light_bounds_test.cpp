@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <vector>
 
 #include "tests/check/fixtures.h"
 
@@ -165,6 +167,65 @@ TEST_F(LightBoundsTest, OfAHighlightSeenAgainstTheLightGrows) {
   scene.lights = {light};
   // |L + z| is about 0.1: 1 + 10 (1 + 10).
   EXPECT_NEAR(magnitude_at({0, 0, 0}).r, 0.5 + 2 + 0.5 * (11 + 10 / 0.0997), 0.5);
+}
+
+// Position, normal and light off by up to their errors, at a cone's edge in most tries: the colours stay within the bound.
+TEST(LightError, HoldsWhateverItsInputsErrorsMake) {
+  std::mt19937 random(9);
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto direction = [&] {
+    glm::dvec3 v(0);
+    while (glm::length(v) > 1 || glm::length(v) < 0.01) v = {in(-1, 1), in(-1, 1), in(-1, 1)};
+    return glm::normalize(v);
+  };
+  for (int i = 0; i < 20'000; ++i) {
+    Scene scene;
+    scene.light_model.local_viewer = i % 2 == 0;
+    scene.light_model.specular = i % 3 == 0 ? LightModel::Specular::reflection : LightModel::Specular::half_vector;
+    scene.light_model.sides = i % 5 == 0 ? LightModel::Sides::flip : LightModel::Sides::one;
+    Light& light = scene.lights.emplace_back();
+    light.kind = i % 4 == 0 ? Light::Kind::directional : Light::Kind::point;
+    light.ambient = glm::vec3(0.1f), light.diffuse = glm::vec3(0.6f), light.specular = glm::vec3(0.4f);
+    if (i % 8 == 1) light.attenuation = glm::vec3(0.5f);
+    const double off = std::exp2(in(-23, -8)), distance = in(0.3, 5);
+    const glm::dvec3 to_light = direction(), p_eye(in(-2, 2), in(-2, 2), in(-8, -1)),
+                     n_eye = glm::normalize(to_light + in(0, 1.5) * direction());
+    std::vector<LightSource<double>> sources(1);
+    sources[0].p_eye = light.kind == Light::Kind::point ? glm::dvec4(p_eye + distance * to_light, 1)
+                                                        : glm::dvec4(distance * to_light, 0);
+    if (i % 4 > 1) {
+      light.spot = Spot{{}, static_cast<float>(in(5, 60)), i % 8 > 5 ? 0 : static_cast<float>(in(0, 128))};
+      const glm::dvec3 across = glm::normalize(glm::cross(to_light, direction()));
+      const double angle = glm::radians(static_cast<double>(light.spot->cutoff_degrees)) + in(-2, 2) * off / distance;
+      sources[0].spot_eye = glm::normalize(-std::cos(angle) * to_light + std::sin(angle) * across);
+    }
+    const DoubleMaterial material{glm::dvec4(1), glm::dvec4(1), glm::dvec4(1), {0, 0, 0, 1}, in(0, 128)};
+    const double light_off[] = {i % 3 == 1 ? off : 0};
+    const double p_off = light.kind == Light::Kind::point || scene.light_model.local_viewer ? off : 0;
+    const double bound =
+        light_error(scene, material, {glm::dvec4(p_eye, 1), glm::dvec4(0), n_eye}, {p_off, off, 0, light_off}, sources);
+    const glm::dvec4 middle = plumbline::math::light(scene, material, sources, p_eye, n_eye);
+    for (int k = 0; k < 4; ++k) {
+      std::vector<LightSource<double>> moved = sources;
+      moved[0].p_eye += glm::dvec4(light_off[0] * direction(), 0);
+      const glm::dvec4 there =
+          plumbline::math::light(scene, material, moved, p_eye + p_off * direction(), n_eye + off * direction());
+      ASSERT_LE(std::abs(there.r - middle.r), bound) << i;
+    }
+  }
+}
+
+// A direction is a direction, however long: its error is of its own length.
+TEST_F(LightBoundsTest, ADirectionalLightsLengthSaysNothing) {
+  scene.light_model.specular = LightModel::Specular::half_vector;
+  const auto error = [&](double length) {
+    const std::vector<LightSource<double>> sources = {{glm::dvec4(0, 0, length, 0), {}}};
+    const double errors[] = {1e-7 * length};
+    scene.lights = {light};
+    return light_error(scene, material(), {{0, 0, -6, 1}, {}, glm::dvec3(0, 0.6, 0.8)}, {0, 0, 0, errors}, sources);
+  };
+  EXPECT_NEAR(error(1e-4) / error(1), 1, 1e-6);
+  EXPECT_NEAR(error(1e4) / error(1), 1, 1e-6);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// All that a capture holds, by stage, in one list: written, read, copied, rounded, compared and hashed by visitors of it.
+// All that a capture holds, by stage, in one list: visitors of it write, read, copy, round, compare and hash captures.
 #pragma once
 
 #include <algorithm>
@@ -148,8 +148,8 @@ struct Handed {
   std::string_view name;
 };
 
-/// Calls visit.group(handed, columns, records...) and visit.plane(handed, plane...), with the vectors and planes of each
-/// of the captures, for all that a capture folder holds. An array's name is "group.column", or the plane's.
+/// Calls visit.group(handed, columns, records...) and visit.plane(handed, plane...) for all that a capture folder holds,
+/// with the vectors and planes of each of the captures. An array's name is "group.column", or the plane's.
 template <class Visitor, class... Captures>
 void visit_capture(Visitor&& visit, Captures&... captures) {
   const auto group = [&](Stage stage, std::string_view name, auto records_of, auto... columns) {
@@ -168,12 +168,12 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
         Column{"spot_eye", &L::spot_eye});
   using V = Vertex<double>;
   group(Stage::vertex, "vertex", of(&R::vertices), Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
-        Column{"n_eye", &V::n_eye, kDerivable});
+        Column{"n_eye", &V::n_eye});
   group(Stage::light, "light", of(&R::lit), Column{"color", &Lit<double>::color});
   using C = ClipVertex<double>;
   group(
       Stage::clip, "clip", [](auto& r) -> auto& { return r.polygons.vertices; }, Column{"p_clip", &C::p_clip},
-      Column{"color", &C::color}, Column{"cut", &C::cut, kDerivable});
+      Column{"color", &C::color}, Column{"cut", &C::cut});
   using P = ClipPolygon;
   group(
       Stage::clip, "clip.polygon", [](auto& r) -> auto& { return r.polygons.polygons; },

@@ -9,8 +9,9 @@
 // window.* the next is the corner), of a plane's the row, from the bottom; the last is the component; matrices are
 // column by column. A file is its array's elements, the last index running fastest, and nothing else. The names, and
 // what belongs to each, are listed in capture_columns.h; values mean what stages.h and capture.h say. What was not
-// captured is left out: a plane, or all arrays of a record. Records may be in any order, and columns that follow from
-// others may be left out (complete_records.h).
+// captured is left out: a plane, or all arrays of a record. Polygons, window triangles and
+// fragments may be in any order, a polygon's triangles in its own; columns that follow from others may be left out
+// (complete_records.h).
 #pragma once
 
 #include <filesystem>

@@ -18,6 +18,7 @@
 
 #include "base/program.h"
 #include "base/temporary_path.h"
+#include "capture/complete_records.h"
 #include "capture/files/capture_columns.h"
 #include "capture/files/capture_folder.h"
 
@@ -148,11 +149,14 @@ class ProcessRenderer : public Renderer {
                          scene.frame.width, scene.frame.height),
              log);
       }
+      complete_records(scene, capture);
       visit_capture(KeepOnly{request.records}, capture);
       capture.renderer = spec_.name;
       return capture;
     } catch (const CaptureError& error) {
       fail(argv, fmt::format("left no capture that can be read: {}", error.what()), log);
+    } catch (const std::invalid_argument& error) {
+      fail(argv, fmt::format("left no capture of the scene: {}", error.what()), log);
     }
   }
 

@@ -23,8 +23,8 @@ struct FragmentFours {
 FragmentFours fours_of(const Records<double>& records, std::size_t i);
 
 /// Per channel: what attributes off by `errors` and, in float, the `roundings` of each step come to.
-/// Light per fragment: light_bounds (bounds.h), 4 u for one, of a normal brought to unit length; infinite where a light
-/// may come or go. Texture environment: texture_bounds.h. The sum of colours: their errors, and 1 u. Fog: |df| |C -
+/// Light per fragment: light_bounds.h, 4 u for one, of a normal brought to unit length; infinite where a light may come
+/// or go. Texture environment: texture_bounds.h. The sum of colours: their errors, and 1 u. Fog: |df| |C -
 /// C_fog| + f |dC|; df = density f |dz| (exp), 2 density^2 c f |dz| (exp2), |dz| / |end - start| (linear), and f's own:
 /// its argument's rounding, which the exponential makes absolute, and its underflow.
 Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,

@@ -33,8 +33,8 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
 /// How a reference's float arithmetic ends at both ends of its range.
 struct FloatRange {
   double underflow = kGradualUnderflow;
-  std::string_view overflow =
-      {};  ///< why a channel whose power overflows (math::LightBounds) is its fault; empty: it is not
+  /// Why a channel whose power overflows (light_bounds.h) is its fault; empty: it is not.
+  std::string_view overflow = {};
 };
 /// Colours; what the two sides' normals differ by is the vertices' matter.
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,

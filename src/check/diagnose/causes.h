@@ -1,5 +1,5 @@
-// Likely causes of a wrong stage, in words: exact comes to the candidate's records with the cause in its input or output,
-// or the differences of all records show the cause's pattern.
+// Likely causes of a wrong stage, in words: exact comes to the candidate's records with the cause in its input or
+// output, or the differences of all records show the cause's pattern.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Cause {
   std::string words;      ///< the cause, and what shows it
 };
 
-/// Those that explain at least 49 in 50 of the records that differ, in the order of known_causes.h; empty where none do.
+/// Those that explain at least 49 in 50 of the records that differ, in the order of known_causes.h; empty: none does.
 /// (The rest: ties, and what rounding decides.)
 std::vector<Cause> likely_causes(const Evidence& evidence);
 

@@ -85,7 +85,7 @@ struct ColumnPrinter {
     for (int row = 0; row < n; ++row) came_in(fmt::format("{} row {}", name, row), glm::row(m, row));
   }
   void came_in(const std::string& name, const auto& v) {
-    out.push_back(fmt::format("came in: {} {}", name, value_text(name, v)));
+    out.push_back(fmt::format("came in of {}: {} {}", name_of(stage), name, value_text(name, v)));
   }
 
   template <int n>
@@ -97,12 +97,17 @@ struct ColumnPrinter {
   }
   template <class T>
   void beside(const std::string& name, const T& a, const T& b) {
+    if constexpr (std::is_same_v<T, bool>) {
+      const auto yes = [](bool v) { return v ? "yes" : "no"; };
+      if (a != b) out.push_back(fmt::format("{}: {}, expected {}", name, yes(a), yes(b)));
+      return;
+    }
     if constexpr (!std::is_integral_v<T>) {
       if (a == b) return out.push_back(fmt::format("{} {}, as expected", name, value_text(name, a)));
     }
     std::string apart;
     if constexpr (std::is_same_v<T, glm::dvec4>) {
-      const bool is_color = name.ends_with("color") || name.starts_with("secondary");
+      const bool is_color = name.ends_with("color") || name.ends_with("secondary");
       apart = is_color ? fmt::format("{}/255", text((a - b) * 255.0, 4)) : text(ulps(a, b), 4) + " ULP";
     } else if constexpr (std::is_same_v<T, glm::ivec2>) {
       apart = fmt::format("{}/{} pixel", text(a - b), kSubpixel);

@@ -4,7 +4,7 @@
 // u = 2^-24. "of the magnitude": times the sum of the absolute values of the terms (bounds.h), which is what rounding
 // errors are proportional to. A product of n factors with n - 1 sums has a relative error of at most about n u
 // (Higham, Accuracy and stability of numerical algorithms, section 3.1). A rounding below the smallest normal number
-// has an absolute error besides: bounds.h, Roundings.
+// has an absolute error besides: bounded.h, Roundings.
 #include "check/verdict/ledger.h"
 
 #include <array>

@@ -142,6 +142,11 @@ std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vec
                                              : std::move(reference);
 }
 
+std::string faulted_reference(const std::string& fault) {
+  const auto ending = faults::reference_ending(fault);
+  return ending ? ending->reference : "";
+}
+
 std::vector<FaultInfo> fault_infos() {
   std::vector<FaultInfo> out;
   for (const faults::Fault& fault : faults::all()) {
@@ -151,7 +156,7 @@ std::vector<FaultInfo> fault_infos() {
 }
 
 std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
-  if (fault.empty() || faults::reference_ending(fault)) return pipeline::make_pipeline();
+  if (fault.empty()) return pipeline::make_pipeline();
   for (const faults::Fault& f : faults::all()) {
     if (f.name == fault) return pipeline::make_pipeline(f.stages());
   }
@@ -168,6 +173,8 @@ std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vec
                                          const std::string&) {
   return sound_reference(name, assets);
 }
+
+std::string faulted_reference(const std::string&) { return ""; }
 
 std::vector<FaultInfo> fault_infos() { return {}; }
 

@@ -37,8 +37,9 @@ struct FaultInfo {
   std::string_view report;  ///< who reports such a fault (faults.h), or empty
 };
 std::vector<FaultInfo> fault_infos();
-/// Our pipeline, with the named fault unless that is none or a reference's. Throws std::invalid_argument if it is
-/// unknown.
+/// The reference that the fault is of (faults/endings.h); empty: it is none of a reference.
+std::string faulted_reference(const std::string& fault);
+/// Our pipeline; with the named fault unless the name is empty. Throws std::invalid_argument if it is unknown.
 std::unique_ptr<Renderer> make_candidate(const std::string& fault);
 
 }  // namespace plumbline::cli
