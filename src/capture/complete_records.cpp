@@ -40,7 +40,7 @@ void reorder(std::vector<T>& column, const Order& order) {
 
 glm::ivec2 snapped(const Vec3<double>& p_win, std::size_t record) {
   const glm::dvec2 steps = (glm::dvec2(p_win) - 0.5) * double{kSubpixel};
-  if (!(std::max(std::abs(steps.x), std::abs(steps.y)) < 0x1p30)) {
+  if (!(std::abs(steps.x) < 0x1p30 && std::abs(steps.y) < 0x1p30)) {
     throw std::invalid_argument(fmt::format(
         "window.snapped: left out, and the p_win of record {} is ({} {}): expected a place within 2^22 pixels", record,
         p_win.x, p_win.y));
