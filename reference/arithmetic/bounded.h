@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/glm.hpp>
+
 namespace plumbline::math {
 
 inline constexpr double kFloatRounding = 1.0 / (1 << 24);  ///< u, the unit roundoff of float: half an ULP of 1
@@ -27,15 +29,20 @@ struct Roundings {
 struct Bounded {
   double value = 0, error = 0;
 };
+/// Four numbers, a colour or a position, and how far any of another renderer's may be from its own; infinite: anything.
+struct BoundedFour {
+  glm::dvec4 value{0};
+  double bound = 0;
+};
 
-/// What a fragment's colour is made by, on real numbers.
+/// Operations that make a fragment's colour, on real numbers.
 struct Exactly {
   static double product(double a, double b) { return a * b; }
   static double mixed(double a, double b, double share) { return a * (1 - share) + b * share; }
   static double clamped_sum(double a, double b) { return std::clamp(a + b, 0.0, 1.0); }
 };
 
-/// The same on numbers known to a bound, by a renderer that rounds each result.
+/// Operations that make a fragment's colour, on numbers known to a bound, by a renderer that rounds each result.
 struct Rounding {
   Roundings roundings;
   Bounded product(Bounded a, Bounded b) const {

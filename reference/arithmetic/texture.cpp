@@ -255,11 +255,11 @@ bool within_slopes(const Texture& texture, const TexelRange& range, double bound
 
 }  // namespace
 
-BoundedColor bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedColor& fragment,
-                                    const BoundedPlace& place) {
+BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedFour& fragment,
+                                   const BoundedPlace& place) {
   const TexelRange range = texel_range(texture, place.st, place.lambda_lo, place.lambda_hi);
   const glm::dvec4 texel = filtered_texel(texture, place.st, place.lambda);
-  BoundedColor out{textured_color(texture.format, state, fragment.value, texel), 0};
+  BoundedFour out{textured_color(texture.format, state, fragment.value, texel), 0};
   const bool open = !(place.bound < std::min(range.gap.s, range.gap.t)) ||
                     !within_slopes(texture, range, place.bound) || !std::isfinite(fragment.bound);
   if (open) return {out.value, std::numeric_limits<double>::infinity()};

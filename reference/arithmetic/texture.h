@@ -59,16 +59,12 @@ glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const 
 
 /// The same where colour, texture coordinates and lambda are known to bounds: the value in the middle, and how far any
 /// channel may be from it; infinite where it is open which texel is the nearest.
-struct BoundedColor {
-  glm::dvec4 value{0};
-  double bound = 0;
-};
 struct BoundedPlace {
   glm::dvec2 st{0};
   double bound = 0;  ///< of s and t
   double lambda = 0, lambda_lo = 0, lambda_hi = 0;
 };
-BoundedColor bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedColor& fragment,
-                                    const BoundedPlace& place);
+BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedFour& fragment,
+                                   const BoundedPlace& place);
 
 }  // namespace plumbline::math

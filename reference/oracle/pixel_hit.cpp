@@ -143,8 +143,8 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
 
 /// Perspective-correct, the plane going on beyond the triangle's border, as renderers' do. `corners`: with their
 /// bounds.
-BoundedColor at_pixel(const Projected& scene, const Triangle& t, const std::array<BoundedColor, 3>& corners,
-                      glm::dvec3 d, const Place& at, glm::dvec2 moved, bool certain) {
+BoundedFour at_pixel(const Projected& scene, const Triangle& t, const std::array<BoundedFour, 3>& corners, glm::dvec3 d,
+                     const Place& at, glm::dvec2 moved, bool certain) {
   const glm::dvec3 centre = scene.to_centre(d);
   const glm::dvec3 e(glm::dot(t.n[0], centre), glm::dot(t.n[1], centre), glm::dot(t.n[2], centre));
   const double weight = centre_weight(scene, t, at, d, certain), sum = e.x + e.y + e.z;
@@ -165,7 +165,7 @@ BoundedColor at_pixel(const Projected& scene, const Triangle& t, const std::arra
     error = std::max(error, corners[i].bound);
     size = std::max(size, largest(corners[i].value));
   }
-  for (const BoundedColor& corner : corners) spread = std::max(spread, largest(corner.value - value));
+  for (const BoundedFour& corner : corners) spread = std::max(spread, largest(corner.value - value));
   // A far point of a triangle that comes near has small e_i: their errors are those of the near end, w / w_min larger.
   // The relative error of 1/w_i moves the value by its share of the spread, and so does that of w's plane.
   const double w = std::max(std::clamp(at.w, t.w_min, t.w_max), centre == d ? 0 : 1 / glm::dot(t.w_plane, centre));
@@ -182,7 +182,7 @@ BoundedColor at_pixel(const Projected& scene, const Triangle& t, const std::arra
 /// Where in its texture the hit is, and the levels of detail at the four pixels of its square of two by two: ray
 /// differentials, d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j.
 BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const std::array<glm::dvec2, 3>& texcoords,
-                              const BoundedColor& st, glm::dvec3 d, glm::ivec2 pixel) {
+                              const BoundedFour& st, glm::dvec3 d, glm::ivec2 pixel) {
   BoundedPlace out{glm::dvec2(st.value), st.bound, 0, kInfinity, -kInfinity};
   const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
   for (int k = 0; k < 4; ++k) {
@@ -221,28 +221,23 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   const bool two = draw.lit && model.sides == LightModel::Sides::two, back = two && t.sign < 0;
   const auto lit_part = [&](auto of_corner) {
     if (draw.shading != Shading::flat) return attribute(of_corner);
-    BoundedColor last = of_corner(corner(2));
+    BoundedFour last = of_corner(corner(2));
     last.bound += 4 * kFloatRounding;
     return last;
   };
-  BoundedColor color = lit_part([&](const Corner& c) {
-    return back && is_lit_per_vertex(draw) ? BoundedColor{c.back_color, c.back_color_error}
-                                           : BoundedColor{c.color, c.color_error};
+  BoundedFour color = lit_part([&](const Corner& c) {
+    return back && is_lit_per_vertex(draw) ? BoundedFour{c.back_color, c.back_color_error}
+                                           : BoundedFour{c.color, c.color_error};
   });
-  BoundedColor secondary;
+  BoundedFour secondary;
   if (is_lit_per_vertex(draw) && model.separate_specular) {
     secondary = lit_part([&](const Corner& c) {
-      return back ? BoundedColor{c.back_secondary, c.back_secondary_error}
-                  : BoundedColor{c.secondary, c.secondary_error};
+      return back ? BoundedFour{c.back_secondary, c.back_secondary_error} : BoundedFour{c.secondary, c.secondary_error};
     });
   }
   if (is_lit_per_fragment(draw)) {
-    const BoundedColor p = attribute([](const Corner& c) {
-      return BoundedColor{glm::dvec4(c.p_eye, 0), c.p_eye_error};
-    });
-    const BoundedColor n = attribute([](const Corner& c) {
-      return BoundedColor{glm::dvec4(c.n_eye, 0), c.n_eye_error};
-    });
+    const BoundedFour p = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.p_eye, 0), c.p_eye_error}; });
+    const BoundedFour n = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.n_eye, 0), c.n_eye_error}; });
     const Known p_eye{glm::dvec3(p.value), p.bound};
     Known n_eye = unit({glm::dvec3(n.value), n.bound});
     if (back) n_eye.v = -n_eye.v;
@@ -255,13 +250,13 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
                               {p_eye.error, n_eye.error, follows ? color.bound : 0, projected.light_errors},
                               projected.lights)
                 : kInfinity;
-      return BoundedColor{light(scene, material, projected.lights, p_eye.v, n_eye.v), bound};
+      return BoundedFour{light(scene, material, projected.lights, p_eye.v, n_eye.v), bound};
     };
     if (model.separate_specular) secondary = of_fragment(true);
     color = of_fragment(false);
   }
   if (draw.texture) {
-    const BoundedColor st = attribute([](const Corner& c) { return BoundedColor{glm::dvec4(c.texcoord, 0, 0), 0}; });
+    const BoundedFour st = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.texcoord, 0, 0), 0}; });
     const Texture& texture = scene.textures.at(draw.texture->texture);
     const BoundedPlace place = place_in_texture(
         texture, t, {corner(0).texcoord, corner(1).texcoord, corner(2).texcoord}, st, projected.to_centre(d), pixel);
@@ -272,8 +267,8 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   }
   if (two && (t.thin || t.sign == 0)) color.bound = kInfinity;  // it may show either face
   if (draw.fog && std::isfinite(color.bound)) {
-    const BoundedColor p = attribute([](const Corner& c) {
-      return BoundedColor{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error};
+    const BoundedFour p = attribute([](const Corner& c) {
+      return BoundedFour{glm::dvec4(0, 0, c.z_eye, 0), c.z_eye_error};
     });
     const double f_error =
         std::isfinite(p.bound) ? std::min(1.0, fog_factor(*draw.fog, {p.value.z, p.bound}, {16}).error) : 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -17,12 +18,13 @@ namespace {
 
 using Order = std::vector<std::size_t>;
 
-/// Numbers of the records, in the order of their keys; of equal keys as they are.
+/// Numbers of the records, in the order of their keys; of equal keys as they are. None: they are in order.
 template <class Record>
-Order order_by(const std::vector<Record>& records, auto key) {
+std::optional<Order> order_by(const std::vector<Record>& records, auto key) {
   Order order(records.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return key(i); });
+  if (std::ranges::is_sorted(order, {}, key)) return std::nullopt;
+  std::ranges::stable_sort(order, {}, key);
   return order;
 }
 
@@ -48,7 +50,7 @@ glm::ivec2 snapped(const Vec3<double>& p_win, std::size_t record) {
   return {std::nearbyint(steps.x), std::nearbyint(steps.y)};
 }
 
-// Positions below 2^31: differences below 2^32, products that only long double holds.
+// Positions are below 2^31, differences below 2^32: the 64 bits of a long double hold their products exactly.
 bool faces_front(const WindowTriangle<double>& t) {
   const glm::i64vec2 a(t.v[0].snapped), e1 = glm::i64vec2(t.v[1].snapped) - a, e2 = glm::i64vec2(t.v[2].snapped) - a;
   const auto product = [](std::int64_t p, std::int64_t q) {
@@ -85,7 +87,9 @@ void derive_window(const DrawIndex& draws, Capture& c) {
 // ---- order
 
 void sort_triangles(Records<double>& r) {
-  const Order order = order_by(r.triangles, [&](std::size_t i) { return r.triangles[i].primitive; });
+  const auto sorted = order_by(r.triangles, [&](std::size_t i) { return r.triangles[i].primitive; });
+  if (!sorted) return;
+  const Order& order = *sorted;
   std::vector<std::uint32_t> now(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) now[order[i]] = static_cast<std::uint32_t>(i);
   reorder(r.triangles, order);
@@ -98,7 +102,9 @@ void sort_fragments(Records<double>& r) {
     const Covered& c = r.covered[i];
     return std::tuple(c.triangle, c.y, c.x);
   };
-  const Order order = order_by(r.covered, key);
+  const auto sorted = order_by(r.covered, key);
+  if (!sorted) return;
+  const Order& order = *sorted;
   reorder(r.depth, order), reorder(r.attributes, order), reorder(r.texels, order);
   reorder(r.shaded, order), reorder(r.drawn, order);
   for (const Varying v : kAllVaryings) reorder(r.varyings[v].fragments, order);
@@ -114,6 +120,7 @@ void complete_records(const Scene& scene, Capture& capture) {
   derive_window(draws, capture);
   sort_triangles(r);
   sort_fragments(r);
+  capture.derived.clear();
 }
 
 }  // namespace plumbline

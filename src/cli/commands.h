@@ -53,7 +53,7 @@ struct DiagnoseOptions {
   SceneArguments scene_arguments;
 };
 int diagnose(const DiagnoseOptions& options);
-/// The same of a picture alone: the known faults whose pictures are nearest to it.
+/// Diagnosis of a picture alone: the known faults whose pictures are nearest to it.
 int diagnose_picture(const DiagnoseOptions& options);
 
 /// A scene to a picture.

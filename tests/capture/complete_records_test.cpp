@@ -102,7 +102,7 @@ TEST(CompleteRecords, put_shuffled_records_in_order) {
   }
 }
 
-// Of every scene whose polygons are filled.
+// Every scene whose polygons are filled.
 TEST(CompleteRecords, fill_what_follows_from_others) {
   std::size_t scenes = 0;
   for (const auto& file : find_scenes({{kScenes}})) {

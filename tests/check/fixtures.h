@@ -23,7 +23,7 @@ namespace plumbline::check {
 
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-inline constexpr double kU = kUnitRoundoff;
+inline constexpr double kU = kFloatRounding;
 
 inline double above(double value) { return std::nextafter(value, kInf); }
 /// The next float, as a double.

@@ -121,7 +121,7 @@ namespace {
 
 // By these barycentrics at the pixel.
 PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, int x, int y) {
-  constexpr double kFlushed = kFlushedUnderflow / kUnitRoundoff;
+  constexpr double kFlushed = kFlushedUnderflow / kFloatRounding;
   const Cancelled cancelled = cancelled_in(t);
   const auto& v = t.v;
   double x0 = 0, y0 = 0, from_corner = 0;
@@ -279,7 +279,7 @@ std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corn
   }
   // A point has no slopes: z0 brought to the origin and back, four roundings of |z| each.
   const auto ties = [&](const EdgeValue& a, const EdgeValue& b) {
-    return std::abs(a.depth - b.depth) <= tie + 4 * kUnitRoundoff * (std::abs(a.depth) + std::abs(b.depth));
+    return std::abs(a.depth - b.depth) <= tie + 4 * kFloatRounding * (std::abs(a.depth) + std::abs(b.depth));
   };
   for (const EdgeValue& value : there) {
     if (std::ranges::count_if(there, [&](const EdgeValue& other) { return ties(value, other); }) > 1)

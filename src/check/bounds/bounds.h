@@ -12,10 +12,10 @@
 
 namespace plumbline::check {
 
+using math::kFloatRounding;
 using math::kFlushedUnderflow;
 using math::kGradualUnderflow;
 using math::Roundings;
-inline constexpr double kUnitRoundoff = math::kFloatRounding;
 
 /// |M| |p|: what the rounding errors of M p are proportional to.
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);

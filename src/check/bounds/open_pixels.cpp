@@ -72,8 +72,8 @@ double depth_error(const Records<double>& r, const OffsetErrors& offsets, std::s
     }
     arithmetic = primitive_bounds(r, primitive, c.x, c.y, limits).depth;
   }
-  return tolerance(Profile::opengl, Stage::depth).factor * kUnitRoundoff * (arithmetic + offsets.of(triangle)) + apart +
-         depth_step(format, z) / 2;
+  return tolerance(Profile::opengl, Stage::depth).factor * kFloatRounding * (arithmetic + offsets.of(triangle)) +
+         apart + depth_step(format, z) / 2;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 
 namespace plumbline::check {
 
-inline constexpr double u = kUnitRoundoff;
+inline constexpr double u = kFloatRounding;
 
 // The nearest float. Volatile: GCC 12 takes a vector's way to float and back for nothing, and leaves it out (-O2, two
 // lanes at a time).

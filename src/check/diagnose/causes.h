@@ -15,7 +15,7 @@ struct Cause {
   std::string words;      ///< the cause, and what shows it
 };
 
-/// Those that explain at least 49 in 50 of the records that differ, in the order of known_causes.h; empty: none does.
+/// Causes that explain at least 49 in 50 of the records that differ, in the order of known_causes.h.
 /// (The rest: ties, and what rounding decides.)
 std::vector<Cause> likely_causes(const Evidence& evidence);
 

@@ -124,7 +124,7 @@ struct ColumnPrinter {
   }
 };
 
-// What lines are made of: the two sides, and which draw a number belongs to.
+// Printer of records, the candidate's beside the expected ones.
 class RecordPrinter {
  public:
   explicit RecordPrinter(const Evidence& e)
@@ -161,7 +161,7 @@ class RecordPrinter {
     }
   }
 
-  // Of the window stage: the first of the primitive's triangles that differ, and the polygon that they came from.
+  // First of the primitive's window triangles that differ, and the polygon that they came from.
   void window(std::uint32_t primitive, TextLines& out) const {
     out.push_back(primitive_text(primitive));
     for (const ClipVertex<double>& v : polygon_of(mine_, primitive))

@@ -16,7 +16,7 @@
 namespace plumbline::check {
 namespace {
 
-constexpr double u = kUnitRoundoff;
+constexpr double u = kFloatRounding;
 
 Texture noise(MinFilter min, int size = 16) {
   Texture texture;
