@@ -27,7 +27,7 @@ std::string text(const T& v, int digits = 9) {
   if constexpr (std::is_integral_v<T>) return std::to_string(v);
   if constexpr (!std::is_arithmetic_v<T>) {
     std::string out = "(";
-    for (int c = 0; c < T::length(); ++c) out += (c == 0 ? "" : " ") + text(v[c], digits);
+    for (int c = 0; c < T::length(); ++c) out += fmt::format("{}{}", c == 0 ? "" : " ", text(v[c], digits));
     return out + ")";
   }
 }
