@@ -106,51 +106,76 @@ struct Bands {
   Plane<char> near;
 };
 
+/// Length of the part of p + t n, t in [-delta, delta], that is within the window of this size.
+double within_window(glm::dvec2 p, glm::dvec2 n, double delta, glm::dvec2 window) {
+  double from = -delta, to = delta;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (n[axis] == 0) {
+      if (p[axis] < 0 || p[axis] > window[axis]) return 0;
+      continue;
+    }
+    const auto [first, last] = std::minmax(-p[axis] / n[axis], (window[axis] - p[axis]) / n[axis]);
+    from = std::max(from, first);
+    to = std::min(to, last);
+  }
+  return std::max(to - from, 0.0);
+}
+
 void add_band(const Scene& scene, const Projected& projected, const Edge& edge, const Plane<std::int32_t>& id,
               Bands& bands) {
   const Triangle& t = projected.triangles[edge.primitive];
+  const Triangle& loosest = projected.triangles[edge.loosest];
   const Corner &j = projected.corners[edge.j], &k = projected.corners[edge.k];
-  const Piece piece = visible_piece(projected, j, k, 0);
+  const glm::dvec2 window(id.width(), id.height()), half = 0.5 * window;
+  // An edge outside the window has its band within, where it may be moved that far.
+  const Piece piece = visible_piece(projected, j, k, std::min(loosest.reach, window.x + window.y));
   if (piece.from > piece.to) return;
   const auto homogeneous = [&](double at) { return glm::dvec4(j.v, j.z) + at * glm::dvec4(k.v - j.v, k.z - j.z); };
   const glm::dvec4 a = homogeneous(piece.from), b = homogeneous(piece.to);
   if (!(a.z > 0 && b.z > 0)) return;
   const glm::dvec3 from(a.x / a.z, a.y / a.z, 1), to(b.x / b.z, b.y / b.z, 1);
   const glm::dvec3 along = to - from;
-  // The point at from + s along: whether it is seen there, the pixel that it is in, and delta.
+  // The point at from + s along in the window, whether it is seen in the pixel nearest to it, and delta.
   struct Sample {
     bool seen;
-    int x, y;
+    glm::dvec2 p_win;
     double delta;
   };
   const auto sample = [&](double s) {
     const glm::dvec3 d = from + s * along;
+    const glm::dvec2 p_win = glm::dvec2(d) + half;
     const double inv_w = (1 - s) / a.z + s / b.z, z_view = 0.5 + 0.5 * ((1 - s) * a.w / a.z + s * b.w / b.z);
-    const int x = std::clamp(static_cast<int>(d.x + 0.5 * id.width()), 0, id.width() - 1);
-    const int y = std::clamp(static_cast<int>(d.y + 0.5 * id.height()), 0, id.height() - 1);
+    const auto nearest = glm::ivec2(glm::clamp(p_win, glm::dvec2(0), window - 1.0));
     const double z = std::clamp(to_window(t, z_view), 0.0, 1.0);
-    return Sample{bands.all_seen || seen(scene, projected, edge.primitive, id(x, y), d, z), x, y,
-                  displacement(projected, projected.triangles[edge.loosest], d, 1 / inv_w)};
+    return Sample{bands.all_seen || seen(scene, projected, edge.primitive, id(nearest.x, nearest.y), d, z), p_win,
+                  displacement(projected, loosest, d, 1 / inv_w)};
   };
   const double length = glm::length(along);
+  if (!(length > 0)) return;
+  const glm::dvec2 normal = glm::dvec2(-along.y, along.x) / length;
   const int samples = 1 + static_cast<int>(std::min(length, 65536.0));
   for (int i = 0; i < samples; ++i) {
     const Sample at = sample((i + 0.5) / samples);
-    if (at.seen) bands.area += length / samples * 2 * at.delta;
+    if (at.seen) bands.area += length / samples * within_window(at.p_win, normal, at.delta, window);
   }
-  if (!(length > 0)) return;
   const int major = std::abs(along.x) >= std::abs(along.y) ? 0 : 1, minor = 1 - major;
-  const glm::dvec2 half(0.5 * id.width(), 0.5 * id.height());
   const double cosine = std::abs(along[major]) / length;
-  // The piece is within the window but for rounding, which may be large.
-  const auto in_window = [&](double at) { return std::clamp(at + half[major], 0.0, 2 * half[major]); };
+  // The piece is within the window but for rounding and its margin, which may be large.
+  const auto in_window = [&](double at) { return std::clamp(at + half[major], 0.0, window[major]); };
   const double lo = in_window(std::min(from[major], to[major])), hi = in_window(std::max(from[major], to[major]));
   for (double centre = std::ceil(lo - 0.5) + 0.5; centre <= hi; centre += 1) {
     const double s = (centre - half[major] - from[major]) / along[major];
-    const double across = from[minor] + s * along[minor] + half[minor];
-    const double off = std::abs(across - std::floor(across) - 0.5) * cosine;
     const Sample at = sample(std::clamp(s, 0.0, 1.0));
-    if (at.seen && off <= at.delta) bands.near(at.x, at.y) = 1;
+    if (!at.seen) continue;
+    const double across = from[minor] + s * along[minor] + half[minor], band = at.delta / cosine;
+    const double first = std::max(std::ceil(across - band - 0.5), 0.0),
+                 last = std::min(std::floor(across + band - 0.5), window[minor] - 1);
+    for (double other = first; other <= last; other += 1) {
+      glm::ivec2 pixel(0);
+      pixel[major] = std::min(static_cast<int>(centre), static_cast<int>(window[major]) - 1);
+      pixel[minor] = static_cast<int>(other);
+      bands.near(pixel.x, pixel.y) = 1;
+    }
   }
 }
 

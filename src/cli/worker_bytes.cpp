@@ -112,7 +112,7 @@ void visit(Archive& archive, std::map<K, V>& items) {
 }
 template <class Archive>
 void visit(Archive& archive, check::Worst& w) {
-  all(archive, w.place.x, w.place.y, w.place.record);
+  all(archive, w.place.x, w.place.y, w.place.record, w.place.of_primitive);
   archive.word(w.place.field);
   all(archive, w.candidate, w.reference, w.difference, w.tolerance);
 }

@@ -109,7 +109,7 @@ Box box_of(const DrawIndex& draws, std::uint32_t primitive, glm::ivec2 extent) {
 void compare_line(Meter& meter, std::uint32_t primitive, const Line& mine, const Line& theirs, const Box& box,
                   double factor) {
   const auto at = [&](glm::ivec2 p, const char* field) {
-    return Place{p.x, p.y, static_cast<std::int64_t>(primitive), field};
+    return Place{p.x, p.y, static_cast<std::int64_t>(primitive), field, true};
   };
   if (mine.window == nullptr || theirs.window == nullptr) {
     return meter.value(kInfinite, 0, at({-1, -1}, mine.window == nullptr ? "line lacking" : "line extra"), 0, 0);

@@ -133,7 +133,8 @@ namespace {
 
 // Where a winner leaves depths in place (depth_mask): how far another renderer's depth may be from the one that a
 // fragment beneath it left. That fragment's own edges and formulas count, and, where a depth test is open
-// (open_pixels.h), those of fragments that either may have hidden.
+// (open_pixels.h), those of fragments that either may have hidden: where a stencil test follows, of all, for what it
+// lets through depends on which were drawn before.
 class DepthsBeneath {
  public:
   DepthsBeneath(const Scene& scene, const Capture& candidate, const DrawIndex& draws)
@@ -154,7 +155,10 @@ class DepthsBeneath {
       return draw != nullptr && draw->merge.depth_mask;
     };
     std::optional<Values> left;
+    bool by_stencil = false;
     fragments_.each(x, y, [&](std::size_t i) {
+      const Draw* draw = draws_.draw(triangle_of(i).primitive);
+      by_stencil = by_stencil || (draw != nullptr && draw->stencil);
       if (records_.drawn[i].drawn && records_.depth[i] == z && leaves(i)) left = values(i, x, y);
     });
     if (!left) return;
@@ -164,7 +168,8 @@ class DepthsBeneath {
       const Values of = values(i, x, y);
       const double reach = factor * u * (left->bound + of.bound) + depth_step(scene_.frame.depth, z);
       const auto [low, high] = std::ranges::minmax(of.depths);
-      const bool tied = open_(x, y) != 0 && low <= left_high + reach && high >= left_low - reach;
+      const bool near = by_stencil || (low <= left_high + reach && high >= left_low - reach);
+      const bool tied = open_(x, y) != 0 && near;
       if (records_.depth[i] != z && !tied) return;
       for (const double depth : of.depths) visit(depth - z, of.bound);
     });
@@ -213,7 +218,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
   const auto others_left_it = [&](int x, int y) { return !depths_replace(scene) && others_cover(x, y); };
   return where_winners_agree(a, b, &Planes::depth, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
     const double z = a.depth(x, y), z_ref = b.depth(x, y);
-    const Place place{x, y, id, "z"};
+    const Place place{x, y, id, "z", true};
     if (id == kBackground) {
       meter.value(difference(z, z_ref) / u, 0, place, z, z_ref);
       return;
@@ -241,7 +246,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
   const Planes &a = candidate.planes, &b = reference.planes;
   const FragmentBounds bounds(scene, candidate, reference, factor);
   return where_winners_agree(a, b, &Planes::shaded, "u", [&](Meter& meter, int x, int y, std::int32_t id) {
-    const Place place{x, y, id, "color"};
+    const Place place{x, y, id, "color", true};
     if (id == kBackground) {
       return add_color(meter, a.shaded(x, y), Vec4<double>(b.shaded(x, y)), Vec4<double>(0), u, place);
     }
@@ -276,7 +281,7 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
     for (int c = 0; c < 4; ++c) {
       const double v = std::round(scale * a.color(x, y)[c]), w = std::round(scale * b.color(x, y)[c]);
       if (!std::isfinite(bound[c])) {
-        open_value(meter, v, {x, y, id, "color"}, w);
+        open_value(meter, v, {x, y, id, "color", true}, w);
         continue;
       }
       double diff = difference(v, w);
@@ -287,7 +292,7 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
         const double along = static_cast<double>(a.shaded(x, y)[c]) + fragment.along[c];
         diff = std::min(diff, difference(std::round(scale * std::clamp(along, 0.0, 1.0)), w));
       }
-      meter.value(diff, cleared ? cleared_codes(scene.frame, c) : codes, {x, y, id, "color"}, v, w,
+      meter.value(diff, cleared ? cleared_codes(scene.frame, c) : codes, {x, y, id, "color", true}, v, w,
                   std::floor(scale * bound[c]));
     }
   });
@@ -304,7 +309,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
   const std::string unit = code_unit(scene.frame);
   const bool reads = factors_read_frame(scene);
   return where_winners_agree(a, b, &Planes::color, unit, [&](Meter& meter, int x, int y, std::int32_t id) {
-    const Place place{x, y, id, "color"};
+    const Place place{x, y, id, "color", true};
     const bool open = others_cover(x, y) || (!legal.color_lo.empty() && !std::isfinite(legal.color_lo(x, y).x)) ||
                       (!tied.empty() && tied(x, y) != 0);
     int fragments = 0;
@@ -367,15 +372,16 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
                     &high = bounds.color_hi.empty() ? exact.color(x, y) : bounds.color_hi(x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = candidate.color(x, y)[c];
-      meter.value(outside(v, low[c], high[c]) / unit, codes ? factor : 0, {x, y, id, "color"}, v, low[c]);
+      meter.value(outside(v, low[c], high[c]) / unit, codes ? factor : 0, {x, y, id, "color", true}, v, low[c]);
     }
     for (int c = 0; codes && c < 4; ++c) {
       const double v = scale * static_cast<double>(candidate.color(x, y)[c]),
                    code = std::clamp(std::round(v), 0.0, scale);
-      meter.value(std::abs(v - code) <= scale * 2 * u ? 0 : kInfinite, 0, {x, y, id, "no code"}, v, code);
+      meter.value(std::abs(v - code) <= scale * 2 * u ? 0 : kInfinite, 0, {x, y, id, "no code", true}, v, code);
     }
     const double z = candidate.depth(x, y), z_ref = exact.depth(x, y);
-    meter.value(difference(z, z_ref) / depth_step(scene.frame.depth, z_ref), 0, {x, y, id, "z, in steps"}, z, z_ref);
+    meter.value(difference(z, z_ref) / depth_step(scene.frame.depth, z_ref), 0, {x, y, id, "z, in steps", true}, z,
+                z_ref);
   });
 }
 

@@ -150,7 +150,7 @@ std::size_t turn_of(std::span<const ClipVertex<double>> mine, std::span<const Cl
 
 void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, const Records<double>& candidate,
                      const Records<double>& reference, const Corners& corners, double factor) {
-  const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(a.primitive), field}; };
+  const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(a.primitive), field, true}; };
   const double unit = u * corners.scale;
   std::vector<ClipVertex<double>> mine, theirs;  // without those that rounding decides about, where the numbers differ
   const auto all_mine = vertices_of(a, candidate), all_theirs = vertices_of(b, reference);
@@ -180,7 +180,7 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
     if (fewer_mine.size() == fewer_theirs.size()) mine.swap(fewer_mine), theirs.swap(fewer_theirs);
   }
   if (mine.size() != theirs.size()) {
-    meter.value(kInfinite, 0, at("vertices of primitive"), a.count, b.count);
+    meter.value(kInfinite, 0, at("vertices"), a.count, b.count);
     return;
   }
   if (a.count != b.count) meter.ambiguous();
@@ -255,7 +255,7 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
     if (a != nullptr && b != nullptr) {
       compare_polygon(meter, *a, *b, candidate, reference, corners, factor);
     } else {
-      const auto at = [&](const char* field) { return Place{-1, -1, primitive, field}; };
+      const auto at = [&](const char* field) { return Place{-1, -1, primitive, field, true}; };
       const double tolerance = factor * u * corners.scale;
       const std::vector<ClipVertex<double>> widest =
           a != nullptr ? clipped(corners, -tolerance) : std::vector<ClipVertex<double>>();
@@ -277,11 +277,13 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
   Meter meter("u");
   each_polygon(candidate, reference, [&](const ClipPolygon* a, const ClipPolygon* b) {
     const ClipPolygon& any = a != nullptr ? *a : *b;
-    const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(any.primitive), field}; };
+    const auto at = [&](const char* field) {
+      return Place{-1, -1, static_cast<std::int64_t>(any.primitive), field, true};
+    };
     if (a == nullptr || b == nullptr) {
       meter.value(kInfinite, 0, at(a == nullptr ? "polygon lacking" : "polygon extra"), 0, 0);
     } else if (a->count != b->count) {
-      meter.value(kInfinite, 0, at("vertices of primitive"), a->count, b->count);
+      meter.value(kInfinite, 0, at("vertices"), a->count, b->count);
     } else {
       // Either may begin at any vertex: the turn that fits best counts.
       const auto largest = [&](std::uint32_t turn) {

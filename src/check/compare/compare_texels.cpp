@@ -66,7 +66,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
         reason = mesas_other_level(scene.textures.at(draw.texture->texture), bound.range);
       }
     }
-    const Place place{x, y, id, "texel"};
+    const Place place{x, y, id, "texel", true};
     if (!std::isfinite(bound.slack.r)) {
       ++open;
       meter.ambiguous();

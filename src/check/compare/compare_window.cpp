@@ -48,8 +48,7 @@ class RunComparison {
   void strictly(Run mine, Run theirs, std::size_t first) {
     if (mine.size() != theirs.size()) {
       const Run more = mine.size() > theirs.size() ? mine : theirs;
-      return meter_.missing(more.size(),
-                            {-1, -1, static_cast<std::int64_t>(more.front().primitive), "triangle of primitive"});
+      return meter_.missing(more.size(), {-1, -1, static_cast<std::int64_t>(more.front().primitive), "triangle", true});
     }
     for (std::size_t i = 0; i < mine.size(); ++i) {
       meter_.value(mine[i].front == theirs[i].front ? 0 : kInfinite, 0, at(first + i, "front"), mine[i].front,

@@ -219,9 +219,11 @@ class RecordPrinter {
       });
       both("stencil value", a.stencil, b.stencil, plain);
     }
-    if (stage_ == Stage::visibility || stage_ == Stage::merge) arrivals(x, y, out);
+    if (stage_ > Stage::coverage && stage_ < Stage::resolve) arrivals(x, y, out);
+    if (stage_ == Stage::attributes || stage_ == Stage::shade) both("shaded", a.shaded, b.shaded, plain);
     if (stage_ >= Stage::merge) both("color", a.color, b.color, plain);
-    if (stage_ == Stage::merge) both("depth", a.depth, b.depth, [&](double z) { return depth_text(scene_.frame, z); });
+    if (stage_ == Stage::depth || stage_ == Stage::merge)
+      both("depth", a.depth, b.depth, [&](double z) { return depth_text(scene_.frame, z); });
     const int factor = scene_.frame.antialias.factor;  // supersampled: the first of a pixel's block
     for (std::size_t pass = 0; pass < mine_.samples.size() && stage_ == Stage::resolve; ++pass) {
       const auto& samples = mine_.samples[pass];
@@ -287,10 +289,9 @@ std::vector<std::string> worst_record(const Evidence& e, const Measurement& m) {
     case Stage::light: printer.vertex(record, out); break;
     case Stage::clip: printer.polygon(record, out); break;
     case Stage::window: {
-      const bool of_primitive = std::string_view(place.field) == "triangle of primitive";
       const auto& triangles = e.candidate.records.triangles;
-      if (of_primitive || record < triangles.size())
-        printer.window(of_primitive ? record : triangles[record].primitive, out);
+      if (place.of_primitive || record < triangles.size())
+        printer.window(place.of_primitive ? record : triangles[record].primitive, out);
       break;
     }
     case Stage::coverage:
@@ -299,8 +300,9 @@ std::vector<std::string> worst_record(const Evidence& e, const Measurement& m) {
       if (const auto worst = worst_triangle(e)) printer.triangle(worst->triangle, out);
       break;
     default:
-      if (place.record >= 0 && e.stage < Stage::merge) printer.fragment(record, place.x, place.y, out);
-      if (place.x >= 0 && e.stage >= Stage::visibility) printer.pixel(place.x, place.y, out);
+      if (place.record >= 0 && e.stage < Stage::merge && !place.of_primitive)
+        printer.fragment(record, place.x, place.y, out);
+      if (place.x >= 0 && (e.stage >= Stage::visibility || place.of_primitive)) printer.pixel(place.x, place.y, out);
   }
   return out;
 }

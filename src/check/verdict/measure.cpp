@@ -23,7 +23,10 @@ std::size_t bucket(double diff) {
 std::string to_string(const Place& place) {
   std::string out;
   if (place.x >= 0) out = fmt::format("pixel {},{}", place.x, place.y);
-  if (place.record >= 0) out += fmt::format("{}record {}", out.empty() ? "" : " ", place.record);
+  if (place.record >= 0) {
+    const char* what = place.of_primitive ? "primitive" : "record";
+    out += fmt::format("{}{} {}", out.empty() ? "" : " ", what, place.record);
+  }
   if (*place.field != '\0') out += fmt::format("{}{}", out.empty() ? "" : " ", place.field);
   return out;
 }

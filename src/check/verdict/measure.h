@@ -20,9 +20,10 @@ inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Where in a capture: a pixel, or a record and its field.
 struct Place {
-  int x = -1, y = -1;        ///< pixel, or -1
-  std::int64_t record = -1;  ///< number of the record, or -1
-  const char* field = "";    ///< such as "p_clip.x"
+  int x = -1, y = -1;         ///< pixel, or -1
+  std::int64_t record = -1;   ///< number of the record, or -1
+  const char* field = "";     ///< such as "p_clip.x"
+  bool of_primitive = false;  ///< `record` is the number of a primitive: of the winner, of a polygon
 };
 std::string to_string(const Place& place);
 

@@ -78,6 +78,34 @@ TEST_F(BlendedPairs, AHiddenFragmentWhoseDepthTestIsOpenMayHaveBeenDrawn) {
   EXPECT_EQ(most(3, 1), 7) << "where an oracle has been asked, it decides";
 }
 
+// Of three fragments at (3, 1) the last leaves its depth, and a draw that writes none wins. The second's depth test is
+// open: had it been drawn, a stencil test might keep the last one out, and the first's depth might stay.
+TEST_F(BlendedPairs, WhereAStencilTestFollowsAnOpenDepthTestAnyFragmentsDepthMayBeLeft) {
+  const double step = depth_step(scene.frame.depth, 0.5);
+  scene.draws.push_back(scene.draws[0]);
+  scene.draws[1].merge.depth_mask = false;
+  for (const auto& [triangle, z] : {std::pair(1, 0.5 + step), std::pair(2, 0.25)}) {
+    WindowTriangle<double> flat = capture.records.triangles[0];
+    flat.primitive = static_cast<std::uint32_t>(triangle) + 3;
+    for (auto& v : flat.v) v.p_win.z = z;
+    capture.records.triangles.resize(static_cast<std::size_t>(triangle));
+    capture.records.triangles.push_back(flat);
+  }
+  capture.records.covered = {{0, 3, 1}, {1, 3, 1}, {2, 3, 1}};
+  capture.records.drawn = {{true}, {false}, {true}};
+  capture.records.depth = {0.5, 0.5 + step, 0.25};
+  capture.planes.id(3, 1) = 8 + 3;
+  capture.planes.depth(3, 1) = 0.25;
+  const auto leaves = [&](double z) { return run(depth(), kUnchangedPlanes, [z](Planes& p) { p.depth(3, 1) = z; }); };
+  EXPECT_TRUE(passes(leaves(0.25)));
+  EXPECT_TRUE(fails(leaves(0.5))) << "without a stencil test";
+  scene.draws[0].stencil.emplace();
+  EXPECT_TRUE(passes(leaves(0.5)));
+  EXPECT_TRUE(fails(leaves(0.375))) << "no fragment's";
+  capture.records.depth[1] = 0.75;
+  EXPECT_TRUE(fails(leaves(0.5))) << "no depth test is open";
+}
+
 // A fragment's depth half-way between two steps may be rounded to either: the two sides may be a step apart in each.
 TEST_F(BlendedPairs, ADepthTestIsOpenWhereBothDepthsMayBeRoundedOtherwise) {
   scene.frame.depth = DepthFormat::z16;

@@ -228,6 +228,7 @@ TEST(Place, InWords) {
   EXPECT_EQ(to_string({3, 0, -1, ""}), "pixel 3,0");
   EXPECT_EQ(to_string({0, 4, 0, "z"}), "pixel 0,4 record 0 z");
   EXPECT_EQ(to_string({-1, -1, 12, "p_clip"}), "record 12 p_clip");
+  EXPECT_EQ(to_string({0, 4, 3, "z", true}), "pixel 0,4 primitive 3 z");
   EXPECT_EQ(to_string({-1, -1, -1, "p_clip"}), "p_clip");
 }
 

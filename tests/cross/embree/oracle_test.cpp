@@ -147,6 +147,22 @@ TEST(Prediction, KnowsTiesOfClampedDepths) {
   EXPECT_GE(open.predicted_ambiguous, kCovered);
 }
 
+// An edge 0.8 pixels below the window, with corners so far away that float may move it by several pixels: the rows that
+// it may reach are ambiguous, and predicted.
+TEST(Prediction, CountsTheBandsOfEdgesOutsideTheWindow) {
+  const auto legal_of = [](double far) {
+    Scene scene = flat_scene(16, 16);
+    add_triangle(scene, {{{-far, -0.8}, {far, -0.8}, {0, far}}}, 0.5);
+    return by_rays(scene);
+  };
+  const Legal legal = legal_of(1e7), near = legal_of(1e4);
+  EXPECT_GE(ambiguous(legal), 16);
+  EXPECT_LE(ambiguous(legal), 2 * legal.predicted_ambiguous);
+  EXPECT_LE(legal.predicted_ambiguous, 2 * ambiguous(legal));
+  EXPECT_EQ(ambiguous(near), 0);
+  EXPECT_LT(near.predicted_ambiguous, 0.01);
+}
+
 TEST(HandKnown, InsideOutsideAndNearAnEdge) {
   Scene scene = flat_scene(16, 8);
   add_triangle(scene, {{{0, 0}, {8.5 - 0.002, 0}, {8.5 - 0.002, 8}}}, 0.5);  // its right edge: 0.002 short of centres
