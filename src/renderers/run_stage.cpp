@@ -124,7 +124,10 @@ class OneStage {
     const Formats formats = formats_of(scene_.frame);
     const SampleOffsets offsets = stages_.sample_offsets(formats.sample);
     std::vector<Surface> surfaces;
-    for (const Draw& draw : scene_.draws) surfaces.push_back(surface_of(scene_, draw, lights_));
+    for (const Draw& draw : scene_.draws) {  // of depth, what fails in a surface is not seen
+      surfaces.push_back(stage_ == Stage::depth ? Surface{&scene_, &draw, {}, {}, {}}
+                                                : surface_of(scene_, draw, lights_));
+    }
     FrameBuffer frame(scene_.frame);
     ShadedTriangle triangle;
     const Surface* surface = nullptr;
