@@ -1,7 +1,6 @@
 // The scene file of a scene made in memory, of what random_scene.h sets: floats to their last bit.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -10,15 +9,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scene/scene.h"
+#include "scene/names.h"
 
 namespace plumbline::test {
 
 namespace text {
 
-template <class E, std::size_t N>
-std::string name(E value, const std::array<std::string_view, N>& names) {
-  return fmt::format("\"{}\"", names.at(static_cast<std::size_t>(value)));
+template <class E>
+std::string name(E value) {
+  return fmt::format("\"{}\"", name_of(value));
 }
 
 inline std::string number(double v) { return fmt::format("{}", v == 0 ? 0 : v); }
@@ -36,40 +35,6 @@ std::string vectors(const std::vector<V>& values) {
   return fmt::format("[{}]", fmt::join(parts, ", "));
 }
 
-inline constexpr std::array<std::string_view, 8> kFuncs = {"never",   "less",      "equal",         "less_equal",
-                                                           "greater", "not_equal", "greater_equal", "always"};
-inline constexpr std::array<std::string_view, 8> kStencilOps = {
-    "keep", "zero", "replace", "increment", "increment_wrap", "decrement", "decrement_wrap", "invert"};
-inline constexpr std::array<std::string_view, 16> kLogicOps = {
-    "clear", "and",        "and_reverse", "copy",       "and_inverted",  "noop",        "xor",  "or",
-    "nor",   "equivalent", "invert",      "or_reverse", "copy_inverted", "or_inverted", "nand", "set"};
-inline constexpr std::array<std::string_view, 15> kFactors = {"zero",
-                                                              "one",
-                                                              "source_color",
-                                                              "one_minus_source_color",
-                                                              "destination_color",
-                                                              "one_minus_destination_color",
-                                                              "source_alpha",
-                                                              "one_minus_source_alpha",
-                                                              "destination_alpha",
-                                                              "one_minus_destination_alpha",
-                                                              "constant_color",
-                                                              "one_minus_constant_color",
-                                                              "constant_alpha",
-                                                              "one_minus_constant_alpha",
-                                                              "source_alpha_saturate"};
-inline constexpr std::array<std::string_view, 5> kEquations = {"add", "subtract", "reverse_subtract", "min", "max"};
-inline constexpr std::array<std::string_view, 4> kDialects = {"gl", "gzrender", "games101", "tinyrenderer"};
-inline constexpr std::array<std::string_view, 4> kColors = {"rgba8", "rgba12", "rgba16", "rgba32f"};
-inline constexpr std::array<std::string_view, 4> kDepths = {"z8", "z16", "z24", "z32f"};
-inline constexpr std::array<std::string_view, 6> kColorMaterials = {
-    "none", "ambient", "diffuse", "ambient_and_diffuse", "specular", "emission"};
-inline constexpr std::array<std::string_view, 3> kNormals = {"normalize", "rescale", "as_they_are"};
-inline constexpr std::array<std::string_view, 3> kShadings = {"flat", "gouraud", "phong"};
-inline constexpr std::array<std::string_view, 3> kCulls = {"none", "back", "front"};
-inline constexpr std::array<std::string_view, 2> kSpeculars = {"half_vector", "reflection"};
-inline constexpr std::array<std::string_view, 3> kSides = {"one", "two", "flip"};
-
 inline std::string material(const Material& m) {
   return fmt::format(R"({{"ambient": {}, "diffuse": {}, "specular": {}, "emission": {}, "shininess": {}}})",
                      vector(m.ambient), vector(m.diffuse), vector(m.specular), vector(m.emission), m.shininess);
@@ -78,13 +43,12 @@ inline std::string material(const Material& m) {
 inline std::string stencil_face(const StencilFace& f) {
   return fmt::format(
       R"("func": {}, "reference": {}, "mask": {}, "fail": {}, "depth_fail": {}, "pass": {}, "write_mask": {})",
-      name(f.func, kFuncs), f.reference, f.mask, name(f.fail, kStencilOps), name(f.depth_fail, kStencilOps),
-      name(f.pass, kStencilOps), f.write_mask);
+      name(f.func), f.reference, f.mask, name(f.fail), name(f.depth_fail), name(f.pass), f.write_mask);
 }
 
 inline std::string blend_term(const BlendTerm& t) {
-  return fmt::format(R"("source": {}, "destination": {}, "equation": {})", name(t.source, kFactors),
-                     name(t.destination, kFactors), name(t.equation, kEquations));
+  return fmt::format(R"("source": {}, "destination": {}, "equation": {})", name(t.source), name(t.destination),
+                     name(t.equation));
 }
 
 inline std::string transform(const Transform& t) {
@@ -120,22 +84,22 @@ inline std::string draw(const Draw& d, const Mesh& of) {
       R"("mesh": {}, "transforms": [{}], "material": {}, "lit": {}, "color_material": {}, "normals": {}, "shading": {}, )"
       R"("cull": {}, "depth_func": {}, "depth_range": [{}, {}], "polygon_offset": {{"factor": {}, "units": {}}}, )"
       R"("depth_mask": {}, "color_mask": [{}, {}, {}, {}])",
-      mesh(of), fmt::join(transforms, ", "), material(d.material), d.lit, name(d.color_material, kColorMaterials),
-      name(d.normals, kNormals), name(d.shading, kShadings), name(d.cull, kCulls), name(d.depth_func, kFuncs),
-      d.depth_range.near, d.depth_range.far, d.polygon_offset.factor, d.polygon_offset.units, d.merge.depth_mask,
-      d.merge.color_mask.r, d.merge.color_mask.g, d.merge.color_mask.b, d.merge.color_mask.a);
+      mesh(of), fmt::join(transforms, ", "), material(d.material), d.lit, name(d.color_material), name(d.normals),
+      name(d.shading), name(d.cull), name(d.depth_func), d.depth_range.near, d.depth_range.far, d.polygon_offset.factor,
+      d.polygon_offset.units, d.merge.depth_mask, d.merge.color_mask.r, d.merge.color_mask.g, d.merge.color_mask.b,
+      d.merge.color_mask.a);
   if (d.back_material) out += fmt::format(R"(, "back_material": {})", material(*d.back_material));
   if (d.merge.blend) {
     out += fmt::format(R"(, "blend": {{{}, "alpha": {{{}}}, "color": {}}})", blend_term(d.merge.blend->rgb),
                        blend_term(d.merge.blend->alpha), vector(d.merge.blend->color));
   }
-  if (d.merge.logic_op) out += fmt::format(R"(, "logic_op": {})", name(*d.merge.logic_op, kLogicOps));
+  if (d.merge.logic_op) out += fmt::format(R"(, "logic_op": {})", name(*d.merge.logic_op));
   if (d.scissor) {
     out += fmt::format(R"(, "scissor": [{}, {}, {}, {}])", d.scissor->x, d.scissor->y, d.scissor->width,
                        d.scissor->height);
   }
   if (d.alpha_test) {
-    out += fmt::format(R"(, "alpha_test": {{"func": {}, "reference": {}}})", name(d.alpha_test->func, kFuncs),
+    out += fmt::format(R"(, "alpha_test": {{"func": {}, "reference": {}}})", name(d.alpha_test->func),
                        d.alpha_test->reference);
   }
   if (d.stencil) {
@@ -182,20 +146,20 @@ inline std::string scene_text(const Scene& s, std::string_view description) {
   const std::string frame = fmt::format(
       R"({{"width": {}, "height": {}, "color": {}, "depth": {}, "clear_color": {}, "clear_depth": {}, "stencil": "{}", )"
       R"("clear_stencil": {}}})",
-      f.width, f.height, text::name(f.color, text::kColors), text::name(f.depth, text::kDepths),
-      text::vector(f.clear_color), f.clear_depth, f.stencil == StencilFormat::none ? "none" : "s8", f.clear_stencil);
+      f.width, f.height, text::name(f.color), text::name(f.depth), text::vector(f.clear_color), f.clear_depth,
+      f.stencil == StencilFormat::none ? "none" : "s8", f.clear_stencil);
   const LightModel& m = s.light_model;
   const std::string model =
       fmt::format(R"({{"local_viewer": {}, "specular": {}, "sides": {}, "separate_specular": {}}})", m.local_viewer,
-                  text::name(m.specular, text::kSpeculars), text::name(m.sides, text::kSides), m.separate_specular);
+                  text::name(m.specular), text::name(m.sides), m.separate_specular);
   return fmt::format(
       "{{\n  \"description\": \"{}\",\n  \"dialect\": {},\n  \"frame\": {},\n  \"camera\": {{\"eye\": {}, \"center\": "
       "{}, "
       "\"up\": {}}},\n  \"projection\": {},\n  \"ambient\": {},\n  \"light_model\": {},\n  \"lights\": [{}],\n"
       "  \"draws\": [\n{}\n  ]\n}}\n",
-      description, text::name(s.dialect, text::kDialects), frame, text::vector(s.camera.eye),
-      text::vector(s.camera.center), text::vector(s.camera.up), text::projection(s.projection), text::vector(m.ambient),
-      model, fmt::join(lights, ", "), fmt::join(draws, ",\n"));
+      description, text::name(s.dialect), frame, text::vector(s.camera.eye), text::vector(s.camera.center),
+      text::vector(s.camera.up), text::projection(s.projection), text::vector(m.ambient), model,
+      fmt::join(lights, ", "), fmt::join(draws, ",\n"));
 }
 
 }  // namespace plumbline::test

@@ -7,6 +7,7 @@
 #include "scene/file/fragment_json.h"
 #include "scene/file/texture_json.h"
 #include "scene/json/scene_values.h"
+#include "scene/names.h"
 
 namespace plumbline {
 namespace {
@@ -101,23 +102,17 @@ void read_state(const JsonNode& node, DrawState& state) {
   }
   if (const auto n = node.find("lit")) draw.lit = n->boolean();
   if (const auto n = node.find("color_material")) {
-    draw.color_material = n->choice<ColorMaterial>({{"none", ColorMaterial::none},
-                                                    {"ambient", ColorMaterial::ambient},
-                                                    {"diffuse", ColorMaterial::diffuse},
-                                                    {"ambient_and_diffuse", ColorMaterial::ambient_and_diffuse},
-                                                    {"specular", ColorMaterial::specular},
-                                                    {"emission", ColorMaterial::emission}});
+    draw.color_material = n->choice<ColorMaterial>(kNamesOf<ColorMaterial>);
   }
   if (const auto n = node.find("normals")) {
     draw.normals = n->choice<Normals>(
         {{"normalize", Normals::normalize}, {"rescale", Normals::rescale}, {"as_they_are", Normals::as_they_are}});
   }
   if (const auto n = node.find("shading")) {
-    draw.shading =
-        n->choice<Shading>({{"flat", Shading::flat}, {"gouraud", Shading::gouraud}, {"phong", Shading::phong}});
+    draw.shading = n->choice<Shading>(kNamesOf<Shading>);
   }
   if (const auto n = node.find("cull")) {
-    draw.cull = n->choice<Cull>({{"none", Cull::none}, {"back", Cull::back}, {"front", Cull::front}});
+    draw.cull = n->choice<Cull>(kNamesOf<Cull>);
   }
   if (const auto n = node.find("front_mode")) draw.front_mode = read_mode(*n);
   if (const auto n = node.find("back_mode")) draw.back_mode = read_mode(*n);

@@ -1,19 +1,11 @@
 #include "scene/file/fragment_json.h"
 
+#include "scene/names.h"
+
 namespace plumbline {
 namespace {
 
-DepthFunc read_func(const JsonNode& node) {
-  using F = DepthFunc;
-  return node.choice<F>({{"never", F::never},
-                         {"less", F::less},
-                         {"equal", F::equal},
-                         {"less_equal", F::less_equal},
-                         {"greater", F::greater},
-                         {"not_equal", F::not_equal},
-                         {"greater_equal", F::greater_equal},
-                         {"always", F::always}});
-}
+DepthFunc read_func(const JsonNode& node) { return node.choice<DepthFunc>(kNamesOf<DepthFunc>); }
 
 DepthRange read_depth_range(const JsonNode& node) {
   const std::vector<JsonNode> n = node.elements(2, 2);
@@ -37,17 +29,7 @@ AlphaTest read_alpha_test(const JsonNode& node) {
   return out;
 }
 
-StencilOp read_stencil_op(const JsonNode& node) {
-  using O = StencilOp;
-  return node.choice<O>({{"keep", O::keep},
-                         {"zero", O::zero},
-                         {"replace", O::replace},
-                         {"increment", O::increment},
-                         {"increment_wrap", O::increment_wrap},
-                         {"decrement", O::decrement},
-                         {"decrement_wrap", O::decrement_wrap},
-                         {"invert", O::invert}});
-}
+StencilOp read_stencil_op(const JsonNode& node) { return node.choice<StencilOp>(kNamesOf<StencilOp>); }
 
 void read_stencil_face(const JsonNode& node, StencilFace& face) {
   const auto byte = [](const JsonNode& n) { return static_cast<std::uint8_t>(n.integer(0, 255)); };
@@ -72,60 +54,16 @@ Stencil read_stencil(const JsonNode& node) {
   return out;
 }
 
-LogicOp read_logic_op(const JsonNode& node) {
-  using L = LogicOp;
-  return node.choice<L>({{"clear", L::clear},
-                         {"and", L::and_},
-                         {"and_reverse", L::and_reverse},
-                         {"copy", L::copy},
-                         {"and_inverted", L::and_inverted},
-                         {"noop", L::noop},
-                         {"xor", L::xor_},
-                         {"or", L::or_},
-                         {"nor", L::nor},
-                         {"equivalent", L::equivalent},
-                         {"invert", L::invert},
-                         {"or_reverse", L::or_reverse},
-                         {"copy_inverted", L::copy_inverted},
-                         {"or_inverted", L::or_inverted},
-                         {"nand", L::nand},
-                         {"set", L::set}});
-}
-
-using NamedFactor = std::pair<std::string_view, BlendFactor>;
-/// `more`: the names of factors that only one side has.
-template <class... More>
-BlendFactor read_factor(const JsonNode& node, More... more) {
-  using F = BlendFactor;
-  return node.choice<F>({{"zero", F::zero},
-                         {"one", F::one},
-                         {"source_color", F::source_color},
-                         {"one_minus_source_color", F::one_minus_source_color},
-                         {"destination_color", F::destination_color},
-                         {"one_minus_destination_color", F::one_minus_destination_color},
-                         {"source_alpha", F::source_alpha},
-                         {"one_minus_source_alpha", F::one_minus_source_alpha},
-                         {"destination_alpha", F::destination_alpha},
-                         {"one_minus_destination_alpha", F::one_minus_destination_alpha},
-                         {"constant_color", F::constant_color},
-                         {"one_minus_constant_color", F::one_minus_constant_color},
-                         {"constant_alpha", F::constant_alpha},
-                         {"one_minus_constant_alpha", F::one_minus_constant_alpha},
-                         more...});
-}
+LogicOp read_logic_op(const JsonNode& node) { return node.choice<LogicOp>(kNamesOf<LogicOp>); }
 
 void read_blend_term(const JsonNode& node, BlendTerm& term) {
-  using E = BlendEquation;
-  if (const auto n = node.find("source")) {
-    term.source = read_factor(*n, NamedFactor{"source_alpha_saturate", BlendFactor::source_alpha_saturate});
+  constexpr std::span<const Name> kFactors(kNamesOf<BlendFactor>);
+  if (const auto n = node.find("source")) term.source = n->choice<BlendFactor>(kFactors);
+  if (const auto n = node.find("destination")) {  // its last is a source's alone
+    term.destination = n->choice<BlendFactor>(kFactors.first(kFactors.size() - 1));
   }
-  if (const auto n = node.find("destination")) term.destination = read_factor(*n);
   if (const auto n = node.find("equation")) {
-    term.equation = n->choice<E>({{"add", E::add},
-                                  {"subtract", E::subtract},
-                                  {"reverse_subtract", E::reverse_subtract},
-                                  {"min", E::min},
-                                  {"max", E::max}});
+    term.equation = n->choice<BlendEquation>(kNamesOf<BlendEquation>);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "scene/file/light_json.h"
 
 #include "scene/json/scene_values.h"
+#include "scene/names.h"
 
 namespace plumbline {
 namespace {
@@ -47,17 +48,14 @@ Light read_light(const JsonNode& node) {
 }
 
 LightModel read_light_model(const JsonNode& node) {
-  using Specular = LightModel::Specular;
-  using Sides = LightModel::Sides;
   node.only({"local_viewer", "specular", "sides", "separate_specular"});
   LightModel model;
   if (const auto n = node.find("local_viewer")) model.local_viewer = n->boolean();
   if (const auto n = node.find("specular")) {
-    model.specular =
-        n->choice<Specular>({{"half_vector", Specular::half_vector}, {"reflection", Specular::reflection}});
+    model.specular = n->choice<LightModel::Specular>(kNamesOf<LightModel::Specular>);
   }
   if (const auto n = node.find("sides")) {
-    model.sides = n->choice<Sides>({{"one", Sides::one}, {"two", Sides::two}, {"flip", Sides::flip}});
+    model.sides = n->choice<LightModel::Sides>(kNamesOf<LightModel::Sides>);
   }
   if (const auto n = node.find("separate_specular")) model.separate_specular = n->boolean();
   return model;

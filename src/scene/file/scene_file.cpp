@@ -11,6 +11,7 @@
 #include "scene/file/scene_json.h"
 #include "scene/file/texture_json.h"
 #include "scene/json/scene_values.h"
+#include "scene/names.h"
 
 namespace plumbline {
 namespace {
@@ -49,10 +50,7 @@ FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
   if (const auto n = node.find("width")) frame.width = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("height")) frame.height = static_cast<int>(n->integer(1, kLargestFrame));
   if (const auto n = node.find("color")) {
-    frame.color = n->choice<ColorFormat>({{"rgba8", ColorFormat::rgba8},
-                                          {"rgba12", ColorFormat::rgba12},
-                                          {"rgba16", ColorFormat::rgba16},
-                                          {"rgba32f", ColorFormat::rgba32f}});
+    frame.color = n->choice<ColorFormat>(kNamesOf<ColorFormat>);
   }
   if (const auto n = node.find("depth")) {
     frame.depth = n->choice<DepthFormat>(
@@ -61,7 +59,7 @@ FrameFormat read_frame(const JsonNode& node, FrameFormat frame) {
   if (const auto n = node.find("clear_color")) frame.clear_color = glm::vec4(n->vector<4>(0, 1));
   if (const auto n = node.find("clear_depth")) frame.clear_depth = n->number(0, 1);
   if (const auto n = node.find("stencil")) {
-    frame.stencil = n->choice<StencilFormat>({{"none", StencilFormat::none}, {"s8", StencilFormat::s8}});
+    frame.stencil = n->choice<StencilFormat>(kNamesOf<StencilFormat>);
   }
   if (const auto n = node.find("clear_stencil")) frame.clear_stencil = static_cast<std::uint8_t>(n->integer(0, 255));
   if (const auto n = node.find("antialias")) frame.antialias = read_antialias(*n, frame);
@@ -226,10 +224,7 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   scene.description = root["description"].text();
   DrawState defaults;
   if (const auto n = root.find("dialect")) {
-    scene.dialect = n->choice<Dialect>({{"gl", Dialect::gl},
-                                        {"gzrender", Dialect::gzrender},
-                                        {"games101", Dialect::games101},
-                                        {"tinyrenderer", Dialect::tinyrenderer}});
+    scene.dialect = n->choice<Dialect>(kNamesOf<Dialect>);
   }
   set_defaults(scene, defaults);
   const auto frame = root.find("frame");

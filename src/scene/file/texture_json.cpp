@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/names.h"
 #include "scene/texture/texture_file.h"
 #include "scene/texture/texture_images.h"
 
@@ -149,26 +150,16 @@ TextureFormat format_of_file(int channels) {
   return kFormats[channels - 1];
 }
 
-Wrap read_wrap(const JsonNode& node) {
-  return node.choice<Wrap>({{"repeat", Wrap::repeat},
-                            {"mirrored_repeat", Wrap::mirrored_repeat},
-                            {"clamp_to_edge", Wrap::clamp_to_edge},
-                            {"clamp_to_border", Wrap::clamp_to_border}});
-}
+Wrap read_wrap(const JsonNode& node) { return node.choice<Wrap>(kNamesOf<Wrap>); }
 
 Sampler read_sampler(const JsonNode& node) {
   constexpr double kLod = 1000, kBias = 16;
   Sampler sampler;
   if (const auto n = node.find("min")) {
-    sampler.min = n->choice<MinFilter>({{"nearest", MinFilter::nearest},
-                                        {"linear", MinFilter::linear},
-                                        {"nearest_mipmap_nearest", MinFilter::nearest_mipmap_nearest},
-                                        {"linear_mipmap_nearest", MinFilter::linear_mipmap_nearest},
-                                        {"nearest_mipmap_linear", MinFilter::nearest_mipmap_linear},
-                                        {"linear_mipmap_linear", MinFilter::linear_mipmap_linear}});
+    sampler.min = n->choice<MinFilter>(kNamesOf<MinFilter>);
   }
   if (const auto n = node.find("mag")) {
-    sampler.mag = n->choice<MagFilter>({{"nearest", MagFilter::nearest}, {"linear", MagFilter::linear}});
+    sampler.mag = n->choice<MagFilter>(kNamesOf<MagFilter>);
   }
   if (const auto n = node.find("wrap_s")) sampler.wrap_s = read_wrap(*n);
   if (const auto n = node.find("wrap_t")) sampler.wrap_t = read_wrap(*n);
@@ -196,15 +187,10 @@ std::pair<Texture, Image> read_texture(const JsonNode& node, const AssetFolders&
   Image image = read_image(node["image"], folders, most_texels);
   texture.format = format_of_file(image.channels);
   if (const auto n = node.find("format")) {
-    texture.format = n->choice<TextureFormat>({{"alpha", TextureFormat::alpha},
-                                               {"luminance", TextureFormat::luminance},
-                                               {"luminance_alpha", TextureFormat::luminance_alpha},
-                                               {"intensity", TextureFormat::intensity},
-                                               {"rgb", TextureFormat::rgb},
-                                               {"rgba", TextureFormat::rgba}});
+    texture.format = n->choice<TextureFormat>(kNamesOf<TextureFormat>);
   }
   if (const auto n = node.find("texels")) {
-    texture.type = n->choice<TexelType>({{"unorm8", TexelType::unorm8}, {"float32", TexelType::float32}});
+    texture.type = n->choice<TexelType>(kNamesOf<TexelType>);
   }
   const int levels =
       static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(image.size.width, image.size.height))));
@@ -252,12 +238,7 @@ DrawTexture read_draw_texture(const JsonNode& node, const std::vector<Texture>& 
   }
   const auto environment = node.find("environment");
   if (environment) {
-    using E = TextureEnvironment;
-    out.environment = environment->choice<E>({{"replace", E::replace},
-                                              {"modulate", E::modulate},
-                                              {"decal", E::decal},
-                                              {"blend", E::blend},
-                                              {"add", E::add}});
+    out.environment = environment->choice<TextureEnvironment>(kNamesOf<TextureEnvironment>);
   }
   const TextureFormat format = textures[out.texture].format;
   if (out.environment == TextureEnvironment::decal && format != TextureFormat::rgb && format != TextureFormat::rgba) {

@@ -155,6 +155,12 @@ const std::string& JsonNode::text() const {
   return value_->text;
 }
 
+std::size_t JsonNode::index_among(std::span<const std::string_view> names) const {
+  const auto found = std::ranges::find(names, std::string_view(value_->text));
+  if (value_->kind != JsonValue::Kind::text || found == names.end()) refuse_choice({names.begin(), names.end()});
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 void JsonNode::refuse_choice(const std::vector<std::string_view>& names) const {
   const bool text = value_->kind == JsonValue::Kind::text;
   refuse(fmt::format("one of {}", fmt::join(names, ", ")),

@@ -81,12 +81,19 @@ class JsonNode {
     refuse_choice(names);
   }
 
+  /// The enumerator whose name it is; `names` in the order of their values.
+  template <class E>
+  E choice(std::span<const std::string_view> names) const {
+    return static_cast<E>(index_among(names));
+  }
+
   /// Refuses the value as found.
   [[noreturn]] void refuse(std::string_view expected) const;
   [[noreturn]] void refuse(std::string_view expected, std::string_view found) const;
 
  private:
   std::string pointer_to(std::string_view key) const;
+  std::size_t index_among(std::span<const std::string_view> names) const;
   [[noreturn]] void refuse_choice(const std::vector<std::string_view>& names) const;
 
   const JsonValue* value_;
