@@ -1,8 +1,10 @@
 #include "base/program.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +12,7 @@
 #include <cerrno>
 #include <ctime>
 #include <system_error>
+#include <utility>
 
 #include "base/supervise.h"
 
@@ -18,6 +21,8 @@ namespace plumbline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kLongestAnswer = 1 << 16;
 
 /// The strings as execve wants them.
 std::vector<char*> pointers(std::vector<std::string>& strings) {
@@ -43,8 +48,12 @@ int become(const ProgramCall& call, char** argv, char** environment, pid_t guard
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  open_as(STDIN_FILENO, "/dev/null", O_RDONLY);
-  open_as(STDOUT_FILENO, "/dev/null", O_WRONLY);
+  if (call.conversation >= 0) {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO}) ::dup2(call.conversation, descriptor);
+  } else {
+    open_as(STDIN_FILENO, "/dev/null", O_RDONLY);
+    open_as(STDOUT_FILENO, "/dev/null", O_WRONLY);
+  }
   open_as(STDERR_FILENO, call.error_log.c_str(), O_WRONLY | O_CREAT | O_APPEND);
   ::execvpe(argv[0], argv, environment);
   return errno;
@@ -109,9 +118,12 @@ ProgramEnd wait_for(pid_t program, Clock::time_point deadline, const sigset_t& w
   ::_exit(0);
 }
 
-}  // namespace
-
-ProgramEnd run_program(ProgramCall call) {
+// The guardian of a program, and the pipe on which it tells the end.
+struct Guarded {
+  pid_t guardian;
+  int ending;
+};
+Guarded start(ProgramCall& call) {
   std::vector<char*> argv = pointers(call.argv), environment = pointers(call.environment);
   int answer[2];
   if (::pipe2(answer, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
@@ -119,18 +131,95 @@ ProgramEnd run_program(ProgramCall call) {
   if (guardian == 0) guard(call, argv.data(), environment.data(), parent, answer[1]);
   const int fork_error = errno;
   ::close(answer[1]);
+  if (guardian < 0) {
+    ::close(answer[0]);
+    throw std::system_error(fork_error, std::generic_category(), "fork");
+  }
+  return {guardian, answer[0]};
+}
+
+ProgramEnd end_of(const Guarded& program) {
   ProgramEnd end;
   ssize_t got = -1;
-  if (guardian > 0) {
-    while ((got = ::read(answer[0], &end, sizeof end)) < 0 && errno == EINTR) {
-    }
-    while (::waitpid(guardian, nullptr, 0) < 0 && errno == EINTR) {
-    }
+  while ((got = ::read(program.ending, &end, sizeof end)) < 0 && errno == EINTR) {
   }
-  ::close(answer[0]);
-  if (guardian < 0) throw std::system_error(fork_error, std::generic_category(), "fork");
+  while (::waitpid(program.guardian, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  ::close(program.ending);
   if (got != sizeof end) throw std::system_error(ECHILD, std::generic_category(), "a program's guardian");
   return end;
+}
+
+}  // namespace
+
+ProgramEnd run_program(ProgramCall call) { return end_of(start(call)); }
+
+ServerProgram::ServerProgram(ProgramCall call) : time_limit_(call.time_limit) {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    throw std::system_error(errno, std::generic_category(), "socketpair");
+  conversation_ = ends[0];
+  call.conversation = ends[1];
+  call.time_limit = std::chrono::hours(24 * 365);  // it waits for lines
+  try {
+    const Guarded program = start(call);
+    guardian_ = program.guardian;
+    ending_ = program.ending;
+  } catch (const std::system_error&) {
+    ::close(ends[0]);
+    ::close(ends[1]);
+    throw;
+  }
+  ::close(ends[1]);
+}
+
+ServerProgram::~ServerProgram() {
+  try {
+    stop();
+  } catch (const std::system_error&) {  // the guardian was killed: the kernel has ended the program
+  }
+}
+
+void ServerProgram::stop() {
+  if (guardian_ < 0) return;
+  ::close(conversation_);
+  ::kill(guardian_, SIGTERM);
+  const Guarded program{std::exchange(guardian_, -1), ending_};
+  end_ = end_of(program);
+}
+
+std::optional<std::string> ServerProgram::answer() {
+  const Clock::time_point deadline = Clock::now() + time_limit_;
+  std::size_t end_of_line;
+  while ((end_of_line = heard_.find('\n')) == std::string::npos) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    pollfd readable{conversation_, POLLIN, 0};
+    const int ready = left > 0 ? ::poll(&readable, 1, static_cast<int>(std::min<long>(left, 1 << 30))) : 0;
+    if (ready < 0 && errno == EINTR) continue;
+    char bytes[4096];
+    const ssize_t got = ready > 0 ? ::recv(conversation_, bytes, sizeof bytes, 0) : 0;
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0 || heard_.size() > kLongestAnswer) return std::nullopt;
+    heard_.append(bytes, static_cast<std::size_t>(got));
+  }
+  std::string line = heard_.substr(0, end_of_line);
+  heard_.erase(0, end_of_line + 1);
+  return line;
+}
+
+std::optional<std::string> ServerProgram::ask(const std::string& line) {
+  const Clock::time_point start = Clock::now();
+  const std::string bytes = line + '\n';
+  std::optional<std::string> out;
+  if (guardian_ >= 0 && ::send(conversation_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) out = answer();
+  if (out) return out;
+  const bool late = Clock::now() - start >= time_limit_;
+  // Where the program has ended by itself, its guardian has said so, or is about to.
+  pollfd told{ending_, POLLIN, 0};
+  if (!late) ::poll(&told, 1, 1000);
+  stop();
+  end_.hung = late;
+  return std::nullopt;
 }
 
 }  // namespace plumbline

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,38 @@ struct ProgramEnd {
 struct ProgramCall {
   std::vector<std::string> argv;         ///< argv[0] is looked for in PATH
   std::vector<std::string> environment;  ///< NAME=value, all of it
-  std::filesystem::path error_log;       ///< stderr is appended to it; stdout is thrown away, stdin is empty
+  std::filesystem::path error_log;       ///< stderr is appended to it
   std::chrono::milliseconds time_limit{60'000};
+  int conversation = -1;  ///< descriptor that is its stdin and stdout; -1: stdin is empty, stdout is thrown away
 };
 
 /// Runs a program until it ends or its time is over. Its descendants are killed then, those in sessions of their own
 /// too; also where this process is killed meanwhile. Throws std::system_error where the system has no process or pipe.
 ProgramEnd run_program(ProgramCall call);
+
+/// A program that answers lines. It is ended, with its descendants, by the destructor, and where this process ends.
+class ServerProgram {
+ public:
+  /// Starts it; the call's time limit is that of one answer. Throws std::system_error where the system has no process,
+  /// pipe or socket.
+  explicit ServerProgram(ProgramCall call);
+  ~ServerProgram();
+  ServerProgram(const ServerProgram&) = delete;
+  ServerProgram& operator=(const ServerProgram&) = delete;
+
+  /// A line's answer, a line; none: the program has ended, or took longer, and was killed: end() says how.
+  std::optional<std::string> ask(const std::string& line);
+  /// After an ask() without an answer.
+  const ProgramEnd& end() const { return end_; }
+
+ private:
+  std::optional<std::string> answer();
+  void stop();
+
+  std::chrono::milliseconds time_limit_;
+  int conversation_ = -1, ending_ = -1, guardian_ = -1;
+  std::string heard_;  ///< of the next answer
+  ProgramEnd end_;
+};
 
 }  // namespace plumbline

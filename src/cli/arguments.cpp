@@ -53,6 +53,10 @@ void add_limits(CLI::App& command, WorkerLimits& limits) {
       ->check(CLI::Range(64, 1 << 30));
 }
 
+const std::string kProgramHelp =
+    "{scene} in it is the scene's file, {input} the folder of its export, {output} that for the capture; or {serve}: "
+    "started once, it is asked by lines";
+
 template <class Options>
 void add_drawing(CLI::App& command, Options& o) {
   text(command, "scene", o.scene, "Scene file")->required();
@@ -82,7 +86,10 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--today", o.today, "YYYY-MM-DD, for their last days (default: the clock's)");
   text(command, "--shard", o.shard, "I/N: every Nth scene, from number I on");
   text(command, "--golden", o.golden, "Compare with the goldens in this folder as well, stage by stage");
-  text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
+  CLI::Option* fault = text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
+  text(command, "--program", o.command, "Judge what this command line draws, in our renderer's place: " + kProgramHelp)
+      ->excludes(fault)
+      ->excludes(command.get_option("--golden"));
   command
       .add_option("--jobs", o.jobs,
                   "Scenes judged at a time, each in a process of its own (default: the number of processors)")
@@ -107,10 +114,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   add_limits(command, o.limits);
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
-  text(
-      command, "--program", o.command,
-      "Diagnose what this command line leaves within a minute; {scene} and {folder} in it are the scene's file and the "
-      "capture's folder")
+  text(command, "--program", o.command, "Diagnose what this command line leaves within a minute: " + kProgramHelp)
       ->excludes(fault)
       ->excludes(folder);
   folder->excludes(fault);
@@ -125,6 +129,12 @@ void add(CLI::App& command, DiagnoseOptions& o) {
 void add(CLI::App& command, CaptureOptions& o) {
   add_drawing(command, o);
   text(command, "folder", o.folder, "Folder for the manifest and its arrays")->required();
+}
+
+void add(CLI::App& command, ExportOptions& o) {
+  text(command, "scene", o.scene, "Scene file")->required();
+  text(command, "folder", o.folder, "Folder for the manifest and its arrays")->required();
+  add_assets(command, o.scene_arguments);
 }
 
 void add(CLI::App& command, CompareOptions& o) {
@@ -286,6 +296,8 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "diagnose", "Name every stage that is wrong, with its numbers and likely causes",
               diagnose);
   add_command(app, out.command, "capture", "Write what a renderer hands out at every stage into a folder", capture);
+  add_command(app, out.command, "export", "Write a scene as plain arrays, for a renderer in any language",
+              export_scene);
   add_command(app, out.command, "compare",
               "Compare two images, or two captures, number by number; pixels count from the lower left", compare);
   add_golden_commands(app, out.command, check_options.program);

@@ -21,6 +21,7 @@
 #include "cli/check_failures.h"
 #include "cli/commands.h"
 #include "cli/options/outputs.h"
+#include "cli/options/program_argument.h"
 #include "cli/options/references.h"
 #include "cli/options/renderers.h"
 #include "cli/options/shard_argument.h"
@@ -30,6 +31,7 @@
 #include "report/runs/json_report.h"
 #include "report/runs/junit.h"
 #include "report/runs/run_file.h"
+#include "report/text/conformance.h"
 #include "report/text/markdown.h"
 #include "report/text/table.h"
 #include "scene/file/scene_file.h"
@@ -156,6 +158,7 @@ int check(const CheckOptions& given) {
       !faulted.empty() && std::ranges::count(o.against, faulted) == 0)
     throw std::invalid_argument(fmt::format("--fault: {} is not among the references asked", faulted));
   const auto start = std::chrono::steady_clock::now();
+  if (!o.command.empty()) make_program(o.command);  // refuses what is no command line
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
   std::vector<std::filesystem::path> files = find_scenes(paths);
   const report::Shard shard = take_shard(files, o.shard);
@@ -196,12 +199,20 @@ int check(const CheckOptions& given) {
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());
   summary += report::summary(verdicts, holds, seconds);
   const std::string of_run = lines_of(head.failures);
-  fmt::print("\n{}{}{}{}", failures, of_run, report::group_lines(verdicts), summary);
+  const bool outside = !o.command.empty();
+  fmt::print("\n{}{}{}{}", failures, of_run,
+             outside ? report::conformance_text(verdicts) : report::group_lines(verdicts), summary);
   if (!o.json.empty()) report::write_json(o.json, verdicts, head);
   if (!o.ledger.empty()) report::write_ledger(o.ledger, verdicts);
   if (!o.junit.empty()) write_file(o.junit, report::junit(verdicts, head.failures));
   if (!o.markdown.empty()) write_file(o.markdown, report::markdown(verdicts, of_run + summary));
   if (rules.page) rules.page->write(summary);
+  const auto unable = [](const check::SceneVerdict& v) {
+    return report::conformance_of(v) == report::Conformance::unable;
+  };
+  if (outside && std::ranges::all_of(verdicts, unable)) {
+    throw std::invalid_argument("--program: expected a scene that it draws and that can be judged, found none");
+  }
   return holds ? kHolds : kDiffers;
 }
 

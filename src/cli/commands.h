@@ -30,6 +30,7 @@ struct CheckOptions {
   std::string shard;     ///< I/N: every Nth scene, from number I on
   std::string golden;    ///< the folder of goldens, whose rows stand beside the references'; or empty
   std::string fault;     ///< a fault to put into our renderer, or empty
+  std::string command;   ///< of another renderer, in ours' place; or empty
   int jobs = 0;          ///< scenes judged at a time; 0: as many as there are processors
   WorkerLimits limits;   ///< of the processes that judge
   bool allow_missing = false;
@@ -73,6 +74,13 @@ struct CaptureOptions {
   SceneArguments scene_arguments;
 };
 int capture(const CaptureOptions& options);
+
+/// A scene as plain arrays, for renderers in any language.
+struct ExportOptions {
+  std::string scene, folder;
+  SceneArguments scene_arguments;
+};
+int export_scene(const ExportOptions& options);
 
 /// Two images or two captures, as they are stored.
 struct CompareOptions {

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include "capture/files/capture_folder.h"
-#include "capture/renderers/process_renderer.h"
 #include "capture/renderers/replayed_renderer.h"
 #include "check/diagnose/diagnose.h"
 #include "check/diagnose/history.h"
 #include "cli/commands.h"
 #include "cli/options/outputs.h"
 #include "cli/options/pixel_argument.h"
+#include "cli/options/program_argument.h"
 #include "cli/options/references.h"
 #include "cli/worker_bytes.h"
 #include "report/page/diagnosis_page.h"
@@ -26,18 +26,10 @@ namespace plumbline::cli {
 
 namespace {
 
-// Of another renderer: what it left, which is all that is known of it.
+// Of another renderer: what it left, which is all that is known of it. (A program is run once.)
 std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scene& scene) {
   if (!o.folder.empty()) return make_replayed_renderer(read_capture(o.folder), scene, o.folder);
-  std::string line = "exec " + o.command;  // a shell splits it into words
-  for (const auto& [word, parameter] : {std::pair("{scene}", "\"$1\""), std::pair("{folder}", "\"$2\"")}) {
-    for (std::size_t at = 0; (at = line.find(word, at)) != std::string::npos;)
-      line.replace(at, std::string(word).size(), parameter);
-  }
-  ProcessSpec spec;
-  spec.name = "program";
-  spec.argv = {"sh", "-c", line, "sh", "{scene}", "{folder}"};
-  return make_replayed_renderer(make_process_renderer(spec)->capture(scene, {StageSet::all(), false, {}, {}}), scene,
+  return make_replayed_renderer(make_program(o.command)->capture(scene, {StageSet::all(), false, {}, {}}), scene,
                                 "--program");
 }
 

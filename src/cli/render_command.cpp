@@ -11,6 +11,8 @@
 #include "capture/renderers/process_renderer.h"
 #include "cli/commands.h"
 #include "cli/options/outputs.h"
+#include "cli/options/program_argument.h"
+#include "export/export_folder.h"
 
 namespace plumbline::cli {
 
@@ -82,6 +84,12 @@ int capture(const CaptureOptions& o) {
     std::fputs((std::string(e.what()) + "\n").c_str(), stderr);
   }
   return kUnsupportedStatus;
+}
+
+int export_scene(const ExportOptions& o) {
+  require_writable_export(o.folder);
+  write_export(o.scene_arguments.load(o.scene), exported_stages, o.folder);
+  return kHolds;
 }
 
 }  // namespace plumbline::cli

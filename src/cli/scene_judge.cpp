@@ -6,6 +6,7 @@
 #include "check/golden/golden.h"
 #include "check/judge/judge.h"
 #include "cli/check_failures.h"
+#include "cli/options/program_argument.h"
 #include "cli/options/renderers.h"
 
 namespace plumbline::cli {
@@ -17,7 +18,11 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   ended_ = std::move(ended);
   if (!candidate_) {  // here, since what is made may have ended a worker before
     const Watch watch{progress_, &ended_, o.limits.step};
-    candidate_ = make_watched(make_candidate(faulted_reference(o.fault).empty() ? o.fault : ""), 0, watch);
+    Watch of_candidate = watch;
+    if (!o.command.empty()) of_candidate.limit += kOwnProcessLimit;  // a program has a time limit of its own
+    candidate_ = make_watched(
+        o.command.empty() ? make_candidate(faulted_reference(o.fault).empty() ? o.fault : "") : make_program(o.command),
+        0, of_candidate);
     references_ = make_references(o.against, o.scene_arguments.assets, watch, o.fault);
   }
   JudgedScene out;

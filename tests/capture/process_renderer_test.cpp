@@ -32,7 +32,7 @@ class Process : public TestFolder {
   static std::unique_ptr<Renderer> shell(const std::string& script) {
     return make_process_renderer({.name = "outside",
                                   .version = "7",
-                                  .argv = {"sh", "-c", script, "sh", "{scene}", "{folder}"},
+                                  .argv = {"sh", "-c", script, "sh", "{scene}", "{output}"},
                                   .environment = {{"PLUMBLINE_TEST", "told"}},
                                   .timeout = std::chrono::milliseconds{2000},
                                   .shows = {Stage::merge, Stage::depth}});

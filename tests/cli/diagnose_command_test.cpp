@@ -61,14 +61,14 @@ TEST_F(Cli, diagnose_refuses_a_folder_that_is_not_of_the_scene) {
 }
 
 TEST_F(Cli, diagnose_runs_a_program) {
-  const std::string program = "'" PLUMBLINE_PLUMB " capture {scene} {folder}";
+  const std::string program = "'" PLUMBLINE_PLUMB " capture {scene} {output}";
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --against exact --program " + program + "'").code, 0);
   const Outcome bad =
       plumb("diagnose " + kSharedEdges + " --against exact --program " + program + " --fault depth.truncated'");
   EXPECT_EQ(bad.code, 1) << bad.text;
   EXPECT_TRUE(bad.says("wrong by itself: depth\n")) << bad.text;
-  const Outcome failed =
-      plumb("diagnose " + kSharedEdges + " --against exact --program 'sh -c \"echo no use >&2; exit 3\"'");
+  const Outcome failed = plumb("diagnose " + kSharedEdges +
+                               " --against exact --program 'sh -c \"echo no use >&2; exit 3\" {scene} {output}'");
   EXPECT_EQ(failed.code, 1);
   EXPECT_TRUE(failed.says("exited with status 3") && failed.says("no use")) << failed.text;
 }

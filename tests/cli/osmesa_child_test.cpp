@@ -13,7 +13,7 @@ namespace {
 std::unique_ptr<Renderer> softpipe() {
   ProcessSpec spec;
   spec.name = "softpipe";
-  spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{folder}", "--with", "softpipe"};
+  spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{output}", "--with", "softpipe"};
   spec.shows = StageSet::all();
   return make_process_renderer(spec);
 }
@@ -37,7 +37,7 @@ TEST(SoftpipeChild, agrees_with_us_but_for_ties_that_it_breaks_otherwise) {
 TEST(SoftpipeChild, a_child_that_cannot_draw_fails_with_its_words) {
   ProcessSpec spec;
   spec.name = "broken";
-  spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{folder}", "--with", "no-such-renderer"};
+  spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{output}", "--with", "no-such-renderer"};
   spec.shows = StageSet::all();
   const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/cull/both_windings.json", {});
   try {

@@ -115,7 +115,7 @@ TEST_F(KilledRuns, Capture) {
 
 TEST_F(KilledRuns, DiagnoseOfAProgram) {
   const std::string program = fmt::format(
-      "sh -c '\\''setsid sleep 60 & {} capture \"$0\" \"$1\"; sleep 0.3'\\'' {{scene}} {{folder}}", PLUMBLINE_PLUMB);
+      "sh -c '\\''setsid sleep 60 & {} capture \"$0\" \"$1\"; sleep 0.3'\\'' {{scene}} {{output}}", PLUMBLINE_PLUMB);
   const fs::path json = folder_ / "out/j.json";
   kill_at_all_moments(fmt::format("diagnose {} --program '{}' --json {}", at("scene.json"), program, json.string()),
                       [&] { return read(json).ends_with("}\n"); });

@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_path.h"
+#include "capture/files/array_folder.h"
 #include "capture/files/capture_columns.h"
 #include "scene/json/json_file.h"
 
@@ -24,38 +24,11 @@ constexpr std::string_view kFormat = "plumbline capture";
 constexpr int kVersion = 1;
 constexpr int kLargestFrame = 16384;
 
-using Shape = std::vector<std::size_t>;
-
-/// The extents of `count` records' array.
-template <class C, class Record>
-Shape record_shape(std::size_t count) {
-  Shape shape{count};
-  if (C::kCorners != 0) shape.push_back(C::kCorners);
-  for (const std::size_t extent : Element<ColumnType<C, Record>>::extents) shape.push_back(extent);
-  return shape;
-}
-
-template <class T>
-Shape plane_shape(int width, int height) {
-  Shape shape{static_cast<std::size_t>(height), static_cast<std::size_t>(width)};
-  for (const std::size_t extent : Element<T>::extents) shape.push_back(extent);
-  return shape;
-}
-
 // ---- writing
 
 class Writer {
  public:
-  Writer(const Capture& capture, AtomicPath& folder) : folder_(folder) {
-    manifest_["format"] = kFormat;
-    manifest_["version"] = kVersion;
-    manifest_["renderer"] = capture.renderer;
-    manifest_["renderer_version"] = capture.version;
-    manifest_["width"] = capture.width;
-    manifest_["height"] = capture.height;
-    manifest_["byte_order"] = "little";
-    manifest_["arrays"] = nlohmann::ordered_json::array();
-  }
+  explicit Writer(ArrayFolder& folder) : folder_(folder) {}
 
   template <class Record>
   void group(Handed group, const auto& columns, const std::vector<Record>& records) {
@@ -65,35 +38,19 @@ class Writer {
   template <class T>
   void plane(Handed of, const Plane<T>& plane) {
     if (plane.empty()) return;
-    array(of.name, Element<T>::dtype, plane_shape<T>(plane.width(), plane.height()), plane.values().data(),
-          plane.size() * sizeof(T));
-  }
-
-  void finish() {
-    const std::string text = manifest_.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
-    write("manifest.json", text.data(), text.size());
+    folder_.add(of.name, Element<T>::dtype, plane_shape<T>(plane.width(), plane.height()),
+                {reinterpret_cast<const char*>(plane.values().data()), plane.size() * sizeof(T)});
   }
 
  private:
   template <class Record, class C>
   void column(std::string_view group, const std::vector<Record>& records, const C& column) {
     const std::vector<char> bytes = packed(records, column);
-    array(fmt::format("{}.{}", group, column.name), Element<ColumnType<C, const Record>>::dtype,
-          record_shape<C, const Record>(records.size()), bytes.data(), bytes.size());
+    folder_.add(fmt::format("{}.{}", group, column.name), Element<ColumnType<C, const Record>>::dtype,
+                record_shape<C, const Record>(records.size()), {bytes.data(), bytes.size()});
   }
 
-  void array(std::string_view name, std::string_view dtype, const Shape& shape, const void* bytes, std::size_t size) {
-    const std::string file = fmt::format("{}.bin", name);
-    manifest_["arrays"].push_back({{"name", name}, {"dtype", dtype}, {"shape", shape}, {"file", file}});
-    write(file, bytes, size);
-  }
-
-  void write(const std::string& file, const void* bytes, std::size_t size) {
-    folder_.write_inside(file, {static_cast<const char*>(bytes), size});
-  }
-
-  AtomicPath& folder_;
-  nlohmann::ordered_json manifest_;
+  ArrayFolder& folder_;
 };
 
 // ---- reading
@@ -348,9 +305,14 @@ void write_capture(const Capture& capture, const fs::path& folder) {
   require_writable_capture(folder);
   AtomicPath atomic(folder);
   atomic.make_folder();
-  Writer writer(capture, atomic);
-  visit_capture(writer, capture);
-  writer.finish();
+  ArrayFolder arrays(atomic);
+  visit_capture(Writer(arrays), capture);
+  arrays.finish({{"format", kFormat},
+                 {"version", kVersion},
+                 {"renderer", capture.renderer},
+                 {"renderer_version", capture.version},
+                 {"width", capture.width},
+                 {"height", capture.height}});
   atomic.commit();
 }
 

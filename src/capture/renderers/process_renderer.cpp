@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -91,6 +92,11 @@ std::uintmax_t bytes_below(const fs::path& folder) {
   return sum;
 }
 
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 80;
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
+
 struct KeepOnly {
   StageSet stages;
   void group(Handed group, const auto&, auto& records) const {
@@ -116,59 +122,103 @@ class ProcessRenderer : public Renderer {
   }
 
   Capture capture(const Scene& scene, const Request& request) override {
-    if (scene.path.empty()) {
+    const bool by_file = std::ranges::any_of(
+        spec_.argv, [](const std::string& argument) { return argument.find("{scene}") != argument.npos; });
+    if (by_file && scene.path.empty()) {
       throw Unsupported(fmt::format("{}: a scene made in memory cannot be handed to a program", spec_.name));
     }
     if (scene.frame.antialias.kind != Antialias::Kind::none) {
-      throw Unsupported(fmt::format("{}: the passes of an antialiased scene stand in no file", spec_.name));
+      throw Unsupported(
+          fmt::format("{}: an antialiased scene is drawn pass by pass, and resolved by nobody", spec_.name));
     }
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     const std::unique_ptr<TemporaryPath> temporary = temporary_folder();
-    const fs::path folder = temporary->path() / "capture", log = temporary->path() / "stderr.txt";
-    fs::create_directory(folder);
+    const fs::path input = temporary->path() / "input", output = temporary->path() / "output";
+    fs::create_directory(output);
+    if (spec_.write_input) spec_.write_input(scene, input);
+    if (spec_.serves) {
+      ask_server(input, output);
+    } else {
+      run(scene, input, output, temporary->path() / "stderr.txt");
+    }
+    return read(scene, request, output);
+  }
 
-    std::vector<std::string> argv = spec_.argv;
-    for (std::string& argument : argv) {
-      argument =
-          replaced(replaced(argument, "{folder}", folder.string()), "{scene}", fs::absolute(scene.path).string());
+ private:
+  // Runs the program once.
+  void run(const Scene& scene, const fs::path& input, const fs::path& output, const fs::path& log) {
+    log_ = log;
+    argv_ = spec_.argv;
+    for (std::string& argument : argv_) {
+      argument = replaced(argument, "{input}", input.string());
+      argument = replaced(argument, "{output}", output.string());
+      if (!scene.path.empty()) argument = replaced(argument, "{scene}", fs::absolute(scene.path).string());
     }
     const Ending ending =
-        ending_of(run_program({argv, merged_environment(spec_.environment), log, spec_.timeout}), spec_.timeout);
+        ending_of(run_program({argv_, merged_environment(spec_.environment), log_, spec_.timeout}), spec_.timeout);
     if (ending.status == kUnsupportedStatus) {
-      const std::string reason = last_lines(log, 1);
+      const std::string reason = last_lines(log_, 1);
       throw Unsupported(reason.empty() ? fmt::format("{}: {}, and gave no reason", spec_.name, ending.words) : reason);
     }
-    if (!ending.words.empty()) fail(argv, ending.words, log);
-    if (!fs::is_directory(folder)) fail(argv, "left no capture: its folder is gone", log);
+    if (!ending.words.empty()) fail(ending.words);
+  }
+
+  // Asks the server, which is started where it does not run.
+  void ask_server(const fs::path& input, const fs::path& output) {
+    if (!server_) {
+      server_folder_ = temporary_folder();
+      log_ = server_folder_->path() / "stderr.txt";
+      argv_ = spec_.argv;
+      server_.emplace(ProgramCall{argv_, merged_environment(spec_.environment), log_, spec_.timeout});
+    }
+    const std::optional<std::string> answer = server_->ask(input.string() + '\t' + output.string());
+    if (!answer) {
+      const Ending ending = ending_of(server_->end(), spec_.timeout);
+      server_.reset();
+      fail(ending.words.empty() ? "ended without an answer" : ending.words);
+    }
+    if (*answer == "ok") return;
+    const std::size_t space = std::min(answer->find(' '), answer->size());
+    const std::string kind = answer->substr(0, space), reason = answer->substr(std::min(space + 1, answer->size()));
+    if (kind == "unsupported") throw Unsupported(reason.empty() ? spec_.name + " gave no reason" : reason);
+    if (kind == "failed") fail(fmt::format("failed: {}", reason));
+    server_.reset();  // which line is the next answer, nobody knows
+    fail(fmt::format("answered \"{}\", expected ok, unsupported REASON or failed REASON", shortened(*answer)));
+  }
+
+  Capture read(const Scene& scene, const Request& request, const fs::path& folder) const {
+    if (!fs::is_directory(fs::symlink_status(folder))) fail("left no capture: its folder is gone");
     require_budget(scene, bytes_below(folder), request.memory_budget);
     try {
       Capture capture = read_capture(folder);
       if (capture.width != scene.frame.width || capture.height != scene.frame.height) {
-        fail(argv,
-             fmt::format("left a capture of {} x {} pixels where the scene has {} x {}", capture.width, capture.height,
-                         scene.frame.width, scene.frame.height),
-             log);
+        fail(fmt::format("left a capture of {} x {} pixels where the scene has {} x {}", capture.width, capture.height,
+                         scene.frame.width, scene.frame.height));
       }
       complete_records(scene, capture);
       visit_capture(KeepOnly{request.records}, capture);
       capture.renderer = spec_.name;
       return capture;
     } catch (const CaptureError& error) {
-      fail(argv, fmt::format("left no capture that can be read: {}", error.what()), log);
+      fail(fmt::format("left no capture that can be read: {}", error.what()));
     } catch (const std::invalid_argument& error) {
-      fail(argv, fmt::format("left no capture of the scene: {}", error.what()), log);
+      fail(fmt::format("left no capture of the scene: {}", error.what()));
     }
   }
 
- private:
-  [[noreturn]] void fail(const std::vector<std::string>& argv, std::string_view what, const fs::path& log) const {
+  [[noreturn]] void fail(std::string_view what) const {
     constexpr int kLines = 10;
-    const std::string lines = last_lines(log, kLines);
-    throw RendererFailed(fmt::format("{}: {} {}{}{}", spec_.name, fmt::join(argv, " "), what,
+    const std::string lines = last_lines(log_, kLines);
+    const std::string command = spec_.shown.empty() ? fmt::format("{}", fmt::join(argv_, " ")) : spec_.shown;
+    throw RendererFailed(fmt::format("{}: {} {}{}{}", spec_.name, command, what,
                                      lines.empty() ? "" : "\nthe end of its stderr:\n", lines));
   }
 
   ProcessSpec spec_;
+  std::vector<std::string> argv_;  ///< of the last run, or of the server
+  fs::path log_;                   ///< its stderr
+  std::unique_ptr<TemporaryPath> server_folder_;
+  std::optional<ServerProgram> server_;
 };
 
 }  // namespace

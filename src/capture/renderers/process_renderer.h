@@ -1,8 +1,10 @@
-// A program of any kind as a renderer: it is handed a scene's file and a folder, and leaves a capture in it
+// A program of any kind as a renderer: it is handed a scene, and an empty folder in which it leaves a capture
 // (capture_folder.h).
 #pragma once
 
 #include <chrono>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,9 +20,15 @@ inline constexpr int kUnsupportedStatus = 77;
 
 struct ProcessSpec {
   std::string name;
-  std::string version;            ///< shown until a capture tells it
-  std::vector<std::string> argv;  ///< argv[0] is looked for in PATH; in each, {scene} and {folder} are replaced by the
-                                  ///< scene's file and an empty folder for the capture
+  std::string version;  ///< shown until a capture tells it
+  /// argv[0] is looked for in PATH; in each, {scene} is replaced by the scene's file, {input} by the folder that
+  /// write_input writes, and {output} by the folder for the capture.
+  std::vector<std::string> argv;
+  /// Started once, without these folders: it reads a line "INPUT<tab>OUTPUT" for each scene, and answers by a line: "ok",
+  /// "unsupported REASON" or "failed REASON".
+  bool serves = false;
+  std::string shown = "";  ///< the command line as messages show it; empty: argv
+  std::function<void(const Scene&, const std::filesystem::path& folder)> write_input{};
   std::map<std::string, std::string> environment;  ///< set beside what is inherited
   std::chrono::milliseconds timeout{60'000};       ///< after that, it and all that it started is killed
   StageSet shows;                                  ///< what it says it is able to show
@@ -30,8 +38,8 @@ struct ProcessSpec {
 /// names are handed on, of these all primitives and pixels. Throws RendererFailed, with the last lines of the program's
 /// stderr, where it cannot be started, exits with other than 0 and 77, is killed by a signal, takes longer than the
 /// timeout, or leaves no capture, a broken one, or one of another size; OverBudget where what it left is beyond the
-/// budget; and Unsupported where it exits with 77, and for a scene that was not read from a file. Refuses a spec
-/// without argv (std::invalid_argument).
+/// budget; and Unsupported where it exits with 77, or says so, and of {scene} for a scene that was not read from a file.
+/// Refuses a spec without argv (std::invalid_argument).
 std::unique_ptr<Renderer> make_process_renderer(ProcessSpec spec);
 
 }  // namespace plumbline

@@ -195,6 +195,8 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
     require_samples(scene, mine->samples);
   } catch (const OverBudget&) {
     throw;  // nobody else draws what is too large to be judged
+  } catch (const Unsupported& e) {
+    skip(candidate.info().name, Outcome::unsupported, e.what());
   } catch (const std::exception& e) {
     mine.reset();
     skip(candidate.info().name, Outcome::failed, e.what());

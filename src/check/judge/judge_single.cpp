@@ -307,6 +307,9 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     mine = capture_all(scene, candidate, most_fragments);
   } catch (const OverBudget&) {
     throw;  // nobody else draws what is too large to be judged
+  } catch (const Unsupported& e) {
+    nothing(candidate.info().name, Outcome::unsupported, e.what());
+    return verdict;
   } catch (const std::exception& e) {
     failure = e.what();
   }

@@ -50,7 +50,7 @@ class OwnProcess final : public Renderer {
     spec.argv = {std::filesystem::read_symlink("/proc/self/exe").string(),
                  "capture",
                  "{scene}",
-                 "{folder}",
+                 "{output}",
                  "--with",
                  info_.name};
     for (const std::string& folder : assets) spec.argv.insert(spec.argv.end(), {"--assets", folder});

@@ -16,7 +16,7 @@ namespace {
 std::unique_ptr<Renderer> egl() {
   ProcessSpec spec;
   spec.name = "egl";
-  spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{folder}", "--with", "egl"};
+  spec.argv = {PLUMBLINE_PLUMB, "capture", "{scene}", "{output}", "--with", "egl"};
   spec.shows = StageSet::all();
   return make_process_renderer(spec);
 }

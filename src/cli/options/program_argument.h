@@ -1,0 +1,21 @@
+// --program: another renderer, by the command line that runs it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "capture/renderer.h"
+#include "export/export_folder.h"
+
+namespace plumbline::cli {
+
+/// The renderer that this command line is, run by a shell: {scene} in it is the scene's file, {input} the folder of its
+/// export, {output} the folder for the capture; or {serve}, which becomes --serve: the program is started once, and
+/// asked by lines (capture/renderers/process_renderer.h). After capture(), info() is of what the program left for that
+/// scene. Throws std::invalid_argument where the command line has none of them.
+std::unique_ptr<Renderer> make_program(const std::string& command);
+
+/// Stages 0 to 4 by our pipeline, and the matrices in double.
+ExportedStages exported_stages(const Scene& scene);
+
+}  // namespace plumbline::cli

@@ -1,0 +1,88 @@
+#include "report/text/conformance.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace plumbline::report {
+
+namespace {
+
+constexpr std::string_view kProgram = "program";  // the name of a --program
+
+using Counts = std::map<std::string, std::size_t>;
+
+std::vector<std::pair<std::string, std::size_t>> by_count(const Counts& counts) {
+  std::vector<std::pair<std::string, std::size_t>> out(counts.begin(), counts.end());
+  std::ranges::stable_sort(out, std::ranges::greater(), &std::pair<std::string, std::size_t>::second);
+  return out;
+}
+
+std::string group_of(const check::SceneVerdict& verdict) { return verdict.scene.substr(0, verdict.scene.find('/')); }
+
+// Why the program does not draw the scene: it says so in a row of its own, the first of an antialiased scene's passes.
+std::string reason_of(const check::SceneVerdict& verdict) {
+  const auto& rows = verdict.comparisons;
+  const bool by_itself = !rows.empty() && rows.front().judge.reference == kProgram;
+  return by_itself ? rows.front().note : "nothing that it left could be judged";
+}
+
+std::string counted(const std::vector<std::pair<std::string, std::size_t>>& counts) {
+  std::vector<std::string> words;
+  for (const auto& [word, count] : counts) words.push_back(fmt::format("{} {}", word, count));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+Conformance conformance_of(const check::SceneVerdict& verdict) {
+  const auto any = [&](auto holds) { return std::ranges::any_of(verdict.comparisons, holds); };
+  if (check::first_different(verdict) != nullptr) return Conformance::differs;
+  if (any([](const check::Comparison& c) { return c.outcome == check::Outcome::failed; })) return Conformance::failed;
+  return check::judged_stages(verdict).empty() ? Conformance::unable : Conformance::holds;
+}
+
+std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdicts) {
+  std::map<std::string, FeatureTally> tallies;
+  std::map<std::string, Counts> wrong;
+  for (const check::SceneVerdict& verdict : verdicts) {
+    FeatureTally& tally = tallies[group_of(verdict)];
+    switch (conformance_of(verdict)) {
+      case Conformance::holds: ++tally.holds; break;
+      case Conformance::failed: ++tally.failed; break;
+      case Conformance::unable: ++tally.unable; break;
+      case Conformance::differs:
+        ++tally.differs;
+        ++wrong[group_of(verdict)][std::string(name_of(check::first_different(verdict)->stage))];
+    }
+  }
+  std::vector<FeatureTally> out;
+  for (auto& [feature, tally] : tallies) {
+    tally.feature = feature;
+    tally.first_wrong = by_count(wrong[feature]);
+    out.push_back(std::move(tally));
+  }
+  return out;
+}
+
+std::string conformance_text(std::span<const check::SceneVerdict> verdicts) {
+  constexpr const char* kRow = "{:<16} {:>6} {:>7} {:>7} {:>7}  {}\n";
+  std::string out = fmt::format(kRow, "feature", "right", "wrong", "failed", "unable", "first wrong stage");
+  FeatureTally all;
+  Counts wrong, reasons;
+  for (const FeatureTally& t : conformance(verdicts)) {
+    out += fmt::format(kRow, t.feature, t.holds, t.differs, t.failed, t.unable, counted(t.first_wrong));
+    all.holds += t.holds, all.differs += t.differs, all.failed += t.failed, all.unable += t.unable;
+    for (const auto& [stage, count] : t.first_wrong) wrong[stage] += count;
+  }
+  out += fmt::format(kRow, "all", all.holds, all.differs, all.failed, all.unable, counted(by_count(wrong)));
+  for (const check::SceneVerdict& verdict : verdicts) {
+    if (conformance_of(verdict) == Conformance::unable) ++reasons[reason_of(verdict)];
+  }
+  if (!reasons.empty()) out += fmt::format("unable: {}\n", counted(by_count(reasons)));
+  return out;
+}
+
+}  // namespace plumbline::report

@@ -1,0 +1,34 @@
+// What another renderer can do, over a suite: per feature how many scenes it draws rightly, wrongly, and not at all.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/verdict/verdict.h"
+
+namespace plumbline::report {
+
+/// How one scene ended.
+enum class Conformance {
+  holds,    ///< a stage at least was judged, none is wrong
+  differs,  ///< a stage is wrong
+  failed,   ///< the program crashed, hung, or left what cannot be read
+  unable    ///< the program said that it cannot draw the scene, or nothing that it left could be judged
+};
+Conformance conformance_of(const check::SceneVerdict& verdict);
+
+/// Scenes of one feature: a folder of the suite.
+struct FeatureTally {
+  std::string feature;
+  std::size_t holds = 0, differs = 0, failed = 0, unable = 0;
+  std::vector<std::pair<std::string, std::size_t>> first_wrong;  ///< stages, the most frequent first
+};
+std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdicts);
+
+/// Lines for people: a row per feature, then why scenes are not drawn, the most frequent reason first.
+std::string conformance_text(std::span<const check::SceneVerdict> verdicts);
+
+}  // namespace plumbline::report

@@ -1,0 +1,71 @@
+// The kit's table of arrays is what captures hold.
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include "capture/files/capture_columns.h"
+
+namespace plumbline {
+namespace {
+
+// What a group's records are counted by, in the table.
+std::string count_of(std::string_view group) {
+  if (group == "matrices") return "D";
+  if (group == "matrices.light") return "L";
+  if (group == "vertex" || group == "light" || group.ends_with(".vertices")) return "V";
+  if (group == "clip.polygon") return "P";
+  if (group == "clip" || group.ends_with(".clipped")) return "C";
+  if (group == "window" || group.ends_with(".window")) return "T";
+  return "F";
+}
+
+// The beginning of each array's row.
+struct Rows {
+  std::set<std::string> rows;
+  template <class Record>
+  void group(Handed group, const auto& columns, const std::vector<Record>&) {
+    columns.each([&]<class C>(const C& column) {
+      std::vector<std::string> shape{count_of(group.name)};
+      if (C::kCorners != 0) shape.push_back(std::to_string(C::kCorners));
+      add(fmt::format("{}.{}", group.name, column.name), shape, Element<ColumnType<C, const Record>>(), group.stage);
+    });
+  }
+  template <class T>
+  void plane(Handed of, const Plane<T>&) {
+    add(std::string(of.name), {"H", "W"}, Element<T>(), of.stage);
+  }
+  template <class E>
+  void add(const std::string& name, std::vector<std::string> shape, E, Stage stage) {
+    for (const std::size_t extent : E::extents) shape.push_back(std::to_string(extent));
+    rows.insert(fmt::format("| `{}` | {} | [{}] | {} |", name, E::dtype, fmt::join(shape, ", "), name_of(stage)));
+  }
+};
+
+TEST(Kit, ItsTableListsEveryArray) {
+  Rows expected;
+  const Capture none;
+  visit_capture(expected, none);
+  std::ifstream readme(PLUMBLINE_SOURCE_DIR "/src/kit/README.md");
+  ASSERT_TRUE(readme);
+  std::set<std::string> found;
+  for (std::string line; std::getline(readme, line);) {
+    std::size_t end = 0;
+    for (int cell = 0; cell < 5 && end != std::string::npos; ++cell) end = line.find('|', cell == 0 ? 0 : end + 1);
+    const bool is_row = line.starts_with("| `") && end != std::string::npos && end + 1 < line.size();
+    if (is_row) found.insert(line.substr(0, end + 1));
+  }
+  for (const std::string& row : expected.rows) EXPECT_TRUE(found.contains(row)) << "lacks " << row;
+  for (const std::string& row : found) {
+    const bool of_capture = row.find("| [") != std::string::npos && std::ranges::any_of(kStageNames, [&](auto stage) {
+                              return row.ends_with(fmt::format("| {} |", stage));
+                            });
+    EXPECT_TRUE(!of_capture || expected.rows.contains(row)) << "no array: " << row;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline

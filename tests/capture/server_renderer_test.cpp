@@ -1,0 +1,116 @@
+// A program that is started once and asked by lines.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "capture/files/capture_folder.h"
+#include "capture/renderers/process_renderer.h"
+#include "tests/test_folder.h"
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Server : public TestFolder {
+ protected:
+  void SetUp() override {
+    scene_.name = "group/scene";
+    scene_.frame.width = 4;
+    scene_.frame.height = 2;
+    Capture c;
+    c.renderer = "inside";
+    c.width = 4;
+    c.height = 2;
+    c.planes.depth = {4, 2, 0.5};
+    write_capture(c, root_ / "good");
+  }
+  /// Each start leaves a line in `starts`; `answer` is run for each line, with the folders $in and $out.
+  std::unique_ptr<Renderer> server(const std::string& answer) const {
+    ProcessSpec spec;
+    spec.name = "outside";
+    spec.argv = {"sh", "-c",
+                 "echo >> '" + (root_ / "starts").string() + "'; tab=$(printf '\\t'); good='" +
+                     (root_ / "good").string() + "'; while IFS=\"$tab\" read -r in out; do " + answer + "; done"};
+    spec.serves = true;
+    spec.timeout = std::chrono::milliseconds{2000};
+    spec.write_input = [](const Scene& scene, const fs::path& folder) {
+      fs::create_directory(folder);
+      std::ofstream(folder / "name") << scene.name;
+    };
+    return make_process_renderer(std::move(spec));
+  }
+  std::string failure(Renderer& renderer) const {
+    try {
+      renderer.capture(scene_, {});
+    } catch (const RendererFailed& error) {
+      return error.what();
+    } catch (const Unsupported& reason) {
+      return std::string("unsupported: ") + reason.what();
+    }
+    return "it did not fail";
+  }
+  std::size_t starts() const { return read(root_ / "starts").size(); }
+
+  Scene scene_;
+};
+
+#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST_F(Server, IsStartedOnceAndHandsOnEachScene) {
+  const auto renderer =
+      server("test \"$(cat \"$in/name\")\" = \"$(echo group/scene)\" && cp \"$good\"/* \"$out\"; echo ok");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(renderer->capture(scene_, {}).planes.depth.values(), std::vector(8, 0.5));
+  EXPECT_EQ(starts(), 1u);
+}
+
+TEST_F(Server, SaysWhatItCannotDrawAndGoesOn) {
+  const auto renderer = server(
+      "n=$((n+1)); case $n in 1) echo unsupported no fog here;; 2) echo failed out of ink;; "
+      "3) echo unsupported;; *) cp \"$good\"/* \"$out\"; echo ok;; esac");
+  EXPECT_EQ(failure(*renderer), "unsupported: no fog here");
+  EXPECT_HAS(failure(*renderer), "failed: out of ink");
+  EXPECT_EQ(failure(*renderer), "unsupported: outside gave no reason");
+  EXPECT_EQ(failure(*renderer), "it did not fail");
+  EXPECT_EQ(starts(), 1u);
+}
+
+TEST_F(Server, IsStartedAgainWhereItEndedHungOrSpokeNonsense) {
+  const std::string good = "cp \"$good\"/* \"$out\"; echo ok";
+  for (const auto& [bad, words] :
+       {std::pair("echo the end >&2; exit 3", "exited with status 3\nthe end of its stderr:\nthe end"),
+        std::pair("kill -SEGV $$", "was killed by signal 11"),
+        std::pair("sleep 60", "took longer than 2000ms and was killed"),
+        std::pair("echo hello", "answered \"hello\", expected ok, unsupported REASON or"),
+        std::pair("exit 0", "ended without an answer"), std::pair("echo ok", "left no capture that can be read")}) {
+    const fs::path mark = root_ / "mark";
+    fs::remove(mark);
+    const auto renderer = server("if [ -e '" + mark.string() + "' ]; then " + good + "; else : > '" + mark.string() +
+                                 "'; " + bad + "; fi");
+    EXPECT_HAS(failure(*renderer), words);
+    EXPECT_EQ(failure(*renderer), "it did not fail") << bad;
+  }
+}
+
+TEST_F(Server, ItsAnswersAreShort) {
+  EXPECT_HAS(failure(*server("head -c 200000 /dev/zero | tr '\\0' x; sleep 60")), "without an answer");
+}
+
+TEST_F(Server, EndsWithItsRenderer) {
+  const fs::path pid = root_ / "pid";
+  {
+    const auto renderer = server("echo $$ > '" + pid.string() + "'; cp \"$good\"/* \"$out\"; echo ok");
+    EXPECT_EQ(failure(*renderer), "it did not fail");
+  }
+  pid_t server = 0;
+  std::ifstream(pid) >> server;
+  ASSERT_GT(server, 1);
+  EXPECT_NE(::kill(server, 0), 0);
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,86 @@
+// Another renderer, judged by its command line: what it is given, what becomes of what it leaves, and the suite's summary.
+#include <fstream>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "tests/cli/run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+const std::string kMine = "'" PLUMBLINE_C_RENDERER " {input} {output}'";
+const std::string kServer = "'" PLUMBLINE_C_RENDERER " {serve}'";
+
+// Scenes right, wrong, failed and unable, of the line of a feature.
+struct Tally {
+  int right = -1, wrong = -1, failed = -1, unable = -1;
+};
+Tally tally(const Outcome& run, const std::string& feature) {
+  std::smatch found;
+  const std::regex line("\n" + feature + " +(\\d+) +(\\d+) +(\\d+) +(\\d+) ");
+  if (!std::regex_search(run.text, found, line)) return {};
+  return {std::stoi(found[1]), std::stoi(found[2]), std::stoi(found[3]), std::stoi(found[4])};
+}
+
+TEST_F(Cli, program_is_handed_an_export_and_judged_by_colour_and_depth) {
+  const Outcome run = plumb("diagnose " + kSharedEdges + " --against exact --program " + kMine);
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("2 of 13 stages judged")) << run.text;
+}
+
+TEST_F(Cli, program_of_a_suite_ends_with_a_row_per_feature) {
+  const Outcome run = plumb("check " + kScenes + " --program " + kServer);
+  EXPECT_EQ(run.code, 1) << "one scene is wrong: " << run.text;
+  const Tally all = tally(run, "all");
+  EXPECT_GE(all.right + all.wrong, 150) << run.text;
+  EXPECT_GE(all.right, 120);
+  EXPECT_EQ(all.failed, 0);
+  EXPECT_EQ(tally(run, "fog").unable, 12);
+  EXPECT_EQ(tally(run, "clip").right, 16);
+  EXPECT_TRUE(run.says("unable: texture ")) << run.text;
+}
+
+TEST_F(Cli, program_that_draws_no_scene_ends_2) {
+  for (const std::string& command :
+       {std::string("'sh -c \"echo no fog here >&2; exit 77\" {input} {output}'"), kServer}) {
+    const Outcome run = plumb("check " + kScenes + "fog/backwards.json --program " + command);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_TRUE(run.says("--program: expected a scene that it draws and that can be judged, found none")) << run.text;
+    EXPECT_TRUE(run.says("fog")) << run.text;
+  }
+}
+
+TEST_F(Cli, program_that_fails_is_a_failed_row) {
+  const Outcome run = plumb("check " + kSharedEdges + " --program 'false {input} {output}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("exited with status 1")) << run.text;
+  EXPECT_EQ(tally(run, "coverage").failed, 1) << run.text;
+}
+
+TEST_F(Cli, program_wants_a_scene_and_a_folder) {
+  for (const char* command : {"./mine", "./mine {input}", "./mine {output}", "./mine {serve} {input}"}) {
+    for (const char* of : {"check ", "diagnose "}) {
+      const Outcome run = plumb(of + kSharedEdges + " --program '" + command + "'");
+      EXPECT_EQ(run.code, 2) << command << run.text;
+      EXPECT_TRUE(
+          run.says("--program: expected {output} and {input} or {scene} in the command line, or {serve} alone, "
+                   "found ./mine"))
+          << run.text;
+    }
+  }
+}
+
+TEST_F(Cli, export_writes_the_scene) {
+  EXPECT_EQ(plumb("export " + kSharedEdges + " " + at("export")).code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "export" / "meshes.0.positions.bin"));
+  const Outcome again = plumb("export " + kScenes + "clip/crowd.json " + at("export"));
+  EXPECT_EQ(again.code, 0) << again.text;
+  write(folder_ / "export" / "mine.txt", "mine");
+  const Outcome refused = plumb("export " + kSharedEdges + " " + at("export"));
+  EXPECT_EQ(refused.code, 2) << refused.text;
+  EXPECT_TRUE(refused.says("mine.txt")) << refused.text;
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,88 @@
+// An export is all that a renderer needs.
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "base/atomic_path.h"
+#include "export/export_folder.h"
+#include "pipeline/render.h"
+#include "reference/exact/exact.h"
+#include "renderers/pipeline_renderer.h"
+#include "scene/antialias.h"
+#include "scene/file/scene_file.h"
+#include "tests/export/drawn_from_export.h"
+#include "tests/test_folder.h"
+
+namespace plumbline {
+namespace {
+
+namespace fs = std::filesystem;
+
+ExportedStages stages_of(const Scene& scene) {
+  Request request;
+  request.planes = WantedPlanes::none;
+  request.records = {Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
+  return {pipeline::make_pipeline()->capture(scene, request),
+          exact::make_exact()->capture(scene, request).records.matrices};
+}
+
+bool same(const pipeline::Frame& a, const pipeline::Frame& b) {
+  const auto equal = [](const auto& x, const auto& y) {
+    return x.width() == y.width() && x.height() == y.height() &&
+           std::memcmp(x.values().data(), y.values().data(), x.size() * sizeof x.values()[0]) == 0;
+  };
+  return equal(a.color_rgba8, b.color_rgba8) && equal(a.color_rgba16, b.color_rgba16) &&
+         equal(a.color_rgba32f, b.color_rgba32f) && equal(a.depth_code, b.depth_code) &&
+         equal(a.depth_z32f, b.depth_z32f) && equal(a.stencil, b.stencil);
+}
+
+class ExportOf : public TestFolder, public ::testing::WithParamInterface<fs::path> {};
+using ExportFolder = TestFolder;
+
+TEST_P(ExportOf, EverySceneOfTheGroupDrawsTheSameBits) {
+  const fs::path group[] = {GetParam()};
+  std::size_t drawn = 0;
+  for (const fs::path& file : find_scenes(group)) {
+    const Scene scene = load_scene(file);
+    const fs::path to = root_ / "export";
+    write_export(scene, stages_of, to);
+    const std::vector<Scene> passes = passes_of(scene);
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+      const bool single = scene.frame.antialias.kind == Antialias::Kind::none;
+      const pipeline::Frame frame = test::drawn_from_export(single ? to : to / fmt::format("pass{}", i));
+      EXPECT_TRUE(same(frame, pipeline::render(passes[i]))) << scene.name << " pass " << i;
+      ++drawn;
+    }
+  }
+  EXPECT_GT(drawn, 0u);
+}
+
+std::vector<fs::path> groups() {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::directory_iterator(PLUMBLINE_SOURCE_DIR "/tests/scenes")) {
+    if (entry.is_directory()) out.push_back(entry.path());
+  }
+  std::ranges::sort(out);
+  return out;
+}
+INSTANTIATE_TEST_SUITE_P(Groups, ExportOf, ::testing::ValuesIn(groups()),
+                         [](const auto& group) { return group.param.filename().string(); });
+
+TEST_F(ExportFolder, IsReplacedWhereItHoldsAnExportAndLeftAloneElse) {
+  const fs::path to = root_ / "export";
+  const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/antialias/taps_gl.json");
+  write_export(scene, stages_of, to);
+  EXPECT_TRUE(fs::exists(to / "pass5" / "manifest.json"));
+  write_export(load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/clip/crowd.json"), stages_of, to);
+  EXPECT_FALSE(fs::exists(to / "pass5"));
+  std::ofstream(to / "mine.txt") << "mine";
+  EXPECT_THROW(write_export(scene, stages_of, to), OutputError);
+  EXPECT_TRUE(fs::exists(to / "mine.txt"));
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,36 @@
+/* A small rasterizer, as somebody might write it who has never heard of plumbline: triangles in clip space, with a
+   colour and a texture coordinate at each corner, into a frame of doubles. */
+#ifndef RASTERIZER_H
+#define RASTERIZER_H
+
+typedef struct {
+  double p[4], color[4]; /* clip space; rgba */
+} Vertex;
+
+typedef enum { NEVER, LESS, EQUAL, LESS_EQUAL, GREATER, NOT_EQUAL, GREATER_EQUAL, ALWAYS } Compare;
+#define COMPARES "never|less|equal|less_equal|greater|not_equal|greater_equal|always"
+
+typedef struct {
+  int width, height;
+  double color_codes; /* largest code of a channel, 0: float */
+  double depth_codes; /* largest code of a depth, 0: float */
+  double* color;      /* rgba, in codes or float */
+  double* depth;      /* likewise, of window z */
+  float* floats;      /* finish_frame() */
+} Frame;
+
+typedef struct {
+  int cull_front, cull_back, depth_clamp, write_depth, write_color[4];
+  int box[4]; /* x0, y0, x1, y1: pixels outside are not drawn */
+  Compare depth_func;
+  double near, far;                   /* window z of the near and far plane */
+  double offset_factor, offset_units; /* of window z */
+} State;
+
+/* Memory for its pixels, or more of it, and all of them cleared. */
+void clear_frame(Frame* frame, const double color[4], double depth);
+void draw_triangle(Frame* frame, const State* state, const Vertex corners[3]);
+/* Codes become numbers: frame->floats is rgba in [0,1], frame->depth window z. */
+void finish_frame(Frame* frame);
+
+#endif
