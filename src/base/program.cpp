@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/confine.h"
 #include "base/supervise.h"
 
 namespace plumbline {
@@ -40,7 +41,7 @@ void open_as(int descriptor, const char* path, int flags) {
 }
 
 /// Becomes the program. Returns errno where there is none.
-int become(const ProgramCall& call, char** argv, char** environment, pid_t guardian) {
+int become(const ProgramCall& call, char** argv, char** environment, char** writable, pid_t guardian) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != guardian) ::_exit(1);
@@ -55,6 +56,7 @@ int become(const ProgramCall& call, char** argv, char** environment, pid_t guard
     open_as(STDOUT_FILENO, "/dev/null", O_WRONLY);
   }
   open_as(STDERR_FILENO, call.error_log.c_str(), O_WRONLY | O_CREAT | O_APPEND);
+  if (*writable != nullptr) confine(writable, call.most_bytes);
   ::execvpe(argv[0], argv, environment);
   return errno;
 }
@@ -85,7 +87,8 @@ ProgramEnd wait_for(pid_t program, Clock::time_point deadline, const sigset_t& w
 }
 
 /// A process of its own between us and the program, to which all the program's orphans come.
-[[noreturn]] void guard(const ProgramCall& call, char** argv, char** environment, pid_t parent, int answer) {
+[[noreturn]] void guard(const ProgramCall& call, char** argv, char** environment, char** writable, pid_t parent,
+                        int answer) {
   const Clock::time_point deadline = Clock::now() + call.time_limit;
   sigset_t waited;
   ::sigemptyset(&waited);
@@ -103,7 +106,7 @@ ProgramEnd wait_for(pid_t program, Clock::time_point deadline, const sigset_t& w
   } else {
     const pid_t self = ::getpid(), program = ::fork();
     if (program == 0) {
-      const int error = become(call, argv, environment, self);
+      const int error = become(call, argv, environment, writable, self);
       [[maybe_unused]] const ssize_t written = ::write(failure[1], &error, sizeof error);
       ::_exit(127);
     }
@@ -124,11 +127,12 @@ struct Guarded {
   int ending;
 };
 Guarded start(ProgramCall& call) {
-  std::vector<char*> argv = pointers(call.argv), environment = pointers(call.environment);
+  std::vector<char*> argv = pointers(call.argv), environment = pointers(call.environment),
+                     writable = pointers(call.writable);
   int answer[2];
   if (::pipe2(answer, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   const pid_t parent = ::getpid(), guardian = ::fork();
-  if (guardian == 0) guard(call, argv.data(), environment.data(), parent, answer[1]);
+  if (guardian == 0) guard(call, argv.data(), environment.data(), writable.data(), parent, answer[1]);
   const int fork_error = errno;
   ::close(answer[1]);
   if (guardian < 0) {

@@ -21,6 +21,9 @@ struct ProgramCall {
   std::vector<std::string> environment;  ///< NAME=value, all of it
   std::filesystem::path error_log;       ///< stderr is appended to it
   std::chrono::milliseconds time_limit{60'000};
+  /// Folders in which alone it may write, no file beyond `most_bytes` (confine.h); empty: it may write everywhere.
+  std::vector<std::string> writable = {};
+  unsigned long most_bytes = 0;
   int conversation = -1;  ///< descriptor that is its stdin and stdout; -1: stdin is empty, stdout is thrown away
 };
 

@@ -57,6 +57,13 @@ const std::string kProgramHelp =
     "{scene} in it is the scene's file, {input} the folder of its export, {output} that for the capture; or {serve}: "
     "started once, it is asked by lines";
 
+void add_probes(CLI::App& command, bool& probes) {
+  command
+      .add_flag("--each-primitive", probes,
+                "Call the program for each primitive alone as well: coverage and winners are judged by such pictures")
+      ->needs(command.get_option("--program"));
+}
+
 template <class Options>
 void add_drawing(CLI::App& command, Options& o) {
   text(command, "scene", o.scene, "Scene file")->required();
@@ -90,6 +97,7 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--program", o.command, "Judge what this command line draws, in our renderer's place: " + kProgramHelp)
       ->excludes(fault)
       ->excludes(command.get_option("--golden"));
+  add_probes(command, o.probes);
   command
       .add_option("--jobs", o.jobs,
                   "Scenes judged at a time, each in a process of its own (default: the number of processors)")
@@ -118,6 +126,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
       ->excludes(fault)
       ->excludes(folder);
   folder->excludes(fault);
+  add_probes(command, o.probes);
   CLI::Option* picture = text(command, "--picture", o.picture,
                               "Name the known faults that draw pictures like this one, which is all there is");
   for (const char* other :

@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include "base/atomic_path.h"
+#include "base/confine.h"
 #include "check/golden/golden_set.h"
 #include "check/verdict/expectations.h"
 #include "cli/check_failures.h"
@@ -196,6 +197,8 @@ int check(const CheckOptions& given) {
   if (is_whole(o, verdicts)) head.failures = check::of_no_scene(rules.expectations, verdicts);
   const bool holds = report::all_hold(verdicts) && head.failures.empty();
   std::string summary = not_asked_line(o);
+  if (!o.command.empty() && !can_confine())
+    summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());
   summary += report::summary(verdicts, holds, seconds);
   const std::string of_run = lines_of(head.failures);

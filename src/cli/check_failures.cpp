@@ -26,6 +26,7 @@ std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& ver
   if (!o.golden.empty()) out += " --golden " + shell_word(o.golden);
   if (!o.fault.empty()) out += " --fault " + shell_word(o.fault);
   if (!o.command.empty()) out += " --program " + shell_word(o.command);
+  if (o.probes) out += " --each-primitive";
   if (!o.expect.empty()) out += " --expect " + shell_word(o.expect);
   if (!o.today.empty()) out += " --today " + o.today;
   if (o.allow_missing) out += " --allow-missing";

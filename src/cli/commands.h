@@ -31,6 +31,7 @@ struct CheckOptions {
   std::string golden;    ///< the folder of goldens, whose rows stand beside the references'; or empty
   std::string fault;     ///< a fault to put into our renderer, or empty
   std::string command;   ///< of another renderer, in ours' place; or empty
+  bool probes = false;   ///< which is called for each primitive as well
   int jobs = 0;          ///< scenes judged at a time; 0: as many as there are processors
   WorkerLimits limits;   ///< of the processes that judge
   bool allow_missing = false;
@@ -48,6 +49,7 @@ struct DiagnoseOptions {
   std::string picture;          ///< of another renderer, which is all that it left, or empty
   std::string fault;            ///< or empty
   std::string folder, command;  ///< of another renderer, or empty
+  bool probes = false;          ///< the command is called for each primitive as well
   std::string pixel;            ///< X,Y: its history as well; or empty
   std::uint64_t most_fragments = check::kMostFragments;
   WorkerLimits limits;  ///< of the process that diagnoses

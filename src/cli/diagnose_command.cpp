@@ -29,8 +29,8 @@ namespace {
 // Of another renderer: what it left, which is all that is known of it. (A program is run once.)
 std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scene& scene) {
   if (!o.folder.empty()) return make_replayed_renderer(read_capture(o.folder), scene, o.folder);
-  return make_replayed_renderer(make_program(o.command)->capture(scene, {StageSet::all(), false, {}, {}}), scene,
-                                "--program");
+  return make_replayed_renderer(make_program(o.command, o.probes)->capture(scene, {StageSet::all(), false, {}, {}}),
+                                scene, "--program");
 }
 
 // Of an antialiased scene its frame, and the stages of its first pass; else the stages of the frame.

@@ -20,9 +20,9 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
     const Watch watch{progress_, &ended_, o.limits.step};
     Watch of_candidate = watch;
     if (!o.command.empty()) of_candidate.limit += kOwnProcessLimit;  // a program has a time limit of its own
-    candidate_ = make_watched(
-        o.command.empty() ? make_candidate(faulted_reference(o.fault).empty() ? o.fault : "") : make_program(o.command),
-        0, of_candidate);
+    candidate_ = make_watched(o.command.empty() ? make_candidate(faulted_reference(o.fault).empty() ? o.fault : "")
+                                                : make_program(o.command, o.probes),
+                              0, of_candidate);
     references_ = make_references(o.against, o.scene_arguments.assets, watch, o.fault);
   }
   JudgedScene out;

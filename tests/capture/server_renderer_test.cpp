@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "base/confine.h"
 #include "capture/files/capture_folder.h"
 #include "capture/renderers/process_renderer.h"
 #include "tests/test_folder.h"
@@ -110,6 +111,46 @@ TEST_F(Server, EndsWithItsRenderer) {
   std::ifstream(pid) >> server;
   ASSERT_GT(server, 1);
   EXPECT_NE(::kill(server, 0), 0);
+}
+
+class Confined : public Server {
+ protected:
+  // Run once, with the folder for the capture as $1.
+  std::unique_ptr<Renderer> program(const std::string& script) const {
+    ProcessSpec spec;
+    spec.name = "outside";
+    spec.argv = {"sh", "-c", script + "; cp '" + (root_ / "good").string() + "'/* \"$1\"", "sh", "{output}"};
+    spec.confined = true;
+    return make_process_renderer(std::move(spec));
+  }
+};
+
+TEST_F(Confined, WritesInItsOwnFolderAlone) {
+  const fs::path elsewhere = root_ / "elsewhere";
+  EXPECT_EQ(failure(*program("echo mine > \"$TMPDIR/file\" && echo > /dev/null || exit 5")), "it did not fail");
+  if (!can_confine()) GTEST_SKIP() << "this kernel refuses no writes";
+  for (const std::string& bad : std::vector<std::string>{
+           "echo > '" + elsewhere.string() + "'", "mkdir '" + elsewhere.string() + "'",
+           "ln -s /etc '" + elsewhere.string() + "'", "setsid sh -c \"echo > '" + elsewhere.string() + "'\""}) {
+    EXPECT_EQ(failure(*program(bad + " && exit 6")), "it did not fail") << bad;
+    EXPECT_FALSE(fs::exists(fs::symlink_status(elsewhere))) << bad;
+  }
+}
+
+TEST_F(Confined, AFileBeyondTheBudgetEndsIt) {
+  Request request;
+  request.memory_budget = std::size_t{1} << 20;
+  try {
+    program("head -c 2000000 /dev/zero > \"$1\"/huge || exit 4")->capture(scene_, request);
+    FAIL() << "it did not fail";
+  } catch (const RendererFailed& error) {
+    EXPECT_HAS(std::string(error.what()), "exited with status 4");
+  }
+}
+
+TEST_F(Confined, ALinkIsNoCapture) {
+  EXPECT_HAS(failure(*program("ln -s /etc/passwd \"$1\"/planes.color.bin")),
+             "left a link, planes.color.bin, where a file was expected");
 }
 
 }  // namespace

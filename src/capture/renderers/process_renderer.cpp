@@ -60,10 +60,9 @@ Ending ending_of(const ProgramEnd& end, std::chrono::milliseconds limit) {
 }
 
 /// A folder for one run, which other users cannot read.
-std::unique_ptr<TemporaryPath> temporary_folder() {
+std::unique_ptr<TemporaryPath> temporary_folder(const fs::path& in) {
   try {
-    return std::make_unique<TemporaryPath>(fs::temp_directory_path(), "plumbline-",
-                                           TemporaryPath::Kind::private_folder);
+    return std::make_unique<TemporaryPath>(in, "plumbline-", TemporaryPath::Kind::private_folder);
   } catch (const std::system_error& error) {
     throw RendererFailed(fmt::format("no temporary folder: {}", error.code().message()));
   }
@@ -132,30 +131,31 @@ class ProcessRenderer : public Renderer {
           fmt::format("{}: an antialiased scene is drawn pass by pass, and resolved by nobody", spec_.name));
     }
     require_budget(scene, plane_bytes(scene), request.memory_budget);
-    const std::unique_ptr<TemporaryPath> temporary = temporary_folder();
+    if (spec_.serves) start_server(request);
+    const std::unique_ptr<TemporaryPath> temporary =
+        temporary_folder(spec_.serves ? server_folder_->path() : fs::temp_directory_path());
     const fs::path input = temporary->path() / "input", output = temporary->path() / "output";
     fs::create_directory(output);
     if (spec_.write_input) spec_.write_input(scene, input);
     if (spec_.serves) {
       ask_server(input, output);
     } else {
-      run(scene, input, output, temporary->path() / "stderr.txt");
+      run(scene, request, input, output);
     }
     return read(scene, request, output);
   }
 
  private:
   // Runs the program once.
-  void run(const Scene& scene, const fs::path& input, const fs::path& output, const fs::path& log) {
-    log_ = log;
+  void run(const Scene& scene, const Request& request, const fs::path& input, const fs::path& output) {
+    log_ = output.parent_path() / "stderr.txt";
     argv_ = spec_.argv;
     for (std::string& argument : argv_) {
       argument = replaced(argument, "{input}", input.string());
       argument = replaced(argument, "{output}", output.string());
       if (!scene.path.empty()) argument = replaced(argument, "{scene}", fs::absolute(scene.path).string());
     }
-    const Ending ending =
-        ending_of(run_program({argv_, merged_environment(spec_.environment), log_, spec_.timeout}), spec_.timeout);
+    const Ending ending = ending_of(run_program(call(request, output.parent_path())), spec_.timeout);
     if (ending.status == kUnsupportedStatus) {
       const std::string reason = last_lines(log_, 1);
       throw Unsupported(reason.empty() ? fmt::format("{}: {}, and gave no reason", spec_.name, ending.words) : reason);
@@ -163,14 +163,25 @@ class ProcessRenderer : public Renderer {
     if (!ending.words.empty()) fail(ending.words);
   }
 
-  // Asks the server, which is started where it does not run.
+  // The program's call; `folder` is where it may write, if it is confined.
+  ProgramCall call(const Request& request, const fs::path& folder) const {
+    std::map<std::string, std::string> environment = spec_.environment;
+    if (spec_.confined) environment["TMPDIR"] = folder.string();
+    ProgramCall out{argv_, merged_environment(environment), log_, spec_.timeout};
+    if (spec_.confined) out.writable = {folder.string()};
+    out.most_bytes = request.memory_budget;
+    return out;
+  }
+
+  void start_server(const Request& request) {
+    if (server_) return;
+    server_folder_ = temporary_folder(fs::temp_directory_path());
+    log_ = server_folder_->path() / "stderr.txt";
+    argv_ = spec_.argv;
+    server_.emplace(call(request, server_folder_->path()));
+  }
+
   void ask_server(const fs::path& input, const fs::path& output) {
-    if (!server_) {
-      server_folder_ = temporary_folder();
-      log_ = server_folder_->path() / "stderr.txt";
-      argv_ = spec_.argv;
-      server_.emplace(ProgramCall{argv_, merged_environment(spec_.environment), log_, spec_.timeout});
-    }
     const std::optional<std::string> answer = server_->ask(input.string() + '\t' + output.string());
     if (!answer) {
       const Ending ending = ending_of(server_->end(), spec_.timeout);
@@ -188,6 +199,10 @@ class ProcessRenderer : public Renderer {
 
   Capture read(const Scene& scene, const Request& request, const fs::path& folder) const {
     if (!fs::is_directory(fs::symlink_status(folder))) fail("left no capture: its folder is gone");
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      if (!entry.is_symlink()) continue;
+      fail(fmt::format("left a link, {}, where a file was expected", entry.path().filename().string()));
+    }
     require_budget(scene, bytes_below(folder), request.memory_budget);
     try {
       Capture capture = read_capture(folder);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/renderers/probes.h"
 #include "capture/renderers/process_renderer.h"
 #include "capture/renderers/replayed_renderer.h"
 #include "reference/exact/exact.h"
@@ -26,6 +27,7 @@ ProcessSpec spec_of(const std::string& command) {
   ProcessSpec spec;
   spec.name = "program";
   spec.shown = command;
+  spec.confined = true;
   std::string line = "exec " + command;  // a shell splits it into words
   spec.serves = replace(line, "{serve}", "--serve");
   const bool scene = replace(line, "{scene}", "\"$1\""), input = replace(line, "{input}", "\"$2\""),
@@ -48,7 +50,8 @@ ProcessSpec spec_of(const std::string& command) {
 
 class Program : public Renderer {
  public:
-  explicit Program(const std::string& command) : process_(make_process_renderer(spec_of(command))) {
+  Program(const std::string& command, bool probes)
+      : process_(make_process_renderer(spec_of(command))), probes_(probes) {
     info_.name = "program";
     for (Ability& ability : info_.stages) ability.reason = "it left nothing";
   }
@@ -58,19 +61,31 @@ class Program : public Renderer {
     Request everything;
     everything.records = StageSet::all();
     Capture left = process_->capture(scene, everything);
+    if (probes_) probe(scene, left);
     const std::unique_ptr<Renderer> replayed = make_replayed_renderer(std::move(left), scene, "--program");
     info_ = replayed->info();
     return replayed->capture(scene, everything);
   }
 
  private:
+  // What cannot be probed is not shown.
+  void probe(const Scene& scene, Capture& left) {
+    try {
+      add_probed_planes(scene, *process_, left);
+    } catch (const Unsupported&) {
+    }
+  }
+
   std::unique_ptr<Renderer> process_;
+  bool probes_;
   RendererInfo info_;
 };
 
 }  // namespace
 
-std::unique_ptr<Renderer> make_program(const std::string& command) { return std::make_unique<Program>(command); }
+std::unique_ptr<Renderer> make_program(const std::string& command, bool probes) {
+  return std::make_unique<Program>(command, probes);
+}
 
 ExportedStages exported_stages(const Scene& scene) {
   Request request;

@@ -13,7 +13,8 @@ namespace plumbline::cli {
 /// export, {output} the folder for the capture; or {serve}, which becomes --serve: the program is started once, and
 /// asked by lines (capture/renderers/process_renderer.h). After capture(), info() is of what the program left for that
 /// scene. Throws std::invalid_argument where the command line has none of them.
-std::unique_ptr<Renderer> make_program(const std::string& command);
+/// `probes`: the program is called for each primitive as well, for coverage and winners (capture/renderers/probes.h).
+std::unique_ptr<Renderer> make_program(const std::string& command, bool probes = false);
 
 /// Stages 0 to 4 by our pipeline, and the matrices in double.
 ExportedStages exported_stages(const Scene& scene);

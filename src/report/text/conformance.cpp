@@ -29,6 +29,16 @@ std::string reason_of(const check::SceneVerdict& verdict) {
   return by_itself ? rows.front().note : "nothing that it left could be judged";
 }
 
+// The first stage that is wrong, and that no oracle calls legal; null: none.
+const check::Comparison* first_wrong(const check::SceneVerdict& verdict) {
+  const check::Comparison* first = nullptr;
+  for (const check::Comparison& c : verdict.comparisons) {
+    const bool wrong = c.outcome == check::Outcome::different && !check::is_legal(verdict, c.stage);
+    if (wrong && (first == nullptr || c.stage < first->stage)) first = &c;
+  }
+  return first;
+}
+
 std::string counted(const std::vector<std::pair<std::string, std::size_t>>& counts) {
   std::vector<std::string> words;
   for (const auto& [word, count] : counts) words.push_back(fmt::format("{} {}", word, count));
@@ -39,7 +49,7 @@ std::string counted(const std::vector<std::pair<std::string, std::size_t>>& coun
 
 Conformance conformance_of(const check::SceneVerdict& verdict) {
   const auto any = [&](auto holds) { return std::ranges::any_of(verdict.comparisons, holds); };
-  if (check::first_different(verdict) != nullptr) return Conformance::differs;
+  if (first_wrong(verdict) != nullptr) return Conformance::differs;
   if (any([](const check::Comparison& c) { return c.outcome == check::Outcome::failed; })) return Conformance::failed;
   return check::judged_stages(verdict).empty() ? Conformance::unable : Conformance::holds;
 }
@@ -55,7 +65,7 @@ std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdi
       case Conformance::unable: ++tally.unable; break;
       case Conformance::differs:
         ++tally.differs;
-        ++wrong[group_of(verdict)][std::string(name_of(check::first_different(verdict)->stage))];
+        ++wrong[group_of(verdict)][std::string(name_of(first_wrong(verdict)->stage))];
     }
   }
   std::vector<FeatureTally> out;

@@ -14,7 +14,7 @@ namespace plumbline::report {
 /// How one scene ended.
 enum class Conformance {
   holds,    ///< a stage at least was judged, none is wrong
-  differs,  ///< a stage is wrong
+  differs,  ///< a stage is wrong, and no oracle calls it legal
   failed,   ///< the program crashed, hung, or left what cannot be read
   unable    ///< the program said that it cannot draw the scene, or nothing that it left could be judged
 };

@@ -1,0 +1,135 @@
+#include "capture/renderers/probes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/draw_index.h"
+
+namespace plumbline {
+
+namespace {
+
+constexpr glm::vec4 kBlack(0, 0, 0, 1);
+
+// A draw's place and facing, and nothing that looks at colours.
+Draw plain(const Draw& of) {
+  Draw draw = of;
+  draw.material = Material{};
+  draw.material.diffuse = glm::vec4(1);
+  draw.back_material.reset();
+  draw.lit = false;
+  draw.color_material = ColorMaterial::none;
+  draw.shading = Shading::gouraud;
+  draw.alpha_test.reset();
+  draw.fog.reset();
+  draw.texture.reset();
+  draw.merge = Merge{};
+  return draw;
+}
+
+// The scene's frame and camera, without its draws.
+Scene stage_of(const Scene& scene) {
+  Scene out = scene;
+  out.path.clear();
+  out.frame.color = ColorFormat::rgba8;
+  out.frame.clear_color = kBlack;
+  out.light_model = LightModel{};
+  out.lights.clear();
+  out.textures.clear();
+  out.meshes.clear();
+  out.draws.clear();
+  return out;
+}
+
+// One primitive of a mesh with vertices of its own, all of one colour.
+void add_primitive(const Mesh& from, const glm::uvec3& corners, const glm::vec4& color, Mesh& to) {
+  const auto first = static_cast<std::uint32_t>(to.positions.size());
+  const std::uint32_t count = corner_count(from.topology);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t vertex = corners[static_cast<int>(k)];
+    to.positions.push_back(from.positions[vertex]);
+    to.normals.push_back(from.normals[vertex]);
+    to.colors.push_back(color);
+  }
+  to.triangles.push_back({first, first + std::min(1u, count - 1), first + count - 1});
+}
+
+// Number of a primitive as a colour of 8 bits a channel: never the cleared frame's.
+glm::vec4 color_of(std::uint32_t primitive) {
+  const std::uint32_t code = primitive + 1;
+  return glm::vec4(code & 0xffu, (code >> 8) & 0xffu, (code >> 16) & 0xffu, 255) / 255.0f;
+}
+
+Plane<glm::vec4> picture_of(const Scene& scene, Renderer& renderer) {
+  Plane<glm::vec4> color = renderer.capture(scene, Request{}).planes.color;
+  if (color.empty()) throw Unsupported(fmt::format("{}: leaves no planes.color to be probed", scene.name));
+  return color;
+}
+
+}  // namespace
+
+Scene primitive_alone(const Scene& scene, std::uint32_t primitive) {
+  const DrawIndex draws(scene);
+  const std::size_t number = draws.of_primitive(primitive).value();
+  const Mesh& mesh = scene.meshes[scene.draws[number].mesh];
+  Scene out = stage_of(scene);
+  out.frame.stencil = StencilFormat::none;
+  Draw& draw = out.draws.emplace_back(plain(scene.draws[number]));
+  draw.mesh = 0;
+  draw.stencil.reset();
+  draw.depth_func = DepthFunc::always;
+  Mesh& alone = out.meshes.emplace_back();
+  alone.topology = mesh.topology;
+  add_primitive(mesh, mesh.triangles[primitive - draws.ranges()[number].first_primitive], glm::vec4(1), alone);
+  return out;
+}
+
+Scene primitives_told_apart(const Scene& scene) {
+  Scene out = stage_of(scene);
+  std::uint32_t primitive = 0;
+  for (const Draw& of : scene.draws) {
+    Draw& draw = out.draws.emplace_back(plain(of));
+    draw.merge.depth_mask = of.merge.depth_mask;
+    draw.mesh = static_cast<std::uint32_t>(out.meshes.size());
+    const Mesh& from = scene.meshes[of.mesh];
+    Mesh& to = out.meshes.emplace_back();
+    to.topology = from.topology;
+    for (const glm::uvec3& corners : from.triangles) add_primitive(from, corners, color_of(primitive++), to);
+  }
+  return out;
+}
+
+std::int32_t winner_of(const glm::vec4& color) {
+  const auto code = [&](int channel) { return static_cast<std::int32_t>(std::lround(color[channel] * 255.0f)); };
+  return code(0) + (code(1) << 8) + (code(2) << 16) - 1;
+}
+
+void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture) {
+  Planes& planes = capture.planes;
+  std::size_t primitives = 0;
+  for (const DrawRange& range : draw_ranges(scene)) primitives += range.primitive_count;
+  if (primitives > kMostProbes) {
+    throw Unsupported(fmt::format("{} primitives, of which each were a picture: {} at most", primitives, kMostProbes));
+  }
+  if (planes.count.empty() && planes.id_sum.empty()) {
+    planes.count = Plane<std::uint32_t>(capture.width, capture.height);
+    planes.id_sum = Plane<std::uint64_t>(capture.width, capture.height);
+    for (std::uint32_t primitive = 0; primitive < primitives; ++primitive) {
+      const Plane<glm::vec4> picture = picture_of(primitive_alone(scene, primitive), renderer);
+      for (std::size_t i = 0; i < picture.size(); ++i) {
+        if (glm::vec3(picture.values()[i]) == glm::vec3(kBlack)) continue;
+        ++planes.count.values()[i];
+        planes.id_sum.values()[i] += id_weight(primitive);
+      }
+    }
+  }
+  const bool by_alpha = std::ranges::any_of(scene.draws, [](const Draw& d) { return d.alpha_test.has_value(); });
+  if (!planes.id.empty() || by_alpha || scene.frame.stencil != StencilFormat::none) return;
+  const Plane<glm::vec4> picture = picture_of(primitives_told_apart(scene), renderer);
+  planes.id = Plane<std::int32_t>(capture.width, capture.height);
+  std::ranges::transform(picture.values(), planes.id.values().begin(), winner_of);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,26 @@
+// What a renderer that shows pictures alone does at its inner stages: found by scenes that are made for it.
+#pragma once
+
+#include <cstdint>
+
+#include "capture/renderer.h"
+#include "scene/scene.h"
+
+namespace plumbline {
+
+/// The most primitives of a scene that is probed: each is a picture.
+inline constexpr std::size_t kMostProbes = 4096;
+
+/// The scene with one primitive alone: white on black, no test, nothing blended, so that its pixels are those covered.
+Scene primitive_alone(const Scene& scene, std::uint32_t primitive);
+/// The scene whose colours tell the winners: each primitive has one colour, nothing is blended; depth and stencil tests
+/// are the scene's. `winner_of` takes a colour back.
+Scene primitives_told_apart(const Scene& scene);
+std::int32_t winner_of(const glm::vec4& color);
+
+/// Adds to a capture the planes of coverage (count, id_sum) and of the winners (id), from pictures that the renderer
+/// draws of such scenes, where the capture has none. The winners only where no alpha test looks at colours. Throws what
+/// the renderer throws, and Unsupported for a scene of more than kMostProbes primitives.
+void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture);
+
+}  // namespace plumbline

@@ -1,0 +1,66 @@
+// What pictures of single primitives tell of coverage and winners is what our pipeline shows of itself.
+#include "capture/renderers/probes.h"
+
+#include <gtest/gtest.h>
+
+#include "renderers/pipeline_renderer.h"
+#include "scene/file/scene_file.h"
+
+namespace plumbline {
+namespace {
+
+Scene scene_named(const std::string& name) {
+  return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name + ".json");
+}
+
+// The planes that pictures alone come to.
+Planes probed(const Scene& scene) {
+  const auto renderer = pipeline::make_pipeline();
+  Capture capture;
+  capture.width = scene.frame.width;
+  capture.height = scene.frame.height;
+  add_probed_planes(scene, *renderer, capture);
+  return capture.planes;
+}
+
+class ProbesOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(ProbesOf, AreThePlanesOfOurOwnRecords) {
+  const Scene scene = scene_named(GetParam());
+  const Planes shown = pipeline::make_pipeline()->capture(scene, Request{}).planes, found = probed(scene);
+  EXPECT_EQ(found.count.values(), shown.count.values());
+  EXPECT_EQ(found.id_sum.values(), shown.id_sum.values());
+  EXPECT_EQ(found.id.values(), shown.id.values());
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, ProbesOf,
+                         testing::Values("coverage/shared_edges", "clip/crowd", "clip/six_planes", "depth/functions",
+                                         "cull/both_windings", "lines/frame_border", "points/sizes", "blend/layers",
+                                         "scissor/blended", "light/flat_facets"));
+
+TEST(Probes, TellNoWinnersWhereColoursOrStencilValuesDecide) {
+  for (const char* name : {"alpha_test/cutout", "stencil/portal"}) {
+    const Planes found = probed(scene_named(name));
+    EXPECT_FALSE(found.count.empty()) << name;
+    EXPECT_TRUE(found.id.empty()) << name;
+  }
+}
+
+TEST(Probes, ColoursAreNumbersAndBack) {
+  Scene scene;
+  scene.meshes.resize(1);
+  scene.meshes[0].positions.resize(3);
+  scene.meshes[0].normals.resize(3);
+  scene.meshes[0].triangles.assign(70000, {0, 1, 2});
+  scene.draws.resize(1);
+  const Mesh apart = primitives_told_apart(scene).meshes[0];
+  for (const int primitive : {0, 1, 254, 255, 256, 65534, 65535, 69999}) {
+    EXPECT_EQ(winner_of(apart.colors[3 * static_cast<std::size_t>(primitive)]), primitive);
+  }
+  EXPECT_EQ(winner_of(glm::vec4(0, 0, 0, 1)), -1);
+  const auto renderer = pipeline::make_pipeline();
+  Capture capture;
+  EXPECT_THROW(add_probed_planes(scene, *renderer, capture), Unsupported);
+}
+
+}  // namespace
+}  // namespace plumbline
