@@ -137,7 +137,11 @@ void add(CLI::App& command, DiagnoseOptions& o) {
 
 void add(CLI::App& command, CaptureOptions& o) {
   add_drawing(command, o);
-  text(command, "folder", o.folder, "Folder for the manifest and its arrays")->required();
+  CLI::Option* folder = text(command, "folder", o.folder, "Folder for the manifest and its arrays");
+  CLI::Option* scene = command.get_option("scene")->required(false);
+  text(command, "--check", o.check, "Check a capture that is there against itself: depths, codes, rows, matrices")
+      ->excludes(scene)
+      ->excludes(folder);
 }
 
 void add(CLI::App& command, ExportOptions& o) {

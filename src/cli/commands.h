@@ -72,6 +72,7 @@ int render(const RenderOptions& options);
 /// What a renderer hands out at every stage, to a folder.
 struct CaptureOptions {
   std::string scene, folder;
+  std::string check;  ///< a capture's folder, in their place: what it says against itself
   std::string with = "ours", fault;
   SceneArguments scene_arguments;
 };

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/contradictions.h"
 #include "capture/files/capture_folder.h"
 #include "capture/renderers/replayed_renderer.h"
 #include "check/diagnose/diagnose.h"
@@ -72,6 +73,13 @@ struct Subject {
   std::optional<report::PageFolder> page;
 };
 
+// What a capture says against itself, if anything.
+std::string contradiction_lines(const Capture& capture) {
+  std::string out;
+  for (const std::string& line : contradictions(capture)) out += fmt::format("  {}\n", line);
+  return out.empty() ? out : "the capture contradicts itself:\n" + out + "\n";
+}
+
 // In a worker: writes the files, and returns the exit code, as one character, and the text.
 std::string diagnose_here(Subject& subject, const Watch& watch) {
   const DiagnoseOptions& o = subject.options;
@@ -90,7 +98,9 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
                                             o.folder.empty() ? "--program" : o.folder,
                                             check::judged_text(diagnosis.verdict)));
   }
-  std::string out = fmt::format("{}: {}\n\n{}", scene.path, candidate->info().name, report::diagnosis_text(diagnosis));
+  const std::string against_itself = outside ? contradiction_lines(candidate->capture(scene, Request{})) : "";
+  std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
+                                report::diagnosis_text(diagnosis));
   std::string history, history_text;
   if (subject.pixel) {
     const check::History known = check::pixel_history(scene, *candidate, references.list, *subject.pixel);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/atomic_path.h"
+#include "capture/contradictions.h"
 #include "capture/files/capture_folder.h"
 #include "capture/files/image_file.h"
 #include "capture/renderers/process_renderer.h"
@@ -71,7 +72,21 @@ int render(const RenderOptions& o) {
   return kHolds;
 }
 
+namespace {
+
+// A capture checked against itself.
+int check_capture(const std::string& folder) {
+  const std::vector<std::string> found = contradictions(read_capture(folder));
+  for (const std::string& line : found) fmt::print("{}: {}\n", folder, line);
+  if (found.empty()) fmt::print("{}: nothing contradicts itself\n", folder);
+  return found.empty() ? kHolds : kDiffers;
+}
+
+}  // namespace
+
 int capture(const CaptureOptions& o) {
+  if (!o.check.empty()) return check_capture(o.check);
+  if (o.folder.empty()) throw std::invalid_argument("capture: expected a scene and a folder, or --check FOLDER");
   require_writable_capture(o.folder);
   const std::unique_ptr<Renderer> renderer = renderer_of(o.with, o.fault);
   const Scene scene = o.scene_arguments.load(o.scene);

@@ -1,0 +1,160 @@
+#include "capture/contradictions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace plumbline {
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+// Numbers of a plane: how many are outside [0,1], and their range.
+struct Range {
+  std::size_t count = 0, outside = 0, not_finite = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  bool whole = true;  // all of them are whole numbers
+  void add(double v) {
+    ++count;
+    if (!std::isfinite(v)) {
+      ++not_finite;
+      return;
+    }
+    low = std::min(low, v), high = std::max(high, v);
+    outside += v < 0 || v > 1;
+    whole = whole && v == std::floor(v);
+  }
+};
+
+void check_range(const char* array, const Range& r, Lines& out) {
+  if (r.not_finite > 0) out.push_back(fmt::format("{}: {} of {} values are no numbers", array, r.not_finite, r.count));
+  if (r.outside == 0) return;
+  const bool codes = r.whole && r.high > 1;
+  const char* probably = codes                        ? ": codes? code / (2^n - 1) is expected"
+                         : r.low >= -1 && r.high <= 1 ? ": still in [-1,1]? z / 2 + 1/2 is expected"
+                                                      : "";
+  out.push_back(fmt::format("{}: {} of {} values are outside [0,1], from {:.6g} to {:.6g}{}", array, r.outside, r.count,
+                            r.low, r.high, probably));
+}
+
+void check_depth(const Capture& c, Lines& out) {
+  Range depth;
+  for (const double z : c.planes.depth.values()) depth.add(z);
+  check_range("planes.depth", depth, out);
+  Range fragments;
+  for (const double z : c.records.depth) fragments.add(z);
+  check_range("depth.value", fragments, out);
+}
+
+void check_color(const Capture& c, Lines& out) {
+  Range color;
+  for (const glm::vec4& v : c.planes.color.values()) {
+    for (int channel = 0; channel < 4; ++channel) color.add(static_cast<double>(v[channel]));
+  }
+  if (color.not_finite > 0 || (color.whole && color.high > 1)) check_range("planes.color", color, out);
+}
+
+// Pixels at which the two planes contradict each other, as they are and with the first one's rows turned over.
+struct Apart {
+  std::size_t as_is = 0, flipped = 0;
+};
+template <class A, class Contradicts>
+Apart apart(const Plane<A>& a, int width, int height, const Contradicts& contradicts) {
+  Apart out;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      out.as_is += contradicts(a(x, y), x, y);
+      out.flipped += contradicts(a(x, height - 1 - y), x, y);
+    }
+  }
+  return out;
+}
+
+void report(const Apart& apart, const char* array, const std::string& what, const char* other, Lines& out) {
+  if (apart.as_is == 0) return;
+  const std::string upside_down =
+      apart.flipped == 0 ? fmt::format("; none, if its rows are turned over: is it, or {}, upside down?", other) : "";
+  out.push_back(fmt::format("{}: {} pixels {}{}", array, apart.as_is, what, upside_down));
+}
+
+void check_winners(const Capture& c, Lines& out) {
+  const Planes& p = c.planes;
+  if (p.id.empty()) return;
+  if (!p.count.empty()) {
+    report(apart(p.id, c.width, c.height,
+                 [&](std::int32_t id, int x, int y) { return id != kBackground && p.count(x, y) == 0; }),
+           "planes.id", "have a winner where planes.count says that nothing is drawn", "planes.count", out);
+  }
+  if (p.color.empty()) return;
+  // What nothing has won has one colour: that of the cleared frame.
+  const auto background = [&](bool flipped) -> std::size_t {
+    const glm::vec4* first = nullptr;
+    std::size_t others = 0;
+    for (int y = 0; y < c.height; ++y) {
+      for (int x = 0; x < c.width; ++x) {
+        if (p.id(x, flipped ? c.height - 1 - y : y) != kBackground) continue;
+        if (first == nullptr) first = &p.color(x, y);
+        others += p.color(x, y) != *first;
+      }
+    }
+    return others;
+  };
+  report({background(false), background(true)}, "planes.id",
+         "are background (-1) and differ in planes.color from the first such pixel", "planes.color", out);
+}
+
+void check_coverage(const Capture& c, Lines& out) {
+  const std::vector<Covered>& covered = c.records.covered;
+  if (covered.empty() || c.planes.count.empty()) return;
+  Plane<std::uint32_t> count(c.width, c.height);
+  for (const Covered& f : covered) ++count(f.x, f.y);
+  report(apart(count, c.width, c.height, [&](std::uint32_t n, int x, int y) { return n != c.planes.count(x, y); }),
+         "coverage.y", "have another number of fragments than planes.count says", "planes.count", out);
+}
+
+double relative(const Vec4<double>& got, const Vec4<double>& expected) {
+  double apart = 0, size = 0;
+  for (int i = 0; i < 4; ++i) {
+    apart = std::max(apart, std::abs(got[i] - expected[i]));
+    size = std::max(size, std::abs(expected[i]));
+  }
+  return apart / std::max(size, 1e-30);
+}
+
+// Clip space follows from eye space, by one of the projections.
+void check_matrices(const Capture& c, Lines& out) {
+  constexpr double kApart = 1e-3;  // far beyond float's rounding, unless everything cancels
+  const Records<double>& r = c.records;
+  if (r.matrices.empty() || r.vertices.empty()) return;
+  std::size_t wrong = 0, transposed = 0;
+  for (const Vertex<double>& v : r.vertices) {
+    double as_is = 1, turned = 1;
+    for (const Matrices<double>& m : r.matrices) {
+      as_is = std::min(as_is, relative(v.p_clip, m.projection * v.p_eye));
+      turned = std::min(turned, relative(v.p_clip, glm::transpose(m.projection) * v.p_eye));
+    }
+    wrong += as_is > kApart;
+    transposed += turned <= kApart;
+  }
+  if (wrong == 0) return;
+  out.push_back(fmt::format(
+      "vertex.p_clip: {} of {} are not matrices.projection * vertex.p_eye{}", wrong, r.vertices.size(),
+      transposed == r.vertices.size() ? "; all are, if it is transposed: matrices are column by column" : ""));
+}
+
+}  // namespace
+
+std::vector<std::string> contradictions(const Capture& capture) {
+  Lines out;
+  check_matrices(capture, out);
+  check_coverage(capture, out);
+  check_winners(capture, out);
+  check_depth(capture, out);
+  check_color(capture, out);
+  return out;
+}
+
+}  // namespace plumbline

@@ -1,0 +1,15 @@
+// What a capture says against itself: mistakes of the export, before any renderer is judged.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capture/capture.h"
+
+namespace plumbline {
+
+/// Lines for people, each with the array, the numbers, and what they probably are: depths still in [-1,1], codes where
+/// numbers in [0,1] belong, rows upside down, transposed matrices, winners where nothing was drawn. Empty: none found.
+std::vector<std::string> contradictions(const Capture& capture);
+
+}  // namespace plumbline

@@ -1,0 +1,105 @@
+// Mistakes of a capture's export are named; what is sound is left alone.
+#include "capture/contradictions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderers/pipeline_renderer.h"
+#include "scene/file/scene_file.h"
+
+namespace plumbline {
+namespace {
+
+class Contradictions : public testing::Test {
+ protected:
+  static Capture of(const std::string& name) {
+    Request request;
+    request.records = StageSet::all();
+    return pipeline::make_pipeline()->capture(load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name), request);
+  }
+  // The one line that is found after a change.
+  template <class Change>
+  std::string after(Change change) const {
+    Capture c = sound_;
+    change(c);
+    const std::vector<std::string> found = contradictions(c);
+    EXPECT_EQ(found.size(), 1u);
+    return found.empty() ? "" : found.front();
+  }
+  const Capture sound_ = of("clip/crowd.json");
+};
+
+template <class T>
+void turn_over(Plane<T>& plane) {
+  for (int y = 0; y < plane.height() / 2; ++y) {
+    for (int x = 0; x < plane.width(); ++x) std::swap(plane(x, y), plane(x, plane.height() - 1 - y));
+  }
+}
+
+#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST_F(Contradictions, ASoundCaptureHasNone) {
+  EXPECT_TRUE(contradictions(sound_).empty());
+  EXPECT_TRUE(contradictions(Capture{}).empty());
+}
+
+TEST_F(Contradictions, DepthsInMinusOneToOne) {
+  EXPECT_HAS(after([](Capture& c) {
+               for (double& z : c.planes.depth.values()) z = 2 * z - 1;
+             }),
+             "still in [-1,1]? z / 2 + 1/2 is expected");
+}
+
+TEST_F(Contradictions, DepthsAsCodes) {
+  EXPECT_HAS(after([](Capture& c) {
+               for (double& z : c.planes.depth.values()) z = std::round(z * 65535);
+             }),
+             "planes.depth: ");
+  EXPECT_HAS(after([](Capture& c) { c.records.depth[3] = NAN; }), "depth.value: 1 of ");
+}
+
+TEST_F(Contradictions, ColoursAsCodes) {
+  EXPECT_HAS(after([](Capture& c) {
+               for (glm::vec4& color : c.planes.color.values()) color = glm::round(color * 255.0f);
+             }),
+             "codes? code / (2^n - 1) is expected");
+}
+
+TEST_F(Contradictions, RowsUpsideDown) {
+  const Capture sky = of("texture/first_scene.json");  // above the floor nothing is drawn
+  const auto flipped = [&](auto plane) {
+    Capture c = sky;
+    turn_over(c.planes.*plane);
+    const std::vector<std::string> found = contradictions(c);
+    return found.empty() ? "" : found.front();
+  };
+  EXPECT_HAS(flipped(&Planes::color), "is it, or planes.color, upside down?");
+  EXPECT_HAS(flipped(&Planes::count), "is it, or planes.count, upside down?");
+  EXPECT_HAS(after([](Capture& c) { c.planes.count(0, 0) += 1; }), "coverage.y: 1 pixels have another number");
+}
+
+TEST_F(Contradictions, TransposedMatrices) {
+  EXPECT_HAS(after([](Capture& c) {
+               for (auto& m : c.records.matrices) m.projection = glm::transpose(m.projection);
+             }),
+             "all are, if it is transposed: matrices are column by column");
+  EXPECT_HAS(after([](Capture& c) { c.records.vertices[0].p_clip.x += 1; }), "vertex.p_clip: 1 of ");
+}
+
+TEST_F(Contradictions, NoSoundCaptureOfTheSuiteHasAny) {
+  const std::filesystem::path folder[] = {PLUMBLINE_SOURCE_DIR "/tests/scenes"};
+  const auto renderer = pipeline::make_pipeline();
+  for (const auto& file : find_scenes(folder)) {
+    const Scene scene = load_scene(file);
+    if (scene.meshes.front().triangles.size() > 20000 || scene.frame.antialias.kind != Antialias::Kind::none) continue;
+    Request request;
+    request.records = StageSet::all();
+    for (const std::string& line : contradictions(renderer->capture(scene, request))) {
+      ADD_FAILURE() << scene.name << ": " << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline
