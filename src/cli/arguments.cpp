@@ -129,6 +129,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   add_probes(command, o.probes);
   CLI::Option* picture = text(command, "--picture", o.picture,
                               "Name the known faults that draw pictures like this one, which is all there is");
+  text(command, "--depth", o.depth, "With --picture: window z as .exr, which is compared as well")->needs(picture);
   for (const char* other :
        {"--against", "--json", "--report", "--pixel", "--fragments", "--fault", "--capture", "--program"})
     picture->excludes(command.get_option(other));

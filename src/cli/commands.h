@@ -46,7 +46,7 @@ struct DiagnoseOptions {
   std::string scene;
   std::vector<std::string> against = reference_names();
   std::string json, report;     ///< or empty
-  std::string picture;          ///< of another renderer, which is all that it left, or empty
+  std::string picture, depth;   ///< of another renderer, which is all that it left, or empty
   std::string fault;            ///< or empty
   std::string folder, command;  ///< of another renderer, or empty
   bool probes = false;          ///< the command is called for each primitive as well

@@ -12,6 +12,7 @@
 #include "check/diagnose/diagnose.h"
 #include "check/diagnose/history.h"
 #include "cli/commands.h"
+#include "cli/lookalikes.h"
 #include "cli/options/outputs.h"
 #include "cli/options/pixel_argument.h"
 #include "cli/options/program_argument.h"
@@ -80,6 +81,15 @@ std::string contradiction_lines(const Capture& capture) {
   return out.empty() ? out : "the capture contradicts itself:\n" + out + "\n";
 }
 
+// Known faults that explain the frame that another renderer left, where one explains most of it.
+std::string known_faults(const Scene& scene, const Capture& left) {
+  if (left.planes.color.empty()) return "";
+  const Lookalikes found = lookalikes(scene, {left.planes.color, left.planes.depth});
+  if (!found.explained) return "";
+  return fmt::format("\n{} pixels differ from ours in colour or depth; known faults that draw such a frame:\n{}",
+                     found.apart, found.text);
+}
+
 // In a worker: writes the files, and returns the exit code, as one character, and the text.
 std::string diagnose_here(Subject& subject, const Watch& watch) {
   const DiagnoseOptions& o = subject.options;
@@ -98,9 +108,15 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
                                             o.folder.empty() ? "--program" : o.folder,
                                             check::judged_text(diagnosis.verdict)));
   }
-  const std::string against_itself = outside ? contradiction_lines(candidate->capture(scene, Request{})) : "";
+  std::string against_itself, faults;
+  if (outside) {
+    const Capture left = candidate->capture(scene, Request{});
+    against_itself = contradiction_lines(left);
+    faults = known_faults(scene, left);
+  }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
-                                report::diagnosis_text(diagnosis));
+                                report::diagnosis_text(diagnosis)) +
+                    faults;
   std::string history, history_text;
   if (subject.pixel) {
     const check::History known = check::pixel_history(scene, *candidate, references.list, *subject.pixel);

@@ -1,8 +1,10 @@
-// plumb diagnose --picture: what a picture alone can tell. Each known fault draws the scene, and those whose picture is
-// nearest to the one given are named.
+// plumb diagnose --picture, and the last lines of other diagnoses: what a frame alone can tell.
+#include "cli/lookalikes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,34 +16,40 @@ namespace plumbline::cli {
 
 namespace {
 
-using Picture = Plane<glm::vec4>;  // the first row at the bottom
-
 constexpr float kCode = 1.0f / 255;
 
-Picture drawn(const Scene& scene, const std::string& fault) {
+Pictured drawn(const Scene& scene, const std::string& fault) {
   Request request;
   request.planes = WantedPlanes::picture;
-  Picture out = make_candidate(fault)->capture(scene, request).planes.color;
-  return rows_from_top(scene.dialect) ? upside_down(out) : out;
+  Planes planes = make_candidate(fault)->capture(scene, request).planes;
+  return {std::move(planes.color), std::move(planes.depth)};
 }
 
-// Pixels of which red, green or blue is more than a code of eight bits off. No number is off.
-std::size_t pixels_apart(const Picture& a, const Picture& b) {
+bool colors_apart(const glm::vec4& a, const glm::vec4& b) {
+  const glm::vec3 off = glm::abs(glm::clamp(glm::vec3(a), 0.0f, 1.0f) - glm::clamp(glm::vec3(b), 0.0f, 1.0f));
+  return !(off.x <= 1.5f * kCode && off.y <= 1.5f * kCode && off.z <= 1.5f * kCode) || std::isnan(b.x + b.y + b.z);
+}
+
+// Pixels that differ, in colour or, where both have it, in depth by more than a step.
+std::size_t pixels_apart(const Scene& scene, const Pictured& given, const Pictured& other) {
+  const bool by_depth = given.depth.size() == other.depth.size();
   std::size_t count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const glm::vec3 p = glm::clamp(glm::vec3(a.values()[i]), 0.0f, 1.0f), q(b.values()[i]);
-    const glm::vec3 off = glm::abs(p - glm::clamp(q, 0.0f, 1.0f));
-    count +=
-        off.x <= 1.5f * kCode && off.y <= 1.5f * kCode && off.z <= 1.5f * kCode && !std::isnan(q.x + q.y + q.z) ? 0 : 1;
+  for (std::size_t i = 0; i < given.color.size(); ++i) {
+    bool apart = colors_apart(other.color.values()[i], given.color.values()[i]);
+    if (by_depth && !apart && !given.depth.empty()) {
+      const double z = other.depth.values()[i];
+      apart = !(std::abs(given.depth.values()[i] - z) <= 1.5 * depth_step(scene.frame.depth, z));
+    }
+    count += apart;
   }
   return count;
 }
 
 template <class Change>
-Picture changed(const Picture& from, Change change) {
-  Picture out = from;
-  for (int y = 0; y < out.height(); ++y) {
-    for (int x = 0; x < out.width(); ++x) out(x, y) = change(x, y);
+Pictured changed(const Pictured& from, Change change) {
+  Pictured out = from;
+  for (int y = 0; y < out.color.height(); ++y) {
+    for (int x = 0; x < out.color.width(); ++x) change(out, x, y);
   }
   return out;
 }
@@ -55,47 +63,89 @@ struct Lookalike {
   std::string name, says;
 };
 
-// What happens to a right picture on its way into a file.
-std::vector<Lookalike> of_files(const Picture& right, const Picture& given) {
-  const auto mirrored = [&](int x, int y) { return right(right.width() - 1 - x, y); };
-  const auto swapped = [&](int x, int y) { return glm::vec4(right(x, y).b, right(x, y).g, right(x, y).r, 1); };
-  const auto srgb = [&](int x, int y) {
-    const glm::vec4 c = glm::clamp(right(x, y), 0.0f, 1.0f);
-    return glm::vec4(encoded(c.r), encoded(c.g), encoded(c.b), 1);
+// What happens to a right frame on its way into a file.
+std::vector<Lookalike> of_files(const Scene& scene, const Pictured& right, const Pictured& given) {
+  const int width = right.color.width(), height = right.color.height();
+  const auto from = [&](Pictured& out, int x, int y, int from_x, int from_y) {
+    out.color(x, y) = right.color(from_x, from_y);
+    if (!out.depth.empty()) out.depth(x, y) = right.depth(from_x, from_y);
   };
-  return {
-      {pixels_apart(given, upside_down(right)), "file.rows_reversed", "the rows are written from the other end"},
-      {pixels_apart(given, changed(right, mirrored)), "file.mirrored", "the columns are written from the other end"},
-      {pixels_apart(given, changed(right, swapped)), "file.bgr", "red and blue are swapped"},
-      {pixels_apart(given, changed(right, srgb)), "file.srgb", "colours are encoded as sRGB once more"}};
+  const auto reversed = [&](Pictured& out, int x, int y) { from(out, x, y, x, height - 1 - y); };
+  const auto mirrored = [&](Pictured& out, int x, int y) { from(out, x, y, width - 1 - x, y); };
+  const auto swapped = [](Pictured& out, int x, int y) { std::swap(out.color(x, y).r, out.color(x, y).b); };
+  const auto srgb = [](Pictured& out, int x, int y) {
+    const glm::vec4 c = glm::clamp(out.color(x, y), 0.0f, 1.0f);
+    out.color(x, y) = glm::vec4(encoded(c.r), encoded(c.g), encoded(c.b), 1);
+  };
+  std::vector<Lookalike> out;
+  const auto add = [&](const char* name, const char* says, auto change) {
+    out.push_back({pixels_apart(scene, given, changed(right, change)), name, says});
+  };
+  add("file.rows_reversed", "the rows are written from the other end", reversed);
+  add("file.mirrored", "the columns are written from the other end", mirrored);
+  add("file.bgr", "red and blue are swapped", swapped);
+  add("file.srgb", "colours are encoded as sRGB once more", srgb);
+  return out;
+}
+
+// A picture's rows are the file's from its end, whatever the scene's order is.
+template <class T>
+Plane<T> in_scenes_order(const Scene& scene, Plane<T> plane) {
+  return rows_from_top(scene.dialect) ? upside_down(plane) : plane;
+}
+
+template <class T>
+void require_size(const std::string& file, const Plane<T>& plane, const Scene& scene) {
+  if (plane.width() == scene.frame.width && plane.height() == scene.frame.height) return;
+  throw std::runtime_error(fmt::format("{}: expected a picture of the scene's {} x {} pixels, found one of {} x {}",
+                                       file, scene.frame.width, scene.frame.height, plane.width(), plane.height()));
 }
 
 }  // namespace
 
+Lookalikes lookalikes(const Scene& scene, const Pictured& given) {
+  const Pictured right = drawn(scene, "");
+  Lookalikes out;
+  out.apart = pixels_apart(scene, given, right);
+  if (out.apart == 0) return out;
+  std::vector<Lookalike> nearer = of_files(scene, right, given);
+  for (const FaultInfo& fault : fault_infos()) {
+    const std::string name(fault.name);
+    nearer.push_back({pixels_apart(scene, given, drawn(scene, name)), name, std::string(fault.changes)});
+  }
+  std::erase_if(nearer, [&](const Lookalike& l) { return l.apart >= out.apart; });
+  std::ranges::stable_sort(nearer, {}, &Lookalike::apart);
+  if (nearer.empty()) {
+    out.text = "no known fault draws a frame that is nearer\n";
+    return out;
+  }
+  constexpr std::size_t kShown = 8;
+  out.text = "explains  pixels left  fault\n";
+  for (const Lookalike& l : std::span(nearer).first(std::min(nearer.size(), kShown))) {
+    const double explained = 100.0 * static_cast<double>(out.apart - l.apart) / static_cast<double>(out.apart);
+    out.text += fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, l.apart, l.name, l.says);
+  }
+  out.explained = 10 * nearer.front().apart <= out.apart;
+  return out;
+}
+
 int diagnose_picture(const DiagnoseOptions& o) {
   const Scene scene = o.scene_arguments.load(o.scene);
   require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
-  const Picture given = read_image(o.picture), right = drawn(scene, "");
-  if (given.width() != right.width() || given.height() != right.height()) {
-    throw std::runtime_error(fmt::format("{}: expected a picture of the scene's {} x {} pixels, found one of {} x {}",
-                                         o.picture, right.width(), right.height(), given.width(), given.height()));
+  Pictured given;
+  given.color = in_scenes_order(scene, read_image(o.picture));
+  require_size(o.picture, given.color, scene);
+  if (!o.depth.empty()) {
+    const Plane<glm::vec4> depth = in_scenes_order(scene, read_image(o.depth));
+    require_size(o.depth, depth, scene);
+    given.depth = Plane<double>(depth.width(), depth.height());
+    std::ranges::transform(depth.values(), given.depth.values().begin(), [](const glm::vec4& z) { return z.r; });
   }
-  const std::size_t apart = pixels_apart(given, right), all = given.size();
-  fmt::print("{}: {} of {} pixels are more than 1/255 from ours\n", o.picture, apart, all);
-  if (apart == 0) return kHolds;
-  std::vector<Lookalike> nearer = of_files(right, given);
-  for (const FaultInfo& fault : fault_infos()) {
-    const std::string name(fault.name);
-    nearer.push_back({pixels_apart(given, drawn(scene, name)), name, std::string(fault.changes)});
-  }
-  std::erase_if(nearer, [&](const Lookalike& l) { return l.apart >= apart; });
-  std::ranges::stable_sort(nearer, {}, &Lookalike::apart);
-  if (nearer.empty()) fmt::print("no known fault draws a picture that is nearer\n");
-  constexpr std::size_t kShown = 8;
-  for (const Lookalike& l : std::span(nearer).first(std::min(nearer.size(), kShown))) {
-    fmt::print("{:>8} {:<36} {}\n", l.apart, l.name, l.says);
-  }
-  if (!nearer.empty()) fmt::print("columns: pixels that differ, fault, its effect; --capture FOLDER names the stage\n");
+  const Lookalikes found = lookalikes(scene, given);
+  fmt::print("{}: {} of {} pixels are more than 1/255{} from ours\n", o.picture, found.apart, given.color.size(),
+             o.depth.empty() ? "" : ", or a step of depth,");
+  if (found.apart == 0) return kHolds;
+  fmt::print("{}", found.text);
   return kDiffers;
 }
 

@@ -81,7 +81,29 @@ TEST_F(Cli, diagnose_of_a_picture_names_the_bugs_that_draw_it) {
   ASSERT_EQ(plumb("render " + kSharedEdges + " -o " + at("wrong.png") + " --fault window.half_pixel_off").code, 0);
   const Outcome wrong = plumb("diagnose " + kSharedEdges + " --picture " + at("wrong.png"));
   EXPECT_EQ(wrong.code, 1) << wrong.text;
-  EXPECT_TRUE(wrong.says("       0 window.half_pixel_off ")) << wrong.text;
+  EXPECT_TRUE(wrong.says(" 100.0 %            0  window.half_pixel_off ")) << wrong.text;
+}
+
+TEST_F(Cli, diagnose_of_a_picture_takes_its_depth_too) {
+  const std::string drawn =
+      "render " + kScenes + "depth/functions.json -o " + at("picture.png") + " --depth " + at("z.exr");
+  const std::string judged = "diagnose " + kScenes + "depth/functions.json --picture " + at("picture.png");
+  ASSERT_EQ(plumb(drawn).code, 0);
+  EXPECT_EQ(plumb(judged + " --depth " + at("z.exr")).code, 0);
+  ASSERT_EQ(plumb(drawn + " --fault depth.at_corner").code, 0);
+  EXPECT_EQ(plumb(judged).code, 0) << "the colours are right";
+  const Outcome wrong = plumb(judged + " --depth " + at("z.exr"));
+  EXPECT_EQ(wrong.code, 1) << wrong.text;
+  EXPECT_TRUE(wrong.says(" 100.0 %            0  depth.at_corner ")) << wrong.text;
+  EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --depth " + at("z.exr")).code, 2);
+}
+
+TEST_F(Cli, diagnose_of_a_capture_names_the_bugs_that_draw_its_frame) {
+  ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("bad") + " --fault window.half_pixel_off").code, 0);
+  const Outcome bad = plumb("diagnose " + kSharedEdges + " --against exact --capture " + at("bad"));
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_TRUE(bad.says("known faults that draw such a frame:\n")) << bad.text;
+  EXPECT_TRUE(bad.says(" 100.0 %            0  window.half_pixel_off ")) << bad.text;
 }
 
 TEST_F(Cli, diagnose_of_a_picture_refuses_what_is_no_picture_of_the_scene) {

@@ -1,0 +1,26 @@
+// Known faults that draw what a renderer drew: the scene is drawn with each of them.
+#pragma once
+
+#include <string>
+
+#include "capture/plane.h"
+#include "scene/scene.h"
+
+namespace plumbline::cli {
+
+/// What a renderer left of a frame: rows in the scene's order. Depth, window z, may be empty.
+struct Pictured {
+  Plane<glm::vec4> color;
+  Plane<double> depth;
+};
+
+/// Known faults whose frame is nearer to the one given than ours is, the nearest first, and how much of what differs
+/// each explains.
+struct Lookalikes {
+  std::size_t apart = 0;   ///< pixels that differ from ours: red, green or blue by more than a code of 8 bits, or depth
+  std::string text;        ///< lines for people
+  bool explained = false;  ///< one explains nine tenths of them, or more
+};
+Lookalikes lookalikes(const Scene& scene, const Pictured& given);
+
+}  // namespace plumbline::cli
