@@ -114,7 +114,7 @@ double within_window(glm::dvec2 p, glm::dvec2 n, double delta, glm::dvec2 window
       if (p[axis] < 0 || p[axis] > window[axis]) return 0;
       continue;
     }
-    const auto [first, last] = std::minmax(-p[axis] / n[axis], (window[axis] - p[axis]) / n[axis]);
+    const auto [first, last] = std::minmax({-p[axis] / n[axis], (window[axis] - p[axis]) / n[axis]});
     from = std::max(from, first);
     to = std::min(to, last);
   }

@@ -208,8 +208,11 @@ int check(const CheckOptions& given) {
   if (!o.json.empty()) report::write_json(o.json, verdicts, head);
   if (!o.ledger.empty()) report::write_ledger(o.ledger, verdicts);
   if (!o.junit.empty()) write_file(o.junit, report::junit(verdicts, head.failures));
-  if (!o.markdown.empty()) write_file(o.markdown, report::markdown(verdicts, of_run + summary));
-  if (rules.page) rules.page->write(summary);
+  if (!o.markdown.empty()) {
+    write_file(o.markdown,
+               report::markdown(verdicts, of_run + summary) + (outside ? report::conformance_markdown(verdicts) : ""));
+  }
+  if (rules.page) rules.page->write(outside ? report::conformance_text(verdicts) + summary : summary);
   const auto unable = [](const check::SceneVerdict& v) {
     return report::conformance_of(v) == report::Conformance::unable;
   };

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "report/text/markdown.h"
+
 namespace plumbline::report {
 
 namespace {
@@ -77,22 +79,51 @@ std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdi
   return out;
 }
 
-std::string conformance_text(std::span<const check::SceneVerdict> verdicts) {
-  constexpr const char* kRow = "{:<16} {:>6} {:>7} {:>7} {:>7}  {}\n";
-  std::string out = fmt::format(kRow, "feature", "right", "wrong", "failed", "unable", "first wrong stage");
+namespace {
+
+// All features, the whole suite last.
+std::vector<FeatureTally> with_all(std::span<const check::SceneVerdict> verdicts) {
+  std::vector<FeatureTally> out = conformance(verdicts);
   FeatureTally all;
-  Counts wrong, reasons;
-  for (const FeatureTally& t : conformance(verdicts)) {
-    out += fmt::format(kRow, t.feature, t.holds, t.differs, t.failed, t.unable, counted(t.first_wrong));
+  Counts wrong;
+  for (const FeatureTally& t : out) {
     all.holds += t.holds, all.differs += t.differs, all.failed += t.failed, all.unable += t.unable;
     for (const auto& [stage, count] : t.first_wrong) wrong[stage] += count;
   }
-  out += fmt::format(kRow, "all", all.holds, all.differs, all.failed, all.unable, counted(by_count(wrong)));
+  all.feature = "all";
+  all.first_wrong = by_count(wrong);
+  out.push_back(std::move(all));
+  return out;
+}
+
+std::string unable_line(std::span<const check::SceneVerdict> verdicts) {
+  Counts reasons;
   for (const check::SceneVerdict& verdict : verdicts) {
     if (conformance_of(verdict) == Conformance::unable) ++reasons[reason_of(verdict)];
   }
-  if (!reasons.empty()) out += fmt::format("unable: {}\n", counted(by_count(reasons)));
-  return out;
+  return reasons.empty() ? "" : fmt::format("unable: {}\n", counted(by_count(reasons)));
+}
+
+}  // namespace
+
+std::string conformance_text(std::span<const check::SceneVerdict> verdicts) {
+  constexpr const char* kRow = "{:<16} {:>6} {:>7} {:>7} {:>7}  {}\n";
+  std::string out = fmt::format(kRow, "feature", "right", "wrong", "failed", "unable", "first wrong stage");
+  for (const FeatureTally& t : with_all(verdicts)) {
+    out += fmt::format(kRow, t.feature, t.holds, t.differs, t.failed, t.unable, counted(t.first_wrong));
+  }
+  return out + unable_line(verdicts);
+}
+
+std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) {
+  std::string out =
+      "\n## Scenes by feature\n\n| feature | right | wrong | failed | unable | first wrong stage |\n"
+      "|---|---|---|---|---|---|\n";
+  for (const FeatureTally& t : with_all(verdicts)) {
+    out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", cell(t.feature), t.holds, t.differs, t.failed, t.unable,
+                       cell(counted(t.first_wrong)));
+  }
+  return out + "\n" + cell(unable_line(verdicts)) + "\n";
 }
 
 }  // namespace plumbline::report

@@ -30,5 +30,7 @@ std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdi
 
 /// Lines for people: a row per feature, then why scenes are not drawn, the most frequent reason first.
 std::string conformance_text(std::span<const check::SceneVerdict> verdicts);
+/// The same as a section for a CI page.
+std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts);
 
 }  // namespace plumbline::report

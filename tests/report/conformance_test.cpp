@@ -1,0 +1,56 @@
+// What another renderer can do, by feature.
+#include "report/text/conformance.h"
+
+#include <gtest/gtest.h>
+
+namespace plumbline::report {
+namespace {
+
+using check::Comparison;
+using check::Kind;
+using check::Outcome;
+using check::SceneVerdict;
+
+Comparison row(const char* judge, Kind kind, Stage stage, Outcome outcome, std::string note = "") {
+  return check::not_judged("", {judge, kind}, stage, outcome, std::move(note));
+}
+SceneVerdict verdict(std::string scene, std::vector<Comparison> rows) {
+  return {std::move(scene), "", std::move(rows)};
+}
+
+const Comparison kHolds = row("exact", Kind::from_scene, Stage::merge, Outcome::within);
+const Comparison kIllegal = row("exact", Kind::from_scene, Stage::depth, Outcome::different);
+const Comparison kLegal = row("exact", Kind::from_scene, Stage::depth, Outcome::ambiguous_only);
+const Comparison kBeside = row("osmesa", Kind::side_by_side, Stage::depth, Outcome::different);
+const Comparison kUnable = row("program", Kind::side_by_side, Stage::merge, Outcome::unsupported, "fog");
+const Comparison kCrash = row("program", Kind::side_by_side, Stage::merge, Outcome::failed, "crashed");
+const Comparison kLacking = row("exact", Kind::from_scene, Stage::depth, Outcome::unsupported, "no plane");
+
+TEST(Conformance, OfAScene) {
+  EXPECT_EQ(conformance_of(verdict("a/b", {kHolds, kLacking})), Conformance::holds);
+  EXPECT_EQ(conformance_of(verdict("a/b", {kHolds, kIllegal})), Conformance::differs);
+  EXPECT_EQ(conformance_of(verdict("a/b", {kHolds, kBeside})), Conformance::differs);
+  EXPECT_EQ(conformance_of(verdict("a/b", {kHolds, kBeside, kLegal})), Conformance::holds)
+      << "the oracle calls it legal";
+  EXPECT_EQ(conformance_of(verdict("a/b", {kUnable})), Conformance::unable);
+  EXPECT_EQ(conformance_of(verdict("a/b", {kLacking})), Conformance::unable) << "what was not judged never passes";
+  EXPECT_EQ(conformance_of(verdict("a/b", {})), Conformance::unable);
+  EXPECT_EQ(conformance_of(verdict("a/b", {kCrash, kLacking})), Conformance::failed);
+}
+
+TEST(Conformance, OfASuite) {
+  const std::vector<SceneVerdict> verdicts = {verdict("clip/a", {kHolds}), verdict("clip/b", {kIllegal}),
+                                              verdict("fog/a", {kUnable}), verdict("fog/b", {kLacking}),
+                                              verdict("fog/c", {kCrash}),  verdict("fog/d", {kUnable})};
+  EXPECT_EQ(conformance_text(verdicts),
+            "feature           right   wrong  failed  unable  first wrong stage\n"
+            "clip                  1       1       0       0  depth 1\n"
+            "fog                   0       0       1       3  \n"
+            "all                   1       1       1       3  depth 1\n"
+            "unable: fog 2, nothing that it left could be judged 1\n");
+  const std::string markdown = conformance_markdown(verdicts);
+  EXPECT_NE(markdown.find("| clip | 1 | 1 | 0 | 0 | depth 1 |\n"), std::string::npos) << markdown;
+}
+
+}  // namespace
+}  // namespace plumbline::report
