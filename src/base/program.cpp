@@ -215,6 +215,13 @@ std::optional<std::string> ServerProgram::ask(const std::string& line) {
   const Clock::time_point start = Clock::now();
   const std::string bytes = line + '\n';
   std::optional<std::string> out;
+  pollfd unasked{conversation_, POLLIN, 0};
+  char first;
+  if (!heard_.empty() || (::poll(&unasked, 1, 0) > 0 && ::recv(conversation_, &first, 1, MSG_PEEK) > 0)) {
+    stop();
+    end_.spoke = true;
+    return std::nullopt;
+  }
   if (guardian_ >= 0 && ::send(conversation_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) out = answer();
   if (out) return out;
   const bool late = Clock::now() - start >= time_limit_;

@@ -13,6 +13,7 @@ namespace plumbline {
 struct ProgramEnd {
   int start_error = 0;  ///< errno, where it could not be started
   bool hung = false;    ///< it took longer than the time limit and was killed
+  bool spoke = false;   ///< a server answered before it was asked, and was killed
   int status = 0;       ///< else its wait status, for WIFEXITED() and its like
 };
 
@@ -41,7 +42,8 @@ class ServerProgram {
   ServerProgram(const ServerProgram&) = delete;
   ServerProgram& operator=(const ServerProgram&) = delete;
 
-  /// A line's answer, a line; none: the program has ended, or took longer, and was killed: end() says how.
+  /// A line's answer, a line; none: the program has ended, took longer, or had spoken before, and was killed: end() says
+  /// how.
   std::optional<std::string> ask(const std::string& line);
   /// After an ask() without an answer.
   const ProgramEnd& end() const { return end_; }

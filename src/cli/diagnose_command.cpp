@@ -98,6 +98,8 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   std::unique_ptr<Renderer> candidate;
   try {
     candidate = make_watched(outside ? outside_candidate(o, scene) : make_candidate(o.fault), 0, watch);
+  } catch (const Unsupported& e) {
+    throw std::invalid_argument(fmt::format("{}: not judged: the program does not draw it: {}", scene.path, e.what()));
   } catch (const RendererFailed& e) {
     return fmt::format("{}failed {}: {}\n", static_cast<int>(kDiffers), scene.path, e.what());
   }

@@ -38,11 +38,16 @@
 enum { PL_UNSUPPORTED_STATUS = 77, PL_PATH = 256 };
 
 typedef struct {
+#ifndef __cplusplus
   jmp_buf to;
+#endif
   int serving;
   char reason[512];
 } PlServer;
 static PlServer pl_server;
+#ifdef __cplusplus
+struct PlUnsupported {}; /* thrown by a server's pl_unsupported(): destructors run */
+#endif
 
 static void pl_fail(const char* format, ...) PL_PRINTF(1, 2) PL_NORETURN;
 static void pl_fail(const char* format, ...) {
@@ -54,14 +59,21 @@ static void pl_fail(const char* format, ...) {
   exit(1);
 }
 
-/* Says that the scene cannot be drawn, and why: one line. Does not return. */
+/* Says that the scene cannot be drawn, and why: one line. Does not return: a server goes on with the next scene, in C by
+   longjmp (free before what must be freed), in C++ by an exception. */
 static void pl_unsupported(const char* format, ...) PL_PRINTF(1, 2) PL_NORETURN;
 static void pl_unsupported(const char* format, ...) {
+  char* c;
   va_list values;
   va_start(values, format);
   vsnprintf(pl_server.reason, sizeof pl_server.reason, format, values);
   va_end(values);
+  for (c = pl_server.reason; *c != '\0'; ++c) *c = *c == '\n' || *c == '\r' ? ' ' : *c;
+#ifdef __cplusplus
+  if (pl_server.serving) throw PlUnsupported();
+#else
   if (pl_server.serving) longjmp(pl_server.to, 1);
+#endif
   fprintf(stderr, "%s\n", pl_server.reason);
   exit(PL_UNSUPPORTED_STATUS);
 }
@@ -128,7 +140,7 @@ static void pl_expect(PlParser* p, char c) {
   ++p->at;
 }
 
-/* Escapes other than of quotes, slashes and control characters are kept as they are: names and enumerators have none. */
+/* A text; \" \\ and \/ lose their backslash, other escapes keep it (no key and no enumerator has one). */
 static char* pl_string(PlParser* p) {
   const char* from;
   char *out, *to;
@@ -432,10 +444,22 @@ static void pl_depth(PlCapture* capture, const double* z) { pl_plane(capture, "p
 
 typedef void (*PlDraw)(const PlScene* scene, PlCapture* out);
 
-static void pl_run(const char* input, const char* output, const char* renderer, PlDraw draw, PlScene** open) {
+/* A text as JSON has it. */
+static void pl_quoted(FILE* to, const char* text) {
+  fputc('"', to);
+  for (; *text != '\0'; ++text) {
+    if (*text == '"' || *text == '\\') fputc('\\', to);
+    fputc((unsigned char)*text < ' ' ? ' ' : *text, to);
+  }
+  fputc('"', to);
+}
+
+static void pl_run(const char* input, const char* output, const char* renderer, PlDraw draw, PlScene** open,
+                   FILE** manifest) {
   char path[4096];
   PlCapture capture;
   *open = pl_open(input);
+  if (!pl_is(*open, "plumbline export", "format")) pl_fail("%s: expected a plumbline export", input);
   capture.folder = output;
   capture.width = (int)pl_number(*open, "frame.width");
   capture.height = (int)pl_number(*open, "frame.height");
@@ -443,12 +467,14 @@ static void pl_run(const char* input, const char* output, const char* renderer, 
   snprintf(path, sizeof path, "%s/manifest.json", output);
   capture.manifest = fopen(path, "w");
   if (capture.manifest == NULL) pl_fail("%s: cannot be written", path);
-  fprintf(capture.manifest,
-          "{\"format\": \"plumbline capture\", \"version\": 1, \"renderer\": \"%s\", \"width\": %d, \"height\": %d,\n"
-          " \"byte_order\": \"little\", \"arrays\": [",
-          renderer, capture.width, capture.height);
+  *manifest = capture.manifest;
+  fprintf(capture.manifest, "{\"format\": \"plumbline capture\", \"version\": 1, \"renderer\": ");
+  pl_quoted(capture.manifest, renderer);
+  fprintf(capture.manifest, ", \"width\": %d, \"height\": %d,\n \"byte_order\": \"little\", \"arrays\": [",
+          capture.width, capture.height);
   draw(*open, &capture);
   fprintf(capture.manifest, "\n]}\n");
+  *manifest = NULL;
   if (fclose(capture.manifest) != 0) pl_fail("%s: cannot be written", path);
   pl_close(*open);
   *open = NULL;
@@ -466,14 +492,42 @@ static void pl_answer(int to, const char* what, const char* reason) {
 #endif
 }
 
+/* Draws one scene of a server: whether it can. */
+static int pl_serve(const char* input, const char* output, const char* renderer, PlDraw draw) {
+  static PlScene* open;
+  static FILE* manifest;
+  volatile int drawn = 1; /* longjmp() keeps it */
+  pl_server.serving = 1;
+#ifdef __cplusplus
+  try {
+    pl_run(input, output, renderer, draw, &open, &manifest);
+  } catch (const PlUnsupported&) {
+    drawn = 0;
+  }
+#else
+  if (setjmp(pl_server.to) == 0) {
+    pl_run(input, output, renderer, draw, &open, &manifest);
+  } else {
+    drawn = 0;
+  }
+#endif
+  if (manifest != NULL) fclose(manifest);
+  if (open != NULL) pl_close(open);
+  manifest = NULL;
+  open = NULL;
+  return drawn;
+}
+
 /* Draws the scene of the command line (INPUT OUTPUT), or, given --serve, those that stdin names: "INPUT<tab>OUTPUT" a
    line, answered on stdout by "ok" or "unsupported REASON". What the renderer prints goes to stderr then. */
+static int pl_main(int argc, char** argv, const char* renderer, PlDraw draw) PL_UNUSED;
 static int pl_main(int argc, char** argv, const char* renderer, PlDraw draw) {
-  static PlScene* open;
   char line[8192];
   int answers = 1;
   if (argc == 3) {
-    pl_run(argv[1], argv[2], renderer, draw, &open);
+    PlScene* open;
+    FILE* manifest;
+    pl_run(argv[1], argv[2], renderer, draw, &open, &manifest);
     return 0;
   }
   if (argc != 2 || strcmp(argv[1], "--serve") != 0) pl_fail("usage: %s INPUT OUTPUT, or %s --serve", argv[0], argv[0]);
@@ -486,14 +540,10 @@ static int pl_main(int argc, char** argv, const char* renderer, PlDraw draw) {
     line[strcspn(line, "\n")] = '\0';
     if (tab == NULL) pl_fail("stdin: expected INPUT<tab>OUTPUT, found %s", line);
     *tab = '\0';
-    pl_server.serving = 1;
-    if (setjmp(pl_server.to) == 0) {
-      pl_run(line, tab + 1, renderer, draw, &open);
+    if (pl_serve(line, tab + 1, renderer, draw)) {
       pl_answer(answers, "ok", "");
     } else {
       pl_answer(answers, "unsupported ", pl_server.reason);
-      if (open != NULL) pl_close(open);
-      open = NULL;
     }
   }
   return 0;

@@ -101,7 +101,9 @@ def main(renderer, draw):
         sys.exit(f"usage: {sys.argv[0]} INPUT OUTPUT, or {sys.argv[0]} --serve")
     answers, sys.stdout = sys.stdout, sys.stderr
     for line in sys.stdin:
-        source, target = line.rstrip("\n").split("\t")
+        source, tab, target = line.rstrip("\n").partition("\t")
+        if not tab:
+            sys.exit(f"stdin: expected INPUT<tab>OUTPUT, found {line!r}")
         try:
             run(source, target, renderer, draw)
             answer = "ok"

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "base/confine.h"
 #include "capture/files/capture_folder.h"
@@ -95,6 +96,14 @@ TEST_F(Server, IsStartedAgainWhereItEndedHungOrSpokeNonsense) {
     EXPECT_HAS(failure(*renderer), words);
     EXPECT_EQ(failure(*renderer), "it did not fail") << bad;
   }
+}
+
+TEST_F(Server, AnAnswerBeforeTheQuestionIsNotTakenForTheNext) {
+  const auto renderer = server("cp \"$good\"/* \"$out\"; printf 'ok\\nok\\n'");
+  EXPECT_EQ(failure(*renderer), "it did not fail");
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // until the second has arrived
+  EXPECT_HAS(failure(*renderer), "answered before it was asked, and was killed");
+  EXPECT_EQ(failure(*renderer), "it did not fail") << "it is started again";
 }
 
 TEST_F(Server, ItsAnswersAreShort) {

@@ -12,15 +12,15 @@ namespace {
 const std::string kMine = "'" PLUMBLINE_C_RENDERER " {input} {output}'";
 const std::string kServer = "'" PLUMBLINE_C_RENDERER " {serve}'";
 
-// Scenes right, wrong, failed and unable, of the line of a feature.
+// Scenes of the line of a feature.
 struct Tally {
-  int right = -1, wrong = -1, failed = -1, unable = -1;
+  int right = -1, legal = -1, wrong = -1, failed = -1, unable = -1;
 };
 Tally tally(const Outcome& run, const std::string& feature) {
   std::smatch found;
-  const std::regex line("\n" + feature + " +(\\d+) +(\\d+) +(\\d+) +(\\d+) ");
+  const std::regex line("\n" + feature + " +(\\d+) +(\\d+) +(\\d+) +(\\d+) +(\\d+) ");
   if (!std::regex_search(run.text, found, line)) return {};
-  return {std::stoi(found[1]), std::stoi(found[2]), std::stoi(found[3]), std::stoi(found[4])};
+  return {std::stoi(found[1]), std::stoi(found[2]), std::stoi(found[3]), std::stoi(found[4]), std::stoi(found[5])};
 }
 
 TEST_F(Cli, program_is_handed_an_export_and_judged_by_colour_and_depth) {
@@ -56,6 +56,34 @@ TEST_F(Cli, program_that_fails_is_a_failed_row) {
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("exited with status 1")) << run.text;
   EXPECT_EQ(tally(run, "coverage").failed, 1) << run.text;
+}
+
+TEST_F(Cli, program_is_a_line_of_the_shell) {
+  const std::string here = fs::path(PLUMBLINE_C_RENDERER).parent_path().string();
+  EXPECT_EQ(plumb("check " + kSharedEdges + " --program 'cd " + here + " && A=1 ./c_renderer {input} {output}'").code,
+            0);
+  EXPECT_EQ(plumb("check " + kSharedEdges + " --program '" PLUMBLINE_C_RENDERER " {input} {output} && false'").code, 1);
+}
+
+TEST_F(Cli, program_that_leaves_too_much_fails_at_its_scene_alone) {
+  write(folder_ / "mine", "#!/bin/sh\n" PLUMBLINE_C_RENDERER
+                          " \"$1\" \"$2\"\n"
+                          "case $(cat \"$1/manifest.json\") in *both_windings*) for i in 1 2; do truncate -s 400M "
+                          "\"$2/$i\"; done;; esac\n");
+  fs::permissions(folder_ / "mine", fs::perms::owner_all);
+  const Outcome run =
+      plumb("check " + kScenes + "cull " + kSharedEdges + " --program '" + at("mine") + " {input} {output}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("left 800 MiB in its folder, where a capture takes at most 512 MiB")) << run.text;
+  EXPECT_EQ(tally(run, "cull").right, 1) << run.text;
+  EXPECT_EQ(tally(run, "cull").failed, 1);
+  EXPECT_EQ(tally(run, "coverage").right, 1);
+}
+
+TEST_F(Cli, program_that_cannot_draw_a_scene_is_not_diagnosed) {
+  const Outcome run = plumb("diagnose " + kScenes + "fog/backwards.json --program " + kMine);
+  EXPECT_EQ(run.code, 2) << run.text;
+  EXPECT_TRUE(run.says("backwards.json: not judged: the program does not draw it: fog")) << run.text;
 }
 
 TEST_F(Cli, program_wants_a_scene_and_a_folder) {

@@ -45,6 +45,25 @@ TEST(Probes, TellNoWinnersWhereColoursOrStencilValuesDecide) {
   }
 }
 
+// Draws whole scenes, and no single primitive.
+struct WholeAlone : Renderer {
+  RendererInfo info() const override { return {}; }
+  Capture capture(const Scene& scene, const Request& request) override {
+    if (scene.meshes.front().triangles.size() == 1) throw Unsupported("no single triangles");
+    return pipeline::make_pipeline()->capture(scene, request);
+  }
+};
+
+TEST(Probes, ShowNoCoverageWhereOneOfThePicturesIsLacking) {
+  const Scene scene = scene_named("clip/crowd");
+  WholeAlone renderer;
+  Capture capture;
+  capture.width = scene.frame.width;
+  capture.height = scene.frame.height;
+  EXPECT_THROW(add_probed_planes(scene, renderer, capture), Unsupported);
+  EXPECT_TRUE(capture.planes.count.empty());
+}
+
 TEST(Probes, ColoursAreNumbersAndBack) {
   Scene scene;
   scene.meshes.resize(1);

@@ -101,8 +101,10 @@ class Reader {
     if (!array) return;
     const Shape shape = plane_shape<T>(capture_.width, capture_.height);
     check_type<T>(*array);
-    if (read_shape(*array) != shape)
-      (*array)["shape"].refuse(fmt::format("[{}] of {}", fmt::join(shape, ", "), of.name));
+    if (const Shape found = read_shape(*array); found != shape) {
+      (*array)["shape"].refuse(fmt::format("[{}] of {}", fmt::join(shape, ", "), of.name),
+                               fmt::format("[{}]", fmt::join(found, ", ")));
+    }
     const auto pixels = static_cast<std::size_t>(capture_.width) * static_cast<std::size_t>(capture_.height);
     check_size(*array, pixels, sizeof(T));
     plane = Plane<T>(capture_.width, capture_.height);

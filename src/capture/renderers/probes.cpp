@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -114,16 +115,18 @@ void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture)
     throw Unsupported(fmt::format("{} primitives, of which each were a picture: {} at most", primitives, kMostProbes));
   }
   if (planes.count.empty() && planes.id_sum.empty()) {
-    planes.count = Plane<std::uint32_t>(capture.width, capture.height);
-    planes.id_sum = Plane<std::uint64_t>(capture.width, capture.height);
+    Plane<std::uint32_t> count(capture.width, capture.height);  // shown only if every picture is
+    Plane<std::uint64_t> id_sum(capture.width, capture.height);
     for (std::uint32_t primitive = 0; primitive < primitives; ++primitive) {
       const Plane<glm::vec4> picture = picture_of(primitive_alone(scene, primitive), renderer);
       for (std::size_t i = 0; i < picture.size(); ++i) {
         if (glm::vec3(picture.values()[i]) == glm::vec3(kBlack)) continue;
-        ++planes.count.values()[i];
-        planes.id_sum.values()[i] += id_weight(primitive);
+        ++count.values()[i];
+        id_sum.values()[i] += id_weight(primitive);
       }
     }
+    planes.count = std::move(count);
+    planes.id_sum = std::move(id_sum);
   }
   const bool by_alpha = std::ranges::any_of(scene.draws, [](const Draw& d) { return d.alpha_test.has_value(); });
   if (!planes.id.empty() || by_alpha || scene.frame.stencil != StencilFormat::none) return;

@@ -51,6 +51,7 @@ struct Ending {
 
 Ending ending_of(const ProgramEnd& end, std::chrono::milliseconds limit) {
   if (end.start_error != 0) return {fmt::format("cannot be started: {}", std::strerror(end.start_error))};
+  if (end.spoke) return {"answered before it was asked, and was killed"};
   if (end.hung) return {fmt::format("took longer than {} and was killed", limit)};
   if (WIFSIGNALED(end.status)) {
     return {fmt::format("was killed by signal {} ({})", WTERMSIG(end.status), ::strsignal(WTERMSIG(end.status)))};
@@ -91,9 +92,12 @@ std::uintmax_t bytes_below(const fs::path& folder) {
   return sum;
 }
 
-std::string shortened(const std::string& text) {
-  constexpr std::size_t kMost = 80;
-  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+// A program's words for a message: a short line without control characters.
+std::string shortened(std::string text) {
+  constexpr std::size_t kMost = 200;
+  if (text.size() > kMost) text = text.substr(0, kMost) + "...";
+  for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? '?' : c;
+  return text;
 }
 
 struct KeepOnly {
@@ -137,10 +141,10 @@ class ProcessRenderer : public Renderer {
     const fs::path input = temporary->path() / "input", output = temporary->path() / "output";
     fs::create_directory(output);
     if (spec_.write_input) spec_.write_input(scene, input);
-    if (spec_.serves) {
-      ask_server(input, output);
-    } else {
-      run(scene, request, input, output);
+    try {
+      spec_.serves ? ask_server(input, output) : run(scene, request, input, output);
+    } catch (const std::system_error& error) {
+      fail(fmt::format("could not be watched to its end: {}", error.what()));
     }
     return read(scene, request, output);
   }
@@ -158,7 +162,8 @@ class ProcessRenderer : public Renderer {
     const Ending ending = ending_of(run_program(call(request, output.parent_path())), spec_.timeout);
     if (ending.status == kUnsupportedStatus) {
       const std::string reason = last_lines(log_, 1);
-      throw Unsupported(reason.empty() ? fmt::format("{}: {}, and gave no reason", spec_.name, ending.words) : reason);
+      throw Unsupported(reason.empty() ? fmt::format("{}: {}, and gave no reason", spec_.name, ending.words)
+                                       : shortened(reason));
     }
     if (!ending.words.empty()) fail(ending.words);
   }
@@ -191,8 +196,8 @@ class ProcessRenderer : public Renderer {
     if (*answer == "ok") return;
     const std::size_t space = std::min(answer->find(' '), answer->size());
     const std::string kind = answer->substr(0, space), reason = answer->substr(std::min(space + 1, answer->size()));
-    if (kind == "unsupported") throw Unsupported(reason.empty() ? spec_.name + " gave no reason" : reason);
-    if (kind == "failed") fail(fmt::format("failed: {}", reason));
+    if (kind == "unsupported") throw Unsupported(reason.empty() ? spec_.name + " gave no reason" : shortened(reason));
+    if (kind == "failed") fail(reason.empty() ? "failed, and gave no reason" : "failed: " + shortened(reason));
     server_.reset();  // which line is the next answer, nobody knows
     fail(fmt::format("answered \"{}\", expected ok, unsupported REASON or failed REASON", shortened(*answer)));
   }
@@ -203,7 +208,10 @@ class ProcessRenderer : public Renderer {
       if (!entry.is_symlink()) continue;
       fail(fmt::format("left a link, {}, where a file was expected", entry.path().filename().string()));
     }
-    require_budget(scene, bytes_below(folder), request.memory_budget);
+    if (const std::uintmax_t left = bytes_below(folder); left > request.memory_budget) {
+      fail(fmt::format("left {} MiB in its folder, where a capture takes at most {} MiB", left >> 20,
+                       request.memory_budget >> 20));
+    }
     try {
       Capture capture = read_capture(folder);
       if (capture.width != scene.frame.width || capture.height != scene.frame.height) {

@@ -312,6 +312,10 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     return verdict;
   } catch (const std::exception& e) {
     failure = e.what();
+    if (candidate.info().profile == Profile::foreign) {  // it cannot be asked for single stages
+      nothing(candidate.info().name, Outcome::failed, failure);
+      return verdict;
+    }
   }
   std::vector<Capture> theirs(references.size());
   std::vector<std::string> failures(references.size());

@@ -28,7 +28,7 @@ ProcessSpec spec_of(const std::string& command) {
   spec.name = "program";
   spec.shown = command;
   spec.confined = true;
-  std::string line = "exec " + command;  // a shell splits it into words
+  std::string line = command;  // a shell's
   spec.serves = replace(line, "{serve}", "--serve");
   const bool scene = replace(line, "{scene}", "\"$1\""), input = replace(line, "{input}", "\"$2\""),
              output = replace(line, "{output}", "\"$3\"");

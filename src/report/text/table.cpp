@@ -124,10 +124,10 @@ std::string summary(std::span<const SceneVerdict> verdicts, bool all_hold, doubl
   for (Outcome outcome : {Outcome::unsupported, Outcome::missing, Outcome::dispute, Outcome::expected}) {
     complete &= tally.count(outcome) == 0;
   }
-  const char* word = !all_hold                ? "FAILED"
-                     : tally.comparisons == 0 ? "nothing was judged"
-                     : complete               ? "ok"
-                                              : "ok where judged";
+  const char* word = !all_hold                                                ? "FAILED"
+                     : tally.comparisons == tally.count(Outcome::unsupported) ? "nothing was judged"
+                     : complete                                               ? "ok"
+                                                                              : "ok where judged";
   return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, tally.scenes, tally.comparisons, seconds,
                      tally.text());
 }
