@@ -98,6 +98,11 @@ void add(CLI::App& command, CheckOptions& o) {
       ->excludes(fault)
       ->excludes(command.get_option("--golden"));
   add_probes(command, o.probes);
+  CLI::Option* rubric = text(command, "--grade", o.rubric, "With --program: points by scene and stage, as JSON")
+                            ->needs(command.get_option("--program"));
+  CLI::Option* grades = text(command, "--grades", o.grades, "Write the points earned as Gradescope's results.json");
+  rubric->needs(grades);
+  grades->needs(rubric);
   command
       .add_option("--jobs", o.jobs,
                   "Scenes judged at a time, each in a process of its own (default: the number of processors)")

@@ -29,6 +29,7 @@
 #include "cli/scene_judge.h"
 #include "cli/worker_bytes.h"
 #include "report/page/html_report.h"
+#include "report/runs/grade.h"
 #include "report/runs/json_report.h"
 #include "report/runs/junit.h"
 #include "report/runs/run_file.h"
@@ -72,6 +73,15 @@ void require_folders(const CheckOptions& o, std::span<const Scene> scenes) {
   }
 }
 
+// Every scene that earns points is run.
+void require_scenes(const report::Rubric& rubric, std::span<const Scene> scenes, const std::string& file) {
+  for (const report::SceneRubric& of : rubric.scenes) {
+    if (std::ranges::find(scenes, of.scene, &Scene::name) != scenes.end()) continue;
+    throw std::invalid_argument(
+        fmt::format("{}: at \"/scenes\": expected scenes that are run, found {}", file, of.scene));
+  }
+}
+
 std::string lines_of(std::span<const std::string> lines) {
   return lines.empty() ? "" : fmt::format("{}\n", fmt::join(lines, "\n"));
 }
@@ -88,6 +98,7 @@ std::vector<std::filesystem::path> inputs_of(const CheckOptions& o, std::span<co
   std::vector<std::filesystem::path> out;
   for (const Scene& scene : scenes) out.insert(out.end(), scene.files.begin(), scene.files.end());
   if (!o.expect.empty()) out.emplace_back(o.expect);
+  if (!o.rubric.empty()) out.emplace_back(o.rubric);
   if (o.golden.empty() || !std::filesystem::is_directory(o.golden)) return out;
   try {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(o.golden)) out.push_back(entry.path());
@@ -164,16 +175,22 @@ int check(const CheckOptions& given) {
   std::vector<std::filesystem::path> files = find_scenes(paths);
   const report::Shard shard = take_shard(files, o.shard);
   CheckRules rules{o, today(o), {}, {}, {}};
+  std::optional<report::Rubric> rubric;
+  if (!o.rubric.empty()) rubric = report::read_rubric(o.rubric);
   if (!o.expect.empty()) rules.expectations = check::read_expectations(o.expect, names_of_rows());
   std::vector<Scene> scenes;  // all of them first: a bad one ends the run before anything is written
   for (const auto& file : files) {
     scenes.push_back(o.scene_arguments.load(file));
     require_budget(scenes.back(), plane_bytes(scenes.back()), Request{}.memory_budget);
   }
-  const Output outputs[] = {
-      {"--json", o.json}, {"--ledger", o.ledger}, {"--junit", o.junit}, {"--markdown", o.markdown}};
+  const Output outputs[] = {{"--json", o.json},
+                            {"--ledger", o.ledger},
+                            {"--junit", o.junit},
+                            {"--markdown", o.markdown},
+                            {"--grades", o.grades}};
   require_outputs(outputs, {"--report", o.report}, inputs_of(o, scenes));
   require_folders(o, scenes);
+  if (rubric) require_scenes(*rubric, scenes, o.rubric);
   report::RunHead head{{}, o.fault, o.against, !o.golden.empty(), shard, {}};
   if (!o.golden.empty()) rules.goldens.emplace(o.golden, check::GoldenSet::Access::read);
   if (!o.report.empty()) rules.page.emplace(o.report, scenes.size());
@@ -209,9 +226,11 @@ int check(const CheckOptions& given) {
   if (!o.ledger.empty()) report::write_ledger(o.ledger, verdicts);
   if (!o.junit.empty()) write_file(o.junit, report::junit(verdicts, head.failures));
   if (!o.markdown.empty()) {
-    write_file(o.markdown,
-               report::markdown(verdicts, of_run + summary) + (outside ? report::conformance_markdown(verdicts) : ""));
+    write_file(o.markdown, report::markdown(verdicts, of_run + summary) +
+                               (outside ? report::conformance_markdown(verdicts) : "") +
+                               (rubric ? report::grades_markdown(*rubric, verdicts) : ""));
   }
+  if (rubric) write_file(o.grades, report::gradescope_json(*rubric, verdicts));
   if (rules.page) rules.page->write(outside ? report::conformance_text(verdicts) + summary : summary);
   const auto unable = [](const check::SceneVerdict& v) {
     return report::conformance_of(v) == report::Conformance::unable;

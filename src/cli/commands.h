@@ -23,17 +23,18 @@ struct CheckOptions {
   std::vector<std::string> scenes;  ///< files, and folders of them
   std::vector<std::string> against = reference_names();
   std::string json, report, ledger, junit, markdown;
-  std::string rows;      ///< a folder: each scene's rows, and what fails, in <group>/<scene>.txt
-  std::string failures;  ///< a folder: of each scene that does not hold, a page in <group>/<scene>
-  std::string expect;    ///< a file of known differences (check/verdict/expectations.h)
-  std::string today;     ///< YYYY-MM-DD, for their last days; empty: the clock's, UTC
-  std::string shard;     ///< I/N: every Nth scene, from number I on
-  std::string golden;    ///< the folder of goldens, whose rows stand beside the references'; or empty
-  std::string fault;     ///< a fault to put into our renderer, or empty
-  std::string command;   ///< of another renderer, in ours' place; or empty
-  bool probes = false;   ///< which is called for each primitive as well
-  int jobs = 0;          ///< scenes judged at a time; 0: as many as there are processors
-  WorkerLimits limits;   ///< of the processes that judge
+  std::string rows;            ///< a folder: each scene's rows, and what fails, in <group>/<scene>.txt
+  std::string failures;        ///< a folder: of each scene that does not hold, a page in <group>/<scene>
+  std::string expect;          ///< a file of known differences (check/verdict/expectations.h)
+  std::string today;           ///< YYYY-MM-DD, for their last days; empty: the clock's, UTC
+  std::string shard;           ///< I/N: every Nth scene, from number I on
+  std::string golden;          ///< the folder of goldens, whose rows stand beside the references'; or empty
+  std::string fault;           ///< a fault to put into our renderer, or empty
+  std::string command;         ///< of another renderer, in ours' place; or empty
+  bool probes = false;         ///< which is called for each primitive as well
+  std::string rubric, grades;  ///< points by scene and stage (report/runs/grade.h), and where they go; or empty
+  int jobs = 0;                ///< scenes judged at a time; 0: as many as there are processors
+  WorkerLimits limits;         ///< of the processes that judge
   bool allow_missing = false;
   SceneArguments scene_arguments;
   std::string program = "plumb";  ///< as it was called, for the command that repeats a failure

@@ -99,6 +99,24 @@ TEST_F(Cli, program_wants_a_scene_and_a_folder) {
   }
 }
 
+TEST_F(Cli, program_is_graded) {
+  write(at("rubric.json"), R"({"title": "Homework 1", "scenes": {
+    "coverage/shared_edges": {"stages": {"depth": 2, "merge": 3}},
+    "fog/backwards": {"points": 4, "hint": "Fog goes by the distance from the eye."}}})");
+  const std::string run = "check " + kSharedEdges + " " + kScenes + "fog/backwards.json --program " + kMine +
+                          " --grade " + at("rubric.json") + " --grades " + at("results.json");
+  EXPECT_EQ(plumb(run + " --markdown " + at("page.md")).code, 0);
+  const std::string results = read(at("results.json"));
+  EXPECT_NE(results.find("\"score\": 5.0"), std::string::npos) << results;
+  EXPECT_NE(results.find("Fog goes by the distance from the eye."), std::string::npos) << results;
+  EXPECT_NE(read(at("page.md")).find("## Homework 1: 5 of 9 points"), std::string::npos);
+  write(at("rubric.json"), R"({"title": "Homework 1", "scenes": {"fog/other": {"points": 4}}})");
+  const Outcome refused = plumb(run);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(refused.says("expected scenes that are run, found fog/other")) << refused.text;
+  EXPECT_EQ(plumb("check " + kSharedEdges + " --grade " + at("rubric.json")).code, 2) << "of a program";
+}
+
 TEST_F(Cli, export_writes_the_scene) {
   EXPECT_EQ(plumb("export " + kSharedEdges + " " + at("export")).code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "export" / "meshes.0.positions.bin"));
