@@ -301,7 +301,7 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
       };
       double least = kInfinite;
       for (std::uint32_t turn = 0; turn < a->count; ++turn) least = std::min(least, largest(turn));
-      meter.value(least, factor, at("p_clip of primitive"), 0, 0);
+      meter.value(least, factor, at("p_clip"), 0, 0);
     }
     meter.item();
   });

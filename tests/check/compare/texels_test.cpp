@@ -351,7 +351,7 @@ TEST_F(TexelPlanes, BothSidesAreHeldToTheLegalTexels) {
   for (const Measurement& m :
        {compare_texel_planes(scene, far, capture, 64, note), compare_texel_planes(scene, capture, far, 64, note)}) {
     EXPECT_EQ(m.differing, 1u);
-    EXPECT_EQ(to_string(m.worst.place), "pixel 3,4 record 0 texel");
+    EXPECT_EQ(to_string(m.worst.place), "pixel 3,4 primitive 0 texel");
   }
   EXPECT_EQ(compare_texel_planes(scene, far, far, 64, note).differing, 1u) << "alike, and both wrong";
 }
