@@ -74,7 +74,7 @@ TEST_F(Cli, program_that_leaves_too_much_fails_at_its_scene_alone) {
   const Outcome run =
       plumb("check " + kScenes + "cull " + kSharedEdges + " --program '" + at("mine") + " {input} {output}'");
   EXPECT_EQ(run.code, 1) << run.text;
-  EXPECT_TRUE(run.says("left 800 MiB in its folder, where a capture takes at most 512 MiB")) << run.text;
+  EXPECT_TRUE(run.says("bytes in its folder, where a capture takes at most 536870912")) << run.text;
   EXPECT_EQ(tally(run, "cull").right, 1) << run.text;
   EXPECT_EQ(tally(run, "cull").failed, 1);
   EXPECT_EQ(tally(run, "coverage").right, 1);

@@ -209,8 +209,8 @@ class ProcessRenderer : public Renderer {
       fail(fmt::format("left a link, {}, where a file was expected", entry.path().filename().string()));
     }
     if (const std::uintmax_t left = bytes_below(folder); left > request.memory_budget) {
-      fail(fmt::format("left {} MiB in its folder, where a capture takes at most {} MiB", left >> 20,
-                       request.memory_budget >> 20));
+      throw OverBudget(fmt::format("{}: left {} bytes in its folder, where a capture takes at most {}", spec_.name,
+                                   left, request.memory_budget));
     }
     try {
       Capture capture = read_capture(folder);

@@ -60,7 +60,7 @@ class Program : public Renderer {
     for (Ability& ability : info_.stages) ability = {false, false, "it left nothing"};
     Request everything;
     everything.records = StageSet::all();
-    Capture left = process_->capture(scene, everything);
+    Capture left = capture_of(scene, everything);
     if (probes_) probe(scene, left);
     const std::unique_ptr<Renderer> replayed = make_replayed_renderer(std::move(left), scene, "--program");
     info_ = replayed->info();
@@ -68,6 +68,15 @@ class Program : public Renderer {
   }
 
  private:
+  // What it leaves beyond the budget is its own mistake.
+  Capture capture_of(const Scene& scene, const Request& request) {
+    try {
+      return process_->capture(scene, request);
+    } catch (const OverBudget& error) {
+      throw RendererFailed(error.what());
+    }
+  }
+
   // What cannot be probed is not shown.
   void probe(const Scene& scene, Capture& left) {
     try {
