@@ -89,7 +89,7 @@ void check_winners(const Capture& c, Lines& out) {
            "planes.id", "have a winner where planes.count says that nothing is drawn", "planes.count", out);
   }
   if (p.color.empty()) return;
-  // What nothing has won has one colour: that of the cleared frame.
+  // Pixels without a winner have one colour, that of the cleared frame.
   const auto background = [&](bool flipped) -> std::size_t {
     const glm::vec4* first = nullptr;
     std::size_t others = 0;

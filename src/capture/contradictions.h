@@ -1,4 +1,4 @@
-// What a capture says against itself: mistakes of the export, before any renderer is judged.
+// Contradictions within one capture: mistakes of its export, found before any renderer is judged.
 #pragma once
 
 #include <string>

@@ -28,7 +28,7 @@ namespace plumbline::cli {
 
 namespace {
 
-// Of another renderer: what it left, which is all that is known of it. (A program is run once.)
+// Candidate of another renderer: the capture that it left. (A program is run once.)
 std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scene& scene) {
   if (!o.folder.empty()) return make_replayed_renderer(read_capture(o.folder), scene, o.folder);
   return make_replayed_renderer(make_program(o.command, o.probes)->capture(scene, {StageSet::all(), false, {}, {}}),
@@ -74,7 +74,7 @@ struct Subject {
   std::optional<report::PageFolder> page;
 };
 
-// What a capture says against itself, if anything.
+// Lines of the capture's contradictions; empty: none.
 std::string contradiction_lines(const Capture& capture) {
   std::string out;
   for (const std::string& line : contradictions(capture)) out += fmt::format("  {}\n", line);

@@ -63,7 +63,7 @@ struct Lookalike {
   std::string name, says;
 };
 
-// What happens to a right frame on its way into a file.
+// Mistakes that are made of a right frame on its way into a file.
 std::vector<Lookalike> of_files(const Scene& scene, const Pictured& right, const Pictured& given) {
   const int width = right.color.width(), height = right.color.height();
   const auto from = [&](Pictured& out, int x, int y, int from_x, int from_y) {

@@ -38,7 +38,7 @@ class ArrayFolder {
   explicit ArrayFolder(AtomicPath& folder, std::filesystem::path inside = {});
   /// Writes `name`.bin: elements of this type, the last index running fastest. Throws OutputError.
   void add(std::string_view name, std::string_view dtype, const Shape& shape, std::string_view bytes);
-  /// The same of records of plain numbers, vectors or matrices.
+  /// Writes an array of plain numbers, vectors or matrices.
   template <class T>
   void add(std::string_view name, const std::vector<T>& values) {
     Shape shape{values.size()};

@@ -1,4 +1,4 @@
-// What a renderer that shows pictures alone does at its inner stages: found by scenes that are made for it.
+// Coverage and winners of a renderer that shows pictures alone: found by scenes that are made for it.
 #pragma once
 
 #include <cstdint>

@@ -27,8 +27,8 @@ struct ProcessSpec {
   /// Started once, without these folders: it reads a line "INPUT<tab>OUTPUT" for each scene, and answers by a line: "ok",
   /// "unsupported REASON" or "failed REASON".
   bool serves = false;
-  /// It may write in the folder alone that holds {input} and {output}, its TMPDIR, and no file beyond a capture's
-  /// budget (base/confine.h).
+  /// Writes confined to the folder that holds {input} and {output}, which is the TMPDIR; files to a capture's budget
+  /// (base/confine.h).
   bool confined = false;
   std::string shown = "";  ///< the command line as messages show it; empty: argv
   std::function<void(const Scene&, const std::filesystem::path& folder)> write_input{};
