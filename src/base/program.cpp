@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -40,6 +41,19 @@ void open_as(int descriptor, const char* path, int flags) {
   if (file != descriptor) ::close(file);
 }
 
+// This process' limit of its address space becomes one of what is written to. A program may reserve more addresses than
+// it uses, as browsers and virtual machines do.
+void limit_data() {
+  rlimit memory{};
+  if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return;
+  rlimit data{};
+  ::getrlimit(RLIMIT_DATA, &data);
+  data.rlim_cur = std::min(memory.rlim_cur, data.rlim_max);
+  ::setrlimit(RLIMIT_DATA, &data);
+  memory.rlim_cur = memory.rlim_max;
+  ::setrlimit(RLIMIT_AS, &memory);
+}
+
 /// Becomes the program. Returns errno where there is none.
 int become(const ProgramCall& call, char** argv, char** environment, char** writable, pid_t guardian) {
   ::setpgid(0, 0);
@@ -56,6 +70,7 @@ int become(const ProgramCall& call, char** argv, char** environment, char** writ
     open_as(STDOUT_FILENO, "/dev/null", O_WRONLY);
   }
   open_as(STDERR_FILENO, call.error_log.c_str(), O_WRONLY | O_CREAT | O_APPEND);
+  limit_data();
   if (*writable != nullptr) confine(writable, call.most_bytes);
   ::execvpe(argv[0], argv, environment);
   return errno;

@@ -106,7 +106,9 @@ void set_limits(const WorkerLimits& limits) {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   const rlim_t bytes = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + limits.memory;
-  const rlimit memory{bytes, bytes};
+  rlimit memory{};
+  ::getrlimit(RLIMIT_AS, &memory);
+  memory.rlim_cur = std::min(bytes, memory.rlim_max);  // the hard limit stays: a program's is another (program.cpp)
   if (pages > 0) ::setrlimit(RLIMIT_AS, &memory);
 }
 

@@ -50,6 +50,49 @@ glm::ivec2 snapped(const Vec3<double>& p_win, std::size_t record) {
   return {std::nearbyint(steps.x), std::nearbyint(steps.y)};
 }
 
+Vec3<double> unit(const Vec3<double>& v) {
+  const double length = glm::length(v);
+  return length > 0 ? v / length : v;
+}
+
+void derive_normals(const DrawIndex& draws, Records<double>& r) {
+  if (r.matrices.size() != draws.ranges().size() || r.vertices.size() != draws.vertices())
+    throw std::invalid_argument("vertex.n_eye: left out, and matrices.* are not there for all draws");
+  for (std::size_t d = 0; d < draws.ranges().size(); ++d) {
+    const Draw& draw = draws.scene().draws[d];
+    const Mesh& mesh = draws.scene().meshes[draw.mesh];
+    const Mat3<double>& by = r.matrices[d].normal;
+    for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
+      const Vec3<double> n = by * Vec3<double>(mesh.normals[v]);
+      r.vertices[draws.ranges()[d].first_vertex + v].n_eye = draw.normals == Normals::normalize ? unit(n)
+                                                             : draw.normals == Normals::rescale
+                                                                 ? n / glm::length(by[2])  // OpenGL 2.1 spec, 2.11.3
+                                                                 : n;
+    }
+  }
+}
+
+void derive_cut(const DrawIndex& draws, Records<double>& r) {
+  if (r.vertices.size() != draws.vertices() && !r.polygons.polygons.empty())
+    throw std::invalid_argument("clip.cut: left out, and vertex.* are not there for all vertices");
+  for (const ClipPolygon& polygon : r.polygons.polygons) {
+    if (!draws.of_primitive(polygon.primitive))
+      throw std::invalid_argument(
+          fmt::format("clip.polygon.primitive: {}, which the scene does not have", polygon.primitive));
+    const glm::uvec3 corners = draws.corners(polygon.primitive);
+    bool found[3] = {false, false, false};  // a vertex is one corner: another one in its place was made by a cut
+    for (std::size_t i = polygon.first; i < std::size_t{polygon.first} + polygon.count; ++i) {
+      ClipVertex<double>& corner = r.polygons.vertices[i];
+      corner.cut = true;
+      for (int k = 0; k < 3 && corner.cut; ++k) {
+        if (found[k] || glm::vec4(r.vertices[corners[k]].p_clip) != glm::vec4(corner.p_clip)) continue;
+        found[k] = true;
+        corner.cut = false;
+      }
+    }
+  }
+}
+
 // Positions are below 2^31, differences below 2^32: the 64 bits of a long double hold their products exactly.
 bool faces_front(const WindowTriangle<double>& t) {
   const glm::i64vec2 a(t.v[0].snapped), e1 = glm::i64vec2(t.v[1].snapped) - a, e2 = glm::i64vec2(t.v[2].snapped) - a;
@@ -117,6 +160,8 @@ void complete_records(const Scene& scene, Capture& capture) {
   const DrawIndex draws(scene);
   Records<double>& r = capture.records;
   std::ranges::stable_sort(r.polygons.polygons, {}, &ClipPolygon::primitive);
+  if (capture.derived.contains("vertex.n_eye")) derive_normals(draws, r);
+  if (capture.derived.contains("clip.cut")) derive_cut(draws, r);
   derive_window(draws, capture);
   sort_triangles(r);
   sort_fragments(r);

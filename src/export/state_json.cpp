@@ -99,7 +99,7 @@ Json texture_json(const Texture& texture) {
           {"mag", name_of(s.mag)},
           {"wrap_s", name_of(s.wrap_s)},
           {"wrap_t", name_of(s.wrap_t)},
-          {"border", vector(s.border)},
+          {"border", vector(source_components(texture.format, s.border))},
           {"lod_bias", s.lod_bias},
           {"min_lod", s.min_lod},
           {"max_lod", s.max_lod},

@@ -37,14 +37,19 @@
 
 enum { PL_UNSUPPORTED_STATUS = 77, PL_PATH = 256 };
 
+/* One for the whole program, whatever number of its files includes this one. */
 typedef struct {
-#ifndef __cplusplus
-  jmp_buf to;
-#endif
-  int serving;
+  jmp_buf to; /* of a server in C; in C++ an exception takes its place */
+  int serving, jumps;
   char reason[512];
 } PlServer;
+#if defined(__cplusplus) && __cplusplus >= 201703L
+inline PlServer pl_server;
+#elif defined(__GNUC__)
+PlServer pl_server __attribute__((weak));
+#else
 static PlServer pl_server;
+#endif
 #ifdef __cplusplus
 struct PlUnsupported {}; /* thrown by a server's pl_unsupported(): destructors run */
 #endif
@@ -70,10 +75,9 @@ static void pl_unsupported(const char* format, ...) {
   va_end(values);
   for (c = pl_server.reason; *c != '\0'; ++c) *c = *c == '\n' || *c == '\r' ? ' ' : *c;
 #ifdef __cplusplus
-  if (pl_server.serving) throw PlUnsupported();
-#else
-  if (pl_server.serving) longjmp(pl_server.to, 1);
+  if (pl_server.serving && !pl_server.jumps) throw PlUnsupported();
 #endif
+  if (pl_server.serving && pl_server.jumps) longjmp(pl_server.to, 1);
   fprintf(stderr, "%s\n", pl_server.reason);
   exit(PL_UNSUPPORTED_STATUS);
 }
@@ -85,7 +89,7 @@ static void* pl_memory(void* old, size_t bytes) {
 }
 
 static char* pl_read(const char* folder, const char* name, size_t* size) {
-  char path[4096];
+  char path[8192];
   FILE* file;
   char* bytes;
   long length;
@@ -505,6 +509,7 @@ static int pl_serve(const char* input, const char* output, const char* renderer,
     drawn = 0;
   }
 #else
+  pl_server.jumps = 1;
   if (setjmp(pl_server.to) == 0) {
     pl_run(input, output, renderer, draw, &open, &manifest);
   } else {

@@ -322,7 +322,7 @@ TEST_F(CaptureFolder, RefusesBrokenManifests) {
                    R"("arrays":[{"name":"depth.z","dtype":"f64","shape":[1],"file":"depth.value.bin"},)",
                    {"/arrays/0/name", "depth.z"});
   refused_manifest(R"("name":"vertex.p_clip")", R"("name":"vertex.p_eye")", {"each name once"});
-  refused_manifest(R"("dtype":"f64")", R"("dtype":"f32")", {"/dtype", "matrices.model_view", "\"f64\""});
+  refused_manifest(R"("dtype":"f64")", R"("dtype":"u32")", {"/dtype", "matrices.model_view", "\"f64\""});
   refused_manifest(R"("dtype":"f64")", R"("dtype":"complex")", {"/dtype", "matrices.model_view"});
   refused_manifest(R"("shape":[2,4,4])", R"("shape":[2,16])", {"/shape", "matrices.model_view", "[2, 4, 4]"});
   refused_manifest(R"("shape":[2,4,4])", R"("shape":[2,4,3])", {"/shape", "matrices.model_view"});

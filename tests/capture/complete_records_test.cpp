@@ -112,19 +112,36 @@ TEST(CompleteRecords, fill_what_follows_from_others) {
              (draw.front_mode != PolygonMode::fill || draw.back_mode != PolygonMode::fill);
     };
     if (scene.frame.antialias.kind != Antialias::Kind::none || std::ranges::any_of(scene.draws, outlines)) continue;
-    const Capture was = pipeline::make_pipeline()->capture(scene, {{Stage::clip, Stage::window}, false, {}, {}});
+    const StageSet up_to_window = {Stage::matrices, Stage::vertex, Stage::clip, Stage::window};
+    const Capture was = pipeline::make_pipeline()->capture(scene, {up_to_window, false, {}, {}});
     if (was.records.triangles.size() > 100'000) continue;
     Capture capture = was;
     for (WindowTriangle<double>& t : capture.records.triangles) {
       t.front = false, t.corners = 3, t.width = 1;
       for (WindowVertex<double>& v : t.v) v.snapped = {};
     }
-    capture.derived = {"window.front", "window.corners", "window.width", "window.snapped"};
+    for (ClipVertex<double>& v : capture.records.polygons.vertices) v.cut = !v.cut;
+    capture.derived = {"clip.cut", "window.front", "window.corners", "window.width", "window.snapped"};
     complete_records(scene, capture);
     EXPECT_EQ(differing(was, capture), std::vector<std::string>()) << file;
     ++scenes;
   }
   EXPECT_GT(scenes, 300u);
+}
+
+// In double, of matrices in float: as near as the pipeline's own normals.
+TEST(CompleteRecords, fill_normals_by_the_matrices) {
+  for (const char* name : {"light/normals_uneven", "light/normals_grown", "light/sphere_gouraud"}) {
+    const Scene scene = load_scene(kScenes + name + ".json", {});
+    const Capture was = whole_capture(scene);
+    Capture capture = was;
+    for (Vertex<double>& v : capture.records.vertices) v.n_eye = {};
+    capture.derived = {"vertex.n_eye"};
+    complete_records(scene, capture);
+    for (std::size_t i = 0; i < was.records.vertices.size(); ++i) {
+      ASSERT_LT(glm::distance(was.records.vertices[i].n_eye, capture.records.vertices[i].n_eye), 1e-5) << name;
+    }
+  }
 }
 
 void expect_refused(const Scene& scene, Capture capture, const std::string& says) {
@@ -145,6 +162,14 @@ TEST(CompleteRecords, refuse_what_nothing_follows_from) {
     expect_refused(scene, capture, "window.snapped: left out, and the p_win of record 3 is (");
   }
   Capture capture = whole_capture(scene);
+  capture.derived = {"vertex.n_eye"};
+  capture.records.matrices.clear();
+  expect_refused(scene, capture, "vertex.n_eye: left out, and matrices.* are not there for all draws");
+  capture = whole_capture(scene);
+  capture.derived = {"clip.cut"};
+  capture.records.vertices.pop_back();
+  expect_refused(scene, capture, "clip.cut: left out, and vertex.* are not there for all vertices");
+  capture = whole_capture(scene);
   capture.records.triangles[2].primitive = 1u << 31;
   expect_refused(scene, capture, "window.primitive: record 2 is of primitive 2147483648");
   capture = whole_capture(scene);

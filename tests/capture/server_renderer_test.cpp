@@ -106,6 +106,14 @@ TEST_F(Server, AnAnswerBeforeTheQuestionIsNotTakenForTheNext) {
   EXPECT_EQ(failure(*renderer), "it did not fail") << "it is started again";
 }
 
+TEST_F(Server, ThatEndsWithStatus77CannotDrawTheScene) {
+  const auto renderer = server("if [ $(wc -l < '" + (root_ / "starts").string() +
+                               "') = 1 ]; then echo no fog here >&2; exit 77; fi; cp \"$good\"/* \"$out\"; echo ok");
+  EXPECT_EQ(failure(*renderer), "unsupported: no fog here");
+  EXPECT_EQ(failure(*renderer), "it did not fail") << "it is started again";
+  EXPECT_EQ(starts(), 2u);
+}
+
 TEST_F(Server, ItsAnswersAreShort) {
   EXPECT_HAS(failure(*server("head -c 200000 /dev/zero | tr '\\0' x; sleep 60")), "without an answer");
 }

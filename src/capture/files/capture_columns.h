@@ -168,12 +168,12 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
         Column{"spot_eye", &L::spot_eye});
   using V = Vertex<double>;
   group(Stage::vertex, "vertex", of(&R::vertices), Column{"p_eye", &V::p_eye}, Column{"p_clip", &V::p_clip},
-        Column{"n_eye", &V::n_eye});
+        Column{"n_eye", &V::n_eye, kDerivable});
   group(Stage::light, "light", of(&R::lit), Column{"color", &Lit<double>::color});
   using C = ClipVertex<double>;
   group(
       Stage::clip, "clip", [](auto& r) -> auto& { return r.polygons.vertices; }, Column{"p_clip", &C::p_clip},
-      Column{"color", &C::color}, Column{"cut", &C::cut});
+      Column{"color", &C::color}, Column{"cut", &C::cut, kDerivable});
   using P = ClipPolygon;
   group(
       Stage::clip, "clip.polygon", [](auto& r) -> auto& { return r.polygons.polygons; },

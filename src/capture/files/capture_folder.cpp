@@ -106,9 +106,10 @@ class Reader {
                                fmt::format("[{}]", fmt::join(found, ", ")));
     }
     const auto pixels = static_cast<std::size_t>(capture_.width) * static_cast<std::size_t>(capture_.height);
-    check_size(*array, pixels, sizeof(T));
+    check_size(*array, pixels, bytes_of<T>(*array));
     plane = Plane<T>(capture_.width, capture_.height);
-    read_bytes(*array, plane.values().data(), pixels * sizeof(T));
+    const std::vector<char> bytes = read_elements<T>(*array, pixels);
+    std::memcpy(plane.values().data(), bytes.data(), bytes.size());
   }
 
   /// Of the manifest, itself included, before anything else is read.
@@ -146,9 +147,19 @@ class Reader {
     return shape;
   }
 
+  // Floats where doubles are expected: nothing is lost.
+  template <class T>
+  static bool is_narrow(const JsonNode& array) {
+    return Element<T>::dtype == "f64" && array["dtype"].text() == "f32";
+  }
+  template <class T>
+  static std::size_t bytes_of(const JsonNode& array) {
+    return is_narrow<T>(array) ? sizeof(T) / 2 : sizeof(T);
+  }
+
   template <class T>
   void check_type(const JsonNode& array) const {
-    if (array["dtype"].text() == Element<T>::dtype) return;
+    if (array["dtype"].text() == Element<T>::dtype || is_narrow<T>(array)) return;
     array["dtype"].refuse(fmt::format("\"{}\" of {}", Element<T>::dtype, array["name"].text()));
   }
 
@@ -180,7 +191,7 @@ class Reader {
                             fmt::format("{}", shape[0]));
     }
     count = shape[0];
-    check_size(array, shape[0], kPerRecord<C> * sizeof(T));
+    check_size(array, shape[0], kPerRecord<C> * bytes_of<T>(array));
     return true;
   }
 
@@ -190,8 +201,7 @@ class Reader {
     const auto taken = take(name);
     if (!taken) return;
     const JsonNode& array = *taken;
-    std::vector<char> bytes(records.size() * kPerRecord<C> * sizeof(T));
-    read_bytes(array, bytes.data(), bytes.size());
+    const std::vector<char> bytes = read_elements<T>(array, records.size() * kPerRecord<C>);
     if constexpr (std::is_same_v<T, bool>) {
       const auto odd = std::find_if(bytes.begin(), bytes.end(), [](char b) { return b != 0 && b != 1; });
       if (odd != bytes.end()) fail(array, fmt::format("expected 0 or 1, found {}", static_cast<unsigned char>(*odd)));
@@ -204,10 +214,22 @@ class Reader {
     }
   }
 
-  void read_bytes(const JsonNode& array, void* to, std::size_t size) const {
+  // The array's elements as they lie in memory.
+  template <class T>
+  std::vector<char> read_elements(const JsonNode& array, std::size_t count) const {
+    std::vector<char> bytes(count * bytes_of<T>(array));
     std::ifstream in(file_of(array), std::ios::binary);
-    in.read(static_cast<char*>(to), static_cast<std::streamsize>(size));
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (!in) fail(array, "cannot be read");
+    if (!is_narrow<T>(array)) return bytes;
+    std::vector<char> wide(2 * bytes.size());
+    for (std::size_t i = 0; i < bytes.size() / sizeof(float); ++i) {
+      float narrow = 0;
+      std::memcpy(&narrow, &bytes[i * sizeof narrow], sizeof narrow);
+      const double value = narrow;
+      std::memcpy(&wide[i * sizeof value], &value, sizeof value);
+    }
+    return wide;
   }
 
   fs::path file_of(const JsonNode& array) const {

@@ -5,7 +5,7 @@
 //    "width": 97, "height": 61, "byte_order": "little",
 //    "arrays": [{"name": "window.p_win", "dtype": "f64", "shape": [1234, 3, 3], "file": "window.p_win.bin"}, ...]}
 //
-// dtype is one of f32 f64 u8 u16 u32 u64 i32. The first extent of a record's array is the number of records (of
+// dtype is one of f32 f64 u8 u16 u32 u64 i32; f32 may stand where f64 is expected. The first extent of a record's array is the number of records (of
 // window.* the next is the corner), of a plane's the row, from the bottom; the last is the component; matrices are
 // column by column. A file is its array's elements, the last index running fastest, and nothing else. The names, and
 // what belongs to each, are listed in capture_columns.h; values mean what stages.h and capture.h say. What was not

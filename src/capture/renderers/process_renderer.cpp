@@ -159,7 +159,11 @@ class ProcessRenderer : public Renderer {
       argument = replaced(argument, "{output}", output.string());
       if (!scene.path.empty()) argument = replaced(argument, "{scene}", fs::absolute(scene.path).string());
     }
-    const Ending ending = ending_of(run_program(call(request, output.parent_path())), spec_.timeout);
+    take(ending_of(run_program(call(request, output.parent_path())), spec_.timeout));
+  }
+
+  // Throws unless the program ended well.
+  void take(const Ending& ending) const {
     if (ending.status == kUnsupportedStatus) {
       const std::string reason = last_lines(log_, 1);
       throw Unsupported(reason.empty() ? fmt::format("{}: {}, and gave no reason", spec_.name, ending.words)
@@ -191,7 +195,8 @@ class ProcessRenderer : public Renderer {
     if (!answer) {
       const Ending ending = ending_of(server_->end(), spec_.timeout);
       server_.reset();
-      fail(ending.words.empty() ? "ended without an answer" : ending.words);
+      take(ending);
+      fail("ended without an answer");
     }
     if (*answer == "ok") return;
     const std::size_t space = std::min(answer->find(' '), answer->size());
@@ -223,7 +228,8 @@ class ProcessRenderer : public Renderer {
       capture.renderer = spec_.name;
       return capture;
     } catch (const CaptureError& error) {
-      fail(fmt::format("left no capture that can be read: {}", error.what()));
+      fail(fmt::format("left no capture that can be read: {}",
+                       replaced(error.what(), folder.string(), "{output}")));  // the folder is gone when this is read
     } catch (const std::invalid_argument& error) {
       fail(fmt::format("left no capture of the scene: {}", error.what()));
     }
