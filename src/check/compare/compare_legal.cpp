@@ -31,12 +31,33 @@ bool fits_winners(const Planes& candidate, const Legal& legal, std::string& why)
 }
 std::int32_t winner_at(const Planes& planes, int x, int y) { return planes.id.empty() ? kBackground : planes.id(x, y); }
 
-// `half_code`: what rounding to the frame's format adds to the oracle's bound.
+// Whether nothing was drawn at the pixel, and nothing had to be.
+bool is_cleared(const Planes& candidate, const Legal& legal, int x, int y) {
+  const auto answers = held_to(legal, candidate, x, y);
+  return !answers.empty() &&
+         std::ranges::all_of(answers, [](const LegalAnswer& a) { return a.primitive == kBackground; });
+}
+
+// The depth that the frame was cleared to is no stage's but merge's, where the frame's colour is there, too.
+void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate, const Legal& legal, int x, int y) {
+  std::string why;
+  if (candidate.depth.empty() || legal.first.empty() || !same_size(candidate.depth, legal.certain, why) ||
+      !is_cleared(candidate, legal, x, y))
+    return;
+  const LegalAnswer& cleared = held_to(legal, candidate, x, y).front();
+  const double z = candidate.depth(x, y);
+  meter.value(outside(z, cleared.z_lo, cleared.z_hi) / depth_step(scene.frame.depth, z), 1, {x, y, -1, "cleared z"}, z,
+              cleared.z_lo);
+}
+
+// `half_code`: what rounding to the frame's format adds to the oracle's bound. `at_pixel` measures what else there is.
+template <class AtPixel>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
-                                double half_code, bool clamped, double factor) {
+                                double half_code, bool clamped, double factor, const AtPixel& at_pixel) {
   std::string why;
   if (!fits_winners(candidate, legal, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
+    at_pixel(meter, x, y);
     if (legal.at(x, y).size() > 1) meter.ambiguous();
     const glm::vec4 c = color(x, y);
     const auto wanted = [&](const LegalAnswer& a) { return clamped ? glm::clamp(a.color, 0.0f, 1.0f) : a.color; };
@@ -69,6 +90,7 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
   if (!fits_winners(candidate, legal, why)) return mismatch("step", why, candidate.depth.size());
   return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
     if (legal.at(x, y).size() > 1) meter.ambiguous();
+    if (!candidate.color.empty() && is_cleared(candidate, legal, x, y)) return;
     const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
     const auto apart = [&](const LegalAnswer& a) { return outside(z, a.z_lo, a.z_hi) / step; };
     const auto answers = held_to(legal, candidate, x, y);
@@ -81,15 +103,17 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
 }
 
 Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor) {
-  return compare_legal_color(candidate.shaded, candidate, legal, 0, false, factor);
+  return compare_legal_color(candidate.shaded, candidate, legal, 0, false, factor, [](Meter&, int, int) {});
 }
 
 Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
   const double scale = color_scale(scene.frame.color);
   const bool codes = scale > 0;
+  const auto clear_depth = [&](Meter& meter, int x, int y) { meter_clear_depth(meter, scene, candidate, legal, x, y); };
   if (!legal.color_lo.empty()) {
     const double rounding = codes ? 0.5 / scale + 4 * u : u;
     return compare_planes(candidate.color, legal.color_lo, "bound", [&](Meter& meter, int x, int y) {
+      clear_depth(meter, x, y);
       const glm::vec4 &color = candidate.color(x, y), &low = legal.color_lo(x, y), &high = legal.color_hi(x, y);
       if (!std::isfinite(low.x)) return open_value(meter, color.x, {x, y, -1, "color"}, 0);
       for (int c = 0; c < 4; ++c) {
@@ -97,7 +121,8 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
       }
     });
   }
-  return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, codes, factor);
+  return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, codes, factor,
+                             clear_depth);
 }
 
 }  // namespace plumbline::check

@@ -43,7 +43,8 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
 
 /// Against legal answers. Pixels with more than one are counted as ambiguous. Depth and colour are held to the answer
 /// of the pixel's own winner, `factor` times its bound; where that is not legal, it is visibility's matter alone. Where
-/// the candidate shows no winners, each is held to the nearest of all answers.
+/// the candidate shows no winners, each is held to the nearest of all answers. The depth of a pixel that only the clear
+/// value may have is merge's, where there is a colour, too.
 Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);

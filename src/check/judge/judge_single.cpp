@@ -384,6 +384,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
       }
     }
   }
+  if (mine_info.profile == Profile::foreign) leave_recipes_to_exact(verdict.comparisons);
   settle_votes(verdict.comparisons);
   if (drew && !mine_info.painters.empty() && mine_info[Stage::merge].shows)
     verdict.comparisons.push_back(judge_picture(scene, candidate, *mine));

@@ -55,4 +55,22 @@ void settle_votes(std::vector<Comparison>& rows) {
   }
 }
 
+void leave_recipes_to_exact(std::vector<Comparison>& rows) {
+  const auto by_exact = [](const Comparison& row) {
+    return row.judge.kind == Kind::per_stage || row.judge.kind == Kind::from_scene;
+  };
+  for (Comparison& row : rows) {
+    if (row.judge.kind != Kind::side_by_side || row.outcome != Outcome::different) continue;
+    bool judged_by_exact = false, held = true;
+    for (const Comparison& other : rows) {
+      if (other.stage != row.stage || !by_exact(other)) continue;
+      judged_by_exact |= holds(other);
+      held &= !fails(other);
+    }
+    if (!judged_by_exact || !held) continue;
+    row = not_judged(row.scene, row.judge, row.stage, Outcome::unsupported,
+                     "it follows another float recipe: exact judges the stage by the number format");
+  }
+}
+
 }  // namespace plumbline::check

@@ -100,8 +100,12 @@ TEST_F(LegalAnswers, WithoutWinnersAnyOfThemIsLegal) {
   planes.shaded(kX, kY).b = planes.color(kX, kY).b = NAN;
   for (const Measurement& m : {depth(), shaded(), merge()}) EXPECT_TRUE(fails(m)) << m.unit;
   planes.depth(kX, kY) = 0.25;
+  planes.color(kX, kY) = glm::vec4(1, 0.5, 0, 1);
   planes.depth(0, 0) = 0.25;
-  EXPECT_TRUE(fails(depth())) << "legal elsewhere";
+  EXPECT_TRUE(passes(depth())) << "what it was cleared to is merge's matter";
+  EXPECT_TRUE(fails(merge())) << "legal elsewhere";
+  planes.color = {};
+  EXPECT_TRUE(fails(depth())) << "nobody else's, without a colour";
 }
 
 // Counts of a renderer whose tie rule is not known.
@@ -224,8 +228,15 @@ TEST_F(LegalAnswers, TheBackgroundHasNoBound) {
   EXPECT_TRUE(fails(shaded()));
   scene.frame.color = ColorFormat::rgba32f;
   EXPECT_TRUE(fails(merge()));
+  planes.color(0, 2).b = 0;
+  EXPECT_TRUE(passes(merge()));
   planes.depth(0, 2) = 1 - 1.01 * depth_step(scene.frame.depth, 1);
-  EXPECT_TRUE(fails(depth()));
+  EXPECT_TRUE(fails(merge()));
+  EXPECT_TRUE(passes(depth()));
+  planes.depth(0, 2) = 1 - 0.99 * depth_step(scene.frame.depth, 1);
+  EXPECT_TRUE(passes(merge()));
+  planes.depth(0, 2) = NAN;
+  EXPECT_TRUE(fails(merge()));
 }
 
 TEST_F(LegalAnswers, CodesMayBeHalfACodeFarther) {

@@ -103,5 +103,33 @@ TEST(Votes, WhatIsSettledStandsInNoLaterStagesWay) {
   EXPECT_EQ(settled(all).outcome, Outcome::dispute);
 }
 
+// Rows after leave_recipes_to_exact().
+Outcome first_left(std::vector<Comparison> all) {
+  leave_recipes_to_exact(all);
+  return all[0].outcome;
+}
+
+TEST(Recipes, OneThatIsNotFollowedIsLeftToExact) {
+  const Comparison beside = row("osmesa", Stage::vertex, Outcome::different);
+  const Comparison alone = row({"exact", Kind::per_stage}, Stage::vertex, Outcome::within);
+  const Comparison from_scene = row({"exact", Kind::from_scene}, Stage::vertex, Outcome::within);
+  EXPECT_EQ(first_left({beside, alone}), Outcome::unsupported);
+  EXPECT_EQ(first_left({beside, from_scene}), Outcome::unsupported);
+  EXPECT_EQ(first_left({beside, alone, from_scene}), Outcome::unsupported);
+}
+
+TEST(Recipes, NothingElseIsLeftToExact) {
+  const Comparison beside = row("osmesa", Stage::vertex, Outcome::different);
+  const Comparison wrong = row({"exact", Kind::from_scene}, Stage::vertex, Outcome::different);
+  EXPECT_EQ(first_left({beside}), Outcome::different) << "nobody else judges it";
+  EXPECT_EQ(first_left({beside, row({"exact", Kind::per_stage}, Stage::light, Outcome::within)}), Outcome::different);
+  EXPECT_EQ(first_left({beside, row("embree", Stage::vertex, Outcome::within)}), Outcome::different);
+  EXPECT_EQ(first_left({beside, wrong}), Outcome::different);
+  EXPECT_EQ(first_left({beside, row({"exact", Kind::per_stage}, Stage::vertex, Outcome::within), wrong}),
+            Outcome::different);
+  EXPECT_EQ(first_left({row("osmesa", Stage::vertex, Outcome::dispute), wrong}), Outcome::dispute);
+  EXPECT_EQ(first_left({row({"exact", Kind::per_stage}, Stage::vertex, Outcome::different)}), Outcome::different);
+}
+
 }  // namespace
 }  // namespace plumbline::check
