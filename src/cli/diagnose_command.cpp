@@ -23,6 +23,7 @@
 #include "report/text/diagnosis_text.h"
 #include "report/text/history_text.h"
 #include "scene/antialias.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::cli {
 
@@ -81,13 +82,24 @@ std::string contradiction_lines(const Capture& capture) {
   return out.empty() ? out : "the capture contradicts itself:\n" + out + "\n";
 }
 
-// Known faults that explain the frame that another renderer left, where one explains most of it.
-std::string known_faults(const Scene& scene, const Capture& left) {
-  if (left.planes.color.empty()) return "";
+bool holds(const check::Diagnosis& diagnosis) {
+  return std::ranges::none_of(diagnosis.verdict.comparisons,
+                              [](const check::Comparison& c) { return is_failure(c.outcome); });
+}
+
+// Known faults that explain the frame that another renderer left, where one explains most of it; of a frame that holds,
+// all of it: what is legal may still be by another rule.
+std::string known_faults(const Scene& scene, const Capture& left, const check::Diagnosis& diagnosis) {
+  constexpr std::size_t kMostPrimitives = 200'000;  // each fault is a picture
+  if (left.planes.color.empty() || DrawIndex(scene).primitives() > kMostPrimitives) return "";
   const Lookalikes found = lookalikes(scene, {left.planes.color, left.planes.depth});
-  if (!found.explained) return "";
-  return fmt::format("\n{} pixels differ from ours in colour or depth; known faults that draw such a frame:\n{}",
-                     found.apart, found.text);
+  if (found.likely.empty() || (holds(diagnosis) && !found.whole)) return "";
+  const bool is_open = !holds(diagnosis) && diagnosis.wrong.empty();
+  return fmt::format("\n{} pixels differ from ours in colour or depth; known faults that draw such a frame:\n{}{}",
+                     found.apart, found.text,
+                     is_open            ? fmt::format("likely stage: {}\n", found.likely)
+                     : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", found.likely)
+                                        : "");
 }
 
 // In a worker: writes the files, and returns the exit code, as one character, and the text.
@@ -114,7 +126,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   if (outside) {
     const Capture left = candidate->capture(scene, Request{});
     against_itself = contradiction_lines(left);
-    faults = known_faults(scene, left);
+    faults = known_faults(scene, left, diagnosis);
   }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
                                 report::diagnosis_text(diagnosis)) +
@@ -131,9 +143,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
     report::write_diagnosis_page(*subject.page, scene, diagnosis, pictured(scene, *candidate, references),
                                  history_text);
   }
-  const bool holds = std::ranges::none_of(diagnosis.verdict.comparisons,
-                                          [](const check::Comparison& c) { return is_failure(c.outcome); });
-  return fmt::format("{}{}", static_cast<int>(holds ? kHolds : kDiffers), out);
+  return fmt::format("{}{}", static_cast<int>(holds(diagnosis) ? kHolds : kDiffers), out);
 }
 
 }  // namespace

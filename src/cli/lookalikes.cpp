@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,20 +28,29 @@ Pictured drawn(const Scene& scene, const std::string& fault) {
   return {std::move(planes.color), std::move(planes.depth)};
 }
 
-bool colors_apart(const glm::vec4& a, const glm::vec4& b) {
+// Red, green or blue differ by more than so many codes of 8 bits.
+bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes) {
   const glm::vec3 off = glm::abs(glm::clamp(glm::vec3(a), 0.0f, 1.0f) - glm::clamp(glm::vec3(b), 0.0f, 1.0f));
-  return !(off.x <= 1.5f * kCode && off.y <= 1.5f * kCode && off.z <= 1.5f * kCode) || std::isnan(b.x + b.y + b.z);
+  const float most = codes * kCode;
+  return !(off.x <= most && off.y <= most && off.z <= most) || std::isnan(b.x + b.y + b.z);
 }
 
-// Pixels that differ, in colour or, where both have it, in depth by more than a step.
-std::size_t pixels_apart(const Scene& scene, const Pictured& given, const Pictured& other) {
-  const bool by_depth = given.depth.size() == other.depth.size();
+// What counts as a difference. Depths differ by more than a step of their format, and by what planes in float may.
+struct Eye {
+  float codes = 1.5f;
+  bool sees_depth = true;
+};
+constexpr double kFloatDepth = 0x1p-20;
+
+std::size_t pixels_apart(const Scene& scene, const Pictured& given, const Pictured& other, Eye eye) {
+  const bool by_depth = eye.sees_depth && !given.depth.empty() && given.depth.size() == other.depth.size();
   std::size_t count = 0;
   for (std::size_t i = 0; i < given.color.size(); ++i) {
-    bool apart = colors_apart(other.color.values()[i], given.color.values()[i]);
-    if (by_depth && !apart && !given.depth.empty()) {
+    bool apart = colors_apart(other.color.values()[i], given.color.values()[i], eye.codes);
+    if (by_depth && !apart) {
       const double z = other.depth.values()[i];
-      apart = !(std::abs(given.depth.values()[i] - z) <= 1.5 * depth_step(scene.frame.depth, z));
+      const double most = std::max(1.5 * depth_step(scene.frame.depth, z), kFloatDepth);
+      apart = !(std::abs(given.depth.values()[i] - z) <= most);
     }
     count += apart;
   }
@@ -58,13 +70,16 @@ float encoded(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
+using Measure = std::function<std::size_t(const Pictured&)>;
+
+// A known mistake, and how many pixels it leaves apart.
 struct Lookalike {
+  std::string stage, name, says;
   std::size_t apart;
-  std::string name, says;
 };
 
 // Mistakes that are made of a right frame on its way into a file.
-std::vector<Lookalike> of_files(const Scene& scene, const Pictured& right, const Pictured& given) {
+std::vector<Lookalike> of_files(const Pictured& right, const Measure& measure) {
   const int width = right.color.width(), height = right.color.height();
   const auto from = [&](Pictured& out, int x, int y, int from_x, int from_y) {
     out.color(x, y) = right.color(from_x, from_y);
@@ -79,12 +94,34 @@ std::vector<Lookalike> of_files(const Scene& scene, const Pictured& right, const
   };
   std::vector<Lookalike> out;
   const auto add = [&](const char* name, const char* says, auto change) {
-    out.push_back({pixels_apart(scene, given, changed(right, change)), name, says});
+    out.push_back({"file", name, says, measure(changed(right, change))});
   };
   add("file.rows_reversed", "the rows are written from the other end", reversed);
   add("file.mirrored", "the columns are written from the other end", mirrored);
   add("file.bgr", "red and blue are swapped", swapped);
   add("file.srgb", "colours are encoded as sRGB once more", srgb);
+  return out;
+}
+
+// Those nearer than ours, the nearest first.
+Lookalikes ranked(std::vector<Lookalike> all, std::size_t apart) {
+  Lookalikes out;
+  out.apart = apart;
+  std::erase_if(all, [&](const Lookalike& l) { return l.apart >= apart; });
+  std::ranges::stable_sort(all, {}, &Lookalike::apart);
+  if (all.empty()) {
+    out.text = "no known fault draws a frame that is nearer\n";
+    return out;
+  }
+  constexpr std::size_t kShown = 8;
+  out.text = "explains  pixels left  fault\n";
+  for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown))) {
+    const double explained = 100.0 * static_cast<double>(apart - l.apart) / static_cast<double>(apart);
+    out.text += fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, l.apart, l.name, l.says);
+  }
+  const Lookalike& nearest = all.front();
+  if (10 * nearest.apart <= apart) out.likely = fmt::format("{} (fault {})", nearest.stage, nearest.name);
+  out.whole = nearest.apart == 0;
   return out;
 }
 
@@ -105,27 +142,21 @@ void require_size(const std::string& file, const Plane<T>& plane, const Scene& s
 
 Lookalikes lookalikes(const Scene& scene, const Pictured& given) {
   const Pictured right = drawn(scene, "");
-  Lookalikes out;
-  out.apart = pixels_apart(scene, given, right);
-  if (out.apart == 0) return out;
-  std::vector<Lookalike> nearer = of_files(scene, right, given);
+  // Where all is within a code, half a code counts: truncation is no more.
+  Eye eye;
+  const bool coarse = pixels_apart(scene, given, right, eye) > 0;
+  if (!coarse) eye = {0.5f, false};
+  const Measure measure = [&](const Pictured& frame) { return pixels_apart(scene, given, frame, eye); };
+  const std::size_t apart = measure(right);
+  if (apart == 0) return {};
+  std::vector<Lookalike> all = of_files(right, measure);
   for (const FaultInfo& fault : fault_infos()) {
     const std::string name(fault.name);
-    nearer.push_back({pixels_apart(scene, given, drawn(scene, name)), name, std::string(fault.changes)});
+    all.push_back({std::string(fault.stage), name, std::string(fault.changes), measure(drawn(scene, name))});
   }
-  std::erase_if(nearer, [&](const Lookalike& l) { return l.apart >= out.apart; });
-  std::ranges::stable_sort(nearer, {}, &Lookalike::apart);
-  if (nearer.empty()) {
-    out.text = "no known fault draws a frame that is nearer\n";
-    return out;
-  }
-  constexpr std::size_t kShown = 8;
-  out.text = "explains  pixels left  fault\n";
-  for (const Lookalike& l : std::span(nearer).first(std::min(nearer.size(), kShown))) {
-    const double explained = 100.0 * static_cast<double>(out.apart - l.apart) / static_cast<double>(out.apart);
-    out.text += fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, l.apart, l.name, l.says);
-  }
-  out.explained = 10 * nearer.front().apart <= out.apart;
+  Lookalikes out = ranked(std::move(all), apart);
+  if (!coarse && out.likely.empty()) return {};  // rounded otherwise
+  if (!coarse) out.codes = 0.5;
   return out;
 }
 
@@ -142,10 +173,11 @@ int diagnose_picture(const DiagnoseOptions& o) {
     std::ranges::transform(depth.values(), given.depth.values().begin(), [](const glm::vec4& z) { return z.r; });
   }
   const Lookalikes found = lookalikes(scene, given);
-  fmt::print("{}: {} of {} pixels are more than 1/255{} from ours\n", o.picture, found.apart, given.color.size(),
-             o.depth.empty() ? "" : ", or a step of depth,");
+  fmt::print("{}: {} of {} pixels are more than {}/255{} from ours\n", o.picture, found.apart, given.color.size(),
+             found.codes, o.depth.empty() ? "" : ", or a step of depth,");
   if (found.apart == 0) return kHolds;
   fmt::print("{}", found.text);
+  if (!found.likely.empty()) fmt::print("likely stage: {}\n", found.likely);
   return kDiffers;
 }
 

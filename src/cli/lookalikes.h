@@ -15,11 +15,13 @@ struct Pictured {
 };
 
 /// Known faults whose frame is nearer to the one given than ours is, the nearest first, and how much of what differs
-/// each explains.
+/// each explains. Where all colours are within a code of 8 bits, half a code counts, if a fault explains that.
 struct Lookalikes {
-  std::size_t apart = 0;   ///< pixels that differ from ours: red, green or blue by more than a code of 8 bits, or depth
-  std::string text;        ///< lines for people
-  bool explained = false;  ///< one explains nine tenths of them, or more
+  std::size_t apart = 0;  ///< pixels that differ from ours: red, green or blue by more than so many codes, or depth
+  double codes = 1;       ///< 1, or half of one
+  std::string text;       ///< lines for people
+  std::string likely;     ///< "STAGE (fault NAME)", where the nearest explains nine tenths of them or more; else empty
+  bool whole = false;     ///< and all of them
 };
 Lookalikes lookalikes(const Scene& scene, const Pictured& given);
 

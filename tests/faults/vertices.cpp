@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "faults/lists.h"
 #include "faults/variants.h"
@@ -57,6 +58,16 @@ constexpr auto kFovHorizontal = [](const Scene& scene, Matrices<float>& m) {
   const float aspect = static_cast<float>(scene.frame.width) / static_cast<float>(scene.frame.height);
   m.projection[0][0] *= aspect;
   m.projection[1][1] *= aspect;
+};
+
+// tan(fov / 2 * near) for tan(fov / 2) * near.
+constexpr auto kFovTimesNear = [](const Scene& scene, Matrices<float>& m) {
+  const auto* perspective = std::get_if<Perspective>(&scene.projection);
+  if (perspective == nullptr) return;
+  const double half = glm::radians(double{perspective->fov_y_degrees}) / 2, near = std::abs(double{perspective->near});
+  const auto factor = static_cast<float>(std::tan(half) / std::tan(half * near));
+  m.projection[0][0] *= factor;
+  m.projection[1][1] *= factor;
 };
 
 constexpr auto kAspectOf4To3 = [](const Scene& scene, Matrices<float>& m) {
@@ -129,6 +140,8 @@ constexpr Fault of_vertex(std::string_view name, std::string_view changes, std::
 constexpr std::array kVertices = {
     of_matrices<matrices_changed<kFovHorizontal>>("matrices.fov_horizontal",
                                                   "the vertical field of view is taken for the horizontal one"),
+    of_matrices<matrices_changed<kFovTimesNear>>(
+        "matrices.fov_times_near", "half the field of view is multiplied by near within the tangent, not beside it"),
     of_matrices<matrices_changed<kAspectOf4To3>>("matrices.aspect_of_4_to_3", "every picture is taken to be 4 to 3",
                                                  "avaraline/Avara#69"),
     of_matrices<matrices_changed<kNearFarSwapped>>("matrices.near_far_swapped",
