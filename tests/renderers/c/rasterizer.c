@@ -9,7 +9,7 @@ enum { MOST_CORNERS = 9 + 3, SUBPIXELS = 256 };
 static double min(double a, double b) { return a < b ? a : b; }
 static double max(double a, double b) { return a > b ? a : b; }
 static double clamp(double x, double low, double high) { return min(max(x, low), high); }
-static double as_code(double x, double codes) { return codes > 0 ? nearbyint(clamp(x, 0, 1) * codes) : x; }
+static double as_code(double x, double codes) { return codes > 0 ? nearbyint(clamp(x, 0, 1) * codes) : (float)x; }
 
 void clear_frame(Frame *frame, const double color[4], double depth) {
   const size_t pixels = (size_t)frame->width * (size_t)frame->height;
@@ -72,10 +72,13 @@ static int passes(Compare func, double mine, double held) {
   return 0;
 }
 
-static void write_pixel(Frame *frame, const State *state, long i, double z, const double color[4]) {
-  int c;
+static void write_pixel(Frame *frame, const State *state, int x, int y, double z, const double color[4]) {
+  const long i = (long)y * frame->width + x;
+  int c, drawn;
   z = as_code(z, frame->depth_codes);
-  if (!passes(state->depth_func, z, frame->depth[i])) return;
+  drawn = passes(state->depth_func, z, frame->depth[i]);
+  if (frame->listener) frame->listener->fragment(frame, x, y, z / max(frame->depth_codes, 1), color, drawn);
+  if (!drawn) return;
   if (state->write_depth) frame->depth[i] = z;
   for (c = 0; c < 4; ++c) {
     if (state->write_color[c]) frame->color[4 * i + c] = as_code(clamp(color[c], 0, 1), frame->color_codes);
@@ -99,7 +102,7 @@ static int covers(const double at[3][2], double sign, const double centre[2]) {
 }
 
 /* Corners inside the view volume to pixels. Coverage goes by corners on a grid, what is interpolated by the corners. */
-static void fill(Frame *frame, const State *state, const Vertex *v[3]) {
+static void fill(Frame *frame, const State *state, const Vertex *const v[3]) {
   const double size[2] = {frame->width / 2.0, frame->height / 2.0}, depth = (state->far - state->near) / 2;
   double win[3][2], grid[3][2], z[3], slope[2] = {0, 0}, low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9}, area, sign, offset;
   int k, i, x, y, c;
@@ -115,6 +118,7 @@ static void fill(Frame *frame, const State *state, const Vertex *v[3]) {
   }
   area = area_of(grid[0], grid[1], grid[2]), sign = area > 0 ? 1 : -1;
   if (area == 0 || (area > 0 ? state->cull_front : state->cull_back)) return;
+  if (frame->listener) frame->listener->triangle(frame, (const double(*)[2])win, z, v);
   if (sign * area_of(win[0], win[1], win[2]) <= 0) memcpy(win, grid, sizeof win); /* turned over by the grid */
   area = area_of(win[0], win[1], win[2]);
   for (k = 0; k < 3; ++k) {
@@ -134,7 +138,7 @@ static void fill(Frame *frame, const State *state, const Vertex *v[3]) {
       }
       for (c = 0; c < 4; ++c) color[c] /= inv_w;
       here = clamp(here, min(state->near, state->far), max(state->near, state->far));
-      write_pixel(frame, state, (long)y * frame->width + x, here, color);
+      write_pixel(frame, state, x, y, here, color);
     }
   }
 }
@@ -144,6 +148,7 @@ void draw_triangle(Frame *frame, const State *state, const Vertex corners[3]) {
   int count = 3, i;
   for (i = 0; i < 3; ++i) polygon[i] = corners[i];
   count = clip(polygon, count, state->depth_clamp ? 4 : 6);
+  if (frame->listener && count > 2) frame->listener->polygon(frame, polygon, count);
   for (i = 2; i < count; ++i) {
     const Vertex *v[3] = {&polygon[i - 1], &polygon[i], &polygon[0]};
     fill(frame, state, v);

@@ -1,5 +1,5 @@
 /* A small rasterizer, as somebody might write it who has never heard of plumbline: triangles in clip space, with a
-   colour and a texture coordinate at each corner, into a frame of doubles. */
+   colour at each corner, into a frame of doubles. */
 #ifndef RASTERIZER_H
 #define RASTERIZER_H
 
@@ -10,13 +10,23 @@ typedef struct {
 typedef enum { NEVER, LESS, EQUAL, LESS_EQUAL, GREATER, NOT_EQUAL, GREATER_EQUAL, ALWAYS } Compare;
 #define COMPARES "never|less|equal|less_equal|greater|not_equal|greater_equal|always"
 
+/* Told what each stage hands on: clipped polygons, triangles in pixels, fragments with the depth that is compared. */
+struct Frame;
 typedef struct {
+  void (*polygon)(const struct Frame* frame, const Vertex* corners, int count);
+  void (*triangle)(const struct Frame* frame, const double win[3][2], const double z[3], const Vertex* const v[3]);
+  void (*fragment)(const struct Frame* frame, int x, int y, double z, const double color[4], int drawn);
+} Listener;
+
+typedef struct Frame {
   int width, height;
-  double color_codes; /* largest code of a channel, 0: float */
-  double depth_codes; /* largest code of a depth, 0: float */
-  double* color;      /* rgba, in codes or float */
-  double* depth;      /* likewise, of window z */
-  float* floats;      /* finish_frame() */
+  double color_codes;       /* largest code of a channel, 0: float */
+  double depth_codes;       /* largest code of a depth, 0: float */
+  double* color;            /* rgba, in codes or float */
+  double* depth;            /* likewise, of window z */
+  float* floats;            /* finish_frame() */
+  unsigned primitive;       /* that is being drawn */
+  const Listener* listener; /* or NULL */
 } Frame;
 
 typedef struct {
