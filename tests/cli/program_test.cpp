@@ -10,6 +10,7 @@ namespace plumbline {
 namespace {
 
 const std::string kMine = "'" PLUMBLINE_C_RENDERER " {input} {output}'";
+const std::string kRecorder = "'" PLUMBLINE_C_RECORDER " {serve}'";
 const std::string kServer = "'" PLUMBLINE_C_RENDERER " {serve}'";
 
 // Scenes of the line of a feature.
@@ -39,6 +40,50 @@ TEST_F(Cli, program_of_a_suite_ends_with_a_row_per_feature) {
   EXPECT_EQ(tally(run, "fog").unable, 12);
   EXPECT_EQ(tally(run, "clip").right, 16);
   EXPECT_TRUE(run.says("unable: texture ")) << run.text;
+}
+
+// A renderer in double, of its own arithmetic, whose records are in arrays of f32 and f64, without derived columns.
+TEST_F(Cli, program_that_shows_all_its_records_is_right_at_every_stage) {
+  for (const char* scene : {"coverage/fan", "clip/corners_on_planes", "light/sphere_gouraud", "depth/functions_z32f"}) {
+    const Outcome run = plumb("diagnose " + kScenes + scene + ".json --program " + kRecorder);
+    EXPECT_EQ(run.code, 0) << run.text;
+    EXPECT_TRUE(run.says("11 of 13 stages judged")) << run.text;
+    EXPECT_TRUE(run.says("first different stage: none")) << run.text;
+  }
+}
+
+// What refuses the scene lies in another file of the program than main().
+TEST_F(Cli, program_of_several_files_may_refuse_a_scene_in_any_of_them) {
+  const Outcome run =
+      plumb("check " + kScenes + "light/reflection_colors.json " + kSharedEdges + " --program " + kRecorder);
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("unable: specular reflection 1")) << run.text;
+}
+
+// Browsers and virtual machines reserve more addresses than there is memory.
+TEST_F(Cli, program_is_limited_in_what_it_writes_to_not_in_its_addresses) {
+  const Outcome run =
+      plumb("check " + kSharedEdges + " --program 'echo v $(ulimit -v) d $(ulimit -d) >&2; exit 77; {input} {output}'");
+  EXPECT_TRUE(run.says("v unlimited d ")) << run.text;
+  EXPECT_FALSE(run.says("d unlimited")) << run.text;
+}
+
+TEST_F(Cli, program_of_a_course_is_graded_scene_by_scene) {
+  for (const std::string course : {"gl", "games101", "gzrender", "tinyrenderer"}) {
+    const std::string scenes = PLUMBLINE_SOURCE_DIR "/tests/homework/" + course;
+    const Outcome ours = plumb("check " + scenes);
+    EXPECT_EQ(ours.code, 0) << ours.text;
+    EXPECT_TRUE(ours.says("22 scenes")) << ours.text;
+    const std::string grades = at(course + ".json");
+    const Outcome run =
+        plumb("check " + scenes + " --program " + kServer + " --grade " + scenes + ".rubric.json --grades " + grades);
+    EXPECT_EQ(run.code, 0) << run.text;
+    std::ifstream in(grades);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    // All but four textures and one light per fragment.
+    EXPECT_NE(text.find("\"score\": 85.0"), text.npos) << text;
+    EXPECT_NE(text.find("The texture is upside down"), text.npos) << "the hint";
+  }
 }
 
 TEST_F(Cli, program_that_draws_no_scene_ends_2) {

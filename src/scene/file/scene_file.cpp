@@ -247,7 +247,7 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
 /// x.json, but neither the schema nor a part that scenes include.
 bool is_scene(const fs::path& file) {
   const fs::path second = file.stem().extension();
-  return file.extension() == ".json" && second != ".schema" && second != ".part";
+  return file.extension() == ".json" && second != ".schema" && second != ".part" && second != ".rubric";
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct SceneFileOptions {
 Scene load_scene(const std::filesystem::path& file, const SceneFileOptions& options = {});
 
 /// The scene files that `paths` name: files as they are; of folders all *.json in them and below, sorted, but for
-/// *.part.json (what scenes include) and *.schema.json.
+/// *.part.json (what scenes include), *.schema.json and *.rubric.json.
 /// Throws SceneError if a path does not exist, or nothing is found.
 std::vector<std::filesystem::path> find_scenes(std::span<const std::filesystem::path> paths);
 
