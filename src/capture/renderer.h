@@ -59,6 +59,7 @@ struct Ability {
   bool runs = false;          ///< run_stage() serves the stage
   std::string reason;         ///< why not, where neither
   bool planes_alone = false;  ///< what it shows are planes, without records
+  bool given = false;         ///< it does not show it: its capture holds the records that it was given
 };
 
 struct RendererInfo {

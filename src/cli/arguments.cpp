@@ -57,11 +57,18 @@ const std::string kProgramHelp =
     "{scene} in it is the scene's file, {input} the folder of its export, {output} that for the capture; or {serve}: "
     "started once, it is asked by lines";
 
-void add_probes(CLI::App& command, bool& probes) {
+CLI::Option* add_program(CLI::App& command, ProgramArgument& program, const std::string& what) {
+  CLI::Option* line = text(command, "--program", program.command, what + kProgramHelp);
   command
-      .add_flag("--each-primitive", probes,
+      .add_flag("--each-primitive", program.probes,
                 "Call the program for each primitive alone as well: coverage and winners are judged by such pictures")
-      ->needs(command.get_option("--program"));
+      ->needs(line);
+  text(command, "--from", program.from,
+       "clip or window: the program begins with the export's vertices in clip space, or its triangles in window space; "
+       "the stages before are given, and not judged")
+      ->check(CLI::IsMember({"clip", "window"}))
+      ->needs(line);
+  return line;
 }
 
 template <class Options>
@@ -94,15 +101,21 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--shard", o.shard, "I/N: every Nth scene, from number I on");
   text(command, "--golden", o.golden, "Compare with the goldens in this folder as well, stage by stage");
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
-  text(command, "--program", o.command, "Judge what this command line draws, in our renderer's place: " + kProgramHelp)
-      ->excludes(fault)
-      ->excludes(command.get_option("--golden"));
-  add_probes(command, o.probes);
+  CLI::Option* program =
+      add_program(command, o.candidate, "Judge what this command line draws, in our renderer's place: ");
+  program->excludes(fault)->excludes(command.get_option("--golden"));
+  CLI::Option* submissions = text(command, "--submissions", o.submissions,
+                                  "A folder: judge the program for each folder in it, which is {submission} in the "
+                                  "command line; a row for each")
+                                 ->needs(program);
   CLI::Option* rubric = text(command, "--grade", o.rubric, "With --program: points by scene and stage, as JSON")
                             ->needs(command.get_option("--program"));
-  CLI::Option* grades = text(command, "--grades", o.grades, "Write the points earned as Gradescope's results.json");
+  CLI::Option* grades = text(command, "--grades", o.grades,
+                             "Write the points earned as Gradescope's results.json; of --submissions a folder of such");
   rubric->needs(grades);
   grades->needs(rubric);
+  for (const char* of_one : {"--json", "--report", "--ledger", "--junit", "--rows", "--failures", "--expect"})
+    submissions->excludes(command.get_option(of_one));
   command
       .add_option("--jobs", o.jobs,
                   "Scenes judged at a time, each in a process of its own (default: the number of processors)")
@@ -127,11 +140,10 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   add_limits(command, o.limits);
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
-  text(command, "--program", o.command, "Diagnose what this command line leaves within a minute: " + kProgramHelp)
+  add_program(command, o.candidate, "Diagnose what this command line leaves within a minute: ")
       ->excludes(fault)
       ->excludes(folder);
   folder->excludes(fault);
-  add_probes(command, o.probes);
   CLI::Option* picture = text(command, "--picture", o.picture,
                               "Name the known faults that draw pictures like this one, which is all there is");
   text(command, "--depth", o.depth, "With --picture: window z as .exr, which is compared as well")->needs(picture);

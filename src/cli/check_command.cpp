@@ -1,14 +1,10 @@
 // plumb check: scenes against references, stage by stage.
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -21,13 +17,14 @@
 #include "check/verdict/expectations.h"
 #include "cli/check_failures.h"
 #include "cli/commands.h"
+#include "cli/judge_in_workers.h"
 #include "cli/options/outputs.h"
 #include "cli/options/program_argument.h"
 #include "cli/options/references.h"
 #include "cli/options/renderers.h"
 #include "cli/options/shard_argument.h"
 #include "cli/scene_judge.h"
-#include "cli/worker_bytes.h"
+#include "cli/submissions.h"
 #include "report/page/html_report.h"
 #include "report/runs/grade.h"
 #include "report/runs/json_report.h"
@@ -108,59 +105,6 @@ std::vector<std::filesystem::path> inputs_of(const CheckOptions& o, std::span<co
   return out;
 }
 
-// Scenes judged at a time.
-std::size_t jobs(const CheckOptions& o, std::size_t scenes) {
-  const int wanted = o.jobs > 0 ? o.jobs : static_cast<int>(std::thread::hardware_concurrency());
-  return std::min(static_cast<std::size_t>(std::clamp(wanted, 1, kMostJobs)), std::max<std::size_t>(scenes, 1));
-}
-
-// Those that take a good part of a thread's time are begun first: else they would be waited for at the end.
-std::vector<std::size_t> order_to_judge(std::span<const Scene> scenes, std::size_t at_a_time) {
-  constexpr double kPerPrimitive = 16;  // times as long as a pixel
-  std::vector<double> costs;
-  for (const Scene& scene : scenes) {
-    double primitives = 0;
-    for (const Draw& draw : scene.draws) primitives += static_cast<double>(scene.meshes[draw.mesh].triangles.size());
-    costs.push_back(kPerPrimitive * primitives + static_cast<double>(scene.frame.width) * scene.frame.height);
-  }
-  const double most = std::accumulate(costs.begin(), costs.end(), 0.0) / (4.0 * static_cast<double>(at_a_time));
-  std::vector<std::size_t> out(scenes.size());
-  std::iota(out.begin(), out.end(), std::size_t{0});
-  if (at_a_time > 1) std::ranges::stable_partition(out, [&](std::size_t i) { return costs[i] > most; });
-  return out;
-}
-
-// Judges the scenes in worker processes; take(judged) for each, in order. A renderer that ends its worker has failed at
-// that step: the next worker judges the scene once more without asking it again.
-void judge_in_workers(std::span<const Scene> scenes, const CheckRules& rules, std::set<std::string>& words,
-                      const std::function<void(JudgedScene)>& take) {
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  const std::size_t at_a_time = jobs(rules.options, scenes.size());
-  const std::vector<std::size_t> order = order_to_judge(scenes, at_a_time);
-  std::vector<JudgeRequest> requests(scenes.size());
-  const auto make = [&](Progress& progress) -> Workers::Answer {
-    const auto judge = std::make_shared<SceneJudge>(rules, progress);
-    return [&, judge](const std::string& bytes) {
-      JudgeRequest request = request_of(bytes);
-      const Scene& scene = scenes[request.scene];
-      return to_bytes(request.not_compared.empty() ? judge->judge(scene, std::move(request.ended))
-                                                   : not_compared(scene, rules, request.not_compared),
-                      rules);
-    };
-  };
-  const auto ask = [&](std::size_t i) {
-    if (terminal) fmt::print(stderr, "\r\x1b[K[{}/{}] {}\r", i + 1, scenes.size(), scenes[i].path);
-    requests[i].scene = i;
-    return to_bytes(requests[i]);
-  };
-  const auto ask_again = [&](std::size_t i, const WorkerEnd& end) {
-    (end.step == Progress::kBetween ? requests[i].not_compared : requests[i].ended[end.step]) = end.how;
-    return to_bytes(requests[i]);
-  };
-  const auto took = [&](std::size_t, const std::string& answer) { take(judged_scene_of(answer, rules, words)); };
-  Workers(at_a_time, rules.options.limits, make).run({order, ask, took, ask_again});
-}
-
 }  // namespace
 
 int check(const CheckOptions& given) {
@@ -170,7 +114,8 @@ int check(const CheckOptions& given) {
       !faulted.empty() && std::ranges::count(o.against, faulted) == 0)
     throw std::invalid_argument(fmt::format("--fault: {} is not among the references asked", faulted));
   const auto start = std::chrono::steady_clock::now();
-  if (!o.command.empty()) make_program(o.command);  // refuses what is no command line
+  if (!o.candidate.command.empty() && o.submissions.empty())
+    make_program(o.candidate);  // refuses what is no command line
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
   std::vector<std::filesystem::path> files = find_scenes(paths);
   const report::Shard shard = take_shard(files, o.shard);
@@ -183,6 +128,8 @@ int check(const CheckOptions& given) {
     scenes.push_back(o.scene_arguments.load(file));
     require_budget(scenes.back(), plane_bytes(scenes.back()), Request{}.memory_budget);
   }
+  if (rubric) require_scenes(*rubric, scenes, o.rubric);
+  if (!o.submissions.empty()) return check_submissions(rules, scenes, rubric);
   const Output outputs[] = {{"--json", o.json},
                             {"--ledger", o.ledger},
                             {"--junit", o.junit},
@@ -190,7 +137,6 @@ int check(const CheckOptions& given) {
                             {"--grades", o.grades}};
   require_outputs(outputs, {"--report", o.report}, inputs_of(o, scenes));
   require_folders(o, scenes);
-  if (rubric) require_scenes(*rubric, scenes, o.rubric);
   report::RunHead head{{}, o.fault, o.against, !o.golden.empty(), shard, {}};
   if (!o.golden.empty()) rules.goldens.emplace(o.golden, check::GoldenSet::Access::read);
   if (!o.report.empty()) rules.page.emplace(o.report, scenes.size());
@@ -214,12 +160,12 @@ int check(const CheckOptions& given) {
   if (is_whole(o, verdicts)) head.failures = check::of_no_scene(rules.expectations, verdicts);
   const bool holds = report::all_hold(verdicts) && head.failures.empty();
   std::string summary = not_asked_line(o);
-  if (!o.command.empty() && !can_confine())
+  if (!o.candidate.command.empty() && !can_confine())
     summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());
   summary += report::summary(verdicts, holds, seconds);
   const std::string of_run = lines_of(head.failures);
-  const bool outside = !o.command.empty();
+  const bool outside = !o.candidate.command.empty();
   fmt::print("\n{}{}{}{}", failures, of_run,
              outside ? report::conformance_text(verdicts) : report::group_lines(verdicts), summary);
   if (!o.json.empty()) report::write_json(o.json, verdicts, head);

@@ -25,8 +25,9 @@ std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& ver
   if (o.against != reference_names()) out += fmt::format(" --against {}", fmt::join(o.against, ","));
   if (!o.golden.empty()) out += " --golden " + shell_word(o.golden);
   if (!o.fault.empty()) out += " --fault " + shell_word(o.fault);
-  if (!o.command.empty()) out += " --program " + shell_word(o.command);
-  if (o.probes) out += " --each-primitive";
+  if (!o.candidate.command.empty()) out += " --program " + shell_word(o.candidate.command);
+  if (o.candidate.probes) out += " --each-primitive";
+  if (!o.candidate.from.empty()) out += " --from " + o.candidate.from;
   if (!o.expect.empty()) out += " --expect " + shell_word(o.expect);
   if (!o.today.empty()) out += " --today " + o.today;
   if (o.allow_missing) out += " --allow-missing";
@@ -47,7 +48,8 @@ bool all_asked(const CheckOptions& o) {
 std::vector<Stage> unjudged(const check::SceneVerdict& verdict, const CheckOptions& o) {
   const auto failed = [](const check::Comparison& c) { return c.outcome == check::Outcome::failed; };
   if (!all_asked(o) || std::ranges::any_of(verdict.comparisons, failed)) return {};
-  if (!o.command.empty()) return {};  // a program need not show all stages: conformance() says what was judged
+  if (!o.candidate.command.empty())
+    return {};  // a program need not show all stages: conformance() says what was judged
   std::vector<Stage> out = check::unjudged_stages(verdict);
   if (!o.allow_missing) return out;
   const std::vector<Stage> forgiven = check::stages_lost_to_missing(verdict);

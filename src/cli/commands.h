@@ -6,6 +6,7 @@
 
 #include "base/workers.h"
 #include "check/diagnose/diagnose.h"
+#include "cli/options/program_argument.h"
 #include "cli/options/renderers.h"
 #include "cli/options/scene_arguments.h"
 
@@ -30,8 +31,8 @@ struct CheckOptions {
   std::string shard;           ///< I/N: every Nth scene, from number I on
   std::string golden;          ///< the folder of goldens, whose rows stand beside the references'; or empty
   std::string fault;           ///< a fault to put into our renderer, or empty
-  std::string command;         ///< of another renderer, in ours' place; or empty
-  bool probes = false;         ///< which is called for each primitive as well
+  ProgramArgument candidate;   ///< another renderer, in ours' place
+  std::string submissions;     ///< a folder: one candidate for each folder in it; or empty
   std::string rubric, grades;  ///< points by scene and stage (report/runs/grade.h), and where they go; or empty
   int jobs = 0;                ///< scenes judged at a time; 0: as many as there are processors
   WorkerLimits limits;         ///< of the processes that judge
@@ -46,12 +47,12 @@ int check(const CheckOptions& options);
 struct DiagnoseOptions {
   std::string scene;
   std::vector<std::string> against = reference_names();
-  std::string json, report;     ///< or empty
-  std::string picture, depth;   ///< of another renderer, which is all that it left, or empty
-  std::string fault;            ///< or empty
-  std::string folder, command;  ///< of another renderer, or empty
-  bool probes = false;          ///< the command is called for each primitive as well
-  std::string pixel;            ///< X,Y: its history as well; or empty
+  std::string json, report;    ///< or empty
+  std::string picture, depth;  ///< of another renderer, which is all that it left, or empty
+  std::string fault;           ///< or empty
+  std::string folder;          ///< a capture of another renderer, or empty
+  ProgramArgument candidate;   ///< another renderer
+  std::string pixel;           ///< X,Y: its history as well; or empty
   std::uint64_t most_fragments = check::kMostFragments;
   WorkerLimits limits;  ///< of the process that diagnoses
   SceneArguments scene_arguments;

@@ -29,11 +29,24 @@ namespace plumbline::cli {
 
 namespace {
 
+// What a program left, and what it shows of that.
+class Left : public Renderer {
+ public:
+  Left(Capture capture, RendererInfo info) : capture_(std::move(capture)), info_(std::move(info)) {}
+  RendererInfo info() const override { return info_; }
+  Capture capture(const Scene&, const Request&) override { return capture_; }
+
+ private:
+  Capture capture_;
+  RendererInfo info_;
+};
+
 // Candidate of another renderer: the capture that it left. (A program is run once.)
 std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scene& scene) {
   if (!o.folder.empty()) return make_replayed_renderer(read_capture(o.folder), scene, o.folder);
-  return make_replayed_renderer(make_program(o.command, o.probes)->capture(scene, {StageSet::all(), false, {}, {}}),
-                                scene, "--program");
+  const std::unique_ptr<Renderer> program = make_program(o.candidate);
+  Capture left = program->capture(scene, {StageSet::all(), false, {}, {}});
+  return std::make_unique<Left>(std::move(left), program->info());
 }
 
 // Of an antialiased scene its frame, and the stages of its first pass; else the stages of the frame.
@@ -106,7 +119,7 @@ std::string known_faults(const Scene& scene, const Capture& left, const check::D
 std::string diagnose_here(Subject& subject, const Watch& watch) {
   const DiagnoseOptions& o = subject.options;
   const Scene& scene = subject.scene;
-  const bool outside = !o.folder.empty() || !o.command.empty();
+  const bool outside = !o.folder.empty() || !o.candidate.command.empty();
   std::unique_ptr<Renderer> candidate;
   try {
     candidate = make_watched(outside ? outside_candidate(o, scene) : make_candidate(o.fault), 0, watch);
@@ -162,7 +175,7 @@ int diagnose(const DiagnoseOptions& o) {
   require_outputs(outputs, {"--report", o.report}, inputs);
   if (!o.report.empty()) subject.page.emplace(o.report);
   WorkerLimits limits = o.limits;
-  if (!o.command.empty()) limits.step += kOwnProcessLimit;  // a program has a time limit of its own
+  if (!o.candidate.command.empty()) limits.step += kOwnProcessLimit;  // a program has a time limit of its own
   JudgeRequest request;
   int code = kDiffers;
   const auto make = [&](Progress& progress) -> Workers::Answer {

@@ -14,6 +14,7 @@
 #include "capture/files/image_file.h"
 #include "cli/commands.h"
 #include "cli/options/renderers.h"
+#include "scene/draw_index.h"
 
 namespace plumbline::cli {
 
@@ -158,6 +159,16 @@ Lookalikes lookalikes(const Scene& scene, const Pictured& given) {
   if (!coarse && out.likely.empty()) return {};  // rounded otherwise
   if (!coarse) out.codes = 0.5;
   return out;
+}
+
+std::string likely_fault(const Scene& scene, const Capture& left) {
+  constexpr std::size_t kMostPrimitives = 20'000, kMostPixels = 200'000;  // each fault is a picture
+  const Plane<glm::vec4>& color = left.planes.color;
+  if (color.empty() || color.size() > kMostPixels || DrawIndex(scene).primitives() > kMostPrimitives ||
+      scene.frame.antialias.kind != Antialias::Kind::none || color.width() != scene.frame.width ||
+      color.height() != scene.frame.height)
+    return "";
+  return lookalikes(scene, {color, left.planes.depth}).likely;
 }
 
 int diagnose_picture(const DiagnoseOptions& o) {

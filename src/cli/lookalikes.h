@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "capture/capture.h"
 #include "capture/plane.h"
 #include "scene/scene.h"
 
@@ -24,5 +25,7 @@ struct Lookalikes {
   bool whole = false;     ///< and all of them
 };
 Lookalikes lookalikes(const Scene& scene, const Pictured& given);
+/// What is likely of a capture, where that is soon told; else empty.
+std::string likely_fault(const Scene& scene, const Capture& left);
 
 }  // namespace plumbline::cli

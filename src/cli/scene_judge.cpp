@@ -6,8 +6,10 @@
 #include "check/golden/golden.h"
 #include "check/judge/judge.h"
 #include "cli/check_failures.h"
+#include "cli/lookalikes.h"
 #include "cli/options/program_argument.h"
 #include "cli/options/renderers.h"
+#include "report/text/conformance.h"
 
 namespace plumbline::cli {
 
@@ -19,16 +21,21 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   if (!candidate_) {  // here, since what is made may have ended a worker before
     const Watch watch{progress_, &ended_, o.limits.step};
     Watch of_candidate = watch;
-    if (!o.command.empty()) of_candidate.limit += kOwnProcessLimit;  // a program has a time limit of its own
-    candidate_ = make_watched(o.command.empty() ? make_candidate(faulted_reference(o.fault).empty() ? o.fault : "")
-                                                : make_program(o.command, o.probes),
-                              0, of_candidate);
+    const bool outside = !o.candidate.command.empty();
+    if (outside) of_candidate.limit += kOwnProcessLimit;  // a program has a time limit of its own
+    candidate_ = make_watched(
+        outside ? make_program(o.candidate) : make_candidate(faulted_reference(o.fault).empty() ? o.fault : ""), 0,
+        of_candidate);
     references_ = make_references(o.against, o.scene_arguments.assets, watch, o.fault);
   }
   JudgedScene out;
   check::BothCaptures drawn;
-  out.verdict = check::judge(scene, *candidate_, references_.list, rules_->page ? &drawn : nullptr);
+  const bool outside = !o.candidate.command.empty();
+  out.verdict = check::judge(scene, *candidate_, references_.list, rules_->page || outside ? &drawn : nullptr);
   check::SceneVerdict& verdict = out.verdict;
+  if (outside && report::conformance_of(verdict) == report::Conformance::differs) {
+    verdict.cause = likely_fault(scene, drawn.candidate);
+  }
   if (rules_->goldens)
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),
                       std::back_inserter(verdict.comparisons));

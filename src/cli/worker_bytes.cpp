@@ -134,7 +134,7 @@ void visit(Archive& archive, report::HtmlReport::Drawing& d) {
 template <class Archive>
 void visit_scene(Archive& archive, JudgedScene& s, const CheckRules& rules) {
   check::SceneVerdict& v = s.verdict;
-  all(archive, v.scene, v.path, v.comparisons, v.seconds, v.failure, v.repeat, s.failure, s.versions);
+  all(archive, v.scene, v.path, v.comparisons, v.seconds, v.failure, v.repeat, v.cause, s.failure, s.versions);
   s.settled.resize(archive.count(s.settled));
   for (check::Settled& settled : s.settled) {
     std::ptrdiff_t number = settled.expectation == nullptr ? 0 : settled.expectation - rules.expectations.data();

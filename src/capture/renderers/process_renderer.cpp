@@ -223,6 +223,7 @@ class ProcessRenderer : public Renderer {
         fail(fmt::format("left a capture of {} x {} pixels where the scene has {} x {}", capture.width, capture.height,
                          scene.frame.width, scene.frame.height));
       }
+      if (spec_.give && request.records.has(Stage::coverage)) spec_.give(scene, capture);
       complete_records(scene, capture);
       visit_capture(KeepOnly{request.records}, capture);
       capture.renderer = spec_.name;

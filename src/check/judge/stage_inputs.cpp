@@ -41,6 +41,7 @@ std::string lacking_records(const Scene& scene, const RendererInfo& candidate, S
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     if (!inputs.has(stage) || (stage == Stage::texture && !textured(scene))) continue;
+    if (candidate[stage].given) continue;
     if (!candidate[stage].shows) return fmt::format("{}: {}", kStageNames[i], candidate[stage].reason);
     if (candidate[stage].planes_alone) return fmt::format("{}: it shows planes, no records", kStageNames[i]);
   }

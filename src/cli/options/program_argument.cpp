@@ -8,6 +8,7 @@
 #include "capture/renderers/probes.h"
 #include "capture/renderers/process_renderer.h"
 #include "capture/renderers/replayed_renderer.h"
+#include "cli/options/scene_arguments.h"
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
 
@@ -23,8 +24,41 @@ bool replace(std::string& text, std::string_view what, std::string_view by) {
   return found;
 }
 
-ProcessSpec spec_of(const std::string& command) {
+// How many stages are given to a program that begins there.
+std::size_t given(const std::string& from) {
+  return from.empty() ? 0 : static_cast<std::size_t>(from == "clip" ? Stage::clip : Stage::coverage);
+}
+
+// The records of the export stand for what the program might have left of these stages.
+void give(const std::string& from, const Scene& scene, Capture& left) {
+  Records<double> ours = exported_stages(scene).ours.records;
+  Records<double>& r = left.records;
+  r.matrices = std::move(ours.matrices), r.lights = std::move(ours.lights), r.vertices = std::move(ours.vertices);
+  r.lit = std::move(ours.lit);
+  left.derived.erase("vertex.n_eye");
+  for (const Varying v : kAllVaryings) r.varyings[v].vertices = std::move(ours.varyings[v].vertices);
+  if (from != "window") return;
+  for (const char* column : {"clip.cut", "window.snapped", "window.front", "window.corners", "window.width"}) {
+    left.derived.erase(column);
+  }
+  r.polygons = std::move(ours.polygons), r.triangles = std::move(ours.triangles);
+  for (const Varying v : kAllVaryings) {
+    r.varyings[v].clipped = std::move(ours.varyings[v].clipped);
+    r.varyings[v].triangles = std::move(ours.varyings[v].triangles);
+  }
+  for (std::size_t i = 0; i < r.covered.size(); ++i) {
+    if (r.covered[i].triangle < r.triangles.size()) continue;
+    throw std::invalid_argument(fmt::format("coverage.triangle: element {}: expected a triangle below {}, found {}", i,
+                                            r.triangles.size(), r.covered[i].triangle));
+  }
+}
+
+ProcessSpec spec_of(const ProgramArgument& program) {
+  const std::string& command = program.command;
   ProcessSpec spec;
+  if (!program.from.empty()) {
+    spec.give = [from = program.from](const Scene& scene, Capture& left) { give(from, scene, left); };
+  }
   spec.name = "program";
   spec.shown = command;
   spec.confined = true;
@@ -50,8 +84,8 @@ ProcessSpec spec_of(const std::string& command) {
 
 class Program : public Renderer {
  public:
-  Program(const std::string& command, bool probes)
-      : process_(make_process_renderer(spec_of(command))), probes_(probes) {
+  explicit Program(const ProgramArgument& program)
+      : process_(make_process_renderer(spec_of(program))), program_(program) {
     info_.name = "program";
     for (Ability& ability : info_.stages) ability.reason = "it left nothing";
   }
@@ -61,9 +95,12 @@ class Program : public Renderer {
     Request everything;
     everything.records = StageSet::all();
     Capture left = capture_of(scene, everything);
-    if (probes_) probe(scene, left);
+    if (program_.probes) probe(scene, left);
     const std::unique_ptr<Renderer> replayed = make_replayed_renderer(std::move(left), scene, "--program");
     info_ = replayed->info();
+    for (std::size_t i = 0; i < given(program_.from); ++i) {
+      info_.stages[i] = {false, false, fmt::format("given: --from {}", program_.from), false, true};
+    }
     return replayed->capture(scene, everything);
   }
 
@@ -86,14 +123,20 @@ class Program : public Renderer {
   }
 
   std::unique_ptr<Renderer> process_;
-  bool probes_;
+  ProgramArgument program_;
   RendererInfo info_;
 };
 
 }  // namespace
 
-std::unique_ptr<Renderer> make_program(const std::string& command, bool probes) {
-  return std::make_unique<Program>(command, probes);
+std::unique_ptr<Renderer> make_program(const ProgramArgument& program) { return std::make_unique<Program>(program); }
+
+std::string command_of_submission(const std::string& command, const std::filesystem::path& folder) {
+  std::string line = command;
+  if (replace(line, "{submission}", shell_word(std::filesystem::absolute(folder).lexically_normal().string())))
+    return line;
+  throw std::invalid_argument(
+      fmt::format("--submissions: expected {{submission}} in the command line of --program, found {}", command));
 }
 
 ExportedStages exported_stages(const Scene& scene) {

@@ -9,12 +9,22 @@
 
 namespace plumbline::cli {
 
+/// --program and its options.
+struct ProgramArgument {
+  std::string command;  ///< empty: none is asked
+  bool probes = false;  ///< it is called for each primitive, too, for coverage and winners (capture/renderers/probes.h)
+  std::string from;     ///< "clip" or "window": it begins there, and the stages before are given; empty: with all
+};
+
 /// The renderer that this command line is, run by a shell: {scene} in it is the scene's file, {input} the folder of its
 /// export, {output} the folder for the capture; or {serve}, which becomes --serve: the program is started once, and
 /// asked by lines (capture/renderers/process_renderer.h). After capture(), info() is of what the program left for that
 /// scene. Throws std::invalid_argument where the command line has none of them.
-/// `probes`: the program is called for each primitive as well, for coverage and winners (capture/renderers/probes.h).
-std::unique_ptr<Renderer> make_program(const std::string& command, bool probes = false);
+std::unique_ptr<Renderer> make_program(const ProgramArgument& program);
+
+/// The command line, for the submission in this folder, quoted for a shell. Throws std::invalid_argument where
+/// {submission} does not stand in it.
+std::string command_of_submission(const std::string& command, const std::filesystem::path& folder);
 
 /// Stages 0 to 4 by our pipeline, and the matrices in double.
 ExportedStages exported_stages(const Scene& scene);

@@ -81,22 +81,46 @@ std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdi
   return out;
 }
 
-namespace {
-
-// All features, the whole suite last.
-std::vector<FeatureTally> with_all(std::span<const check::SceneVerdict> verdicts) {
-  std::vector<FeatureTally> out = conformance(verdicts);
+FeatureTally whole_suite(std::span<const check::SceneVerdict> verdicts) {
   FeatureTally all;
   Counts wrong;
-  for (const FeatureTally& t : out) {
+  for (const FeatureTally& t : conformance(verdicts)) {
     all.holds += t.holds, all.legal += t.legal, all.differs += t.differs, all.failed += t.failed,
         all.unable += t.unable;
     for (const auto& [stage, count] : t.first_wrong) wrong[stage] += count;
   }
   all.feature = "all";
   all.first_wrong = by_count(wrong);
-  out.push_back(std::move(all));
+  return all;
+}
+
+namespace {
+
+// All features, the whole suite last.
+std::vector<FeatureTally> with_all(std::span<const check::SceneVerdict> verdicts) {
+  std::vector<FeatureTally> out = conformance(verdicts);
+  out.push_back(whole_suite(verdicts));
   return out;
+}
+
+// One cause of many scenes is one line.
+std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
+  Counts causes;
+  std::map<std::string, std::string> first;
+  std::size_t unknown = 0;
+  for (const check::SceneVerdict& verdict : verdicts) {
+    if (conformance_of(verdict) != Conformance::differs) continue;
+    if (verdict.cause.empty()) {
+      ++unknown;
+    } else if (++causes[verdict.cause] == 1) {
+      first[verdict.cause] = verdict.scene;
+    }
+  }
+  std::string out;
+  for (const auto& [cause, count] : by_count(causes)) {
+    out += fmt::format("{:>6} wrong as by {}, first {}\n", count, cause, first[cause]);
+  }
+  return unknown == 0 ? out : out + fmt::format("{:>6} wrong as by no known fault\n", unknown);
 }
 
 std::string unable_line(std::span<const check::SceneVerdict> verdicts) {
@@ -115,7 +139,7 @@ std::string conformance_text(std::span<const check::SceneVerdict> verdicts) {
   for (const FeatureTally& t : with_all(verdicts)) {
     out += fmt::format(kRow, t.feature, t.holds, t.legal, t.differs, t.failed, t.unable, counted(t.first_wrong));
   }
-  return out + unable_line(verdicts);
+  return out + unable_line(verdicts) + cause_lines(verdicts);
 }
 
 std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) {
@@ -126,7 +150,7 @@ std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) 
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(t.feature), t.holds, t.legal, t.differs, t.failed,
                        t.unable, cell(counted(t.first_wrong)));
   }
-  return out + "\n" + cell(unable_line(verdicts)) + "\n";
+  return out + "\n" + cell(unable_line(verdicts)) + "\n\n" + cell(cause_lines(verdicts)) + "\n";
 }
 
 }  // namespace plumbline::report

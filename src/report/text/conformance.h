@@ -29,7 +29,11 @@ struct FeatureTally {
 };
 std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdicts);
 
-/// Lines for people: a row per feature, then why scenes are not drawn, the most frequent reason first.
+/// All of them, as if they were one feature.
+FeatureTally whole_suite(std::span<const check::SceneVerdict> verdicts);
+
+/// Lines for people: a row per feature, then why scenes are not drawn and known faults that draw what is wrong, the
+/// most frequent first.
 std::string conformance_text(std::span<const check::SceneVerdict> verdicts);
 /// The same as a section for a CI page.
 std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts);

@@ -84,11 +84,8 @@ static void write_picture(const Frame *frame, const char *file) {
   fclose(to);
 }
 
-void write_records(const Frame *frame, PlCapture *out) {
-  const size_t shape[] = {p_win.count, 3, 3};
-  const size_t of_colors[] = {p_win.count, 3, 4}, of_matrices[] = {projections.count, 4, 4};
-  if (getenv("PICTURE") != NULL) write_picture(frame, getenv("PICTURE"));
-  if (getenv("PICTURES") != NULL) return;
+static void write_vertex_stage(PlCapture *out) {
+  const size_t of_matrices[] = {projections.count, 4, 4};
   write_given(out, "matrices.model_view", "matrices_f64.model_view", 4, 4);
   pl_array(out, "matrices.projection", "f64", projections.bytes, 3, of_matrices);
   write_given(out, "matrices.normal", "matrices_f64.normal", 3, 3);
@@ -98,6 +95,14 @@ void write_records(const Frame *frame, PlCapture *out) {
   write_given(out, "matrices.light.spot_eye", "matrices.light.spot_eye", 3, 1);
   put(out, "vertex.p_eye", "f32", &p_eye, 4), put(out, "vertex.p_clip", "f32", &p_clip, 4);
   put(out, "vertex.n_eye", "f32", &n_eye, 3), put(out, "light.color", "f32", &lit, 4);
+}
+
+void write_records(const Frame *frame, PlCapture *out) {
+  const size_t shape[] = {p_win.count, 3, 3};
+  const size_t of_colors[] = {p_win.count, 3, 4};
+  if (getenv("PICTURE") != NULL) write_picture(frame, getenv("PICTURE"));
+  if (getenv("PICTURES") != NULL) return;
+  if (getenv("GIVEN") == NULL) write_vertex_stage(out);
   put(out, "clip.p_clip", "f64", &corner, 4), put(out, "clip.color", "f64", &corner_color, 4);
   put(out, "clip.polygon.primitive", "u32", &polygon_primitive, 1);
   put(out, "clip.polygon.first", "u32", &polygon_first, 1), put(out, "clip.polygon.count", "u32", &polygon_count, 1);

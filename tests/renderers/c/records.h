@@ -1,6 +1,6 @@
 /* What the renderer hands out beside its frame. Of plain.c nothing: its vertex stage is the export's. Of vertex.c and
-   records.c what each stage of its own hands on; with PICTURES in the environment that is kept back, and with PICTURE=FILE
-   the frame is written there as well, as PPM. */
+   records.c what each stage of its own hands on; with PICTURES in the environment that is kept back, with GIVEN
+   the vertex stage is the export's, and with PICTURE=FILE the frame is written there as well, as PPM. */
 #ifndef RECORDS_H
 #define RECORDS_H
 
