@@ -131,7 +131,7 @@ TEST_F(Cli, program_that_is_wrong_is_told_by_which_known_faults) {
       "check " + kScenes + "camera/transform_chain.json " + kScenes + "light/sphere_gouraud.json --program " +
       "'" PLUMBLINE_PLUMB " capture {scene} {output}/all --fault merge.blue_first && mv {output}/all/* {output}'");
   EXPECT_EQ(run.code, 1) << run.text;
-  EXPECT_TRUE(run.says("     2 wrong as by file (fault file.bgr), first camera/transform_chain")) << run.text;
+  EXPECT_TRUE(run.says("wrong as by file (fault file.bgr): 2, first camera/transform_chain")) << run.text;
 }
 
 TEST_F(Cli, program_that_draws_no_scene_ends_2) {

@@ -39,17 +39,26 @@ TEST(Conformance, OfAScene) {
 }
 
 TEST(Conformance, OfASuite) {
-  const std::vector<SceneVerdict> verdicts = {verdict("clip/a", {kHolds}), verdict("clip/b", {kIllegal}),
-                                              verdict("fog/a", {kUnable}), verdict("fog/b", {kLacking}),
-                                              verdict("fog/c", {kCrash}),  verdict("fog/d", {kUnable})};
+  std::vector<SceneVerdict> verdicts = {verdict("clip/a", {kHolds}), verdict("clip/b", {kIllegal}),
+                                        verdict("fog/a", {kUnable}), verdict("fog/b", {kLacking}),
+                                        verdict("fog/c", {kCrash}),  verdict("fog/d", {kUnable})};
   EXPECT_EQ(conformance_text(verdicts),
             "feature           right   legal   wrong  failed  unable  first wrong stage\n"
             "clip                  1       0       1       0       0  depth 1\n"
             "fog                   0       0       0       1       3  \n"
             "all                   1       0       1       1       3  depth 1\n"
-            "unable: fog 2, nothing that it left could be judged 1\n");
+            "unable: fog 2, nothing that it left could be judged 1\n"
+            "wrong as by no known fault: 1\n");
   const std::string markdown = conformance_markdown(verdicts);
   EXPECT_NE(markdown.find("| clip | 1 | 0 | 1 | 0 | 0 | depth 1 |\n"), std::string::npos) << markdown;
+  for (const char* scene : {"clip/c", "clip/d"}) {
+    verdicts.push_back(verdict(scene, {kIllegal}));
+    verdicts.back().cause = "window (fault window.y_flipped)";
+  }
+  const std::string causes =
+      "wrong as by window (fault window.y_flipped): 2, first clip/c\nwrong as by no known fault: 1\n";
+  EXPECT_TRUE(conformance_text(verdicts).ends_with(causes)) << conformance_text(verdicts);
+  EXPECT_EQ(whole_suite(verdicts).differs, 3u);
 }
 
 }  // namespace

@@ -118,9 +118,9 @@ std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
   }
   std::string out;
   for (const auto& [cause, count] : by_count(causes)) {
-    out += fmt::format("{:>6} wrong as by {}, first {}\n", count, cause, first[cause]);
+    out += fmt::format("wrong as by {}: {}, first {}\n", cause, count, first[cause]);
   }
-  return unknown == 0 ? out : out + fmt::format("{:>6} wrong as by no known fault\n", unknown);
+  return unknown == 0 ? out : out + fmt::format("wrong as by no known fault: {}\n", unknown);
 }
 
 std::string unable_line(std::span<const check::SceneVerdict> verdicts) {
