@@ -166,6 +166,11 @@ void complete_records(const Scene& scene, Capture& capture) {
   sort_triangles(r);
   sort_fragments(r);
   capture.derived.clear();
+  const double codes = depth_scale(scene.frame.depth);
+  for (double& z : capture.planes.depth.values()) {
+    if (capture.depth_in_float && codes > 0) z = std::nearbyint(z * codes) / codes;
+  }
+  capture.depth_in_float = false;
 }
 
 }  // namespace plumbline

@@ -13,6 +13,8 @@ namespace plumbline {
 /// clip.cut by whether the corner's place is, in float, that of one of its primitive's vertices; window.snapped by the
 /// rounding of p_win, window.front by the snapped area, window.corners and window.width by the mesh and the draw.
 ///
+/// Where planes.depth was read from floats, its values become those of the nearest codes.
+///
 /// Throws std::invalid_argument, naming the column and the record: of a primitive that the scene does not have, of
 /// n_eye without matrices, of cut without vertices, of a p_win that cannot be snapped, of front and corners where a
 /// draw's polygons are not filled.

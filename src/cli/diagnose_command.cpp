@@ -106,12 +106,13 @@ std::string known_faults(const Scene& scene, const Capture& left, const check::D
   constexpr std::size_t kMostPrimitives = 200'000;  // each fault is a picture
   if (left.planes.color.empty() || DrawIndex(scene).primitives() > kMostPrimitives) return "";
   const Lookalikes found = lookalikes(scene, {left.planes.color, left.planes.depth});
-  if (found.likely.empty() || (holds(diagnosis) && !found.whole)) return "";
+  const std::string likely = likely_of(found, diagnosis.verdict);
+  if (likely.empty() || (holds(diagnosis) && !found.whole)) return "";
   const bool is_open = !holds(diagnosis) && diagnosis.wrong.empty();
   return fmt::format("\n{} pixels differ from ours in colour or depth; known faults that draw such a frame:\n{}{}",
                      found.apart, found.text,
-                     is_open            ? fmt::format("likely stage: {}\n", found.likely)
-                     : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", found.likely)
+                     is_open            ? fmt::format("likely stage: {}\n", likely)
+                     : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", likely)
                                         : "");
 }
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -161,14 +163,23 @@ Lookalikes lookalikes(const Scene& scene, const Pictured& given) {
   return out;
 }
 
-std::string likely_fault(const Scene& scene, const Capture& left) {
+std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict) {
+  std::uint64_t wrong = 0;
+  for (const check::Comparison& c : verdict.comparisons) {
+    if (c.stage == Stage::merge && c.outcome == check::Outcome::different)
+      wrong = std::max(wrong, c.measurement.differing);
+  }
+  return 2 * found.apart < wrong ? "" : found.likely;
+}
+
+std::string likely_fault(const Scene& scene, const Capture& left, const check::SceneVerdict& verdict) {
   constexpr std::size_t kMostPrimitives = 20'000, kMostPixels = 200'000;  // each fault is a picture
   const Plane<glm::vec4>& color = left.planes.color;
   if (color.empty() || color.size() > kMostPixels || DrawIndex(scene).primitives() > kMostPrimitives ||
       scene.frame.antialias.kind != Antialias::Kind::none || color.width() != scene.frame.width ||
       color.height() != scene.frame.height)
     return "";
-  return lookalikes(scene, {color, left.planes.depth}).likely;
+  return likely_of(lookalikes(scene, {color, left.planes.depth}), verdict);
 }
 
 int diagnose_picture(const DiagnoseOptions& o) {
@@ -177,6 +188,9 @@ int diagnose_picture(const DiagnoseOptions& o) {
   Pictured given;
   given.color = in_scenes_order(scene, read_image(o.picture));
   require_size(o.picture, given.color, scene);
+  if (!o.depth.empty() && std::filesystem::path(o.depth).extension() != ".exr") {
+    throw std::invalid_argument(fmt::format("--depth: expected an .exr file of window z, found {}", o.depth));
+  }
   if (!o.depth.empty()) {
     const Plane<glm::vec4> depth = in_scenes_order(scene, read_image(o.depth));
     require_size(o.depth, depth, scene);

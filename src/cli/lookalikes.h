@@ -5,6 +5,7 @@
 
 #include "capture/capture.h"
 #include "capture/plane.h"
+#include "check/verdict/verdict.h"
 #include "scene/scene.h"
 
 namespace plumbline::cli {
@@ -25,7 +26,10 @@ struct Lookalikes {
   bool whole = false;     ///< and all of them
 };
 Lookalikes lookalikes(const Scene& scene, const Pictured& given);
-/// What is likely of a capture, where that is soon told; else empty.
-std::string likely_fault(const Scene& scene, const Capture& left);
+/// What is likely of a renderer that is judged so: not where most pixels that are wrong are none of those told by (a
+/// legal rule of its own, and noise besides).
+std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
+/// The same of a capture, where it is soon told; else empty.
+std::string likely_fault(const Scene& scene, const Capture& left, const check::SceneVerdict& verdict);
 
 }  // namespace plumbline::cli

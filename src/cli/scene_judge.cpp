@@ -34,7 +34,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   out.verdict = check::judge(scene, *candidate_, references_.list, rules_->page || outside ? &drawn : nullptr);
   check::SceneVerdict& verdict = out.verdict;
   if (outside && report::conformance_of(verdict) == report::Conformance::differs) {
-    verdict.cause = likely_fault(scene, drawn.candidate);
+    verdict.cause = likely_fault(scene, drawn.candidate, verdict);
   }
   if (rules_->goldens)
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),

@@ -144,6 +144,19 @@ TEST(CompleteRecords, fill_normals_by_the_matrices) {
   }
 }
 
+TEST(CompleteRecords, take_a_depth_in_float_for_the_nearest_code) {
+  const Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
+  const Capture was = whole_capture(scene);
+  Capture capture = was;
+  for (double& z : capture.planes.depth.values()) z = static_cast<float>(z);
+  Capture as_it_is = capture;
+  complete_records(scene, as_it_is);
+  EXPECT_NE(as_it_is.planes.depth.values(), was.planes.depth.values()) << "in double, its codes are its own";
+  capture.depth_in_float = true;
+  complete_records(scene, capture);
+  EXPECT_EQ(capture.planes.depth.values(), was.planes.depth.values());
+}
+
 void expect_refused(const Scene& scene, Capture capture, const std::string& says) {
   try {
     complete_records(scene, capture);

@@ -110,6 +110,7 @@ class Reader {
     plane = Plane<T>(capture_.width, capture_.height);
     const std::vector<char> bytes = read_elements<T>(*array, pixels);
     std::memcpy(plane.values().data(), bytes.data(), bytes.size());
+    if (is_narrow<T>(*array)) capture_.depth_in_float = true;  // the one plane of doubles
   }
 
   /// Of the manifest, itself included, before anything else is read.
@@ -166,7 +167,8 @@ class Reader {
   /// The array's file, known to hold `count` elements of `bytes` bytes.
   void check_size(const JsonNode& array, std::size_t count, std::size_t bytes) const {
     const fs::path file = file_of(array);
-    if (!fs::is_regular_file(file)) fail(array, "expected a file, found none");
+    if (!fs::is_regular_file(file))
+      fail(array, fs::exists(file) ? "expected a regular file" : "expected a file, found none");
     const std::uintmax_t size = fs::file_size(file);
     if (size % bytes == 0 && size / bytes == count) return;
     fail(array, fmt::format("expected {} times {} bytes, found {} bytes", count, bytes, size));

@@ -43,7 +43,7 @@ std::string table_rows(const SceneVerdict& verdict) {
                          m.ambiguous, largest(c), check::remark(c));
     } else {
       out += fmt::format(kRow, c.scene, title_of(c.judge), name_of(c.stage), name_of(c.outcome), "-", "-", "-", "-",
-                         c.note);
+                         c.note.substr(0, c.note.find('\n')));  // a row is a line; failure_lines() has all of it
     }
   }
   return out;
