@@ -48,7 +48,7 @@ void limit_data() {
   if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return;
   rlimit data{};
   ::getrlimit(RLIMIT_DATA, &data);
-  data.rlim_cur = std::min(memory.rlim_cur, data.rlim_max);
+  data.rlim_cur = data.rlim_max = std::min(memory.rlim_cur, data.rlim_max);  // the program cannot raise it
   ::setrlimit(RLIMIT_DATA, &data);
   memory.rlim_cur = memory.rlim_max;
   ::setrlimit(RLIMIT_AS, &memory);

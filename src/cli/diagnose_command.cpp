@@ -29,7 +29,7 @@ namespace plumbline::cli {
 
 namespace {
 
-// What a program left, and what it shows of that.
+// The capture that a program left, and what the program shows of it.
 class Left : public Renderer {
  public:
   Left(Capture capture, RendererInfo info) : capture_(std::move(capture)), info_(std::move(info)) {}

@@ -23,7 +23,8 @@ std::size_t jobs(const CheckOptions& o, std::size_t scenes) {
   return std::min(static_cast<std::size_t>(std::clamp(wanted, 1, kMostJobs)), std::max<std::size_t>(scenes, 1));
 }
 
-// Those that take a good part of a thread's time are begun first: else they would be waited for at the end.
+// Numbers of the scenes in the order of judging: those that take a good part of a thread's time come first, else they
+// would be waited for at the end.
 std::vector<std::size_t> order_to_judge(std::span<const Scene> scenes, std::size_t at_a_time) {
   constexpr double kPerPrimitive = 16;  // times as long as a pixel
   std::vector<double> costs;

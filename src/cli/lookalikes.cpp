@@ -38,7 +38,7 @@ bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes) {
   return !(off.x <= most && off.y <= most && off.z <= most) || std::isnan(b.x + b.y + b.z);
 }
 
-// What counts as a difference. Depths differ by more than a step of their format, and by what planes in float may.
+// Rule of what counts as a difference: depths differ by more than a step of their format, and by what planes in float may.
 struct Eye {
   float codes = 1.5f;
   bool sees_depth = true;
@@ -106,7 +106,7 @@ std::vector<Lookalike> of_files(const Pictured& right, const Measure& measure) {
   return out;
 }
 
-// Those nearer than ours, the nearest first.
+// Mistakes whose frames are nearer than ours, the nearest first.
 Lookalikes ranked(std::vector<Lookalike> all, std::size_t apart) {
   Lookalikes out;
   out.apart = apart;

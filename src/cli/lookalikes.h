@@ -26,10 +26,10 @@ struct Lookalikes {
   bool whole = false;     ///< and all of them
 };
 Lookalikes lookalikes(const Scene& scene, const Pictured& given);
-/// What is likely of a renderer that is judged so: not where most pixels that are wrong are none of those told by (a
-/// legal rule of its own, and noise besides).
+/// The likely fault of a renderer with this verdict; empty where the faults tell less than half as many pixels as are
+/// wrong at merge: they tell a legal rule of its own, then.
 std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
-/// The same of a capture, where it is soon told; else empty.
+/// The likely fault of a capture; empty also where the scene is too large for a picture of each fault.
 std::string likely_fault(const Scene& scene, const Capture& left, const check::SceneVerdict& verdict);
 
 }  // namespace plumbline::cli

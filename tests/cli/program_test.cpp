@@ -62,8 +62,8 @@ TEST_F(Cli, program_of_several_files_may_refuse_a_scene_in_any_of_them) {
 
 // Browsers and virtual machines reserve more addresses than there is memory.
 TEST_F(Cli, program_is_limited_in_what_it_writes_to_not_in_its_addresses) {
-  const Outcome run =
-      plumb("check " + kSharedEdges + " --program 'echo v $(ulimit -v) d $(ulimit -d) >&2; exit 77; {input} {output}'");
+  const Outcome run = plumb("check " + kSharedEdges +
+                            " --program 'echo v $(ulimit -v) d $(ulimit -H -d) >&2; exit 77; {input} {output}'");
   EXPECT_TRUE(run.says("v unlimited d ")) << run.text;
   EXPECT_FALSE(run.says("d unlimited")) << run.text;
 }

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <span>
 
 #include "check/bounds/units.h"
 #include "check/compare/compare_planes.h"
+#include "check/verdict/ledger.h"
 
 namespace plumbline::check {
 
@@ -31,9 +33,8 @@ bool fits_winners(const Planes& candidate, const Legal& legal, std::string& why)
 }
 std::int32_t winner_at(const Planes& planes, int x, int y) { return planes.id.empty() ? kBackground : planes.id(x, y); }
 
-// Whether nothing was drawn at the pixel, and nothing had to be.
-bool is_cleared(const Planes& candidate, const Legal& legal, int x, int y) {
-  const auto answers = held_to(legal, candidate, x, y);
+// Answers of a pixel at which nothing was drawn, and nothing had to be.
+bool is_cleared(std::span<const LegalAnswer> answers) {
   return !answers.empty() &&
          std::ranges::all_of(answers, [](const LegalAnswer& a) { return a.primitive == kBackground; });
 }
@@ -41,13 +42,13 @@ bool is_cleared(const Planes& candidate, const Legal& legal, int x, int y) {
 // The depth that the frame was cleared to is no stage's but merge's, where the frame's colour is there, too.
 void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate, const Legal& legal, int x, int y) {
   std::string why;
-  if (candidate.depth.empty() || legal.first.empty() || !same_size(candidate.depth, legal.certain, why) ||
-      !is_cleared(candidate, legal, x, y))
-    return;
-  const LegalAnswer& cleared = held_to(legal, candidate, x, y).front();
-  const double z = candidate.depth(x, y);
-  meter.value(outside(z, cleared.z_lo, cleared.z_hi) / depth_step(scene.frame.depth, z), 1, {x, y, -1, "cleared z"}, z,
-              cleared.z_lo);
+  if (candidate.depth.empty() || legal.first.empty() || !same_size(candidate.depth, legal.certain, why)) return;
+  const auto answers = held_to(legal, candidate, x, y);
+  if (!is_cleared(answers)) return;
+  const LegalAnswer& cleared = answers.front();
+  const double z = candidate.depth(x, y), factor = tolerance(Profile::oracle, Stage::depth).factor;
+  meter.value(outside(z, cleared.z_lo, cleared.z_hi) / depth_step(scene.frame.depth, z), factor,
+              {x, y, -1, "cleared z"}, z, cleared.z_lo);
 }
 
 // `half_code`: what rounding to the frame's format adds to the oracle's bound. `at_pixel` measures what else there is.
@@ -90,10 +91,10 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
   if (!fits_winners(candidate, legal, why)) return mismatch("step", why, candidate.depth.size());
   return compare_planes(candidate.depth, legal.certain, "step", [&](Meter& meter, int x, int y) {
     if (legal.at(x, y).size() > 1) meter.ambiguous();
-    if (!candidate.color.empty() && is_cleared(candidate, legal, x, y)) return;
+    const auto answers = held_to(legal, candidate, x, y);
+    if (!candidate.color.empty() && is_cleared(answers)) return;
     const double z = candidate.depth(x, y), step = depth_step(scene.frame.depth, z);
     const auto apart = [&](const LegalAnswer& a) { return outside(z, a.z_lo, a.z_hi) / step; };
-    const auto answers = held_to(legal, candidate, x, y);
     if (answers.empty()) {
       return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "z"}, z, 0);
     }

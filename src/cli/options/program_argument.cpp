@@ -105,7 +105,7 @@ class Program : public Renderer {
   }
 
  private:
-  // What it leaves beyond the budget is its own mistake.
+  // The capture that the program leaves; one beyond the budget is its own mistake.
   Capture capture_of(const Scene& scene, const Request& request) {
     try {
       return process_->capture(scene, request);
