@@ -122,9 +122,10 @@ glm::dvec4 middle(const ColorInterval& c) {
   return {(c[0].lo + c[0].hi) / 2, (c[1].lo + c[1].hi) / 2, (c[2].lo + c[2].hi) / 2, (c[3].lo + c[3].hi) / 2};
 }
 
-FrameColor::FrameColor(const FrameFormat& frame)
+FrameColor::FrameColor(const FrameFormat& frame, Conventions::Blending blending)
     : unit_(frame.color == ColorFormat::rgba32f ? 1 : color_scale(frame.color)),
       codes_(frame.color != ColorFormat::rgba32f),
+      blends_codes_(codes_ && blending == Conventions::Blending::in_codes),
       written_{},
       stored_{} {
   write({}, around(glm::dvec4(frame.clear_color), 0));
@@ -133,15 +134,18 @@ FrameColor::FrameColor(const FrameFormat& frame)
 void FrameColor::write(const Merge& state, const ColorInterval& color) {
   const Interval lowest{0, 0}, highest{unit_, unit_};
   const auto clamped = [&](Interval v) { return codes_ ? lesser(greater(v, lowest), highest) : v; };
-  ColorInterval source, result;
+  const double half = blends_codes_ ? 0.5 : 0;
+  ColorInterval source, blended, result;
   for (std::size_t c = 0; c < 4; ++c) source[c] = clamped({color[c].lo * unit_, color[c].hi * unit_});
+  for (std::size_t c = 0; c < 4; ++c) blended[c] = clamped({source[c].lo - half, source[c].hi + half});
   for (std::size_t c = 0; c < 4; ++c) {
     if (!state.blend || state.logic_op) {
       result[c] = source[c];
       continue;
     }
-    const Blender blender{source, stored_, glm::dvec4(state.blend->color) * unit_, unit_};
-    result[c] = clamped(blender(c < 3 ? state.blend->rgb : state.blend->alpha, c));
+    const Blender blender{blended, stored_, glm::dvec4(state.blend->color) * unit_, unit_};
+    const Interval sum = blender(c < 3 ? state.blend->rgb : state.blend->alpha, c);
+    result[c] = clamped({sum.lo - 2 * half, sum.hi + 2 * half});
   }
   // A colour in float, as it comes, may be a rounding off when it is brought to codes; what is blended in double a few
   // of 2^-53 of some products of codes.

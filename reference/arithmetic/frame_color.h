@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "capture/conventions.h"
 #include "scene/scene.h"
 
 namespace plumbline::math {
@@ -24,8 +25,8 @@ glm::dvec4 middle(const ColorInterval& color);
 
 class FrameColor {
  public:
-  /// Cleared.
-  explicit FrameColor(const FrameFormat& frame);
+  /// Cleared. Where colours are blended in codes, each factor and each product may be half a code off.
+  explicit FrameColor(const FrameFormat& frame, Conventions::Blending blending = Conventions::Blending::in_float);
 
   /// A fragment's colour is blended or combined with what is there, masked, and stored in the frame's format.
   void write(const Merge& state, const ColorInterval& color);
@@ -37,6 +38,7 @@ class FrameColor {
  private:
   double unit_;  // the largest code; 1 for float, which is neither clamped nor rounded to codes
   bool codes_;
+  bool blends_codes_;
   ColorInterval written_, stored_;  // times unit_
 };
 

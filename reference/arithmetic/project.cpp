@@ -279,7 +279,7 @@ glm::dvec2 float_displacement(const Projected& scene, const Triangle& t, glm::dv
 }
 
 double displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
-  return kSnap + glm::length(float_displacement(scene, t, d, w));
+  return scene.snap + glm::length(float_displacement(scene, t, d, w));
 }
 
 Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, double margin) {
@@ -294,8 +294,22 @@ Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, do
   return piece;
 }
 
-Projected project(const Scene& scene) {
+namespace {
+
+/// How far snapping to a grid of 2^-bits moves a coordinate [pixels]: to the nearest place half a step, else up to one.
+double snapping_step(const Conventions& c) {
+  if (c.subpixel_bits == Conventions::kFloat) return 0;
+  const double step = std::ldexp(1.0, -c.subpixel_bits);
+  return c.subpixel_rounding == Conventions::Rounding::nearest ? step / 2 : step;
+}
+
+}  // namespace
+
+Projected project(const Scene& scene, const Conventions& conventions) {
   Projected out;
+  out.conventions = conventions;
+  out.step = snapping_step(conventions);
+  out.snap = std::sqrt(2.0) * out.step;
   out.width = scene.frame.width;
   out.height = scene.frame.height;
   out.lights = light_sources(scene);

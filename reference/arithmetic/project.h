@@ -8,7 +8,8 @@
 
 namespace plumbline::math {
 
-Projected project(const Scene& scene);
+/// A renderer's view of the scene, by its conventions: `scene` is as they alter it (capture/by_conventions.h).
+Projected project(const Scene& scene, const Conventions& conventions = {});
 
 /// How far float arithmetic may move the triangle's outline near the window point d, per axis in pixels; `w` is its
 /// w there. (Derived in project.cpp.)

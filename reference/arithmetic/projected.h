@@ -15,14 +15,12 @@
 
 #include <glm/glm.hpp>
 
+#include "capture/conventions.h"
 #include "capture/stages.h"
 #include "reference/arithmetic/bounded.h"
 #include "scene/scene.h"
 
 namespace plumbline::math {
-
-inline constexpr double kHalfStep = 1.0 / 512;             ///< h: half a snapping step, in pixels
-inline constexpr double kSnap = 1.4142135623730951 / 512;  ///< the farthest that snapping moves a vertex, in pixels
 
 /// A vertex of a draw.
 struct Corner {
@@ -82,6 +80,9 @@ struct Projected {
   std::vector<double> light_errors;  ///< beside lights (color_error.h)
   bool perspective = true;
   bool depth_clamp = false;  ///< no near and far plane
+  Conventions conventions;   ///< of the renderer whose answers are asked
+  double step = 0;           ///< h: how far snapping moves a vertex, per axis [pixels]
+  double snap = 0;           ///< and in all
   DepthFormat depth = DepthFormat::z24;
   /// From a pixel's centre to where it is covered, in pixels (scene/antialias.h). The window is moved by as much the
   /// other way, so that all that is said of pixels' centres is true of these places. Colours are the centre's still.

@@ -17,6 +17,17 @@ double squared_rho(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
   return std::max(glm::dot(x, x), glm::dot(y, y));
 }
 
+/// What OpenGL lets rho be (2.1, 3.8.8): m_u is the larger of |du/dx| and |du/dy|, u and v in texels; rho is at least the
+/// larger of m_u and m_v, at most their sum.
+struct RhoRange {
+  double least, most;
+};
+RhoRange legal_rho(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
+  const TextureLevel& base = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
+  const glm::dvec2 m = glm::dvec2(base.width, base.height) * glm::max(glm::abs(d_dx), glm::abs(d_dy));
+  return {std::max(m.x, m.y), m.x + m.y};
+}
+
 /// lambda between its limits, from its logarithm and a bias.
 double limited(const Sampler& s, double log2_rho, double bias) {
   return std::clamp(log2_rho + bias, static_cast<double>(s.min_lod), static_cast<double>(s.max_lod));
@@ -32,7 +43,8 @@ double log2_of_rho(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
 }
 
 /// lambda up to which the texture is magnified (3.8.9).
-double magnified_up_to(const Sampler& s) {
+double magnified_up_to(const Sampler& s, const LevelRules& rules) {
+  if (rules.magnified_to_zero) return 0;
   const bool nearest = s.min == MinFilter::nearest_mipmap_nearest || s.min == MinFilter::nearest_mipmap_linear;
   return s.mag == MagFilter::linear && nearest ? 0.5 : 0;
 }
@@ -101,27 +113,36 @@ glm::dvec4 in_level(const Texture& texture, int number, bool linear, glm::dvec2 
 
 }  // namespace
 
-double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
-  const double rho2 = squared_rho(texture, d_dx, d_dy);
+LevelRules level_rules(const Conventions& c) {
+  return {c.level_of_detail == Conventions::LevelOfDetail::approximate,
+          c.magnified == Conventions::Magnified::up_to_zero, c.half_way_level == Conventions::HalfWay::either,
+          c.texture_bits};
+}
+
+double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy, const LevelRules& rules) {
+  const double rho = rules.approximate ? legal_rho(texture, d_dx, d_dy).least : 0;
+  const double rho2 = rules.approximate ? rho * rho : squared_rho(texture, d_dx, d_dy);
   int exponent = 0;
   const double mantissa = std::frexp(rho2, &exponent);  // [1/2, 1)
   const double piecewise = rho2 > 0 ? 0.5 * (exponent - 1 + 2 * mantissa - 1) : kNoLength;
   return limited(texture.sampler, piecewise, std::min(bias_of(texture), mesas_bias(texture)));
 }
 
-double largest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
-  return limited(texture.sampler, log2_of_rho(texture, d_dx, d_dy), std::max(bias_of(texture), mesas_bias(texture)));
+double largest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy, const LevelRules& rules) {
+  const double rho = legal_rho(texture, d_dx, d_dy).most, of_most = rho > 0 ? std::log2(rho) : kNoLength;
+  return limited(texture.sampler, rules.approximate ? of_most : log2_of_rho(texture, d_dx, d_dy),
+                 std::max(bias_of(texture), mesas_bias(texture)));
 }
 
 double level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
   return limited(texture.sampler, log2_of_rho(texture, d_dx, d_dy), bias_of(texture));
 }
 
-glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda) {
+glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda, const LevelRules& rules) {
   const Sampler& s = texture.sampler;
   const int base = s.base_level, q = last_level(texture);
   if (std::isnan(lambda)) return glm::dvec4(lambda);  // another renderer's records may hold anything
-  if (lambda <= magnified_up_to(s)) return in_level(texture, base, s.mag == MagFilter::linear, st);
+  if (lambda <= magnified_up_to(s, rules)) return in_level(texture, base, s.mag == MagFilter::linear, st);
   switch (s.min) {
     case MinFilter::nearest: return in_level(texture, base, false, st);
     case MinFilter::linear: return in_level(texture, base, true, st);
@@ -148,16 +169,16 @@ glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda) 
 
 namespace {
 
-bool filters_linearly(const Sampler& s, double lambda) {
-  if (lambda <= magnified_up_to(s)) return s.mag == MagFilter::linear;
+bool filters_linearly(const Sampler& s, double lambda, const LevelRules& rules) {
+  if (lambda <= magnified_up_to(s, rules)) return s.mag == MagFilter::linear;
   return s.min == MinFilter::linear || s.min == MinFilter::linear_mipmap_nearest ||
          s.min == MinFilter::linear_mipmap_linear;
 }
 
 /// The levels that are filtered at lambda.
-std::pair<int, int> levels_at(const Texture& texture, double lambda) {
+std::pair<int, int> levels_at(const Texture& texture, double lambda, const LevelRules& rules) {
   const int base = texture.sampler.base_level, q = last_level(texture);
-  if (!(lambda > magnified_up_to(texture.sampler)) || !mipmaps(texture.sampler.min)) return {base, base};
+  if (!(lambda > magnified_up_to(texture.sampler, rules)) || !mipmaps(texture.sampler.min)) return {base, base};
   const double at = std::min(base + std::max(lambda, 0.0), static_cast<double>(q));
   return {static_cast<int>(std::floor(at)), static_cast<int>(std::ceil(at))};
 }
@@ -201,7 +222,8 @@ bool depends_on_lambda(const Sampler& s) {
   return mipmaps(s.min) || (s.min == MinFilter::linear) != (s.mag == MagFilter::linear);
 }
 
-TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi) {
+TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi,
+                       const LevelRules& rules) {
   TexelRange out;
   out.lambda_lo = lambda_lo;
   out.lambda_hi = lambda_hi;
@@ -209,11 +231,11 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
   out.lo = glm::dvec4(std::numeric_limits<double>::infinity());
   out.hi = -out.lo;
   const auto add = [&](double lambda) {
-    const glm::dvec4 texel = filtered_texel(texture, st, lambda);
+    const glm::dvec4 texel = filtered_texel(texture, st, lambda, rules);
     out.lo = glm::min(out.lo, texel);
     out.hi = glm::max(out.hi, texel);
-    const auto [first, last] = levels_at(texture, lambda);
-    const bool linear = filters_linearly(texture.sampler, lambda);
+    const auto [first, last] = levels_at(texture, lambda, rules);
+    const bool linear = filters_linearly(texture.sampler, lambda, rules);
     for (int level = first; level <= last; ++level) {
       const std::uint64_t bit = std::uint64_t{1} << (2 * level + (linear ? 1 : 0));
       if ((sloped & bit) == 0) add_slopes(texture, level, linear, st, out);
@@ -221,7 +243,8 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
     }
   };
   add(lambda_lo);
-  if (!depends_on_lambda(texture.sampler) || (lambda_lo <= lambda_hi && lambda_hi <= magnified_up_to(texture.sampler)))
+  if (!depends_on_lambda(texture.sampler) ||
+      (lambda_lo <= lambda_hi && lambda_hi <= magnified_up_to(texture.sampler, rules)))
     return out;
   add(lambda_hi);
   // What is chosen by lambda changes at multiples of a half alone, and between them linearly; a little beyond each the
@@ -229,7 +252,7 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
   constexpr double kMost = 16, kBeyond = 1e-9;
   for (double at = std::ceil(2 * std::max(lambda_lo, -1.0)) / 2; at <= std::min(lambda_hi, kMost); at += 0.5) {
     add(at);
-    if (at + kBeyond <= lambda_hi) add(at + kBeyond);
+    if (at + kBeyond <= lambda_hi || rules.half_way_either) add(at + kBeyond);
   }
   return out;
 }
@@ -253,17 +276,29 @@ bool within_slopes(const Texture& texture, const TexelRange& range, double bound
   return bound * std::max(finest.width, finest.height) < 0.5;
 }
 
+/// Error of means whose weights have n fraction bits, and whose results have, too: each weight is off by 2^-n, of two
+/// levels and the way between them, and each of three results by half of that.
+glm::dvec4 weights_error(const Texture& texture, const TexelRange& range, const LevelRules& rules) {
+  const bool means = range.last_linear >= range.first_linear || range.last_nearest > range.first_nearest;
+  if (rules.weight_bits == Conventions::kFloat || !means) return glm::dvec4(0);
+  const int coarsest = std::max({range.last_linear, range.last_nearest, 0});
+  const TextureLevel& level = texture.levels[static_cast<std::size_t>(coarsest)];
+  const glm::dvec4 neighbours = range.slope_s / static_cast<double>(level.width) +
+                                range.slope_t / static_cast<double>(level.height) + (range.hi - range.lo);
+  return std::ldexp(1.0, -rules.weight_bits) * (neighbours + 1.5);
+}
+
 }  // namespace
 
 BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedFour& fragment,
-                                   const BoundedPlace& place) {
-  const TexelRange range = texel_range(texture, place.st, place.lambda_lo, place.lambda_hi);
-  const glm::dvec4 texel = filtered_texel(texture, place.st, place.lambda);
+                                   const BoundedPlace& place, const LevelRules& rules) {
+  const TexelRange range = texel_range(texture, place.st, place.lambda_lo, place.lambda_hi, rules);
+  const glm::dvec4 texel = filtered_texel(texture, place.st, place.lambda, rules);
   BoundedFour out{textured_color(texture.format, state, fragment.value, texel), 0};
   const bool open = !(place.bound < std::min(range.gap.s, range.gap.t)) ||
                     !within_slopes(texture, range, place.bound) || !std::isfinite(fragment.bound);
   if (open) return {out.value, std::numeric_limits<double>::infinity()};
-  const glm::dvec4 slack = (range.slope_s + range.slope_t) * place.bound;
+  const glm::dvec4 slack = (range.slope_s + range.slope_t) * place.bound + weights_error(texture, range, rules);
   const glm::dvec4 lo = range.lo - slack, hi = range.hi + slack;
   // Every environment is linear in each of Cf, Af, Cs and As: its extremes are at their ends.
   for (unsigned ends = 0; ends < 16; ++ends) {

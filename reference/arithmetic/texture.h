@@ -3,11 +3,21 @@
 
 #include <glm/glm.hpp>
 
+#include "capture/conventions.h"
 #include "capture/legal.h"
 #include "reference/arithmetic/bounded.h"
 #include "scene/scene.h"
 
 namespace plumbline::math {
+
+/// How a renderer finds levels and means of texels.
+struct LevelRules {
+  bool approximate = false;        ///< rho
+  bool magnified_to_zero = false;  ///< up to a lambda of 0, whatever the filters
+  bool half_way_either = false;    ///< the nearest level, where two are as near
+  int weight_bits = Conventions::kFloat;
+};
+LevelRules level_rules(const Conventions& conventions);
 
 /// lambda, with the texture's bias and limits (equations 3.17 to 3.22), from the derivatives of (s, t) by window x and
 /// y; of no length, the least that is allowed.
@@ -17,17 +27,21 @@ double level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy)
 /// Mesa's drivers take a logarithm that is linear between powers of two, of rho squared: up to 0.0431 below
 /// (log2(m 2^e) as e + m - 1 is up to 0.0861 below; half of that). Mesa rounds the bias to the nearest 1/256 before its
 /// drivers see it (st_atom_sampler.c; measured in 22.3.6): up to 1/512 below or above.
-double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy);
-double largest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy);
+///
+/// Where `rules` say that it is approximated, rho is anything from the largest absolute derivative of a texel coordinate
+/// to the sum of the largest of each (OpenGL 2.1, 3.8.8).
+double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy, const LevelRules& rules = {});
+double largest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy, const LevelRules& rules = {});
 
 /// The texture source components at (s, t), filtered at lambda.
-glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda);
+glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda, const LevelRules& rules = {});
 
 /// Whether lambda makes a difference to it.
 bool depends_on_lambda(const Sampler& sampler);
 
 /// What filtered_texel() comes to where lambda is in an interval, and (s, t) not quite known.
-TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi);
+TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi,
+                       const LevelRules& rules = {});
 
 /// One channel of a fragment's colour and a texel as one (tables 3.22 and 3.23), by the operations `by` (bounded.h).
 /// `alpha`: it is alpha. Of `fragment`, `texel` and the environment's `constant`, that channel.
@@ -65,6 +79,6 @@ struct BoundedPlace {
   double lambda = 0, lambda_lo = 0, lambda_hi = 0;
 };
 BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedFour& fragment,
-                                   const BoundedPlace& place);
+                                   const BoundedPlace& place, const LevelRules& rules = {});
 
 }  // namespace plumbline::math

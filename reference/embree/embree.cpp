@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "capture/by_conventions.h"
 #include "reference/arithmetic/resolve.h"
 #include "reference/embree/rays.h"
 #include "reference/oracle/oracle.h"
@@ -30,14 +31,17 @@ class EmbreeRenderer final : public Renderer {
     return info;
   }
 
-  Capture capture(const Scene& scene, const Request& request) override {
-    if (scene.frame.antialias.kind != Antialias::Kind::none) return math::capture_resolved(*this, scene, request);
+  Capture capture(const Scene& of_dialect, const Request& request) override {
+    if (of_dialect.frame.antialias.kind != Antialias::Kind::none)
+      return math::capture_resolved(*this, of_dialect, request);
+    const SceneByConventions by_conventions(of_dialect, request.conventions);
+    const Scene& scene = *by_conventions;
     if (draws(scene, Topology::lines) || draws(scene, Topology::points)) {
       throw Unsupported("no ray meets a line or a point");
     }
     if (request.planes == WantedPlanes::none && !request.legal && request.pixels.empty()) return empty_capture(scene);
     math::Candidates candidates(math::candidate_budget(scene, request.memory_budget));
-    const math::Projected projected = math::project(scene);
+    const math::Projected projected = math::project(scene, request.conventions);
     add_by_rays(projected, candidates);
     math::add_by_edges(projected, candidates);
     math::Oracle oracle = math::consult(scene, projected, candidates, request);

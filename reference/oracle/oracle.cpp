@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "capture/by_conventions.h"
 #include "capture/fragment_outcomes.h"
 #include "reference/arithmetic/depth_format.h"
 #include "reference/arithmetic/frame_color.h"
@@ -57,9 +58,32 @@ Planes empty_planes(const FrameFormat& frame) {
 
 /// A cut triangle is drawn as a fan. One of its pieces may be so thin that snapping turns it over: along the border it
 /// then lies on its neighbour, and both cover the pixel.
-std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits) {
+///
+/// Of a group (groups.cpp) of triangles that are neither cut nor turned over, the winding number is that of fragments. It
+/// is one number everywhere within delta of the pixel, and is counted beside it, where no edge runs through.
+std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits, std::size_t groups, int x,
+                             int y) {
+  const auto beside = [&](double delta) { return projected.ray(x, y) + delta * glm::dvec3(0.37, 0.21, 0); };
+  struct Group {
+    bool known = true;
+    std::uint32_t members = 0, winding = 0;
+  };
+  std::vector<Group> of_group(groups);
   std::uint32_t most = 0;
-  for (const PixelHit& h : hits) most += !h.hit.certain && projected.triangles[h.hit.primitive].cut ? 2 : 1;
+  for (const PixelHit& h : hits) {
+    const Triangle& t = projected.triangles[h.hit.primitive];
+    const std::uint32_t pieces = !h.hit.certain && t.cut ? 2 : 1;
+    if (h.hit.group < 0) {
+      most += pieces;
+      continue;
+    }
+    Group& group = of_group[static_cast<std::size_t>(h.hit.group)];
+    group.known = group.known && !t.cut && !t.thin;
+    const glm::dvec3 d = beside(h.delta);
+    const auto is_inner = [&](const glm::dvec3& n) { return t.sign * glm::dot(n, d) > 0; };
+    group.members += pieces, group.winding += std::ranges::all_of(t.n, is_inner) ? 1 : 0;
+  }
+  for (const Group& group : of_group) most += group.known ? std::max(group.winding, 1u) : group.members;
   return most;
 }
 
@@ -119,7 +143,7 @@ void add_fragments(const Projected& projected, std::span<const PixelHit> hits, i
 /// The frame's colour at a pixel, where it is certain which fragments make it; else anything.
 void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, int x, int y,
                  Legal& legal) {
-  FrameColor color(scene.frame);
+  FrameColor color(scene.frame, projected.conventions.blending);
   LegalFold fold(scene.frame);
   bool certain = true;
   for (const Hit& hit : hits) {
@@ -146,6 +170,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
   Legal& legal = out.legal;
   legal.certain = {frame.width, frame.height, 0};
   legal.possible = {frame.width, frame.height, 0};
+  legal.shared = {frame.width, frame.height, 0};
   if (!colors_replace(scene)) legal.color_lo = legal.color_hi = {frame.width, frame.height};
   legal.first.reserve(legal.certain.size() + 1);
   legal.answers.reserve(legal.certain.size());
@@ -164,14 +189,16 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       for (const std::uint32_t primitive : by_pixel.at(pixel)) {
         if (const auto hit = pixel_hit(scene, projected, primitive, x, y)) hits.push_back(*hit);
       }
-      std::uint32_t certain = static_cast<std::uint32_t>(form_groups(projected, hits, x, y));
+      const auto groups = static_cast<std::uint32_t>(form_groups(projected, hits, x, y));
+      std::uint32_t certain = groups;
       to_fold.clear();
       for (const PixelHit& h : hits) {
         certain += h.hit.certain ? 1 : 0;
         to_fold.push_back(h.hit);
       }
       legal.certain(x, y) = certain;
-      legal.possible(x, y) = most_fragments(projected, hits);
+      legal.possible(x, y) = most_fragments(projected, hits, groups, x, y);
+      legal.shared(x, y) = groups > 0 ? 1 : 0;
       fold_hits(to_fold, frame, answers);
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
@@ -197,7 +224,9 @@ std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget) {
   return (memory_budget - fixed) / (sizeof(Candidate) + sizeof(std::uint32_t));
 }
 
-Legal legal_by_boxes(const Scene& scene, const Request& request) {
+Legal legal_by_boxes(const Scene& of_dialect, const Request& request) {
+  const SceneByConventions by_conventions(of_dialect, request.conventions);
+  const Scene& scene = *by_conventions;
   const FrameFormat& frame = scene.frame;
   std::vector<bool> wanted;
   for (const glm::ivec2 p : request.pixels) {
@@ -207,7 +236,7 @@ Legal legal_by_boxes(const Scene& scene, const Request& request) {
           true;
   }
   Candidates candidates(candidate_budget(scene, request.memory_budget), std::move(wanted));
-  const Projected projected = project(scene);
+  const Projected projected = project(scene, request.conventions);
   add_by_boxes(projected, candidates);
   add_by_edges(projected, candidates);
   return consult(scene, projected, candidates, {}).legal;

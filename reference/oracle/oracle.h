@@ -30,8 +30,8 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
 /// Throws OverBudget where planes and legal answers would not fit; else how many candidates the rest holds.
 std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget);
 
-/// The legal answers of a scene with no rays cast: triangles found by boxes and by edges. Where the request names
-/// pixels, of these; elsewhere the background is the only answer. Throws OverBudget.
-Legal legal_by_boxes(const Scene& scene, const Request& request);
+/// The legal answers of a scene, drawn by the request's conventions, with no rays cast: triangles found by boxes and by
+/// edges. Where the request names pixels, of these; elsewhere the background is the only answer. Throws OverBudget.
+Legal legal_by_boxes(const Scene& of_dialect, const Request& request);
 
 }  // namespace plumbline::math

@@ -43,8 +43,8 @@ double snap_weight(const Projected& scene, const Triangle& t, const Place& at, g
   const double from_frame = 0.5 - std::max(std::abs(scene.sample.x), std::abs(scene.sample.y));
   const bool deep = certain && at.border > margin && margin < from_frame &&
                     std::min(z, 1 - z) > margin * glm::length(glm::dvec2(t.z_plane));
-  const double altitude = (deep ? t.fat_altitude : t.altitude) - 2 * (t.reach - kSnap);
-  return altitude > 0 ? 1 + 4 * kSnap / altitude : kInfinity;
+  const double altitude = (deep ? t.fat_altitude : t.altitude) - 2 * (t.reach - scene.snap);
+  return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
 }
 
 /// The same for the pixel's centre, where a sample of it is at the pixel: it may lie outside by as much as they are
@@ -52,8 +52,8 @@ double snap_weight(const Projected& scene, const Triangle& t, const Place& at, g
 double centre_weight(const Projected& scene, const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
   const double weight = snap_weight(scene, t, at, d, certain), apart = glm::length(scene.sample);
   if (apart == 0) return weight;
-  const double altitude = t.altitude - 2 * (t.reach - kSnap);
-  return altitude > 0 ? std::max(weight, 1 + 4 * (kSnap + apart) / altitude) : kInfinity;
+  const double altitude = t.altitude - 2 * (t.reach - scene.snap);
+  return altitude > 0 ? std::max(weight, 1 + 4 * (scene.snap + apart) / altitude) : kInfinity;
 }
 
 Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
@@ -128,7 +128,7 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
   view.slope = glm::dvec2(t.z_plane);
   const double z_ndc = std::clamp(std::abs(2 * view.z - 1), 0.0, 1.0);
   const double corner_error = kFloatRounding * (t.roundings * (t.size.z + z_ndc * t.size.w) / (2 * w) + 1);
-  view.half = glm::dot(glm::abs(view.slope), kHalfStep + weight * moved) + weight * corner_error;
+  view.half = glm::dot(glm::abs(view.slope), scene.step + weight * moved) + weight * corner_error;
   double lo = view.z - view.half, hi = view.z + view.half;
   const bool not_cut = clamps || (lo > 0 && hi < 1);  // by the near or far plane, here
   out.whole = out.whole || (t.facing_kept && not_cut);
@@ -141,14 +141,30 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
   set_window_depth(t, polygon_offset(t, offset, scene.depth), clamps, lo, hi, weight, out);
 }
 
+/// Edge functions' gradients, which attributes are weighted by: where a renderer interpolates without perspective, each
+/// times its corner's w.
+std::array<glm::dvec3, 3> weight_planes(const Projected& scene, const Triangle& t) {
+  std::array<glm::dvec3, 3> out = t.n;
+  if (scene.conventions.interpolation == Conventions::Interpolation::perspective) return out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] *= scene.corners[t.corner[i]].v.z;
+  return out;
+}
+
+/// Whether a renderer interpolates without perspective between corners that a cut makes: anywhere.
+bool is_affine_and_cut(const Projected& scene, const Triangle& t) {
+  return scene.conventions.interpolation == Conventions::Interpolation::affine && (t.cut || !t.ahead);
+}
+
 /// Perspective-correct, the plane going on beyond the triangle's border, as renderers' do. `corners`: with their
 /// bounds.
 BoundedFour at_pixel(const Projected& scene, const Triangle& t, const std::array<BoundedFour, 3>& corners, glm::dvec3 d,
                      const Place& at, glm::dvec2 moved, bool certain) {
   const glm::dvec3 centre = scene.to_centre(d);
-  const glm::dvec3 e(glm::dot(t.n[0], centre), glm::dot(t.n[1], centre), glm::dot(t.n[2], centre));
+  const std::array<glm::dvec3, 3> n = weight_planes(scene, t);
+  const glm::dvec3 e(glm::dot(n[0], centre), glm::dot(n[1], centre), glm::dot(n[2], centre));
   const double weight = centre_weight(scene, t, at, d, certain), sum = e.x + e.y + e.z;
-  if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0))  // no plane to rely on
+  // No plane to rely on.
+  if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0) || is_affine_and_cut(scene, t))
     return {(corners[0].value + corners[1].value + corners[2].value) / 3.0, kInfinity};
   const auto largest = [](const glm::dvec4& v) {
     const glm::dvec4 a = glm::abs(v);
@@ -156,12 +172,12 @@ BoundedFour at_pixel(const Projected& scene, const Triangle& t, const std::array
   };
   glm::dvec4 value(0), slope_x(0), slope_y(0);
   double error = 0, spread = 0, size = 1;
-  const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
+  const glm::dvec3 n_sum = n[0] + n[1] + n[2];
   for (std::size_t i = 0; i < 3; ++i) {
     const double b = e[static_cast<glm::length_t>(i)] / sum;
     value += b * corners[i].value;
-    slope_x += (t.n[i].x - b * n_sum.x) / sum * corners[i].value;
-    slope_y += (t.n[i].y - b * n_sum.y) / sum * corners[i].value;
+    slope_x += (n[i].x - b * n_sum.x) / sum * corners[i].value;
+    slope_y += (n[i].y - b * n_sum.y) / sum * corners[i].value;
     error = std::max(error, corners[i].bound);
     size = std::max(size, largest(corners[i].value));
   }
@@ -174,7 +190,8 @@ BoundedFour at_pixel(const Projected& scene, const Triangle& t, const std::array
   const double w_error = t.roundings * kFloatRounding * t.size.w / t.w_min;
   // A piece of a cut triangle may be so thin that snapping turns it over; its plane then goes through snapped corners.
   const bool turned = !certain && (t.cut || t.thin);
-  const glm::dvec2 from_place = weight * moved + (turned ? kHalfStep : 0);
+  const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
+  const glm::dvec2 from_place = weight * moved + (snapped ? weight * scene.step : turned ? scene.step : 0);
   return {value, largest(slope_x) * from_place.x + largest(slope_y) * from_place.y +
                      value_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end * size)};
 }
@@ -182,7 +199,7 @@ BoundedFour at_pixel(const Projected& scene, const Triangle& t, const std::array
 /// Where in its texture the hit is, and the levels of detail at the four pixels of its square of two by two: ray
 /// differentials, d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j.
 BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const std::array<glm::dvec2, 3>& texcoords,
-                              const BoundedFour& st, glm::dvec3 d, glm::ivec2 pixel) {
+                              const BoundedFour& st, glm::dvec3 d, glm::ivec2 pixel, const LevelRules& rules) {
   BoundedPlace out{glm::dvec2(st.value), st.bound, 0, kInfinity, -kInfinity};
   const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
   for (int k = 0; k < 4; ++k) {
@@ -199,8 +216,8 @@ BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const s
     const bool ahead = sum * t.sign > 0;
     const double lambda = ahead ? level_of_detail(texture, d_dx, d_dy) : static_cast<double>(texture.sampler.max_lod);
     const double least =
-        ahead ? smallest_level_of_detail(texture, d_dx, d_dy) : static_cast<double>(texture.sampler.min_lod);
-    const double most = ahead ? largest_level_of_detail(texture, d_dx, d_dy) : lambda;
+        ahead ? smallest_level_of_detail(texture, d_dx, d_dy, rules) : static_cast<double>(texture.sampler.min_lod);
+    const double most = ahead ? largest_level_of_detail(texture, d_dx, d_dy, rules) : lambda;
     if (at == pixel) out.lambda = lambda;
     out.lambda_lo = std::min(out.lambda_lo, least);
     out.lambda_hi = std::max(out.lambda_hi, most);
@@ -258,9 +275,11 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   if (draw.texture) {
     const BoundedFour st = attribute([](const Corner& c) { return BoundedFour{glm::dvec4(c.texcoord, 0, 0), 0}; });
     const Texture& texture = scene.textures.at(draw.texture->texture);
-    const BoundedPlace place = place_in_texture(
-        texture, t, {corner(0).texcoord, corner(1).texcoord, corner(2).texcoord}, st, projected.to_centre(d), pixel);
-    color = bounded_textured_color(texture, *draw.texture, color, place);
+    const LevelRules rules = level_rules(projected.conventions);
+    const BoundedPlace place =
+        place_in_texture(texture, t, {corner(0).texcoord, corner(1).texcoord, corner(2).texcoord}, st,
+                         projected.to_centre(d), pixel, rules);
+    color = bounded_textured_color(texture, *draw.texture, color, place, rules);
   }
   if (draw.lit && model.separate_specular) {
     color = {color_sum(color.value, secondary.value), color.bound + secondary.bound + kFloatRounding};
@@ -280,13 +299,25 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   out.hit.color_bound = color.bound;
 }
 
-void set_tests(const Draw& draw, const Triangle& t, ColorFormat format, PixelHit& out) {
+Outcomes alpha_test(const AlphaTest& test, ColorFormat format, Conventions::AlphaTest numbers, double lo, double hi) {
+  const Outcomes in_codes = alpha_outcomes(test, format, lo, hi),
+                 in_float = alpha_outcomes(test, ColorFormat::rgba32f, lo, hi);
+  switch (numbers) {
+    case Conventions::AlphaTest::in_codes: return in_codes;
+    case Conventions::AlphaTest::in_float: return in_float;
+    case Conventions::AlphaTest::either: break;
+  }
+  return {in_codes.may_pass || in_float.may_pass, in_codes.may_fail || in_float.may_fail};
+}
+
+void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, const Conventions& conventions,
+               PixelHit& out) {
   Hit& hit = out.hit;
   if (draw.alpha_test) {
     const bool bounded = std::isfinite(hit.color_bound);
+    const double lo = hit.color.a - hit.color_bound, hi = hit.color.a + hit.color_bound;
     const Outcomes alpha =
-        bounded ? alpha_outcomes(*draw.alpha_test, format, hit.color.a - hit.color_bound, hit.color.a + hit.color_bound)
-                : Outcomes{true, true};
+        bounded ? alpha_test(*draw.alpha_test, frame.color, conventions.alpha_test, lo, hi) : Outcomes{true, true};
     hit.alpha_passes = alpha.may_pass;
     hit.alpha_fails = alpha.may_fail;
   }
@@ -332,7 +363,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   const double w = std::clamp(at.w, t.w_min, t.w_max);
   const glm::dvec2 moved = float_displacement(projected, t, at.nearest, w);
   PixelHit out;
-  out.delta = std::min(t.reach, kSnap + glm::length(moved));
+  out.delta = std::min(t.reach, projected.snap + glm::length(moved));
   if (!at.inside && at.border > out.delta) return std::nullopt;
   out.hit.primitive = primitive;
   out.hit.depth_func = scene.draws[t.draw].depth_func;
@@ -344,7 +375,7 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))
     return std::nullopt;
   set_color(scene, projected, t, d, {px, py}, at, moved, out);
-  set_tests(scene.draws[t.draw], t, scene.frame.color, out);
+  set_tests(scene.draws[t.draw], t, scene.frame, projected.conventions, out);
   out.inside = at.by_ties && at.inside && t.facing_kept && (scene.depth_clamp || (view.z >= 0 && view.z <= 1));
   return out;
 }

@@ -147,6 +147,12 @@ void check_matrices(const Capture& c, Lines& out) {
 
 }  // namespace
 
+std::vector<std::string> contradictions_of_winners(const Capture& capture) {
+  Lines out;
+  check_winners(capture, out);
+  return out;
+}
+
 std::vector<std::string> contradictions(const Capture& capture) {
   Lines out;
   check_matrices(capture, out);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/capture.h"
+#include "capture/conventions.h"
 #include "capture/profile.h"
 #include "capture/stages.h"
 #include "scene/scene.h"
@@ -50,7 +51,8 @@ struct Request {
   std::vector<glm::ivec2> pixels;         ///< only these pixels' fragments (stages 5 to 9); empty: all
   std::size_t memory_budget = std::size_t{512} << 20;  ///< bytes a capture may take
   WantedPlanes planes = WantedPlanes::all;
-  std::string painter = {};  ///< one of info().painters, where planes is `picture`; empty: the one that ships
+  std::string painter = {};      ///< one of info().painters, where planes is `picture`; empty: the one that ships
+  Conventions conventions = {};  ///< whose legal answers are asked for
 };
 
 /// What a renderer is able to show of one stage.
@@ -68,6 +70,7 @@ struct RendererInfo {
   std::array<Ability, kStageNames.size()> stages;
   bool legal = false;  ///< capture() hands legal answers out
   Profile profile = Profile::foreign;
+  Conventions conventions = {};  ///< that it draws by
   /// Names of the code paths that draw pictures alone (WantedPlanes::picture), the default path last. Each must draw the
   /// bits of the recorded frame. Empty: the recorded path draws pictures, too.
   std::vector<std::string> painters = {};

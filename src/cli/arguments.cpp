@@ -57,6 +57,12 @@ const std::string kProgramHelp =
     "{scene} in it is the scene's file, {input} the folder of its export, {output} that for the capture; or {serve}: "
     "started once, it is asked by lines";
 
+void add_conventions(CLI::App& command, std::string& file) {
+  text(command, "--conventions", file,
+       "What the other renderer declares of itself (plumb learn finds it): what these explain is no difference, and "
+       "those that are mistakes are told once");
+}
+
 CLI::Option* add_program(CLI::App& command, ProgramArgument& program, const std::string& what) {
   CLI::Option* line = text(command, "--program", program.command, what + kProgramHelp);
   command
@@ -68,6 +74,7 @@ CLI::Option* add_program(CLI::App& command, ProgramArgument& program, const std:
        "the stages before are given, and not judged")
       ->check(CLI::IsMember({"clip", "window"}))
       ->needs(line);
+  add_conventions(command, program.conventions);
   return line;
 }
 
@@ -104,6 +111,7 @@ void add(CLI::App& command, CheckOptions& o) {
   CLI::Option* program =
       add_program(command, o.candidate, "Judge what this command line draws, in our renderer's place: ");
   program->excludes(fault)->excludes(command.get_option("--golden"));
+  command.get_option("--conventions")->needs(program);
   CLI::Option* submissions = text(command, "--submissions", o.submissions,
                                   "A folder: judge the program for each folder in it, which is {submission} in the "
                                   "command line; a row for each")
@@ -123,6 +131,16 @@ void add(CLI::App& command, CheckOptions& o) {
   add_limits(command, o.limits);
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
   add_assets(command, o.scene_arguments);
+}
+
+void add(CLI::App& command, LearnOptions& o) {
+  CLI::Option* program =
+      text(command, "--program", o.candidate.command, "Ask what this command line draws: " + kProgramHelp);
+  text(command, "--with", o.with, fmt::format("Or one of ours: {}", fmt::join(renderer_names(), ", ")))
+      ->capture_default_str()
+      ->excludes(program);
+  text(command, "-o,--output", o.output, "Write conventions.json, which check and diagnose take (--conventions)");
+  text(command, "--pictures", o.pictures, "Leave the probes' pictures in this folder");
 }
 
 void add(CLI::App& command, DiagnoseOptions& o) {
@@ -147,8 +165,8 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   CLI::Option* picture = text(command, "--picture", o.picture,
                               "Name the known faults that draw pictures like this one, which is all there is");
   text(command, "--depth", o.depth, "With --picture: window z as .exr, which is compared as well")->needs(picture);
-  for (const char* other :
-       {"--against", "--json", "--report", "--pixel", "--fragments", "--fault", "--capture", "--program"})
+  for (const char* other : {"--against", "--json", "--report", "--pixel", "--fragments", "--fault", "--capture",
+                            "--program", "--conventions"})
     picture->excludes(command.get_option(other));
   add_assets(command, o.scene_arguments);
 }
@@ -329,6 +347,8 @@ Parsed parse(int argc, char** argv) {
   add_command(app, out.command, "capture", "Write what a renderer hands out at every stage into a folder", capture);
   add_command(app, out.command, "export", "Write a scene as plain arrays, for a renderer in any language",
               export_scene);
+  add_command(app, out.command, "learn",
+              "Find the conventions that a renderer draws by, from pictures and depths alone", learn);
   add_command(app, out.command, "compare",
               "Compare two images, or two captures, number by number; pixels count from the lower left", compare);
   add_golden_commands(app, out.command, check_options.program);

@@ -158,6 +158,9 @@ int check(const CheckOptions& given) {
   judge_in_workers(scenes, rules, words, take);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (is_whole(o, verdicts)) head.failures = check::of_no_scene(rules.expectations, verdicts);
+  for (const std::string& line : mistaken(conventions_of(o.candidate.conventions))) {
+    head.failures.push_back("convention " + line);
+  }
   const bool holds = report::all_hold(verdicts) && head.failures.empty();
   std::string summary = not_asked_line(o);
   if (!o.candidate.command.empty() && !can_confine())

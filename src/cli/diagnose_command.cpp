@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/by_conventions.h"
 #include "capture/contradictions.h"
 #include "capture/files/capture_folder.h"
 #include "capture/renderers/replayed_renderer.h"
@@ -43,7 +44,12 @@ class Left : public Renderer {
 
 // Candidate of another renderer: the capture that it left. (A program is run once.)
 std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scene& scene) {
-  if (!o.folder.empty()) return make_replayed_renderer(read_capture(o.folder), scene, o.folder);
+  if (!o.folder.empty()) {
+    const Conventions conventions = conventions_of(o.candidate.conventions);
+    Capture left = read_capture(o.folder);
+    to_dialect(conventions, left);
+    return make_replayed_renderer(std::move(left), scene, o.folder, conventions);
+  }
   const std::unique_ptr<Renderer> program = make_program(o.candidate);
   Capture left = program->capture(scene, {StageSet::all(), false, {}, {}});
   return std::make_unique<Left>(std::move(left), program->info());
@@ -95,6 +101,13 @@ std::string contradiction_lines(const Capture& capture) {
   return out.empty() ? out : "the capture contradicts itself:\n" + out + "\n";
 }
 
+// Lines of declared conventions that are mistakes; the stages are judged as if they were none.
+std::string convention_lines(const Conventions& conventions) {
+  std::string out;
+  for (const std::string& line : mistaken(conventions)) out += fmt::format("  {}\n", line);
+  return out.empty() ? out : "conventions that are mistakes (the stages are judged by them):\n" + out + "\n";
+}
+
 bool holds(const check::Diagnosis& diagnosis) {
   return std::ranges::none_of(diagnosis.verdict.comparisons,
                               [](const check::Comparison& c) { return is_failure(c.outcome); });
@@ -139,7 +152,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   std::string against_itself, faults;
   if (outside) {
     const Capture left = candidate->capture(scene, Request{});
-    against_itself = contradiction_lines(left);
+    against_itself = convention_lines(candidate->info().conventions) + contradiction_lines(left);
     faults = known_faults(scene, left, diagnosis);
   }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
@@ -157,12 +170,17 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
     report::write_diagnosis_page(*subject.page, scene, diagnosis, pictured(scene, *candidate, references),
                                  history_text);
   }
-  return fmt::format("{}{}", static_cast<int>(holds(diagnosis) ? kHolds : kDiffers), out);
+  return fmt::format(
+      "{}{}", static_cast<int>(holds(diagnosis) && mistaken(candidate->info().conventions).empty() ? kHolds : kDiffers),
+      out);
 }
 
 }  // namespace
 
 int diagnose(const DiagnoseOptions& o) {
+  if (!o.candidate.conventions.empty() && o.folder.empty() && o.candidate.command.empty())
+    throw std::invalid_argument("--conventions: expected --program or --capture, whose they are, found neither");
+  conventions_of(o.candidate.conventions);  // refuses what declares none
   if (!o.picture.empty()) return diagnose_picture(o);
   const Scene scene = o.scene_arguments.load(o.scene);
   require_budget(scene, plane_bytes(scene), Request{}.memory_budget);

@@ -4,13 +4,13 @@
 namespace plumbline {
 namespace {
 
-const std::string kFault = " --against exact --fault coverage.inclusive_edges";
+const std::string kFault = " --against exact --fault depth.truncated";
 class CheckInCi : public Cli {
  protected:
   std::string known(const std::string& scene, const std::string& expires) const {
     write(folder_ / "known.json",
           "{\"expectations\": [{\"scene\": \"" + scene +
-              "\", \"reference\": \"exact\", \"kind\": \"per_stage\", \"stage\": \"coverage\", \"reason\": \"a test\", "
+              "\", \"reference\": \"exact\", \"kind\": \"per_stage\", \"stage\": \"depth\", \"reason\": \"a test\", "
               "\"issue\": \"none\", \"expires\": \"" +
               expires + "\"}]}");
     return " --expect " + at("known.json") + " --today 2026-05-05";
@@ -28,7 +28,7 @@ TEST_F(CheckInCi, leaves_junit_markdown_rows_and_a_page_of_each_failure) {
   EXPECT_TRUE(run.says("not asked: osmesa, embree"));
   EXPECT_TRUE(fs::exists(at("failures/coverage/shared_edges/index.html")));
   EXPECT_NE(read(at("j.xml")).find("failures=\"1\""), std::string::npos);
-  EXPECT_NE(read(at("m.md")).find("| coverage/shared\\_edges | coverage |"), std::string::npos) << read(at("m.md"));
+  EXPECT_NE(read(at("m.md")).find("| coverage/shared\\_edges | depth |"), std::string::npos) << read(at("m.md"));
   EXPECT_TRUE(read(at("rows/coverage/shared_edges.txt")).ends_with("\nFAILED\n"));
 
   run = shell("CTEST_INTERACTIVE_DEBUG_MODE=1 " PLUMBLINE_PLUMB " check " + kSharedEdges + kFault + outputs);
@@ -91,7 +91,7 @@ TEST_F(CheckInCi, what_breaks_is_named_by_the_diff) {
                              " --markdown " + at("d.md"));
   EXPECT_EQ(diff.code, 1);
   EXPECT_TRUE(diff.says("newly broken: ")) << diff.text;
-  EXPECT_TRUE(diff.says("coverage/shared_edges, exact, per stage, coverage: equal -> different")) << diff.text;
+  EXPECT_TRUE(diff.says("coverage/shared_edges, exact, per stage, depth: within -> different")) << diff.text;
   EXPECT_NE(read(at("d.json")).find("\"holds\": false"), std::string::npos);
   EXPECT_EQ(plumb("report diff " + at("new.json") + " " + at("old.json")).code, 0) << "fixed";
 }
@@ -105,7 +105,7 @@ TEST_F(CheckInCi, expectations_excuse_what_is_known_until_it_expires_or_passes) 
 
   run = plumb("check " + kSharedEdges + kFault + known("coverage/shared_edges", "2026-05-04"));
   EXPECT_EQ(run.code, 1);
-  EXPECT_TRUE(run.says("expired coverage/shared_edges, exact, per stage, coverage")) << run.text;
+  EXPECT_TRUE(run.says("expired coverage/shared_edges, exact, per stage, depth")) << run.text;
   run = plumb("check " + kSharedEdges + " --against exact" + expect);
   EXPECT_EQ(run.code, 1) << "it passes unexpectedly";
   EXPECT_TRUE(run.says("0 occurred, 0 expired, 1 passed unexpectedly")) << run.text;
@@ -133,7 +133,7 @@ TEST_F(CheckInCi, expectations_excuse_what_is_known_until_it_expires_or_passes) 
   EXPECT_EQ(merged.code, 0) << merged.text;
   EXPECT_TRUE(merged.says("not run: cull/both_windings")) << merged.text;
   EXPECT_EQ(plumb(without + "cull/nothing").code, 2) << "no such scene";
-  EXPECT_TRUE(run.says("expectation coverage/no_such_scene, exact, per stage, coverage: there is no such scene"))
+  EXPECT_TRUE(run.says("expectation coverage/no_such_scene, exact, per stage, depth: there is no such scene"))
       << run.text;
   for (const char* bad : {"2026-02-30", "+026-02-20", "2026-2-201"}) {
     EXPECT_EQ(plumb("check " + kSharedEdges + " --today " + bad).code, 2) << bad;

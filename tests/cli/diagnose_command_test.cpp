@@ -8,7 +8,7 @@ TEST_F(Cli, diagnose_of_ours_ends_0_and_names_nothing) {
   const Outcome run = plumb("diagnose " + kSharedEdges + " --against exact");
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_TRUE(run.says("first different stage: none\nwrong by itself: none\n")) << run.text;
-  EXPECT_TRUE(run.says("   coverage    ambiguous 14       equal\n")) << run.text;
+  EXPECT_TRUE(run.says("   coverage    ambiguous 4        equal\n")) << run.text;
   EXPECT_FALSE(run.says("->"));
 }
 
@@ -17,7 +17,7 @@ TEST_F(Cli, diagnose_of_a_fault_ends_1_and_says_stage_numbers_cause_and_picture)
       plumb("diagnose " + kSharedEdges + " --against exact --fault coverage.inclusive_edges --json " + at("d.json"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("-> coverage ")) << run.text;
-  EXPECT_TRUE(run.says("first different stage: coverage (against exact, per stage)"));
+  EXPECT_TRUE(run.says("first different stage: coverage (against exact, from scene; exact, per stage)"));
   EXPECT_TRUE(run.says("wrong by itself: coverage\n"));
   EXPECT_TRUE(run.says("  its corner 2: p_win (32.5 32.5 0.444444478)"));
   EXPECT_TRUE(run.says("likely cause: covered sets differ only on edges, all of them extra"));
@@ -34,8 +34,9 @@ TEST_F(Cli, diagnose_of_a_folder_judges_what_is_in_it) {
   ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("good")).code, 0);
   const Outcome good = plumb("diagnose " + kSharedEdges + " --against exact --capture " + at("good"));
   EXPECT_EQ(good.code, 0) << good.text;
-  ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("bad") + " --fault coverage.inclusive_edges").code, 0);
-  const Outcome bad = plumb("diagnose " + kSharedEdges + " --against exact --capture " + at("bad"));
+  const std::string on_centres = kScenes + "coverage/on_centres.json";
+  ASSERT_EQ(plumb("capture " + on_centres + " " + at("bad") + " --fault coverage.top_for_bottom").code, 0);
+  const Outcome bad = plumb("diagnose " + on_centres + " --against exact --capture " + at("bad"));
   EXPECT_EQ(bad.code, 1) << bad.text;
   EXPECT_TRUE(bad.says("wrong by itself: coverage\n"));
   EXPECT_TRUE(bad.says("first different stage: none; legal, but not by the dialect's tie rule: coverage\n"))

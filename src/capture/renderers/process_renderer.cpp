@@ -19,6 +19,7 @@
 
 #include "base/program.h"
 #include "base/temporary_path.h"
+#include "capture/by_conventions.h"
 #include "capture/complete_records.h"
 #include "capture/files/capture_columns.h"
 #include "capture/files/capture_folder.h"
@@ -119,6 +120,7 @@ class ProcessRenderer : public Renderer {
     RendererInfo info;
     info.name = spec_.name;
     info.version = spec_.version;
+    info.conventions = spec_.conventions;
     for (std::size_t i = 0; i < kStageNames.size(); ++i) {
       const auto stage = static_cast<Stage>(i);
       info[stage].shows = spec_.shows.has(stage);
@@ -226,6 +228,8 @@ class ProcessRenderer : public Renderer {
         fail(fmt::format("left a capture of {} x {} pixels where the scene has {} x {}", capture.width, capture.height,
                          scene.frame.width, scene.frame.height));
       }
+      to_dialect(spec_.conventions, capture);
+      if (spec_.raw_depth) capture.depth_in_float = false;
       if (spec_.give && request.records.has(Stage::coverage)) spec_.give(scene, capture);
       complete_records(scene, capture);
       visit_capture(KeepOnly{request.records}, capture);

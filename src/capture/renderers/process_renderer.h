@@ -33,9 +33,11 @@ struct ProcessSpec {
   std::string shown = "";  ///< the command line as messages show it; empty: argv
   std::function<void(const Scene&, const std::filesystem::path& folder)> write_input{};
   std::function<void(const Scene&, Capture&)> give{};  ///< puts records into what was left, where records are asked
-  std::map<std::string, std::string> environment;      ///< set beside what is inherited
-  std::chrono::milliseconds timeout{60'000};           ///< after that, it and all that it started is killed
-  StageSet shows;                                      ///< what it says it is able to show
+  Conventions conventions = {};                    ///< that the program draws by; captures are handed on by OpenGL's
+  bool raw_depth = false;                          ///< depths in floats are not taken for codes of the scene's format
+  std::map<std::string, std::string> environment;  ///< set beside what is inherited
+  std::chrono::milliseconds timeout{60'000};       ///< after that, it and all that it started is killed
+  StageSet shows;                                  ///< what it says it is able to show
 };
 
 /// info() runs nothing. capture() runs the program, waits, and reads the folder; of its records those that the request

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/complete_records.h"
+#include "capture/contradictions.h"
 #include "scene/draw_index.h"
 
 namespace plumbline {
@@ -59,16 +60,22 @@ void add_planes_of_records(Capture& c) {
 
 class ReplayedRenderer : public Renderer {
  public:
-  ReplayedRenderer(Capture capture, const Scene& scene) : capture_(std::move(capture)) {
+  ReplayedRenderer(Capture capture, const Scene& scene, const Conventions& conventions) : capture_(std::move(capture)) {
+    const std::vector<std::string> contradicted = contradictions_of_winners(capture_);
+    if (!contradicted.empty()) capture_.planes.id = {};
     add_planes_of_records(capture_);
     info_.name = capture_.renderer;
     info_.version = capture_.version;
+    info_.conventions = conventions;
     for (std::size_t i = 0; i < kStageNames.size(); ++i) {
       const Held here = held(capture_, scene, static_cast<Stage>(i));
       info_.stages[i].shows = here.records || here.planes;
       info_.stages[i].planes_alone = !here.records;
       if (!info_.stages[i].shows) info_.stages[i].reason = "its capture does not hold it";
     }
+    Ability& winners = info_[Stage::visibility];
+    if (!contradicted.empty() && !winners.shows)
+      winners.reason = "the capture contradicts itself: " + contradicted.front();
   }
   RendererInfo info() const override { return info_; }
   Capture capture(const Scene&, const Request&) override { return capture_; }
@@ -80,7 +87,8 @@ class ReplayedRenderer : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& scene, const std::string& from) {
+std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& scene, const std::string& from,
+                                                 const Conventions& conventions) {
   const auto require = [&](bool holds, const std::string& expected, const std::string& found) {
     if (!holds) throw std::invalid_argument(fmt::format("{}: expected {}, found {}", from, expected, found));
   };
@@ -112,7 +120,7 @@ std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& s
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", from, error.what()));
   }
-  return std::make_unique<ReplayedRenderer>(std::move(capture), scene);
+  return std::make_unique<ReplayedRenderer>(std::move(capture), scene, conventions);
 }
 
 }  // namespace plumbline

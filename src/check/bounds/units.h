@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "capture/capture.h"
+#include "capture/conventions.h"
 #include "check/bounds/bounds.h"
 #include "check/verdict/measure.h"
 
@@ -84,6 +85,23 @@ inline bool is_open(const Legal& legal, const Planes& planes, int x, int y) {
   const std::uint32_t count = planes.count(x, y), low = legal.certain(x, y), high = legal.possible(x, y);
   return low != high && low <= count && count <= high;
 }
+
+// Colours of a frame by a renderer's conventions: what it stores of a colour before rounding, and the middle of the
+// colours that it may have rounded to a code.
+struct StoredColors {
+  const Conventions& conventions;
+  double scale;  // the largest code; 0: floats
+  // IEC 61966-2-1.
+  double encoded(double v) const {
+    if (scale == 0 || conventions.color_encoding == Conventions::Encoding::linear) return v;
+    const double c = std::clamp(v, 0.0, 1.0);
+    return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+  }
+  double of_channel(double v, int channel) const { return channel < 3 ? encoded(v) : v; }
+  double middle(double stored) const {
+    return scale > 0 && conventions.color_rounding == Conventions::Rounding::down ? stored + 0.5 / scale : stored;
+  }
+};
 
 inline double outside(double value, double low, double high) {
   if (value >= low && value <= high) return 0;

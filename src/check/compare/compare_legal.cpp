@@ -54,17 +54,25 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
 // `half_code`: what rounding to the frame's format adds to the oracle's bound. `at_pixel` measures what else there is.
 template <class AtPixel>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
-                                double half_code, bool clamped, double factor, const AtPixel& at_pixel) {
+                                double half_code, const StoredColors& stored, double factor, const AtPixel& at_pixel) {
   std::string why;
   if (!fits_winners(candidate, legal, why)) return mismatch("bound", why, color.size());
   return compare_planes(color, legal.certain, "bound", [&](Meter& meter, int x, int y) {
     at_pixel(meter, x, y);
     if (legal.at(x, y).size() > 1) meter.ambiguous();
     const glm::vec4 c = color(x, y);
-    const auto wanted = [&](const LegalAnswer& a) { return clamped ? glm::clamp(a.color, 0.0f, 1.0f) : a.color; };
+    const auto wanted = [&](const LegalAnswer& a, int i) {
+      const double v = a.color[i];
+      return stored.of_channel(stored.scale > 0 ? std::clamp(v, 0.0, 1.0) : v, i);
+    };
+    const auto bound = [&](const LegalAnswer& a, int i) {
+      const double v = a.color[i], off = a.color_bound, middle = stored.of_channel(v, i);
+      if (stored.of_channel(0.5, i) == 0.5) return off;
+      return std::max(stored.of_channel(v + off, i) - middle, middle - stored.of_channel(v - off, i));
+    };
     const auto apart = [&](const LegalAnswer& a, int i) {
-      const double diff = difference(c[i], wanted(a)[i]);
-      return diff == 0 ? 0 : diff / (static_cast<double>(a.color_bound) + half_code);
+      const double diff = difference(stored.middle(c[i]), wanted(a, i));
+      return diff == 0 ? 0 : diff / (bound(a, i) + half_code);
     };
     const auto farthest = [&](const LegalAnswer& a) {
       return std::max({apart(a, 0), apart(a, 1), apart(a, 2), apart(a, 3)});
@@ -79,7 +87,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
     const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, farthest);
     if (!std::isfinite(nearest.color_bound) && legal.at(x, y).size() == 1) meter.ambiguous();  // any colour is legal
     for (int i = 0; i < 4; ++i) {
-      meter.value(apart(nearest, i), factor, {x, y, nearest.primitive, "color"}, c[i], wanted(nearest)[i]);
+      meter.value(apart(nearest, i), factor, {x, y, nearest.primitive, "color"}, c[i], wanted(nearest, i));
     }
   });
 }
@@ -104,12 +112,15 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
 }
 
 Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor) {
-  return compare_legal_color(candidate.shaded, candidate, legal, 0, false, factor, [](Meter&, int, int) {});
+  return compare_legal_color(candidate.shaded, candidate, legal, 0, {Conventions{}, 0}, factor,
+                             [](Meter&, int, int) {});
 }
 
-Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor) {
+Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
+                                const Conventions& conventions) {
   const double scale = color_scale(scene.frame.color);
   const bool codes = scale > 0;
+  const StoredColors stored{conventions, scale};
   const auto clear_depth = [&](Meter& meter, int x, int y) { meter_clear_depth(meter, scene, candidate, legal, x, y); };
   if (!legal.color_lo.empty()) {
     const double rounding = codes ? 0.5 / scale + 4 * u : u;
@@ -118,11 +129,13 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
       const glm::vec4 &color = candidate.color(x, y), &low = legal.color_lo(x, y), &high = legal.color_hi(x, y);
       if (!std::isfinite(low.x)) return open_value(meter, color.x, {x, y, -1, "color"}, 0);
       for (int c = 0; c < 4; ++c) {
-        meter.value(outside(color[c], low[c], high[c]) / rounding, factor, {x, y, -1, "color"}, color[c], low[c]);
+        const double value = stored.middle(color[c]);
+        meter.value(outside(value, stored.of_channel(low[c], c), stored.of_channel(high[c], c)) / rounding, factor,
+                    {x, y, -1, "color"}, color[c], low[c]);
       }
     });
   }
-  return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, codes, factor,
+  return compare_legal_color(candidate.color, candidate, legal, codes ? 0.5 / scale + 4 * u : 0, stored, factor,
                              clear_depth);
 }
 

@@ -358,7 +358,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
 }
 
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
-                          const Legal& bounds) {
+                          const Legal& bounds, const Conventions& conventions) {
   std::string why;
   if (!same_size(candidate.depth, exact.depth, why) || !same_size(candidate.depth, candidate.color, why)) {
     return mismatch("half code", why, candidate.depth.size());
@@ -366,13 +366,16 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
   const double scale = color_scale(scene.frame.color);
   const bool codes = scale > 0;
   const double unit = codes ? 0.5 / scale + 4 * u : u;
+  const StoredColors stored{conventions, scale};
   return compare_planes(candidate.color, exact.color, codes ? "half code" : "u", [&](Meter& meter, int x, int y) {
     const std::int64_t id = candidate.id.size() == candidate.color.size() ? candidate.id(x, y) : -1;
     const glm::vec4 &low = bounds.color_lo.empty() ? exact.color(x, y) : bounds.color_lo(x, y),
                     &high = bounds.color_hi.empty() ? exact.color(x, y) : bounds.color_hi(x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = candidate.color(x, y)[c];
-      meter.value(outside(v, low[c], high[c]) / unit, codes ? factor : 0, {x, y, id, "color", true}, v, low[c]);
+      const double least = stored.of_channel(low[c], c), most = stored.of_channel(high[c], c);
+      meter.value(outside(stored.middle(v), least, most) / unit, codes ? factor : 0, {x, y, id, "color", true}, v,
+                  least);
     }
     for (int c = 0; codes && c < 4; ++c) {
       const double v = scale * static_cast<double>(candidate.color(x, y)[c]),

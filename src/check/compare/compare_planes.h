@@ -2,6 +2,7 @@
 #pragma once
 
 #include "capture/capture.h"
+#include "capture/conventions.h"
 #include "check/verdict/measure.h"
 #include "scene/scene.h"
 
@@ -38,8 +39,9 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
 
 /// The candidate's planes against the colours that exact made of its own fragments: where it has codes, in half codes,
 /// against unrounded colours; rgba32f and depth: equal. `bounds`: of colours that rounding on the way may have moved.
+/// Codes are rounded, and stand for colours, as `conventions` say.
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
-                          const Legal& bounds = {});
+                          const Legal& bounds = {}, const Conventions& conventions = {});
 
 /// Against legal answers. Pixels with more than one are counted as ambiguous. Depth and colour are held to the answer
 /// of the pixel's own winner, `factor` times its bound; where that is not legal, it is visibility's matter alone. Where
@@ -49,6 +51,7 @@ Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);
 Measurement compare_legal_shaded(const Planes& candidate, const Legal& legal, double factor);
-Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);
+Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, const Legal& legal, double factor,
+                                const Conventions& conventions = {});
 
 }  // namespace plumbline::check

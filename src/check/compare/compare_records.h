@@ -5,6 +5,7 @@
 #include <span>
 
 #include "capture/capture.h"
+#include "capture/conventions.h"
 #include "capture/stages.h"
 #include "check/bounds/bounds.h"
 #include "check/verdict/measure.h"
@@ -51,10 +52,10 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
                                       double factor);
 
 /// p_win, 1/w and facing against the exact ones, `factor` u of the magnitudes; snapped positions are the rounding of
-/// the candidate's own p_win, exactly. Other facings, and missing or extra triangles, are legal where the candidate's
+/// the candidate's own p_win, exactly, to the grid of its conventions. Other facings, and missing or extra triangles, are legal where the candidate's
 /// clip polygons leave them open (legal_window.h); the colours are those of the face.
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor);
+                           double factor, const Conventions& conventions = {});
 /// Bit for bit (as floats), but 1/w, which has the tolerance `factor` [ULP]. Colours are not compared: feedback has
 /// none of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h, turned_outlines):
 /// ambiguous.
@@ -66,9 +67,9 @@ Measurement compare_covered(const Records<double>& candidate, const Records<doub
 /// Likewise; a fragment more or less is ambiguous where `legal` leaves open how many there are (compare_planes.h), as
 /// long as others differ.
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal);
-/// In steps of the depth format.
+/// In steps of the depth format; rounded to it as the candidate's conventions say.
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                          double factor);
+                          double factor, const Conventions& conventions = {});
 Measurement compare_attributes(const Records<double>& candidate, const Records<double>& reference, double factor);
 /// Of plain draws bit for bit (as floats); of others `factor` u of each step's magnitude (shade_bounds.h).
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,

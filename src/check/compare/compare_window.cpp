@@ -22,8 +22,12 @@ Colors colors_of(const WindowTriangle<double>& t) { return {t.v[0].color, t.v[1]
 // primitive.
 class RunComparison {
  public:
-  RunComparison(Meter& meter, const Scene& scene, const Records<double>& candidate, double factor)
-      : meter_(meter), factor_(factor), legal_(scene, candidate, factor, FacingArea::snapped) {}
+  RunComparison(Meter& meter, const Scene& scene, const Records<double>& candidate, double factor,
+                const Conventions& conventions)
+      : meter_(meter),
+        factor_(factor),
+        conventions_(conventions),
+        legal_(scene, candidate, factor, FacingArea::snapped) {}
 
   void operator()(Run mine, Run theirs, std::size_t first) {
     const bool alike = std::ranges::equal(mine, theirs, [&](const auto& a, const auto& b) { return is_alike(a, b); });
@@ -100,7 +104,7 @@ class RunComparison {
       meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_,
                    at(number, "inv_w"), v.inv_w, w.inv_w);
       for (int c = 0; c < 2; ++c) {
-        const double own = std::nearbyint((v.p_win[c] - 0.5) * kSubpixel);
+        const double own = snapped(v.p_win[c] - 0.5);
         meter_.value(difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);
       }
       add(meter_, v.color, colors[k], Vec4<double>(u), 0, at(number, "color"));
@@ -109,23 +113,32 @@ class RunComparison {
     meter_.value(difference(a.width, b.width), 0, at(number, "width"), a.width, b.width);
   }
 
+  // On the grid of the renderer's conventions, in 1/256 pixel. Where it has none, or a finer one, to the nearest.
+  double snapped(double at) const {
+    const int bits = conventions_.subpixel_bits;
+    const double steps = bits < 0 || bits > 8 ? kSubpixel : std::ldexp(1.0, bits), place = at * steps;
+    const bool down = bits >= 0 && conventions_.subpixel_rounding == Conventions::Rounding::down;
+    return (down ? std::floor(place) : std::nearbyint(place)) * kSubpixel / steps;
+  }
+
   static Place at(std::size_t number, const char* field) { return {-1, -1, static_cast<std::int64_t>(number), field}; }
 
   Meter& meter_;
   double factor_;
+  const Conventions& conventions_;
   LegalWindow legal_;
 };
 
 }  // namespace
 
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
-                           double factor) {
+                           double factor, const Conventions& conventions) {
   const auto &a = candidate.triangles, &b = reference.triangles;
   if (candidate.matrices.empty() || candidate.matrices.size() != scene.draws.size()) {
     return mismatch("u", "no matrices", std::max(a.size(), b.size()));
   }
   Meter meter("u");
-  RunComparison compare(meter, scene, candidate, factor);
+  RunComparison compare(meter, scene, candidate, factor, conventions);
   matched_by_primitive(Run(a), Run(b), [&](Run mine, Run theirs) {
     compare(mine, theirs, mine.empty() ? 0 : static_cast<std::size_t>(mine.data() - a.data()));
   });

@@ -1,5 +1,8 @@
 #include "check/diagnose/causes.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "check/compare/compare_records.h"
@@ -24,6 +27,7 @@ std::uint64_t differing(const Evidence& e, const Capture& made) {
   std::vector<Comparison> rows;
   const Legal none;
   Case c{e.scene, e.candidate, none, nullptr, rows};
+  c.conventions = e.conventions;
   compare_stage(c, made, e.stage, "");
   return rows.empty() ? 0 : rows.back().measurement.differing;
 }
@@ -53,6 +57,7 @@ std::vector<KnownCause> all_causes() {
 
 std::vector<Cause> likely_causes(const Evidence& e) {
   std::vector<Cause> out;
+  std::vector<std::pair<std::uint64_t, Cause>> tried;  // and how many records each leaves
   if (e.referee == nullptr) return out;
   const std::uint64_t all = differing(e, e.expected);
   if (all == 0) return out;
@@ -64,10 +69,16 @@ std::vector<Cause> likely_causes(const Evidence& e) {
         continue;
       }
       const std::uint64_t left = differing(e, made_with(cause, e.scene, e.candidate, *e.referee));
-      if (left <= all / 50)
-        out.push_back({cause.name, fmt::format("{} (explains {} of {} that differ)", cause.words, all - left, all)});
+      if (left > all / 50) continue;
+      tried.push_back(
+          {left, {cause.name, fmt::format("{} (explains {} of {} that differ)", cause.words, all - left, all)}});
     } catch (const std::exception&) {  // exact refuses what this cause makes: it is another
     }
+  }
+  std::uint64_t least = all;
+  for (const auto& [left, cause] : tried) least = std::min(least, left);
+  for (auto& [left, cause] : tried) {
+    if (left == least) out.push_back(std::move(cause));
   }
   return out;
 }

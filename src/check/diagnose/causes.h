@@ -15,8 +15,9 @@ struct Cause {
   std::string words;      ///< the cause, and what shows it
 };
 
-/// Causes that explain at least 49 in 50 of the records that differ, in the order of known_causes.h.
-/// (The rest: ties, and what rounding decides.)
+/// Causes that explain at least 49 in 50 of the records that differ (the rest: ties, and what rounding decides), those
+/// first that leave fewest; of as many, and where the pattern of the differences shows them, in the order of
+/// known_causes.h. One that leaves records which another explains is none.
 std::vector<Cause> likely_causes(const Evidence& evidence);
 
 }  // namespace plumbline::check

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "capture/by_conventions.h"
 #include "check/diagnose/causes.h"
 #include "check/diagnose/coverage_differences.h"
 #include "check/diagnose/effect.h"
@@ -68,13 +69,14 @@ struct Finder {
   const Scene& scene;
   Renderer& referee;
   Explain explain;
+  Conventions conventions;
   Finding operator()(const Capture& mine, const Comparison& row) const {
     Finding out = finding_of(row);
     if (row.outcome == Outcome::failed) {
       out.numbers = {row.note};
     } else if (explain != in_brief) {
       const Capture expected = run_or_nothing(scene, referee, row.stage, mine);
-      explain({scene, row.stage, mine, expected, &referee}, out);
+      explain({scene, row.stage, mine, expected, &referee, conventions}, out);
     }
     return out;
   }
@@ -129,7 +131,7 @@ std::optional<Finding> first_finding(const Scene& scene, const SceneVerdict& ver
   Finding out = finding_of(*row);
   for (std::size_t i = 0; i < theirs.size(); ++i) {
     if (!judges_alone(*row) && row->judge.reference == references[i].name)
-      explain({scene, row->stage, mine, theirs[i], nullptr}, out);
+      explain({scene, row->stage, mine, theirs[i], nullptr, {}}, out);
   }
   return out;
 }
@@ -167,10 +169,13 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
   }
 }
 
-Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
+Pass look_at(const Scene& of_dialect, Renderer& candidate, std::span<const Reference> references,
              std::uint64_t most_fragments, Explain explain) {
   BothCaptures drawn;
-  Pass pass{judge(scene, candidate, references, &drawn, most_fragments), {}, {}, {}, {}};
+  Pass pass{judge(of_dialect, candidate, references, &drawn, most_fragments), {}, {}, {}, {}};
+  const Conventions conventions = candidate.info().conventions;
+  const SceneByConventions by_conventions(of_dialect, conventions);
+  const Scene& scene = *by_conventions;
   pass.color = drawn.candidate.planes.color;
   pass.repaired = std::move(drawn.candidate);
   Renderer* referee = referee_of(references);
@@ -185,16 +190,17 @@ Pass look_at(const Scene& scene, Renderer& candidate, std::span<const Reference>
   std::set<Stage> wrong;
   for (const Comparison& c : pass.verdict.comparisons) {
     if (referee == nullptr || !judges_alone(c) || !is_wrong(c) || !wrong.insert(c.stage).second) continue;
-    pass.findings.push_back(Finder{scene, *referee, explain}(pass.repaired, c));
+    pass.findings.push_back(Finder{scene, *referee, explain, conventions}(pass.repaired, c));
   }
-  if (referee != nullptr && over_budget(pass.repaired)) look_at_worst(pass, {scene, *referee, explain}, candidate);
+  if (referee != nullptr && over_budget(pass.repaired))
+    look_at_worst(pass, {scene, *referee, explain, conventions}, candidate);
   if (wrong.empty()) {
     if (!pass.findings.empty()) return pass;
     pass.first = first_finding(scene, pass.verdict, pass.repaired, references, drawn.references, explain);
     return pass;
   }
   try {
-    repair(pass, {scene, *referee, explain}, candidate, wrong);
+    repair(pass, {scene, *referee, explain, conventions}, candidate, wrong);
   } catch (const std::exception&) {  // exact cannot go on; what was found stands
   }
   return pass;
@@ -261,7 +267,7 @@ Diagnosis diagnose_passes(const Scene& scene, Renderer& candidate, std::span<con
   out.verdict = judge_resolved(scene, verdicts, colors, candidate, references, &drawn);
   Renderer* referee = referee_of(references);
   if (referee == nullptr) return out;
-  const Finder find{scene, *referee, explain};
+  const Finder find{scene, *referee, explain, candidate.info().conventions};
   bool resolve_wrong = false;
   for (const Comparison& c : out.verdict.comparisons) {
     if (c.stage != Stage::resolve || !judges_alone(c) || !is_wrong(c)) continue;

@@ -11,9 +11,10 @@ namespace plumbline::check {
 struct Evidence {
   const Scene& scene;
   Stage stage;
-  const Capture& candidate;     ///< with the records that came in
-  const Capture& expected;      ///< exact's, of that stage alone: real numbers
-  Renderer* referee = nullptr;  ///< that made it; null: nobody to try a cause with
+  const Capture& candidate;      ///< with the records that came in
+  const Capture& expected;       ///< exact's, of that stage alone: real numbers
+  Renderer* referee = nullptr;   ///< that made it; null: nobody to try a cause with
+  Conventions conventions = {};  ///< of the candidate
 };
 
 }  // namespace plumbline::check

@@ -130,6 +130,11 @@ constexpr std::array kFragmentCauses = {
         S::visibility, "visibility.less", "an equal depth is rejected where it should pass"),
     given<[](Draw& d) { d.depth_func = turned(d.depth_func); }>(
         S::visibility, "visibility.depth_reversed", "the depth test is the other way round: the farther one wins"),
+    given<[](Scene& s) {
+      s.frame.clear_depth = 1 - s.frame.clear_depth;
+      change_all(s.draws, [](Draw& d) { d.depth_func = turned(d.depth_func); });
+    }>(S::visibility, "visibility.reversed_with_clear",
+       "the depth test is the other way round, and so is the value that depths are cleared to"),
     given<[](Draw& d) { d.depth_func = DepthFunc::always; }>(S::visibility, "visibility.no_depth_test",
                                                              "whatever is drawn last wins: depths are not tested"),
     given<[](Draw& d) { d.merge.depth_mask = true; }>(S::visibility, "visibility.depth_mask_ignored",

@@ -113,7 +113,8 @@ bool not_interpolated_at_cuts(const Evidence& e) {
     return !v.cut ||
            std::ranges::any_of(corners, [&](const Lit<double>& l) { return glm::distance(l.color, v.color) < 1e-6; });
   };
-  return e.candidate.records.polygons.polygons.size() == e.expected.records.polygons.polygons.size() &&
+  const bool cuts = std::ranges::any_of(e.candidate.records.polygons.vertices, &ClipVertex<double>::cut);
+  return cuts && e.candidate.records.polygons.polygons.size() == e.expected.records.polygons.polygons.size() &&
          std::ranges::all_of(e.candidate.records.polygons.vertices, copied) &&
          !std::ranges::all_of(e.expected.records.polygons.vertices, copied);
 }

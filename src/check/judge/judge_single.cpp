@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "capture/by_conventions.h"
 #include "check/bounds/open_pixels.h"
 #include "check/compare/compare_bits.h"
-#include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
 #include "check/judge/failing_stage.h"
@@ -24,44 +24,17 @@ namespace plumbline::check {
 
 namespace {
 
-// The budget of ambiguity: a pixel is open where a snapping bound of an edge reaches its centre, which is predicted
-// from the edges' length. Twice the prediction, and a scatter of three standard deviations of such a count.
-std::string ambiguity_note(const Legal& legal, std::uint64_t ambiguous) {
-  return fmt::format("{} ambiguous, {:.1f} predicted", ambiguous, legal.predicted_ambiguous);
-}
-
-// Coverage, depth, colour and visibility against an oracle's legal answers.
-void ask_oracle(Case& c, const Legal& legal, Stage stage, const JudgeId& name) {
-  const Planes& planes = c.candidate.planes;
-  const auto add = [&](auto compare, std::optional<Stage> as = {}) {
-    const Tolerance& row = tolerance(Profile::oracle, as.value_or(stage));
-    c.add(name, stage, compare(row.factor), &row);
-  };
-  switch (stage) {
-    case Stage::coverage: return c.add(name, stage, compare_legal_count(planes, legal));
-    case Stage::depth: return add([&](double f) { return compare_legal_depth(c.scene, planes, legal, f); });
-    case Stage::attributes:
-    case Stage::shade: return add([&](double f) { return compare_legal_shaded(planes, legal, f); }, Stage::attributes);
-    case Stage::visibility: {
-      Measurement m = compare_legal_winner(planes, legal);
-      const double budget = 2 * legal.predicted_ambiguous;
-      const double scatter = 3 * std::sqrt(budget + 1);
-      std::string note = ambiguity_note(legal, m.ambiguous);
-      if (!(static_cast<double>(m.ambiguous) <= budget + scatter)) {
-        note += ": more than twice as many";
-        m.differing = std::max(m.differing, m.ambiguous);
-      }
-      return c.add(name, stage, std::move(m), nullptr, std::move(note));
-    }
-    case Stage::merge: return add([&](double f) { return compare_legal_merge(c.scene, planes, legal, f); });
-    default: return;
-  }
-}
-
 // An oracle hands out the final colour, which is the interpolated one where all draws are plain.
 StageSet oracle_stages(const Scene& scene) {
   return {Stage::coverage, Stage::depth, is_plain(scene) ? Stage::attributes : Stage::shade, Stage::visibility,
           Stage::merge};
+}
+
+// Whether a frame by these conventions is another than OpenGL's.
+bool draws_otherwise(const Conventions& conventions) {
+  return !mistaken(conventions).empty() || conventions.subpixel_bits != Conventions().subpixel_bits ||
+         conventions.subpixel_rounding != Conventions::Rounding::nearest ||
+         conventions.depth_format != Conventions::Depth::as_asked;
 }
 
 constexpr StageSet kGeometry{Stage::matrices, Stage::vertex, Stage::light, Stage::clip, Stage::window};
@@ -97,6 +70,8 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
     } else if (exact && stage == Stage::vertex) {
       const Tolerance& row = tolerance(Profile::exact, stage, "scene");
       c.add(name, stage, compare_vertices(c.scene, c.candidate.records, theirs.records, row.factor, row.factor), &row);
+    } else if (!exact && stage > Stage::clip && draws_otherwise(candidate.conventions)) {
+      c.skip(name, stage, Outcome::unsupported, "it draws by other conventions: oracles and exact judge the stage");
     } else if (!info[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, info[stage].reason);
     } else if (stage == Stage::attributes && info.legal && !exact) {
@@ -141,9 +116,10 @@ Capture capture_all(const Scene& scene, Renderer& renderer, std::uint64_t most_f
 
 // What the judgement wants of a reference: an oracle's answers, if they fit the budget, and no planes beside them where
 // it runs stages; records of the vertices; of the fragments, those of lines.
-Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal) {
+Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal, const Conventions& conventions) {
   const RendererInfo info = renderer.info();
   Request request{kGeometry, legal && info.legal, {}, {}};
+  request.conventions = conventions;
   if (draws(scene, Topology::lines)) request.records.add(Stage::coverage);  // which line covers what
   if (is_referee(info) || (info.legal && !legal)) request.planes = WantedPlanes::none;
   try {
@@ -155,8 +131,10 @@ Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal) {
 }
 
 // Where the frame's answers are too many: those of the pixels that show another winner.
-Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle) {
+Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
+                        const Conventions& conventions) {
   Request request{{}, true, {}, {}};
+  request.conventions = conventions;
   request.planes = WantedPlanes::none;
   const auto apart = [&](int x, int y) {
     return std::ranges::any_of(theirs, [&](const Capture& c) {
@@ -242,6 +220,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
   std::vector<Comparison> out;
   Case c{scene, candidate, legal, &referee, out};
   c.foreign = shown != nullptr && shown->profile == Profile::foreign;
+  if (shown != nullptr) c.conventions = shown->conventions;
   const RendererInfo info = referee.info();
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
@@ -317,6 +296,8 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
       return verdict;
     }
   }
+  const Conventions conventions = candidate.info().conventions;
+  const SceneByConventions seen(scene, conventions);
   std::vector<Capture> theirs(references.size());
   std::vector<std::string> failures(references.size());
   std::vector<Outcome> outcomes(references.size(), Outcome::failed);
@@ -331,7 +312,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
       continue;
     }
     try {
-      theirs[i] = capture_reference(scene, *references[i].renderer, ask_legal);
+      theirs[i] = capture_reference(scene, *references[i].renderer, ask_legal, conventions);
       if (legal->empty()) legal = &theirs[i].legal;
       if (is_referee(references[i].renderer->info())) referee = references[i].renderer;
     } catch (const Unsupported& e) {
@@ -352,11 +333,11 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
   }
   Legal somewhere;
   if (drew && legal->empty() && referee != nullptr && referee->info().legal) {
-    somewhere = legal_where_apart(scene, *mine, theirs, *referee);
+    somewhere = legal_where_apart(scene, *mine, theirs, *referee, conventions);
     legal = &somewhere;
   }
   MadeStages made;
-  if (drew && referee != nullptr) made = make_stages(scene, *mine, *referee);
+  if (drew && referee != nullptr) made = make_stages(*seen, *mine, *referee);
   if (const auto filtered = made.find(Stage::texture); filtered != made.end()) {
     mine->legal.texels = std::move(filtered->second.legal.texels);
   }
@@ -364,7 +345,8 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
     if (!failures[i].empty()) {
       nothing(references[i].name, outcomes[i], failures[i]);
     } else {
-      Case c{scene, *mine, *legal, referee, verdict.comparisons};
+      Case c{*seen, *mine, *legal, referee, verdict.comparisons};
+      c.conventions = conventions;
       try {
         const RendererInfo info = references[i].renderer->info();
         c.profile = info.profile;
@@ -376,7 +358,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
         if (is_referee(info)) {
           const bool same = references[i].renderer == referee;
           std::ranges::move(
-              judge_records(scene, *mine, *references[i].renderer, &mine_info, same ? made : MadeStages(), *legal),
+              judge_records(*seen, *mine, *references[i].renderer, &mine_info, same ? made : MadeStages(), *legal),
               std::back_inserter(verdict.comparisons));
         }
       } catch (const std::exception& e) {

@@ -11,8 +11,9 @@ namespace plumbline::check {
 namespace {
 
 // The stage of a varying, which is compared as the colour is.
-Measurement compare_varying(const Scene& scene, Stage stage, Varying v, const Records<double>& mine,
-                            const Records<double>& theirs) {
+Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records<double>& theirs) {
+  const Scene& scene = c.scene;
+  const Records<double>& mine = c.candidate.records;
   if (stage == Stage::light && !is_lit(v)) return compare_carried(v, mine, theirs);
   Records<double> a = seen_as(mine, v);
   const Records<double> b = seen_as(theirs, v);
@@ -20,7 +21,7 @@ Measurement compare_varying(const Scene& scene, Stage stage, Varying v, const Re
   const double factor = tolerance(Profile::exact, stage).factor;
   if (stage == Stage::light) return compare_lit(scene, a, b, factor, {is_back(v), is_secondary(v)});
   if (stage == Stage::clip) return compare_polygons(scene, a, b, factor, is_lit(v));
-  if (stage == Stage::window) return compare_window(scene, a, b, factor);
+  if (stage == Stage::window) return compare_window(scene, a, b, factor, c.conventions);
   return compare_attributes(a, b, factor);
 }
 
@@ -31,12 +32,11 @@ Measurement named(Measurement m, Varying v) {
 }
 
 // That of the colour, or of a varying that tells more.
-Measurement with_varyings(const Scene& scene, Stage stage, Measurement color, const Records<double>& mine,
-                          const Records<double>& theirs) {
+Measurement with_varyings(const Case& c, Stage stage, Measurement color, const Records<double>& theirs) {
   const bool to_fragments = stage > Stage::clip;
-  for (const Varying v : carried(scene)) {
+  for (const Varying v : carried(c.scene)) {
     if (to_fragments && is_back(v)) continue;
-    color = worse(std::move(color), named(compare_varying(scene, stage, v, mine, theirs), v));
+    color = worse(std::move(color), named(compare_varying(c, stage, v, theirs), v));
   }
   return color;
 }
@@ -54,21 +54,20 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
     const Tolerance& row = tolerance(Profile::exact, stage, part);
     c.add(name, stage, compare(row.factor), &row);
   };
-  const auto varyings = [&](Measurement color) {
-    return with_varyings(c.scene, stage, std::move(color), mine, theirs);
-  };
+  const auto varyings = [&](Measurement color) { return with_varyings(c, stage, std::move(color), theirs); };
   switch (stage) {
     case Stage::matrices: break;
     case Stage::vertex: return add([&](double f) { return compare_vertices(c.scene, mine, theirs, f, f); });
     case Stage::light: return add([&](double f) { return varyings(compare_lit(c.scene, mine, theirs, f)); });
     case Stage::clip: return add([&](double f) { return varyings(compare_polygons(c.scene, mine, theirs, f)); });
-    case Stage::window: return add([&](double f) { return varyings(compare_window(c.scene, mine, theirs, f)); });
+    case Stage::window:
+      return add([&](double f) { return varyings(compare_window(c.scene, mine, theirs, f, c.conventions)); });
     case Stage::coverage: {
       Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
       if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
       return c.add(name, stage, worse(std::move(planes), compare_open_covered(c.candidate, theirs, c.open_coverage())));
     }
-    case Stage::depth: return add([&](double f) { return compare_depth(c.scene, mine, theirs, f); });
+    case Stage::depth: return add([&](double f) { return compare_depth(c.scene, mine, theirs, f, c.conventions); });
     case Stage::attributes: return add([&](double f) { return varyings(compare_attributes(mine, theirs, f)); });
     case Stage::texture: return add([&](double f) { return compare_texels(c.scene, mine, theirs, f); });
     case Stage::shade:
@@ -79,7 +78,7 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
                    worse(compare_winners(c.candidate.planes, made.planes, Legal{}), compare_drawn(mine, theirs)));
     case Stage::merge: {
       const auto compare = [&](double f) {
-        return compare_merge(c.scene, c.candidate.planes, made.planes, f, made.legal);
+        return compare_merge(c.scene, c.candidate.planes, made.planes, f, made.legal, c.conventions);
       };
       if (c.scene.frame.color == ColorFormat::rgba32f) return c.add(name, stage, compare(1));
       return add(compare, "codes");

@@ -21,13 +21,14 @@ inline constexpr std::string_view kOverBudget = "more fragments than are looked 
 
 /// One scene's judgement of one candidate, as it grows.
 struct Case {
-  const Scene& scene;
+  const Scene& scene;  // as the candidate's conventions have it
   const Capture& candidate;
   const Legal& legal;  // an oracle's, or empty
   Renderer* referee;   // runs stages, or null
   std::vector<Comparison>& out;
   Profile profile = Profile::exact;  // of the reference
-  bool foreign = false;              // the candidate's conventions are not known: what is legal is no difference
+  bool foreign = false;              // the candidate is none of ours: what is legal is no difference
+  Conventions conventions = {};      // of the candidate
   std::uint64_t open = 0;  // pixels that the stage at hand leaves out, for the alpha test may go either way there
 
   void add(const JudgeId& judge, Stage stage, Measurement m, const Tolerance* row = nullptr, std::string note = "") {
@@ -68,6 +69,9 @@ void run_exact_stage(Case& c, Renderer& referee, Stage stage, const JudgeId& nam
 
 /// The stage as it was made of the candidate's own records, against the candidate's. Not of matrices, nor of resolve.
 void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& name);
+
+/// Coverage, depth, colour and visibility against an oracle's legal answers.
+void ask_oracle(Case& c, const Legal& legal, Stage stage, const JudgeId& name);
 
 /// What the reference shows, beside the candidate's.
 void side_by_side(Case& c, const Capture& theirs, Stage stage, const JudgeId& name);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/files/conventions_file.h"
 #include "capture/renderers/probes.h"
 #include "capture/renderers/process_renderer.h"
 #include "capture/renderers/replayed_renderer.h"
@@ -56,6 +57,7 @@ void give(const std::string& from, const Scene& scene, Capture& left) {
 ProcessSpec spec_of(const ProgramArgument& program) {
   const std::string& command = program.command;
   ProcessSpec spec;
+  spec.conventions = conventions_of(program.conventions);
   if (!program.from.empty()) {
     spec.give = [from = program.from](const Scene& scene, Capture& left) { give(from, scene, left); };
   }
@@ -87,6 +89,7 @@ class Program : public Renderer {
   explicit Program(const ProgramArgument& program)
       : process_(make_process_renderer(spec_of(program))), program_(program) {
     info_.name = "program";
+    info_.conventions = process_->info().conventions;
     for (Ability& ability : info_.stages) ability.reason = "it left nothing";
   }
   RendererInfo info() const override { return info_; }
@@ -96,7 +99,8 @@ class Program : public Renderer {
     everything.records = StageSet::all();
     Capture left = capture_of(scene, everything);
     if (program_.probes) probe(scene, left);
-    const std::unique_ptr<Renderer> replayed = make_replayed_renderer(std::move(left), scene, "--program");
+    const std::unique_ptr<Renderer> replayed =
+        make_replayed_renderer(std::move(left), scene, "--program", process_->info().conventions);
     info_ = replayed->info();
     for (std::size_t i = 0; i < given(program_.from); ++i) {
       info_.stages[i] = {false, false, fmt::format("given: --from {}", program_.from), false, true};
@@ -130,6 +134,15 @@ class Program : public Renderer {
 }  // namespace
 
 std::unique_ptr<Renderer> make_program(const ProgramArgument& program) { return std::make_unique<Program>(program); }
+
+std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program) {
+  ProcessSpec spec = spec_of(program);
+  spec.conventions = {};
+  spec.raw_depth = true;
+  return make_process_renderer(std::move(spec));
+}
+
+Conventions conventions_of(const std::string& file) { return file.empty() ? undeclared() : read_conventions(file); }
 
 std::string command_of_submission(const std::string& command, const std::filesystem::path& folder) {
   std::string line = command;

@@ -13,7 +13,8 @@ namespace plumbline::cli {
 struct ProgramArgument {
   std::string command;  ///< empty: none is asked
   bool probes = false;  ///< it is called for each primitive, too, for coverage and winners (capture/renderers/probes.h)
-  std::string from;     ///< "clip" or "window": it begins there, and the stages before are given; empty: with all
+  std::string from{};   ///< "clip" or "window": it begins there, and the stages before are given; empty: with all
+  std::string conventions{};  ///< a file that declares them (capture/files/conventions_file.h), or empty
 };
 
 /// The renderer that this command line is, run by a shell: {scene} in it is the scene's file, {input} the folder of its
@@ -21,6 +22,12 @@ struct ProgramArgument {
 /// asked by lines (capture/renderers/process_renderer.h). After capture(), info() is of what the program left for that
 /// scene. Throws std::invalid_argument where the command line has none of them.
 std::unique_ptr<Renderer> make_program(const ProgramArgument& program);
+
+/// The same for probes: what it leaves is handed on as it is left, its depths not taken for codes of the scene's format.
+std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program);
+
+/// The conventions that the file declares; without one, undeclared(). Throws JsonError.
+Conventions conventions_of(const std::string& file);
 
 /// The command line, for the submission in this folder, quoted for a shell. Throws std::invalid_argument where
 /// {submission} does not stand in it.

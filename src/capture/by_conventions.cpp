@@ -1,0 +1,76 @@
+#include "capture/by_conventions.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace plumbline {
+
+namespace {
+
+using C = Conventions;
+
+// The near plane where z_clip is 0: near' = 2 n f / (n + f) of a perspective, (n + f) / 2 of an orthographic projection.
+struct HalfVolume {
+  void operator()(Perspective& p) const { p.near = 2 * p.near * p.far / (p.near + p.far); }
+  void operator()(Orthographic& p) const { p.near = (p.near + p.far) / 2; }
+  void operator()(Frustum& p) const {
+    const double near = 2 * p.near * p.far / (p.near + p.far), longer = near / p.near;
+    p = {p.left * longer, p.right * longer, p.bottom * longer, p.top * longer, near, p.far};
+  }
+  void operator()(ViewPlane&) const {}  // their dialects have no such volume
+  void operator()(Pinhole&) const {}
+};
+
+void turn_corners(Scene& scene) {
+  for (Mesh& mesh : scene.meshes) {
+    if (mesh.topology != Topology::triangles) continue;
+    for (glm::uvec3& t : mesh.triangles) t = {t.y, t.z, t.x};
+  }
+}
+
+bool is_plain_volume(const C& c) {
+  return c.clip_depth == C::ClipDepth::minus_w_to_w && c.depth_planes == C::DepthPlanes::cut;
+}
+
+template <class T>
+void turn_over(Plane<T>& plane) {
+  for (int y = 0; y < plane.height() / 2; ++y) {
+    for (int x = 0; x < plane.width(); ++x) std::swap(plane(x, y), plane(x, plane.height() - 1 - y));
+  }
+}
+
+double to_window(C::DepthRange range, double z) {
+  return range == C::DepthRange::minus_one_to_one ? z / 2 + 0.5 : range == C::DepthRange::one_to_zero ? 1 - z : z;
+}
+
+}  // namespace
+
+SceneByConventions::SceneByConventions(const Scene& scene, const Conventions& c) : scene_(scene) {
+  const bool centred = c.sample == glm::dvec2(0.5);
+  if (centred && is_plain_volume(c) && c.provoking_vertex == C::Provoking::last &&
+      c.depth_format == C::Depth::as_asked) {
+    return;
+  }
+  Scene& out = altered_.emplace(scene);
+  out.frame.pass.shift += 0.5 - c.sample;
+  if (c.clip_depth == C::ClipDepth::zero_to_w) std::visit(HalfVolume{}, out.projection);
+  if (c.depth_planes == C::DepthPlanes::clamped) out.depth_clamp = true;
+  if (c.provoking_vertex == C::Provoking::first) turn_corners(out);
+  if (c.depth_format == C::Depth::z16) out.frame.depth = DepthFormat::z16;
+  if (c.depth_format == C::Depth::z24) out.frame.depth = DepthFormat::z24;
+  if (c.depth_format == C::Depth::z32f) out.frame.depth = DepthFormat::z32f;
+}
+
+void to_dialect(const Conventions& c, Capture& capture) {
+  for (double& z : capture.planes.depth.values()) z = to_window(c.depth_range, z);
+  for (double& z : capture.records.depth) z = to_window(c.depth_range, z);
+  if (c.rows == C::Rows::from_bottom) return;
+  Planes& p = capture.planes;
+  turn_over(p.count), turn_over(p.id_sum), turn_over(p.id), turn_over(p.texel), turn_over(p.shaded);
+  turn_over(p.color), turn_over(p.stencil), turn_over(p.depth);
+  for (Covered& covered : capture.records.covered) {
+    covered.y = static_cast<std::uint16_t>(capture.height - 1 - covered.y);
+  }
+}
+
+}  // namespace plumbline

@@ -1,0 +1,159 @@
+// What a renderer may do in its own way: conventions that it declares, or that plumb learn finds. A difference that they
+// explain is no mistake of a stage.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/names.h"
+
+namespace plumbline {
+
+/// Each default is OpenGL's, and plumbline's own.
+struct Conventions {
+  enum class Rows { from_bottom, from_top };
+  enum class Rounding { nearest, down };
+  enum class TieRule { any, left_bottom, left_top, right_bottom, right_top, inclusive, exclusive };
+  enum class DepthRange { zero_to_one, minus_one_to_one, one_to_zero };
+  enum class Depth { as_asked, z16, z24, z32f };
+  enum class Encoding { linear, srgb };
+  enum class ClipDepth { minus_w_to_w, zero_to_w };
+  enum class DepthPlanes { cut, clamped };
+  enum class Interpolation { perspective, affine };
+  enum class Corners { as_they_are, snapped };
+  enum class Provoking { last, first };
+  enum class AlphaTest { in_codes, in_float, either };
+  enum class LevelOfDetail { per_pixel, per_square, approximate };
+  enum class Blending { in_float, in_codes };
+  enum class Magnified { up_to_half, up_to_zero };
+  enum class HalfWay { down, either };
+
+  /// Place in a pixel at which it is covered, and its attributes are [pixels from its lower left corner].
+  glm::dvec2 sample{0.5};
+  /// Window positions are snapped to 2^-bits pixel; 0 to 16, or kFloat: they are not.
+  int subpixel_bits = 8;
+  /// Fraction bits of texture filters' weights; or kFloat.
+  int texture_bits = kFloat;
+  Rows rows = Rows::from_bottom;
+  Rounding subpixel_rounding = Rounding::nearest;
+  TieRule tie_rule = TieRule::any;
+  DepthRange depth_range = DepthRange::zero_to_one;
+  Depth depth_format = Depth::as_asked;
+  Rounding depth_rounding = Rounding::nearest;
+  Rounding color_rounding = Rounding::nearest;
+  Encoding color_encoding = Encoding::linear;
+  ClipDepth clip_depth = ClipDepth::minus_w_to_w;
+  DepthPlanes depth_planes = DepthPlanes::cut;
+  Interpolation interpolation = Interpolation::perspective;
+  Corners attribute_corners = Corners::as_they_are;
+  Provoking provoking_vertex = Provoking::last;
+  AlphaTest alpha_test = AlphaTest::in_codes;
+  Blending blending = Blending::in_float;
+  LevelOfDetail level_of_detail = LevelOfDetail::per_pixel;
+  Magnified magnified = Magnified::up_to_half;
+  HalfWay half_way_level = HalfWay::down;
+
+  static constexpr int kFloat = -1;
+  bool operator==(const Conventions&) const = default;
+};
+
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::Rows> = {"from_bottom", "from_top"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::Rounding> = {"nearest", "down"};
+template <>
+inline constexpr std::array<Name, 7> kNamesOf<Conventions::TieRule> = {
+    "any", "left_bottom", "left_top", "right_bottom", "right_top", "inclusive", "exclusive"};
+template <>
+inline constexpr std::array<Name, 3> kNamesOf<Conventions::DepthRange> = {"zero_to_one", "minus_one_to_one",
+                                                                          "one_to_zero"};
+template <>
+inline constexpr std::array<Name, 4> kNamesOf<Conventions::Depth> = {"as_asked", "z16", "z24", "z32f"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::Encoding> = {"linear", "srgb"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::ClipDepth> = {"minus_w_to_w", "zero_to_w"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::DepthPlanes> = {"cut", "clamped"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::Interpolation> = {"perspective", "affine"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::Corners> = {"as_they_are", "snapped"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::Provoking> = {"last", "first"};
+template <>
+inline constexpr std::array<Name, 3> kNamesOf<Conventions::AlphaTest> = {"in_codes", "in_float", "either"};
+template <>
+inline constexpr std::array<Name, 3> kNamesOf<Conventions::LevelOfDetail> = {"per_pixel", "per_square", "approximate"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::Blending> = {"in_float", "in_codes"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::Magnified> = {"up_to_half", "up_to_zero"};
+template <>
+inline constexpr std::array<Name, 2> kNamesOf<Conventions::HalfWay> = {"down", "either"};
+
+/// A convention for people.
+struct ConventionWords {
+  std::string_view name;     ///< its key in files
+  std::string_view meaning;  ///< what it says
+  bool is_free;              ///< OpenGL leaves it to the renderer; else another than the default is a mistake
+};
+
+/// Calls visit(words, member) for each convention that is one of several words, in the order of tables.
+template <class Visit>
+void each_choice(Visit visit) {
+  using C = Conventions;
+  visit(ConventionWords{"rows", "the order of the picture's rows", false}, &C::rows);
+  visit(ConventionWords{"subpixel_rounding", "how window positions are snapped", true}, &C::subpixel_rounding);
+  visit(ConventionWords{"tie_rule", "edges that own a sample on them", true}, &C::tie_rule);
+  visit(ConventionWords{"depth_range", "depths that are left, from the near plane to the far one", false},
+        &C::depth_range);
+  visit(ConventionWords{"depth_format", "the depth buffer's format", false}, &C::depth_format);
+  visit(ConventionWords{"depth_rounding", "how depths become codes", true}, &C::depth_rounding);
+  visit(ConventionWords{"color_rounding", "how colours become codes", false}, &C::color_rounding);
+  visit(ConventionWords{"color_encoding", "what codes of colours stand for", false}, &C::color_encoding);
+  visit(ConventionWords{"clip_depth", "the view volume in z", false}, &C::clip_depth);
+  visit(ConventionWords{"depth_planes", "what lies before the near plane or beyond the far one", false},
+        &C::depth_planes);
+  visit(ConventionWords{"interpolation", "how attributes are interpolated", false}, &C::interpolation);
+  visit(ConventionWords{"attribute_corners", "window positions that attributes are interpolated between", true},
+        &C::attribute_corners);
+  visit(ConventionWords{"provoking_vertex", "the vertex that colours a flat triangle", false}, &C::provoking_vertex);
+  visit(ConventionWords{"alpha_test", "the numbers that are compared", true}, &C::alpha_test);
+  visit(ConventionWords{"blending", "the numbers that are blended", true}, &C::blending);
+  visit(ConventionWords{"level_of_detail",
+                        "of each pixel, of squares of two by two, or as OpenGL 2.1, 3.8.8, lets it be approximated",
+                        true},
+        &C::level_of_detail);
+  visit(ConventionWords{"magnified", "levels of detail at which a texture is magnified", true}, &C::magnified);
+  visit(ConventionWords{"half_way_level", "the level nearest to a level of detail half way between two", true},
+        &C::half_way_level);
+}
+
+/// Likewise for each that is a number of bits, or "float".
+template <class Visit>
+void each_number_of_bits(Visit visit) {
+  using C = Conventions;
+  visit(ConventionWords{"subpixel_bits", "window positions' fraction bits", true}, &C::subpixel_bits);
+  visit(ConventionWords{"texture_bits", "fraction bits of texture filters' weights", true}, &C::texture_bits);
+}
+
+inline constexpr ConventionWords kSampleWords{"sample", "the sample's place in its pixel", false};
+
+/// "float", or the number.
+std::string bits_text(int bits);
+/// "0.5, 0.5", to 1/1024 pixel.
+std::string sample_text(const glm::dvec2& sample);
+
+/// Conventions that are mistakes, a line each: "rows: from_top, expected from_bottom (the order of the picture's rows)".
+std::vector<std::string> mistaken(const Conventions& conventions);
+
+/// Conventions of a renderer that declares none: OpenGL's, where the 2.1 specification leaves it open in every legal
+/// way: the alpha test in either arithmetic (4.1.4), levels of detail approximated (3.8.8).
+Conventions undeclared();
+
+}  // namespace plumbline

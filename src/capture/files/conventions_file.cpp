@@ -1,0 +1,59 @@
+#include "capture/files/conventions_file.h"
+
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/json/json_file.h"
+
+namespace plumbline {
+
+namespace {
+
+constexpr std::string_view kConventionsFormat = "plumbline conventions";
+constexpr int kMostBits = 16;
+
+int bits_at(const JsonNode& node) {
+  if (node.value().kind == JsonValue::Kind::text && node.value().text == "float") return Conventions::kFloat;
+  if (node.value().kind != JsonValue::Kind::integer) node.refuse(fmt::format("0 to {}, or \"float\"", kMostBits));
+  return static_cast<int>(node.integer(0, kMostBits));
+}
+
+}  // namespace
+
+Conventions read_conventions(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  const JsonNode root = file.root();
+  std::vector<std::string_view> keys = {"format", "version", "sample"};
+  each_choice([&](const ConventionWords& words, auto) { keys.push_back(words.name); });
+  each_number_of_bits([&](const ConventionWords& words, auto) { keys.push_back(words.name); });
+  root.only(keys);
+  if (root["format"].text() != kConventionsFormat) root["format"].refuse(fmt::format("\"{}\"", kConventionsFormat));
+  root["version"].integer(1, 1);
+  Conventions out;
+  if (const auto node = root.find("sample")) out.sample = node->vector<2>(0, 1);
+  each_choice([&](const ConventionWords& words, auto member) {
+    using Choice = std::remove_cvref_t<decltype(out.*member)>;
+    if (const auto node = root.find(words.name)) out.*member = node->choice<Choice>(kNamesOf<Choice>);
+  });
+  each_number_of_bits([&](const ConventionWords& words, auto member) {
+    if (const auto node = root.find(words.name)) out.*member = bits_at(*node);
+  });
+  return out;
+}
+
+std::string conventions_text(const Conventions& c) {
+  std::string out = fmt::format("{{\"format\": \"{}\", \"version\": 1,\n \"sample\": [{}, {}]", kConventionsFormat,
+                                c.sample.x, c.sample.y);
+  each_number_of_bits([&](const ConventionWords& words, auto member) {
+    const std::string text = bits_text(c.*member);
+    out += fmt::format(",\n \"{}\": {}", words.name, c.*member == Conventions::kFloat ? "\"float\"" : text);
+  });
+  each_choice([&](const ConventionWords& words, auto member) {
+    out += fmt::format(",\n \"{}\": \"{}\"", words.name, name_of(c.*member));
+  });
+  return out + "}\n";
+}
+
+}  // namespace plumbline

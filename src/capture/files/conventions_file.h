@@ -1,0 +1,22 @@
+// conventions.json: what a renderer declares of itself, or plumb learn has found.
+//
+//   {"format": "plumbline conventions", "version": 1, "sample": [0.5, 0.5], "subpixel_bits": 4, "tie_rule": "left_top",
+//    "texture_bits": "float", ...}
+//
+// Keys and words are those of capture/conventions.h; what is left out is OpenGL's.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "capture/conventions.h"
+
+namespace plumbline {
+
+/// Throws JsonError (json_tree.h): not there, not of this format, a key or word that is not known, a sample outside of
+/// [0,1], bits beyond 0 to 16.
+Conventions read_conventions(const std::filesystem::path& file);
+/// All of them, a line each.
+std::string conventions_text(const Conventions& conventions);
+
+}  // namespace plumbline

@@ -1,0 +1,66 @@
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "check/compare/compare_planes.h"
+#include "check/judge/scene_case.h"
+
+namespace plumbline::check {
+
+namespace {
+
+// The budget of ambiguity: a pixel is open where a snapping bound of an edge reaches its centre, which is predicted
+// from the edges' length. Twice the prediction, and a scatter of three standard deviations of such a count.
+std::string ambiguity_note(const Legal& legal, std::uint64_t ambiguous) {
+  return fmt::format("{} ambiguous, {:.1f} predicted", ambiguous, legal.predicted_ambiguous);
+}
+
+// Cracks and double paint: a sample on edges that triangles share is in one of them, whatever the tie rule.
+std::string cracks_note(const Plane<std::uint32_t>& count, const Legal& legal) {
+  std::size_t cracks = 0, twice = 0;
+  if (count.size() != legal.shared.size()) return "";
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    if (legal.shared.values()[i] == 0) continue;
+    cracks += count.values()[i] < legal.certain.values()[i] ? 1 : 0;
+    twice += count.values()[i] > legal.possible.values()[i] ? 1 : 0;
+  }
+  if (cracks + twice == 0) return "";
+  return fmt::format(
+      "on edges that triangles share {} samples are in none of them (cracks), {} in too many (painted twice)", cracks,
+      twice);
+}
+
+}  // namespace
+
+void ask_oracle(Case& c, const Legal& legal, Stage stage, const JudgeId& name) {
+  const Planes& planes = c.candidate.planes;
+  const auto add = [&](auto compare, std::optional<Stage> as = {}) {
+    const Tolerance& row = tolerance(Profile::oracle, as.value_or(stage));
+    c.add(name, stage, compare(row.factor), &row);
+  };
+  switch (stage) {
+    case Stage::coverage:
+      return c.add(name, stage, compare_legal_count(planes, legal), nullptr, cracks_note(planes.count, legal));
+    case Stage::depth: return add([&](double f) { return compare_legal_depth(c.scene, planes, legal, f); });
+    case Stage::attributes:
+    case Stage::shade: return add([&](double f) { return compare_legal_shaded(planes, legal, f); }, Stage::attributes);
+    case Stage::visibility: {
+      Measurement m = compare_legal_winner(planes, legal);
+      const double budget = 2 * legal.predicted_ambiguous;
+      const double scatter = 3 * std::sqrt(budget + 1);
+      std::string note = ambiguity_note(legal, m.ambiguous);
+      if (!(static_cast<double>(m.ambiguous) <= budget + scatter)) {
+        note += ": more than twice as many";
+        m.differing = std::max(m.differing, m.ambiguous);
+      }
+      return c.add(name, stage, std::move(m), nullptr, std::move(note));
+    }
+    case Stage::merge:
+      return add([&](double f) { return compare_legal_merge(c.scene, planes, legal, f, c.conventions); });
+    default: return;
+  }
+}
+
+}  // namespace plumbline::check

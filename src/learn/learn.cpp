@@ -1,0 +1,59 @@
+#include "learn/learn.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "capture/by_conventions.h"
+
+namespace plumbline::learn {
+
+Planes Prober::draw(const Scene& scene) {
+  Capture left = renderer_.capture(scene, Request{});
+  if (left.planes.color.empty()) throw Unsupported("it leaves no planes.color");
+  to_dialect(learned.conventions, left);
+  if (std::ranges::find(learned.pictures, scene.name, &ProbePicture::name) == learned.pictures.end())
+    learned.pictures.push_back({scene.name, left.planes.color});
+  return std::move(left.planes);
+}
+
+void Prober::found(const ConventionWords& words, std::string_view value, std::string evidence) {
+  learned.rows.push_back({std::string(words.name), std::string(value), std::move(evidence)});
+}
+
+void Prober::open(const ConventionWords& words, std::string why) {
+  learned.rows.push_back({std::string(words.name), "open", std::move(why)});
+}
+
+ConventionWords words_of(std::string_view name) {
+  ConventionWords out = kSampleWords;
+  const auto take = [&](const ConventionWords& words, auto) {
+    if (words.name == name) out = words;
+  };
+  each_choice(take);
+  each_number_of_bits(take);
+  return out;
+}
+
+Learned learn(Renderer& renderer) {
+  Prober prober(renderer);
+  for (const auto& part : {learn_rows, learn_depths, learn_grid, learn_ties, learn_colors, learn_clipping,
+                           learn_attributes, learn_tests, learn_textures}) {
+    part(prober);
+  }
+  for (const char* words : {"polygons cut as polygons or as triangles", "lines and points", "places of samples"}) {
+    prober.learned.rows.push_back({words, "open", "no picture of triangles tells"});
+  }
+  return std::move(prober.learned);
+}
+
+std::string learned_text(const Learned& learned) {
+  std::string out = fmt::format("{:<18} {:<14} {}\n", "convention", "found", "evidence");
+  for (const LearnedRow& row : learned.rows)
+    out += fmt::format("{:<18} {:<14} {}\n", row.name, row.value, row.evidence);
+  for (const std::string& line : mistaken(learned.conventions)) out += fmt::format("mistaken: {}\n", line);
+  for (const std::string& line : learned.contradictions) out += fmt::format("no convention: {}\n", line);
+  return out;
+}
+
+}  // namespace plumbline::learn

@@ -1,0 +1,158 @@
+// Clipping at the near and far plane, interpolation, and the provoking vertex.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "learn/probe_scene.h"
+#include "learn/prober.h"
+
+namespace plumbline::learn {
+
+namespace {
+
+using C = Conventions;
+
+constexpr int kFrameSize = 64;
+
+}  // namespace
+
+// A plane of depths from -1/2 at the left to 3/2 at the right.
+void learn_clipping(Prober& prober) {
+  const ConventionWords volume = words_of("clip_depth"), planes = words_of("depth_planes");
+  Scene scene = probe_frame("clipping", kFrameSize, kFrameSize);
+  add_triangles(
+      scene,
+      quad({{{{0, 0, -0.5}}, {{kFrameSize, 0, 1.5}}, {{kFrameSize, kFrameSize, 1.5}}, {{0, kFrameSize, -0.5}}}}));
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  int first = kFrameSize, last = -1;
+  for (int x = 0; x < kFrameSize; ++x) {
+    if (color(x, kFrameSize / 2).r <= 0.5f) continue;
+    first = std::min(first, x), last = std::max(last, x);
+  }
+  const auto near_to = [](int column, int expected) { return std::abs(column - expected) <= 1; };
+  const std::string evidence = fmt::format("depths from -0.5 to 1.5 are drawn from {:.2f} to {:.2f}",
+                                           -0.5 + 2.0 * first / kFrameSize, -0.5 + 2.0 * (last + 1) / kFrameSize);
+  C& c = prober.learned.conventions;
+  const bool near_cut = near_to(first, kFrameSize / 4) || near_to(first, kFrameSize / 2),
+             far_cut = near_to(last, 3 * kFrameSize / 4 - 1);
+  const bool known = (near_cut || near_to(first, 0)) && (far_cut || near_to(last, kFrameSize - 1));
+  if (!known) {
+    prober.open(volume, evidence);
+    return prober.open(planes, evidence);
+  }
+  c.clip_depth = near_to(first, kFrameSize / 2) ? C::ClipDepth::zero_to_w : C::ClipDepth::minus_w_to_w;
+  c.depth_planes = near_cut && far_cut ? C::DepthPlanes::cut : C::DepthPlanes::clamped;
+  if (near_cut != far_cut)
+    prober.contradicts(fmt::format("the {} plane cuts, the {} does not", near_cut ? "near" : "far",
+                                   near_cut ? "far plane" : "near plane"));
+  prober.found(volume, name_of(c.clip_depth), near_cut ? evidence : "nothing is cut off before the near plane");
+  prober.found(planes, name_of(c.depth_planes), evidence);
+}
+
+namespace {
+
+// A wall that goes from w = 2 at the left to w = 16 at the right, black to white.
+void learn_interpolation(Prober& prober) {
+  const ConventionWords words = words_of("interpolation");
+  Scene scene = probe_frame("interpolation", kFrameSize, kFrameSize);
+  scene.projection = Perspective{90, 1, 100};
+  const auto at = [](double x, double y, double w, float red) {
+    return ProbeCorner{{x * w, y * w, w}, {red, red, red, 1}, {}};
+  };
+  add_triangles(scene, quad({at(-1, -1, 2, 0), at(1, -1, 16, 1), at(1, 1, 16, 1), at(-1, 1, 2, 0)}));
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  std::size_t perspective = 0, affine = 0;
+  const C& c = prober.learned.conventions;
+  for (int x = 0; x < kFrameSize; ++x) {
+    const double s = (x + c.sample.x) / kFrameSize, share = (s / 16) / ((1 - s) / 2 + s / 16);
+    const auto near_to = [&](double v) {
+      return std::abs(255 * (static_cast<double>(color(x, kFrameSize / 2).r) - v)) < 2 + 255.0 * 0.3 / kFrameSize ? 1
+                                                                                                                  : 0;
+    };
+    perspective += near_to(share), affine += near_to(s);
+  }
+  const std::size_t most = std::max(perspective, affine);
+  const std::string evidence = fmt::format("{} of {} pixels", most, kFrameSize);
+  if (c.color_encoding == C::Encoding::srgb) return prober.open(words, "colours are encoded");
+  if (most * 10 < kFrameSize * 9) return prober.open(words, evidence + " at most are explained");
+  prober.learned.conventions.interpolation =
+      perspective >= affine ? C::Interpolation::perspective : C::Interpolation::affine;
+  prober.found(words, name_of(prober.learned.conventions.interpolation), evidence);
+}
+
+// Ramps two pixels wide, whose corners lie just not half a step above a place of the grid. Halfway between two codes lies
+// the mean of the colours that the corners, as they are and snapped, give a pixel.
+void learn_corners(Prober& prober) {
+  constexpr int kRamps = 16;
+  const ConventionWords words = words_of("attribute_corners");
+  const C& c = prober.learned.conventions;
+  if (c.subpixel_bits == C::kFloat) return prober.found(words, "as_they_are", "positions are not snapped");
+  if (c.sample != glm::dvec2(0.5) || c.color_rounding != C::Rounding::nearest ||
+      c.color_encoding != C::Encoding::linear)
+    return prober.open(words, "another sample, rounding or encoding of colours hides it");
+  const double share = c.subpixel_rounding == C::Rounding::down ? 0.98 : 0.49,
+               above = std::ldexp(share, -c.subpixel_bits);
+  Scene scene = probe_frame("attribute_corners", kFrameSize, 4);
+  std::vector<std::array<ProbeCorner, 3>> triangles;
+  for (int i = 0; i < kRamps; ++i) {
+    const double from = 4 * i + 1 + above, first = (60.5 + i) / 255 - 0.9 * (0.5 - above / 2) / 2;
+    const auto at = [&](double x, double y, double grey) {
+      return ProbeCorner{{x, y, 0.5}, glm::vec4(glm::vec3(static_cast<float>(grey)), 1), {}};
+    };
+    for (const auto& t :
+         quad({at(from, 0, first), at(from + 2, 0, first + 0.9), at(from + 2, 4, first + 0.9), at(from, 4, first)}))
+      triangles.push_back(t);
+  }
+  add_triangles(scene, triangles);
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  std::size_t lower = 0, upper = 0;
+  for (int i = 0; i < kRamps; ++i) {
+    const double code = std::round(255 * static_cast<double>(color(4 * i + 1, 2).r));
+    const double apart = 255 * 0.9 * above / 2;  // codes
+    lower += code == std::round(60.5 + i - apart / 2) ? 1 : 0,
+        upper += code == std::round(60.5 + i + apart / 2) ? 1 : 0;
+  }
+  const std::string evidence = fmt::format("{} of {} ramps", std::max(lower, upper), kRamps);
+  if (std::max(lower, upper) + 1 < kRamps) return prober.open(words, evidence + " at most go by one of the two");
+  prober.learned.conventions.attribute_corners = upper > lower ? C::Corners::snapped : C::Corners::as_they_are;
+  prober.found(words, name_of(prober.learned.conventions.attribute_corners), evidence);
+}
+
+void learn_provoking_vertex(Prober& prober) {
+  const ConventionWords words = words_of("provoking_vertex");
+  Scene scene = probe_frame("provoking_vertex", 16, 16);
+  const std::array<ProbeCorner, 3> triangle = {
+      {{{0, 0, 0.5}, {1, 0, 0, 1}}, {{16, 0, 0.5}, {0, 1, 0, 1}}, {{0, 16, 0.5}, {0, 0, 1, 1}}}};
+  add_triangles(scene, std::span(&triangle, 1)).shading = Shading::flat;
+  const glm::vec3 color(prober.draw(scene).color(4, 4));
+  if (color == glm::vec3(0, 0, 1)) {
+    prober.learned.conventions.provoking_vertex = C::Provoking::last;
+  } else if (color == glm::vec3(1, 0, 0)) {
+    prober.learned.conventions.provoking_vertex = C::Provoking::first;
+  } else {
+    return prober.open(words, "a flat triangle has neither its first nor its last vertex' colour");
+  }
+  prober.found(words, name_of(prober.learned.conventions.provoking_vertex), "the colour of a flat triangle");
+}
+
+void ask(Prober& prober, const ConventionWords& words, void (*probe)(Prober&)) {
+  try {
+    probe(prober);
+  } catch (const Unsupported& e) {
+    prober.open(words, e.what());
+  }
+}
+
+}  // namespace
+
+void learn_attributes(Prober& prober) {
+  ask(prober, words_of("interpolation"), learn_interpolation);
+  ask(prober, words_of("attribute_corners"), learn_corners);
+  ask(prober, words_of("provoking_vertex"), learn_provoking_vertex);
+}
+
+}  // namespace plumbline::learn

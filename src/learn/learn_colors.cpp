@@ -1,0 +1,137 @@
+// Rounding and encoding of colours, alpha tests and blending.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "learn/probe_scene.h"
+#include "learn/prober.h"
+
+namespace plumbline::learn {
+
+namespace {
+
+using C = Conventions;
+using Triangles = std::vector<std::array<ProbeCorner, 3>>;
+
+constexpr int kInRow = 16, kAll = kInRow * kInRow;
+
+// Rectangle number i of 256, 4 x 4 pixels each.
+auto tile(int i, const glm::vec4& color) {
+  const glm::dvec2 low(4.0 * (i % kInRow), 4.0 * (i / kInRow));
+  return rectangle(low, low + 4.0, 0.5, color);
+}
+const glm::vec4& middle_of(const Plane<glm::vec4>& color, int i) {
+  return color(4 * (i % kInRow) + 2, 4 * (i / kInRow) + 2);
+}
+
+Draw& add_tiles(Scene& scene, auto color_of) {
+  Triangles triangles;
+  for (int i = 0; i < kAll; ++i) {
+    for (const auto& t : tile(i, color_of(i))) triangles.push_back(t);
+  }
+  return add_triangles(scene, triangles);
+}
+
+// A quarter of a code above code i in red, three quarters in green.
+glm::vec4 between_codes(int i) {
+  const auto code = static_cast<float>(std::min(i, 254));
+  return {(code + 0.25f) / 255, (code + 0.75f) / 255, 0, 1};
+}
+
+double encoded(C::Encoding encoding, double v) {
+  if (encoding == C::Encoding::linear) return v;
+  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+
+}  // namespace
+
+void learn_colors(Prober& prober) {
+  const ConventionWords rounding = words_of("color_rounding"), encoding = words_of("color_encoding");
+  Scene scene = probe_frame("colours", 4 * kInRow, 4 * kInRow);
+  add_tiles(scene, between_codes);
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  std::size_t most = 0;
+  C& c = prober.learned.conventions;
+  for (const C::Encoding e : {C::Encoding::linear, C::Encoding::srgb}) {
+    for (const C::Rounding r : {C::Rounding::nearest, C::Rounding::down}) {
+      std::size_t fits = 0;
+      for (int i = 0; i < kAll; ++i) {
+        for (int channel = 0; channel < 2; ++channel) {
+          const double exact = 255 * encoded(e, static_cast<double>(between_codes(i)[channel]));
+          const double code = r == C::Rounding::down ? std::floor(exact) : std::round(exact);
+          fits += std::round(255 * static_cast<double>(middle_of(color, i)[channel])) == code ? 1 : 0;
+        }
+      }
+      if (fits <= most) continue;
+      most = fits;
+      c.color_encoding = e, c.color_rounding = r;
+    }
+  }
+  const std::string evidence = fmt::format("{} of {} colours", most, 2 * kAll);
+  if (most * 50 < 2 * kAll * 49) {
+    c.color_encoding = C::Encoding::linear, c.color_rounding = C::Rounding::nearest;
+    prober.open(rounding, evidence + " at most are explained by one rounding and encoding");
+    return prober.open(encoding, "likewise");
+  }
+  prober.found(rounding, name_of(c.color_rounding), evidence);
+  prober.found(encoding, name_of(c.color_encoding), evidence);
+}
+
+namespace {
+
+// Alphas of 128.2 codes against 127.8: of one code, and greater as floats.
+void learn_alpha_test(Prober& prober) {
+  const ConventionWords words = words_of("alpha_test");
+  prober.learned.conventions.alpha_test = C::AlphaTest::either;
+  try {
+    Scene scene = probe_frame("alpha_test", 16, 16);
+    add_triangles(scene, rectangle({0, 0}, {16, 16}, 0.5, {1, 1, 1, 128.2f / 255})).alpha_test =
+        AlphaTest{CompareFunc::greater, 127.8f / 255};
+    const bool passes = prober.draw(scene).color(8, 8).r > 0.5f;
+    prober.learned.conventions.alpha_test = passes ? C::AlphaTest::in_float : C::AlphaTest::in_codes;
+    prober.found(words, name_of(prober.learned.conventions.alpha_test),
+                 fmt::format("128.2 / 255 {} 127.8 / 255", passes ? "passes as greater than" : "is equal to"));
+  } catch (const Unsupported& e) {
+    prober.open(words, e.what());
+  }
+}
+
+// A source of some alpha over a colour.
+void learn_blending(Prober& prober) {
+  const ConventionWords words = words_of("blending");
+  const auto under = [](int i) { return static_cast<float>((i * 37) % 256) / 255; };
+  const auto over = [](int i) { return static_cast<float>((i * 91 + 40) % 256) / 255; };
+  const auto alpha = [](int i) { return (static_cast<float>((i * 53 + 7) % 255) + 0.4f) / 255; };
+  try {
+    Scene scene = probe_frame("blending", 4 * kInRow, 4 * kInRow);
+    add_tiles(scene, [&](int i) { return glm::vec4(glm::vec3(under(i)), 1); });
+    Draw& draw = add_tiles(scene, [&](int i) { return glm::vec4(glm::vec3(over(i)), alpha(i)); });
+    const BlendTerm term{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
+    draw.merge.blend = Blend{term, term, glm::vec4(0)};
+    const Plane<glm::vec4> color = prober.draw(scene).color;
+    double most = 0;
+    for (int i = 0; i < kAll; ++i) {
+      const double a = alpha(i), exact = 255 * (a * over(i) + (1 - a) * under(i));
+      most = std::max(most, std::abs(255 * static_cast<double>(middle_of(color, i).r) - exact));
+    }
+    const double once = prober.learned.conventions.color_rounding == C::Rounding::down ? 1.001 : 0.501;
+    const std::string evidence = fmt::format("{} blends, {:.2f} codes off at most", kAll, most);
+    if (most > once + 2) return prober.open(words, evidence);
+    prober.learned.conventions.blending = most > once ? C::Blending::in_codes : C::Blending::in_float;
+    prober.found(words, name_of(prober.learned.conventions.blending), evidence);
+  } catch (const Unsupported& e) {
+    prober.open(words, e.what());
+  }
+}
+
+}  // namespace
+
+void learn_tests(Prober& prober) {
+  learn_alpha_test(prober);
+  learn_blending(prober);
+}
+
+}  // namespace plumbline::learn

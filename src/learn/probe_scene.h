@@ -1,0 +1,36 @@
+// Probes: scenes made to show one convention of a renderer.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace plumbline::learn {
+
+/// A corner in the window: x and y in pixels from the lower left corner, z a depth, 0 near and 1 far.
+struct ProbeCorner {
+  glm::dvec3 p;
+  glm::vec4 color{1};
+  glm::vec2 texcoord{0};
+};
+
+/// A black frame, and no draw. Model space is the window (ProbeCorner): where the frame's sides are powers of two, and
+/// places multiples of 2^-10 pixel, floats on the way to the window lose nothing.
+Scene probe_frame(std::string name, int width, int height);
+
+/// Adds a draw of the triangles, unlit, that passes every test; it leaves depths.
+Draw& add_triangles(Scene& scene, std::span<const std::array<ProbeCorner, 3>> triangles);
+
+/// Two triangles that fill [low, high) at one depth, in one colour.
+std::array<std::array<ProbeCorner, 3>, 2> rectangle(glm::dvec2 low, glm::dvec2 high, double z, const glm::vec4& color);
+/// Two triangles of four corners, in turn.
+std::array<std::array<ProbeCorner, 3>, 2> quad(const std::array<ProbeCorner, 4>& corners);
+
+/// Whether a probe's white covers the pixel.
+inline bool is_white(const glm::vec4& color) { return color.r > 0.5f; }
+
+}  // namespace plumbline::learn

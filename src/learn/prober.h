@@ -1,0 +1,67 @@
+// A renderer that is asked for its conventions, and what has been found so far.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capture/conventions.h"
+#include "capture/renderer.h"
+#include "scene/scene.h"
+
+namespace plumbline::learn {
+
+/// One convention, and what shows it.
+struct LearnedRow {
+  std::string name;      ///< as in conventions.json
+  std::string value;     ///< in its words; "open": the probes do not tell
+  std::string evidence;  ///< such as "1,024 of 1,024 probes", or why it is open
+};
+
+/// A picture that a row is read from, as the renderer drew it.
+struct ProbePicture {
+  std::string name;
+  Plane<glm::vec4> color;
+};
+
+struct Learned {
+  Conventions conventions;
+  std::vector<LearnedRow> rows;
+  std::vector<std::string> contradictions;  ///< findings: no convention explains them
+  std::vector<ProbePicture> pictures;       ///< the first of each probe
+};
+
+class Prober {
+ public:
+  explicit Prober(Renderer& renderer) : renderer_(renderer) {}
+
+  /// Colour and depth, by the conventions found so far. Throws what Renderer::capture throws, and Unsupported where no
+  /// colour is left.
+  Planes draw(const Scene& scene);
+
+  /// A row of what was found, or is open.
+  void found(const ConventionWords& words, std::string_view value, std::string evidence);
+  void open(const ConventionWords& words, std::string why);
+  void contradicts(std::string finding) { learned.contradictions.push_back(std::move(finding)); }
+
+  Learned learned;
+
+ private:
+  Renderer& renderer_;
+};
+
+/// Words of the convention of that name (capture/conventions.h).
+ConventionWords words_of(std::string_view name);
+
+// The probes, in the order in which they build upon each other. Each finds its conventions, or leaves them open; what the
+// renderer cannot draw (Unsupported) is open.
+void learn_rows(Prober& prober);
+void learn_depths(Prober& prober);
+void learn_grid(Prober& prober);
+void learn_ties(Prober& prober);
+void learn_colors(Prober& prober);
+void learn_clipping(Prober& prober);
+void learn_attributes(Prober& prober);
+void learn_tests(Prober& prober);
+void learn_textures(Prober& prober);
+
+}  // namespace plumbline::learn
