@@ -43,14 +43,14 @@ TEST(Conformance, OfASuite) {
                                         verdict("fog/a", {kUnable}), verdict("fog/b", {kLacking}),
                                         verdict("fog/c", {kCrash}),  verdict("fog/d", {kUnable})};
   EXPECT_EQ(conformance_text(verdicts),
-            "feature           right   legal   wrong  failed  unable  first wrong stage\n"
-            "clip                  1       0       1       0       0  depth 1\n"
-            "fog                   0       0       0       1       3  \n"
-            "all                   1       0       1       1       3  depth 1\n"
+            "feature           right   legal   known   wrong  failed  unable  first wrong stage\n"
+            "clip                  1       0       0       1       0       0  depth 1\n"
+            "fog                   0       0       0       0       1       3  \n"
+            "all                   1       0       0       1       1       3  depth 1\n"
             "unable: fog 2, nothing that it left could be judged 1\n"
             "wrong as by no known fault: 1\n");
   const std::string markdown = conformance_markdown(verdicts);
-  EXPECT_NE(markdown.find("| clip | 1 | 0 | 1 | 0 | 0 | depth 1 |\n"), std::string::npos) << markdown;
+  EXPECT_NE(markdown.find("| clip | 1 | 0 | 0 | 1 | 0 | 0 | depth 1 |\n"), std::string::npos) << markdown;
   for (const char* scene : {"clip/c", "clip/d"}) {
     verdicts.push_back(verdict(scene, {kIllegal}));
     verdicts.back().cause = "window (fault window.y_flipped)";

@@ -53,6 +53,7 @@ Conformance conformance_of(const check::SceneVerdict& verdict) {
   const auto any = [&](auto holds) { return std::ranges::any_of(verdict.comparisons, holds); };
   if (first_wrong(verdict) != nullptr) return Conformance::differs;
   if (any([](const check::Comparison& c) { return c.outcome == check::Outcome::failed; })) return Conformance::failed;
+  if (any([](const check::Comparison& c) { return c.outcome == check::Outcome::expected; })) return Conformance::known;
   if (check::judged_stages(verdict).empty()) return Conformance::unable;
   return check::first_different(verdict) != nullptr ? Conformance::legal : Conformance::holds;
 }
@@ -65,6 +66,7 @@ std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdi
     switch (conformance_of(verdict)) {
       case Conformance::holds: ++tally.holds; break;
       case Conformance::legal: ++tally.legal; break;
+      case Conformance::known: ++tally.known; break;
       case Conformance::failed: ++tally.failed; break;
       case Conformance::unable: ++tally.unable; break;
       case Conformance::differs:
@@ -85,7 +87,7 @@ FeatureTally whole_suite(std::span<const check::SceneVerdict> verdicts) {
   FeatureTally all;
   Counts wrong;
   for (const FeatureTally& t : conformance(verdicts)) {
-    all.holds += t.holds, all.legal += t.legal, all.differs += t.differs, all.failed += t.failed,
+    all.holds += t.holds, all.legal += t.legal, all.known += t.known, all.differs += t.differs, all.failed += t.failed,
         all.unable += t.unable;
     for (const auto& [stage, count] : t.first_wrong) wrong[stage] += count;
   }
@@ -134,21 +136,23 @@ std::string unable_line(std::span<const check::SceneVerdict> verdicts) {
 }  // namespace
 
 std::string conformance_text(std::span<const check::SceneVerdict> verdicts) {
-  constexpr const char* kRow = "{:<16} {:>6} {:>7} {:>7} {:>7} {:>7}  {}\n";
-  std::string out = fmt::format(kRow, "feature", "right", "legal", "wrong", "failed", "unable", "first wrong stage");
+  constexpr const char* kRow = "{:<16} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7}  {}\n";
+  std::string out =
+      fmt::format(kRow, "feature", "right", "legal", "known", "wrong", "failed", "unable", "first wrong stage");
   for (const FeatureTally& t : with_all(verdicts)) {
-    out += fmt::format(kRow, t.feature, t.holds, t.legal, t.differs, t.failed, t.unable, counted(t.first_wrong));
+    out +=
+        fmt::format(kRow, t.feature, t.holds, t.legal, t.known, t.differs, t.failed, t.unable, counted(t.first_wrong));
   }
   return out + unable_line(verdicts) + cause_lines(verdicts);
 }
 
 std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) {
   std::string out =
-      "\n## Scenes by feature\n\n| feature | right | legal | wrong | failed | unable | first wrong stage |\n"
-      "|---|---|---|---|---|---|---|\n";
+      "\n## Scenes by feature\n\n| feature | right | legal | known | wrong | failed | unable | first wrong stage |\n"
+      "|---|---|---|---|---|---|---|---|\n";
   for (const FeatureTally& t : with_all(verdicts)) {
-    out += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(t.feature), t.holds, t.legal, t.differs, t.failed,
-                       t.unable, cell(counted(t.first_wrong)));
+    out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(t.feature), t.holds, t.legal, t.known,
+                       t.differs, t.failed, t.unable, cell(counted(t.first_wrong)));
   }
   return out + "\n" + cell(unable_line(verdicts)) + "\n\n" + cell(cause_lines(verdicts)) + "\n";
 }

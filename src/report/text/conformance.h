@@ -15,6 +15,7 @@ namespace plumbline::report {
 enum class Conformance {
   holds,    ///< a stage at least was judged, none is wrong
   legal,    ///< a stage differs from a reference's, and an oracle calls what is drawn legal: by other rules
+  known,    ///< what is wrong is expected (--expect)
   differs,  ///< a stage is wrong, and no oracle calls it legal
   failed,   ///< the program crashed, hung, or left what cannot be read
   unable    ///< the program said that it cannot draw the scene, or nothing that it left could be judged
@@ -24,7 +25,7 @@ Conformance conformance_of(const check::SceneVerdict& verdict);
 /// Scenes of one feature: a folder of the suite.
 struct FeatureTally {
   std::string feature;
-  std::size_t holds = 0, legal = 0, differs = 0, failed = 0, unable = 0;
+  std::size_t holds = 0, legal = 0, known = 0, differs = 0, failed = 0, unable = 0;
   std::vector<std::pair<std::string, std::size_t>> first_wrong;  ///< stages, the most frequent first
 };
 std::vector<FeatureTally> conformance(std::span<const check::SceneVerdict> verdicts);
