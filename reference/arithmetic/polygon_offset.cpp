@@ -13,12 +13,12 @@ namespace plumbline::math {
 namespace {
 
 /// r of OpenGL 4.5, section 14.6.5: of float depths the distance from the last float at or below z to the next one; of
-/// codes two steps, as Mesa has it where OpenGL leaves it open.
-double step_at(DepthFormat format, double z) {
+/// codes `unit` of their steps (2, as Mesa has it where OpenGL leaves it open).
+double step_at(DepthFormat format, double unit, double z) {
   switch (format) {
-    case DepthFormat::z8: return 2.0 / 0xff;
-    case DepthFormat::z16: return 2.0 / 0xffff;
-    case DepthFormat::z24: return 2.0 / 0xffffff;
+    case DepthFormat::z8: return unit / 0xff;
+    case DepthFormat::z16: return unit / 0xffff;
+    case DepthFormat::z24: return unit / 0xffffff;
     case DepthFormat::z32f: break;
   }
   float below = static_cast<float>(std::max(z, 0.0));
@@ -29,7 +29,8 @@ double step_at(DepthFormat format, double z) {
 
 }  // namespace
 
-OffsetBounds polygon_offset(const Triangle& t, const PolygonOffset& offset, DepthFormat format) {
+OffsetBounds polygon_offset(const Triangle& t, const PolygonOffset& offset, DepthFormat format,
+                            const Conventions& conventions) {
   if (offset == PolygonOffset{}) return {};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (t.flat) return {0, kInfinity};
@@ -44,7 +45,8 @@ OffsetBounds polygon_offset(const Triangle& t, const PolygonOffset& offset, Dept
     largest = std::min(largest, std::max(a, b) + corner_error);
     if (!t.cut) least = std::max(a, b) - corner_error;
   }
-  const double r_lo = step_at(format, least), r_hi = step_at(format, largest);
+  const double unit = format == DepthFormat::z16 ? conventions.offset_unit.y : conventions.offset_unit.x;
+  const double r_lo = step_at(format, unit, least), r_hi = step_at(format, unit, largest);
   OffsetBounds out{0.5 * units * (r_lo + r_hi), 0.5 * std::abs(units) * (r_hi - r_lo)};
   if (factor == 0) return out;
   const double m = scale * std::max(std::abs(t.z_plane.x), std::abs(t.z_plane.y));

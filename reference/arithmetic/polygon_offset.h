@@ -9,6 +9,8 @@ namespace plumbline::math {
 struct OffsetBounds {
   double middle = 0, half = 0;
 };
-OffsetBounds polygon_offset(const Triangle& triangle, const PolygonOffset& offset, DepthFormat format);
+/// r of formats of codes is that of the conventions.
+OffsetBounds polygon_offset(const Triangle& triangle, const PolygonOffset& offset, DepthFormat format,
+                            const Conventions& conventions);
 
 }  // namespace plumbline::math

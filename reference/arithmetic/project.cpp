@@ -84,6 +84,10 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
     corner.v = {c.x * half.x - out.sample.x * c.w, c.y * half.y - out.sample.y * c.w, c.w};
     corner.z = c.z;
     corner.size = {size.x * half.x, size.y * half.y, size.z, size.w};
+    if (out.conventions.clip_depth == Conventions::ClipDepth::zero_to_w) {  // [0,w] is [-w,w] of 2 z - w
+      corner.z = 2 * c.z - c.w;
+      corner.size.z = 2 * size.z + size.w;
+    }
     corner.color = vertex_color(scene, draw, out.lights, i, p_eye, n_eye);
     corner.color_error = color_error(scene, draw, m, out.lights, out.light_errors, i);
     corner.texcoord = mesh.texcoords.empty() ? glm::dvec2(0) : glm::dvec2(mesh.texcoords[i]);
@@ -263,7 +267,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   const Widths width = widths(p_window, part.count, 2 * t.reach);
   t.altitude = t.cut ? width.pieces : width.whole;
   t.fat_altitude = t.cut ? width.fat : width.whole;
-  t.offset = polygon_offset(t, draw.polygon_offset, scene.depth).middle;
+  t.offset = polygon_offset(t, draw.polygon_offset, scene.depth, scene.conventions).middle;
   t.thin = t.flat || width.whole <= 2 * t.reach;
   const bool front = t.sign > 0;
   t.facing_kept = draw.cull == Cull::none || front == (draw.cull == Cull::back);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "capture/fragment_outcomes.h"
 #include "reference/arithmetic/color_error.h"
 #include "reference/arithmetic/fog.h"
 #include "reference/arithmetic/light_bounds.h"
@@ -138,7 +137,7 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
     hi = std::min(hi, t.z_max + corner_error);
   }
   out.hit.certain = out.hit.certain && not_cut;
-  set_window_depth(t, polygon_offset(t, offset, scene.depth), clamps, lo, hi, weight, out);
+  set_window_depth(t, polygon_offset(t, offset, scene.depth, scene.conventions), clamps, lo, hi, weight, out);
 }
 
 /// Edge functions' gradients, which attributes are weighted by: where a renderer interpolates without perspective, each
@@ -225,6 +224,17 @@ BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const s
   return out;
 }
 
+/// How far colours are beyond [0,1] where those of all corners are within: outside of the triangle, where a renderer may
+/// clamp them, or not.
+double overshoot(const glm::dvec4& color, const std::array<BoundedFour, 3>& corners) {
+  double out = 0;
+  for (glm::length_t c = 0; c < 4; ++c) {
+    const auto is_within = [&](const BoundedFour& of) { return of.value[c] >= 0 && of.value[c] <= 1; };
+    if (std::ranges::all_of(corners, is_within)) out = std::max(out, std::max(color[c] - 1, -color[c]));
+  }
+  return out;
+}
+
 /// The fragment's colour at the pixel, from its attributes there.
 void set_color(const Scene& scene, const Projected& projected, const Triangle& t, glm::dvec3 d, glm::ivec2 pixel,
                const Place& at, glm::dvec2 moved, PixelHit& out) {
@@ -237,7 +247,11 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   const LightModel& model = scene.light_model;
   const bool two = draw.lit && model.sides == LightModel::Sides::two, back = two && t.sign < 0;
   const auto lit_part = [&](auto of_corner) {
-    if (draw.shading != Shading::flat) return attribute(of_corner);
+    if (draw.shading != Shading::flat) {
+      BoundedFour smooth = attribute(of_corner);
+      smooth.bound += overshoot(smooth.value, {of_corner(corner(0)), of_corner(corner(1)), of_corner(corner(2))});
+      return smooth;
+    }
     BoundedFour last = of_corner(corner(2));
     last.bound += 4 * kFloatRounding;
     return last;
@@ -299,37 +313,6 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
   out.hit.color_bound = color.bound;
 }
 
-Outcomes alpha_test(const AlphaTest& test, ColorFormat format, Conventions::AlphaTest numbers, double lo, double hi) {
-  const Outcomes in_codes = alpha_outcomes(test, format, lo, hi),
-                 in_float = alpha_outcomes(test, ColorFormat::rgba32f, lo, hi);
-  switch (numbers) {
-    case Conventions::AlphaTest::in_codes: return in_codes;
-    case Conventions::AlphaTest::in_float: return in_float;
-    case Conventions::AlphaTest::either: break;
-  }
-  return {in_codes.may_pass || in_float.may_pass, in_codes.may_fail || in_float.may_fail};
-}
-
-void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, const Conventions& conventions,
-               PixelHit& out) {
-  Hit& hit = out.hit;
-  if (draw.alpha_test) {
-    const bool bounded = std::isfinite(hit.color_bound);
-    const double lo = hit.color.a - hit.color_bound, hi = hit.color.a + hit.color_bound;
-    const Outcomes alpha =
-        bounded ? alpha_test(*draw.alpha_test, frame.color, conventions.alpha_test, lo, hi) : Outcomes{true, true};
-    hit.alpha_passes = alpha.may_pass;
-    hit.alpha_fails = alpha.may_fail;
-  }
-  if (!draw.stencil) return;
-  const bool front = t.sign > 0;
-  hit.stencil = front ? &draw.stencil->front : &draw.stencil->back;
-  // What may be turned over by snapping is not certain: wholly, or a piece of it at its border.
-  const bool either = t.flat || (!hit.certain && (t.thin || t.cut));
-  if (either) hit.or_stencil = front ? &draw.stencil->back : &draw.stencil->front;
-  hit.twice = !hit.certain && t.cut;
-}
-
 }  // namespace
 
 EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm::dvec3& v_k, glm::dvec3 d) {
@@ -363,14 +346,18 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   const double w = std::clamp(at.w, t.w_min, t.w_max);
   const glm::dvec2 moved = float_displacement(projected, t, at.nearest, w);
   PixelHit out;
-  out.delta = std::min(t.reach, projected.snap + glm::length(moved));
+  // One that is seen edge on may, by rounding, show what comes nearest to the eye, wherever that is seen.
+  out.delta = t.flat ? t.reach : std::min(t.reach, projected.snap + glm::length(moved));
   if (!at.inside && at.border > out.delta) return std::nullopt;
   out.hit.primitive = primitive;
   out.hit.depth_func = scene.draws[t.draw].depth_func;
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
+  // Where a side cuts an edge that two triangles share, each rounds the corner that it makes: down, maybe to another place.
+  const bool apart = t.cut && projected.conventions.subpixel_rounding == Conventions::Rounding::down;
   out.whole = t.facing_kept && !t.flat && !t.cut;
   set_depth(projected, t, scene.draws[t.draw].polygon_offset, scene.depth_clamp, d, at, moved, out);
+  out.whole = out.whole && !apart;
   const PixelDepth& view = out.view;
   if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))
     return std::nullopt;

@@ -34,6 +34,10 @@ struct PixelHit {
 std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected, std::uint32_t primitive, int px,
                                   int py);
 
+/// Outcomes of the alpha test, and stencil state, of a hit whose colour is known.
+void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, const Conventions& conventions,
+               PixelHit& out);
+
 /// The distance of the window point d from the edge from corner j to corner k of the triangle, as far as the edge is
 /// before the eye; infinite where it is not. `d_nearest` is the point of it nearest to d, `w` the depth there.
 struct EdgeDistance {

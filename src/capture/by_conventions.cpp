@@ -1,7 +1,6 @@
 #include "capture/by_conventions.h"
 
 #include <algorithm>
-#include <variant>
 
 namespace plumbline {
 
@@ -9,27 +8,11 @@ namespace {
 
 using C = Conventions;
 
-// The near plane where z_clip is 0: near' = 2 n f / (n + f) of a perspective, (n + f) / 2 of an orthographic projection.
-struct HalfVolume {
-  void operator()(Perspective& p) const { p.near = 2 * p.near * p.far / (p.near + p.far); }
-  void operator()(Orthographic& p) const { p.near = (p.near + p.far) / 2; }
-  void operator()(Frustum& p) const {
-    const double near = 2 * p.near * p.far / (p.near + p.far), longer = near / p.near;
-    p = {p.left * longer, p.right * longer, p.bottom * longer, p.top * longer, near, p.far};
-  }
-  void operator()(ViewPlane&) const {}  // their dialects have no such volume
-  void operator()(Pinhole&) const {}
-};
-
 void turn_corners(Scene& scene) {
   for (Mesh& mesh : scene.meshes) {
     if (mesh.topology != Topology::triangles) continue;
     for (glm::uvec3& t : mesh.triangles) t = {t.y, t.z, t.x};
   }
-}
-
-bool is_plain_volume(const C& c) {
-  return c.clip_depth == C::ClipDepth::minus_w_to_w && c.depth_planes == C::DepthPlanes::cut;
 }
 
 template <class T>
@@ -47,13 +30,12 @@ double to_window(C::DepthRange range, double z) {
 
 SceneByConventions::SceneByConventions(const Scene& scene, const Conventions& c) : scene_(scene) {
   const bool centred = c.sample == glm::dvec2(0.5);
-  if (centred && is_plain_volume(c) && c.provoking_vertex == C::Provoking::last &&
+  if (centred && c.depth_planes == C::DepthPlanes::cut && c.provoking_vertex == C::Provoking::last &&
       c.depth_format == C::Depth::as_asked) {
     return;
   }
   Scene& out = altered_.emplace(scene);
   out.frame.pass.shift += 0.5 - c.sample;
-  if (c.clip_depth == C::ClipDepth::zero_to_w) std::visit(HalfVolume{}, out.projection);
   if (c.depth_planes == C::DepthPlanes::clamped) out.depth_clamp = true;
   if (c.provoking_vertex == C::Provoking::first) turn_corners(out);
   if (c.depth_format == C::Depth::z16) out.frame.depth = DepthFormat::z16;

@@ -34,6 +34,8 @@ struct Conventions {
 
   /// Place in a pixel at which it is covered, and its attributes are [pixels from its lower left corner].
   glm::dvec2 sample{0.5};
+  /// r of a polygon offset, which OpenGL leaves open (2.1, 3.5.5), in depths of 24 and of 16 bits [codes].
+  glm::dvec2 offset_unit{2};
   /// Window positions are snapped to 2^-bits pixel; 0 to 16, or kFloat: they are not.
   int subpixel_bits = 8;
   /// Fraction bits of texture filters' weights; or kFloat.
@@ -143,6 +145,7 @@ void each_number_of_bits(Visit visit) {
 }
 
 inline constexpr ConventionWords kSampleWords{"sample", "the sample's place in its pixel", false};
+inline constexpr ConventionWords kOffsetWords{"offset_unit", "a polygon offset's unit in codes of depth", true};
 
 /// "float", or the number.
 std::string bits_text(int bits);

@@ -38,7 +38,7 @@ ConventionWords words_of(std::string_view name) {
 Learned learn(Renderer& renderer) {
   Prober prober(renderer);
   for (const auto& part : {learn_rows, learn_depths, learn_grid, learn_ties, learn_colors, learn_clipping,
-                           learn_attributes, learn_tests, learn_textures}) {
+                           learn_attributes, learn_tests, learn_offset_unit, learn_textures}) {
     part(prober);
   }
   for (const char* words : {"polygons cut as polygons or as triangles", "lines and points", "places of samples"}) {

@@ -99,27 +99,33 @@ void learn_alpha_test(Prober& prober) {
   }
 }
 
-// A source of some alpha over a colour.
+// Two sources, of some alpha each, over a colour: of a renderer that blends numbers and rounds each result once, the frame
+// holds a code between them.
 void learn_blending(Prober& prober) {
   const ConventionWords words = words_of("blending");
-  const auto under = [](int i) { return static_cast<float>((i * 37) % 256) / 255; };
+  const auto code_under = [](int i) { return (i * 37) % 255; };
+  const auto under = [&](int i) { return (static_cast<float>(code_under(i)) + 0.3f) / 255; };  // rounded either way
   const auto over = [](int i) { return static_cast<float>((i * 91 + 40) % 256) / 255; };
   const auto alpha = [](int i) { return (static_cast<float>((i * 53 + 7) % 255) + 0.4f) / 255; };
   try {
     Scene scene = probe_frame("blending", 4 * kInRow, 4 * kInRow);
     add_tiles(scene, [&](int i) { return glm::vec4(glm::vec3(under(i)), 1); });
-    Draw& draw = add_tiles(scene, [&](int i) { return glm::vec4(glm::vec3(over(i)), alpha(i)); });
     const BlendTerm term{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
-    draw.merge.blend = Blend{term, term, glm::vec4(0)};
+    for (int layer = 0; layer < 2; ++layer) {
+      add_tiles(scene, [&](int i) { return glm::vec4(glm::vec3(over(i)), alpha(i)); }).merge.blend =
+          Blend{term, term, glm::vec4(0)};
+    }
+    const bool down = prober.learned.conventions.color_rounding == C::Rounding::down;
     const Plane<glm::vec4> color = prober.draw(scene).color;
     double most = 0;
     for (int i = 0; i < kAll; ++i) {
-      const double a = alpha(i), exact = 255 * (a * over(i) + (1 - a) * under(i));
+      const double a = alpha(i), first = a * 255 * over(i) + (1 - a) * code_under(i);
+      const double exact = a * 255 * over(i) + (1 - a) * (down ? std::floor(first) : std::round(first));
       most = std::max(most, std::abs(255 * static_cast<double>(middle_of(color, i).r) - exact));
     }
-    const double once = prober.learned.conventions.color_rounding == C::Rounding::down ? 1.001 : 0.501;
-    const std::string evidence = fmt::format("{} blends, {:.2f} codes off at most", kAll, most);
-    if (most > once + 2) return prober.open(words, evidence);
+    const double once = down ? 1.001 : 0.501;
+    const std::string evidence = fmt::format("{} blends in two layers, {:.2f} codes off at most", kAll, most);
+    if (most > once + 4) return prober.open(words, evidence);
     prober.learned.conventions.blending = most > once ? C::Blending::in_codes : C::Blending::in_float;
     prober.found(words, name_of(prober.learned.conventions.blending), evidence);
   } catch (const Unsupported& e) {

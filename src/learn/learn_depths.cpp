@@ -137,4 +137,34 @@ void learn_depths(Prober& prober) {
   for (const char* name : {"depth_format", "depth_rounding"}) prober.open(words_of(name), "the range is open");
 }
 
+// A rectangle moved towards the eye by many units, in depths of 24 and of 16 bits, beside one that is not.
+void learn_offset_unit(Prober& prober) {
+  C& c = prober.learned.conventions;
+  if (c.depth_format == C::Depth::z32f) return prober.open(kOffsetWords, "depths are floats, whose unit is their step");
+  std::string evidence;
+  try {
+    for (const DepthFormat format : {DepthFormat::z24, DepthFormat::z16}) {
+      const bool codes_of_16 = format == DepthFormat::z16 || c.depth_format == C::Depth::z16;
+      const double units = codes_of_16 ? 14336 : 14336 * 256, scale = codes_of_16 ? 65535 : 16777215;
+      double left[2] = {0, 0};
+      for (const int moved : {0, 1}) {
+        Scene scene = at_depths("offset_unit", {0.75});
+        scene.frame.depth = format;
+        scene.draws[0].polygon_offset = {0, static_cast<float>(-units * moved)};
+        const Plane<double> depth = prober.draw(scene).depth;
+        if (depth.empty()) return prober.open(kOffsetWords, "it leaves no planes.depth");
+        left[moved] = depth(2, 2);
+      }
+      const double codes = (left[0] - left[1]) * scale, unit = codes / units;
+      if (!(unit > 0.01)) return prober.open(kOffsetWords, "an offset moves nothing");
+      (format == DepthFormat::z16 ? c.offset_unit.y : c.offset_unit.x) = std::round(unit * 1e4) / 1e4;
+      evidence +=
+          fmt::format("{}{} units are {:.0f} codes", format == DepthFormat::z16 ? ", of 16 bits " : "", units, codes);
+    }
+    prober.found(kOffsetWords, fmt::format("{:.4g}, {:.4g}", c.offset_unit.x, c.offset_unit.y), evidence);
+  } catch (const Unsupported& e) {
+    prober.open(kOffsetWords, e.what());
+  }
+}
+
 }  // namespace plumbline::learn

@@ -75,6 +75,7 @@ struct Grid {
   C::Rounding rounding = C::Rounding::nearest;
   double sample = 0.5;
   std::size_t probes = 0;
+  double scatter = 0;  // of the sample's place [pixels]
 };
 std::optional<Grid> grid_of(const std::vector<Rise>& rises) {
   constexpr double kSlack = 2.0 / kLong;  // ties, and the rounding of an edge function
@@ -92,15 +93,17 @@ std::optional<Grid> grid_of(const std::vector<Rise>& rises) {
       ++n;
     }
     if (n == 0 || most - least > kSlack) return std::nullopt;
-    return Grid{bits, rounding, sum / static_cast<double>(n), n};
+    return Grid{bits, rounding, sum / static_cast<double>(n), n, most - least};
   };
-  if (const auto no_grid = explains(C::kFloat, C::Rounding::nearest)) return no_grid;
+  // The one by which it scatters least; of as good ones the finest.
+  std::optional<Grid> best = explains(C::kFloat, C::Rounding::nearest);
   for (int bits = 9; bits >= 0; --bits) {
     for (const C::Rounding rounding : {C::Rounding::nearest, C::Rounding::down}) {
-      if (auto grid = explains(bits, rounding)) return grid;
+      const auto grid = explains(bits, rounding);
+      if (grid && (!best || grid->scatter < best->scatter - 0.5 / kLong)) best = grid;
     }
   }
-  return std::nullopt;
+  return best;
 }
 
 }  // namespace
@@ -123,8 +126,12 @@ void learn_grid(Prober& prober) {
       prober.open(words, "edges moved by 1/1024 pixel go by no grid");
     return;
   }
-  if (rows->bits != columns->bits || rows->rounding != columns->rounding)
+  if (rows->bits != columns->bits || rows->rounding != columns->rounding) {
     prober.contradicts("window positions go by one grid in x, by another in y");
+    for (const ConventionWords& words : {kSampleWords, bits, rounding})
+      prober.open(words, "edges contradict each other");
+    return;
+  }
   const std::string evidence = fmt::format("{} of {} edges", rows->probes + columns->probes, 2 * offsets.size());
   C& c = prober.learned.conventions;
   const auto placed = [](double at) {
@@ -197,9 +204,9 @@ void learn_ties(Prober& prober) {
       c.tie_rule = left ? (bottom ? left_bottom : left_top) : (bottom ? right_bottom : right_top);
     } else if (shared.one == all) {
       c.tie_rule = any;
-    } else if (shared.more > 0 && shared.none == 0) {
+    } else if (left && right && bottom && top && shared.none == 0) {
       c.tie_rule = inclusive;
-    } else if (shared.none > 0 && shared.more == 0) {
+    } else if (!left && !right && !bottom && !top && shared.more == 0) {
       c.tie_rule = exclusive;
     } else {
       prober.contradicts(fmt::format("samples on a fan's edges: {} are in no triangle (cracks), {} in several",

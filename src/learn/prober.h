@@ -62,6 +62,7 @@ void learn_colors(Prober& prober);
 void learn_clipping(Prober& prober);
 void learn_attributes(Prober& prober);
 void learn_tests(Prober& prober);
+void learn_offset_unit(Prober& prober);
 void learn_textures(Prober& prober);
 
 }  // namespace plumbline::learn

@@ -25,7 +25,7 @@ int bits_at(const JsonNode& node) {
 Conventions read_conventions(const std::filesystem::path& path) {
   const JsonFile file(path);
   const JsonNode root = file.root();
-  std::vector<std::string_view> keys = {"format", "version", "sample"};
+  std::vector<std::string_view> keys = {"format", "version", "sample", "offset_unit"};
   each_choice([&](const ConventionWords& words, auto) { keys.push_back(words.name); });
   each_number_of_bits([&](const ConventionWords& words, auto) { keys.push_back(words.name); });
   root.only(keys);
@@ -33,6 +33,7 @@ Conventions read_conventions(const std::filesystem::path& path) {
   root["version"].integer(1, 1);
   Conventions out;
   if (const auto node = root.find("sample")) out.sample = node->vector<2>(0, 1);
+  if (const auto node = root.find("offset_unit")) out.offset_unit = node->vector<2>(0, 65536);
   each_choice([&](const ConventionWords& words, auto member) {
     using Choice = std::remove_cvref_t<decltype(out.*member)>;
     if (const auto node = root.find(words.name)) out.*member = node->choice<Choice>(kNamesOf<Choice>);
@@ -44,8 +45,9 @@ Conventions read_conventions(const std::filesystem::path& path) {
 }
 
 std::string conventions_text(const Conventions& c) {
-  std::string out = fmt::format("{{\"format\": \"{}\", \"version\": 1,\n \"sample\": [{}, {}]", kConventionsFormat,
-                                c.sample.x, c.sample.y);
+  std::string out =
+      fmt::format("{{\"format\": \"{}\", \"version\": 1,\n \"sample\": [{}, {}],\n \"offset_unit\": [{}, {}]",
+                  kConventionsFormat, c.sample.x, c.sample.y, c.offset_unit.x, c.offset_unit.y);
   each_number_of_bits([&](const ConventionWords& words, auto member) {
     const std::string text = bits_text(c.*member);
     out += fmt::format(",\n \"{}\": {}", words.name, c.*member == Conventions::kFloat ? "\"float\"" : text);

@@ -71,7 +71,9 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
       return std::max(stored.of_channel(v + off, i) - middle, middle - stored.of_channel(v - off, i));
     };
     const auto apart = [&](const LegalAnswer& a, int i) {
-      const double diff = difference(stored.middle(c[i]), wanted(a, i));
+      double diff = difference(stored.middle(c[i]), wanted(a, i));
+      // The clear colour may be rounded, and encoded, otherwise than fragments are.
+      if (a.primitive == kBackground) diff = std::min(diff, difference(c[i], a.color[i]));
       return diff == 0 ? 0 : diff / (bound(a, i) + half_code);
     };
     const auto farthest = [&](const LegalAnswer& a) {
@@ -129,9 +131,11 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
       const glm::vec4 &color = candidate.color(x, y), &low = legal.color_lo(x, y), &high = legal.color_hi(x, y);
       if (!std::isfinite(low.x)) return open_value(meter, color.x, {x, y, -1, "color"}, 0);
       for (int c = 0; c < 4; ++c) {
-        const double value = stored.middle(color[c]);
-        meter.value(outside(value, stored.of_channel(low[c], c), stored.of_channel(high[c], c)) / rounding, factor,
-                    {x, y, -1, "color"}, color[c], low[c]);
+        const double value = stored.middle(color[c]), clear = scene.frame.clear_color[c];
+        double off = outside(value, stored.of_channel(low[c], c), stored.of_channel(high[c], c));
+        const bool may_be_clear = outside(clear, low[c], high[c]) <= rounding;  // rounded, and encoded, as it may be
+        if (may_be_clear) off = std::min(off, outside(color[c], low[c], high[c]));
+        meter.value(off / rounding, factor, {x, y, -1, "color"}, color[c], low[c]);
       }
     });
   }

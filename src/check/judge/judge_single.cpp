@@ -227,6 +227,10 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
     const bool of_none = stage == Stage::matrices || stage == Stage::resolve;
     if (of_none || !info[stage].runs || (stage == Stage::texture && !textured(scene))) continue;
     const JudgeId name(info.name, Kind::per_stage);
+    if (stage == Stage::clip && c.conventions.clip_depth != Conventions::ClipDepth::minus_w_to_w) {
+      c.skip(name, stage, Outcome::unsupported, "its view volume is another");
+      continue;
+    }
     if (shown != nullptr) {
       const std::string lacking = lacking_per_stage(scene, *shown, stage);
       if (!lacking.empty()) {

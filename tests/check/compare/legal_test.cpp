@@ -250,6 +250,38 @@ TEST_F(LegalAnswers, CodesMayBeHalfACodeFarther) {
   EXPECT_TRUE(fails(merge())) << "floats are not rounded";
 }
 
+// A renderer that truncates: the code below the colour, and no other.
+TEST_F(LegalAnswers, CodesMayBeRoundedDownWhereThatIsDeclared) {
+  Conventions down;
+  down.color_rounding = Conventions::Rounding::down;
+  const double bound = 0x1p-10 * 255;  // in codes
+  const double exact = 0.5 * 255;
+  for (const auto& [code, holds] : {std::pair(127.0, true), std::pair(128.0, false), std::pair(126.0, false)}) {
+    show(2, 0.25, {static_cast<float>(code / 255), 63.0f / 255, 31.0f / 255, 1});
+    EXPECT_EQ(passes(compare_legal_merge(scene, planes, legal, 1, down)), holds)
+        << code << " " << exact << " " << bound;
+  }
+  show(2, 0.25, {127.0f / 255, 63.0f / 255, 31.0f / 255, 1});
+  EXPECT_TRUE(fails(merge())) << "63.75 and 31.875 are nearer to the codes above";
+  planes.color(0, 0).r = 1.0f / 255;
+  EXPECT_TRUE(fails(compare_legal_merge(scene, planes, legal, 1, down))) << "the clear colour's code above";
+}
+
+TEST_F(LegalAnswers, CodesMayStandForSrgbWhereThatIsDeclared) {
+  Conventions srgb;
+  srgb.color_encoding = Conventions::Encoding::srgb;
+  const auto encoded = [](double v) { return 255 * (1.055 * std::pow(v, 1 / 2.4) - 0.055); };
+  const auto as_code = [](double code) { return static_cast<float>(std::round(code) / 255); };
+  const glm::vec4 right(as_code(encoded(0.5)), as_code(encoded(0.25)), as_code(encoded(0.125)), 1);
+  show(2, 0.25, right);
+  EXPECT_TRUE(passes(compare_legal_merge(scene, planes, legal, 1, srgb)));
+  EXPECT_TRUE(fails(merge()));
+  show(2, 0.25, right + glm::vec4(2.0f / 255, 0, 0, 0));
+  EXPECT_TRUE(fails(compare_legal_merge(scene, planes, legal, 1, srgb)));
+  show(2, 0.25, {NAN, right.g, right.b, 1});
+  EXPECT_TRUE(fails(compare_legal_merge(scene, planes, legal, 1, srgb)));
+}
+
 TEST_F(LegalAnswers, CodesAreClampedFloatsAreNot) {
   show(6, 0.75, {1, 0.5, 0, 1});
   EXPECT_TRUE(passes(merge()));

@@ -1,0 +1,44 @@
+// Alpha and stencil tests of a hit: what they may come to.
+#include <cmath>
+
+#include "capture/fragment_outcomes.h"
+#include "reference/oracle/pixel_hit.h"
+
+namespace plumbline::math {
+
+namespace {
+
+Outcomes alpha_test(const AlphaTest& test, ColorFormat format, Conventions::AlphaTest numbers, double lo, double hi) {
+  const Outcomes in_codes = alpha_outcomes(test, format, lo, hi),
+                 in_float = alpha_outcomes(test, ColorFormat::rgba32f, lo, hi);
+  switch (numbers) {
+    case Conventions::AlphaTest::in_codes: return in_codes;
+    case Conventions::AlphaTest::in_float: return in_float;
+    case Conventions::AlphaTest::either: break;
+  }
+  return {in_codes.may_pass || in_float.may_pass, in_codes.may_fail || in_float.may_fail};
+}
+
+}  // namespace
+
+void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, const Conventions& conventions,
+               PixelHit& out) {
+  Hit& hit = out.hit;
+  if (draw.alpha_test) {
+    const bool bounded = std::isfinite(hit.color_bound);
+    const double lo = hit.color.a - hit.color_bound, hi = hit.color.a + hit.color_bound;
+    const Outcomes alpha =
+        bounded ? alpha_test(*draw.alpha_test, frame.color, conventions.alpha_test, lo, hi) : Outcomes{true, true};
+    hit.alpha_passes = alpha.may_pass;
+    hit.alpha_fails = alpha.may_fail;
+  }
+  if (!draw.stencil) return;
+  const bool front = t.sign > 0;
+  hit.stencil = front ? &draw.stencil->front : &draw.stencil->back;
+  // What may be turned over by snapping is not certain: wholly, or a piece of it at its border.
+  const bool either = t.flat || (!hit.certain && (t.thin || t.cut));
+  if (either) hit.or_stencil = front ? &draw.stencil->back : &draw.stencil->front;
+  hit.twice = !hit.certain && t.cut;
+}
+
+}  // namespace plumbline::math

@@ -1,0 +1,111 @@
+// Conventions: their file, their words, and what they make of captures and scenes.
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "capture/by_conventions.h"
+#include "capture/files/conventions_file.h"
+#include "scene/json/json_tree.h"
+#include "tests/test_folder.h"
+
+namespace plumbline {
+namespace {
+
+using C = Conventions;
+
+class ConventionsFile : public TestFolder {
+ protected:
+  C declared(const std::string& text) {
+    const std::filesystem::path file = root_ / "conventions.json";
+    std::ofstream(file) << text;
+    return read_conventions(file);
+  }
+  std::string refusal(const std::string& text) {
+    try {
+      declared(text);
+    } catch (const JsonError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(ConventionsFile, WhatIsWrittenIsReadBack) {
+  C c;
+  c.sample = {0, 0.25};
+  c.offset_unit = {1, 1.01};
+  c.subpixel_bits = C::kFloat, c.texture_bits = 8;
+  c.rows = C::Rows::from_top, c.tie_rule = C::TieRule::right_top, c.depth_range = C::DepthRange::one_to_zero;
+  c.level_of_detail = C::LevelOfDetail::approximate, c.blending = C::Blending::in_codes;
+  EXPECT_EQ(declared(conventions_text(c)), c);
+  EXPECT_EQ(declared(conventions_text({})), C());
+  EXPECT_EQ(declared(R"({"format": "plumbline conventions", "version": 1})"), C()) << "what is left out is OpenGL's";
+}
+
+TEST_F(ConventionsFile, WhatIsWrongIsRefusedWithItsPlace) {
+  const std::string head = R"({"format": "plumbline conventions", "version": 1, )";
+  EXPECT_NE(refusal(head + R"("colour": 1})").find("colour"), std::string::npos);
+  EXPECT_NE(refusal(head + R"("rows": "upwards"})").find("at \"/rows\": expected"), std::string::npos);
+  EXPECT_NE(refusal(head + R"("sample": [0.5, 1.5]})").find("/sample/1"), std::string::npos);
+  EXPECT_NE(refusal(head + R"("sample": [0.5]})").find("/sample"), std::string::npos);
+  EXPECT_NE(refusal(head + R"("subpixel_bits": 17})").find("/subpixel_bits"), std::string::npos);
+  EXPECT_NE(refusal(head + R"("subpixel_bits": "none"})").find("or \"float\""), std::string::npos);
+  EXPECT_NE(refusal(head + R"("offset_unit": [2, -1]})").find("/offset_unit/1"), std::string::npos);
+  EXPECT_NE(refusal(R"({"format": "plumbline goldens", "version": 1})").find("/format"), std::string::npos);
+  EXPECT_NE(refusal(R"({"format": "plumbline conventions", "version": 2})").find("/version"), std::string::npos);
+  EXPECT_THROW(read_conventions(root_ / "nothing.json"), JsonError);
+}
+
+TEST(Conventions, OnlyMistakesAreNamed) {
+  C free;
+  free.subpixel_bits = 4, free.tie_rule = C::TieRule::right_top, free.depth_rounding = C::Rounding::down;
+  free.depth_format = C::Depth::z32f, free.blending = C::Blending::in_codes;
+  EXPECT_TRUE(mistaken(free).empty());
+  EXPECT_TRUE(mistaken(undeclared()).empty());
+  C wrong;
+  wrong.sample = {0, 0};
+  wrong.rows = C::Rows::from_top, wrong.tie_rule = C::TieRule::exclusive, wrong.depth_format = C::Depth::z16;
+  const std::vector<std::string> lines = mistaken(wrong);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0], "sample: 0, 0, expected 0.5, 0.5 (the sample's place in its pixel)");
+  EXPECT_EQ(lines[1], "rows: from_top, expected from_bottom (the order of the picture's rows)");
+}
+
+TEST(Conventions, ACaptureBecomesTheDialects) {
+  Capture capture;
+  capture.width = 2, capture.height = 3;
+  capture.planes.color = Plane<glm::vec4>(2, 3);
+  capture.planes.color(1, 0) = glm::vec4(1);
+  capture.planes.depth = Plane<double>(2, 3, -1);
+  capture.planes.depth(0, 2) = 0.5;
+  capture.records.covered = {{0, 1, 0}};
+  C c;
+  c.rows = C::Rows::from_top, c.depth_range = C::DepthRange::minus_one_to_one;
+  to_dialect(c, capture);
+  EXPECT_EQ(capture.planes.color(1, 2), glm::vec4(1));
+  EXPECT_EQ(capture.planes.color(1, 0), glm::vec4(0));
+  EXPECT_EQ(capture.planes.depth(0, 0), 0.75);
+  EXPECT_EQ(capture.planes.depth(1, 1), 0);
+  EXPECT_EQ(capture.records.covered[0].y, 2);
+}
+
+TEST(Conventions, ASceneIsAlteredOnlyWhereItMustBe) {
+  Scene scene;
+  scene.meshes.emplace_back().triangles = {{0, 1, 2}};
+  C free;
+  free.subpixel_bits = 4, free.depth_range = C::DepthRange::one_to_zero;
+  EXPECT_EQ(&*SceneByConventions(scene, free), &scene);
+  C other;
+  other.sample = {0, 0.25};
+  other.provoking_vertex = C::Provoking::first, other.depth_planes = C::DepthPlanes::clamped;
+  other.depth_format = C::Depth::z16;
+  const SceneByConventions by(scene, other);
+  EXPECT_EQ(by->frame.pass.shift, glm::dvec2(0.5, 0.25));
+  EXPECT_EQ(by->meshes[0].triangles[0], glm::uvec3(1, 2, 0));
+  EXPECT_TRUE(by->depth_clamp);
+  EXPECT_EQ(by->frame.depth, DepthFormat::z16);
+}
+
+}  // namespace
+}  // namespace plumbline

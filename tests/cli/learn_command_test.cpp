@@ -1,0 +1,77 @@
+// plumb learn, and what is judged by the conventions that it writes.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+const std::string kLearnedProgram = " --program '" PLUMBLINE_C_RENDERER " {serve}'";
+
+std::string declared(const std::string& more) {
+  return R"({"format": "plumbline conventions", "version": 1, )" + more + "}";
+}
+
+TEST_F(Cli, learn_finds_and_writes_a_programs_conventions) {
+  const Outcome run = plumb("learn" + kLearnedProgram + " -o " + at("c.json") + " --pictures " + at("pictures"));
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("subpixel_bits      8")) << run.text;
+  EXPECT_TRUE(run.says("blending           open           blend")) << run.text;
+  EXPECT_NE(read(at("c.json")).find("\"tie_rule\": \"left_bottom\""), std::string::npos);
+  EXPECT_TRUE(fs::exists(at("pictures/grid_x.png")));
+  EXPECT_EQ(plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json")).code, 0);
+  EXPECT_EQ(plumb("diagnose " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json")).code, 0);
+}
+
+TEST_F(Cli, a_mistaken_convention_is_one_finding_and_the_rest_is_judged) {
+  // Our own picture, its rows turned over: declared, nothing else is wrong.
+  ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("capture") + " --fault window.y_flipped").code, 0);
+  auto manifest = nlohmann::json::parse(read(at("capture/manifest.json")));
+  std::erase_if(manifest.at("arrays").get_ref<nlohmann::json::array_t&>(), [](const nlohmann::json& array) {
+    return array.at("name") != "planes.color" && array.at("name") != "planes.depth";
+  });
+  write(at("capture/manifest.json"), manifest.dump());
+  const std::string by = "diagnose " + kSharedEdges + " --against exact --capture " + at("capture");
+  EXPECT_EQ(plumb(by).code, 1);
+  write(at("c.json"), declared(R"("rows": "from_top")"));
+  const Outcome run = plumb(by + " --conventions " + at("c.json"));
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("rows: from_top, expected from_bottom")) << run.text;
+  EXPECT_TRUE(run.says("first different stage: none")) << run.text;
+}
+
+TEST_F(Cli, a_mistaken_convention_of_a_suite_ends_1_with_one_line) {
+  write(at("c.json"), declared(R"("color_rounding": "down")"));
+  const Outcome run = plumb("check " + kScenes + "cull" + kLearnedProgram + " --conventions " + at("c.json"));
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("convention color_rounding: down, expected nearest (how colours become codes)\n")) << run.text;
+}
+
+TEST_F(Cli, conventions_that_are_none_are_refused) {
+  write(at("c.json"), declared(R"("rows": "sideways")"));
+  const std::string with = " --conventions " + at("c.json");
+  for (const std::string& line :
+       {"check " + kSharedEdges + kLearnedProgram + with, "diagnose " + kSharedEdges + kLearnedProgram + with}) {
+    const Outcome run = plumb(line);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_TRUE(run.says(at("c.json") + ": at \"/rows\": expected")) << run.text;
+  }
+  EXPECT_EQ(plumb("check " + kSharedEdges + with).code, 2) << "of nobody";
+  EXPECT_EQ(plumb("diagnose " + kSharedEdges + with).code, 2) << "of nobody";
+  EXPECT_EQ(plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("nothing.json")).code, 2);
+}
+
+TEST_F(Cli, learn_of_what_draws_nothing_is_refused) {
+  const Outcome unable = plumb("learn --program 'sh -c \"echo no >&2; exit 77\" {input} {output}'");
+  EXPECT_EQ(unable.code, 2) << unable.text;
+  EXPECT_TRUE(unable.says("the renderer draws no rectangle: no")) << unable.text;
+  const Outcome failed = plumb("learn --program 'sh -c \"exit 3\" {input} {output}'");
+  EXPECT_EQ(failed.code, 1) << failed.text;
+  EXPECT_TRUE(failed.says("exited with status 3")) << failed.text;
+  EXPECT_EQ(plumb("learn --program 'true'").code, 2) << "no {output}";
+  EXPECT_EQ(plumb("learn --with nobody").code, 2);
+  EXPECT_EQ(plumb("learn --with ours -o /nowhere/c.json").code, 2);
+}
+
+}  // namespace
+}  // namespace plumbline

@@ -1,0 +1,134 @@
+// Legal answers by a renderer's conventions: what each allows, and what none does.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "reference/oracle/oracle.h"
+#include "scene/scene.h"
+
+namespace plumbline::math {
+namespace {
+
+using C = Conventions;
+
+constexpr int kSize = 32;
+
+/// Triangles in the window's coordinates, with a depth for each corner, from black to white along x.
+Scene window_scene(const std::vector<std::array<glm::vec3, 3>>& triangles) {
+  Scene scene;
+  scene.name = "window";
+  scene.frame.width = scene.frame.height = kSize;
+  scene.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  scene.projection = Orthographic{0, kSize, 0, kSize, 0, 1};
+  Mesh mesh;
+  for (const auto& t : triangles) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::vec3 p : t) {
+      mesh.positions.emplace_back(p.x, p.y, -p.z);
+      mesh.colors.emplace_back(glm::vec3(p.x / kSize), 1);
+    }
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
+  scene.meshes = {mesh};
+  Draw draw;
+  draw.lit = false;
+  scene.draws = {draw};
+  return scene;
+}
+
+Legal legal(const Scene& scene, const C& conventions) {
+  Request request;
+  request.legal = true;
+  request.conventions = conventions;
+  return legal_by_boxes(scene, request);
+}
+
+std::size_t open_pixels(const Legal& of) {
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < of.certain.size(); ++i) out += of.certain.values()[i] != of.possible.values()[i] ? 1 : 0;
+  return out;
+}
+
+const std::vector<std::array<glm::vec3, 3>> kOne = {
+    {glm::vec3(3.2f, 2.1f, 0.5f), {29.7f, 5.3f, 0.5f}, {9.9f, 27.8f, 0.5f}}};
+
+TEST(OracleConventions, ACoarserGridLeavesMorePixelsOpen) {
+  const Scene scene = window_scene(kOne);
+  C of_4, of_none;
+  of_4.subpixel_bits = 4, of_none.subpixel_bits = C::kFloat;
+  const std::size_t with_4 = open_pixels(legal(scene, of_4)), with_8 = open_pixels(legal(scene, {})),
+                    without = open_pixels(legal(scene, of_none));
+  EXPECT_GT(with_4, with_8);
+  EXPECT_GE(with_8, without);
+  EXPECT_LE(without, 1u) << "no centre lies on an edge";
+}
+
+// A sample at the lower left corner sees what the centre sees of a picture half a pixel farther.
+TEST(OracleConventions, ASampleIsAPlace) {
+  std::vector<std::array<glm::vec3, 3>> moved = kOne;
+  for (glm::vec3& p : moved[0]) p += glm::vec3(0.5f, 0.5f, 0);
+  C corner;
+  corner.sample = {0, 0};
+  const Legal a = legal(window_scene(kOne), corner), b = legal(window_scene(moved), {}),
+              centre = legal(window_scene(kOne), {});
+  EXPECT_EQ(a.certain.values(), b.certain.values());
+  EXPECT_EQ(a.possible.values(), b.possible.values());
+  EXPECT_NE(a.certain.values(), centre.certain.values());
+}
+
+TEST(OracleConventions, AHalfVolumeIsCutInItsMiddle) {
+  // From depth 0 at the left to 1 at the right.
+  const Scene scene =
+      window_scene({{glm::vec3(0, 0, 0), {32, 0, 1}, {32, 32, 1}}, {glm::vec3(0, 0, 0), {32, 32, 1}, {0, 32, 0}}});
+  C half, none;
+  half.clip_depth = C::ClipDepth::zero_to_w, none.depth_planes = C::DepthPlanes::clamped;
+  EXPECT_EQ(legal(scene, {}).certain(8, 8), 1u);
+  const Legal cut = legal(scene, half);
+  EXPECT_EQ(cut.possible(8, 8), 0u);
+  ASSERT_EQ(cut.at(24, 8).size(), 1u);
+  EXPECT_NEAR(cut.at(24, 8)[0].z_lo, 2 * (24.5 / 32) - 1, 1e-3) << "z / w";
+  Scene nearer = scene;
+  for (glm::vec3& p : nearer.meshes[0].positions) p.z += 0.5f;  // depths from -1/2 to 1/2
+  EXPECT_EQ(legal(nearer, {}).possible(8, 8), 0u);
+  EXPECT_EQ(legal(nearer, none).certain(8, 8), 1u);
+}
+
+TEST(OracleConventions, WithoutPerspectiveColoursGoByTheWindow) {
+  const auto at = [](float x, float y, float w) { return glm::vec3(0.9f * x * w, 0.9f * y * w, w); };
+  Scene scene =
+      window_scene({{at(-1, -1, 2), at(1, -1, 16), at(1, 1, 16)}, {at(-1, -1, 2), at(1, 1, 16), at(-1, 1, 2)}});
+  scene.projection = Perspective{90, 1, 100};
+  const std::array<float, 6> shares = {0, 1, 1, 0, 1, 0};
+  for (std::size_t i = 0; i < 6; ++i) scene.meshes[0].colors[i] = glm::vec4(glm::vec3(shares[i]), 1);
+  C affine;
+  affine.interpolation = C::Interpolation::affine;
+  const double s = (0.03125 / 0.9 + 1) / 2;  // of the way from the left to the right
+  EXPECT_NEAR(legal(scene, affine).at(16, 16)[0].color.r, s, 1e-5);
+  EXPECT_NEAR(legal(scene, {}).at(16, 16)[0].color.r, (s / 16) / ((1 - s) / 2 + s / 16), 1e-5);
+}
+
+// Two triangles that share an edge through centres: in one of them, whichever; on a border, in one or none.
+TEST(OracleConventions, SharedEdgesAreCoveredOnce) {
+  const Scene scene = window_scene(
+      {{glm::vec3(4, 4, 0.5f), {28, 4, 0.5f}, {28, 28, 0.5f}}, {glm::vec3(4, 4, 0.5f), {28, 28, 0.5f}, {4, 28, 0.5f}}});
+  const Legal both = legal(scene, {});
+  for (int i = 6; i < 26; ++i) {
+    EXPECT_EQ(both.certain(i, i), 1u) << i;
+    EXPECT_EQ(both.possible(i, i), 1u) << i;
+    EXPECT_EQ(both.shared(i, i), 1u) << i;
+    EXPECT_EQ(both.at(i, i).size(), 2u) << i;
+  }
+  EXPECT_EQ(both.shared(20, 8), 0u);
+  Scene single = scene;
+  single.meshes[0].triangles.pop_back();
+  const Legal one = legal(single, {});
+  EXPECT_EQ(one.certain(10, 10), 0u);
+  EXPECT_EQ(one.possible(10, 10), 1u);
+  EXPECT_EQ(one.shared(10, 10), 0u);
+}
+
+}  // namespace
+}  // namespace plumbline::math
