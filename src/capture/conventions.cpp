@@ -1,5 +1,7 @@
 #include "capture/conventions.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace plumbline {
@@ -27,6 +29,12 @@ std::vector<std::string> mistaken(const Conventions& conventions) {
     out.push_back(fmt::format("tie_rule: {}, expected each sample on a shared edge in one triangle: it is in {}",
                               name_of(conventions.tie_rule), conventions.tie_rule == inclusive ? "both" : "none"));
   }
+  if (conventions.subpixel_bits != Conventions::kFloat && conventions.subpixel_bits < 4)
+    out.push_back(fmt::format("subpixel_bits: {}, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)",
+                              conventions.subpixel_bits));
+  if (std::min(conventions.offset_unit.x, conventions.offset_unit.y) < 1)
+    out.push_back(fmt::format("offset_unit: {:.4g}, {:.4g}, expected 1 or more: a unit makes depths differ ({})",
+                              conventions.offset_unit.x, conventions.offset_unit.y, "OpenGL 2.1, 3.5.5"));
   return out;
 }
 

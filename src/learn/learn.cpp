@@ -41,7 +41,7 @@ Learned learn(Renderer& renderer) {
                            learn_attributes, learn_tests, learn_offset_unit, learn_textures}) {
     part(prober);
   }
-  for (const char* words : {"polygons cut as polygons or as triangles", "lines and points", "places of samples"}) {
+  for (const char* words : {"polygons' cuts", "lines and points", "places of samples"}) {
     prober.learned.rows.push_back({words, "open", "no picture of triangles tells"});
   }
   return std::move(prober.learned);

@@ -110,7 +110,16 @@ void learn_rows(Prober& prober) {
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 16; ++x) (y < 8 ? below : above) += is_white(color(x, y)) ? 1 : 0;
   }
-  if (below == above) return prober.open(words_of("rows"), "a rectangle in the lower half is as much in the upper one");
+  const glm::vec4 first = color(0, 0);
+  if (std::ranges::all_of(color.values(), [&](const glm::vec4& c) { return c == first || !(c == c); }))
+    throw RendererFailed(
+        "a white rectangle in the lower half of a black picture: every pixel has one colour or is NaN");
+  if (prober.draw(scene).color.values() != color.values()) prober.contradicts("one scene drawn twice differs");
+  if (std::max(below, above) < std::min(below, above) + 64) {
+    prober.contradicts(fmt::format("a rectangle of 128 pixels in the lower half: {} pixels there, {} in the upper half",
+                                   below, above));
+    return prober.open(words_of("rows"), "neither half holds the rectangle");
+  }
   const C::Rows rows = below > above ? C::Rows::from_bottom : C::Rows::from_top;
   prober.learned.conventions.rows = rows;
   prober.found(words_of("rows"), name_of(rows), fmt::format("{} of 128 pixels", std::max(below, above)));

@@ -106,6 +106,19 @@ std::optional<Grid> grid_of(const std::vector<Rise>& rises) {
   return best;
 }
 
+// The lowest left pixel drawn of a rectangle in which pixel (3, 3) is the lowest left sample.
+glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
+  Scene scene = probe_frame("shift", 16, 16);
+  add_triangles(scene, rectangle(sample + 2.75, sample + 9.75, 0.5, glm::vec4(1)));
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  glm::dvec2 out(16);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x)
+      if (is_white(color(x, y))) out = glm::min(out, glm::dvec2(x, y));
+  }
+  return out;
+}
+
 }  // namespace
 
 void learn_grid(Prober& prober) {
@@ -122,6 +135,7 @@ void learn_grid(Prober& prober) {
   }
   const auto &rows = grids[0], &columns = grids[1];
   if (!rows || !columns) {
+    prober.contradicts("edges moved by 1/1024 pixel go by no grid");
     for (const ConventionWords& words : {kSampleWords, bits, rounding})
       prober.open(words, "edges moved by 1/1024 pixel go by no grid");
     return;
@@ -132,12 +146,24 @@ void learn_grid(Prober& prober) {
       prober.open(words, "edges contradict each other");
     return;
   }
-  const std::string evidence = fmt::format("{} of {} edges", rows->probes + columns->probes, 2 * offsets.size());
+  const std::size_t explained = rows->probes + columns->probes;
+  const std::string evidence = fmt::format("{} of {} edges", explained, 2 * offsets.size());
+  if (explained < offsets.size())
+    prober.contradicts(fmt::format("window positions go by no grid: the best one explains {}", evidence));
   C& c = prober.learned.conventions;
   const auto placed = [](double at) {
     return std::abs(at - std::round(2 * at) / 2) < 0.003 ? std::round(2 * at) / 2 : at;
   };
-  c.sample = {placed(columns->sample), placed(rows->sample)};
+  const glm::dvec2 sample = {placed(columns->sample), placed(rows->sample)};
+  const bool in_pixel = glm::clamp(sample, 0.0, 1.0) == sample;
+  const glm::dvec2 shift = rows->bits == 0 || rows->bits == 1 ? glm::dvec2(0) : lowest_left(prober, sample) - 3.0;
+  if (!in_pixel || shift != glm::dvec2(0)) {
+    prober.contradicts(fmt::format("a sample lies outside its pixel: at {}, and {}, {} whole pixels away",
+                                   sample_text(sample), -shift.x, -shift.y));
+    for (const ConventionWords& words : {kSampleWords, bits, rounding}) prober.open(words, "the picture is shifted");
+    return;
+  }
+  c.sample = sample;
   c.subpixel_bits = rows->bits;
   c.subpixel_rounding = rows->rounding;
   prober.found(kSampleWords, sample_text(c.sample), evidence + ", to 1/1024 pixel");

@@ -59,17 +59,20 @@ TEST_F(ConventionsFile, WhatIsWrongIsRefusedWithItsPlace) {
 
 TEST(Conventions, OnlyMistakesAreNamed) {
   C free;
-  free.subpixel_bits = 4, free.tie_rule = C::TieRule::right_top, free.depth_rounding = C::Rounding::down;
+  free.subpixel_bits = 4, free.offset_unit = {1, 1}, free.tie_rule = C::TieRule::right_top,
+  free.depth_rounding = C::Rounding::down;
   free.depth_format = C::Depth::z32f, free.blending = C::Blending::in_codes;
   EXPECT_TRUE(mistaken(free).empty());
   EXPECT_TRUE(mistaken(undeclared()).empty());
   C wrong;
-  wrong.sample = {0, 0};
+  wrong.sample = {0, 0}, wrong.subpixel_bits = 3, wrong.offset_unit = {1, 0.5};
   wrong.rows = C::Rows::from_top, wrong.tie_rule = C::TieRule::exclusive, wrong.depth_format = C::Depth::z16;
   const std::vector<std::string> lines = mistaken(wrong);
-  ASSERT_EQ(lines.size(), 4u);
+  ASSERT_EQ(lines.size(), 6u);
   EXPECT_EQ(lines[0], "sample: 0, 0, expected 0.5, 0.5 (the sample's place in its pixel)");
   EXPECT_EQ(lines[1], "rows: from_top, expected from_bottom (the order of the picture's rows)");
+  EXPECT_EQ(lines[4], "subpixel_bits: 3, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)");
+  EXPECT_EQ(lines[5], "offset_unit: 1, 0.5, expected 1 or more: a unit makes depths differ (OpenGL 2.1, 3.5.5)");
 }
 
 TEST(Conventions, ACaptureBecomesTheDialects) {

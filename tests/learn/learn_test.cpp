@@ -112,19 +112,41 @@ TEST(Learn, NonsenseIsOpen) {
     Altered renderer(pipeline::make_pipeline(), alter);
     return learn(renderer);
   };
-  const auto count_open = [](const Learned& found) {
-    return std::ranges::count(found.rows, "open", &LearnedRow::value);
-  };
   const Learned none = of([](Capture& c) { c.planes.depth = {}; });
   EXPECT_EQ(none.conventions.depth_rounding, C::Rounding::nearest);
-  EXPECT_GE(count_open(none), 4);
-  const Learned black = of([](Capture& c) { std::ranges::fill(c.planes.color.values(), glm::vec4(0, 0, 0, 1)); });
-  EXPECT_GE(count_open(black), 8) << learned_text(black);
-  const Learned nan = of([](Capture& c) {
-    for (double& z : c.planes.depth.values()) z = std::numeric_limits<double>::quiet_NaN();
-    for (glm::vec4& v : c.planes.color.values()) v = glm::vec4(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_GE(std::ranges::count(none.rows, "open", &LearnedRow::value), 4);
+  EXPECT_THROW(of([](Capture& c) { std::ranges::fill(c.planes.color.values(), glm::vec4(0, 0, 0, 1)); }),
+               RendererFailed);
+  EXPECT_THROW(of([](Capture& c) {
+                 const float nan = std::numeric_limits<float>::quiet_NaN();
+                 std::ranges::fill(c.planes.color.values(), glm::vec4(nan));
+               }),
+               RendererFailed);
+}
+
+// A renderer that contradicts itself is told so, and what it contradicts keeps its default.
+TEST(Learn, ContradictionsAreFindings) {
+  const auto contradiction_of = [](const Alter& alter) {
+    Altered renderer(pipeline::make_pipeline(), alter);
+    const Learned found = learn(renderer);
+    EXPECT_EQ(found.conventions.sample, glm::dvec2(0.5));
+    return found.contradictions.empty() ? std::string() : found.contradictions.front();
+  };
+  float drift = 0;
+  EXPECT_EQ(contradiction_of([&](Capture& c) { c.planes.color(0, 15).x = drift += 0.001f; }),
+            "one scene drawn twice differs");
+  const std::string shifted = contradiction_of([](Capture& c) {
+    const Plane<glm::vec4> drawn = c.planes.color;
+    for (int y = 0; y < drawn.height(); ++y) {
+      for (int x = 0; x < drawn.width(); ++x) c.planes.color(x, y) = drawn((x + 3) % drawn.width(), y);
+    }
   });
-  EXPECT_GE(count_open(nan), 8) << learned_text(nan);
+  EXPECT_EQ(shifted, "window positions go by one grid in x, by another in y");
+  EXPECT_EQ(contradiction_of([](Capture& c) {
+              for (glm::vec4& v : c.planes.color.values()) v = glm::vec4(glm::vec3(0), 1);
+              c.planes.color(3, 3) = glm::vec4(1);
+            }),
+            "a rectangle of 128 pixels in the lower half: 1 pixels there, 0 in the upper half");
 }
 
 TEST(Learn, ARendererThatDrawsNoRectangleIsRefused) {
