@@ -28,8 +28,8 @@ double level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy)
 /// (log2(m 2^e) as e + m - 1 is up to 0.0861 below; half of that). Mesa rounds the bias to the nearest 1/256 before its
 /// drivers see it (st_atom_sampler.c; measured in 22.3.6): up to 1/512 below or above.
 ///
-/// Where `rules` say that it is approximated, rho is anything from the largest absolute derivative of a texel coordinate
-/// to the sum of the largest of each (OpenGL 2.1, 3.8.8).
+/// Where `rules` say that it is approximated, rho is anything from the largest absolute derivative of a texel
+/// coordinate to the sum of the largest of each (OpenGL 2.1, 3.8.8).
 double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy, const LevelRules& rules = {});
 double largest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy, const LevelRules& rules = {});
 

@@ -59,8 +59,8 @@ Planes empty_planes(const FrameFormat& frame) {
 /// A cut triangle is drawn as a fan. One of its pieces may be so thin that snapping turns it over: along the border it
 /// then lies on its neighbour, and both cover the pixel.
 ///
-/// Of a group (groups.cpp) of triangles that are neither cut nor turned over, the winding number is that of fragments. It
-/// is one number everywhere within delta of the pixel, and is counted beside it, where no edge runs through.
+/// Most fragments of a group (groups.cpp) whose triangles are neither cut nor turned over: its winding number. The
+/// number is the same everywhere within delta of the pixel; it is counted beside the pixel, where no edge runs through.
 std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits, std::size_t groups, int x,
                              int y) {
   const auto beside = [&](double delta) { return projected.ray(x, y) + delta * glm::dvec3(0.37, 0.21, 0); };

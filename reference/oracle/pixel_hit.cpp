@@ -224,8 +224,8 @@ BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const s
   return out;
 }
 
-/// How far colours are beyond [0,1] where those of all corners are within: outside of the triangle, where a renderer may
-/// clamp them, or not.
+/// How far colours are beyond [0,1] where those of all corners are within: outside of the triangle, where a renderer
+/// may clamp them, or not.
 double overshoot(const glm::dvec4& color, const std::array<BoundedFour, 3>& corners) {
   double out = 0;
   for (glm::length_t c = 0; c < 4; ++c) {
@@ -353,7 +353,8 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.hit.depth_func = scene.draws[t.draw].depth_func;
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
-  // Where a side cuts an edge that two triangles share, each rounds the corner that it makes: down, maybe to another place.
+  // Where a side cuts an edge that two triangles share, each rounds the corner that it makes: down, maybe to another
+  // place.
   const bool apart = t.cut && projected.conventions.subpixel_rounding == Conventions::Rounding::down;
   out.whole = t.facing_kept && !t.flat && !t.cut;
   set_depth(projected, t, scene.draws[t.draw].polygon_offset, scene.depth_clamp, d, at, moved, out);

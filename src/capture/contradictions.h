@@ -11,7 +11,7 @@ namespace plumbline {
 /// Lines for people, each with the array, the numbers, and what they probably are: depths still in [-1,1], codes where
 /// numbers in [0,1] belong, rows upside down, transposed matrices, winners where nothing was drawn. Empty: none found.
 std::vector<std::string> contradictions(const Capture& capture);
-/// Those of planes.id with planes.color and planes.count alone.
+/// Contradictions of planes.id with planes.color and planes.count alone.
 std::vector<std::string> contradictions_of_winners(const Capture& capture);
 
 }  // namespace plumbline

@@ -1,5 +1,5 @@
-// What a renderer may do in its own way: conventions that it declares, or that plumb learn finds. A difference that they
-// explain is no mistake of a stage.
+// Conventions of a renderer, which it declares or plumb learn finds. A difference that they explain is no mistake of a
+// stage.
 #pragma once
 
 #include <array>
@@ -152,7 +152,8 @@ std::string bits_text(int bits);
 /// "0.5, 0.5", to 1/1024 pixel.
 std::string sample_text(const glm::dvec2& sample);
 
-/// Conventions that are mistakes, a line each: "rows: from_top, expected from_bottom (the order of the picture's rows)".
+/// Conventions that are mistakes, a line each: "rows: from_top, expected from_bottom (the order of the picture's
+/// rows)".
 std::vector<std::string> mistaken(const Conventions& conventions);
 
 /// Conventions of a renderer that declares none: OpenGL's, where the 2.1 specification leaves it open in every legal

@@ -71,8 +71,8 @@ struct RendererInfo {
   bool legal = false;  ///< capture() hands legal answers out
   Profile profile = Profile::foreign;
   Conventions conventions = {};  ///< that it draws by
-  /// Names of the code paths that draw pictures alone (WantedPlanes::picture), the default path last. Each must draw the
-  /// bits of the recorded frame. Empty: the recorded path draws pictures, too.
+  /// Names of the code paths that draw pictures alone (WantedPlanes::picture), the default path last. Each must draw
+  /// the bits of the recorded frame. Empty: the recorded path draws pictures, too.
   std::vector<std::string> painters = {};
   const Ability& operator[](Stage s) const { return stages[static_cast<std::size_t>(s)]; }
   Ability& operator[](Stage s) { return stages[static_cast<std::size_t>(s)]; }

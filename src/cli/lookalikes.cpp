@@ -38,7 +38,8 @@ bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes) {
   return !(off.x <= most && off.y <= most && off.z <= most) || std::isnan(b.x + b.y + b.z);
 }
 
-// Rule of what counts as a difference: depths differ by more than a step of their format, and by what planes in float may.
+// Rule of what counts as a difference: depths differ by more than a step of their format, and by what planes in float
+// may.
 struct Eye {
   float codes = 1.5f;
   bool sees_depth = true;

@@ -84,8 +84,8 @@ void learn_interpolation(Prober& prober) {
   prober.found(words, name_of(prober.learned.conventions.interpolation), evidence);
 }
 
-// Ramps two pixels wide, whose corners lie just not half a step above a place of the grid. Halfway between two codes lies
-// the mean of the colours that the corners, as they are and snapped, give a pixel.
+// Ramps two pixels wide, whose corners lie just not half a step above a place of the grid. Halfway between two codes
+// lies the mean of the colours that the corners, as they are and snapped, give a pixel.
 void learn_corners(Prober& prober) {
   constexpr int kRamps = 16;
   const ConventionWords words = words_of("attribute_corners");

@@ -99,8 +99,8 @@ void learn_alpha_test(Prober& prober) {
   }
 }
 
-// Two sources, of some alpha each, over a colour: of a renderer that blends numbers and rounds each result once, the frame
-// holds a code between them.
+// Two sources, of some alpha each, over a colour: of a renderer that blends numbers and rounds each result once, the
+// frame holds a code between them.
 void learn_blending(Prober& prober) {
   const ConventionWords words = words_of("blending");
   const auto code_under = [](int i) { return (i * 37) % 255; };

@@ -112,8 +112,7 @@ void learn_rows(Prober& prober) {
   }
   const glm::vec4 first = color(0, 0);
   if (std::ranges::all_of(color.values(), [&](const glm::vec4& c) { return c == first || !(c == c); }))
-    throw RendererFailed(
-        "a white rectangle in the lower half of a black picture: every pixel has one colour or is NaN");
+    prober.contradicts("a white rectangle in the lower half of a black picture: every pixel has one colour or is NaN");
   if (prober.draw(scene).color.values() != color.values()) prober.contradicts("one scene drawn twice differs");
   if (std::max(below, above) < std::min(below, above) + 64) {
     prober.contradicts(fmt::format("a rectangle of 128 pixels in the lower half: {} pixels there, {} in the upper half",

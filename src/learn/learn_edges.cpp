@@ -25,8 +25,8 @@ ProbeCorner corner(int along, double a, double b) {
   return {along == 0 ? glm::dvec3(a, b, 0.5) : glm::dvec3(b, a, 0.5), glm::vec4(1), {}};
 }
 
-// An edge that rises by one pixel over 1,024, and starts `offset` above a row's lower border (`along` 0; else a column's
-// left one): of the row, so many samples lie below it that the edge's place is told to 1/1024 pixel.
+// An edge that rises by one pixel over 1,024, and starts `offset` above a row's lower border (`along` 0; else a
+// column's left one): of the row, so many samples lie below it that the edge's place is told to 1/1024 pixel.
 struct Rise {
   double offset;  // as given
   int count;      // samples below the edge
@@ -85,8 +85,8 @@ std::optional<Grid> grid_of(const std::vector<Rise>& rises) {
     for (const Rise& rise : rises) {
       const auto at = snapped(rise.offset, bits, rounding);
       if (!at) continue;
-      // Samples below: 1,024 (3 + offset - sample) of the strip's four rows; 1,024 fewer where those of its first row lie
-      // below the strip's edge, at 1/4.
+      // Samples below: 1,024 (3 + offset - sample) of the strip's four rows; 1,024 fewer where those of its first row
+      // lie below the strip's edge, at 1/4.
       const double below = 3 + *at - static_cast<double>(rise.count) / kLong,
                    sample = below > 0.999 ? below - 1 : below;
       least = std::min(least, sample), most = std::max(most, sample), sum += sample;

@@ -76,8 +76,8 @@ void learn_weights(Prober& prober) {
   prober.found(words, bits_text(bits), evidence);
 }
 
-// A floor that reaches from near to far, each level of its texture in its own grey. Its texture lies askew: the length of
-// a derivative is another than its largest component.
+// A floor that reaches from near to far, each level of its texture in its own grey. Its texture lies askew: the length
+// of a derivative is another than its largest component.
 void learn_levels(Prober& prober) {
   const ConventionWords words = words_of("level_of_detail");
   Texture texture = texture_of(64, [](int, int) { return 0; });

@@ -52,8 +52,8 @@ class Prober {
 /// Words of the convention of that name (capture/conventions.h).
 ConventionWords words_of(std::string_view name);
 
-// The probes, in the order in which they build upon each other. Each finds its conventions, or leaves them open; what the
-// renderer cannot draw (Unsupported) is open.
+// The probes, in the order in which they build upon each other. Each finds its conventions, or leaves them open; what
+// the renderer cannot draw (Unsupported) is open.
 void learn_rows(Prober& prober);
 void learn_depths(Prober& prober);
 void learn_grid(Prober& prober);

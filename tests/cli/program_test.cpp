@@ -1,4 +1,5 @@
-// Another renderer, judged by its command line: what it is given, what becomes of what it leaves, and the suite's summary.
+// Another renderer, judged by its command line: what it is given, what becomes of what it leaves, and the suite's
+// summary.
 #include <fstream>
 #include <regex>
 

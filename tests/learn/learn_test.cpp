@@ -115,13 +115,15 @@ TEST(Learn, NonsenseIsOpen) {
   const Learned none = of([](Capture& c) { c.planes.depth = {}; });
   EXPECT_EQ(none.conventions.depth_rounding, C::Rounding::nearest);
   EXPECT_GE(std::ranges::count(none.rows, "open", &LearnedRow::value), 4);
-  EXPECT_THROW(of([](Capture& c) { std::ranges::fill(c.planes.color.values(), glm::vec4(0, 0, 0, 1)); }),
-               RendererFailed);
-  EXPECT_THROW(of([](Capture& c) {
-                 const float nan = std::numeric_limits<float>::quiet_NaN();
-                 std::ranges::fill(c.planes.color.values(), glm::vec4(nan));
-               }),
-               RendererFailed);
+  const std::string one_colour = "a white rectangle in the lower half of a black picture: every pixel has one colour";
+  const Learned black = of([](Capture& c) { std::ranges::fill(c.planes.color.values(), glm::vec4(0, 0, 0, 1)); });
+  ASSERT_FALSE(black.contradictions.empty());
+  EXPECT_EQ(black.contradictions[0].find(one_colour), 0u) << black.contradictions[0];
+  const Learned nan = of([](Capture& c) {
+    std::ranges::fill(c.planes.color.values(), glm::vec4(std::numeric_limits<float>::quiet_NaN()));
+  });
+  ASSERT_FALSE(nan.contradictions.empty());
+  EXPECT_EQ(nan.contradictions[0].find(one_colour), 0u) << nan.contradictions[0];
 }
 
 // A renderer that contradicts itself is told so, and what it contradicts keeps its default.

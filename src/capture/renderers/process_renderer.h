@@ -24,8 +24,8 @@ struct ProcessSpec {
   /// argv[0] is looked for in PATH; in each, {scene} is replaced by the scene's file, {input} by the folder that
   /// write_input writes, and {output} by the folder for the capture.
   std::vector<std::string> argv;
-  /// Started once, without these folders: it reads a line "INPUT<tab>OUTPUT" for each scene, and answers by a line: "ok",
-  /// "unsupported REASON" or "failed REASON".
+  /// Started once, without these folders: it reads a line "INPUT<tab>OUTPUT" for each scene, and answers by a line:
+  /// "ok", "unsupported REASON" or "failed REASON".
   bool serves = false;
   /// Writes confined to the folder that holds {input} and {output}, which is the TMPDIR; files to a capture's budget
   /// (base/confine.h).
@@ -44,8 +44,8 @@ struct ProcessSpec {
 /// names are handed on, of these all primitives and pixels. Throws RendererFailed, with the last lines of the program's
 /// stderr, where it cannot be started, exits with other than 0 and 77, is killed by a signal, takes longer than the
 /// timeout, or leaves no capture, a broken one, or one of another size; OverBudget where what it left is beyond the
-/// budget; and Unsupported where it exits with 77, or says so, and of {scene} for a scene that was not read from a file.
-/// Refuses a spec without argv (std::invalid_argument).
+/// budget; and Unsupported where it exits with 77, or says so, and of {scene} for a scene that was not read from a
+/// file. Refuses a spec without argv (std::invalid_argument).
 std::unique_ptr<Renderer> make_process_renderer(ProcessSpec spec);
 
 }  // namespace plumbline

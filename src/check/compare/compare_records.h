@@ -52,13 +52,13 @@ Measurement compare_polygon_positions(const Records<double>& candidate, const Re
                                       double factor);
 
 /// p_win, 1/w and facing against the exact ones, `factor` u of the magnitudes; snapped positions are the rounding of
-/// the candidate's own p_win, exactly, to the grid of its conventions. Other facings, and missing or extra triangles, are legal where the candidate's
-/// clip polygons leave them open (legal_window.h); the colours are those of the face.
+/// the candidate's own p_win, exactly, to the grid of its conventions. Other facings, and missing or extra triangles,
+/// are legal where the candidate's clip polygons leave them open (legal_window.h); the colours are those of the face.
 Measurement compare_window(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor, const Conventions& conventions = {});
 /// Bit for bit (as floats), but 1/w, which has the tolerance `factor` [ULP]. Colours are not compared: feedback has
-/// none of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h, turned_outlines):
-/// ambiguous.
+/// none of flat draws. `turned`: primitives that both sides draw legally as other faces (legal_window.h,
+/// turned_outlines): ambiguous.
 Measurement compare_window_equal(const Records<double>& candidate, const Records<double>& reference, double factor,
                                  std::span<const std::uint32_t> turned = {});
 

@@ -15,8 +15,9 @@ namespace plumbline::check {
 /// on they share that, too, and are one vote in all.)
 void settle_votes(std::vector<Comparison>& rows);
 
-/// Rows of a candidate whose arithmetic is its own (Profile::foreign): one side by side that is `different`, with the
-/// tolerance of one float recipe on both sides, becomes `unsupported` where exact judges the same stage and it holds. What the stage was handed is judged in the rows of the stages before.
+/// Rows of a candidate whose arithmetic is its own (Profile::foreign): a `different` row side by side, whose tolerance
+/// is that of one float recipe on both sides, becomes `unsupported` where exact judges the same stage and the stage
+/// holds. What the stage was handed is judged in the rows of the stages before.
 void leave_recipes_to_exact(std::vector<Comparison>& rows);
 
 }  // namespace plumbline::check

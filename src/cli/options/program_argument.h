@@ -23,7 +23,7 @@ struct ProgramArgument {
 /// scene. Throws std::invalid_argument where the command line has none of them.
 std::unique_ptr<Renderer> make_program(const ProgramArgument& program);
 
-/// The same for probes: what it leaves is handed on as it is left, its depths not taken for codes of the scene's format.
+/// A program for probes: its depths are handed on as they are left, not taken for codes of the scene's format.
 std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program);
 
 /// The conventions that the file declares; without one, undeclared(). Throws JsonError.

@@ -41,7 +41,7 @@ const check::SceneVerdict& verdict_of(const SceneRubric& rubric, std::span<const
   return *std::ranges::find(verdicts, rubric.scene, &check::SceneVerdict::scene);
 }
 
-// What differs, and by what: a student does not see the table.
+// The remark with both values and counts: a student does not see the table.
 std::string told(const check::Comparison& c) {
   const check::Worst* worst = check::shown(c);
   if (worst == nullptr || c.outcome != check::Outcome::different) return check::remark(c);
