@@ -353,9 +353,9 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.hit.depth_func = scene.draws[t.draw].depth_func;
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
-  // Where a side cuts an edge that two triangles share, each rounds the corner that it makes: down, maybe to another
-  // place.
-  const bool apart = t.cut && projected.conventions.subpixel_rounding == Conventions::Rounding::down;
+  // Where a side cuts an edge that two triangles share, each rounds the corner that it makes: down or up, maybe to
+  // another place.
+  const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
   out.whole = t.facing_kept && !t.flat && !t.cut;
   set_depth(projected, t, scene.draws[t.draw].polygon_offset, scene.depth_clamp, d, at, moved, out);
   out.whole = out.whole && !apart;

@@ -1,6 +1,7 @@
 #include "capture/conventions.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -10,11 +11,21 @@ std::string bits_text(int bits) { return bits == Conventions::kFloat ? "float" :
 
 std::string sample_text(const glm::dvec2& sample) { return fmt::format("{:.4g}, {:.4g}", sample.x, sample.y); }
 
+double rounded(Conventions::Rounding rounding, double v) {
+  using enum Conventions::Rounding;
+  return rounding == down ? std::floor(v) : rounding == up ? std::ceil(v) : std::nearbyint(v);
+}
+
+double middle_of(Conventions::Rounding rounding) {
+  using enum Conventions::Rounding;
+  return rounding == down ? 0.5 : rounding == up ? -0.5 : 0;
+}
+
 std::vector<std::string> mistaken(const Conventions& conventions) {
   const Conventions expected;
   std::vector<std::string> out;
   const auto add = [&](const ConventionWords& words, std::string_view found, std::string_view of_dialect) {
-    out.push_back(fmt::format("{}: {}, expected {} ({})", words.name, found, of_dialect, words.meaning));
+    out.push_back(fmt::format("convention {}: {}, expected {} ({})", words.name, found, of_dialect, words.meaning));
   };
   if (conventions.sample != expected.sample)
     add(kSampleWords, sample_text(conventions.sample), sample_text(expected.sample));
@@ -26,15 +37,18 @@ std::vector<std::string> mistaken(const Conventions& conventions) {
   });
   using enum Conventions::TieRule;
   if (conventions.tie_rule == inclusive || conventions.tie_rule == exclusive) {
-    out.push_back(fmt::format("tie_rule: {}, expected each sample on a shared edge in one triangle: it is in {}",
-                              name_of(conventions.tie_rule), conventions.tie_rule == inclusive ? "both" : "none"));
+    out.push_back(
+        fmt::format("convention tie_rule: {}, expected each sample on a shared edge in one triangle: it is in {}",
+                    name_of(conventions.tie_rule), conventions.tie_rule == inclusive ? "both" : "none"));
   }
   if (conventions.subpixel_bits != Conventions::kFloat && conventions.subpixel_bits < 4)
-    out.push_back(fmt::format("subpixel_bits: {}, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)",
+    out.push_back(fmt::format("convention subpixel_bits: {}, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)",
                               conventions.subpixel_bits));
   if (std::min(conventions.offset_unit.x, conventions.offset_unit.y) < 1)
-    out.push_back(fmt::format("offset_unit: {:.4g}, {:.4g}, expected 1 or more: a unit makes depths differ ({})",
-                              conventions.offset_unit.x, conventions.offset_unit.y, "OpenGL 2.1, 3.5.5"));
+    out.push_back(
+        fmt::format("convention offset_unit: {:.4g}, {:.4g}, expected 1 or more: a unit makes depths differ ({})",
+                    conventions.offset_unit.x, conventions.offset_unit.y, "OpenGL 2.1, 3.5.5"));
+  for (const std::string& line : conventions.unexplained) out.push_back("no convention: " + line);
   return out;
 }
 

@@ -16,7 +16,7 @@ namespace plumbline {
 /// Each default is OpenGL's, and plumbline's own.
 struct Conventions {
   enum class Rows { from_bottom, from_top };
-  enum class Rounding { nearest, down };
+  enum class Rounding { nearest, down, up };
   enum class TieRule { any, left_bottom, left_top, right_bottom, right_top, inclusive, exclusive };
   enum class DepthRange { zero_to_one, minus_one_to_one, one_to_zero };
   enum class Depth { as_asked, z16, z24, z32f };
@@ -59,6 +59,11 @@ struct Conventions {
   Magnified magnified = Magnified::up_to_half;
   HalfWay half_way_level = HalfWay::down;
 
+  /// Names of those that plumb learn could not tell, which stand at OpenGL's.
+  std::vector<std::string> open;
+  /// What plumb learn saw that no convention explains, a sentence each: findings, as mistaken conventions are.
+  std::vector<std::string> unexplained;
+
   static constexpr int kFloat = -1;
   bool operator==(const Conventions&) const = default;
 };
@@ -66,7 +71,7 @@ struct Conventions {
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::Rows> = {"from_bottom", "from_top"};
 template <>
-inline constexpr std::array<Name, 2> kNamesOf<Conventions::Rounding> = {"nearest", "down"};
+inline constexpr std::array<Name, 3> kNamesOf<Conventions::Rounding> = {"nearest", "down", "up"};
 template <>
 inline constexpr std::array<Name, 7> kNamesOf<Conventions::TieRule> = {
     "any", "left_bottom", "left_top", "right_bottom", "right_top", "inclusive", "exclusive"};
@@ -98,11 +103,16 @@ inline constexpr std::array<Name, 2> kNamesOf<Conventions::Magnified> = {"up_to_
 template <>
 inline constexpr std::array<Name, 2> kNamesOf<Conventions::HalfWay> = {"down", "either"};
 
+/// The whole number that the rounding makes of v.
+double rounded(Conventions::Rounding rounding, double v);
+/// The middle of the numbers that become a whole number by the rounding, from that number.
+double middle_of(Conventions::Rounding rounding);
+
 /// A convention for people.
 struct ConventionWords {
   std::string_view name;     ///< its key in files
   std::string_view meaning;  ///< what it says
-  bool is_free;              ///< OpenGL leaves it to the renderer; else another than the default is a mistake
+  bool is_free;              ///< OpenGL leaves it to the renderer, of numbers within limits (mistaken())
 };
 
 /// Calls visit(words, member) for each convention that is one of several words, in the order of tables.
@@ -152,8 +162,8 @@ std::string bits_text(int bits);
 /// "0.5, 0.5", to 1/1024 pixel.
 std::string sample_text(const glm::dvec2& sample);
 
-/// Conventions that are mistakes, a line each: "rows: from_top, expected from_bottom (the order of the picture's
-/// rows)".
+/// Conventions that are mistakes, a line each: "convention rows: from_top, expected from_bottom (the order of the
+/// picture's rows)"; then what no convention explains: "no convention: one scene drawn twice differs".
 std::vector<std::string> mistaken(const Conventions& conventions);
 
 /// Conventions of a renderer that declares none: OpenGL's, where the 2.1 specification leaves it open in every legal

@@ -158,11 +158,12 @@ int check(const CheckOptions& given) {
   judge_in_workers(scenes, rules, words, take);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (is_whole(o, verdicts)) head.failures = check::of_no_scene(rules.expectations, verdicts);
-  for (const std::string& line : mistaken(conventions_of(o.candidate.conventions))) {
-    head.failures.push_back("convention " + line);
-  }
+  const Conventions conventions = conventions_of(o.candidate.conventions);
+  for (const std::string& line : mistaken(conventions)) head.failures.push_back(line);
   const bool holds = report::all_hold(verdicts) && head.failures.empty();
   std::string summary = not_asked_line(o);
+  if (!conventions.open.empty())
+    summary += fmt::format("judged by OpenGL's, as plumb learn found none: {}\n", fmt::join(conventions.open, ", "));
   if (!o.candidate.command.empty() && !can_confine())
     summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());

@@ -105,7 +105,7 @@ std::string contradiction_lines(const Capture& capture) {
 std::string convention_lines(const Conventions& conventions) {
   std::string out;
   for (const std::string& line : mistaken(conventions)) out += fmt::format("  {}\n", line);
-  return out.empty() ? out : "conventions that are mistakes (the stages are judged by them):\n" + out + "\n";
+  return out.empty() ? out : "mistakes in the conventions, by which the stages are judged:\n" + out + "\n";
 }
 
 bool holds(const check::Diagnosis& diagnosis) {

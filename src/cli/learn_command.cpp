@@ -51,7 +51,7 @@ int learn(const LearnOptions& o) {
   fmt::print("{}", learn::learned_text(learned));
   if (!o.output.empty()) write_file(o.output, conventions_text(learned.conventions));
   if (!o.pictures.empty()) write_pictures(o.pictures, learned);
-  return mistaken(learned.conventions).empty() && learned.contradictions.empty() ? kHolds : kDiffers;
+  return mistaken(learned.conventions).empty() ? kHolds : kDiffers;
 }
 
 }  // namespace plumbline::cli

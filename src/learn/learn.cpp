@@ -23,6 +23,13 @@ void Prober::found(const ConventionWords& words, std::string_view value, std::st
 
 void Prober::open(const ConventionWords& words, std::string why) {
   learned.rows.push_back({std::string(words.name), "open", std::move(why)});
+  learned.conventions.open.emplace_back(words.name);
+}
+
+void Prober::fits_none(const ConventionWords& words, const std::string& evidence) {
+  open(words, evidence);
+  learned.rows.back().value = "none fits";
+  unexplained(fmt::format("{}: {}", words.name, evidence));
 }
 
 ConventionWords words_of(std::string_view name) {
@@ -37,7 +44,7 @@ ConventionWords words_of(std::string_view name) {
 
 Learned learn(Renderer& renderer) {
   Prober prober(renderer);
-  for (const auto& part : {learn_rows, learn_depths, learn_grid, learn_ties, learn_colors, learn_clipping,
+  for (const auto& part : {learn_rows, learn_clipping, learn_depths, learn_grid, learn_ties, learn_colors,
                            learn_attributes, learn_tests, learn_offset_unit, learn_textures}) {
     part(prober);
   }
@@ -51,8 +58,7 @@ std::string learned_text(const Learned& learned) {
   std::string out = fmt::format("{:<18} {:<14} {}\n", "convention", "found", "evidence");
   for (const LearnedRow& row : learned.rows)
     out += fmt::format("{:<18} {:<14} {}\n", row.name, row.value, row.evidence);
-  for (const std::string& line : mistaken(learned.conventions)) out += fmt::format("mistaken: {}\n", line);
-  for (const std::string& line : learned.contradictions) out += fmt::format("no convention: {}\n", line);
+  for (const std::string& line : mistaken(learned.conventions)) out += fmt::format("{}\n", line);
   return out;
 }
 

@@ -18,22 +18,27 @@ using C = Conventions;
 
 constexpr int kDepthsInRow = 16;
 
-// Rectangles of 4 x 4 pixels, each at one depth.
-Scene at_depths(const std::string& name, const std::vector<double>& depths) {
+// Rectangles of 4 x 4 pixels, each at one depth. Of a view volume of [0,w], which begins where OpenGL's has its middle,
+// depths lie between 1/2 and 1 of OpenGL's.
+Scene at_depths(const Prober& prober, const std::string& name, const std::vector<double>& depths) {
+  const bool from_zero = prober.learned.conventions.clip_depth == C::ClipDepth::zero_to_w;
   Scene scene = probe_frame(name, 4 * kDepthsInRow, 4 * kDepthsInRow);
   std::vector<std::array<ProbeCorner, 3>> triangles;
   for (std::size_t i = 0; i < depths.size(); ++i) {
     const glm::dvec2 low(4.0 * static_cast<double>(i % kDepthsInRow), 4.0 * static_cast<double>(i / kDepthsInRow));
-    for (const auto& t : rectangle(low, low + 4.0, depths[i], glm::vec4(1))) triangles.push_back(t);
+    for (const auto& t : rectangle(low, low + 4.0, from_zero ? (1 + depths[i]) / 2 : depths[i], glm::vec4(1)))
+      triangles.push_back(t);
   }
   add_triangles(scene, triangles);
   return scene;
 }
 
 // The depth in the middle of each of them; none: the renderer leaves no depths.
-std::optional<std::vector<double>> depths_of(Prober& prober, const std::string& name,
-                                             const std::vector<double>& depths) {
-  const Plane<double> plane = prober.draw(at_depths(name, depths)).depth;
+std::optional<std::vector<double>> depths_of(Prober& prober, const std::string& name, const std::vector<double>& depths,
+                                             DepthFormat format = DepthFormat::z24) {
+  Scene scene = at_depths(prober, name, depths);
+  scene.frame.depth = format;
+  const Plane<double> plane = prober.draw(scene).depth;
   if (plane.empty()) return std::nullopt;
   std::vector<double> out;
   for (std::size_t i = 0; i < depths.size(); ++i)
@@ -53,10 +58,23 @@ std::size_t fitting(C::DepthRange range, const std::vector<double>& given, const
   return out;
 }
 
-// Codes of n bits: how many depths are codes, within what a float loses, and how many of those are the nearest and the
-// lower one. Depths are multiples of 2^-16 below 2/5: z (2^n - 1) lies z below a whole number.
+constexpr std::array kRoundings = {C::Rounding::nearest, C::Rounding::down, C::Rounding::up};
+
+// Multiples of 2^-16 below 1/4 and above 3/5: n bits' code z (2^n - 1) lies z below a whole number, so that the nearest
+// code is the upper one of the first half, the lower one of the second.
+std::vector<double> given_depths() {
+  std::vector<double> out;
+  for (int i = 0; i < 128; ++i) out.push_back((2000 + 97 * i) / 65536.0);
+  for (int i = 0; i < 128; ++i) out.push_back((40000 + 97 * i) / 65536.0);
+  return out;
+}
+
+// Codes of n bits: how many depths are codes, within what a float loses; how many are less than a code from what was
+// given; and how many are the code of each rounding.
 struct Codes {
-  std::size_t codes = 0, nearest = 0, lower = 0;
+  std::size_t codes = 0, near = 0;
+  std::array<std::size_t, kRoundings.size()> fits{};
+  std::size_t most() const { return *std::ranges::max_element(fits); }
 };
 Codes codes_of(double bits, const std::vector<double>& given, const std::vector<double>& left) {
   const double scale = std::ldexp(1.0, static_cast<int>(bits)) - 1;
@@ -64,40 +82,63 @@ Codes codes_of(double bits, const std::vector<double>& given, const std::vector<
   for (std::size_t i = 0; i < given.size(); ++i) {
     const double code = std::round(left[i] * scale), exact = given[i] * scale;
     out.codes += std::abs(left[i] * scale - code) < 0.26 ? 1 : 0;
-    out.nearest += code == std::round(exact) ? 1 : 0;
-    out.lower += code == std::floor(exact) ? 1 : 0;
+    out.near += std::abs(code - exact) < 1 ? 1 : 0;
+    for (std::size_t k = 0; k < kRoundings.size(); ++k) out.fits[k] += code == rounded(kRoundings[k], exact) ? 1 : 0;
   }
   return out;
 }
 
+bool nearly_all(std::size_t n, std::size_t of) { return n * 50 >= of * 49; }
+
+// By the codes that are found, and by those of 16 bits where the renderer leaves them when asked: there, arithmetic in
+// float tells the nearest code from the upper one.
+void learn_rounding(Prober& prober, Codes codes, std::size_t n) {
+  const ConventionWords words = words_of("depth_rounding");
+  C& c = prober.learned.conventions;
+  if (c.depth_format == C::Depth::as_asked) {
+    const std::vector<double> given = given_depths();
+    try {
+      const auto left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16);
+      const Codes of_16 = codes_of(16, given, *left);
+      if (of_16.codes == given.size()) {
+        for (std::size_t k = 0; k < codes.fits.size(); ++k) codes.fits[k] += of_16.fits[k];
+        n += given.size();
+      }
+    } catch (const Unsupported&) {  // it draws no depths of 16 bits
+    }
+  }
+  const std::string evidence = fmt::format("{} of {} depths", codes.most(), n);
+  if (!nearly_all(codes.most(), n)) return prober.fits_none(words, evidence + " at most are explained by one rounding");
+  c.depth_rounding = kRoundings[static_cast<std::size_t>(std::ranges::max_element(codes.fits) - codes.fits.begin())];
+  prober.found(words, name_of(c.depth_rounding), evidence);
+}
+
 void learn_format(Prober& prober) {
   const ConventionWords format = words_of("depth_format"), rounding = words_of("depth_rounding");
-  std::vector<double> given;
-  for (int i = 0; i < 256; ++i) given.push_back((2000 + 97 * i) / 65536.0);
+  const std::vector<double> given = given_depths();
   const std::vector<double> left = depths_of(prober, "depth_codes", given).value();
-  const auto count = [&](std::size_t n) { return fmt::format("{} of {} depths", n, given.size()); };
+  const std::size_t n = given.size();
   const Codes of_16 = codes_of(16, given, left), of_24 = codes_of(24, given, left);
   std::size_t is_float = 0;  // multiples of 2^-16 are
-  for (std::size_t i = 0; i < given.size(); ++i) is_float += left[i] == given[i] ? 1 : 0;
-  C& c = prober.learned.conventions;
-  const auto take = [&](C::Depth found, const Codes* codes, std::size_t fits) {
-    c.depth_format = found;
-    prober.found(format, name_of(found), count(fits) + (codes == nullptr ? " as floats" : " are its codes"));
-    if (codes == nullptr) return prober.found(rounding, "nearest", "depths are floats");
-    c.depth_rounding = codes->lower > codes->nearest ? C::Rounding::down : C::Rounding::nearest;
-    prober.found(rounding, name_of(c.depth_rounding), count(std::max(codes->lower, codes->nearest)));
+  for (std::size_t i = 0; i < n; ++i) is_float += left[i] == given[i] ? 1 : 0;
+  const auto take = [&](C::Depth found, std::size_t fits, const char* as) {
+    prober.learned.conventions.depth_format = found;
+    prober.found(format, name_of(found), fmt::format("{} of {} depths are {}", fits, n, as));
   };
-  if (of_16.codes == given.size() && std::max(of_16.nearest, of_16.lower) * 50 >= given.size() * 49)
-    return take(C::Depth::z16, &of_16, of_16.codes);
-  if (is_float * 50 >= given.size() * 49) return take(C::Depth::z32f, nullptr, is_float);
-  if (std::max(of_24.nearest, of_24.lower) * 50 >= given.size() * 49) {
-    take(C::Depth::z24, &of_24, of_24.codes);
-    c.depth_format = C::Depth::as_asked;  // the probe asks for 24 bits
-    prober.learned.rows[prober.learned.rows.size() - 2].value = "as_asked";
-    return;
+  if (of_16.codes == n && nearly_all(of_16.most(), n)) {
+    take(C::Depth::z16, of_16.codes, "codes of 16 bits");
+    return learn_rounding(prober, of_16, n);
   }
-  prober.open(format, "depths are neither codes of 16 or 24 bits nor floats");
-  prober.open(rounding, "likewise");
+  if (nearly_all(is_float, n)) {
+    take(C::Depth::z32f, is_float, "floats");
+    return prober.found(rounding, "nearest", "depths are floats");
+  }
+  if (nearly_all(of_24.near, n)) {
+    take(C::Depth::as_asked, of_24.near, "within a code of 24 bits, which the probe asks for");
+    return learn_rounding(prober, of_24, n);
+  }
+  prober.fits_none(format, "depths are neither codes of 16 or 24 bits nor floats");
+  prober.open(rounding, "the format is open");
 }
 
 }  // namespace
@@ -112,12 +153,12 @@ void learn_rows(Prober& prober) {
   }
   const glm::vec4 first = color(0, 0);
   if (std::ranges::all_of(color.values(), [&](const glm::vec4& c) { return c == first || !(c == c); }))
-    prober.contradicts("a white rectangle in the lower half of a black picture: every pixel has one colour or is NaN");
-  if (prober.draw(scene).color.values() != color.values()) prober.contradicts("one scene drawn twice differs");
+    prober.unexplained("a white rectangle in the lower half of a black picture: every pixel has one colour or is NaN");
   if (std::max(below, above) < std::min(below, above) + 64) {
-    prober.contradicts(fmt::format("a rectangle of 128 pixels in the lower half: {} pixels there, {} in the upper half",
-                                   below, above));
-    return prober.open(words_of("rows"), "neither half holds the rectangle");
+    return prober.fits_none(
+        words_of("rows"),
+        fmt::format("a rectangle of 128 pixels in the lower half: {} pixels there, {} in the upper half", below,
+                    above));
   }
   const C::Rows rows = below > above ? C::Rows::from_bottom : C::Rows::from_top;
   prober.learned.conventions.rows = rows;
@@ -139,9 +180,9 @@ void learn_depths(Prober& prober) {
     prober.found(range, name_of(found), fmt::format("{} of {} depths", given.size(), given.size()));
     return learn_format(prober);
   }
-  prober.open(range,
-              fmt::format("0.125, 0.25, 0.5, 0.75 and 0.875 are left as {:.4g}, {:.4g}, {:.4g}, {:.4g} and {:.4g}",
-                          (*left)[0], (*left)[1], (*left)[2], (*left)[3], (*left)[4]));
+  prober.fits_none(range,
+                   fmt::format("0.125, 0.25, 0.5, 0.75 and 0.875 are left as {:.4g}, {:.4g}, {:.4g}, {:.4g} and {:.4g}",
+                               (*left)[0], (*left)[1], (*left)[2], (*left)[3], (*left)[4]));
   for (const char* name : {"depth_format", "depth_rounding"}) prober.open(words_of(name), "the range is open");
 }
 
@@ -156,7 +197,7 @@ void learn_offset_unit(Prober& prober) {
       const double units = codes_of_16 ? 14336 : 14336 * 256, scale = codes_of_16 ? 65535 : 16777215;
       double left[2] = {0, 0};
       for (const int moved : {0, 1}) {
-        Scene scene = at_depths("offset_unit", {0.75});
+        Scene scene = at_depths(prober, "offset_unit", {0.75});
         scene.frame.depth = format;
         scene.draws[0].polygon_offset = {0, static_cast<float>(-units * moved)};
         const Plane<double> depth = prober.draw(scene).depth;
@@ -164,10 +205,11 @@ void learn_offset_unit(Prober& prober) {
         left[moved] = depth(2, 2);
       }
       const double codes = (left[0] - left[1]) * scale, unit = codes / units;
-      if (!(unit > 0.01)) return prober.open(kOffsetWords, "an offset moves nothing");
+      if (!(unit > 0.01))
+        return prober.fits_none(kOffsetWords, fmt::format("{} units move a depth by {:.0f} codes", units, codes));
       (format == DepthFormat::z16 ? c.offset_unit.y : c.offset_unit.x) = std::round(unit * 1e4) / 1e4;
-      evidence +=
-          fmt::format("{}{} units are {:.0f} codes", format == DepthFormat::z16 ? ", of 16 bits " : "", units, codes);
+      evidence += fmt::format("{}{} units move a depth of {} bits by {:.0f} codes", evidence.empty() ? "" : ", ", units,
+                              codes_of_16 ? 16 : 24, codes);
     }
     prober.found(kOffsetWords, fmt::format("{:.4g}, {:.4g}", c.offset_unit.x, c.offset_unit.y), evidence);
   } catch (const Unsupported& e) {

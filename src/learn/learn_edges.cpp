@@ -64,9 +64,8 @@ std::vector<Rise> rises(Prober& prober, int along, const std::vector<double>& of
 std::optional<double> snapped(double offset, int bits, C::Rounding rounding) {
   if (bits == C::kFloat) return offset;
   const double place = std::ldexp(offset, bits);
-  if (rounding == C::Rounding::down) return std::ldexp(std::floor(place), -bits);
-  if (place - std::floor(place) == 0.5) return std::nullopt;
-  return std::ldexp(std::nearbyint(place), -bits);
+  if (rounding == C::Rounding::nearest && place - std::floor(place) == 0.5) return std::nullopt;
+  return std::ldexp(rounded(rounding, place), -bits);
 }
 
 // A grid explains the rises where the sample's place comes out the same from all of them.
@@ -98,7 +97,7 @@ std::optional<Grid> grid_of(const std::vector<Rise>& rises) {
   // The one by which it scatters least; of as good ones the finest.
   std::optional<Grid> best = explains(C::kFloat, C::Rounding::nearest);
   for (int bits = 9; bits >= 0; --bits) {
-    for (const C::Rounding rounding : {C::Rounding::nearest, C::Rounding::down}) {
+    for (const C::Rounding rounding : {C::Rounding::nearest, C::Rounding::down, C::Rounding::up}) {
       const auto grid = explains(bits, rounding);
       if (grid && (!best || grid->scatter < best->scatter - 0.5 / kLong)) best = grid;
     }
@@ -135,21 +134,21 @@ void learn_grid(Prober& prober) {
   }
   const auto &rows = grids[0], &columns = grids[1];
   if (!rows || !columns) {
-    prober.contradicts("edges moved by 1/1024 pixel go by no grid");
+    prober.unexplained("edges moved by 1/1024 pixel go by no grid");
     for (const ConventionWords& words : {kSampleWords, bits, rounding})
-      prober.open(words, "edges moved by 1/1024 pixel go by no grid");
+      prober.open(words, "no grid explains the edges");
     return;
   }
   if (rows->bits != columns->bits || rows->rounding != columns->rounding) {
-    prober.contradicts("window positions go by one grid in x, by another in y");
+    prober.unexplained("window positions go by one grid in x, by another in y");
     for (const ConventionWords& words : {kSampleWords, bits, rounding})
       prober.open(words, "edges contradict each other");
     return;
   }
   const std::size_t explained = rows->probes + columns->probes;
-  const std::string evidence = fmt::format("{} of {} edges", explained, 2 * offsets.size());
+  const std::string evidence = fmt::format("{} of {} edges that moved by 1/1024 pixel", explained, 2 * offsets.size());
   if (explained < offsets.size())
-    prober.contradicts(fmt::format("window positions go by no grid: the best one explains {}", evidence));
+    prober.unexplained(fmt::format("window positions go by no grid: the best one explains {}", evidence));
   C& c = prober.learned.conventions;
   const auto placed = [](double at) {
     return std::abs(at - std::round(2 * at) / 2) < 0.003 ? std::round(2 * at) / 2 : at;
@@ -158,7 +157,7 @@ void learn_grid(Prober& prober) {
   const bool in_pixel = glm::clamp(sample, 0.0, 1.0) == sample;
   const glm::dvec2 shift = rows->bits == 0 || rows->bits == 1 ? glm::dvec2(0) : lowest_left(prober, sample) - 3.0;
   if (!in_pixel || shift != glm::dvec2(0)) {
-    prober.contradicts(fmt::format("a sample lies outside its pixel: at {}, and {}, {} whole pixels away",
+    prober.unexplained(fmt::format("a sample lies outside its pixel: at {}, and {}, {} whole pixels away",
                                    sample_text(sample), -shift.x, -shift.y));
     for (const ConventionWords& words : {kSampleWords, bits, rounding}) prober.open(words, "the picture is shifted");
     return;
@@ -166,7 +165,7 @@ void learn_grid(Prober& prober) {
   c.sample = sample;
   c.subpixel_bits = rows->bits;
   c.subpixel_rounding = rows->rounding;
-  prober.found(kSampleWords, sample_text(c.sample), evidence + ", to 1/1024 pixel");
+  prober.found(kSampleWords, sample_text(c.sample), evidence);
   prober.found(bits, bits_text(c.subpixel_bits),
                evidence + (c.subpixel_bits == C::kFloat ? " (or 10 bits or more)" : ""));
   prober.found(rounding, c.subpixel_bits == C::kFloat ? "nearest" : name_of(c.subpixel_rounding), evidence);
@@ -212,6 +211,8 @@ Shared shared_edges(Prober& prober, glm::dvec2 sample) {
 void learn_ties(Prober& prober) {
   const ConventionWords words = words_of("tie_rule");
   C& c = prober.learned.conventions;
+  if (std::ranges::find(c.open, kSampleWords.name) != c.open.end())
+    return prober.open(words, "the sample's place is open");
   const double steps = c.subpixel_bits == C::kFloat ? 1024 : std::ldexp(1.0, c.subpixel_bits);
   if (c.sample * steps != glm::round(c.sample * steps)) {
     return prober.open(words, "no edge can be laid through a sample: its place is not on the grid");
@@ -235,9 +236,9 @@ void learn_ties(Prober& prober) {
     } else if (!left && !right && !bottom && !top && shared.more == 0) {
       c.tie_rule = exclusive;
     } else {
-      prober.contradicts(fmt::format("samples on a fan's edges: {} are in no triangle (cracks), {} in several",
-                                     shared.none, shared.more));
-      return prober.open(words, evidence);
+      return prober.fits_none(
+          words, fmt::format("of {} samples on a fan's edges, {} are in no triangle (cracks), {} in several", all,
+                             shared.none, shared.more));
     }
     prober.found(words, name_of(c.tie_rule), evidence);
   } catch (const Unsupported& e) {

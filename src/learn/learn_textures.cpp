@@ -68,97 +68,102 @@ void learn_weights(Prober& prober) {
     }
   }
   const std::string evidence = fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * kTexturedSize, most);
-  int bits = c.color_rounding == C::Rounding::down && most <= 1.01 ? C::kFloat : most <= 0.51 ? C::kFloat : 12;
+  int bits = c.color_rounding != C::Rounding::nearest && most <= 1.01 ? C::kFloat : most <= 0.51 ? C::kFloat : 12;
   // A weight is off by a step, of neighbours up to 255 codes apart in each direction; three means round.
   while (bits > 0 && most > 0.5 + std::ldexp(255.0, -bits) * (1 + 1.5)) --bits;
-  if (bits == 0 || (bits > 0 && bits < 4)) return prober.open(words, evidence);
+  if (bits == 0 || (bits > 0 && bits < 4)) return prober.fits_none(words, evidence);
   prober.learned.conventions.texture_bits = bits;
   prober.found(words, bits_text(bits), evidence);
 }
 
-// A floor that reaches from near to far, each level of its texture in its own grey. Its texture lies askew: the length
-// of a derivative is another than its largest component.
-void learn_levels(Prober& prober) {
-  const ConventionWords words = words_of("level_of_detail");
-  Texture texture = texture_of(64, [](int, int) { return 0; });
+// A floor that reaches from near to far, each level of its texture in its own grey: at the window's corners, its place in
+// eye space and its texture coordinates. The texture lies askew: the length of a derivative is another than its largest
+// component.
+constexpr ProbeCorner floor_corner(glm::dvec2 ndc, double w, glm::vec2 st) { return {{ndc * w, w}, glm::vec4(1), st}; }
+constexpr std::array<ProbeCorner, 4> kFloor = {floor_corner({-1, -1}, 2, {0, 0}),
+                                               floor_corner({1, -1}, 2, {1.1f, 0.9f}),
+                                               floor_corner({1, 1}, 12, {-1, 9}), floor_corner({-1, 1}, 12, {-8, 4})};
+constexpr int kFloorTexture = 64;
+
+Scene floor_scene() {
+  Texture texture = texture_of(kFloorTexture, [](int, int) { return 0; });
   texture.sampler.min = MinFilter::nearest_mipmap_nearest, texture.sampler.mag = MagFilter::nearest;
-  Scene scene = textured_frame("levels", texture, 1);
-  scene.projection = Perspective{90, 1, 100};
-  // Window x, y and w of its corners; texture coordinates go by the place on the floor.
-  const auto corner = [](double x, double y, double w, float s, float t) {
-    return ProbeCorner{{x * w, y * w, w}, glm::vec4(1), {s, t}};
-  };
-  Mesh& mesh = scene.meshes[0];
-  const std::array<ProbeCorner, 4> c = {
-      {corner(-1, -1, 2, 0, 0), corner(1, -1, 2, 1.1f, 0.9f), corner(1, 1, 12, -1, 9), corner(-1, 1, 12, -8, 4)}};
-  const std::array<int, 6> order = {0, 1, 2, 0, 2, 3};
-  for (std::size_t i = 0; i < 6; ++i) {
-    const ProbeCorner& from = c[static_cast<std::size_t>(order[i])];
-    mesh.positions[i] = {from.p.x, from.p.y, -from.p.z};
-    mesh.texcoords[i] = from.texcoord;
+  texture.sampler.wrap_s = texture.sampler.wrap_t = Wrap::repeat;
+  Scene out = probe_frame("levels", kTexturedSize, kTexturedSize);
+  out.projection = Perspective{90, 1, 100};
+  out.textures.push_back(std::move(texture));
+  add_triangles(out, quad(kFloor)).texture = DrawTexture{0, TextureEnvironment::replace, glm::vec4(0)};
+  return out;
+}
+
+// Texture coordinates at a place of the window [pixels], perspective-correct, in the plane of the lower right triangle or
+// of the other.
+glm::dvec2 floor_st(glm::dvec2 p_win, bool lower) {
+  const glm::dvec2 at = p_win / static_cast<double>(kTexturedSize);
+  const double u = at.x, v = at.y;
+  const std::array<std::size_t, 3> corners = {0, lower ? 1u : 2u, lower ? 2u : 3u};
+  const std::array<double, 3> weights = lower ? std::array{1 - u, u - v, v} : std::array{1 - v, u, v - u};
+  glm::dvec2 sum(0);
+  double over = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ProbeCorner& corner = kFloor[corners[i]];
+    const double q = weights[i] / corner.p.z;
+    sum += q * glm::dvec2(corner.texcoord), over += q;
   }
-  scene.textures[0].sampler.wrap_s = scene.textures[0].sampler.wrap_t = Wrap::repeat;
-  const Plane<glm::vec4> color = prober.draw(scene).color;
-  // (s, t) at a place of the window, perspective-correct, in the triangle that holds it.
-  const glm::dvec2 sample = prober.learned.conventions.sample;
-  const auto st = [&](double px, double py, bool lower) {
-    const glm::dvec2 at = (glm::dvec2(px, py) + sample) * 2.0 / static_cast<double>(kTexturedSize) - 1.0;
-    const std::size_t k[3] = {0, lower ? 1u : 2u, lower ? 2u : 3u};
-    const glm::dvec2 a(-1, -1), b = lower ? glm::dvec2(1, -1) : glm::dvec2(1, 1),
-                                d = lower ? glm::dvec2(1, 1) : glm::dvec2(-1, 1);
-    const double area = (b.x - a.x) * (d.y - a.y) - (b.y - a.y) * (d.x - a.x);
-    const double w1 = ((at.x - a.x) * (d.y - a.y) - (at.y - a.y) * (d.x - a.x)) / area,
-                 w2 = ((b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x)) / area;
-    const double weights[3] = {1 - w1 - w2, w1, w2};
-    glm::dvec2 sum(0);
-    double over = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double q = weights[i] / c[k[i]].p.z;
-      sum += q * glm::dvec2(c[k[i]].texcoord), over += q;
-    }
-    return sum / over;
+  return sum / over;
+}
+
+double floor_lambda(glm::dvec2 p_win, bool lower) {
+  constexpr double h = 1e-3;  // pixels
+  const auto derivative = [&](glm::dvec2 step) {
+    return glm::length(floor_st(p_win + step, lower) - floor_st(p_win - step, lower)) * kFloorTexture / (2 * h);
   };
-  std::size_t all = 0, exact = 0, in_squares = 0, alike = 0, squares = 0;
-  const auto level_at = [&](int x, int y) { return std::round(255 * static_cast<double>(color(x, y).r) / 40); };
+  return std::log2(std::max(derivative({h, 0}), derivative({0, h})));
+}
+
+// Of the pixels that are not at the triangles' common edge: how many have their own level, and how many one of their
+// square of two by two. Of the squares whose pixels' own levels differ: how many have one level.
+struct Levels {
+  std::size_t pixels = 0, own = 0, of_square = 0, squares = 0, alike = 0;
+};
+Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample) {
+  const auto drawn = [&](int x, int y) { return std::round(255 * static_cast<double>(color(x, y).r) / 40); };
+  const auto level = [](double lambda) { return std::clamp(std::ceil(lambda + 0.5) - 1, 0.0, 6.0); };
+  Levels out;
   for (int y = 0; y < kTexturedSize; ++y) {
     for (int x = 0; x < kTexturedSize; ++x) {
-      const int sx = x & ~1, sy = y & ~1;
-      if (std::abs(x - y) < 3) continue;  // the triangles' common edge
-      const bool lower = x > y;
-      const auto lambda = [&](double px, double py) {
-        const double h = 1e-3;
-        const glm::dvec2 d_dx = (st(px + h, py, lower) - st(px - h, py, lower)) * 64.0 / (2 * h),
-                         d_dy = (st(px, py + h, lower) - st(px, py - h, lower)) * 64.0 / (2 * h);
-        return std::log2(std::max(glm::length(d_dx), glm::length(d_dy)));
-      };
-      const auto level = [](double l) { return std::clamp(std::ceil(l + 0.5) - 1, 0.0, 6.0); };
-      const double own = lambda(x, y);
-      double least = own, most = own;
+      if (std::abs(x - y) < 3) continue;
+      const int left = x & ~1, low = y & ~1;
+      std::array<double, 4> lambdas{};
+      std::array<double, 4> found{};
       for (int k = 0; k < 4; ++k) {
-        const double l = lambda(sx + k % 2, sy + k / 2);
-        least = std::min(least, l), most = std::max(most, l);
+        const glm::ivec2 at(left + k % 2, low + k / 2);
+        lambdas[static_cast<std::size_t>(k)] = floor_lambda(glm::dvec2(at) + sample, x > y);
+        found[static_cast<std::size_t>(k)] = drawn(at.x, at.y);
       }
-      const double is = level_at(x, y);
-      ++all;
-      exact += is == level(own) ? 1 : 0;
-      in_squares += is >= level(least - 0.05) && is <= level(most + 0.01) ? 1 : 0;
-      if (level(least) != level(most) && x == sx && y == sy) {
-        ++squares;
-        alike += level_at(x, y) == level_at(x + 1, y) && level_at(x, y) == level_at(x, y + 1) &&
-                         level_at(x, y) == level_at(x + 1, y + 1)
-                     ? 1
-                     : 0;
-      }
+      const auto [least, most] = std::ranges::minmax(lambdas);
+      const double is = drawn(x, y);
+      ++out.pixels;
+      out.own += is == level(floor_lambda(glm::dvec2(x, y) + sample, x > y)) ? 1 : 0;
+      out.of_square += is >= level(least - 0.05) && is <= level(most + 0.01) ? 1 : 0;
+      if (x != left || y != low || level(least) == level(most)) continue;
+      ++out.squares;
+      out.alike += std::ranges::all_of(found, [&](double l) { return l == is; }) ? 1 : 0;
     }
   }
+  return out;
+}
+
+void learn_levels(Prober& prober) {
+  C& c = prober.learned.conventions;
+  const Levels levels = levels_of(prober.draw(floor_scene()).color, c.sample);
   using enum C::LevelOfDetail;
-  C& conventions = prober.learned.conventions;
-  const bool per_square_alike = squares > 0 && alike * 10 >= squares * 9;
-  const std::string evidence =
-      fmt::format("{} of {} levels are the pixel's own, {} its square's; {} of {} squares have one level", exact, all,
-                  in_squares, alike, squares);
-  conventions.level_of_detail = in_squares < all ? approximate : per_square_alike ? per_square : per_pixel;
-  prober.found(words, name_of(conventions.level_of_detail), evidence);
+  const bool one_each = levels.squares > 0 && levels.alike * 10 >= levels.squares * 9;
+  c.level_of_detail = levels.of_square < levels.pixels ? approximate : one_each ? per_square : per_pixel;
+  prober.found(words_of("level_of_detail"), name_of(c.level_of_detail),
+               fmt::format("{} of {} pixels have a level of their square of 2 x 2, {} their own; "
+                           "{} of {} squares with several levels are drawn in one",
+                           levels.of_square, levels.pixels, levels.own, levels.alike, levels.squares));
 }
 
 // Texels of 0 and 255 by turns, at a level of detail of 1/4: mixed where it is magnified, and by a linear filter.

@@ -13,7 +13,7 @@ namespace plumbline::learn {
 /// One convention, and what shows it.
 struct LearnedRow {
   std::string name;      ///< as in conventions.json
-  std::string value;     ///< in its words; "open": the probes do not tell
+  std::string value;     ///< in its words; "open": the renderer does not show it; "none fits": no value explains it
   std::string evidence;  ///< such as "1,024 of 1,024 probes", or why it is open
 };
 
@@ -26,8 +26,7 @@ struct ProbePicture {
 struct Learned {
   Conventions conventions;
   std::vector<LearnedRow> rows;
-  std::vector<std::string> contradictions;  ///< findings: no convention explains them
-  std::vector<ProbePicture> pictures;       ///< the first of each probe
+  std::vector<ProbePicture> pictures;  ///< the first of each probe
 };
 
 class Prober {
@@ -38,10 +37,14 @@ class Prober {
   /// colour is left.
   Planes draw(const Scene& scene);
 
-  /// A row of what was found, or is open.
+  /// A row of what was found.
   void found(const ConventionWords& words, std::string_view value, std::string evidence);
+  /// A row of what the renderer does not show.
   void open(const ConventionWords& words, std::string why);
-  void contradicts(std::string finding) { learned.contradictions.push_back(std::move(finding)); }
+  /// A row of what it shows and none of the convention's values explains: a finding.
+  void fits_none(const ConventionWords& words, const std::string& evidence);
+  /// A finding that is of no one convention.
+  void unexplained(std::string finding) { learned.conventions.unexplained.push_back(std::move(finding)); }
 
   Learned learned;
 
@@ -55,11 +58,11 @@ ConventionWords words_of(std::string_view name);
 // The probes, in the order in which they build upon each other. Each finds its conventions, or leaves them open; what
 // the renderer cannot draw (Unsupported) is open.
 void learn_rows(Prober& prober);
+void learn_clipping(Prober& prober);
 void learn_depths(Prober& prober);
 void learn_grid(Prober& prober);
 void learn_ties(Prober& prober);
 void learn_colors(Prober& prober);
-void learn_clipping(Prober& prober);
 void learn_attributes(Prober& prober);
 void learn_tests(Prober& prober);
 void learn_offset_unit(Prober& prober);

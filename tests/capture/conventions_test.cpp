@@ -38,6 +38,7 @@ TEST_F(ConventionsFile, WhatIsWrittenIsReadBack) {
   c.subpixel_bits = C::kFloat, c.texture_bits = 8;
   c.rows = C::Rows::from_top, c.tie_rule = C::TieRule::right_top, c.depth_range = C::DepthRange::one_to_zero;
   c.level_of_detail = C::LevelOfDetail::approximate, c.blending = C::Blending::in_codes;
+  c.open = {"sample", "blending"}, c.unexplained = {"one scene \"drawn\" twice differs"};
   EXPECT_EQ(declared(conventions_text(c)), c);
   EXPECT_EQ(declared(conventions_text({})), C());
   EXPECT_EQ(declared(R"({"format": "plumbline conventions", "version": 1})"), C()) << "what is left out is OpenGL's";
@@ -50,7 +51,13 @@ TEST_F(ConventionsFile, WhatIsWrongIsRefusedWithItsPlace) {
   EXPECT_NE(refusal(head + R"("sample": [0.5, 1.5]})").find("/sample/1"), std::string::npos);
   EXPECT_NE(refusal(head + R"("sample": [0.5]})").find("/sample"), std::string::npos);
   EXPECT_NE(refusal(head + R"("subpixel_bits": 17})").find("/subpixel_bits"), std::string::npos);
-  EXPECT_NE(refusal(head + R"("subpixel_bits": "none"})").find("or \"float\""), std::string::npos);
+  for (const char* bits : {"17", "-1", "0.5", "\"none\""}) {
+    const std::string said = refusal(head + R"("subpixel_bits": )" + bits + "}");
+    EXPECT_NE(said.find("or \"float\""), std::string::npos) << said;
+  }
+  EXPECT_NE(refusal(head + R"("open": ["colour"]})").find("at \"/open/0\": expected the name of a convention"),
+            std::string::npos);
+  EXPECT_NE(refusal(head + R"("unexplained": [1]})").find("/unexplained/0"), std::string::npos);
   EXPECT_NE(refusal(head + R"("offset_unit": [2, -1]})").find("/offset_unit/1"), std::string::npos);
   EXPECT_NE(refusal(R"({"format": "plumbline goldens", "version": 1})").find("/format"), std::string::npos);
   EXPECT_NE(refusal(R"({"format": "plumbline conventions", "version": 2})").find("/version"), std::string::npos);
@@ -67,12 +74,28 @@ TEST(Conventions, OnlyMistakesAreNamed) {
   C wrong;
   wrong.sample = {0, 0}, wrong.subpixel_bits = 3, wrong.offset_unit = {1, 0.5};
   wrong.rows = C::Rows::from_top, wrong.tie_rule = C::TieRule::exclusive, wrong.depth_format = C::Depth::z16;
+  wrong.unexplained = {"one scene drawn twice differs"};
   const std::vector<std::string> lines = mistaken(wrong);
-  ASSERT_EQ(lines.size(), 6u);
-  EXPECT_EQ(lines[0], "sample: 0, 0, expected 0.5, 0.5 (the sample's place in its pixel)");
-  EXPECT_EQ(lines[1], "rows: from_top, expected from_bottom (the order of the picture's rows)");
-  EXPECT_EQ(lines[4], "subpixel_bits: 3, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)");
-  EXPECT_EQ(lines[5], "offset_unit: 1, 0.5, expected 1 or more: a unit makes depths differ (OpenGL 2.1, 3.5.5)");
+  ASSERT_EQ(lines.size(), 7u);
+  EXPECT_EQ(lines[0], "convention sample: 0, 0, expected 0.5, 0.5 (the sample's place in its pixel)");
+  EXPECT_EQ(lines[1], "convention rows: from_top, expected from_bottom (the order of the picture's rows)");
+  EXPECT_EQ(lines[4], "convention subpixel_bits: 3, expected 4 or more (OpenGL 2.1: the least SUBPIXEL_BITS)");
+  EXPECT_EQ(lines[5],
+            "convention offset_unit: 1, 0.5, expected 1 or more: a unit makes depths differ (OpenGL 2.1, 3.5.5)");
+  EXPECT_EQ(lines[6], "no convention: one scene drawn twice differs");
+}
+
+TEST(Conventions, RoundingsMakeWholeNumbers) {
+  using enum C::Rounding;
+  EXPECT_EQ(rounded(nearest, 1.75), 2);
+  EXPECT_EQ(rounded(nearest, 1.25), 1);
+  EXPECT_EQ(middle_of(nearest), 0);
+  EXPECT_EQ(rounded(down, 1.75), 1);
+  EXPECT_EQ(rounded(down, 1), 1);
+  EXPECT_EQ(middle_of(down), 0.5);
+  EXPECT_EQ(rounded(up, 1.25), 2);
+  EXPECT_EQ(rounded(up, 1), 1);
+  EXPECT_EQ(middle_of(up), -0.5);
 }
 
 TEST(Conventions, ACaptureBecomesTheDialects) {

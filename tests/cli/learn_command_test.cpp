@@ -47,6 +47,18 @@ TEST_F(Cli, a_mistaken_convention_of_a_suite_ends_1_with_one_line) {
   EXPECT_TRUE(run.says("convention color_rounding: down, expected nearest (how colours become codes)\n")) << run.text;
 }
 
+TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
+  write(at("c.json"), declared(R"("open": ["blending"], "unexplained": ["one scene drawn twice differs"])"));
+  const std::string by = kLearnedProgram + " --conventions " + at("c.json");
+  const Outcome check = plumb("check " + kScenes + "cull" + by);
+  EXPECT_EQ(check.code, 1) << check.text;
+  EXPECT_TRUE(check.says("no convention: one scene drawn twice differs\n")) << check.text;
+  EXPECT_TRUE(check.says("judged by OpenGL's, as plumb learn found none: blending\n")) << check.text;
+  const Outcome diagnose = plumb("diagnose " + kSharedEdges + by);
+  EXPECT_EQ(diagnose.code, 1) << diagnose.text;
+  EXPECT_TRUE(diagnose.says("no convention: one scene drawn twice differs\n")) << diagnose.text;
+}
+
 TEST_F(Cli, conventions_that_are_none_are_refused) {
   write(at("c.json"), declared(R"("rows": "sideways")"));
   const std::string with = " --conventions " + at("c.json");

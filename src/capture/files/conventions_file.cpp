@@ -1,9 +1,11 @@
 #include "capture/files/conventions_file.h"
 
+#include <algorithm>
 #include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "scene/json/json_file.h"
 
@@ -13,11 +15,19 @@ namespace {
 
 constexpr std::string_view kConventionsFormat = "plumbline conventions";
 constexpr int kMostBits = 16;
+constexpr std::size_t kMostLines = 1024;
 
 int bits_at(const JsonNode& node) {
   if (node.value().kind == JsonValue::Kind::text && node.value().text == "float") return Conventions::kFloat;
-  if (node.value().kind != JsonValue::Kind::integer) node.refuse(fmt::format("0 to {}, or \"float\"", kMostBits));
-  return static_cast<int>(node.integer(0, kMostBits));
+  const auto& value = node.value();
+  if (value.kind != JsonValue::Kind::integer || value.integer < 0 || value.integer > kMostBits)
+    node.refuse(fmt::format("0 to {}, or \"float\"", kMostBits));
+  return static_cast<int>(value.integer);
+}
+
+// A key and its texts; without any, nothing.
+std::string text_array(std::string_view key, const std::vector<std::string>& texts) {
+  return texts.empty() ? "" : fmt::format(",\n \"{}\": {}", key, nlohmann::json(texts).dump());
 }
 
 }  // namespace
@@ -25,9 +35,11 @@ int bits_at(const JsonNode& node) {
 Conventions read_conventions(const std::filesystem::path& path) {
   const JsonFile file(path);
   const JsonNode root = file.root();
-  std::vector<std::string_view> keys = {"format", "version", "sample", "offset_unit"};
-  each_choice([&](const ConventionWords& words, auto) { keys.push_back(words.name); });
-  each_number_of_bits([&](const ConventionWords& words, auto) { keys.push_back(words.name); });
+  std::vector<std::string_view> names = {kSampleWords.name, kOffsetWords.name};
+  each_choice([&](const ConventionWords& words, auto) { names.push_back(words.name); });
+  each_number_of_bits([&](const ConventionWords& words, auto) { names.push_back(words.name); });
+  std::vector<std::string_view> keys = names;
+  keys.insert(keys.end(), {"format", "version", "open", "unexplained"});
   root.only(keys);
   if (root["format"].text() != kConventionsFormat) root["format"].refuse(fmt::format("\"{}\"", kConventionsFormat));
   root["version"].integer(1, 1);
@@ -41,6 +53,15 @@ Conventions read_conventions(const std::filesystem::path& path) {
   each_number_of_bits([&](const ConventionWords& words, auto member) {
     if (const auto node = root.find(words.name)) out.*member = bits_at(*node);
   });
+  if (const auto node = root.find("open")) {
+    for (const JsonNode& name : node->elements(0, names.size())) {
+      if (std::ranges::find(names, name.text()) == names.end()) name.refuse("the name of a convention");
+      out.open.push_back(name.text());
+    }
+  }
+  if (const auto node = root.find("unexplained")) {
+    for (const JsonNode& line : node->elements(0, kMostLines)) out.unexplained.push_back(line.text());
+  }
   return out;
 }
 
@@ -55,7 +76,7 @@ std::string conventions_text(const Conventions& c) {
   each_choice([&](const ConventionWords& words, auto member) {
     out += fmt::format(",\n \"{}\": \"{}\"", words.name, name_of(c.*member));
   });
-  return out + "}\n";
+  return out + text_array("open", c.open) + text_array("unexplained", c.unexplained) + "}\n";
 }
 
 }  // namespace plumbline

@@ -1,9 +1,11 @@
 // conventions.json: what a renderer declares of itself, or plumb learn has found.
 //
-//   {"format": "plumbline conventions", "version": 1, "sample": [0.5, 0.5], "offset_unit": [2, 2], "subpixel_bits": 4,
-// "tie_rule": "left_top",    "texture_bits": "float", ...}
+//   {"format": "plumbline conventions", "version": 1, "sample": [0.5, 0.5], "offset_unit": [2, 2],
+//    "subpixel_bits": 4, "tie_rule": "left_top", "texture_bits": "float", ..., "open": ["blending"],
+//    "unexplained": ["one scene drawn twice differs"]}
 //
-// Keys and words are those of capture/conventions.h; what is left out is OpenGL's.
+// Keys and words are those of capture/conventions.h. A key that is left out is OpenGL's; "open" names those that the
+// renderer did not show, which are OpenGL's, too.
 #pragma once
 
 #include <filesystem>

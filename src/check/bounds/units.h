@@ -99,7 +99,7 @@ struct StoredColors {
   }
   double of_channel(double v, int channel) const { return channel < 3 ? encoded(v) : v; }
   double middle(double stored) const {
-    return scale > 0 && conventions.color_rounding == Conventions::Rounding::down ? stored + 0.5 / scale : stored;
+    return scale > 0 ? stored + middle_of(conventions.color_rounding) / scale : stored;
   }
 };
 

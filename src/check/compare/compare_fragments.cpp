@@ -57,13 +57,13 @@ Measurement compare_open_covered(const Capture& candidate, const Records<double>
 
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                           double factor, const Conventions& conventions) {
-  const double lower = conventions.depth_rounding == Conventions::Rounding::down ? 0.5 : 0;
+  const double middle = middle_of(conventions.depth_rounding);
   return each_fragment("depths", "step", candidate, candidate.depth.size(), reference.depth.size(),
                        [&](Meter& meter, std::size_t i) {
                          const double a = candidate.depth[i], b = reference.depth[i];
                          const Covered& c = candidate.covered[i];
                          const double step = depth_step(scene.frame.depth, b);
-                         const double apart = difference(a + lower * step, b) / step;
+                         const double apart = difference(a + middle * step, b) / step;
                          const bool needed = apart > factor && c.triangle < candidate.triangles.size();
                          const double rounding = needed ? depth_rounding(candidate.triangles[c.triangle]) / step : 0;
                          meter.value(apart, factor + rounding, {c.x, c.y, c.triangle, "z"}, a, b);

@@ -117,8 +117,8 @@ class RunComparison {
   double snapped(double at) const {
     const int bits = conventions_.subpixel_bits;
     const double steps = bits < 0 || bits > 8 ? kSubpixel : std::ldexp(1.0, bits), place = at * steps;
-    const bool down = bits >= 0 && conventions_.subpixel_rounding == Conventions::Rounding::down;
-    return (down ? std::floor(place) : std::nearbyint(place)) * kSubpixel / steps;
+    const auto rounding = bits < 0 ? Conventions::Rounding::nearest : conventions_.subpixel_rounding;
+    return rounded(rounding, place) * kSubpixel / steps;
   }
 
   static Place at(std::size_t number, const char* field) { return {-1, -1, static_cast<std::int64_t>(number), field}; }
