@@ -163,7 +163,8 @@ int check(const CheckOptions& given) {
   const bool holds = report::all_hold(verdicts) && head.failures.empty();
   std::string summary = not_asked_line(o);
   if (!conventions.open.empty())
-    summary += fmt::format("judged by OpenGL's, as plumb learn found none: {}\n", fmt::join(conventions.open, ", "));
+    summary += fmt::format("open in {}, and judged as OpenGL's: {}\n", o.candidate.conventions,
+                           fmt::join(conventions.open, ", "));
   if (!o.candidate.command.empty() && !can_confine())
     summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());

@@ -24,8 +24,16 @@ std::unique_ptr<Renderer> asked_renderer(const LearnOptions& o) {
   return renderer;
 }
 
+// Before the work, as it may be refused.
+void make_folder(const std::string& folder) {
+  try {
+    if (!folder.empty()) std::filesystem::create_directories(folder);
+  } catch (const std::filesystem::filesystem_error& e) {
+    throw std::runtime_error(fmt::format("--pictures: {}: {}", folder, e.code().message()));
+  }
+}
+
 void write_pictures(const std::string& folder, const learn::Learned& learned) {
-  std::filesystem::create_directories(folder);
   for (const learn::ProbePicture& picture : learned.pictures) {
     const std::filesystem::path name = std::filesystem::path(picture.name).filename();
     write_image(std::filesystem::path(folder) / (name.string() + ".png"), picture.color);
@@ -38,6 +46,7 @@ int learn(const LearnOptions& o) {
   const Output outputs[] = {{"--output", o.output}};
   require_outputs(outputs, {}, {});
   require_folder({"--pictures", o.pictures});
+  make_folder(o.pictures);
   const std::unique_ptr<Renderer> renderer = asked_renderer(o);
   learn::Learned learned;
   try {

@@ -26,6 +26,10 @@ void Prober::open(const ConventionWords& words, std::string why) {
   learned.conventions.open.emplace_back(words.name);
 }
 
+bool Prober::is_open(std::string_view name) const {
+  return std::ranges::find(learned.conventions.open, name) != learned.conventions.open.end();
+}
+
 void Prober::fits_none(const ConventionWords& words, const std::string& evidence) {
   open(words, evidence);
   learned.rows.back().value = "none fits";

@@ -77,6 +77,7 @@ void learn_interpolation(Prober& prober) {
   }
   const std::size_t most = std::max(perspective, affine);
   const std::string evidence = fmt::format("{} of {} pixels", most, kFrameSize);
+  if (prober.is_open("color_encoding")) return prober.open(words, "the encoding of colours is open");
   if (c.color_encoding == C::Encoding::srgb) return prober.open(words, "colours are encoded");
   if (most * 10 < kFrameSize * 9) return prober.fits_none(words, evidence + " at most are explained");
   prober.learned.conventions.interpolation =
@@ -91,8 +92,8 @@ void learn_corners(Prober& prober) {
   const ConventionWords words = words_of("attribute_corners");
   const C& c = prober.learned.conventions;
   if (c.subpixel_bits == C::kFloat) return prober.found(words, "as_they_are", "positions are not snapped");
-  if (c.sample != glm::dvec2(0.5) || c.color_rounding != C::Rounding::nearest ||
-      c.color_encoding != C::Encoding::linear)
+  if (prober.is_open("color_rounding") || prober.is_open("sample") || c.sample != glm::dvec2(0.5) ||
+      c.color_rounding != C::Rounding::nearest || c.color_encoding != C::Encoding::linear)
     return prober.open(words, "another sample, rounding or encoding of colours hides it");
   const double share = c.subpixel_rounding == C::Rounding::down ? 0.98 : 0.49,
                above = std::ldexp(share, -c.subpixel_bits);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@ using C = Conventions;
 using Triangles = std::vector<std::array<ProbeCorner, 3>>;
 
 constexpr int kInRow = 16, kAll = kInRow * kInRow;
+constexpr std::size_t kColors = 3 * kAll;
 
 // Rectangle number i of 256, 4 x 4 pixels each.
 auto tile(int i, const glm::vec4& color) {
@@ -36,10 +38,11 @@ Draw& add_tiles(Scene& scene, auto color_of) {
   return add_triangles(scene, triangles);
 }
 
-// A quarter of a code above code i in red, three quarters in green.
+// Above code i, in each channel another share of a code: 1/16, 3/16, ... 15/16.
 glm::vec4 between_codes(int i) {
+  const auto above = [&](int channel) { return static_cast<float>((3 * i + 2 * channel) % 8 * 2 + 1) / 16; };
   const auto code = static_cast<float>(std::min(i, 254));
-  return {(code + 0.25f) / 255, (code + 0.75f) / 255, 0, 1};
+  return {(code + above(0)) / 255, (code + above(1)) / 255, (code + above(2)) / 255, 1};
 }
 
 double encoded(C::Encoding encoding, double v) {
@@ -47,28 +50,41 @@ double encoded(C::Encoding encoding, double v) {
   return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
 }
 
-// A quarter of a code above each in one channel, three quarters in green, by the rounding and encoding that explain most.
+// The encoding and rounding that explain most colours, where channel k of those given is left in channel order[k].
 struct Fit {
   std::size_t most = 0;
   C::Encoding encoding = C::Encoding::linear;
   C::Rounding rounding = C::Rounding::nearest;
+  std::array<int, 3> order;
+  bool explains() const { return most * 50 >= kColors * 49; }
 };
-Fit fit_of(const Plane<glm::vec4>& color, int red) {
-  Fit out;
+Fit fit_of(const Plane<glm::vec4>& color, std::array<int, 3> order) {
+  Fit out{.order = order};
   for (const C::Encoding e : {C::Encoding::linear, C::Encoding::srgb}) {
     for (const C::Rounding r : {C::Rounding::nearest, C::Rounding::down, C::Rounding::up}) {
       std::size_t fits = 0;
       for (int i = 0; i < kAll; ++i) {
-        const auto fit = [&](int given, int left) {
-          const double code = rounded(r, 255 * encoded(e, static_cast<double>(between_codes(i)[given])));
-          fits += std::round(255 * static_cast<double>(pixel_of(color, i)[left])) == code ? 1 : 0;
-        };
-        fit(0, red), fit(1, 1);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double code = rounded(r, 255 * encoded(e, static_cast<double>(between_codes(i)[static_cast<int>(k)])));
+          fits += std::round(255 * static_cast<double>(pixel_of(color, i)[order[k]])) == code ? 1 : 0;
+        }
       }
-      if (fits > out.most) out = {fits, e, r};
+      if (fits > out.most) out.most = fits, out.encoding = e, out.rounding = r;
     }
   }
   return out;
+}
+Fit best_fit(const Plane<glm::vec4>& color) {
+  std::array<int, 3> order = {0, 1, 2};
+  Fit best = fit_of(color, order);
+  while (!best.explains() && std::ranges::next_permutation(order).found) {
+    if (const Fit fit = fit_of(color, order); fit.most > best.most) best = fit;
+  }
+  return best;
+}
+
+bool same_bits(const Plane<glm::vec4>& a, const Plane<glm::vec4>& b) {
+  return a.size() == b.size() && std::memcmp(a.row(0), b.row(0), a.size() * sizeof(glm::vec4)) == 0;
 }
 
 }  // namespace
@@ -78,17 +94,17 @@ void learn_colors(Prober& prober) {
   Scene scene = probe_frame("colours", 4 * kInRow, 4 * kInRow);
   add_tiles(scene, between_codes);
   const Plane<glm::vec4> color = prober.draw(scene).color;
-  if (prober.draw(scene).color.values() != color.values()) prober.unexplained("one scene drawn twice differs");
-  Fit fit = fit_of(color, 0);
-  const auto explains = [](const Fit& of) { return of.most * 50 >= 2 * kAll * 49; };
-  if (const Fit swapped = fit_of(color, 2); !explains(fit) && explains(swapped)) {
-    prober.unexplained("red and blue are swapped");
-    fit = swapped;
-  }
-  const std::string evidence = fmt::format("{} of {} colours", fit.most, 2 * kAll);
-  if (!explains(fit)) {
+  if (!same_bits(prober.draw(scene).color, color)) prober.unexplained("one scene drawn twice differs");
+  const Fit fit = best_fit(color);
+  const std::string evidence = fmt::format("{} of {} colours", fit.most, kColors);
+  if (!fit.explains()) {
     prober.fits_none(rounding, evidence + " at most are explained by one rounding and encoding");
     return prober.open(encoding, "the rounding is open");
+  }
+  if (fit.order != std::array{0, 1, 2}) {
+    constexpr std::array<const char*, 3> kNames = {"red", "green", "blue"};
+    const auto name = [&](int k) { return kNames[static_cast<std::size_t>(fit.order[static_cast<std::size_t>(k)])]; };
+    prober.unexplained(fmt::format("red, green and blue are left in {}, {} and {}", name(0), name(1), name(2)));
   }
   C& c = prober.learned.conventions;
   c.color_encoding = fit.encoding, c.color_rounding = fit.rounding;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -33,7 +34,7 @@ Scene at_depths(const Prober& prober, const std::string& name, const std::vector
   return scene;
 }
 
-// The depth in the middle of each of them; none: the renderer leaves no depths.
+// The depth of a pixel of each that lies in one of its two triangles alone; none: the renderer leaves no depths.
 std::optional<std::vector<double>> depths_of(Prober& prober, const std::string& name, const std::vector<double>& depths,
                                              DepthFormat format = DepthFormat::z24) {
   Scene scene = at_depths(prober, name, depths);
@@ -42,7 +43,7 @@ std::optional<std::vector<double>> depths_of(Prober& prober, const std::string& 
   if (plane.empty()) return std::nullopt;
   std::vector<double> out;
   for (std::size_t i = 0; i < depths.size(); ++i)
-    out.push_back(plane(static_cast<int>(4 * (i % 16) + 2), static_cast<int>(4 * (i / 16) + 2)));
+    out.push_back(plane(static_cast<int>(4 * (i % 16) + 1), static_cast<int>(4 * (i / 16) + 2)));
   return out;
 }
 
@@ -90,33 +91,49 @@ Codes codes_of(double bits, const std::vector<double>& given, const std::vector<
 
 bool nearly_all(std::size_t n, std::size_t of) { return n * 50 >= of * 49; }
 
-// By the codes that are found, and by those of 16 bits where the renderer leaves them when asked: there, arithmetic in
-// float tells the nearest code from the upper one.
-void learn_rounding(Prober& prober, Codes codes, std::size_t n) {
+// By the codes of n depths.
+void learn_rounding(Prober& prober, const Codes& codes, std::size_t n) {
   const ConventionWords words = words_of("depth_rounding");
-  C& c = prober.learned.conventions;
-  if (c.depth_format == C::Depth::as_asked) {
-    const std::vector<double> given = given_depths();
-    try {
-      const auto left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16);
-      const Codes of_16 = codes_of(16, given, *left);
-      if (of_16.codes == given.size()) {
-        for (std::size_t k = 0; k < codes.fits.size(); ++k) codes.fits[k] += of_16.fits[k];
-        n += given.size();
-      }
-    } catch (const Unsupported&) {  // it draws no depths of 16 bits
-    }
-  }
   const std::string evidence = fmt::format("{} of {} depths", codes.most(), n);
   if (!nearly_all(codes.most(), n)) return prober.fits_none(words, evidence + " at most are explained by one rounding");
+  C& c = prober.learned.conventions;
   c.depth_rounding = kRoundings[static_cast<std::size_t>(std::ranges::max_element(codes.fits) - codes.fits.begin())];
   prober.found(words, name_of(c.depth_rounding), evidence);
+}
+
+// Of a renderer that leaves codes of 24 bits where they are asked for: whether it leaves 16 bits when asked. There,
+// arithmetic in float tells the nearest code from the upper one.
+void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes) {
+  C& c = prober.learned.conventions;
+  const std::size_t n = given.size();
+  const auto found = [&](C::Depth format, const std::string& evidence) {
+    c.depth_format = format;
+    prober.found(words_of("depth_format"), name_of(format), evidence);
+  };
+  const std::string of_24 = fmt::format("{} of {} depths are within a code of 24 bits", codes.near, n);
+  try {
+    const std::vector<double> left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16).value();
+    const Codes of_16 = codes_of(16, given, left), still = codes_of(24, given, left);
+    if (of_16.codes == n) {
+      for (std::size_t k = 0; k < codes.fits.size(); ++k) codes.fits[k] += of_16.fits[k];
+      found(C::Depth::as_asked, of_24 + ", of 16 bits where those are asked for");
+      return learn_rounding(prober, codes, 2 * n);
+    }
+    if (nearly_all(still.near, n)) {
+      found(C::Depth::z24, of_24 + ", where 16 are asked for as well");
+      return learn_rounding(prober, codes, n);
+    }
+  } catch (const Unsupported&) {  // it draws no depths of 16 bits
+  }
+  found(C::Depth::as_asked, of_24 + ", which are asked for");
+  learn_rounding(prober, codes, n);
 }
 
 void learn_format(Prober& prober) {
   const ConventionWords format = words_of("depth_format"), rounding = words_of("depth_rounding");
   const std::vector<double> given = given_depths();
   const std::vector<double> left = depths_of(prober, "depth_codes", given).value();
+  if (depths_of(prober, "depth_codes", given) != left) prober.unexplained("one scene's depths, drawn twice, differ");
   const std::size_t n = given.size();
   const Codes of_16 = codes_of(16, given, left), of_24 = codes_of(24, given, left);
   std::size_t is_float = 0;  // multiples of 2^-16 are
@@ -133,36 +150,39 @@ void learn_format(Prober& prober) {
     take(C::Depth::z32f, is_float, "floats");
     return prober.found(rounding, "nearest", "depths are floats");
   }
-  if (nearly_all(of_24.near, n)) {
-    take(C::Depth::as_asked, of_24.near, "within a code of 24 bits, which the probe asks for");
-    return learn_rounding(prober, of_24, n);
-  }
-  prober.fits_none(format, "depths are neither codes of 16 or 24 bits nor floats");
+  if (nearly_all(of_24.near, n)) return learn_16_bits(prober, given, of_24);
+  prober.fits_none(format, "the depths given are left neither as codes of 16 or 24 bits nor as floats");
   prober.open(rounding, "the format is open");
 }
 
 }  // namespace
 
+// A rectangle in the lower left quarter.
 void learn_rows(Prober& prober) {
+  const ConventionWords words = words_of("rows");
   Scene scene = probe_frame("rows", 16, 16);
-  add_triangles(scene, rectangle({0, 0}, {16, 8}, 0.5, glm::vec4(1)));
+  add_triangles(scene, rectangle({0, 0}, {8, 8}, 0.5, glm::vec4(1)));
   const Plane<glm::vec4> color = prober.draw(scene).color;
-  std::size_t below = 0, above = 0;
+  std::array<std::size_t, 4> in_quarter{};  // lower left, lower right, upper left, upper right
   for (int y = 0; y < 16; ++y) {
-    for (int x = 0; x < 16; ++x) (y < 8 ? below : above) += is_white(color(x, y)) ? 1 : 0;
+    for (int x = 0; x < 16; ++x)
+      in_quarter[static_cast<std::size_t>(y / 8 * 2 + x / 8)] += is_white(color(x, y)) ? 1 : 0;
   }
   const glm::vec4 first = color(0, 0);
   if (std::ranges::all_of(color.values(), [&](const glm::vec4& c) { return c == first || !(c == c); }))
-    prober.unexplained("a white rectangle in the lower half of a black picture: every pixel has one colour or is NaN");
-  if (std::max(below, above) < std::min(below, above) + 64) {
-    return prober.fits_none(
-        words_of("rows"),
-        fmt::format("a rectangle of 128 pixels in the lower half: {} pixels there, {} in the upper half", below,
-                    above));
-  }
-  const C::Rows rows = below > above ? C::Rows::from_bottom : C::Rows::from_top;
+    prober.unexplained("a white rectangle in a quarter of a black picture: every pixel has one colour or is NaN");
+  const std::size_t most = *std::ranges::max_element(in_quarter),
+                    all = std::accumulate(in_quarter.begin(), in_quarter.end(), std::size_t{0});
+  const std::string evidence = fmt::format(
+      "a rectangle of 64 pixels in the lower left quarter: of {} white pixels {} are there, {} in the lower "
+      "right, {} in the upper left, {} in the upper right",
+      all, in_quarter[0], in_quarter[1], in_quarter[2], in_quarter[3]);
+  if (most < 32 || 2 * most <= all) return prober.fits_none(words, evidence);
+  if (most == in_quarter[1] || most == in_quarter[3])
+    prober.unexplained("columns are counted from the right: " + evidence);
+  const C::Rows rows = most == in_quarter[0] || most == in_quarter[1] ? C::Rows::from_bottom : C::Rows::from_top;
   prober.learned.conventions.rows = rows;
-  prober.found(words_of("rows"), name_of(rows), fmt::format("{} of 128 pixels", std::max(below, above)));
+  prober.found(words, name_of(rows), fmt::format("{} of 64 pixels", most));
 }
 
 void learn_depths(Prober& prober) {
@@ -193,7 +213,8 @@ void learn_offset_unit(Prober& prober) {
   std::string evidence;
   try {
     for (const DepthFormat format : {DepthFormat::z24, DepthFormat::z16}) {
-      const bool codes_of_16 = format == DepthFormat::z16 || c.depth_format == C::Depth::z16;
+      const bool codes_of_16 =
+          c.depth_format == C::Depth::z16 || (format == DepthFormat::z16 && c.depth_format != C::Depth::z24);
       const double units = codes_of_16 ? 14336 : 14336 * 256, scale = codes_of_16 ? 65535 : 16777215;
       double left[2] = {0, 0};
       for (const int moved : {0, 1}) {
@@ -202,7 +223,7 @@ void learn_offset_unit(Prober& prober) {
         scene.draws[0].polygon_offset = {0, static_cast<float>(-units * moved)};
         const Plane<double> depth = prober.draw(scene).depth;
         if (depth.empty()) return prober.open(kOffsetWords, "it leaves no planes.depth");
-        left[moved] = depth(2, 2);
+        left[moved] = depth(1, 2);
       }
       const double codes = (left[0] - left[1]) * scale, unit = codes / units;
       if (!(unit > 0.01))

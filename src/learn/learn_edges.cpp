@@ -25,14 +25,14 @@ ProbeCorner corner(int along, double a, double b) {
   return {along == 0 ? glm::dvec3(a, b, 0.5) : glm::dvec3(b, a, 0.5), glm::vec4(1), {}};
 }
 
-// An edge that rises by one pixel over 1,024, and starts `offset` above a row's lower border (`along` 0; else a
-// column's left one): of the row, so many samples lie below it that the edge's place is told to 1/1024 pixel.
-struct Rise {
-  double offset;  // as given
-  int count;      // samples below the edge
+// An edge that rises by `rise` pixels over 1,024, and starts `offset` above a row's lower border (`along` 0; else a
+// column's left one): of the row, so many samples lie below it that the edge's place is told to rise/1024 pixel.
+struct Edge {
+  double offset, rise;  // as given [pixels]
+  int count;            // samples below the edge, of the strip's four rows
 };
-std::vector<Rise> rises(Prober& prober, int along, const std::vector<double>& offsets) {
-  std::vector<Rise> out;
+std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vector<double>& offsets) {
+  std::vector<Edge> out;
   for (std::size_t first = 0; first < offsets.size(); first += kStrips) {
     const std::size_t n = std::min<std::size_t>(kStrips, offsets.size() - first);
     const int across = kStrip * kStrips;
@@ -41,7 +41,7 @@ std::vector<Rise> rises(Prober& prober, int along, const std::vector<double>& of
     for (std::size_t i = 0; i < n; ++i) {
       const double low = kStrip * static_cast<double>(i), at = low + 2 + offsets[first + i];
       for (const auto& t : quad({corner(along, 0, low + 0.25), corner(along, kLong, low + 0.25),
-                                 corner(along, kLong, at + 1), corner(along, 0, at)}))
+                                 corner(along, kLong, at + rise), corner(along, 0, at)}))
         triangles.push_back(t);
     }
     add_triangles(scene, triangles);
@@ -54,7 +54,7 @@ std::vector<Rise> rises(Prober& prober, int along, const std::vector<double>& of
           count += is_white(along == 0 ? color(k, b) : color(b, k)) ? 1 : 0;
         }
       }
-      out.push_back({offsets[first + i], count});
+      out.push_back({offsets[first + i], rise, count});
     }
   }
   return out;
@@ -68,41 +68,57 @@ std::optional<double> snapped(double offset, int bits, C::Rounding rounding) {
   return std::ldexp(rounded(rounding, place), -bits);
 }
 
-// A grid explains the rises where the sample's place comes out the same from all of them.
+// A grid explains the edges where the sample's place comes out the same from all of them.
 struct Grid {
   int bits = C::kFloat;
   C::Rounding rounding = C::Rounding::nearest;
   double sample = 0.5;
-  std::size_t probes = 0;
+  std::size_t probes = 0, all = 0;
   double scatter = 0;  // of the sample's place [pixels]
 };
-std::optional<Grid> grid_of(const std::vector<Rise>& rises) {
-  constexpr double kSlack = 2.0 / kLong;  // ties, and the rounding of an edge function
-  const auto explains = [&](int bits, C::Rounding rounding) -> std::optional<Grid> {
-    double least = std::numeric_limits<double>::infinity(), most = -least, sum = 0;
-    std::size_t n = 0;
-    for (const Rise& rise : rises) {
-      const auto at = snapped(rise.offset, bits, rounding);
-      if (!at) continue;
-      // Samples below: 1,024 (3 + offset - sample) of the strip's four rows; 1,024 fewer where those of its first row
-      // lie below the strip's edge, at 1/4.
-      const double below = 3 + *at - static_cast<double>(rise.count) / kLong,
-                   sample = below > 0.999 ? below - 1 : below;
-      least = std::min(least, sample), most = std::max(most, sample), sum += sample;
-      ++n;
-    }
-    if (n == 0 || most - least > kSlack) return std::nullopt;
-    return Grid{bits, rounding, sum / static_cast<double>(n), n, most - least};
-  };
-  // The one by which it scatters least; of as good ones the finest.
-  std::optional<Grid> best = explains(C::kFloat, C::Rounding::nearest);
-  for (int bits = 9; bits >= 0; --bits) {
+// `lost_rows`: of the strip, whose samples lie below its lower edge, at 1/4.
+std::optional<Grid> explained(const std::vector<Edge>& edges, int bits, C::Rounding rounding, int lost_rows) {
+  double least = std::numeric_limits<double>::infinity(), most = -least, sum = 0;
+  std::size_t n = 0;
+  for (const Edge& edge : edges) {
+    const auto at = snapped(edge.offset, bits, rounding);
+    if (!at) continue;
+    double sample = *at + edge.rise * (3 - lost_rows - static_cast<double>(edge.count) / kLong);
+    if (edge.rise == 1 && sample > 0.999) --sample;  // a row is lost
+    least = std::min(least, sample), most = std::max(most, sample), sum += sample;
+    ++n;
+  }
+  // Ties, and the rounding of an edge function, and of corners to a grid that is too fine to be told.
+  if (n == 0 || most - least > 3.5 * edges.front().rise / kLong) return std::nullopt;
+  return Grid{bits, rounding, sum / static_cast<double>(n), n, edges.size(), most - least};
+}
+
+// The grid by which it scatters least; of as good ones the finest.
+std::optional<Grid> grid_of(const std::vector<Edge>& edges, int least_bits, int most_bits, int lost_rows) {
+  std::optional<Grid> best = explained(edges, C::kFloat, C::Rounding::nearest, lost_rows);
+  for (int bits = most_bits; bits >= least_bits; --bits) {
     for (const C::Rounding rounding : {C::Rounding::nearest, C::Rounding::down, C::Rounding::up}) {
-      const auto grid = explains(bits, rounding);
-      if (grid && (!best || grid->scatter < best->scatter - 0.5 / kLong)) best = grid;
+      const auto grid = explained(edges, bits, rounding, lost_rows);
+      if (grid && (!best || grid->scatter < best->scatter - 0.5 * edges.front().rise / kLong)) best = grid;
     }
   }
   return best;
+}
+
+// By edges that are moved by 1/1024 pixel, some on the grids' places and some off; where those tell no grid of 8 bits or
+// fewer, by 1/16384, about the sample.
+constexpr int kMostBits = 12;
+std::optional<Grid> grid_along(Prober& prober, int along) {
+  std::vector<double> offsets;
+  for (int k = 0; k < 64; ++k) offsets.push_back(k / 1024.0);
+  for (int k = 0; k < 64; ++k) offsets.push_back((15 * k + 5.25) / 1024.0);
+  const auto grid = grid_of(edges(prober, along, 1, offsets), 0, 9, 0);
+  if (!grid || (grid->bits != C::kFloat && grid->bits <= 8)) return grid;
+  constexpr double rise = 1.0 / 16;
+  const double first = std::floor((grid->sample - rise / 2) * 1024) / 1024;
+  offsets.clear();
+  for (int k = 0; k < 64; ++k) offsets.push_back(first + k / 16384.0);
+  return grid_of(edges(prober, along, rise, offsets), 9, kMostBits, grid->sample < 0.25 ? 1 : 0);
 }
 
 // The lowest left pixel drawn of a rectangle in which pixel (3, 3) is the lowest left sample.
@@ -122,19 +138,16 @@ glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
 
 void learn_grid(Prober& prober) {
   const ConventionWords bits = words_of("subpixel_bits"), rounding = words_of("subpixel_rounding");
-  std::vector<double> offsets;
-  for (int k = 0; k < 64; ++k) offsets.push_back(k / 1024.0);
-  for (int k = 0; k < 64; ++k) offsets.push_back((16 * k + 5) / 1024.0);
   std::array<std::optional<Grid>, 2> grids;
   try {
-    for (const int along : {0, 1}) grids[static_cast<std::size_t>(along)] = grid_of(rises(prober, along, offsets));
+    for (const int along : {0, 1}) grids[static_cast<std::size_t>(along)] = grid_along(prober, along);
   } catch (const Unsupported& e) {
     for (const ConventionWords& words : {kSampleWords, bits, rounding}) prober.open(words, e.what());
     return;
   }
   const auto &rows = grids[0], &columns = grids[1];
   if (!rows || !columns) {
-    prober.unexplained("edges moved by 1/1024 pixel go by no grid");
+    prober.unexplained("edges that are moved in small steps go by no grid");
     for (const ConventionWords& words : {kSampleWords, bits, rounding})
       prober.open(words, "no grid explains the edges");
     return;
@@ -145,20 +158,21 @@ void learn_grid(Prober& prober) {
       prober.open(words, "edges contradict each other");
     return;
   }
-  const std::size_t explained = rows->probes + columns->probes;
-  const std::string evidence = fmt::format("{} of {} edges that moved by 1/1024 pixel", explained, 2 * offsets.size());
-  if (explained < offsets.size())
+  const std::size_t probes = rows->probes + columns->probes, all = rows->all + columns->all;
+  const std::string evidence = fmt::format("{} of {} edges that are moved in small steps", probes, all);
+  if (2 * probes < all)
     prober.unexplained(fmt::format("window positions go by no grid: the best one explains {}", evidence));
   C& c = prober.learned.conventions;
   const auto placed = [](double at) {
-    return std::abs(at - std::round(2 * at) / 2) < 0.003 ? std::round(2 * at) / 2 : at;
+    return std::abs(at - std::round(2 * at) / 2) < 1.5 / kLong ? std::round(2 * at) / 2 : at;
   };
   const glm::dvec2 sample = {placed(columns->sample), placed(rows->sample)};
   const bool in_pixel = glm::clamp(sample, 0.0, 1.0) == sample;
   const glm::dvec2 shift = rows->bits == 0 || rows->bits == 1 ? glm::dvec2(0) : lowest_left(prober, sample) - 3.0;
   if (!in_pixel || shift != glm::dvec2(0)) {
-    prober.unexplained(fmt::format("a sample lies outside its pixel: at {}, and {}, {} whole pixels away",
-                                   sample_text(sample), -shift.x, -shift.y));
+    prober.unexplained(
+        fmt::format("a sample lies outside its pixel: at {}, and the picture is shifted by {:.0f}, {:.0f}",
+                    sample_text(sample), shift.x + 0.0, shift.y + 0.0));
     for (const ConventionWords& words : {kSampleWords, bits, rounding}) prober.open(words, "the picture is shifted");
     return;
   }
@@ -167,7 +181,7 @@ void learn_grid(Prober& prober) {
   c.subpixel_rounding = rows->rounding;
   prober.found(kSampleWords, sample_text(c.sample), evidence);
   prober.found(bits, bits_text(c.subpixel_bits),
-               evidence + (c.subpixel_bits == C::kFloat ? " (or 10 bits or more)" : ""));
+               evidence + (c.subpixel_bits == C::kFloat ? fmt::format(" (or {} bits or more)", kMostBits + 1) : ""));
   prober.found(rounding, c.subpixel_bits == C::kFloat ? "nearest" : name_of(c.subpixel_rounding), evidence);
 }
 
@@ -185,22 +199,39 @@ struct Shared {
   std::size_t none = 0, one = 0, more = 0;
 };
 Shared shared_edges(Prober& prober, glm::dvec2 sample) {
-  constexpr int kFan = 16;
+  constexpr int kFan = 16, kSpokes = 16;
+  constexpr std::array<glm::ivec2, kSpokes> around = {{{6, 0},
+                                                       {6, 3},
+                                                       {6, 6},
+                                                       {3, 6},
+                                                       {0, 6},
+                                                       {-3, 6},
+                                                       {-6, 6},
+                                                       {-6, 3},
+                                                       {-6, 0},
+                                                       {-6, -3},
+                                                       {-6, -6},
+                                                       {-3, -6},
+                                                       {0, -6},
+                                                       {3, -6},
+                                                       {6, -6},
+                                                       {6, -3}}};
   const glm::dvec2 middle = glm::dvec2(8) + sample;
-  const std::array<glm::dvec2, 8> around = {{{6, 0}, {6, 6}, {0, 6}, {-6, 6}, {-6, 0}, {-6, -6}, {0, -6}, {6, -6}}};
   Plane<int> count(kFan, kFan);
-  for (std::size_t i = 0; i < 8; ++i) {
+  for (std::size_t i = 0; i < kSpokes; ++i) {
     const auto at = [&](glm::dvec2 p) { return ProbeCorner{{p, 0.5}, glm::vec4(1), {}}; };
     const Plane<glm::vec4> color =
-        alone(prober, "fan", kFan, {at(middle), at(middle + around[i]), at(middle + around[(i + 1) % 8])});
+        alone(prober, "fan", kFan,
+              {at(middle), at(middle + glm::dvec2(around[i])), at(middle + glm::dvec2(around[(i + 1) % kSpokes]))});
     for (std::size_t k = 0; k < count.size(); ++k) count.values()[k] += is_white(color.values()[k]) ? 1 : 0;
   }
   Shared out;
-  for (int y = 3; y < 14; ++y) {
-    for (int x = 3; x < 14; ++x) {
-      const int dx = std::abs(x - 8), dy = std::abs(y - 8);
-      if (dx != 0 && dy != 0 && dx != dy) continue;
-      ++(count(x, y) == 0 ? out.none : count(x, y) == 1 ? out.one : out.more);
+  for (int y = -5; y <= 5; ++y) {
+    for (int x = -5; x <= 5; ++x) {
+      const auto on_spoke = [&](const glm::ivec2& end) { return x * end.y == y * end.x; };
+      if (std::ranges::none_of(around, on_spoke)) continue;
+      const int triangles = count(8 + x, 8 + y);
+      ++(triangles == 0 ? out.none : triangles == 1 ? out.one : out.more);
     }
   }
   return out;
@@ -211,8 +242,7 @@ Shared shared_edges(Prober& prober, glm::dvec2 sample) {
 void learn_ties(Prober& prober) {
   const ConventionWords words = words_of("tie_rule");
   C& c = prober.learned.conventions;
-  if (std::ranges::find(c.open, kSampleWords.name) != c.open.end())
-    return prober.open(words, "the sample's place is open");
+  if (prober.is_open(kSampleWords.name)) return prober.open(words, "the sample's place is open");
   const double steps = c.subpixel_bits == C::kFloat ? 1024 : std::ldexp(1.0, c.subpixel_bits);
   if (c.sample * steps != glm::round(c.sample * steps)) {
     return prober.open(words, "no edge can be laid through a sample: its place is not on the grid");

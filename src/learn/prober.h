@@ -43,6 +43,7 @@ class Prober {
   void open(const ConventionWords& words, std::string why);
   /// A row of what it shows and none of the convention's values explains: a finding.
   void fits_none(const ConventionWords& words, const std::string& evidence);
+  bool is_open(std::string_view name) const;
   /// A finding that is of no one convention.
   void unexplained(std::string finding) { learned.conventions.unexplained.push_back(std::move(finding)); }
 

@@ -57,7 +57,9 @@ TEST_F(ConventionsFile, WhatIsWrongIsRefusedWithItsPlace) {
   }
   EXPECT_NE(refusal(head + R"("open": ["colour"]})").find("at \"/open/0\": expected the name of a convention"),
             std::string::npos);
-  EXPECT_NE(refusal(head + R"("unexplained": [1]})").find("/unexplained/0"), std::string::npos);
+  for (const char* line : {"1", "\"a\\nb\"", "\"\\u001b[31m\""}) {
+    EXPECT_NE(refusal(head + R"("unexplained": [)" + line + "]}").find("/unexplained/0"), std::string::npos) << line;
+  }
   EXPECT_NE(refusal(head + R"("offset_unit": [2, -1]})").find("/offset_unit/1"), std::string::npos);
   EXPECT_NE(refusal(R"({"format": "plumbline goldens", "version": 1})").find("/format"), std::string::npos);
   EXPECT_NE(refusal(R"({"format": "plumbline conventions", "version": 2})").find("/version"), std::string::npos);

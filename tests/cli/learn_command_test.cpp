@@ -53,7 +53,7 @@ TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
   const Outcome check = plumb("check " + kScenes + "cull" + by);
   EXPECT_EQ(check.code, 1) << check.text;
   EXPECT_TRUE(check.says("no convention: one scene drawn twice differs\n")) << check.text;
-  EXPECT_TRUE(check.says("judged by OpenGL's, as plumb learn found none: blending\n")) << check.text;
+  EXPECT_TRUE(check.says("open in " + at("c.json") + ", and judged as OpenGL's: blending\n")) << check.text;
   const Outcome diagnose = plumb("diagnose " + kSharedEdges + by);
   EXPECT_EQ(diagnose.code, 1) << diagnose.text;
   EXPECT_TRUE(diagnose.says("no convention: one scene drawn twice differs\n")) << diagnose.text;
@@ -83,6 +83,9 @@ TEST_F(Cli, learn_of_what_draws_nothing_is_refused) {
   EXPECT_EQ(plumb("learn --program 'true'").code, 2) << "no {output}";
   EXPECT_EQ(plumb("learn --with nobody").code, 2);
   EXPECT_EQ(plumb("learn --with ours -o /nowhere/c.json").code, 2);
+  const Outcome folder = plumb("learn --with ours --pictures /proc/pictures");
+  EXPECT_EQ(folder.code, 2) << folder.text;
+  EXPECT_TRUE(folder.says("--pictures: /proc/pictures: ") && !folder.says("evidence")) << folder.text;
 }
 
 }  // namespace

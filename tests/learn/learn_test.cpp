@@ -119,7 +119,7 @@ TEST(Learn, NonsenseIsOpen) {
   const Learned none = of([](Capture& c) { c.planes.depth = {}; });
   EXPECT_EQ(none.conventions.depth_rounding, C::Rounding::nearest);
   EXPECT_GE(std::ranges::count(none.rows, "open", &LearnedRow::value), 4);
-  const std::string one_colour = "a white rectangle in the lower half of a black picture: every pixel has one colour";
+  const std::string one_colour = "a white rectangle in a quarter of a black picture: every pixel has one colour";
   const Learned black = of([](Capture& c) { std::ranges::fill(c.planes.color.values(), glm::vec4(0, 0, 0, 1)); });
   ASSERT_FALSE(black.conventions.unexplained.empty());
   EXPECT_EQ(black.conventions.unexplained[0].find(one_colour), 0u) << black.conventions.unexplained[0];
@@ -140,17 +140,21 @@ TEST(Learn, ContradictionsAreFindings) {
         << fmt::format("{}", fmt::join(found.unexplained, "\n"));
   };
   float drift = 0;
-  says("one scene drawn twice differs", [&](Capture& c) { c.planes.color(0, 15).x = drift += 0.001f; });
-  says("window positions go by one grid in x, by another in y", [](Capture& c) {
+  says("one scene drawn twice differs", [&](Capture& c) { c.planes.color(0, 15).g = drift += 0.001f; });
+  says("edges that are moved in small steps go by no grid", [](Capture& c) {
     const Plane<glm::vec4> drawn = c.planes.color;
     for (int y = 0; y < drawn.height(); ++y) {
       for (int x = 0; x < drawn.width(); ++x) c.planes.color(x, y) = drawn((x + 3) % drawn.width(), y);
     }
   });
-  says("rows: a rectangle of 128 pixels in the lower half: 1 pixels there, 0 in the upper half", [](Capture& c) {
-    for (glm::vec4& v : c.planes.color.values()) v = glm::vec4(glm::vec3(0), 1);
-    c.planes.color(3, 3) = glm::vec4(1);
-  });
+  says(
+      "rows: a rectangle of 64 pixels in the lower left quarter: of 1 white pixels 1 are there, 0 in the lower right, "
+      "0 in "
+      "the upper left, 0 in the upper right",
+      [](Capture& c) {
+        for (glm::vec4& v : c.planes.color.values()) v = glm::vec4(glm::vec3(0), 1);
+        c.planes.color(3, 3) = glm::vec4(1);
+      });
 }
 
 // Pictures that no value of a convention explains: the convention is open, and the pictures are a finding.
@@ -179,11 +183,11 @@ TEST(Learn, WhatNoValueExplainsIsAFinding) {
     for (glm::vec4& v : c.planes.color.values()) std::swap(v.r, v.b);
   };
   const Case cases[] = {
-      {"sample", "edges moved by 1/1024 pixel go by no grid", mirrored},
+      {"sample", "columns are counted from the right: ", mirrored},
       {"color_rounding", "color_rounding: ", darker},
       {"depth_range", "depth_range: ", no_depths},
       {"depth_range", "depth_range: ", squared},
-      {nullptr, "red and blue are swapped", swapped},
+      {nullptr, "red, green and blue are left in blue, green and red", swapped},
   };
   for (const Case& of : cases) {
     Altered renderer(pipeline::make_pipeline(), of.alter);

@@ -17,6 +17,8 @@ constexpr std::string_view kConventionsFormat = "plumbline conventions";
 constexpr int kMostBits = 16;
 constexpr std::size_t kMostLines = 1024;
 
+bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7f; }
+
 int bits_at(const JsonNode& node) {
   if (node.value().kind == JsonValue::Kind::text && node.value().text == "float") return Conventions::kFloat;
   const auto& value = node.value();
@@ -60,7 +62,10 @@ Conventions read_conventions(const std::filesystem::path& path) {
     }
   }
   if (const auto node = root.find("unexplained")) {
-    for (const JsonNode& line : node->elements(0, kMostLines)) out.unexplained.push_back(line.text());
+    for (const JsonNode& line : node->elements(0, kMostLines)) {
+      if (std::ranges::any_of(line.text(), is_control)) line.refuse("a line without control characters");
+      out.unexplained.push_back(line.text());
+    }
   }
   return out;
 }
