@@ -15,6 +15,7 @@
 #include "cli/judge_in_workers.h"
 #include "cli/options/outputs.h"
 #include "cli/options/program_argument.h"
+#include "report/runs/run_file.h"
 #include "report/text/conformance.h"
 #include "report/text/markdown.h"
 #include "report/text/safe_text.h"
