@@ -6,12 +6,16 @@
 #include <cstddef>
 #include <vector>
 
+#include <tbb/cache_aligned_allocator.h>
+
 namespace plumbline {
 
-/// width x height values, stored row by row, row 0 first, without padding.
+/// width x height values, stored row by row, row 0 first, without padding, from a cache line's first byte on.
 template <class T>
 class Plane {
  public:
+  using Values = std::vector<T, tbb::cache_aligned_allocator<T>>;
+
   Plane() = default;
   Plane(int width, int height, T fill = T{})
       : width_(width),
@@ -28,8 +32,8 @@ class Plane {
   T* row(int y) { return values_.data() + index(0, y); }
   const T* row(int y) const { return values_.data() + index(0, y); }
 
-  std::vector<T>& values() { return values_; }
-  const std::vector<T>& values() const { return values_; }
+  Values& values() { return values_; }
+  const Values& values() const { return values_; }
 
  private:
   std::size_t index(int x, int y) const {
@@ -39,7 +43,7 @@ class Plane {
 
   int width_ = 0;
   int height_ = 0;
-  std::vector<T> values_;
+  Values values_;
 };
 
 /// The plane with its first row last. Files of pictures want row 0 at the bottom here; some dialects count from the

@@ -3,6 +3,7 @@
 // namespace of that name keeps their functions apart.
 #pragma once
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "kernels/lanes.h"
@@ -159,6 +160,7 @@ inline void store(SimdWide value, double* to) {
   hn::StoreU(value.low, kDoubles, to);
   hn::StoreU(value.high, kDoubles, to + kHalf);
 }
+inline void stream(SimdInt value, std::int32_t* to) { hn::Stream(value.v, kInts, to); }
 inline void store_codes(SimdInt value, std::uint8_t* to) { hn::StoreU(hn::DemoteTo(kBytes, value.v), kBytes, to); }
 inline void store_packed(SimdMask mask, SimdInt value, std::uint32_t* to) {
   store(mask, value, reinterpret_cast<std::int32_t*>(to));
@@ -346,6 +348,7 @@ struct LanesOfSimd {
     const auto y = hn::Set(kDoubles, block_y), low = hn::Add(y, hn::LoadU(kDoubles, kY + i));
     return {low, kHalf < kBlock ? low : hn::Add(y, hn::LoadU(kDoubles, kY + i + kHalf))};
   }
+  static void end_of_stream() { hwy::FlushStream(); }
 };
 
 }  // namespace

@@ -100,8 +100,7 @@ class OpaqueRun {
 
     [[maybe_unused]] const R tie(tie_), limit(limit_);
     bool hidden = true;
-    W of_row[kPlanes][kParts<R>];
-    const auto row = [&](int y) {
+    const auto nearer_blocks = [&](int y) {
       unsigned nearer = 0;
       for (int b = 0; b < kTile / kBlock; b += kLanes) {
         Mask<R> some = Lanes<R>::mask_of(0);
@@ -110,15 +109,32 @@ class OpaqueRun {
         }
         nearer |= bits_of(some) << b;
       }
-      if (nearer == 0) return nearer;
-      hidden = false;
+      hidden &= nearer == 0;
+      return nearer;
+    };
+    W of_row[kPlanes][kParts<R>];
+    int row_y = -1;
+    const auto go_to_row = [&](int y) {
+      if (y == row_y) return;
+      row_y = y;
       for (int part = 0; part < kParts<R>; ++part) {
         const W dy = Lanes<R>::rows_of_block(y, part * kLanes);
         for (int k = 0; k < kPlanes; ++k) of_row[k][part] = plane[k]->at_0 + dy * plane[k]->y;
       }
-      return nearer;
     };
-    visit_covered<R, kSamples>(s, row, [&](int x, int y, const Mask<R>(&covered)[kSamples][kParts<R>]) {
+    // Of a group's whole blocks: no depth code is greater, by the plane at the corner where it is farthest, and a code
+    // for its rounding.
+    alignas(64) float farthest_ahead[kLanes];
+    const auto ahead = [&](int x, int y, const BlockGroup<R>& group) {
+      const Affine<double>& code = s.code[0];
+      const double corner =
+          code.at_0 + (code.y > 0 ? y + (kBlock - 1) : y) * code.y + ((code.x > 0 ? x + (kBlock - 1) : x) * code.x + 1);
+      const W codes = W(corner) + to_wide(group.x()) * W(code.x) + to_wide(group.y()) * W(code.y);
+      store(to_float(round_even(clamped(codes, W(0), W(kMostZ24)))), farthest_ahead);
+    };
+    const auto block = [&](int x, int y, int lane, const Mask<R>(&covered)[kSamples][kParts<R>], auto whole) {
+      constexpr bool kWhole = decltype(whole)::value;
+      go_to_row(y);
       const int place = block_offset(x, y);
       W of_column[kPlanes];
       for (int k = kSamples - 1; k < kPlanes; ++k) of_column[k] = Lanes<R>::columns_of_block(x, 0) * plane[k]->x;
@@ -142,11 +158,12 @@ class OpaqueRun {
           float* const to = tiles_[i].depth + place + part * kLanes;
           const R held = Lanes<R>::load(to);
           Mask<R>& here = kept[part][static_cast<std::size_t>(i)];
-          here = covered[i][part] & (kFromEither ? z < held + tie : z < held);
+          here = kFromEither ? z < held + tie : z < held;
+          if constexpr (!kWhole) here = covered[i][part] & here;
           if constexpr (kFromEither && kPlain == Plain::nothing) here = here & (z < limit);
           some = some | here;
           full[i] = full[i] & here;
-          farthest[i] = greater_of(farthest[i], z);
+          if constexpr (kSamples > 1) farthest[i] = greater_of(farthest[i], z);
           store(here, z, to);
         }
       }
@@ -182,12 +199,14 @@ class OpaqueRun {
           }
         }
       }
+      if constexpr (kSamples == 1 && !kWhole) return;
       for (int i = 0; i < kSamples; ++i) {
-        if (all(full[i])) {
-          tiles_[i].farthest[y / kBlock * (kTile / kBlock) + x / kBlock] = greatest_lane(farthest[i]);
-        }
+        if (!all(full[i])) continue;
+        tiles_[i].farthest[y / kBlock * (kTile / kBlock) + x / kBlock] =
+            kWhole ? farthest_ahead[lane] : greatest_lane(farthest[i]);
       }
-    });
+    };
+    visit_covered<R, kSamples>(s, nearer_blocks, ahead, block);
     const bool all_blocks = s.x0 == 0 && s.y0 == 0 && s.x1 == kTile && s.y1 == kTile;
     for (int i = 0; i < kSamples && hidden && all_blocks; ++i) {  // the next that it would hide are not even looked at
       tiles_[i].farthest_of_all = *std::ranges::max_element(tiles_[i].farthest);

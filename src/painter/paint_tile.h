@@ -30,8 +30,9 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
     LaneSetup<> s = lanes.lanes.of(lane, t.front, tile.x0, tile.y0);
     s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
     const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, t, tile.x0, tile.y0);
-    const auto all_pixels = [](int) { return ~0u; };
-    visit_covered<R, 1>(s, all_pixels, [&](int x, int y, const auto& covered) {
+    const auto all_blocks = [](int) { return ~0u; };
+    const auto none_ahead = [](int, int, const auto&) {};
+    visit_covered<R, 1>(s, all_blocks, none_ahead, [&](int x, int y, int, const auto& covered, auto) {
       for (int part = 0; part < kParts<R>; ++part) {
         if (!any(covered[0][part])) continue;
         const int i = part * Lanes<R>::width;
@@ -121,24 +122,57 @@ void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* t
   });
 }
 
+/// Whether the tile's part of the frame is colours and depth codes in whole lanes.
+template <class R>
+bool has_whole_lanes(const Frame& frame, int x0) {
+  constexpr int kLanes = Lanes<R>::width;
+  const int columns = std::min(kTile, frame.color_rgba8.width() - x0);
+  return kLanes >= kBlock && columns % kLanes == 0 && !frame.depth_code.empty() && frame.stencil.empty();
+}
+
+/// The tile's part of a plane of 32 bits a pixel, values_at(x, y) for the lanes of a row from (x, y) of the tile on. Past
+/// the caches where rows begin at a vector's place: a frame is larger than they are.
+template <class R>
+void write_lanes(auto& plane, int x0, int y0, auto values_at) {
+  constexpr int kLanes = Lanes<R>::width;
+  const int columns = std::min(kTile, plane.width() - x0), rows = std::min(kTile, plane.height() - y0);
+  const auto write = [&](auto put) {
+    for (int y = 0; y < rows; ++y) {
+      auto* to = reinterpret_cast<std::int32_t*>(plane.row(y0 + y) + x0);
+      for (int x = 0; x < columns; x += kLanes) put(values_at(x, y), to + x);
+    }
+  };
+  const auto first = reinterpret_cast<std::uintptr_t>(plane.row(y0) + x0);
+  if (first % (4 * kLanes) == 0 && plane.width() % kLanes == 0) {
+    write([](const Int<R>& values, std::int32_t* to) { stream(values, to); });
+  } else {
+    write([](const Int<R>& values, std::int32_t* to) { store(values, to); });
+  }
+}
+
 /// write_out(), lanes of a row at once; one plane after the other, for twice as many streams of memory are slower.
 template <class R>
 void copy_out(PackedTile& tile, Frame& frame) {
-  constexpr int kLanes = Lanes<R>::width;
-  const int columns = std::min(kTile, frame.color_rgba8.width() - tile.x0);
-  if (kLanes < kBlock || columns % kLanes != 0 || frame.depth_code.empty() || !frame.stencil.empty()) {
-    return write_out(tile, frame);
-  }
-  const int rows = std::min(kTile, frame.color_rgba8.height() - tile.y0);
-  const auto copy = [&](auto& plane, const float* from, auto convert) {
-    for (int y = 0; y < rows; ++y) {
-      auto* to = reinterpret_cast<std::int32_t*>(plane.row(tile.y0 + y) + tile.x0);
-      const float* row = from + block_offset(0, y) + y % kBlock * kBlock;
-      for (int x = 0; x < columns; x += kLanes) store(convert(Lanes<R>::load_row(row + x * kBlock)), to + x);
-    }
+  if (!has_whole_lanes<R>(frame, tile.x0)) return write_out(tile, frame);
+  const auto row = [](const float* blocks, int x, int y) {
+    return Lanes<R>::load_row(blocks + block_offset(x, y) + y % kBlock * kBlock);
   };
-  copy(frame.color_rgba8, reinterpret_cast<const float*>(tile.color), [](const R& bits) { return as_int(bits); });
-  copy(frame.depth_code, tile.depth, [](const R& code) { return to_int(code); });
+  const auto* color = reinterpret_cast<const float*>(tile.color);
+  write_lanes<R>(frame.color_rgba8, tile.x0, tile.y0, [&](int x, int y) { return as_int(row(color, x, y)); });
+  write_lanes<R>(frame.depth_code, tile.x0, tile.y0, [&](int x, int y) { return to_int(row(tile.depth, x, y)); });
+  Lanes<R>::end_of_stream();
+}
+
+/// A tile in which nothing is painted. False: not in whole lanes, and not written.
+template <class R>
+bool clear_out(const Painting& painting, int x0, int y0, Frame& frame) {
+  if (!has_whole_lanes<R>(frame, x0)) return false;
+  const auto [z, c] = clear_pixel(painting.format);
+  const Int<R> color = packed_codes(R(c.r), R(c.g), R(c.b), R(c.a)), depth = to_int(R(z));
+  write_lanes<R>(frame.color_rgba8, x0, y0, [&](int, int) { return color; });
+  write_lanes<R>(frame.depth_code, x0, y0, [&](int, int) { return depth; });
+  Lanes<R>::end_of_stream();
+  return true;
 }
 
 template <class R>
@@ -183,6 +217,7 @@ void paint_tile(const Painting& painting, int number, TileMemory& memory, Frame&
     for (const PaintRun& run : runs) paint_run<R>(painting, run, memory.tile);
     return write_out(memory.tile, frame);
   }
+  if (runs.empty() && clear_out<R>(painting, x0, y0, frame)) return;
   PackedTile& first = memory.packed[0];
   if (painting.samples.size() == 1 || runs.empty()) {
     begin(first);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 
 #include "painter/set_up_lanes.h"
 
@@ -15,15 +16,42 @@ alignas(64) inline constexpr std::int32_t kColumnInBlock[] = {0, 1, 2, 3, 0, 1, 
 alignas(64) inline constexpr std::int32_t kRowInBlock[] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 alignas(64) inline constexpr std::int32_t kBlockNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-/// Calls block(x, y, for each sample which pixels of each part) for the blocks with pixels inside of all three edges,
-/// by rows; x, y: the block's first pixel, from the tile's. row(y), before each row: a bit for each of its sixteen
-/// blocks that matter.
+/// Blocks that are looked at at once, one a lane: side by side; or of a narrow box, rows of a few.
+template <class R>
+struct BlockGroup {
+  static constexpr int kLanes = Lanes<R>::width;
+  static constexpr int kNarrowBits = kLanes >= 8 ? 2 : kLanes >= 4 ? 1 : 0;
+
+  explicit BlockGroup(int box_width)
+      : is_narrow(kNarrowBits > 0 && box_width <= kBlock << kNarrowBits),
+        bits(is_narrow ? kNarrowBits : std::countr_zero(static_cast<unsigned>(kLanes))) {}
+  int columns() const { return 1 << bits; }
+  int rows() const { return kLanes >> bits; }
+  /// Of a lane's block, in pixels from the group's first.
+  int x(int lane) const { return kBlock * (lane & (columns() - 1)); }
+  int y(int lane) const { return kBlock * (lane >> bits); }
+  Int<R> x() const { return shifted_left<2>(Lanes<R>::load(kBlockNumbers) & Int<R>(columns() - 1)); }
+  Int<R> y() const {
+    return is_narrow ? shifted_left<2>(shifted_right<kNarrowBits>(Lanes<R>::load(kBlockNumbers))) : Int<R>(0);
+  }
+
+  const bool is_narrow;
+  const int bits;
+};
+
+/// Calls block(x, y, lane, covered, whole) for the blocks with pixels inside of all three edges, group by group; x, y:
+/// the block's first pixel, from the tile's; `covered`: for each sample the pixels of each part; `whole`:
+/// std::true_type where, of one sample, those are all pixels. Of each row of blocks, wanted(y) comes first: a bit for
+/// each of its sixteen blocks that matter. Before a group's whole blocks, ahead(x, y, group), of its first block.
 template <class R, int kSampleCount>
-[[gnu::always_inline]] inline void visit_covered(const LaneSetup<kSampleCount>& s, auto row, auto block) {
+[[gnu::always_inline]] inline void visit_covered(const LaneSetup<kSampleCount>& s, auto wanted, auto ahead,
+                                                 auto block) {
   using I = Int<R>;
   constexpr int kLanes = Lanes<R>::width;
+  const BlockGroup<R> group(s.x1 - s.x0);
   I in_block[kSampleCount][3][kParts<R>];  // what E adds to that of the block's first pixel
-  I of_blocks[3], least[3];  // of blocks side by side, from the row's first; and the least that it adds in a block
+  I of_blocks[3];                          // of a group's blocks, from the tile's first pixel
+  I least[3], greatest[3];                 // that E adds in a block
   for (int k = 0; k < 3; ++k) {
     for (int part = 0; part < kParts<R>; ++part) {
       const I within = Lanes<R>::load(kColumnInBlock + part * kLanes) * I(s.step_x[k]) +
@@ -32,23 +60,43 @@ template <class R, int kSampleCount>
         in_block[i][k][part] = kSampleCount == 1 ? within : within + I(s.at_sample[i][k] - s.at_tile[k]);
       }
     }
-    of_blocks[k] = Lanes<R>::load(kBlockNumbers) * I(kBlock * s.step_x[k]) + I(s.at_tile[k]);
+    of_blocks[k] = group.x() * I(s.step_x[k]) + I(s.at_tile[k]);
+    if (group.is_narrow) of_blocks[k] = of_blocks[k] + group.y() * I(s.step_y[k]);
     least[k] = I((kBlock - 1) * (std::min(s.step_x[k], 0) + std::min(s.step_y[k], 0)));
+    greatest[k] = I((kBlock - 1) * (std::max(s.step_x[k], 0) + std::max(s.step_y[k], 0)));
   }
-  for (int y = s.y0; y < s.y1; y += kBlock) {
-    const unsigned wanted = row(y);
-    if (wanted == 0) continue;
-    for (int x = s.x0; x < s.x1; x += kBlock * kLanes) {
-      const int left = (s.x1 - x + kBlock - 1) / kBlock;
+  for (int y = s.y0; y < s.y1; y += kBlock * group.rows()) {
+    unsigned rows[kLanes];
+    unsigned some_wanted = 0;
+    const int row_count = std::min(group.rows(), (s.y1 - y + kBlock - 1) / kBlock);
+    for (int r = 0; r < row_count; ++r) some_wanted |= rows[r] = wanted(y + kBlock * r);
+    if (some_wanted == 0) continue;
+    for (int x = s.x0; x < s.x1; x += kBlock * group.columns()) {
+      const int left = std::min(group.columns(), (s.x1 - x + kBlock - 1) / kBlock);
+      unsigned blocks = 0;
+      for (int r = 0; r < row_count; ++r) blocks |= (rows[r] >> (x / kBlock) & ~0u >> (32 - left)) << (r << group.bits);
       alignas(64) std::int32_t at[3][kLanes];
-      I some(-1);
+      I some(-1), whole(-1);
       for (int k = 0; k < 3; ++k) {
         const I here = of_blocks[k] + I(s.step_x[k] * x + s.step_y[k] * y);
         store(here, at[k]);
         some = some & (here + least[k]);
+        whole = whole & (here + greatest[k]);
       }
-      unsigned blocks = (left < kLanes ? (1u << left) - 1 : ~0u >> (32 - kLanes)) & wanted >> (x / kBlock);
-      for (blocks &= bits_of(some < I(0)); blocks != 0; blocks &= blocks - 1) {
+      blocks &= bits_of(some < I(0));
+      if constexpr (kSampleCount == 1) {
+        unsigned of_all = blocks & bits_of(whole < I(0));
+        blocks ^= of_all;
+        if (of_all != 0) {
+          Mask<R> covered[1][kParts<R>];
+          std::ranges::fill(covered[0], Lanes<R>::mask_of(~0u));
+          for (ahead(x, y, group); of_all != 0; of_all &= of_all - 1) {
+            const int b = std::countr_zero(of_all);
+            block(x + group.x(b), y + group.y(b), b, covered, std::true_type());
+          }
+        }
+      }
+      for (; blocks != 0; blocks &= blocks - 1) {
         const int b = std::countr_zero(blocks);
         const I e[3] = {I(at[0][b]), I(at[1][b]), I(at[2][b])};
         Mask<R> covered[kSampleCount][kParts<R>], any_covered = Lanes<R>::mask_of(0);
@@ -59,7 +107,7 @@ template <class R, int kSampleCount>
             any_covered = any_covered | covered[i][part];
           }
         }
-        if (any(any_covered)) block(x + kBlock * b, y, covered);
+        if (any(any_covered)) block(x + group.x(b), y + group.y(b), b, covered, std::false_type());
       }
     }
   }

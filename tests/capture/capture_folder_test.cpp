@@ -198,8 +198,8 @@ void expect_same_files(const fs::path& a, const fs::path& b, std::size_t count) 
 }
 
 template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+bool same_bits(const T& a, const T& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(*a.data())) == 0;
 }
 
 TEST_F(CaptureFolder, ComesBackBitForBit) {

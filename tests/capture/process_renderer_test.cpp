@@ -125,7 +125,7 @@ TEST_F(Process, HandsOnWhatTheProgramLeaves) {
   Capture c = shell(script)->capture(scene_, {});
   EXPECT_EQ(c.renderer, "outside");
   EXPECT_EQ(c.version, "42");
-  EXPECT_EQ(c.planes.depth.values(), std::vector(8, 0.5));
+  EXPECT_EQ(c.planes.depth.values(), Plane<double>::Values(8, 0.5));
   EXPECT_TRUE(c.records.depth.empty());  // not asked for
   Request request;
   request.records = {Stage::depth};

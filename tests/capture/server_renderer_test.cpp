@@ -66,7 +66,8 @@ class Server : public TestFolder {
 TEST_F(Server, IsStartedOnceAndHandsOnEachScene) {
   const auto renderer =
       server("test \"$(cat \"$in/name\")\" = \"$(echo group/scene)\" && cp \"$good\"/* \"$out\"; echo ok");
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(renderer->capture(scene_, {}).planes.depth.values(), std::vector(8, 0.5));
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(renderer->capture(scene_, {}).planes.depth.values(), Plane<double>::Values(8, 0.5));
   EXPECT_EQ(starts(), 1u);
 }
 

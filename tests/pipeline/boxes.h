@@ -77,10 +77,9 @@ inline Scene boxes(ColorFormat color = ColorFormat::rgba8, DepthFormat depth = D
   return scene;
 }
 
-template <class T>
-bool same_values(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(), [](const T& x, const T& y) { return x == y; });
+template <class Values>
+bool same_values(const Values& a, const Values& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return x == y; });
 }
 
 inline void expect_same(const Planes& is, const Planes& expected) {

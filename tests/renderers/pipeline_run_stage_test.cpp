@@ -172,8 +172,8 @@ TEST(PipelineRenderer, TrianglesBeyondTheFrameAreCutOff) {
   }
   in.records.triangles = {t};
   const Capture out = pipeline->run_stage(scene, Stage::coverage, in);
-  EXPECT_EQ(out.planes.count.values(), std::vector<std::uint32_t>(90 * 70, 1));
-  EXPECT_EQ(out.planes.id_sum.values(), std::vector<std::uint64_t>(90 * 70, id_weight(5)));
+  EXPECT_EQ(out.planes.count.values(), Plane<std::uint32_t>::Values(90 * 70, 1));
+  EXPECT_EQ(out.planes.id_sum.values(), Plane<std::uint64_t>::Values(90 * 70, id_weight(5)));
   EXPECT_EQ(out.records.covered.size(), 90u * 70u);
 }
 

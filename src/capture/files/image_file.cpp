@@ -275,7 +275,7 @@ Plane<glm::vec4> frame_color(const fs::path& file, const StoredImage& image, Col
   require_channels(file, image, 4, scale);
   Plane<glm::vec4> out(image.data.width, image.data.height);
   for (int c = 0; c < 4; ++c) {
-    const std::vector<double>& stored = image.channels[static_cast<std::size_t>(c)].values.values();
+    const auto& stored = image.channels[static_cast<std::size_t>(c)].values.values();
     for (std::size_t i = 0; i < out.size(); ++i) {
       const double code = largest == 0 ? stored[i] : std::round(stored[i] * largest / scale);
       out.values()[i][c] =

@@ -97,7 +97,7 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
 }
 
 bool more_than(std::uint64_t most_fragments, const Capture& capture) {
-  const std::vector<std::uint32_t>& count = capture.planes.count.values();
+  const auto& count = capture.planes.count.values();
   return std::accumulate(count.begin(), count.end(), std::uint64_t{0}) > most_fragments;
 }
 

@@ -56,7 +56,7 @@ struct Case {
 
 /// Fragments were drawn, but none are recorded.
 inline bool over_budget(const Capture& c) {
-  const std::vector<std::uint32_t>& count = c.planes.count.values();
+  const auto& count = c.planes.count.values();
   return c.records.covered.empty() && std::any_of(count.begin(), count.end(), [](std::uint32_t n) { return n != 0; });
 }
 

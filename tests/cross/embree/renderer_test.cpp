@@ -39,7 +39,7 @@ TEST(EmbreeRenderer, AnEmptySceneIsTheBackground) {
   Request request;
   request.legal = true;
   const Capture capture = embree::make_embree()->capture(scene, request);
-  EXPECT_EQ(capture.planes.id.values(), std::vector<std::int32_t>(15, kBackground));
+  EXPECT_EQ(capture.planes.id.values(), Plane<std::int32_t>::Values(15, kBackground));
   EXPECT_EQ(capture.planes.color(4, 2), glm::vec4(64 / 255.0f, 128 / 255.0f, 1, 1));
   EXPECT_EQ(capture.legal.at(4, 2).size(), 1u);
   EXPECT_EQ(capture.legal.predicted_ambiguous, 0);

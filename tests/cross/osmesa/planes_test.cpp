@@ -210,10 +210,10 @@ TEST(OsmesaPlanes, AFrameAsWideAsGLAllows) {
 
 TEST(OsmesaPlanes, AnEmptySceneIsTheClearValues) {
   const Planes planes = planes_of(pixel_scene(3, 2));
-  EXPECT_EQ(planes.count.values(), std::vector<std::uint32_t>(6, 0));
-  EXPECT_EQ(planes.id.values(), std::vector<std::int32_t>(6, kBackground));
-  EXPECT_EQ(planes.depth.values(), std::vector<double>(6, 1.0));
-  EXPECT_EQ(planes.color.values(), std::vector<glm::vec4>(6, glm::vec4(0, 0, 0, 1)));
+  EXPECT_EQ(planes.count.values(), Plane<std::uint32_t>::Values(6, 0));
+  EXPECT_EQ(planes.id.values(), Plane<std::int32_t>::Values(6, kBackground));
+  EXPECT_EQ(planes.depth.values(), Plane<double>::Values(6, 1.0));
+  EXPECT_EQ(planes.color.values(), Plane<glm::vec4>::Values(6, glm::vec4(0, 0, 0, 1)));
 }
 
 }  // namespace
