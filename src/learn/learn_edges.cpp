@@ -105,8 +105,8 @@ std::optional<Grid> grid_of(const std::vector<Edge>& edges, int least_bits, int 
   return best;
 }
 
-// By edges that are moved by 1/1024 pixel, some on the grids' places and some off; where those tell no grid of 8 bits or
-// fewer, by 1/16384, about the sample.
+// By edges that are moved by 1/1024 pixel, some on the grids' places and some off; where those tell no grid of 8 bits
+// or fewer, by 1/16384, about the sample.
 constexpr int kMostBits = 12;
 std::optional<Grid> grid_along(Prober& prober, int along) {
   std::vector<double> offsets;

@@ -76,9 +76,9 @@ void learn_weights(Prober& prober) {
   prober.found(words, bits_text(bits), evidence);
 }
 
-// A floor that reaches from near to far, each level of its texture in its own grey: at the window's corners, its place in
-// eye space and its texture coordinates. The texture lies askew: the length of a derivative is another than its largest
-// component.
+// A floor that reaches from near to far, each level of its texture in its own grey: at the window's corners, its place
+// in eye space and its texture coordinates. The texture lies askew: the length of a derivative is another than its
+// largest component.
 constexpr ProbeCorner floor_corner(glm::dvec2 ndc, double w, glm::vec2 st) { return {{ndc * w, w}, glm::vec4(1), st}; }
 constexpr std::array<ProbeCorner, 4> kFloor = {floor_corner({-1, -1}, 2, {0, 0}),
                                                floor_corner({1, -1}, 2, {1.1f, 0.9f}),
@@ -96,8 +96,8 @@ Scene floor_scene() {
   return out;
 }
 
-// Texture coordinates at a place of the window [pixels], perspective-correct, in the plane of the lower right triangle or
-// of the other.
+// Texture coordinates at a place of the window [pixels], perspective-correct, in the plane of the lower right triangle
+// or of the other.
 glm::dvec2 floor_st(glm::dvec2 p_win, bool lower) {
   const glm::dvec2 at = p_win / static_cast<double>(kTexturedSize);
   const double u = at.x, v = at.y;

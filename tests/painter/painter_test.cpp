@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -246,6 +247,27 @@ TEST(Painter, KeepsTheFirstOfEquallyNearFragments) {
     scene.draws[2].transforms.insert(scene.draws[2].transforms.begin(), Translate{{0, 0, offset}});
     const Frame definition = render(scene, stages);
     for (const auto& [name, painter] : all) EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name;
+  }
+}
+
+// Tiles that are painted, and tiles in which nothing is, in whole lanes and not; a frame of that size was there before.
+TEST(Painter, WritesFramesOfEveryWidth) {
+  const Stages stages = production_stages();
+  const auto all = painters();
+  Scene scene = spheres(20, Cull::none);
+  scene.draws.resize(1);
+  scene.draws[0].transforms = {Translate{{-1, -0.5, 0}}, Scale{{0.3, 0.3, 0.3}}};
+  scene.frame.clear_color = {0.2f, 0.4f, 0.6f, 0.8f};
+  scene.frame.clear_depth = 0.75f;
+  for (int width = 120; width <= 145; ++width) {
+    scene.frame.width = width;
+    const Frame definition = render(scene, stages);
+    for (const auto& [name, painter] : all) {
+      const Frame& frame = painter->draw(scene);
+      EXPECT_TRUE(same_bits(frame, definition)) << name << " " << width;
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(frame.color_rgba8.row(0)) % 64, 0u);
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(frame.depth_code.row(0)) % 64, 0u);
+    }
   }
 }
 
