@@ -61,7 +61,7 @@ struct Conventions {
 
   /// Names of those that plumb learn could not tell, which stand at OpenGL's.
   std::vector<std::string> open;
-  /// What plumb learn saw that no convention explains, a sentence each: findings, as mistaken conventions are.
+  /// Findings of plumb learn that no convention explains, a sentence each; mistakes, too (mistaken()).
   std::vector<std::string> unexplained;
 
   static constexpr int kFloat = -1;

@@ -46,8 +46,8 @@ int learn(const LearnOptions& o) {
   const Output outputs[] = {{"--output", o.output}};
   require_outputs(outputs, {}, {});
   require_folder({"--pictures", o.pictures});
-  make_folder(o.pictures);
   const std::unique_ptr<Renderer> renderer = asked_renderer(o);
+  make_folder(o.pictures);
   learn::Learned learned;
   try {
     learned = learn::learn(*renderer);

@@ -159,8 +159,8 @@ inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {
 inline void store(float value, float* to) { *to = value; }
 inline void store(double value, double* to) { *to = value; }
 inline void store(std::int64_t value, std::int32_t* to) { *to = static_cast<std::int32_t>(value); }
-/// The same past the caches, where the place is a multiple of the lanes' size. Lanes<R>::end_of_stream() makes it seen
-/// by other threads.
+/// A store past the caches, to a place that is a multiple of the lanes' size. Lanes<R>::end_of_stream() makes it seen by
+/// other threads.
 inline void stream(std::int64_t value, std::int32_t* to) { *to = static_cast<std::int32_t>(value); }
 /// Bytes of whole numbers from 0 to 255.
 inline void store_codes(std::int64_t value, std::uint8_t* to) { *to = static_cast<std::uint8_t>(value); }

@@ -85,8 +85,8 @@ void learn_interpolation(Prober& prober) {
   prober.found(words, name_of(prober.learned.conventions.interpolation), evidence);
 }
 
-// Ramps two pixels wide, whose corners lie just not half a step above a place of the grid. Halfway between two codes
-// lies the mean of the colours that the corners, as they are and snapped, give a pixel.
+// Ramps two pixels wide, whose corners are snapped just not half a step down, or by roundings down and up nearly a whole
+// one. Halfway between two codes lies the mean of the colours that the corners, as they are and snapped, give a pixel.
 void learn_corners(Prober& prober) {
   constexpr int kRamps = 16;
   const ConventionWords words = words_of("attribute_corners");
@@ -95,7 +95,9 @@ void learn_corners(Prober& prober) {
   if (prober.is_open("color_rounding") || prober.is_open("sample") || c.sample != glm::dvec2(0.5) ||
       c.color_rounding != C::Rounding::nearest || c.color_encoding != C::Encoding::linear)
     return prober.open(words, "another sample, rounding or encoding of colours hides it");
-  const double share = c.subpixel_rounding == C::Rounding::down ? 0.98 : 0.49,
+  const double share = c.subpixel_rounding == C::Rounding::down ? 0.98
+                       : c.subpixel_rounding == C::Rounding::up ? -0.98
+                                                                : 0.49,
                above = std::ldexp(share, -c.subpixel_bits);
   Scene scene = probe_frame("attribute_corners", kFrameSize, 4);
   std::vector<std::array<ProbeCorner, 3>> triangles;

@@ -101,7 +101,7 @@ void learn_rounding(Prober& prober, const Codes& codes, std::size_t n) {
   prober.found(words, name_of(c.depth_rounding), evidence);
 }
 
-// Of a renderer that leaves codes of 24 bits where they are asked for: whether it leaves 16 bits when asked. There,
+// Format and rounding of a renderer that leaves codes of 24 bits where they are asked for, by a frame of 16 bits: there,
 // arithmetic in float tells the nearest code from the upper one.
 void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes) {
   C& c = prober.learned.conventions;

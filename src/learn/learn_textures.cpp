@@ -121,8 +121,8 @@ double floor_lambda(glm::dvec2 p_win, bool lower) {
   return std::log2(std::max(derivative({h, 0}), derivative({0, h})));
 }
 
-// Of the pixels that are not at the triangles' common edge: how many have their own level, and how many one of their
-// square of two by two. Of the squares whose pixels' own levels differ: how many have one level.
+// Pixels that are not at the triangles' common edge: how many have their own level, and how many one of their square of
+// two by two. Squares whose pixels' own levels differ: how many have one level.
 struct Levels {
   std::size_t pixels = 0, own = 0, of_square = 0, squares = 0, alike = 0;
 };

@@ -122,8 +122,8 @@ class OpaqueRun {
         for (int k = 0; k < kPlanes; ++k) of_row[k][part] = plane[k]->at_0 + dy * plane[k]->y;
       }
     };
-    // Of a group's whole blocks: no depth code is greater, by the plane at the corner where it is farthest, and a code
-    // for its rounding.
+    // Bounds of depth codes in a group's whole blocks: the plane's at the corner where it is farthest, and a code for
+    // its rounding.
     alignas(64) float farthest_ahead[kLanes];
     const auto ahead = [&](int x, int y, const BlockGroup<R>& group) {
       const Affine<double>& code = s.code[0];

@@ -27,7 +27,7 @@ struct BlockGroup {
         bits(is_narrow ? kNarrowBits : std::countr_zero(static_cast<unsigned>(kLanes))) {}
   int columns() const { return 1 << bits; }
   int rows() const { return kLanes >> bits; }
-  /// Of a lane's block, in pixels from the group's first.
+  /// Place of a lane's block, in pixels from the group's first.
   int x(int lane) const { return kBlock * (lane & (columns() - 1)); }
   int y(int lane) const { return kBlock * (lane >> bits); }
   Int<R> x() const { return shifted_left<2>(Lanes<R>::load(kBlockNumbers) & Int<R>(columns() - 1)); }
