@@ -186,7 +186,8 @@ inline __m256i rounded(__m256 v) { return _mm256_cvtps_epi32(v); }
 inline __m256i to_bytes(__m256i a, __m256i b) { return _mm256_packus_epi16(a, b); }
 #endif
 #if HWY_TARGET <= HWY_AVX3
-inline __m512i rounded(__m512 v) { return _mm512_cvtps_epi32(v); }
+// Masked by all ones, for GCC 12 calls _mm512_cvtps_epi32's own unset operand uninitialized (PR 105593).
+inline __m512i rounded(__m512 v) { return _mm512_maskz_cvtps_epi32(0xffff, v); }
 inline __m512i to_bytes(__m512i a, __m512i b) { return _mm512_packus_epi16(a, b); }
 #endif
 inline SimdInt packed(SimdInt r, SimdInt g, SimdInt b, SimdInt a) {
