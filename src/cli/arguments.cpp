@@ -129,6 +129,13 @@ void add(CLI::App& command, CheckOptions& o) {
                   "Scenes judged at a time, each in a process of its own (default: the number of processors)")
       ->check(CLI::Range(1, kMostJobs));
   add_limits(command, o.limits);
+  text(command, "--cache", o.cache,
+       "Keep verdicts in this folder for later runs (default: plumbline in the user's folder of caches)")
+      ->envname("PLUMBLINE_CACHE");
+  command
+      .add_flag_callback(
+          "--no-cache", [&o] { o.cache.clear(); }, "Judge every scene anew, and keep nothing")
+      ->envname("PLUMBLINE_NO_CACHE");
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
   add_assets(command, o.scene_arguments);
 }

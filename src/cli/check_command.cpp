@@ -18,6 +18,8 @@
 #include "cli/check_failures.h"
 #include "cli/commands.h"
 #include "cli/judge_in_workers.h"
+#include "cli/judges.h"
+#include "cli/options/default_cache.h"
 #include "cli/options/outputs.h"
 #include "cli/options/program_argument.h"
 #include "cli/options/references.h"
@@ -79,6 +81,8 @@ void require_scenes(const report::Rubric& rubric, std::span<const Scene> scenes,
   }
 }
 
+constexpr std::uint64_t kMostKept = std::uint64_t{64} << 20;  // [bytes] of verdicts for later runs
+
 std::string lines_of(std::span<const std::string> lines) {
   return lines.empty() ? "" : fmt::format("{}\n", fmt::join(lines, "\n"));
 }
@@ -119,7 +123,7 @@ int check(const CheckOptions& given) {
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
   std::vector<std::filesystem::path> files = find_scenes(paths);
   const report::Shard shard = take_shard(files, o.shard);
-  CheckRules rules{o, today(o), {}, {}, {}};
+  CheckRules rules{o, today(o), {}, {}, {}, {}};
   std::optional<report::Rubric> rubric;
   if (!o.rubric.empty()) rubric = report::read_rubric(o.rubric);
   if (!o.expect.empty()) rules.expectations = check::read_expectations(o.expect, names_of_rows());
@@ -140,6 +144,9 @@ int check(const CheckOptions& given) {
   report::RunHead head{{}, o.fault, o.against, !o.golden.empty(), shard, {}};
   if (!o.golden.empty()) rules.goldens.emplace(o.golden, check::GoldenSet::Access::read);
   if (!o.report.empty()) rules.page.emplace(o.report, scenes.size());
+  // A page shows what both sides drew, and a reference with a fault is none of this program's judges.
+  const std::string cache = rules.page || !faulted_reference(o.fault).empty() ? "" : made_cache(o.cache);
+  if (!cache.empty()) rules.kept = {check::VerdictStore(cache), judges_of(o), check::tried_at_random};
   std::set<std::string> words;  // that verdicts refer to
   std::vector<check::SceneVerdict> verdicts;
   std::vector<check::Settled> settled;
@@ -156,6 +163,7 @@ int check(const CheckOptions& given) {
     head.versions.merge(judged.versions);
   };
   judge_in_workers(scenes, rules, words, take);
+  if (rules.kept) rules.kept->store.trim(kMostKept);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (is_whole(o, verdicts)) head.failures = check::of_no_scene(rules.expectations, verdicts);
   const Conventions conventions = conventions_of(o.candidate.conventions);

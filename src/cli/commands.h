@@ -6,6 +6,7 @@
 
 #include "base/workers.h"
 #include "check/diagnose/diagnose.h"
+#include "cli/options/default_cache.h"
 #include "cli/options/program_argument.h"
 #include "cli/options/renderers.h"
 #include "cli/options/scene_arguments.h"
@@ -37,6 +38,7 @@ struct CheckOptions {
   int jobs = 0;                ///< scenes judged at a time; 0: as many as there are processors
   WorkerLimits limits;         ///< of the processes that judge
   bool allow_missing = false;
+  std::string cache = default_cache();  ///< a folder of verdicts of earlier runs (check/kept), or empty
   SceneArguments scene_arguments;
   std::string program = "plumb";  ///< as it was called, for the command that repeats a failure
 };

@@ -13,7 +13,8 @@
 
 namespace plumbline::cli {
 
-SceneJudge::SceneJudge(const CheckRules& rules, Progress& progress) : rules_(&rules), progress_(&progress) {}
+SceneJudge::SceneJudge(const CheckRules& rules, Progress& progress)
+    : rules_(&rules), progress_(&progress), kept_(rules.kept) {}
 
 JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   const CheckOptions& o = rules_->options;
@@ -31,7 +32,9 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   JudgedScene out;
   check::BothCaptures drawn;
   const bool outside = !o.candidate.command.empty();
-  out.verdict = check::judge(scene, *candidate_, references_.list, rules_->page || outside ? &drawn : nullptr);
+  check::BothCaptures* wanted = rules_->page || outside ? &drawn : nullptr;
+  out.verdict = kept_ && ended_.empty() ? check::judge_or_recall(scene, *candidate_, references_.list, *kept_, wanted)
+                                        : check::judge(scene, *candidate_, references_.list, wanted);
   check::SceneVerdict& verdict = out.verdict;
   if (outside && report::conformance_of(verdict) == report::Conformance::differs) {
     verdict.cause = likely_fault(scene, drawn.candidate, verdict);

@@ -11,6 +11,7 @@
 
 #include "capture/renderer.h"
 #include "check/golden/golden_set.h"
+#include "check/kept/judge_or_recall.h"
 #include "check/verdict/expectations.h"
 #include "check/verdict/verdict.h"
 #include "cli/commands.h"
@@ -26,7 +27,8 @@ struct CheckRules {
   std::chrono::sys_days today;
   std::vector<check::Expectation> expectations;
   std::optional<check::GoldenSet> goldens;
-  std::optional<report::HtmlReport> page;  ///< wanted, or not
+  std::optional<report::HtmlReport> page;   ///< wanted, or not
+  std::optional<check::KeptVerdicts> kept;  ///< verdicts of earlier runs may stand
 };
 
 /// What comes of a scene. Its planes are gone.
@@ -54,6 +56,7 @@ class SceneJudge {
   const CheckRules* rules_;
   Progress* progress_;
   EndedSteps ended_;
+  std::optional<check::KeptVerdicts> kept_;
   std::unique_ptr<Renderer> candidate_;
   References references_;
 };

@@ -108,6 +108,24 @@ TEST_F(KilledRuns, CheckWithAReport) {
                       [&] { return read(folder_ / "out/report/index.html").find("</html>") != std::string::npos; });
 }
 
+// What a killed run keeps for later ones does not alter what they say.
+TEST_F(KilledRuns, CheckWithACache) {
+  ::unsetenv("PLUMBLINE_NO_CACHE");
+  const std::string run = fmt::format("check {} {}clip/behind_eye.json", at("scene.json"), kScenes);
+  const auto said = [&](const std::string& option) {
+    const std::string text = shell(fmt::format("{} {} {}", PLUMBLINE_PLUMB, run, option)).text;
+    return text.substr(0, text.rfind(" in "));
+  };
+  const std::string anew = said("--no-cache"), cache = "--cache " + at("out/kept");
+  EXPECT_FALSE(anew.empty());
+  kill_at_all_moments(fmt::format("{} {}", run, cache), [&] {
+    const bool same = said(cache) == anew;
+    fs::remove_all(folder_ / "out/kept");
+    return same;
+  });
+  ::setenv("PLUMBLINE_NO_CACHE", "1", 1);
+}
+
 TEST_F(KilledRuns, Capture) {
   kill_at_all_moments(fmt::format("capture {} {}", at("scene.json"), at("out/capture")),
                       [&] { return plumb(fmt::format("compare {0} {0}", at("out/capture"))).code == 0; });

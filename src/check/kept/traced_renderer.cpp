@@ -1,0 +1,130 @@
+#include "check/kept/traced_renderer.h"
+
+#include <utility>
+
+#include "capture/files/capture_columns.h"
+#include "capture/files/conventions_file.h"
+#include "scene/antialias.h"
+
+namespace plumbline::check {
+
+namespace {
+
+class CaptureHasher {
+ public:
+  explicit CaptureHasher(Hasher& hasher) : hasher_(hasher) {}
+  template <class Record>
+  void group(Handed group, const auto& columns, const std::vector<Record>& records) {
+    columns.each([&](const auto& column) {
+      const std::vector<char> bytes = packed(records, column);
+      hasher_.add_text(group.name);
+      hasher_.add_text({bytes.data(), bytes.size()});
+    });
+  }
+  template <class T>
+  void plane(Handed of, const Plane<T>& plane) {
+    hasher_.add_text(of.name);
+    hasher_.add_value(glm::ivec2(plane.width(), plane.height()));
+    hasher_.add(plane.values().data(), plane.size() * sizeof(T));
+  }
+
+ private:
+  Hasher& hasher_;
+};
+
+Hash hash_of_capture(const Capture& capture) {
+  Hasher hasher;
+  hasher.add_text(capture.renderer);
+  hasher.add_text(capture.version);
+  hasher.add_value(glm::ivec3(capture.width, capture.height, capture.depth_in_float ? 1 : 0));
+  for (const std::string& name : capture.derived) hasher.add_text(name);
+  CaptureHasher all(hasher);
+  visit_capture(all, capture);
+  for (const Plane<glm::vec4>& samples : capture.samples) all.plane({Stage::resolve, "samples"}, samples);
+  return hasher.done();
+}
+
+bool may_be_made_again(const Request& request) { return !request.legal && request.conventions == Conventions{}; }
+
+bool is_pass(const Scene& scene, const Scene& of, std::size_t i) {
+  const Pass pass = own_of_pass(of.frame, i);
+  return of.frame.antialias.kind != Antialias::Kind::none && scene.frame.antialias.kind == Antialias::Kind::none &&
+         scene.name == of.name && scene.frame.pass.shift == pass.shift && scene.frame.pass.sample == pass.sample;
+}
+
+bool same_question(TracedCall a, TracedCall b) {
+  a.answer = b.answer = a.info = b.info = {};
+  ByteWriter of_a, of_b;
+  visit(of_a, a);
+  visit(of_b, b);
+  return of_a.done() == of_b.done();
+}
+
+}  // namespace
+
+Hash hash_of(const RendererInfo& info) {
+  Hasher hasher;
+  hasher.add_text(info.name);
+  hasher.add_text(info.version);
+  for (const Ability& a : info.stages) {
+    hasher.add_value(std::array{a.shows, a.runs, a.planes_alone, a.given});
+    hasher.add_text(a.reason);
+  }
+  hasher.add_value(std::array{static_cast<int>(info.profile), info.legal ? 1 : 0});
+  hasher.add_text(conventions_text(info.conventions));
+  for (const std::string& painter : info.painters) hasher.add_text(painter);
+  return hasher.done();
+}
+
+const Scene& TracedRenderer::scene_of(std::uint64_t pass) {
+  if (pass == TracedCall::kWhole) return scene_;
+  if (passes_.empty()) passes_ = passes_of(scene_);
+  return passes_.at(pass);
+}
+
+TracedRenderer::Answer TracedRenderer::ask(std::uint64_t pass, const Request& request) {
+  Answer out{{pass, request, {}, {}}, {}, {}};
+  try {
+    out.capture = inner_.capture(scene_of(pass), request);
+    out.call.answer = hash_of_capture(out.capture);
+  } catch (const OverBudget& e) {
+    out.over_budget = e.what();
+    out.call.answer = hash_of(*out.over_budget);
+  }
+  out.call.info = hash_of(inner_.info());
+  return out;
+}
+
+bool TracedRenderer::answers_as_before(std::span<const TracedCall> calls) {
+  for (const TracedCall& call : calls) {
+    Answer answer = ask(call.pass, call.request);
+    if (answer.call.answer == call.answer && answer.call.info == call.info) continue;
+    held_ = std::move(answer);
+    return false;
+  }
+  return true;
+}
+
+Capture TracedRenderer::capture(const Scene& scene, const Request& request) {
+  const std::size_t passes = pass_count(scene_.frame.antialias);
+  std::uint64_t pass = TracedCall::kWhole;
+  if (&scene != &scene_) {
+    pass = 0;
+    while (pass < passes && !is_pass(scene, scene_, pass)) ++pass;
+  }
+  std::optional<std::vector<TracedCall>> before = std::exchange(calls_, std::nullopt);  // left so where asking throws
+  if (!before || pass == passes || !may_be_made_again(request)) return inner_.capture(scene, request);
+  std::optional<Answer> answer = std::exchange(held_, std::nullopt);
+  if (!answer || !same_question(answer->call, {pass, request, {}, {}})) answer = ask(pass, request);
+  before->push_back(answer->call);
+  calls_ = std::move(before);
+  if (answer->over_budget) throw OverBudget(*answer->over_budget);
+  return std::move(answer->capture);
+}
+
+Capture TracedRenderer::run_stage(const Scene& scene, Stage stage, const Capture& in) {
+  calls_.reset();
+  return inner_.run_stage(scene, stage, in);
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,73 @@
+// What a candidate was asked about a scene, and what it answered, as hashes. A judge is a function of the answers: where
+// they are the same, so is the verdict.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/byte_archive.h"
+#include "capture/renderer.h"
+#include "check/golden/golden_hash.h"
+
+namespace plumbline::check {
+
+/// One call of Renderer::capture(), which handed out a capture or threw OverBudget.
+struct TracedCall {
+  static constexpr std::uint64_t kWhole = ~std::uint64_t{0};
+  std::uint64_t pass = kWhole;  ///< that was drawn (passes_of()); kWhole: the scene
+  Request request;              ///< without legal answers, and of no other's conventions
+  Hash answer;                  ///< of everything in the capture, or of OverBudget's words
+  Hash info;                    ///< of what info() said then
+};
+
+Hash hash_of(const RendererInfo& info);
+
+/// The inner renderer, which it does not own, with a list of its calls.
+class TracedRenderer : public Renderer {
+ public:
+  TracedRenderer(const Scene& scene, Renderer& inner) : scene_(scene), inner_(inner) {}
+  RendererInfo info() const override { return inner_.info(); }
+  Capture capture(const Scene& scene, const Request& request) override;
+  Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override;
+
+  /// Makes these calls, and says whether each is answered as it was. The first answer that is another is handed out to
+  /// who makes that call next: nothing is drawn twice for it.
+  bool answers_as_before(std::span<const TracedCall> calls);
+  /// The calls since then. None where one cannot be made again: it asked for something else than a capture of the scene
+  /// or of a pass, or it failed.
+  const std::optional<std::vector<TracedCall>>& calls() const { return calls_; }
+
+ private:
+  struct Answer {
+    TracedCall call;
+    Capture capture;
+    std::optional<std::string> over_budget;
+  };
+  Answer ask(std::uint64_t pass, const Request& request);
+  const Scene& scene_of(std::uint64_t pass);
+
+  const Scene& scene_;
+  Renderer& inner_;
+  std::vector<Scene> passes_;
+  std::optional<std::vector<TracedCall>> calls_ = std::vector<TracedCall>{};
+  std::optional<Answer> held_;
+};
+
+template <class Archive>
+void visit(Archive& archive, TracedCall& c) {
+  std::vector<std::uint8_t> stages;
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) stages.push_back(c.request.records.has(static_cast<Stage>(i)));
+  visit_all(archive, c.pass, stages, c.request.primitives);
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    if (stages[i] != 0) c.request.records.add(static_cast<Stage>(i));
+  }
+  c.request.pixels.resize(archive.count(c.request.pixels));
+  for (glm::ivec2& pixel : c.request.pixels) visit_all(archive, pixel.x, pixel.y);
+  visit_all(archive, c.request.memory_budget, c.request.planes, c.request.painter, c.answer.high, c.answer.low,
+            c.info.high, c.info.low);
+}
+
+}  // namespace plumbline::check

@@ -1,0 +1,31 @@
+// Bytes on disk by their key, for later runs, of which several may use the folder at a time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "check/golden/golden_hash.h"
+
+namespace plumbline::check {
+
+/// A folder of files, each with the hash of its own bytes. A file appears whole or not at all; one that is cut off or
+/// damaged is none. What cannot be written is not kept: nothing fails by it.
+class VerdictStore {
+ public:
+  explicit VerdictStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  std::optional<std::string> find(const Hash& key) const;
+  void keep(const Hash& key, std::string_view bytes) const;
+  void forget(const Hash& key) const;
+  /// Removes the files that were not found for the longest time until all take at most so many bytes.
+  void trim(std::uint64_t most_bytes) const;
+
+ private:
+  std::filesystem::path file_of(const Hash& key) const;
+  std::filesystem::path folder_;
+};
+
+}  // namespace plumbline::check

@@ -1,0 +1,13 @@
+// The folder for what later runs may use.
+#pragma once
+
+#include <string>
+
+namespace plumbline::cli {
+
+/// $XDG_CACHE_HOME/plumbline, or ~/.cache/plumbline; empty where neither variable is an absolute path.
+std::string default_cache();
+/// Makes the folder. Where it cannot be made: throws std::invalid_argument, unless it is the default one: then empty.
+std::string made_cache(const std::string& folder);
+
+}  // namespace plumbline::cli
