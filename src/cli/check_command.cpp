@@ -118,6 +118,7 @@ int check(const CheckOptions& given) {
       !faulted.empty() && std::ranges::count(o.against, faulted) == 0)
     throw std::invalid_argument(fmt::format("--fault: {} is not among the references asked", faulted));
   const auto start = std::chrono::steady_clock::now();
+  const auto began = std::filesystem::file_time_type::clock::now();
   if (!o.candidate.command.empty() && o.submissions.empty())
     make_program(o.candidate);  // refuses what is no command line
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
@@ -146,7 +147,7 @@ int check(const CheckOptions& given) {
   if (!o.report.empty()) rules.page.emplace(o.report, scenes.size());
   // A page shows what both sides drew, and a reference with a fault is none of this program's judges.
   const std::string cache = rules.page || !faulted_reference(o.fault).empty() ? "" : made_cache(o.cache);
-  if (!cache.empty()) rules.kept = {check::VerdictStore(cache), judges_of(o), check::tried_at_random};
+  if (!cache.empty()) rules.kept = {check::VerdictStore(cache), judges_of(o), check::tried_at_random, began};
   std::set<std::string> words;  // that verdicts refer to
   std::vector<check::SceneVerdict> verdicts;
   std::vector<check::Settled> settled;

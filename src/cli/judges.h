@@ -1,4 +1,4 @@
-// What verdicts follow from beside scenes and renderers' answers.
+// The judges of a run: what verdicts follow from beside scenes and candidates' answers.
 #pragma once
 
 #include <string>

@@ -108,7 +108,7 @@ TEST_F(KilledRuns, CheckWithAReport) {
                       [&] { return read(folder_ / "out/report/index.html").find("</html>") != std::string::npos; });
 }
 
-// What a killed run keeps for later ones does not alter what they say.
+// Verdicts that a killed run keeps do not alter what later runs say.
 TEST_F(KilledRuns, CheckWithACache) {
   ::unsetenv("PLUMBLINE_NO_CACHE");
   const std::string run = fmt::format("check {} {}clip/behind_eye.json", at("scene.json"), kScenes);

@@ -115,13 +115,14 @@ using ColumnType = std::remove_cvref_t<decltype(std::declval<C>().at(std::declva
 template <class C>
 inline constexpr std::size_t kPerRecord = std::max<std::size_t>(std::remove_cvref_t<C>::kCorners, 1);
 
-/// A column's values, one after the other: the records without their gaps.
-template <class Record, class C>
-std::vector<char> packed(const std::vector<Record>& records, const C& column) {
+/// A column's values, one after the other: the records (a vector, or a span) without their gaps.
+template <class Records, class C>
+std::vector<char> packed(const Records& records, const C& column) {
+  using Record = typename Records::value_type;
   constexpr std::size_t kSize = sizeof(ColumnType<C, const Record>);
   std::vector<char> bytes(records.size() * kPerRecord<C> * kSize);
   char* to = bytes.data();
-  for (const Record& record : records) {
+  for (const auto& record : records) {
     for (std::size_t k = 0; k < kPerRecord<C>; ++k, to += kSize) std::memcpy(to, &column.at(record, k), kSize);
   }
   return bytes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <random>
+#include <system_error>
 #include <utility>
 
 #include "check/kept/traced_renderer.h"
@@ -41,6 +42,13 @@ Hash key_of(const Scene& scene, std::span<const Reference> references, const std
   return hasher.done();
 }
 
+bool was_read_from_its_files(const Scene& scene, std::filesystem::file_time_type began) {
+  return std::ranges::all_of(scene.files, [&](const std::string& file) {
+    std::error_code gone;
+    return std::filesystem::last_write_time(file, gone) < began && !gone;
+  });
+}
+
 std::optional<Kept> find(const VerdictStore& store, const Hash& key, std::set<std::string>& words) {
   const std::optional<std::string> bytes = store.find(key);
   if (!bytes) return std::nullopt;
@@ -69,6 +77,7 @@ bool tried_at_random(double seconds) {
 
 SceneVerdict judge_or_recall(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                              KeptVerdicts& kept, BothCaptures* drawn) {
+  if (!was_read_from_its_files(scene, kept.began)) return judge(scene, candidate, references, drawn);
   const auto start = std::chrono::steady_clock::now();
   const Hash key = key_of(scene, references, kept.judges);
   std::optional<Kept> before = find(kept.store, key, kept.words);

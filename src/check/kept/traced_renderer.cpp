@@ -1,8 +1,7 @@
 #include "check/kept/traced_renderer.h"
 
+#include <algorithm>
 #include <array>
-#include <cstring>
-#include <type_traits>
 #include <utility>
 
 #include "capture/files/capture_columns.h"
@@ -16,22 +15,17 @@ namespace {
 class CaptureHasher {
  public:
   explicit CaptureHasher(Hasher& hasher) : hasher_(hasher) {}
-  // Column by column, in pieces that stay in the cache: records have gaps.
+  // Column by column, in pieces that stay in the cache.
   template <class Record>
   void group(Handed group, const auto& columns, const std::vector<Record>& records) {
+    constexpr std::size_t kPiece = 512;
     hasher_.add_text(group.name);
     hasher_.add_value(std::uint64_t{records.size()});
     columns.each([&](const auto& column) {
-      constexpr std::size_t kSize = sizeof(ColumnType<std::remove_cvref_t<decltype(column)>, const Record>);
-      std::array<char, 1 << 14> piece;
-      std::size_t filled = 0;
-      for (const Record& record : records) {
-        for (std::size_t k = 0; k < kPerRecord<decltype(column)>; ++k, filled += kSize) {
-          if (filled + kSize > piece.size()) hasher_.add(piece.data(), std::exchange(filled, 0));
-          std::memcpy(piece.data() + filled, &column.at(record, k), kSize);
-        }
+      for (std::span<const Record> left(records); !left.empty(); left = left.subspan(std::min(kPiece, left.size()))) {
+        const std::vector<char> bytes = packed(left.first(std::min(kPiece, left.size())), column);
+        hasher_.add(bytes.data(), bytes.size());
       }
-      hasher_.add(piece.data(), filled);
     });
   }
   template <class T>

@@ -1,5 +1,5 @@
-// What a candidate was asked about a scene, and what it answered, as hashes. A judge is a function of the answers: where
-// they are the same, so is the verdict.
+// Calls of a candidate for a scene, and hashes of its answers. A judge is a function of the answers: where they are the
+// same, so is the verdict.
 #pragma once
 
 #include <cstdint>

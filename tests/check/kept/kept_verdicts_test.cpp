@@ -62,7 +62,11 @@ class KeptVerdicts : public Judge {
   ~KeptVerdicts() override { fs::remove_all(root); }
   // How often the referee drew for it.
   int judged_by_asking(const std::string& judges = "these") {
-    check::KeptVerdicts kept{VerdictStore(folder), judges, [this](double) { return tried; }, {}};
+    check::KeptVerdicts kept{VerdictStore(folder),
+                             judges,
+                             [this](double) { return tried; },
+                             began.value_or(fs::file_time_type::clock::now()),
+                             {}};
     const int before = asked;
     const Reference references[] = {{"exact", &referee}};
     verdict = judge_or_recall(scene, candidate, references, kept);
@@ -79,6 +83,7 @@ class KeptVerdicts : public Judge {
 
   fs::path root, folder;
   bool tried = false;
+  std::optional<fs::file_time_type> began;  ///< unless now
   int drawn = 0, asked = 0;
   std::string bytes;
 };
@@ -165,6 +170,11 @@ TEST_F(KeptVerdicts, FallsByAFileOfTheScene) {
   judged_by_asking();
   EXPECT_EQ(judged_by_asking(), 0);
   std::ofstream(file) << "{ }";
+  EXPECT_GT(judged_by_asking(), 0);
+  EXPECT_EQ(judged_by_asking(), 0);
+  began = fs::last_write_time(file);  // written since the scene was read, perhaps
+  EXPECT_GT(judged_by_asking(), 0);
+  fs::remove(file);
   EXPECT_GT(judged_by_asking(), 0);
 }
 
