@@ -15,7 +15,7 @@ inline float depth_at(const pipeline::DepthSetup& depth, double l1, double l2) {
 }
 inline pipeline::Color<float> attributes_at(const pipeline::WindowTriangle& triangle,
                                             const pipeline::AttributeSetup& setup, double l1, double l2) {
-  const pipeline::PerspectiveSetup perspective = pipeline::perspective_setup(triangle, planes_of_weights());
+  const pipeline::PerspectiveSetup perspective = pipeline::perspective_setup(triangle, planes_of_weights(), false);
   return pipeline::mean<float>(setup, pipeline::weights<float>(perspective, {l1, l2}));
 }
 

@@ -2,13 +2,17 @@
 
 namespace plumbline::pipeline {
 
-PerspectiveSetup perspective_setup(const std::array<float, 3>& inv_w, const CornerPlanes<double>& planes) {
-  const double w0 = to_wide(inv_w[0]), w1 = to_wide(inv_w[1]), w2 = to_wide(inv_w[2]);
-  return {inv_w, scaled(planes.l1, w1), scaled(planes.l2, w2), planes.through(w0, w1 - w0, w2 - w0)};
+PerspectiveSetup perspective_setup(const std::array<float, 3>& inv_w, const CornerPlanes<double>& planes,
+                                   bool may_go_in_blocks) {
+  const double w[3] = {to_wide(inv_w[0]), to_wide(inv_w[1]), to_wide(inv_w[2])};
+  const Affine<double> q1 = scaled(planes.l1, w[1]), q2 = scaled(planes.l2, w[2]);
+  const Affine<double> sum = planes.through(w[0], w[1] - w[0], w[2] - w[0]);
+  return {inv_w, q1, q2, sum, may_go_in_blocks && changes_little(q1, q2, sum, w)};
 }
-PerspectiveSetup perspective_setup(const WindowTriangle& t, const CornerPlanes<double>& planes) {
+PerspectiveSetup perspective_setup(const WindowTriangle& t, const CornerPlanes<double>& planes, bool colors_alone) {
   const float w0 = t.v[0].inv_w;
-  return perspective_setup({w0, t.v[1].inv_w, t.corners == 3 ? t.v[2].inv_w : w0}, planes);
+  const bool three = t.corners == 3;
+  return perspective_setup({w0, t.v[1].inv_w, three ? t.v[2].inv_w : w0}, planes, colors_alone && three);
 }
 
 AttributeSetup attribute_setup(const std::array<Vec4<float>, 3>& corners) {

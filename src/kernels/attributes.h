@@ -17,13 +17,32 @@ namespace plumbline::pipeline {
 struct PerspectiveSetup {
   std::array<float, 3> inv_w;
   Affine<double> q1, q2, sum;
+  /// The three are evaluated in double at a block's first pixel alone, and from there in float: changes_little(), and
+  /// colours alone are interpolated. (Texture coordinates stay in double: a border of texels on a pixel's centre is.)
+  bool in_blocks = false;
 };
 template <class W>
 [[gnu::always_inline]] inline Affine<W> scaled(const Affine<W>& f, const W& by) {
   return {f.at_0 * by, f.x * by, f.y * by};
 }
-PerspectiveSetup perspective_setup(const std::array<float, 3>& inv_w, const CornerPlanes<double>& planes);
-PerspectiveSetup perspective_setup(const WindowTriangle& triangle, const CornerPlanes<double>& planes);
+/// Whether q_1, q_2 and their sum with q_0 change by at most half of the least 1/w within a block of 4 x 4 pixels. Then
+/// float is enough within blocks: with D = |added_in_block()| <= least / 2, a value q is off by u (|q| + D) for the first
+/// pixel's rounded to float, 3 u D for the slopes, products and their sum, and u |q| for the last sum: 2 u |q| + 4 u D.
+template <class W>
+[[gnu::always_inline]] inline auto changes_little(const Affine<W>& q1, const Affine<W>& q2, const Affine<W>& sum,
+                                                  const W (&inv_w)[3]) {
+  const auto size = [](const W& value) { return greater_of(value, -value); };
+  const W least = lesser_of(lesser_of(inv_w[0], inv_w[1]), inv_w[2]);
+  const W most = greater_of(greater_of(inv_w[0], inv_w[1]), inv_w[2]);
+  const auto little = [&](const Affine<W>& f) { return (size(f.x) + size(f.y)) * W(2.0 * (kBlock - 1)) <= least; };
+  return little(q1) & little(q2) & little(sum) & (least > W(0x1p-60)) & (most < W(0x1p60));  // the exponents of float
+}
+/// `colors_alone`: nothing else is interpolated. Lines and points are never in blocks.
+PerspectiveSetup perspective_setup(const WindowTriangle& triangle, const CornerPlanes<double>& planes,
+                                   bool colors_alone);
+/// `may_go_in_blocks`: where the three change little.
+PerspectiveSetup perspective_setup(const std::array<float, 3>& inv_w, const CornerPlanes<double>& planes,
+                                   bool may_go_in_blocks);
 
 struct AttributeSetup {
   Vec4<float> color0, d_color1, d_color2;  ///< corner 0's, and the others' differences from it
@@ -44,9 +63,27 @@ template <class R>
   const R reciprocal = select(magnitude(sum) > R(1.17549435e-38f), R(1) / sum, R(0));
   return {q1 * reciprocal, q2 * reciprocal};
 }
+/// What a plane adds to its value at a block's first pixel, in a column and row of the block.
+template <class R>
+[[gnu::always_inline]] inline R added_in_block(const Affine<double>& f, const R& column, const R& row) {
+  return column * R(to_float(f.x)) + row * R(to_float(f.y));
+}
+/// `at`: in whole pixels from the tile's first.
 template <class R>
 [[gnu::always_inline]] inline Weights<R> weights(const PerspectiveSetup& s, const Offset<R>& at) {
-  return weights<R>(to_float(value_at<R>(s.q1, at)), to_float(value_at<R>(s.q2, at)), to_float(value_at<R>(s.sum, at)));
+  if (!s.in_blocks) {
+    return weights<R>(to_float(value_at<R>(s.q1, at)), to_float(value_at<R>(s.q2, at)),
+                      to_float(value_at<R>(s.sum, at)));
+  }
+  const auto first = [](const Wide<R>& offset) {
+    return floor_of(offset * (1.0 / kBlock)) * static_cast<double>(kBlock);
+  };
+  const Offset<R> of_block{first(at.dx), first(at.dy)};
+  const R column = to_float(at.dx - of_block.dx), row = to_float(at.dy - of_block.dy);
+  const auto value = [&](const Affine<double>& f) {
+    return to_float(value_at<R>(f, of_block)) + added_in_block(f, column, row);
+  };
+  return weights<R>(value(s.q1), value(s.q2), value(s.sum));
 }
 
 /// The mean by these weights. `s`: an AttributeSetup, or one of lanes.

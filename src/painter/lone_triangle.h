@@ -48,7 +48,7 @@ void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTri
   const BarycentricPlanes planes = planes_of(t, tile.x0, tile.y0);
   const DepthPlane depth = moved(depth_plane(depth_setup(t, draw.depth), planes), painting.formats.sample);
   const auto color = [&](int k) { return painting.vertices[triangle.corner[draw.flat() ? 1 : k]].color; };
-  const FragmentSetup s{t.front, planes, depth, perspective_setup(t, planes),
+  const FragmentSetup s{t.front, planes, depth, perspective_setup(t, planes, draw.surface == nullptr),
                         attribute_setup({color(0), color(1), color(2)})};
   const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, triangle, tile.x0, tile.y0);
   const auto paint = [&](glm::ivec2 p) {

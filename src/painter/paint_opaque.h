@@ -59,6 +59,7 @@ class OpaqueRun {
     const int box = std::max(lanes.width, 0) * std::max(lanes.height, 0);
     if (kKernel == PaintKernel::blends_over || kKernel == PaintKernel::shades || kLanes == 1 || box > kSmall)
       return false;
+    if (kKernel == PaintKernel::replaces && lanes.in_blocks != 0) return false;
     const bool plain = (lanes.plain_depth & lanes.plain_color) == ~0u >> (32 - kLanes);
     for (int i = 0; i < kSamples && box != 0; ++i) plain ? paint_small<true>(i) : paint_small<false>(i);
     return true;
@@ -76,15 +77,19 @@ class OpaqueRun {
       shaded.finish();
     } else if (kKernel == PaintKernel::depth_alone || s.attributes.constant) {
       s.plain_depth ? paint_triangle<Plain::one_color>(s, nullptr) : paint_triangle<Plain::nothing>(s, nullptr);
-    } else if (s.plain_depth && s.plain_color) {
-      paint_triangle<Plain::colors>(s, nullptr);
     } else {
-      paint_triangle<Plain::nothing>(s, nullptr);
+      s.perspective.in_blocks ? paint_colors<true>(s) : paint_colors<false>(s);
     }
   }
 
-  // `shaded`: of PaintKernel::shades.
-  template <Plain kPlain>
+  template <bool kInBlocks>
+  [[gnu::always_inline]] void paint_colors(const LaneSetup<kSamples>& s) {
+    s.plain_depth&& s.plain_color ? paint_triangle<Plain::colors, kInBlocks>(s, nullptr)
+                                  : paint_triangle<Plain::nothing, kInBlocks>(s, nullptr);
+  }
+
+  // `shaded`: of PaintKernel::shades. `kInBlocks`: PerspectiveSetup.
+  template <Plain kPlain, bool kInBlocks = false>
   [[gnu::always_inline]] void paint_triangle(const LaneSetup<kSamples>& s,
                                              [[maybe_unused]] ShadedPixels<R, kSamples>* shaded) {
     using W = Wide<R>;
@@ -92,11 +97,11 @@ class OpaqueRun {
     const Color<R> one_color(s.attributes.color0);
     const Int<R> one_code = packed_merge(one_color);
 
-    constexpr int kPlanes = kSamples + (kColors ? 3 : 0);  // the samples' depths, and the weights
+    const Affine<double>* const weight_plane[3] = {&s.perspective.q1, &s.perspective.q2, &s.perspective.sum};
+    constexpr int kPlanes = kSamples + (kColors && !kInBlocks ? 3 : 0);  // the samples' depths, and the weights
     const Affine<double>* plane[kSamples + 3];
     for (int i = 0; i < kSamples; ++i) plane[i] = &s.code[i];
-    plane[kSamples] = &s.perspective.q1, plane[kSamples + 1] = &s.perspective.q2,
-    plane[kSamples + 2] = &s.perspective.sum;
+    std::ranges::copy(weight_plane, plane + kSamples);
 
     [[maybe_unused]] const R tie(tie_), limit(limit_);
     bool hidden = true;
@@ -122,10 +127,22 @@ class OpaqueRun {
         for (int k = 0; k < kPlanes; ++k) of_row[k][part] = plane[k]->at_0 + dy * plane[k]->y;
       }
     };
-    // Bounds of depth codes in a group's whole blocks: the plane's at the corner where it is farthest, and a code for
-    // its rounding.
-    alignas(64) float farthest_ahead[kLanes];
-    const auto ahead = [&](int x, int y, const BlockGroup<R>& group) {
+    R in_block[3][kParts<R>];  // what the weights' planes add there
+    for (int k = 0; k < 3 && kColors && kInBlocks; ++k) {
+      for (int part = 0; part < kParts<R>; ++part) {
+        const auto of_part = [&](const auto& table) { return to_float(Lanes<R>::load(table + part * kLanes)); };
+        in_block[k][part] = added_in_block(*weight_plane[k], of_part(kColumnInBlock), of_part(kRowInBlock));
+      }
+    }
+    // Of a group's blocks, weights at their first pixels; of its whole blocks, bounds of depth codes: the plane's at
+    // the corner where it is farthest, and a code for its rounding.
+    alignas(64) float weight_ahead[3][kLanes], farthest_ahead[kLanes];
+    const auto ahead = [&](int x, int y, const BlockGroup<R>& group, bool any_whole) {
+      if constexpr (kColors && kInBlocks) {
+        const Offset<R> first{to_wide(group.x() + Int<R>(x)), to_wide(group.y() + Int<R>(y))};
+        for (int k = 0; k < 3; ++k) store(to_float(value_at<R>(*weight_plane[k], first)), weight_ahead[k]);
+      }
+      if (!any_whole) return;
       const Affine<double>& code = s.code[0];
       const double corner =
           code.at_0 + (code.y > 0 ? y + (kBlock - 1) : y) * code.y + ((code.x > 0 ? x + (kBlock - 1) : x) * code.x + 1);
@@ -174,7 +191,10 @@ class OpaqueRun {
           if (kSamples == 1 && kLanes < kBlock && !any(kept[part][0])) continue;
           const auto color = [&]() -> Color<R> {
             if constexpr (!kColors) return one_color;
-            const auto weight = [&](int k) { return to_float(value(kSamples + k, part)); };
+            const auto weight = [&](int k) -> R {
+              if constexpr (kInBlocks) return R(weight_ahead[k][lane]) + in_block[k][part];
+              return to_float(value(kSamples + k, part));
+            };
             const R q1 = weight(0), q2 = weight(1), sum = weight(2);
             if constexpr (kPlain == Plain::nothing) return mean<R>(s.attributes, weights<R>(q1, q2, sum));
             return plain_color(s.attributes, q1, q2, sum, one_color.a);

@@ -31,7 +31,7 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
     s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
     const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, t, tile.x0, tile.y0);
     const auto all_blocks = [](int) { return ~0u; };
-    const auto none_ahead = [](int, int, const auto&) {};
+    const auto none_ahead = [](int, int, const auto&, bool) {};
     visit_covered<R, 1>(s, all_blocks, none_ahead, [&](int x, int y, int, const auto& covered, auto) {
       for (int part = 0; part < kParts<R>; ++part) {
         if (!any(covered[0][part])) continue;

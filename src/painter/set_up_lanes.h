@@ -49,7 +49,8 @@ struct LaneTriangles {
   /// In the tile, no fragment's code has to be clamped, and all are nearer than the clear depth; their colours' weights
   /// are small, with no horizon near, and all corners have the same alpha.
   unsigned plain_depth, plain_color;
-  int width, height;  ///< the largest box
+  unsigned in_blocks;  ///< as PerspectiveSetup
+  int width, height;   ///< the largest box
 
   /// In the tile whose lower left pixel that is.
   [[gnu::always_inline]] LaneSetup<kSampleCount> of(int lane, bool front, int tile_x, int tile_y) const {
@@ -69,6 +70,7 @@ struct LaneTriangles {
     }
     s.depth_plane.code = s.code[0];
     s.perspective.q1 = q1.of(lane), s.perspective.q2 = q2.of(lane), s.perspective.sum = sum.of(lane);
+    s.perspective.in_blocks = (in_blocks >> lane & 1u) != 0;
     for (int c = 0; c < 4; ++c) {
       s.attributes.color0[c] = color[0][c][lane];
       s.attributes.d_color1[c] = color[1][c][lane];
@@ -149,20 +151,25 @@ template <class R, int kSampleCount>
   }
 }
 
-/// In the tile whose lower left pixel is `tile`. `facing`: 1 of a front face, -1 of a back one; `flat`: PaintDraw's.
+/// In the tile whose lower left pixel is `tile`. `facing`: 1 of a front face, -1 of a back one.
 template <class R, int kSampleCount>
 void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const Painting& painting,
-                  bool flat, glm::ivec2 tile, LaneTriangles<R, kSampleCount>& out) {
+                  const PaintDraw& draw, glm::ivec2 tile, LaneTriangles<R, kSampleCount>& out) {
   using I = Int<R>;
   using W = Wide<R>;
   const auto& [p_win, snapped_x, snapped_y] = load_corners<R>(corner);
-  const Mask<R> same_alpha = set_up_colors<R>(corner, flat, out);
+  const Mask<R> same_alpha = set_up_colors<R>(corner, draw.flat(), out);
   const R face = Lanes<R>::load(facing);
   const PlaneCorners<W> through =
       plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
                        snapped_y, to_wide(face));
   set_up_planes<R>(corner_planes(through, tile.x + 0.5, tile.y + 0.5), p_win, painting, out);
   const Affine<W> q1 = out.q1.of_all(), q2 = out.q2.of_all(), sum = out.sum.of_all();
+  out.in_blocks = 0;
+  if (draw.surface == nullptr && draw.kernel != PaintKernel::depth_alone) {
+    const W inv_w[3] = {to_wide(p_win[0][3]), to_wide(p_win[1][3]), to_wide(p_win[2][3])};
+    out.in_blocks = bits_of(Mask<R>(changes_little(q1, q2, sum, inv_w)));
+  }
 
   // From here on, corners are counted from the tile.
   const I origin_x(tile.x * kSubpixel), origin_y(tile.y * kSubpixel);

@@ -15,34 +15,38 @@ inline constexpr int kParts = kBlockPixels / Lanes<R>::width;  ///< of a block
 alignas(64) inline constexpr std::int32_t kColumnInBlock[] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) inline constexpr std::int32_t kRowInBlock[] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 alignas(64) inline constexpr std::int32_t kBlockNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+// Of blocks one after the other, the rows in groups of 2^i columns.
+alignas(64) inline constexpr std::int32_t kBlockRows[][16] = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15},
+                                                              {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7},
+                                                              {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3},
+                                                              {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1},
+                                                              {}};
 
 /// Blocks that are looked at at once, one a lane: side by side; or of a narrow box, rows of a few.
 template <class R>
 struct BlockGroup {
   static constexpr int kLanes = Lanes<R>::width;
-  static constexpr int kNarrowBits = kLanes >= 8 ? 2 : kLanes >= 4 ? 1 : 0;
+  static constexpr int kMostBits = std::countr_zero(static_cast<unsigned>(kLanes));
 
-  explicit BlockGroup(int box_width)
-      : is_narrow(kNarrowBits > 0 && box_width <= kBlock << kNarrowBits),
-        bits(is_narrow ? kNarrowBits : std::countr_zero(static_cast<unsigned>(kLanes))) {}
+  explicit BlockGroup(int box_width) {
+    while (bits < kMostBits && kBlock << bits < box_width) ++bits;
+  }
   int columns() const { return 1 << bits; }
   int rows() const { return kLanes >> bits; }
   /// Place of a lane's block, in pixels from the group's first.
   int x(int lane) const { return kBlock * (lane & (columns() - 1)); }
   int y(int lane) const { return kBlock * (lane >> bits); }
   Int<R> x() const { return shifted_left<2>(Lanes<R>::load(kBlockNumbers) & Int<R>(columns() - 1)); }
-  Int<R> y() const {
-    return is_narrow ? shifted_left<2>(shifted_right<kNarrowBits>(Lanes<R>::load(kBlockNumbers))) : Int<R>(0);
-  }
+  Int<R> y() const { return shifted_left<2>(Lanes<R>::load(kBlockRows[bits])); }
 
-  const bool is_narrow;
-  const int bits;
+  int bits = std::min(kMostBits, 2);
 };
 
 /// Calls block(x, y, lane, covered, whole) for the blocks with pixels inside of all three edges, group by group; x, y:
 /// the block's first pixel, from the tile's; `covered`: for each sample the pixels of each part; `whole`:
 /// std::true_type where, of one sample, those are all pixels. Of each row of blocks, wanted(y) comes first: a bit for
-/// each of its sixteen blocks that matter. Before a group's whole blocks, ahead(x, y, group), of its first block.
+/// each of its sixteen blocks that matter. Before a group's blocks, ahead(x, y, group, whether any is whole), of its
+/// first block.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline void visit_covered(const LaneSetup<kSampleCount>& s, auto wanted, auto ahead,
                                                  auto block) {
@@ -61,7 +65,7 @@ template <class R, int kSampleCount>
       }
     }
     of_blocks[k] = group.x() * I(s.step_x[k]) + I(s.at_tile[k]);
-    if (group.is_narrow) of_blocks[k] = of_blocks[k] + group.y() * I(s.step_y[k]);
+    if (group.rows() > 1) of_blocks[k] = of_blocks[k] + group.y() * I(s.step_y[k]);
     least[k] = I((kBlock - 1) * (std::min(s.step_x[k], 0) + std::min(s.step_y[k], 0)));
     greatest[k] = I((kBlock - 1) * (std::max(s.step_x[k], 0) + std::max(s.step_y[k], 0)));
   }
@@ -84,16 +88,16 @@ template <class R, int kSampleCount>
         whole = whole & (here + greatest[k]);
       }
       blocks &= bits_of(some < I(0));
+      if (blocks == 0) continue;
+      unsigned of_all = kSampleCount == 1 ? blocks & bits_of(whole < I(0)) : 0;
+      ahead(x, y, group, of_all != 0);
       if constexpr (kSampleCount == 1) {
-        unsigned of_all = blocks & bits_of(whole < I(0));
         blocks ^= of_all;
-        if (of_all != 0) {
-          Mask<R> covered[1][kParts<R>];
-          std::ranges::fill(covered[0], Lanes<R>::mask_of(~0u));
-          for (ahead(x, y, group); of_all != 0; of_all &= of_all - 1) {
-            const int b = std::countr_zero(of_all);
-            block(x + group.x(b), y + group.y(b), b, covered, std::true_type());
-          }
+        Mask<R> covered[1][kParts<R>];
+        std::ranges::fill(covered[0], Lanes<R>::mask_of(~0u));
+        for (; of_all != 0; of_all &= of_all - 1) {
+          const int b = std::countr_zero(of_all);
+          block(x + group.x(b), y + group.y(b), b, covered, std::true_type());
         }
       }
       for (; blocks != 0; blocks &= blocks - 1) {
@@ -141,7 +145,7 @@ class LanesOfRun {
     }
     lanes.fitting = 0;
     if (triangles_alone)
-      set_up_lanes<R, kSampleCount>(corner, facing, painting_, painting_.draws[run_.draw].flat(), tile_, lanes);
+      set_up_lanes<R, kSampleCount>(corner, facing, painting_, painting_.draws[run_.draw], tile_, lanes);
   }
   const PaintTriangle& triangle(int lane) const {
     const std::size_t n = begin_ + static_cast<std::size_t>(lane);

@@ -9,7 +9,7 @@ TriangleSetup set_up(const Stages& stages, const ShadedTriangle& triangle, const
   out.depth = stages.depth_setup(triangle, depth);
   out.planes = moved(planes, offsets.color);
   out.depth_plane = moved(depth_plane(out.depth, planes), offsets.depth - offsets.color);
-  out.perspective = perspective_setup(triangle, planes);
+  out.perspective = perspective_setup(triangle, planes, surface.carried.empty());
   const auto corners = [&](std::size_t i) {
     const auto& a = triangle.attributes;
     return std::array<Vec4<float>, 3>{a[0][i], a[1][i], a[2][i]};

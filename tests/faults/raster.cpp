@@ -170,7 +170,7 @@ Color<float> of_wrong_corners(const Setup& s, const TriangleAttributes& of, cons
 Color<float> nearness_reversed(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
   std::array<float, 3> w = s.perspective.inv_w;
   for (float& inv_w : w) inv_w = 1 / inv_w;
-  const pipeline::PerspectiveSetup wrong = pipeline::perspective_setup(w, s.planes);
+  const pipeline::PerspectiveSetup wrong = pipeline::perspective_setup(w, s.planes, s.perspective.in_blocks);
   return pipeline::mean<float>(of, pipeline::weights<float>(wrong, pipeline::from_anchor<float>(s.planes, p)));
 }
 

@@ -47,8 +47,8 @@ PixelList tied(const Triangle& triangle, const PixelBounds& box) {
 inline bool all_edges_in(std::int64_t, std::int64_t) { return true; }
 
 inline Color<float> affine_attributes(const Setup& s, const pipeline::AttributeSetup& of, const Pixels<float>& p) {
-  const Barycentric b = pipeline::barycentric(s.planes, p);
-  return pipeline::mean<float>(of, {pipeline::to_float(b.l1), pipeline::to_float(b.l2)});
+  const pipeline::PerspectiveSetup none = pipeline::perspective_setup({1, 1, 1}, s.planes, s.perspective.in_blocks);
+  return pipeline::mean<float>(of, pipeline::weights<float>(none, pipeline::from_anchor<float>(s.planes, p)));
 }
 
 /// How much farther the plane of depth is at a pass' sample than where its colours are taken.

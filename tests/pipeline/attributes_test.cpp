@@ -21,7 +21,7 @@ using Triangle = ShadedTriangle;
 Color<float> at(const Triangle& t, int x, int y) {
   const BarycentricPlanes planes = planes_of(t, 0, 0);
   const Offset<float> offset = from_anchor<float>(planes, Pixels<float>{x, y, x + 0.5, y + 0.5});
-  return mean<float>(color_setup(t), weights<float>(perspective_setup(t, planes), offset));
+  return mean<float>(color_setup(t), weights<float>(perspective_setup(t, planes, true), offset));
 }
 
 Color<float> attributes_at(const Triangle& t, double l1, double l2) {
@@ -54,6 +54,56 @@ TEST(PipelineAttributes, AffineWhereWIsTheSame) {
   EXPECT_EQ(c.g, 0.3125f);
   EXPECT_EQ(c.b, 0.25f);
   EXPECT_EQ(c.a, 0.375f);
+}
+
+// Legs of 48 pixels and w in 1 to 1.2: q_i and their sum change by 1/48 and less a pixel.
+Triangle slow_triangle(double leg) {
+  const auto side = static_cast<float>(0.5 + leg);
+  return window_triangle(window_vertex({0.5f, 0.5f, 0}, 1, kA), window_vertex({side, 0.5f, 0}, 1.1f, kB),
+                         window_vertex({0.5f, side, 0}, 1.2f, kC));
+}
+
+TEST(PipelineAttributes, WithinBlocksGoInFloatFromTheBlocksFirstPixel) {
+  const Triangle t = slow_triangle(48);
+  const PerspectiveSetup s = perspective_setup(t, planes_of(t, 0, 0), true);
+  ASSERT_TRUE(s.in_blocks);
+  int other_than_in_double = 0;
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 24; ++x) {
+      const int column = x % 4, row = y % 4, first_x = x - column, first_y = y - row;
+      const auto value = [&](const Affine<double>& f) {
+        const double first = f.at_0 + first_y * f.y + first_x * f.x;
+        return static_cast<float>(first) + (static_cast<float>(column) * static_cast<float>(f.x) +
+                                            static_cast<float>(row) * static_cast<float>(f.y));
+      };
+      const Weights<float> expected = weights<float>(value(s.q1), value(s.q2), value(s.sum));
+      const Offset<float> at{static_cast<double>(x), static_cast<double>(y)};
+      const Weights<float> is = weights<float>(s, at);
+      ASSERT_EQ(is.k1, expected.k1) << x << ", " << y;
+      ASSERT_EQ(is.k2, expected.k2) << x << ", " << y;
+      PerspectiveSetup in_double = s;
+      in_double.in_blocks = false;
+      other_than_in_double += weights<float>(in_double, at).k1 != is.k1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(other_than_in_double, 50) << "of 576: else these are not two ways";
+}
+
+TEST(PipelineAttributes, OnlyColoursWhoseWeightsChangeLittleGoInBlocks) {
+  const auto in_blocks = [](const Triangle& t, bool colors_alone = true) {
+    return perspective_setup(t, planes_of(t, 0, 0), colors_alone).in_blocks;
+  };
+  EXPECT_TRUE(in_blocks(slow_triangle(48)));
+  EXPECT_FALSE(in_blocks(slow_triangle(48), false)) << "texture coordinates are interpolated as well";
+  // q_1 changes by 1 / 1.1 over the leg, at most by 1 / 12 in three steps of 1/1.2 / 6 each: legs of 6.545 on.
+  EXPECT_TRUE(in_blocks(slow_triangle(6.6)));
+  EXPECT_FALSE(in_blocks(slow_triangle(6.5)));
+  Triangle far = slow_triangle(48);  // 1/w near the least floats, where a slope would be rounded to 0
+  for (auto& v : far.v) v.inv_w *= 0x1p-61f;
+  EXPECT_FALSE(in_blocks(far));
+  Triangle line = slow_triangle(48);
+  line.corners = 2;
+  EXPECT_FALSE(in_blocks(line));
 }
 
 TEST(PipelineAttributes, HalfWayBetweenW1And4) {

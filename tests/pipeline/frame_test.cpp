@@ -67,7 +67,7 @@ Frame brute_force(const std::vector<Triangle>& triangles, const std::vector<std:
       for (const Triangle& t : triangles) {
         const BarycentricPlanes planes = planes_of(t, x, y);
         setups_of_tile[{x / 64, y / 64}].push_back({edges_of(t), planes, depth_plane(depth_setup(t, {f.depth}), planes),
-                                                    perspective_setup(t, planes), color_setup(t)});
+                                                    perspective_setup(t, planes, true), color_setup(t)});
       }
     }
   }

@@ -188,7 +188,7 @@ TEST(PipelineLines, depth_and_color_go_by_the_projection_onto_the_line) {
   const DepthPlane z = depth_plane(depth_setup(t, {DepthFormat::z32f}), planes);
   const auto at = [&](int x, int y) { return from_anchor<float>(planes, Pixels<float>{x, y, x + 0.5, y + 0.5}); };
   const auto color = [&](const ShadedTriangle& line, int x, int y) {
-    return mean<float>(color_setup(line), weights<float>(perspective_setup(line, planes), at(x, y)));
+    return mean<float>(color_setup(line), weights<float>(perspective_setup(line, planes, true), at(x, y)));
   };
   EXPECT_EQ(depth<float>(z, at(2, 1)), 0.25f);
   EXPECT_FLOAT_EQ(depth<float>(z, at(4, 2)), 0.5f);
@@ -206,7 +206,7 @@ TEST(PipelineLines, a_point_has_its_own_depth_and_color) {
   const BarycentricPlanes planes = planes_of(t, 0, 0);
   const Offset<float> at{2, 1};
   EXPECT_EQ(depth<float>(depth_plane(depth_setup(t, {DepthFormat::z32f}), planes), at), 0.3f);
-  EXPECT_EQ(mean<float>(color_setup(t), weights<float>(perspective_setup(t, planes), at)).r, 1.0f);
+  EXPECT_EQ(mean<float>(color_setup(t), weights<float>(perspective_setup(t, planes, true), at)).r, 1.0f);
   const ShadedTriangle nothing = window_line({2.5f, 1.5f, 0.25f}, {2.5f, 1.5f, 0.75f});  // no length: no NaN
   EXPECT_EQ(barycentric(planes_of(nothing, 0, 0), {2, 1, 2.5, 1.5}).l1, 0);
 }

@@ -114,10 +114,25 @@ struct ManyVaryings {
   }
 };
 
+/// One float that is shown, and a second group of four: the weights of more than four floats stay in double.
+struct OneOfFive : OneFloat {
+  struct Varyings {
+    float value;
+    glm::vec4 others;
+  };
+  glm::vec4 vertex(std::size_t triangle, int corner, Varyings& out) const {
+    OneFloat::Varyings one;
+    const glm::vec4 p = OneFloat::vertex(triangle, corner, one);
+    out = {one.value, glm::vec4(0)};
+    return p;
+  }
+  bool fragment(const Varyings& in, glm::vec4& color) const { return OneFloat::fragment({in.value}, color); }
+};
+
 TEST(Program, EachOfManyVaryingsIsAsIfItWereAlone) {
   const FrameFormat format = floats(50, 40);
   for (int i = 0; i < ManyVaryings::kFloats; ++i) {
-    OneFloat alone;
+    OneOfFive alone;
     for (int c = 0; c < 3; ++c) {
       alone.p_clip.push_back(ManyVaryings::p_clip(c));
       alone.values.push_back(ManyVaryings::value(c, i));

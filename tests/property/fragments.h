@@ -46,7 +46,7 @@ inline std::vector<Fragment> fragments(const pipeline::ShadedTriangle& triangle,
   const pipeline::DepthPlane plane = pipeline::depth_plane(depth, planes);
   const pipeline::AttributeSetup attributes = pipeline::attribute_setup(
       {triangle.attributes[0].color(), triangle.attributes[1].color(), triangle.attributes[2].color()});
-  const pipeline::PerspectiveSetup perspective = pipeline::perspective_setup(triangle, planes);
+  const pipeline::PerspectiveSetup perspective = pipeline::perspective_setup(triangle, planes, true);
   std::vector<Fragment> out;
   for_each_covered(triangle, [&](const pipeline::Pixels<float>& p) {
     const pipeline::Barycentric b = pipeline::barycentric(planes, p);

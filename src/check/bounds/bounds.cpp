@@ -311,22 +311,42 @@ double depth_rounding(const WindowTriangle<double>& t) {
   return std::isfinite(out) ? out : 0;
 }
 
+namespace {
+
+// What the three q_i and their sum change by within a block of 4 x 4 pixels, where a pipeline may evaluate them in float
+// there: none by more than half of the least 1/w (kernels/attributes.h). Else 0.
+struct BlockChanges {
+  Vec3<double> q{0};
+  double sum = 0;
+};
+BlockChanges block_changes(const WindowTriangle<double>& t, const Barycentrics& b) {
+  constexpr double kSteps = 3, kNearlyHalf = 0.5 + 1e-6;  // planes differ in their last bits
+  if (t.corners < 3) return {};
+  const Vec3<double> inv_w(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
+  const double sum = kSteps * (std::abs(glm::dot(b.d_dx, inv_w)) + std::abs(glm::dot(b.d_dy, inv_w)));
+  const Vec3<double> q = kSteps * (glm::abs(b.d_dx) + glm::abs(b.d_dy)) * inv_w;
+  const double most = kNearlyHalf * std::min({inv_w.x, inv_w.y, inv_w.z});
+  return std::max({q.y, q.z, sum}) <= most ? BlockChanges{q, sum} : BlockChanges{};
+}
+
+}  // namespace
+
 Vec4<double> bounds_of_mean(const WindowTriangle<double>& t, int x, int y) {
   const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const BlockChanges changes = block_changes(t, b);
   const Vec3<double> q = b.value * Vec3<double>(t.v[0].inv_w, t.v[1].inv_w, t.v[2].inv_w);
   const double sum = q.x + q.y + q.z;
   const double condition = (std::abs(q.x) + std::abs(q.y) + std::abs(q.z)) / std::abs(sum);
-  const double k1 = std::abs(q.y / sum), k2 = std::abs(q.z / sum);
   const Vec4<double> d1 = t.v[1].color - t.v[0].color, d2 = t.v[2].color - t.v[0].color;
   const Vec4<double> mean = t.v[0].color + (q.y / sum) * d1 + (q.z / sum) * d2;
   // Where a corner's share is nearly 0, its own rounding in double is left: 2^-52 of terms that are anchored a tile
   // away.
   const auto share = [&](int i) {
-    const double terms = 1 + 128 * (std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]));
-    return 0x1p-28 * terms * std::abs(t.v[static_cast<std::size_t>(i)].inv_w / sum);
+    const double k = std::abs(q[i] / sum), terms = 1 + 128 * (std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]));
+    return condition * k + 0x1p-28 * terms * std::abs(t.v[static_cast<std::size_t>(i)].inv_w / sum) +
+           0.4 * (changes.q[i] + k * changes.sum) / std::abs(sum);
   };
-  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + (condition * k1 + share(1)) * glm::abs(d1) +
-         (condition * k2 + share(2)) * glm::abs(d2);
+  return 0.2 * (glm::abs(mean) + glm::abs(t.v[0].color)) + share(1) * glm::abs(d1) + share(2) * glm::abs(d2);
 }
 
 }  // namespace plumbline::check

@@ -83,7 +83,7 @@ constexpr std::array kLedger = {
         Profile::exact, Stage::attributes, "", 10, "u",
         "Barycentrics rounded to float (1), times 1/w (1), the sum of three such (4), reciprocal and product (2), "
         "the corners' difference and its product (2): 10 u of the magnitude of bounds.h, bounds_of_mean, which "
-        "counts the two last sums at a fifth."},
+        "counts the two last sums at a fifth, and at two fifths what float sums within blocks of 4 x 4 pixels."},
     Tolerance{
         Profile::opengl, Stage::attributes, "", 8, "u",
         "As opengl.depth, 4 u for colour / w and for 1 / w, which the magnitude joins, and 4 more for the products by "
