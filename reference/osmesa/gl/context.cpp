@@ -23,14 +23,15 @@ Gl load(const Context& context) {
 const char* name_of(MesaDriver driver) { return driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe"; }
 
 void claim_process(std::string_view library, MesaDriver driver, ShaderCode code) {
-  const bool optimised = code == ShaderCode::quick_to_run;
-  const std::string wanted = fmt::format("{} with {}{}", library, name_of(driver), optimised ? ", optimised" : "");
+  constexpr std::string_view kCodes[] = {"", ", optimised", ", approximate"};
+  const std::string wanted =
+      fmt::format("{} with {}{}", library, name_of(driver), kCodes[static_cast<std::size_t>(code)]);
   static const std::string claimed = [&] {
     setenv("GALLIUM_DRIVER", name_of(driver), 1);
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);  // EGL would look for a graphics card
-    // Else bilinear weights have 8 bits, and levels of detail are those of four pixels, approximate and stretched.
     // Shaders that are not optimised draw the same bits, and compile three times as fast.
-    setenv("GALLIVM_PERF", optimised ? "no_aos_sampling,no_filter_hacks" : "no_aos_sampling,no_filter_hacks,nopt", 1);
+    constexpr const char* kPerf[] = {"no_aos_sampling,no_filter_hacks,nopt", "no_aos_sampling,no_filter_hacks", ""};
+    setenv("GALLIVM_PERF", kPerf[static_cast<std::size_t>(code)], 1);
     if (driver == MesaDriver::softpipe) setenv("DRAW_USE_LLVM", "0", 1);  // else feedback with lighting is wrong
     unsetenv("LP_NATIVE_VECTOR_WIDTH");
     unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");

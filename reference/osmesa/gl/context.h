@@ -22,8 +22,9 @@ class Context {
   virtual Function function(const char* name) const = 0;
 };
 
-/// What Mesa compiles shaders to: both draw the same bits.
-enum class ShaderCode { quick_to_make, quick_to_run };
+/// What Mesa compiles shaders to. The first two draw the same bits; `approximate`, which is Mesa's default and quick to
+/// run, filters textures by weights of 8 bits and levels of detail of four pixels at a time.
+enum class ShaderCode { quick_to_make, quick_to_run, approximate };
 
 /// OSMesa's, if it is built in. Throws RendererFailed.
 std::unique_ptr<Context> make_osmesa_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);

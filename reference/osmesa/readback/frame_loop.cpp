@@ -10,8 +10,10 @@
 namespace plumbline {
 
 struct OsmesaFrames::Frames {
-  explicit Frames(const Scene& scene)
-      : context(osmesa::make_osmesa_context(MesaDriver::llvmpipe, osmesa::ShaderCode::quick_to_run)),
+  Frames(const Scene& scene, Filters filters)
+      : context(osmesa::make_osmesa_context(MesaDriver::llvmpipe, filters == Filters::exact
+                                                                      ? osmesa::ShaderCode::quick_to_run
+                                                                      : osmesa::ShaderCode::approximate)),
         gl(current(*context)),
         in_gl(gl, scene),
         target(gl, scene.frame, scene.frame.color) {}
@@ -27,7 +29,7 @@ struct OsmesaFrames::Frames {
   osmesa::Target target;
 };
 
-OsmesaFrames::OsmesaFrames(const Scene& scene) : frames_(std::make_unique<Frames>(scene)) {}
+OsmesaFrames::OsmesaFrames(const Scene& scene, Filters filters) : frames_(std::make_unique<Frames>(scene, filters)) {}
 OsmesaFrames::~OsmesaFrames() = default;
 
 void OsmesaFrames::draw() {
@@ -54,6 +56,11 @@ Planes OsmesaFrames::read() const {
   planes.color = frames_->target.read_color();
   planes.depth = frames_->target.read_depth();
   return planes;
+}
+
+void OsmesaFrames::read_codes(Plane<std::uint32_t>& to) const {
+  frames_->context->make_current();
+  frames_->target.read_codes({0, 0}, to);
 }
 
 }  // namespace plumbline

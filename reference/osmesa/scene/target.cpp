@@ -144,12 +144,16 @@ void Target::take_samples() const {
 Plane<std::uint32_t> Target::read_codes() const { return read_codes({0, 0}, {frame_.width, frame_.height}); }
 
 Plane<std::uint32_t> Target::read_codes(glm::ivec2 origin, glm::ivec2 size) const {
-  take_samples();
   Plane<std::uint32_t> codes(size.x, size.y);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
-  gl_.ReadPixels(origin.x, origin.y, size.x, size.y, GL_RGBA, GL_UNSIGNED_INT_8_8_8_8_REV, codes.values().data());
-  check(gl_, "reading colour codes");
+  read_codes(origin, codes);
   return codes;
+}
+
+void Target::read_codes(glm::ivec2 origin, Plane<std::uint32_t>& to) const {
+  take_samples();
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+  gl_.ReadPixels(origin.x, origin.y, to.width(), to.height(), GL_RGBA, GL_UNSIGNED_INT_8_8_8_8_REV, to.values().data());
+  check(gl_, "reading colour codes");
 }
 
 Plane<glm::vec4> Target::read_color() const { return read_color({0, 0}, {frame_.width, frame_.height}); }

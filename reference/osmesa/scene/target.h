@@ -30,6 +30,8 @@ class Target {
   Plane<std::uint32_t> read_codes() const;
   /// The same of `size` pixels from pixel `origin` on.
   Plane<std::uint32_t> read_codes(glm::ivec2 origin, glm::ivec2 size) const;
+  /// The same of as many pixels as `to` has.
+  void read_codes(glm::ivec2 origin, Plane<std::uint32_t>& to) const;
   /// Codes as code / 255, code / 65535.
   Plane<glm::vec4> read_color() const;
   Plane<glm::vec4> read_color(glm::ivec2 origin, glm::ivec2 size) const;

@@ -12,8 +12,10 @@ namespace plumbline::bench {
 struct BenchScene {
   std::string name;
   std::function<Scene(int size)> make;  ///< for a frame of size x size pixels
+  int size = 0;                         ///< of its frame; 0: as asked for
+  bool is_read = false;                 ///< its colours are read after each frame
+  bool is_of_layers = false;            ///< a hundred layers, of which ours paints the nearest alone
 };
-/// Each at 1024 x 1024, clear included.
 std::vector<BenchScene> bench_scenes();
 
 /// A lit sphere of about so many triangles, Gouraud, its back faces culled: the first of them.
