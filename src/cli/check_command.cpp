@@ -128,11 +128,9 @@ int check(const CheckOptions& given) {
   std::optional<report::Rubric> rubric;
   if (!o.rubric.empty()) rubric = report::read_rubric(o.rubric);
   if (!o.expect.empty()) rules.expectations = check::read_expectations(o.expect, names_of_rows());
-  std::vector<Scene> scenes;  // all of them first: a bad one ends the run before anything is written
-  for (const auto& file : files) {
-    scenes.push_back(o.scene_arguments.load(file));
-    require_budget(scenes.back(), plane_bytes(scenes.back()), Request{}.memory_budget);
-  }
+  // All of them first: a bad one ends the run before anything is written.
+  const std::vector<Scene> scenes = o.scene_arguments.load(
+      files, [](const Scene& scene) { require_budget(scene, plane_bytes(scene), Request{}.memory_budget); });
   if (rubric) require_scenes(*rubric, scenes, o.rubric);
   if (!o.submissions.empty()) return check_submissions(rules, scenes, rubric);
   const Output outputs[] = {{"--json", o.json},

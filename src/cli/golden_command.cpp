@@ -46,14 +46,12 @@ Suite load(const GoldenOptions& o) {
   if (out.whole && !fs::is_directory(o.suite)) {
     throw SceneError(fmt::format("--suite {}: expected a folder; scenes are named without it", o.suite));
   }
+  out.scenes = o.scene_arguments.load(
+      out.files, [](const Scene& scene) { require_budget(scene, plane_bytes(scene), Request{}.memory_budget); });
   std::set<std::string> names;
-  for (const fs::path& file : out.files) {
-    out.scenes.push_back(o.scene_arguments.load(file));
-    require_budget(out.scenes.back(), plane_bytes(out.scenes.back()), Request{}.memory_budget);
-    if (!names.insert(out.scenes.back().name).second) {
-      throw SceneError(
-          fmt::format("{}: expected scenes of different names, found {} twice", file.string(), out.scenes.back().name));
-    }
+  for (const Scene& scene : out.scenes) {
+    if (!names.insert(scene.name).second)
+      throw SceneError(fmt::format("{}: expected scenes of different names, found {} twice", scene.path, scene.name));
   }
   const auto lies_in_suite = [&](const fs::path& file) { return fs::equivalent(file.parent_path(), o.suite); };
   if (out.whole && std::ranges::any_of(out.files, lies_in_suite)) {

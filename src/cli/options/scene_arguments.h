@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,10 @@ struct SceneArguments {
   std::vector<std::string> assets;  ///< folders where mesh files are looked for, after the scene's own
 
   Scene load(const std::filesystem::path& file) const;
+  /// All of them, several at a time, each accepted by `require`, which throws else. Throws what the first bad one in
+  /// order does. No thread is left: the caller may fork.
+  std::vector<Scene> load(std::span<const std::filesystem::path> files,
+                          const std::function<void(const Scene&)>& require) const;
   /// As they were given, for a command that repeats a run.
   std::string repeated() const;
 };
