@@ -24,18 +24,18 @@ bool can_show([[maybe_unused]] std::string_view ending) {
 }
 
 TEST_F(FailingRenderers, are_rows_with_the_stage_that_was_running) {
-  const std::string limits = " --against exact --time-limit 10 --memory-limit 1024 ";
+  const std::string limits = " --against exact --time-limit 4 --memory-limit 512 ";
   const std::pair<const char*, const char*> kEndings[] = {
       {"throw", "vertex: a vertex too many"},
       {"memory", "light: took more memory than a worker may have"},
       {"crash", "clip: was killed by signal 11 (Segmentation fault)"},
-      {"hang", "window: took longer than 10s and was killed"}};
+      {"hang", "window: took longer than 4s and was killed"}};
   for (const auto& [fault, says] : kEndings) {
     if (!can_show(fault)) continue;
     const Outcome check = plumb("check " + kWindings + limits + "--fault endings." + fault + " --json " + at("c.json"));
     EXPECT_EQ(check.code, 1) << check.text;
     EXPECT_TRUE(check.says("failed cull/both_windings: ours, " + std::string(says))) << check.text;
-    EXPECT_TRUE(check.says("repeat: ") && check.says(" --time-limit 10 --memory-limit 1024")) << check.text;
+    EXPECT_TRUE(check.says("repeat: ") && check.says(" --time-limit 4 --memory-limit 512")) << check.text;
     EXPECT_NE(read(at("c.json")).find("\"failed\""), std::string::npos) << "the run is written all the same";
     const Outcome diagnosis = plumb("diagnose " + kWindings + limits + "--fault endings." + fault);
     EXPECT_EQ(diagnosis.code, 1) << diagnosis.text;
@@ -90,12 +90,12 @@ TEST_F(FailingRenderers, fail_one_scene_of_a_run) {
   scenes.push_back(kScenes + "blend/factors.json");
   std::string run = "check";
   for (const fs::path& scene : scenes) run += " " + scene.string();
-  run += " --against exact,image_order --time-limit 10 --memory-limit 1024 --json " + at("run.json");
+  run += " --against exact,image_order --time-limit 4 --memory-limit 512 --json " + at("run.json");
   const std::pair<const char*, const char*> kEndings[] = {{"throw", "a scene too many"},
                                                           {"memory", "took more memory than a worker may have"},
                                                           {"crash", "was killed by signal 11 (Segmentation fault)"},
                                                           {"exit", "ended its process with status 0"},
-                                                          {"hang", "took longer than 10s and was killed"}};
+                                                          {"hang", "took longer than 4s and was killed"}};
   for (const auto& [how, says] : kEndings) {
     if (!can_show(how)) continue;
     const Outcome check = plumb(run + " --fault endings." + how + ":image_order:cull/both_windings");
