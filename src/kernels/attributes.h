@@ -26,8 +26,9 @@ template <class W>
   return {f.at_0 * by, f.x * by, f.y * by};
 }
 /// Whether q_1, q_2 and their sum with q_0 change by at most half of the least 1/w within a block of 4 x 4 pixels. Then
-/// float is enough within blocks: with D = |added_in_block()| <= least / 2, a value q is off by u (|q| + D) for the first
-/// pixel's rounded to float, 3 u D for the slopes, products and their sum, and u |q| for the last sum: 2 u |q| + 4 u D.
+/// float is enough within blocks: with D = |added_in_block()| <= least / 2, a value q is off by u (|q| + D) for the
+/// first pixel's rounded to float, 3 u D for the slopes, products and their sum, and u |q| for the last sum: 2 u |q| +
+/// 4 u D.
 template <class W>
 [[gnu::always_inline]] inline auto changes_little(const Affine<W>& q1, const Affine<W>& q2, const Affine<W>& sum,
                                                   const W (&inv_w)[3]) {

@@ -159,6 +159,8 @@ inline void store_packed(bool mask, std::int64_t value, std::uint32_t* to) {
 inline void store(float value, float* to) { *to = value; }
 inline void store(double value, double* to) { *to = value; }
 inline void store(std::int64_t value, std::int32_t* to) { *to = static_cast<std::int32_t>(value); }
+/// The lanes of `mask` side by side; behind them, up to as many as there are lanes, anything.
+inline void store_kept(bool, std::int64_t value, std::int32_t* to) { *to = static_cast<std::int32_t>(value); }
 /// A store past the caches, to a place that is a multiple of the lanes' size. Lanes<R>::end_of_stream() makes it seen by
 /// other threads.
 inline void stream(std::int64_t value, std::int32_t* to) { *to = static_cast<std::int32_t>(value); }

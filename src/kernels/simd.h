@@ -160,6 +160,9 @@ inline void store(SimdWide value, double* to) {
   hn::StoreU(value.low, kDoubles, to);
   hn::StoreU(value.high, kDoubles, to + kHalf);
 }
+inline void store_kept(SimdMask mask, SimdInt value, std::int32_t* to) {
+  hn::StoreU(hn::Compress(value.v, hn::RebindMask(kInts, mask.m)), kInts, to);
+}
 inline void stream(SimdInt value, std::int32_t* to) { hn::Stream(value.v, kInts, to); }
 inline void store_codes(SimdInt value, std::uint8_t* to) { hn::StoreU(hn::DemoteTo(kBytes, value.v), kBytes, to); }
 inline void store_packed(SimdMask mask, SimdInt value, std::uint32_t* to) {

@@ -7,17 +7,12 @@ namespace plumbline::pipeline {
 GradientSetup gradient_setup(const WindowTriangle& triangle, const std::array<Vec4<float>, 3>& texcoords,
                              const BarycentricPlanes& planes) {
   const std::size_t third = triangle.corners == 3 ? 2 : 0;  // of a line, as depth_setup() has it
-  const auto plane = [&](auto value) {
-    const auto over_w = [&](std::size_t i) { return to_wide(value(texcoords[i])) * to_wide(triangle.v[i].inv_w); };
-    const double at_0 = over_w(0);
-    return planes.through(at_0, over_w(1) - at_0, over_w(third) - at_0);
-  };
-  const Affine<double> s = plane([](const Vec4<float>& v) { return v.s; });
-  const Affine<double> t = plane([](const Vec4<float>& v) { return v.t; });
-  const Affine<double> q = plane([](const Vec4<float>&) { return 1.0f; });
-  const auto cross = [](double a, double b, double c, double d) { return difference_of_products(a, b, c, d); };
-  return {cross(s.x, q.at_0, s.at_0, q.x), cross(s.y, q.at_0, s.at_0, q.y), cross(s.x, q.y, s.y, q.x),
-          cross(t.x, q.at_0, t.at_0, q.x), cross(t.y, q.at_0, t.at_0, q.y), cross(t.x, q.y, t.y, q.x)};
+  double of_s[3], of_t[3], inv_w[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = k == 2 ? third : k;
+    of_s[k] = to_wide(texcoords[i].s), of_t[k] = to_wide(texcoords[i].t), inv_w[k] = to_wide(triangle.v[i].inv_w);
+  }
+  return gradient_setup<double>(planes, of_s, of_t, inv_w);
 }
 
 TextureSetup texture_setup(const Texture& texture, const Sampler& sampler) {

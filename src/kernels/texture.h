@@ -35,9 +35,22 @@ struct FilteredTexel {
 /// A triangle's Gradients, anchored as its barycentric planes. With S = s/w and q = 1/w, d(S/q)/dx q^2 is S_x q - S
 /// q_x, in which the terms of x cancel: (S_x q_0 - S_0 q_x) + (S_x q_y - S_y q_x) dy. By y likewise, and the last
 /// term's sign is turned.
-struct GradientSetup {
-  double ds_dx, ds_dy, s_turn, dt_dx, dt_dy, t_turn;
+template <class W>
+struct GradientSetupOf {
+  W ds_dx, ds_dy, s_turn, dt_dx, dt_dy, t_turn;
 };
+using GradientSetup = GradientSetupOf<double>;
+/// Of the corners' s, t and 1/w.
+template <class W>
+[[gnu::always_inline]] inline GradientSetupOf<W> gradient_setup(const CornerPlanes<W>& planes, const W (&of_s)[3],
+                                                                const W (&of_t)[3], const W (&inv_w)[3]) {
+  const auto through = [&](const W& v0, const W& v1, const W& v2) { return planes.through(v0, v1 - v0, v2 - v0); };
+  const auto over_w = [&](const W(&v)[3]) { return through(v[0] * inv_w[0], v[1] * inv_w[1], v[2] * inv_w[2]); };
+  const Affine<W> s = over_w(of_s), t = over_w(of_t), q = through(inv_w[0], inv_w[1], inv_w[2]);
+  const auto cross = [](const W& a, const W& b, const W& c, const W& d) { return difference_of_products(a, b, c, d); };
+  return {cross(s.x, q.at_0, s.at_0, q.x), cross(s.y, q.at_0, s.at_0, q.y), cross(s.x, q.y, s.y, q.x),
+          cross(t.x, q.at_0, t.at_0, q.x), cross(t.y, q.at_0, t.at_0, q.y), cross(t.x, q.y, t.y, q.x)};
+}
 GradientSetup gradient_setup(const WindowTriangle& triangle, const std::array<Vec4<float>, 3>& texcoords,
                              const BarycentricPlanes& planes);
 

@@ -27,18 +27,15 @@ inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTr
   return out;
 }
 
-/// Varyings of a draw's triangle; none without a surface. (x0, y0): the tile's lower left pixel.
+/// Varyings of a draw's triangle; none without a surface. `gradients`: of a textured one.
 inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const PaintDraw& draw,
-                                                 const PaintTriangle& t, int x0, int y0) {
+                                                 const PaintTriangle& t, const GradientSetup& gradients) {
   if (draw.surface == nullptr) return {};
   SurfaceSetup out{draw.surface, {}, {}};
-  const auto varying = [&](Varying v) { return varying_of(painting, draw, t, v); };
   for (const Varying v : draw.surface->carried) {
-    out.varyings[static_cast<std::size_t>(v)] = attribute_setup(varying(v));
+    out.varyings[static_cast<std::size_t>(v)] = attribute_setup(varying_of(painting, draw, t, v));
   }
-  if (!draw.surface->texture) return out;
-  const WindowTriangle triangle = window_triangle_of(painting, t);
-  out.gradients = gradient_setup(triangle, varying(Varying::texture), planes_of(triangle, x0, y0));
+  if (draw.surface->texture) out.gradients = gradients;
   return out;
 }
 
@@ -50,7 +47,10 @@ void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTri
   const auto color = [&](int k) { return painting.vertices[triangle.corner[draw.flat() ? 1 : k]].color; };
   const FragmentSetup s{t.front, planes, depth, perspective_setup(t, planes, draw.surface == nullptr),
                         attribute_setup({color(0), color(1), color(2)})};
-  const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, triangle, tile.x0, tile.y0);
+  GradientSetup gradients{};
+  if (draw.surface != nullptr && draw.surface->texture)
+    gradients = gradient_setup(t, varying_of(painting, draw, triangle, Varying::texture), planes);
+  const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, triangle, gradients);
   const auto paint = [&](glm::ivec2 p) {
     const int place = tile.offset(p.x, p.y) + p.y % kBlock * kBlock + p.x % kBlock;
     paint_fragments<float>(*draw.draw, s, surface, pixel_at(p), true, place, painting.formats.color_scale, tile);

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "painter/lone_triangle.h"
-#include "painter/set_up_lanes.h"
+#include "painter/visit_covered.h"
 
 namespace plumbline::pipeline {
 
@@ -21,12 +21,18 @@ class ShadedPixels {
 
   /// Adds the pixels `kept` of a part of a block, which begins at `place`.
   void add(int place, const std::array<Mask<R>, kSampleCount>& kept) {
-    unsigned of_sample[kSampleCount], some = 0;
-    for (int i = 0; i < kSampleCount; ++i) some |= of_sample[i] = bits_of(kept[static_cast<std::size_t>(i)]);
-    for (; some != 0; some &= some - 1, ++count_) {
-      const int lane = std::countr_zero(some);
-      places_[count_] = place + lane;
-      for (int i = 0; i < kSampleCount && kSampleCount > 1; ++i) kept_[count_][i] = (of_sample[i] >> lane & 1u) != 0;
+    Mask<R> any_kept = kept[0];
+    for (std::size_t i = 1; i < kSampleCount; ++i) any_kept = any_kept | kept[i];
+    unsigned some = bits_of(any_kept);
+    store_kept(any_kept, Lanes<R>::load(kBlockNumbers) + Int<R>(place), places_ + count_);
+    if constexpr (kSampleCount == 1) {
+      count_ += std::popcount(some);
+    } else {
+      unsigned of_sample[kSampleCount];
+      for (std::size_t i = 0; i < kSampleCount; ++i) of_sample[i] = bits_of(kept[i]);
+      for (; some != 0; some &= some - 1, ++count_) {
+        for (int i = 0; i < kSampleCount; ++i) kept_[count_][i] = (of_sample[i] >> std::countr_zero(some) & 1u) != 0;
+      }
     }
     if (count_ >= kLanes) shade(kLanes);
   }
@@ -44,7 +50,7 @@ class ShadedPixels {
   void shade(int count) {
     using I = Int<R>;
     const int x0 = tiles_[0].x0, y0 = tiles_[0].y0;
-    if (!surface_) surface_ = surface_setup(painting_, draw_, triangle_, x0, y0);
+    if (!surface_) surface_ = surface_setup(painting_, draw_, triangle_, setup_.gradients);
     count_ -= kLanes;
     const I place = Lanes<R>::load(places_ + count_);
     const I x = I(x0) + x_of_place(place), y = I(y0) + y_of_place(place);

@@ -29,7 +29,7 @@ void paint_run(const Painting& painting, const PaintRun& run, auto& tile) {
   const auto paint_lane = [&](const PaintTriangle& t, int lane) {
     LaneSetup<> s = lanes.lanes.of(lane, t.front, tile.x0, tile.y0);
     s.depth_plane = depth_of_lane(painting, draw, t, s.depth_plane.code, tile.x0, tile.y0);
-    const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, t, tile.x0, tile.y0);
+    const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, t, s.gradients);
     const auto all_blocks = [](int) { return ~0u; };
     const auto none_ahead = [](int, int, const auto&, bool) {};
     visit_covered<R, 1>(s, all_blocks, none_ahead, [&](int x, int y, int, const auto& covered, auto) {

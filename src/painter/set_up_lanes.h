@@ -22,6 +22,7 @@ struct LaneSetup : FragmentSetup {
   Affine<double> code[kSampleCount];
   float nearest;                  ///< a depth code: all its fragments in the tile are farther
   bool plain_depth, plain_color;  ///< LaneTriangles
+  GradientSetup gradients;        ///< of a textured surface
 };
 
 template <class R>
@@ -34,6 +35,21 @@ struct AffineLanes {
   Affine<double> of(int lane) const { return {at_0[lane], x[lane], y[lane]}; }
   Affine<Wide<R>> of_all() const { return {Lanes<R>::load(at_0), Lanes<R>::load(x), Lanes<R>::load(y)}; }
 };
+template <class R>
+struct GradientLanes {
+  static constexpr int kLanes = Lanes<R>::width;
+  alignas(64) double of_each[6][kLanes];
+  bool any = false;  ///< the draw's surface has a texture
+
+  void keep(const GradientSetupOf<Wide<R>>& g) {
+    const Wide<R>* const each[6] = {&g.ds_dx, &g.ds_dy, &g.s_turn, &g.dt_dx, &g.dt_dy, &g.t_turn};
+    for (int i = 0; i < 6; ++i) store(*each[i], of_each[i]);
+  }
+  GradientSetup of(int lane) const {
+    const auto& e = of_each;
+    return {e[0][lane], e[1][lane], e[2][lane], e[3][lane], e[4][lane], e[5][lane]};
+  }
+};
 /// As many triangles as there are lanes.
 template <class R, int kSampleCount = 1>
 struct LaneTriangles {
@@ -42,6 +58,7 @@ struct LaneTriangles {
   std::int32_t step_x[3][kLanes], step_y[3][kLanes];
   alignas(64) std::int32_t at_sample[kSampleCount][3][kLanes];
   AffineLanes<R> code[kSampleCount], q1, q2, sum;
+  GradientLanes<R> gradients;
   alignas(64) float color[3][4][kLanes];  ///< corner 0's, and the others' differences from it
   float nearest[kLanes];
   alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
@@ -80,6 +97,7 @@ struct LaneTriangles {
     s.nearest = nearest[lane];
     s.plain_depth = (plain_depth >> lane & 1u) != 0;
     s.plain_color = (plain_color >> lane & 1u) != 0;
+    if (gradients.any) s.gradients = gradients.of(lane);
     return s;
   }
 };
@@ -151,6 +169,24 @@ template <class R, int kSampleCount>
   }
 }
 
+/// Of the texture coordinates, where the draw's surface has a texture.
+template <class R, int kSampleCount>
+[[gnu::always_inline]] inline void set_up_gradients(const CornersOfLanes<R>& corner,
+                                                    const CornerPlanes<Wide<R>>& planes, const Vec4<R> (&p_win)[3],
+                                                    const Painting& painting, const PaintDraw& draw,
+                                                    LaneTriangles<R, kSampleCount>& out) {
+  out.gradients.any = draw.surface != nullptr && draw.surface->texture;
+  if (!out.gradients.any) return;
+  const Vec4<float>* const column = painting.varyings[static_cast<std::size_t>(Varying::texture)];
+  const auto texcoords = [&](const PaintVertex* v) { return &column[v - painting.vertices].x; };
+  Wide<R> of_s[3], of_t[3], inv_w[3];
+  for (int k = 0; k < 3; ++k) {
+    const Vec4<R> st = load_corner<R>(corner[k], texcoords);
+    of_s[k] = to_wide(st.x), of_t[k] = to_wide(st.y), inv_w[k] = to_wide(p_win[k][3]);
+  }
+  out.gradients.keep(gradient_setup<Wide<R>>(planes, of_s, of_t, inv_w));
+}
+
 /// In the tile whose lower left pixel is `tile`. `facing`: 1 of a front face, -1 of a back one.
 template <class R, int kSampleCount>
 void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R>::width], const Painting& painting,
@@ -163,7 +199,9 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
   const PlaneCorners<W> through =
       plane_corners<R>({p_win[0][0], p_win[1][0], p_win[2][0]}, {p_win[0][1], p_win[1][1], p_win[2][1]}, snapped_x,
                        snapped_y, to_wide(face));
-  set_up_planes<R>(corner_planes(through, tile.x + 0.5, tile.y + 0.5), p_win, painting, out);
+  const CornerPlanes<W> planes = corner_planes(through, tile.x + 0.5, tile.y + 0.5);
+  set_up_planes<R>(planes, p_win, painting, out);
+  set_up_gradients<R>(corner, planes, p_win, painting, draw, out);
   const Affine<W> q1 = out.q1.of_all(), q2 = out.q2.of_all(), sum = out.sum.of_all();
   out.in_blocks = 0;
   if (draw.surface == nullptr && draw.kernel != PaintKernel::depth_alone) {

@@ -65,9 +65,9 @@ struct SampleOffsets {
   glm::ivec2 coverage, depth, color;
 };
 
-/// Planes are anchored at the lower left pixel of the 64 x 64 tile that a fragment lies in (from a far anchor, the terms
-/// of a sliver's sum would be too large for double), and colours' weights at that of its block of 4 x 4 (attributes.h):
-/// the two rules of tiles that decide bits.
+/// Planes are anchored at the lower left pixel of the 64 x 64 tile that a fragment lies in (from a far anchor, the
+/// terms of a sliver's sum would be too large for double), and colours' weights at that of its block of 4 x 4
+/// (attributes.h): the two rules of tiles that decide bits.
 inline constexpr int kTile = 64;
 
 /// Per-triangle input of stages 6 to 8, for the fragments of one tile.

@@ -100,8 +100,9 @@ double depth_rounding(const WindowTriangle<double>& triangle);
 /// For a weighted mean of corners (the pipeline's way, and any that works near the triangle), c0 + k1 (c1 - c0) + k2
 /// (c2 - c0) with k_i = q_i / sum q: the weights carry 10 u in proportion to condition = sum |q_i| / |sum q_i|, the two
 /// sums 2 u: (|c| + |c0|) / 5 + condition * (|k1| |c1 - c0| + |k2| |c2 - c0|), and what double arithmetic leaves of a
-/// share that is 0. Where q changes little within blocks of 4 x 4 pixels, it may be evaluated in float there: 4 u of what
-/// q_i changes by, and of |k_i| times what the sum changes by, by the sum (kernels/attributes.h, changes_little).
+/// share that is 0. Where q changes little within blocks of 4 x 4 pixels, it may be evaluated in float there: 4 u of
+/// what q_i changes by, and of |k_i| times what the sum changes by, by the sum (kernels/attributes.h,
+/// changes_little).
 Vec4<double> bounds_of_mean(const WindowTriangle<double>& triangle, int x, int y);
 
 }  // namespace plumbline::check
