@@ -3,6 +3,8 @@
 // namespace of that name keeps their functions apart.
 #pragma once
 
+#include <bit>
+
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
@@ -161,7 +163,13 @@ inline void store(SimdWide value, double* to) {
   hn::StoreU(value.high, kDoubles, to + kHalf);
 }
 inline void store_kept(SimdMask mask, SimdInt value, std::int32_t* to) {
-  hn::StoreU(hn::Compress(value.v, hn::RebindMask(kInts, mask.m)), kInts, to);
+  if constexpr (kWidth == 16) {
+    hn::StoreU(hn::Compress(value.v, hn::RebindMask(kInts, mask.m)), kInts, to);
+  } else {  // whose Compress is of tables, and in builds that are not optimised wants Highway's library
+    HWY_ALIGN std::int32_t lanes[kWidth];
+    hn::Store(value.v, kInts, lanes);
+    for (unsigned bits = bits_of(mask); bits != 0; bits &= bits - 1) *to++ = lanes[std::countr_zero(bits)];
+  }
 }
 inline void stream(SimdInt value, std::int32_t* to) { hn::Stream(value.v, kInts, to); }
 inline void store_codes(SimdInt value, std::uint8_t* to) { hn::StoreU(hn::DemoteTo(kBytes, value.v), kBytes, to); }
