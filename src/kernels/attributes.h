@@ -36,7 +36,8 @@ template <class W>
   const W least = lesser_of(lesser_of(inv_w[0], inv_w[1]), inv_w[2]);
   const W most = greater_of(greater_of(inv_w[0], inv_w[1]), inv_w[2]);
   const auto little = [&](const Affine<W>& f) { return (size(f.x) + size(f.y)) * W(2.0 * (kBlock - 1)) <= least; };
-  return little(q1) & little(q2) & little(sum) & (least > W(0x1p-60)) & (most < W(0x1p60));  // the exponents of float
+  // 1/w within 2^-60 to 2^60: slopes, products and reciprocals are normal numbers of float.
+  return little(q1) & little(q2) & little(sum) & (least > W(0x1p-60)) & (most < W(0x1p60));
 }
 /// `colors_alone`: nothing else is interpolated. Lines and points are never in blocks.
 PerspectiveSetup perspective_setup(const WindowTriangle& triangle, const CornerPlanes<double>& planes,
@@ -64,7 +65,7 @@ template <class R>
   const R reciprocal = select(magnitude(sum) > R(1.17549435e-38f), R(1) / sum, R(0));
   return {q1 * reciprocal, q2 * reciprocal};
 }
-/// What a plane adds to its value at a block's first pixel, in a column and row of the block.
+/// Difference of a plane's value in a column and row of a block from that at the block's first pixel.
 template <class R>
 [[gnu::always_inline]] inline R added_in_block(const Affine<double>& f, const R& column, const R& row) {
   return column * R(to_float(f.x)) + row * R(to_float(f.y));

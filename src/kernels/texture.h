@@ -40,7 +40,7 @@ struct GradientSetupOf {
   W ds_dx, ds_dy, s_turn, dt_dx, dt_dy, t_turn;
 };
 using GradientSetup = GradientSetupOf<double>;
-/// Of the corners' s, t and 1/w.
+/// Setup from the corners' s, t and 1/w.
 template <class W>
 [[gnu::always_inline]] inline GradientSetupOf<W> gradient_setup(const CornerPlanes<W>& planes, const W (&of_s)[3],
                                                                 const W (&of_t)[3], const W (&inv_w)[3]) {

@@ -134,8 +134,8 @@ class OpaqueRun {
         in_block[k][part] = added_in_block(*weight_plane[k], of_part(kColumnInBlock), of_part(kRowInBlock));
       }
     }
-    // Of a group's blocks, weights at their first pixels; of its whole blocks, bounds of depth codes: the plane's at
-    // the corner where it is farthest, and a code for its rounding.
+    // Weights at the first pixels of a group's blocks. Bounds of depth codes in its whole blocks: the plane's at the
+    // corner where it is farthest, and a code for its rounding.
     alignas(64) float weight_ahead[3][kLanes], farthest_ahead[kLanes];
     const auto ahead = [&](int x, int y, const BlockGroup<R>& group, bool any_whole) {
       if constexpr (kColors && kInBlocks) {

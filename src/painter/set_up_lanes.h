@@ -169,7 +169,7 @@ template <class R, int kSampleCount>
   }
 }
 
-/// Of the texture coordinates, where the draw's surface has a texture.
+/// Gradients of the texture coordinates, where the draw's surface has a texture.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline void set_up_gradients(const CornersOfLanes<R>& corner,
                                                     const CornerPlanes<Wide<R>>& planes, const Vec4<R> (&p_win)[3],

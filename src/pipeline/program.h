@@ -27,7 +27,8 @@ namespace plumbline::pipeline {
 /// vertex(triangle, corner, out) returns p_clip. It is called once for each corner (0, 1, 2) of each triangle, in
 /// order. A triangle with a p_clip that is not finite is dropped.
 ///
-/// fragment(in, color) is called for each fragment that passes the depth test, with perspective-correct varyings. The
+/// fragment(in, color) is called for each fragment that passes the depth test, with perspective-correct varyings, whose
+/// weights are of double precision where there are more than four floats (PerspectiveSetup, in_blocks). The
 /// colour is clamped and rounded to the frame's format. Where it returns true, the fragment is discarded: colour and
 /// depth stay as they are.
 template <class P, class V = typename P::Varyings>

@@ -22,8 +22,8 @@ class Context {
   virtual Function function(const char* name) const = 0;
 };
 
-/// What Mesa compiles shaders to. The first two draw the same bits; `approximate`, which is Mesa's default and quick to
-/// run, filters textures by weights of 8 bits and levels of detail of four pixels at a time.
+/// Code that Mesa makes of shaders. The first two draw the same bits; `approximate`, which is Mesa's default and quick
+/// to run, filters textures by weights of 8 bits and levels of detail of four pixels at a time.
 enum class ShaderCode { quick_to_make, quick_to_run, approximate };
 
 /// OSMesa's, if it is built in. Throws RendererFailed.

@@ -30,7 +30,7 @@ class Target {
   Plane<std::uint32_t> read_codes() const;
   /// The same of `size` pixels from pixel `origin` on.
   Plane<std::uint32_t> read_codes(glm::ivec2 origin, glm::ivec2 size) const;
-  /// The same of as many pixels as `to` has.
+  /// Codes from pixel `origin` on into `to`, as many columns and rows as it has.
   void read_codes(glm::ivec2 origin, Plane<std::uint32_t>& to) const;
   /// Codes as code / 255, code / 65535.
   Plane<glm::vec4> read_color() const;

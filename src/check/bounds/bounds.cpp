@@ -313,8 +313,8 @@ double depth_rounding(const WindowTriangle<double>& t) {
 
 namespace {
 
-// What the three q_i and their sum change by within a block of 4 x 4 pixels, where a pipeline may evaluate them in
-// float there: none by more than half of the least 1/w (kernels/attributes.h). Else 0.
+// Changes of the three q_i and of their sum within a block of 4 x 4 pixels, if a pipeline may evaluate them in float
+// there: none is more than half of the least 1/w (kernels/attributes.h, changes_little). Else 0.
 struct BlockChanges {
   Vec3<double> q{0};
   double sum = 0;
