@@ -16,11 +16,19 @@ void list_stages() {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) fmt::print("{:>2} {}\n", i, kStageNames[i]);
 }
 
+// Of a reference that is not built in: what its library is called, in Debian.
+std::string how_to_build(const std::string& name) {
+  const std::string what = name == "osmesa"   ? "libosmesa6-dev (none from Mesa 25.1 on: egl takes its place)"
+                           : name == "embree" ? "libembree-dev (Embree 3 or 4)"
+                                              : "libegl-dev and libgl1-mesa-dri";
+  return fmt::format("not built in: install {}, and build plumbline anew", what);
+}
+
 void list_renderers() {
   for (const std::string& name : renderer_names()) {
     const std::unique_ptr<Renderer> renderer = make_reference(name, {});
     if (renderer == nullptr) {
-      fmt::print("{}: not built in\n", name);
+      fmt::print("{}: {}\n", name, how_to_build(name));
       continue;
     }
     const RendererInfo info = renderer->info();

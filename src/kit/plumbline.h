@@ -35,7 +35,7 @@
 #define PL_NORETURN
 #endif
 
-enum { PL_UNSUPPORTED_STATUS = 77, PL_PATH = 256 };
+enum { PL_VERSION = 1, PL_UNSUPPORTED_STATUS = 77, PL_PATH = 256 };
 
 /* One for the whole program, whatever number of its files includes this one. */
 typedef struct {

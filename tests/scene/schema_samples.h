@@ -77,6 +77,7 @@ inline const std::vector<Sample> kSchemaSamples = {
     {"",
      "$",
      {{"$schema", "\"s\""},
+      {"version", "1"},
       {"include", "[\"empty.part.json\"]"},
       {"description", "\"d\""},
       {"dialect", "\"gl\""},

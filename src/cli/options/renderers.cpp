@@ -10,6 +10,8 @@
 
 #include "base/did_you_mean.h"
 #include "capture/renderers/process_renderer.h"
+#include "faults/endings.h"
+#include "faults/faults.h"
 #include "image_order/image_order.h"
 #include "reference/exact/exact.h"
 #include "renderers/pipeline_renderer.h"
@@ -18,10 +20,6 @@
 #endif
 #if defined(PLUMBLINE_OSMESA) || defined(PLUMBLINE_EGL)
 #include "reference/osmesa/osmesa.h"
-#endif
-#ifdef PLUMBLINE_FAULTS
-#include "faults/endings.h"
-#include "faults/faults.h"
 #endif
 
 namespace plumbline::cli {
@@ -133,7 +131,6 @@ std::unique_ptr<Renderer> sound_reference(const std::string& name, const std::ve
 
 }  // namespace
 
-#ifdef PLUMBLINE_FAULTS
 std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets,
                                          const std::string& fault) {
   std::unique_ptr<Renderer> reference = sound_reference(name, assets);
@@ -168,20 +165,5 @@ std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
   throw std::invalid_argument(
       fmt::format("no fault '{}'{}: plumb list faults shows all", fault, did_you_mean(fault, names)));
 }
-#else
-std::unique_ptr<Renderer> make_reference(const std::string& name, const std::vector<std::string>& assets,
-                                         const std::string&) {
-  return sound_reference(name, assets);
-}
-
-std::string faulted_reference(const std::string&) { return ""; }
-
-std::vector<FaultInfo> fault_infos() { return {}; }
-
-std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
-  if (fault.empty()) return pipeline::make_pipeline();
-  throw std::invalid_argument("--fault: this plumb was built without the library of faults");
-}
-#endif
 
 }  // namespace plumbline::cli

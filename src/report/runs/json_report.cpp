@@ -17,61 +17,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json worst_of(const check::Worst& worst) {
-  Json out{{"place", check::to_string(worst.place)},
-           {"candidate", json_number(worst.candidate)},
-           {"reference", json_number(worst.reference)},
-           {"difference", json_number(worst.difference)},
-           {"tolerance", json_number(worst.tolerance)}};
-  if (worst.place.x >= 0) out["pixel"] = {worst.place.x, worst.place.y};
-  return out;
+// A file's name for what it holds, and the version of that format, which changes where a key is dropped or means
+// another thing (CHANGELOG.md).
+Json head_of(const char* what) { return {{"format", fmt::format("plumbline {}", what)}, {"version", 1}}; }
+
+void write(const std::filesystem::path& file, const Json& json) {
+  write_file(file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
 
-Json json_number(double value) {
-  if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  return value;
-}
-
-Json comparison_json(const check::Comparison& c) {
-  const check::Measurement& m = c.measurement;
-  Json out{{"scene", c.scene},
-           {"reference", c.judge.reference},
-           {"kind", name_of(c.judge.kind)},
-           {"title", title_of(c.judge)},
-           {"stage", name_of(c.stage)},
-           {"outcome", name_of(c.outcome)},
-           {"pixels", m.items},
-           {"differing", m.differing},
-           {"ambiguous", m.ambiguous},
-           {"max_difference", json_number(m.max_difference)},
-           {"unit", m.unit},
-           {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
-           {"disputed", m.disputed},
-           {"max_ratio", json_number(m.max_ratio)},
-           {"histogram", m.histogram}};
-  if (m.disputed > 0) {
-    out["dispute"] = worst_of(m.dispute);
-    out["dispute"]["reason"] = m.reason;
-  }
-  if (!c.ledger_row.empty()) out["ledger"] = c.ledger_row;
-  if (!c.note.empty()) out["note"] = c.note;
-  return out;
-}
-
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts, const RunHead& head) {
   const Shard& shard = head.shard;
-  Json out{{"versions", head.versions},
-           {"fault", head.fault},
-           {"against", head.against},
-           {"golden", head.golden},
-           {"failures", head.failures},
-           {"tolerances", Json::object()},
-           {"shard", {{"index", shard.index}, {"of", shard.of}, {"scenes", std::max(shard.scenes, verdicts.size())}}},
-           {"scenes", Json::array()},
-           {"comparisons", Json::array()}};
+  Json out = head_of("run");
+  out.update(
+      {{"versions", head.versions},
+       {"fault", head.fault},
+       {"against", head.against},
+       {"golden", head.golden},
+       {"failures", head.failures},
+       {"tolerances", Json::object()},
+       {"shard", {{"index", shard.index}, {"of", shard.of}, {"scenes", std::max(shard.scenes, verdicts.size())}}},
+       {"scenes", Json::array()},
+       {"comparisons", Json::array()}});
   for (const check::Tolerance& row : check::ledger()) out["tolerances"][name_of(row)] = row.factor;
   for (const check::SceneVerdict& verdict : verdicts) {
     Json scene{{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}};
@@ -79,18 +47,19 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
     out["scenes"].push_back(std::move(scene));
     for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
   }
-  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write(file, out);
 }
 
 void write_json(const std::filesystem::path& file, const check::Diagnosis& diagnosis,
                 const std::map<std::string, std::string>& versions, const std::string& pixel_history) {
-  Json out{{"scene", diagnosis.verdict.scene},
-           {"file", diagnosis.verdict.path},
-           {"versions", versions},
-           {"first", diagnosis.first ? Json(name_of(*diagnosis.first)) : Json(nullptr)},
-           {"wrong", Json::array()},
-           {"findings", Json::array()},
-           {"comparisons", Json::array()}};
+  Json out = head_of("diagnosis");
+  out.update({{"scene", diagnosis.verdict.scene},
+              {"file", diagnosis.verdict.path},
+              {"versions", versions},
+              {"first", diagnosis.first ? Json(name_of(*diagnosis.first)) : Json(nullptr)},
+              {"wrong", Json::array()},
+              {"findings", Json::array()},
+              {"comparisons", Json::array()}});
   for (const Stage stage : diagnosis.wrong) out["wrong"].push_back(name_of(stage));
   for (const check::Finding& f : diagnosis.findings) {
     out["findings"].push_back({{"stage", name_of(f.stage)},
@@ -106,12 +75,13 @@ void write_json(const std::filesystem::path& file, const check::Diagnosis& diagn
   }
   for (const check::Comparison& c : diagnosis.verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
   if (!pixel_history.empty()) out["pixel_history"] = Json::parse(pixel_history);
-  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write(file, out);
 }
 
 void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,
                 std::span<const check::StoredComparison> comparisons) {
-  Json out{{"a", a}, {"b", b}, {"tolerance", tolerance}, {"comparisons", Json::array()}};
+  Json out = head_of("comparison");
+  out.update({{"a", a}, {"b", b}, {"tolerance", tolerance}, {"comparisons", Json::array()}});
   for (const check::StoredComparison& c : comparisons) {
     const check::Measurement& m = c.measurement;
     Json row{{"what", c.what},
@@ -119,13 +89,13 @@ void write_json(const std::filesystem::path& file, const std::string& a, const s
              {"items", m.items},
              {"differing", m.differing},
              {"max_difference", json_number(m.max_difference)},
-             {"worst", m.max_difference > 0 ? worst_of(m.worst) : Json(nullptr)},
+             {"worst", m.max_difference > 0 ? worst_json(m.worst) : Json(nullptr)},
              {"histogram", m.histogram}};
     if (c.codes > 0) row["codes"] = c.codes;
     if (!c.note.empty()) row["note"] = c.note;
     out["comparisons"].push_back(std::move(row));
   }
-  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write(file, out);
 }
 
 namespace {
@@ -172,7 +142,7 @@ void write_ledger(const std::filesystem::path& file, std::span<const check::Scen
                     {"where", use.where}});
   }
   const Json out{{"tolerances", rows}, {"groups", groups(verdicts)}};
-  write_file(file, out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write(file, out);
 }
 
 }  // namespace plumbline::report

@@ -124,7 +124,10 @@ CheckRun read_run(const std::filesystem::path& path) {
   run.file = path.string();
   const JsonValue value = read_json_file(path, run.file, kMostBytes);
   const JsonNode root(value, "");
-  root.only({"versions", "fault", "against", "golden", "failures", "tolerances", "shard", "scenes", "comparisons"});
+  if (const auto n = root.find("version")) n->integer(1, 1);  // plumbline 0.1 wrote neither
+  if (const auto n = root.find("format"); n && n->text() != "plumbline run") n->refuse("\"plumbline run\"");
+  root.only({"format", "version", "versions", "fault", "against", "golden", "failures", "tolerances", "shard", "scenes",
+             "comparisons"});
   const JsonNode versions = root["versions"], tolerances = root["tolerances"];
   for (const JsonNode& node : {versions, tolerances}) {
     if (node.value().kind != JsonValue::Kind::object) node.refuse("an object");

@@ -217,8 +217,9 @@ void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFold
 }
 
 Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
-  root.only({"$schema", "include", "description", "dialect", "frame", "camera", "projection", "ambient", "light_model",
-             "lights", "textures", "defaults", "draws"});
+  if (const auto n = root.find("version")) n->integer(1, 1);
+  root.only({"$schema", "version", "include", "description", "dialect", "frame", "camera", "projection", "ambient",
+             "light_model", "lights", "textures", "defaults", "draws"});
   if (const auto n = root.find("$schema")) n->text();
   Scene scene;
   scene.description = root["description"].text();

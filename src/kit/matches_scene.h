@@ -1,0 +1,158 @@
+// A GoogleTest matcher: whether a frame is what a scene must look like, by plumbline's references.
+//
+//   plumbline::DrawnFrame frame = plumbline::frame_of_bytes(320, 180, rgba);   // or floats, and depth
+//   EXPECT_THAT(frame, plumbline::MatchesScene("triangle.json"));
+//
+// One header, C++17, for tests that link GoogleMock and have the program plumb. It is the target's that plumbline::kit
+// names, else that of the environment's PLUMBLINE_PLUMB, else the one in PATH. MIT licence.
+#ifndef PLUMBLINE_MATCHES_SCENE_H
+#define PLUMBLINE_MATCHES_SCENE_H
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+namespace plumbline {
+
+/// What a renderer drew. Row 0 is the lowest; of a scene whose frame says rows_from_top, the uppermost.
+struct DrawnFrame {
+  int width = 0, height = 0;
+  std::vector<float> color;   ///< [height, width, 4]: red, green, blue and alpha in [0,1]
+  std::vector<double> depth;  ///< [height, width]: window z in [0,1]; empty: not judged
+};
+
+/// The frame of 8-bit colours, `rgba` of [height, width, 4] bytes.
+inline DrawnFrame frame_of_bytes(int width, int height, const std::uint8_t* rgba) {
+  DrawnFrame frame{width, height, {}, {}};
+  const std::size_t values = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  for (std::size_t i = 0; i < values; ++i) frame.color.push_back(static_cast<float>(rgba[i]) / 255.0F);
+  return frame;
+}
+
+inline void PrintTo(const DrawnFrame& frame, std::ostream* out) {
+  *out << "a frame of " << frame.width << " x " << frame.height << " pixels, "
+       << (frame.depth.empty() ? "without depth" : "with depth");
+}
+
+/// Matches a DrawnFrame. Of one that does not match, the message is that of `plumb diagnose`: the first stage that is
+/// wrong, numbers, pixels; and a page with pictures, in the folder plumbline_pages. Throws std::runtime_error where the
+/// frame could not be judged (no such scene, another size, no plumb): then neither the matcher nor Not() of it passes.
+class SceneMatcher {
+ public:
+  using is_gtest_matcher = void;
+  explicit SceneMatcher(std::filesystem::path scene) : scene_(std::move(scene)) {}
+
+  bool MatchAndExplain(const DrawnFrame& frame, std::ostream* out) const {
+    const Folder folder;
+    write(frame, folder.path);
+    const std::string judge =
+        quoted(plumb()) + " diagnose " + quoted(scene_) + " --capture " + quoted(folder.path / "capture");
+    auto [code, text] = run(judge);
+    if (code != 0 && code != 1) throw std::runtime_error("plumb diagnose: " + text);
+    if (out != nullptr && code == 1) {
+      const std::filesystem::path page = std::filesystem::absolute("plumbline_pages") / scene_.stem();
+      const bool has_page = run(judge + " --report " + quoted(page)).first == 1;
+      *out << "\n" << text << (has_page ? "page: " + (page / "index.html").string() + "\n" : "");
+    }
+    return code == 0;
+  }
+  void DescribeTo(std::ostream* out) const { *out << "shows the scene " << scene_.string(); }
+  void DescribeNegationTo(std::ostream* out) const { *out << "does not show the scene " << scene_.string(); }
+
+ private:
+  // A folder of its own, which goes when it does.
+  struct Folder {
+    std::filesystem::path path;
+    Folder() {
+      std::string name = (std::filesystem::temp_directory_path() / "plumbline.XXXXXX").string();
+      if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+      path = name;
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder() {
+      std::error_code ignored;
+      std::filesystem::remove_all(path, ignored);
+    }
+  };
+
+  static std::string plumb() {
+    if (const char* const named = std::getenv("PLUMBLINE_PLUMB")) return named;
+#ifdef PLUMBLINE_PLUMB
+    return PLUMBLINE_PLUMB;
+#else
+    return "plumb";
+#endif
+  }
+
+  // As one word of a shell.
+  static std::string quoted(const std::filesystem::path& path) {
+    std::string out = "'";
+    for (const char c : path.string()) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+  }
+
+  // The exit code, and what was printed.
+  static std::pair<int, std::string> run(const std::string& command) {
+    std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) throw std::runtime_error(command + ": cannot be run");
+    std::string text;
+    std::array<char, 4096> part{};
+    for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) text.append(part.data(), n);
+    const int status = pclose(pipe);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+  }
+
+  // One array of the capture; `shape` as JSON has it.
+  template <class T>
+  static std::string array(const std::filesystem::path& folder, const std::string& name, const char* dtype,
+                           const std::vector<T>& values, const std::string& shape) {
+    std::ofstream file(folder / (name + ".bin"), std::ios::binary);
+    file.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+    if (!file.flush()) throw std::runtime_error((folder / name).string() + ": cannot be written");
+    return "{\"name\": \"" + name + "\", \"dtype\": \"" + dtype + "\", \"shape\": [" + shape + "], \"file\": \"" +
+           name + ".bin\"}";
+  }
+
+  // The frame as a capture folder (src/kit/README.md).
+  static void write(const DrawnFrame& frame, const std::filesystem::path& folder) {
+    const std::size_t pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+    if (frame.width < 1 || frame.height < 1 || frame.color.size() != 4 * pixels ||
+        (!frame.depth.empty() && frame.depth.size() != pixels)) {
+      throw std::runtime_error("a frame of " + std::to_string(frame.width) + " x " + std::to_string(frame.height) +
+                               " pixels: expected 4 numbers of colour a pixel, and of depth 1 or none; found " +
+                               std::to_string(frame.color.size()) + " and " + std::to_string(frame.depth.size()));
+    }
+    const std::filesystem::path capture = folder / "capture";
+    std::filesystem::create_directory(capture);
+    const std::string size = std::to_string(frame.height) + ", " + std::to_string(frame.width);
+    std::string arrays = array(capture, "planes.color", "f32", frame.color, size + ", 4");
+    if (!frame.depth.empty()) arrays += ", " + array(capture, "planes.depth", "f64", frame.depth, size);
+    std::ofstream manifest(capture / "manifest.json");
+    manifest << "{\"format\": \"plumbline capture\", \"version\": 1, \"renderer\": \"the frame\", \"width\": "
+             << frame.width << ", \"height\": " << frame.height << ", \"byte_order\": \"little\", \"arrays\": ["
+             << arrays << "]}\n";
+    if (!manifest.flush()) throw std::runtime_error((capture / "manifest.json").string() + ": cannot be written");
+  }
+
+  std::filesystem::path scene_;
+};
+
+/// Of a scene file (src/scene/README.md).
+inline SceneMatcher MatchesScene(std::filesystem::path scene) { return SceneMatcher(std::move(scene)); }
+
+}  // namespace plumbline
+
+#endif

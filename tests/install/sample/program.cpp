@@ -1,0 +1,39 @@
+// The rasterizer as plumb calls it, by plumbline's kit: it begins with triangles in window space (--from window).
+#include <plumbline/plumbline.h>
+
+#include "rasterizer.h"
+
+namespace {
+
+void draw_scene(const PlScene* scene, PlCapture* out) {
+  pl_choice(scene, "rgba8", "frame.color");
+  pl_choice(scene, "z24", "frame.depth");
+  for (int i = 0; i < static_cast<int>(pl_number(scene, "draws")); ++i) {
+    pl_choice(scene, "triangles", "draws.%d.topology", i);
+    pl_choice(scene, "less", "draws.%d.depth_func", i);
+    for (const char* state : {"scissor", "alpha_test", "stencil", "fog", "blend", "logic_op", "texture"})
+      pl_none(scene, "draws.%d.%s", i, state);
+  }
+  double clear[4];
+  pl_numbers(scene, clear, 4, "frame.clear_color");
+  Image image(out->width, out->height, clear);
+  std::size_t numbers = 0;
+  const float* const p_win = pl_floats(scene, &numbers, "window.p_win");
+  const float* const inv_w = pl_floats(scene, nullptr, "window.inv_w");
+  const float* const color = pl_floats(scene, nullptr, "window.color");
+  for (std::size_t i = 0; i < numbers / 9; ++i) {
+    Corner corners[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* const p = p_win + 9 * i + 3 * k;
+      corners[k] = {p[0], p[1], p[2], inv_w[3 * i + k], {}};
+      for (std::size_t c = 0; c < 4; ++c) corners[k].color[c] = color[12 * i + 4 * k + c];
+    }
+    draw(image, corners);
+  }
+  pl_color(out, image.color.data());
+  pl_depth(out, image.depth.data());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return pl_main(argc, argv, "my rasterizer", draw_scene); }

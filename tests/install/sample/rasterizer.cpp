@@ -1,0 +1,73 @@
+#include "rasterizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace {
+
+struct Point {
+  std::int64_t x, y;  // [1/256 pixel]
+};
+
+std::int64_t edge(Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+
+// Whether the triangle has the centres on this edge, its interior to the left of it: on a left or a bottom edge.
+bool owns(Point a, Point b) {
+#ifdef PLANTED_BUG
+  return false;
+#endif
+  return b.y < a.y || (b.y == a.y && b.x > a.x);
+}
+
+// As a frame of 8 bits has it.
+float stored(double x) { return static_cast<float>(std::nearbyint(std::clamp(x, 0.0, 1.0) * 255) / 255); }
+
+}  // namespace
+
+Image::Image(int w, int h, const double (&clear)[4]) : width(w), height(h) {
+  const std::size_t pixels = static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
+  for (std::size_t i = 0; i < 4 * pixels; ++i) color.push_back(stored(clear[i % 4]));
+  depth.assign(pixels, 1);
+}
+
+void draw(Image& image, const Corner (&corners)[3]) {
+  Point p[3];
+  for (int i = 0; i < 3; ++i) p[i] = {std::llrint(corners[i].x * 256), std::llrint(corners[i].y * 256)};
+  std::int64_t area = edge(p[0], p[1], p[2]);
+  if (area == 0) return;
+  int order[3] = {0, 1, 2};
+  if (area < 0) std::swap(order[1], order[2]), area = -area;
+  const auto at = [&](int i) { return p[order[i % 3]]; };
+  const auto limits = [&](auto of, int size) {
+    const auto [low, high] = std::minmax({of(p[0]), of(p[1]), of(p[2])});
+    return std::pair(std::max<std::int64_t>(low / 256 - 1, 0), std::min<std::int64_t>(high / 256 + 1, size - 1));
+  };
+  const auto [left, right] = limits([](Point q) { return q.x; }, image.width);
+  const auto [bottom, top] = limits([](Point q) { return q.y; }, image.height);
+  for (std::int64_t y = bottom; y <= top; ++y) {
+    for (std::int64_t x = left; x <= right; ++x) {
+      const Point centre{256 * x + 128, 256 * y + 128};
+      bool covered = true;
+      double z = 0, q = 0, color[4] = {0, 0, 0, 0};
+      for (int i = 0; i < 3; ++i) {
+        const std::int64_t e = edge(at(i + 1), at(i + 2), centre);
+        covered = covered && (e > 0 || (e == 0 && owns(at(i + 1), at(i + 2))));
+        const Corner& corner = corners[order[i]];
+        const double share = static_cast<double>(e) / static_cast<double>(area);
+        z += share * corner.z;
+        q += share * corner.inv_w;
+        for (int c = 0; c < 4; ++c) color[c] += share * corner.inv_w * corner.color[c];
+      }
+      const std::size_t pixel = static_cast<std::size_t>(y * image.width + x);
+      z = std::nearbyint(std::clamp(z, 0.0, 1.0) * 16777215) / 16777215;  // a buffer of 24 bits
+      if (!covered || !(z < image.depth[pixel])) continue;
+      image.depth[pixel] = z;
+      for (std::size_t c = 0; c < 4; ++c) {
+        image.color[4 * pixel + c] = stored(color[c] / q);
+      }
+    }
+  }
+}

@@ -1,0 +1,44 @@
+#!/bin/sh
+# Builds and tests the projects beside this file, copied out of the tree, against plumbline as it is installed:
+# use_installed.sh PREFIX FOLDER [renderer]. FOLDER is emptied first. The sample passes, and with its planted bug it
+# fails and names coverage, with the page's path. renderer: plumbline was built without what judges.
+set -eu
+prefix=$1 folder=$2 here=$(cd "$(dirname "$0")" && pwd)
+rm -rf "$folder" && mkdir -p "$folder"
+cp -r "$here/sample" "$here/library" "$folder/"
+cd "$folder"
+export CTEST_OUTPUT_ON_FAILURE=1 CMAKE_PREFIX_PATH="$prefix"
+unset CXXFLAGS LDFLAGS PLUMBLINE_PLUMB || true
+
+fail() {
+  echo "use_installed: $*" >&2
+  exit 1
+}
+built() { # PROJECT OPTION...
+  project=$1 && shift
+  cmake -S "$project" -B "$project/build" "$@" >"$project/log" && cmake --build "$project/build" -j 2 >>"$project/log" || {
+    cat "$project/log"
+    fail "$project is not built"
+  }
+}
+
+built library "-DHARNESS=$([ "${3:-}" = renderer ] && echo OFF || echo ON)"
+ctest --test-dir library/build || fail "the libraries' tests"
+[ "${3:-}" != renderer ] || exit 0
+
+built sample
+ctest --test-dir sample/build || fail "the sample's tests"
+built sample -DPLANTED_BUG=ON
+ctest --test-dir sample/build >sample/wrong.txt && fail "the planted bug was not found"
+for said in "likely stage: coverage" "shows the scene" "page: .*index.html" "3 tests failed out of 4"; do
+  grep -q "$said" sample/wrong.txt || {
+    cat sample/wrong.txt
+    fail "expected '$said' of the planted bug"
+  }
+done
+page=$(sed -n 's/.*page: \(.*index.html\)/\1/p' sample/wrong.txt | head -1)
+[ -f "$page" ] || fail "no page $page"
+# What cannot be judged passes neither way.
+PLUMBLINE_PLUMB=no_such_plumb ctest --test-dir sample/build -R Rasterizer >sample/unjudged.txt && fail "no plumb, and the test passes"
+grep -q "plumb diagnose: .*no_such_plumb" sample/unjudged.txt || fail "expected the name of the plumb that is not there"
+echo "installed in $prefix: used"
