@@ -57,6 +57,7 @@ class OpenGlRenderer final : public Renderer {
     info.version = version_;
     info.profile = Profile::opengl;
     for (Ability& ability : info.stages) ability.shows = true;
+    if (const std::string why = why_unfused(driver_); !why.empty()) info[Stage::window] = {false, false, why};
     return info;
   }
 

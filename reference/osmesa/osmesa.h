@@ -27,10 +27,10 @@ namespace plumbline {
 ///   attributes, shade   planes.shaded: the scene in RGBA32F, over the frame's depth format
 ///   visibility          planes.id: a colour per primitive
 ///   coverage, depth, texture, shade, visibility   of single pixels, where a request names them and does not ask for
-///   the
-///              window stage: records of their fragments, one primitive drawn at a time (pixel_fragments.h)
+///              the window stage: records of their fragments, one primitive drawn at a time (pixel_fragments.h)
 /// and runs nothing. Throws RendererFailed. Made one at a time; each for use by one thread, several beside each other.
-/// Each is there if it is built in.
+/// Each is there if it is built in; make_opengl() makes osmesa, in a build without it egl.
+std::unique_ptr<Renderer> make_opengl(MesaDriver driver = MesaDriver::llvmpipe);
 std::unique_ptr<Renderer> make_osmesa(MesaDriver driver = MesaDriver::llvmpipe);
 std::unique_ptr<Renderer> make_egl(MesaDriver driver = MesaDriver::llvmpipe);
 

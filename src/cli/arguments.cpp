@@ -132,9 +132,8 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--cache", o.cache,
        "Keep verdicts in this folder for later runs (default: plumbline in the user's folder of caches)")
       ->envname("PLUMBLINE_CACHE");
-  command
-      .add_flag_callback(
-          "--no-cache", [&o] { o.cache.clear(); }, "Judge every scene anew, and keep nothing")
+  const auto without_cache = [&o] { o.cache.clear(); };
+  command.add_flag_callback("--no-cache", without_cache, "Judge every scene anew, and keep nothing")
       ->envname("PLUMBLINE_NO_CACHE");
   command.add_flag("--allow-missing", o.allow_missing, "A reference that is not built in is no failure");
   add_assets(command, o.scene_arguments);

@@ -15,7 +15,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libplumbline-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libglm-dev, libtbb-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-    "plumbline (= ${PROJECT_VERSION}), libassimp-dev, zlib1g-dev, libxxhash-dev, libembree-dev, libegl-dev, pkg-config, libgtest-dev")
+    "plumbline (= ${PROJECT_VERSION}), libassimp-dev, zlib1g-dev, libxxhash-dev, libembree-dev, libegl-dev, pkg-config, libgmock-dev")
 set(CPACK_COMPONENT_PLUMBLINE_DESCRIPTION "Judge of software renderers
  plumb compares what each stage of a renderer draws with independent references,
  and names the stages that differ.")

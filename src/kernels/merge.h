@@ -104,7 +104,8 @@ template <class R>
       return to_float(round_even(over<W>(wide(channel), alpha_codes, to_wide(held), rest)));
     });
   }
-  const Color<W> s = by_channel(source, wide), d = by_channel(stored, [](const R&value) { return to_wide(value); });
+  const auto as_it_is = [](const R& value) { return to_wide(value); };
+  const Color<W> s = by_channel(source, wide), d = by_channel(stored, as_it_is);
   const auto blended = [&](const BlendTerm& term) {
     using E = BlendEquation;
     const bool weighs = term.equation != E::min && term.equation != E::max;

@@ -32,11 +32,9 @@ class Assembler {
     if (topology == Topology::lines) return add_line(draw, v[0], v[1], true);
     const auto snapped = [&](std::size_t i) { return glm::i64vec2(vertices_[v[i]].snapped); };
     const glm::i64vec2 q = snapped(1) - snapped(0), r = snapped(2) - snapped(0);
+    const auto add_filled = [&](std::size_t, bool front) { add({{v[1], v[2], v[0]}, front, 3, 1}, 0); };
     visit_polygon(
-        draw, 3, [&](std::size_t) { return q.x * r.y - q.y * r.x; },
-        [&](std::size_t, bool front) {
-          add({{v[1], v[2], v[0]}, front, 3, 1}, 0);
-        },
+        draw, 3, [&](std::size_t) { return q.x * r.y - q.y * r.x; }, add_filled,
         [&](std::size_t a, std::size_t b, bool front) { add_line(draw, v[a], v[b], front); },
         [&](std::size_t p, bool front) { add_point(draw, v[p], front); });
   }

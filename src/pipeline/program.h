@@ -32,10 +32,11 @@ namespace plumbline::pipeline {
 /// colour is clamped and rounded to the frame's format. Where it returns true, the fragment is discarded: colour and
 /// depth stay as they are.
 template <class P, class V = typename P::Varyings>
-concept Program = (std::is_empty_v<V> || alignof(V) == alignof(float)) &&
-                  std::is_trivially_copyable_v<V>&& requires(const P& program, V out, const V& in, glm::vec4 color) {
+concept Program = requires(const P& program, V out, const V& in, glm::vec4 color) {
   { program.vertex(std::size_t{0}, 0, out) } -> std::same_as<glm::vec4>;
   { program.fragment(in, color) } -> std::same_as<bool>;
+  requires std::is_trivially_copyable_v<V>;
+  requires std::is_empty_v<V> || alignof(V) == alignof(float);
 };
 
 /// The fixed state under which a program draws (scene.h, Draw).

@@ -88,6 +88,11 @@ template <>
 inline constexpr std::array<Name, 5> kNamesOf<TextureEnvironment> = {"replace", "modulate", "decal", "blend", "add"};
 
 template <class E>
-requires(!kNamesOf<E>.empty()) constexpr Name name_of(E value) { return kNamesOf<E>[static_cast<std::size_t>(value)]; }
+concept Named = !kNamesOf<E>.empty();
+
+template <Named E>
+constexpr Name name_of(E value) {
+  return kNamesOf<E>[static_cast<std::size_t>(value)];
+}
 
 }  // namespace plumbline

@@ -8,6 +8,7 @@ rm -rf "$folder" && mkdir -p "$folder"
 cp -r "$here/sample" "$here/library" "$folder/"
 cd "$folder"
 export CTEST_OUTPUT_ON_FAILURE=1 CMAKE_PREFIX_PATH="$prefix"
+! command -v ninja >/dev/null || export CMAKE_GENERATOR=Ninja
 unset CXXFLAGS LDFLAGS PLUMBLINE_PLUMB || true
 
 fail() {

@@ -49,7 +49,7 @@ inline std::string failures(const check::SceneVerdict& verdict) {
 
 inline check::SceneVerdict judge_by_all(const Scene& scene) {
   static const auto ours = pipeline::make_pipeline();
-  static const auto osmesa = make_osmesa();
+  static const auto osmesa = make_opengl();
   static const auto embree = embree::make_embree();
   static const auto exact = exact::make_exact();
   const check::Reference references[] = {{"osmesa", osmesa.get()}, {"embree", embree.get()}, {"exact", exact.get()}};

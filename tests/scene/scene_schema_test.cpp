@@ -175,7 +175,7 @@ std::vector<std::string> beyond(const JsonNode& schema) {
   std::vector<std::string> out;
   for (const auto& [limit, sign] : {std::pair("minimum", -1), std::pair("maximum", 1)}) {
     if (!type || !schema.find(limit)) continue;
-    const JsonValue& value = schema[limit].value();
+    const JsonValue value = schema[limit].value();
     if (type->text() == "number") {
       out.push_back(fmt::format("{}", value.real + sign * std::max(1e-9, 1e-9 * std::abs(value.real))));
     } else if (std::abs(value.real) < 1e15) {

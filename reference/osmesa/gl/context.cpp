@@ -8,7 +8,18 @@
 #include "capture/renderer.h"
 #include "reference/osmesa/gl/gl.h"
 
-namespace plumbline::osmesa {
+namespace plumbline {
+
+std::string why_unfused(MesaDriver driver) {
+  constexpr const char* kSaid = "its window positions are rounded otherwise: {} no fused multiply-add";
+  if (driver == MesaDriver::softpipe) return fmt::format(kSaid, "it has");
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("fma") == 0) return fmt::format(kSaid, "this processor has");
+#endif
+  return "";
+}
+
+namespace osmesa {
 
 Gl load(const Context& context) {
   Gl gl;
@@ -43,4 +54,5 @@ void claim_process(std::string_view library, MesaDriver driver, ShaderCode code)
   }
 }
 
-}  // namespace plumbline::osmesa
+}  // namespace osmesa
+}  // namespace plumbline

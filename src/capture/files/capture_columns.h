@@ -158,7 +158,8 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
   };
   using R = Records<double>;
   const auto of = [](auto member) {
-    return [member](auto& records) -> auto& { return records.*member; };
+    const auto records_of = [member](auto& records) -> auto& { return records.*member; };
+    return records_of;
   };
   using M = Matrices<double>;
   group(Stage::matrices, "matrices", of(&R::matrices), Column{"model_view", &M::model_view},
@@ -198,7 +199,8 @@ void visit_capture(Visitor&& visit, Captures&... captures) {
     using A = VaryingColumns<double>;
     const std::string name = "varyings." + std::string(name_of(v));
     const auto of_varying = [v](auto member) {
-      return [=](auto& r) -> auto& { return r.varyings[v].*member; };
+      const auto records_of = [=](auto& r) -> auto& { return r.varyings[v].*member; };
+      return records_of;
     };
     group(Stage::light, name + ".vertices", of_varying(&A::vertices), ItselfColumn{"value"});
     group(Stage::clip, name + ".clipped", of_varying(&A::clipped), ItselfColumn{"value"});

@@ -167,6 +167,8 @@ bool lit_without_clamp(const Evidence& e) {
   return differ > 0 && (differ - explained) * 50 <= differ;
 }
 
+void leave_out_camera(Scene& s) { s.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}}; }
+
 using S = Stage;
 
 constexpr std::array kGeometryCauses = {
@@ -194,9 +196,7 @@ constexpr std::array kGeometryCauses = {
                                                                   "angles in degrees are taken for radians"),
     given<[](Draw& d) { std::ranges::reverse(d.transforms); }>(S::matrices, "matrices.transforms_reversed",
                                                                "transforms are multiplied in the other order"),
-    given<[](Scene& s) {
-      s.camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
-    }>(S::matrices, "matrices.camera_ignored", "the camera is left out of the model-view"),
+    given<leave_out_camera>(S::matrices, "matrices.camera_ignored", "the camera is left out of the model-view"),
     made<[](Matrices<double>& m) { m.normal = Mat3<double>(m.model_view); }>(
         S::matrices, "matrices.normal_by_model_view",
         "the normal matrix is the model-view's, not its inverse transpose"),

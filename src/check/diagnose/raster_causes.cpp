@@ -108,6 +108,8 @@ bool depths_truncated(const Evidence& e) {
   return scale > 0 && t.shows();
 }
 
+void negate_offset(Draw& d) { d.polygon_offset = {-d.polygon_offset.factor, -d.polygon_offset.units}; }
+
 using S = Stage;
 
 constexpr std::array kRasterCauses = {
@@ -153,9 +155,7 @@ constexpr std::array kRasterCauses = {
         S::depth, "depth.offset_without_slope", "a polygon offset is of its units alone: the slope is left out"),
     given<[](Draw& d) { d.polygon_offset.units = 0; }>(
         S::depth, "depth.offset_without_units", "a polygon offset is of its slope alone: the units are left out"),
-    given<[](Draw& d) {
-      d.polygon_offset = {-d.polygon_offset.factor, -d.polygon_offset.units};
-    }>(S::depth, "depth.offset_negated", "polygon offsets have the other sign"),
+    given<negate_offset>(S::depth, "depth.offset_negated", "polygon offsets have the other sign"),
     given<[](Scene& s) { s.frame.pass.sample.reset(); }>(S::depth, "depth.of_centre",
                                                          "all samples of a pixel have the depth at its centre"),
     given<[](WindowVertex<double>& v) { v.inv_w = 1; }>(

@@ -69,9 +69,10 @@ RendererInfo opengl_info(const std::string& name) {
   info.version = "in a process of its own";
   info.profile = Profile::opengl;
   for (Ability& ability : info.stages) ability.shows = true;
-  if (name == "softpipe") {
-    info[Stage::window] = {false, false, "its window positions are rounded otherwise: it has no fused multiply-add"};
-  }
+#if defined(PLUMBLINE_OSMESA) || defined(PLUMBLINE_EGL)
+  const std::string why = why_unfused(name == "softpipe" ? MesaDriver::softpipe : MesaDriver::llvmpipe);
+  if (!why.empty()) info[Stage::window] = {false, false, why};
+#endif
   return info;
 }
 
@@ -104,11 +105,11 @@ std::unique_ptr<Renderer> make_renderer(const std::string& name) {
 #ifdef PLUMBLINE_EGL
   if (name == "egl") return make_egl();
 #endif
-#if defined(PLUMBLINE_OSMESA)
+#ifdef PLUMBLINE_OSMESA
   if (name == "osmesa") return make_osmesa();
-  if (name == "softpipe") return make_osmesa(MesaDriver::softpipe);
-#elif defined(PLUMBLINE_EGL)
-  if (name == "softpipe") return make_egl(MesaDriver::softpipe);
+#endif
+#if defined(PLUMBLINE_OSMESA) || defined(PLUMBLINE_EGL)
+  if (name == "softpipe") return make_opengl(MesaDriver::softpipe);
 #endif
 #ifdef PLUMBLINE_EMBREE
   if (name == "embree") return embree::make_embree();

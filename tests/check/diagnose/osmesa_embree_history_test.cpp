@@ -11,7 +11,7 @@ namespace plumbline::check {
 namespace {
 
 struct All : testing::Test {
-  static void SetUpTestSuite() { osmesa = make_osmesa().release(); }  // a process can hold one
+  static void SetUpTestSuite() { osmesa = make_opengl().release(); }  // a process can hold one
   History ask(const Scene& scene, glm::ivec2 pixel) {
     const Reference references[] = {{"osmesa", osmesa}, {"embree", embree.get()}, {"exact", exact.get()}};
     return pixel_history(scene, *ours, references, pixel);

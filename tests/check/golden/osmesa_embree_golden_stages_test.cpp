@@ -39,7 +39,7 @@ constexpr StageBreak kStageBreaks[] = {
 
 TEST(GoldenStages, AFaultInAnyIsNamedByTheGoldensAndByTheReferences) {
   const GoldenSet goldens(PLUMBLINE_SOURCE_DIR "/golden", GoldenSet::Access::read);
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const auto embree = embree::make_embree();
   const auto exact = exact::make_exact();
   const Reference references[] = {{"osmesa", osmesa.get()}, {"embree", embree.get()}, {"exact", exact.get()}};

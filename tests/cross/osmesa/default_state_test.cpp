@@ -76,8 +76,8 @@ TEST(OsmesaDefaultState, a_blend_equation_of_alpha_alone_is_not_left) {
   for (const float z : {0.0f, 0.5f}) add(scene, rectangle(1, 1, 7, 7, z));
   add(before, rectangle(1, 1, 7, 7, 0)).merge.blend.emplace().alpha.equation = BlendEquation::subtract;
   const Request all{StageSet::all(), false, {}, {}};
-  const Capture fresh = make_osmesa()->capture(scene, all);
-  const auto used = make_osmesa();
+  const Capture fresh = make_opengl()->capture(scene, all);
+  const auto used = make_opengl();
   used->capture(before, all);
   expect_same_captures(used->capture(scene, all), fresh);
 }
@@ -111,7 +111,7 @@ std::optional<Capture> capture(Renderer& osmesa, const Scene& scene) {
 TEST(OsmesaAfterEveryGroup, each_scene_draws_what_it_draws_in_a_fresh_context) {
   const Suite suite = read_suite();
   const std::size_t every = one_of(211);
-  const auto used = make_osmesa();
+  const auto used = make_opengl();
   std::size_t pair = 0, compared = 0;
   for (std::size_t i = 0; i < suite.scenes.size(); ++i) {
     std::optional<Capture> fresh;
@@ -119,7 +119,7 @@ TEST(OsmesaAfterEveryGroup, each_scene_draws_what_it_draws_in_a_fresh_context) {
       if (group == suite.group_of[i] || pair++ % every != 0) continue;
       const Scene& before = suite.scenes[members[i % members.size()]];
       SCOPED_TRACE(suite.scenes[i].name + " after " + before.name);
-      if (!fresh) fresh = capture(*make_osmesa(), suite.scenes[i]);
+      if (!fresh) fresh = capture(*make_opengl(), suite.scenes[i]);
       if (!fresh) break;
       capture(*used, before);
       const std::optional<Capture> after = capture(*used, suite.scenes[i]);

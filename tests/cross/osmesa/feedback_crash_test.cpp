@@ -60,7 +60,7 @@ TEST(FeedbackCrash, MesaCrashesWhereItIsSaidTo) {
 }
 
 TEST(FeedbackCrash, TheReferenceSaysUnsupportedInsteadOfCrashing) {
-  const auto renderer = make_osmesa();
+  const auto renderer = make_opengl();
   const Scene scene = crashing_scene();
   if (crashes_in_feedback(scene, MesaDriver::llvmpipe, gl_version())) {
     EXPECT_THROW(renderer->capture(scene, polygons()), Unsupported);

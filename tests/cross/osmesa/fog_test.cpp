@@ -47,7 +47,7 @@ std::vector<Shaded<double>> shaded_with(Renderer& exact, const Scene& scene, Cap
 
 TEST(OsmesaFog, IsOfTheVerticesDistancesWhereAPrimitiveReachesBehindTheEye) {
   const Scene scene = load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/fog/cut.json");
-  const auto mesa = make_osmesa();
+  const auto mesa = make_opengl();
   const auto referee = exact::make_exact();
   const Capture theirs = mesa->capture(scene, {});
   const Capture ours = referee->capture(scene, {StageSet::all(), false, {}, {}});

@@ -10,7 +10,7 @@ namespace plumbline {
 namespace {
 
 TEST(OsmesaLightCases, ByHand) {
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   int programs = 0;
   for (const test::LightCase& of : test::light_cases()) {
     const Scene scene = test::scene_of(of);
@@ -36,7 +36,7 @@ TEST(OsmesaLightCases, MesasSpecularTermOfNoShininess) {
   const Scene scene = test::scene_of(of);
   EXPECT_TRUE(osmesa::needs_light_program(scene, scene.draws[0]));
   const Request request{{Stage::light}, false, {}, {}};
-  EXPECT_NEAR(make_osmesa()->capture(scene, request).records.lit.at(0).color.r, of.red, 1e-6);
+  EXPECT_NEAR(make_opengl()->capture(scene, request).records.lit.at(0).color.r, of.red, 1e-6);
 }
 
 // Shininess 0 of the front alone, N.L > 0 and N.H < 0: the specular term is 0^0 = 1, as it is where the back has 0 too.
@@ -55,7 +55,7 @@ TEST(OsmesaLightCases, MesasSpecularTermOfNoShininessOnOneSide) {
     const Scene scene = test::scene_of(of);
     EXPECT_EQ(osmesa::needs_light_program(scene, scene.draws[0]), back > 0);
     const Request request{{Stage::light}, false, {}, {}};
-    EXPECT_NEAR(make_osmesa()->capture(scene, request).records.lit.at(0).color.r, of.red, 1e-6) << back;
+    EXPECT_NEAR(make_opengl()->capture(scene, request).records.lit.at(0).color.r, of.red, 1e-6) << back;
   }
 }
 

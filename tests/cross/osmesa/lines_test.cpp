@@ -29,7 +29,7 @@ TEST(OsmesaLines, keep_to_the_allowances_of_the_specification) {
   Scene scene = pixel_scene(64, 64);
   add(scene, thin_mesh(Topology::lines, ends));
   const Capture ours = pipeline::make_pipeline()->capture(scene, kRecords);
-  const Capture theirs = make_osmesa()->capture(scene, kRecords);
+  const Capture theirs = make_opengl()->capture(scene, kRecords);
   const check::Measurement m = check::compare_covered_lines(scene, ours, theirs, 1);
   EXPECT_EQ(m.differing, 0u) << to_string(m.worst.place) << " " << m.max_difference;
   EXPECT_GT(m.ambiguous, 0u);   // some are not the diamond-exit rule's ...
@@ -49,7 +49,7 @@ TEST(OsmesaLines, lose_no_pixel_but_the_first_of_steep_lines_that_run_downwards)
   Scene scene = pixel_scene(16, 16);  // a power of two: the ends are on centres exactly
   add(scene, thin_mesh(Topology::lines, ends));
   const auto ours = pixels_by_line(pipeline::make_pipeline()->capture(scene, kRecords));
-  const auto theirs = pixels_by_line(make_osmesa()->capture(scene, kRecords));
+  const auto theirs = pixels_by_line(make_opengl()->capture(scene, kRecords));
   ASSERT_EQ(ours.size(), ends.size() / 2);
   ASSERT_EQ(theirs.size(), ours.size());
   int lost = 0, ties = 0;
@@ -83,14 +83,14 @@ TEST(OsmesaLines, points_are_the_same_exactly) {
   Scene scene = pixel_scene(64, 64);
   add(scene, thin_mesh(Topology::points, positions));
   const Capture ours = pipeline::make_pipeline()->capture(scene, kRecords);
-  const Capture theirs = make_osmesa()->capture(scene, kRecords);
+  const Capture theirs = make_opengl()->capture(scene, kRecords);
   EXPECT_EQ(check::compare_coverage(ours.planes, theirs.planes).differing, 0u);
 }
 
 TEST(OsmesaLines, squares_are_the_same_exactly) {
   RandomThings random(4);
   const auto ours = pipeline::make_pipeline();
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   for (const int size : {2, 3, 4, 7, 16, 33, 64}) {
     std::vector<glm::vec3> positions;
     for (int i = 0; i < 200; ++i) {
@@ -113,7 +113,7 @@ TEST(OsmesaLines, squares_are_the_same_exactly) {
 // the first besides, as steep lines do that run downwards, and are two apart in number, which OpenGL does not allow.
 TEST(OsmesaLines, wide_lines_keep_to_the_allowances_where_their_width_is_odd) {
   const auto ours = pipeline::make_pipeline();
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   for (const int width : {2, 3, 4, 5, 8, 15, 16}) {
     RandomThings random(static_cast<unsigned>(width));
     std::vector<glm::vec3> ends;
@@ -135,7 +135,7 @@ TEST(OsmesaLines, wide_lines_keep_to_the_allowances_where_their_width_is_odd) {
 
 TEST(OsmesaLines, every_stage_of_random_clouds_holds) {
   const auto ours = pipeline::make_pipeline();
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const check::Reference references[] = {{"osmesa", osmesa.get()}};
   for (const Topology topology : {Topology::lines, Topology::points}) {
     for (unsigned seed = 0; seed < 6; ++seed) {

@@ -34,7 +34,7 @@ Scene soup(int triangles, unsigned seed) {
 
 TEST(OsmesaMultisamples, EachSampleIsCoveredAsOurPassSays) {
   const Scene scene = soup(60, 1);
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const auto ours = pipeline::make_pipeline();
   std::size_t covered = 0;
   for (const Scene& pass : passes_of(scene)) {
@@ -51,7 +51,7 @@ TEST(OsmesaMultisamples, TheResolvedColourIsOursAndHalvesGoBothWays) {
   int up = 0, down = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const Scene scene = soup(40, seed);
-    const Capture theirs = make_osmesa()->capture(scene, {}), mine = pipeline::make_pipeline()->capture(scene, {});
+    const Capture theirs = make_opengl()->capture(scene, {}), mine = pipeline::make_pipeline()->capture(scene, {});
     EXPECT_EQ(theirs.planes.color.values(), mine.planes.color.values()) << seed;
     for (std::size_t i = 0; i < theirs.planes.color.size(); ++i) {
       for (int c = 0; c < 4; ++c) {
@@ -72,7 +72,7 @@ TEST(OsmesaMultisamples, TheResolvedDepthIsSampleZeros) {
     Scene scene = soup(30, 3);
     scene.frame.depth = format;
     scene.frame.clear_depth = 0.7;
-    const auto osmesa = make_osmesa();
+    const auto osmesa = make_opengl();
     const Plane<double> resolved = osmesa->capture(scene, {}).planes.depth;
     const Plane<double> sample = osmesa->capture(passes_of(scene)[0], {}).planes.depth;
     const double within = format == DepthFormat::z24 ? 1.001 / 16777215 : 0;
@@ -98,7 +98,7 @@ TEST(OsmesaMultisamples, AScissorBoxIsHalfAPixelTooWide) {
     for (const std::uint32_t c : drawn.count.values()) n += c;
     return n;
   };
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const auto ours = pipeline::make_pipeline();
   const std::size_t expected[] = {8, 10, 12, 15};  // 4 x 2; a column more, a row more, both
   for (std::size_t i = 0; i < 4; ++i) {

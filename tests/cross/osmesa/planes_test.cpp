@@ -9,7 +9,7 @@
 namespace plumbline::test {
 namespace {
 
-Planes planes_of(const Scene& scene) { return make_osmesa()->capture(scene, {}).planes; }
+Planes planes_of(const Scene& scene) { return make_opengl()->capture(scene, {}).planes; }
 
 // The hypotenuse runs through centres, with the interior on its left: they are out.
 TEST(OsmesaPlanes, CountsATrianglesPixels) {

@@ -13,7 +13,7 @@ namespace {
 
 TEST(OsmesaRandom, coverage_is_the_same_and_values_within_their_bounds) {
   const auto ours = pipeline::make_pipeline();
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const auto exact = exact::make_exact();
   const check::Reference references[] = {{"osmesa", osmesa.get()}, {"exact", exact.get()}};
   for (const SceneKind& kind : kinds()) {

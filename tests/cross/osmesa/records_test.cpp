@@ -15,7 +15,7 @@ namespace {
 Capture capture_all(const Scene& scene) {
   Request request;
   request.records = StageSet::all();
-  return make_osmesa()->capture(scene, request);
+  return make_opengl()->capture(scene, request);
 }
 
 Scene soup_scene(int triangles, double size, Cull cull) {
@@ -269,7 +269,7 @@ TEST(OsmesaRecords, PolygonsOfAQuarterMillionPrimitives) {
 
 TEST(OsmesaRecords, OnlyTheStagesAndPrimitivesAskedFor) {
   const Scene scene = soup_scene(500, 0.8, Cull::none);
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const Records<double> none = osmesa->capture(scene, {}).records;
   EXPECT_TRUE(none.matrices.empty() && none.vertices.empty() && none.lit.empty() && none.triangles.empty());
   EXPECT_TRUE(none.polygons.polygons.empty());

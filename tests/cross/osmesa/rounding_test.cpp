@@ -71,7 +71,7 @@ Plane<glm::vec4> color_of(Renderer& renderer, const Scene& scene) {
 TEST(Rounding, goes_to_the_nearest_code_but_for_the_rounding_of_the_product) {
   const auto ours = pipeline::make_pipeline();
   const auto exact = exact::make_exact();
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const std::pair<ColorFormat, int> formats[] = {
       {ColorFormat::rgba8, 255}, {ColorFormat::rgba12, 4095}, {ColorFormat::rgba16, 65535}};
   for (const auto& [format, largest] : formats) {
@@ -103,7 +103,7 @@ TEST(Rounding, goes_to_the_nearest_code_but_for_the_rounding_of_the_product) {
 
 TEST(Rounding, every_code_is_its_own) {
   const auto ours = pipeline::make_pipeline();
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   std::vector<float> values;
   for (int k = 0; k <= 65535; ++k) values.push_back(static_cast<float>(k / 65535.0));
   const Scene scene = scene_of(values, ColorFormat::rgba16);

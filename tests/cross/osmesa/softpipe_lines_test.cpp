@@ -37,7 +37,7 @@ TEST(OsmesaSoftpipeLines, are_bresenhams_on_floored_ends) {
   Scene scene = pixel_scene(48, 48);
   add(scene, thin_mesh(Topology::lines, ends));
   const Capture capture =
-      make_osmesa(MesaDriver::softpipe)->capture(scene, {{Stage::window, Stage::coverage}, false, {}, {}});
+      make_opengl(MesaDriver::softpipe)->capture(scene, {{Stage::window, Stage::coverage}, false, {}, {}});
   std::vector<Pixels> lines(capture.records.triangles.size());
   ASSERT_EQ(lines.size(), ends.size() / 2);
   for (const Covered& c : capture.records.covered) lines[c.triangle].emplace_back(c.x, c.y);

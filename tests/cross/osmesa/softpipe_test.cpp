@@ -8,7 +8,7 @@ namespace plumbline::test {
 namespace {
 
 TEST(OsmesaSoftpipe, DrawsAndTellsItsName) {
-  const auto softpipe = make_osmesa(MesaDriver::softpipe);
+  const auto softpipe = make_opengl(MesaDriver::softpipe);
   EXPECT_EQ(softpipe->info().name, "softpipe");
   EXPECT_EQ(softpipe->info().version.find("softpipe"), 0u) << softpipe->info().version;
 
@@ -34,9 +34,9 @@ TEST(OsmesaSoftpipe, DrawsAndTellsItsName) {
 }
 
 TEST(OsmesaSoftpipe, OneDriverPerProcess) {
-  const auto softpipe = make_osmesa(MesaDriver::softpipe);
+  const auto softpipe = make_opengl(MesaDriver::softpipe);
   try {
-    make_osmesa(MesaDriver::llvmpipe);
+    make_opengl(MesaDriver::llvmpipe);
     ADD_FAILURE() << "a second driver was given";
   } catch (const RendererFailed& failure) {
     EXPECT_STREQ(

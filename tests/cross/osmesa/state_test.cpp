@@ -74,8 +74,8 @@ Scene lit_scene() {
 
 TEST(OsmesaState, NothingOfASceneIsLeftForTheNext) {
   for (const Scene& scene : {plain_scene(), lit_scene()}) {
-    const Capture fresh = make_osmesa()->capture(scene, everything());
-    const auto used = make_osmesa();
+    const Capture fresh = make_opengl()->capture(scene, everything());
+    const auto used = make_opengl();
     expect_same(used->capture(scene, everything()), fresh);
     used->capture(busy_scene(), everything());
     expect_same(used->capture(scene, everything()), fresh);
@@ -83,14 +83,14 @@ TEST(OsmesaState, NothingOfASceneIsLeftForTheNext) {
 }
 
 TEST(OsmesaState, TwoRenderersTakeTurns) {
-  const auto a = make_osmesa(), b = make_osmesa();
+  const auto a = make_opengl(), b = make_opengl();
   const Capture first = a->capture(lit_scene(), everything());
   b->capture(busy_scene(), everything());
   expect_same(a->capture(lit_scene(), everything()), first);
 }
 
 TEST(OsmesaState, AFailureLeavesTheRendererUsable) {
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const Capture before = osmesa->capture(plain_scene(), everything());
 
   Scene torn = plain_scene();
@@ -119,7 +119,7 @@ TEST(OsmesaState, AFailureLeavesTheRendererUsable) {
 }
 
 TEST(OsmesaState, TellsWhatItShows) {
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const RendererInfo info = osmesa->info();
   EXPECT_EQ(info.name, "osmesa");
   EXPECT_EQ(info.version.find("llvmpipe"), 0u) << info.version;
@@ -131,7 +131,7 @@ TEST(OsmesaState, TellsWhatItShows) {
     EXPECT_EQ(ability.shows, ability.reason.empty());
   }
   EXPECT_THROW(osmesa->run_stage(plain_scene(), Stage::window, {}), Unsupported);
-  EXPECT_THROW(make_osmesa(MesaDriver::softpipe), RendererFailed);
+  EXPECT_THROW(make_opengl(MesaDriver::softpipe), RendererFailed);
 }
 
 // Which centres lie within the snapped edges, or on one that is left or at the bottom.
@@ -173,7 +173,7 @@ TEST(OsmesaState, WindowTrianglesCoverWhatThePlanesCount) {
       scene.frame.height = 157;
       scene.camera.eye = {0.3, 0.2, 3};
       add(scene, make_soup(2000, 11, 2.5, size)).cull = cull;
-      expect_coverage_of_triangles(make_osmesa()->capture(scene, everything()));
+      expect_coverage_of_triangles(make_opengl()->capture(scene, everything()));
     }
   }
 }
@@ -196,7 +196,7 @@ TEST(OsmesaState, SliversAreCulledByTheirSnappedArea) {
       triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
     }
     add(scene, make_triangles(corners, triangles, {})).cull = cull;
-    expect_coverage_of_triangles(make_osmesa()->capture(scene, everything()));
+    expect_coverage_of_triangles(make_opengl()->capture(scene, everything()));
   }
 }
 

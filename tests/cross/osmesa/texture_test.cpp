@@ -57,7 +57,7 @@ double largest_difference(const Capture& c, const Scene& scene, glm::vec2 turns,
 constexpr double kTolerance = 4 * 320.0 / 16777216;
 
 TEST(OsmesaTexture, FiltersLinearlyAtLevelsOfALogarithmThatIsLinearBetweenPowers) {
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   for (const MinFilter min : {MinFilter::linear, MinFilter::linear_mipmap_nearest, MinFilter::linear_mipmap_linear}) {
     for (const float turns : {0.5f, 0.77f, 1.0f, 1.5f, 2.0f, 3.3f, 4.0f, 6.1f}) {
       Sampler sampler;
@@ -74,7 +74,7 @@ TEST(OsmesaTexture, FiltersLinearlyAtLevelsOfALogarithmThatIsLinearBetweenPowers
 }
 
 TEST(OsmesaTexture, RoundsBiasesToTheNearest256th) {
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   const glm::vec2 turns(3, 1);
   const glm::dvec2 d_dx(3.0 / kSide, 0), d_dy(0, 1.0 / kSide);
   for (const float bias : {1.9f, 1.898f, 0.3f, 0.25f, 0.2519f, 0.0038f, -0.0001f, -0.3f, -0.6f, -0.5f}) {
@@ -110,7 +110,7 @@ TEST(OsmesaTexture, LevelOfDetailsLeastIsLessThan431HundredThousandthsBelow) {
 }
 
 TEST(OsmesaTexture, FormatsHandOnTheSourceComponentsAndBordersTheirs) {
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   for (int format = 0; format < 6; ++format) {
     for (const TexelType type : {TexelType::unorm8, TexelType::float32}) {
       Sampler sampler;
@@ -125,7 +125,7 @@ TEST(OsmesaTexture, FormatsHandOnTheSourceComponentsAndBordersTheirs) {
 }
 
 TEST(OsmesaTexture, WrapsAreOurs) {
-  const auto osmesa = make_osmesa();
+  const auto osmesa = make_opengl();
   for (int s = 0; s < 4; ++s) {
     for (int t = 0; t < 4; ++t) {
       Sampler sampler;

@@ -88,7 +88,7 @@ class Judge {
 
  private:
   SceneFileOptions options_;
-  std::unique_ptr<Renderer> ours_ = pipeline::make_pipeline(), osmesa_ = make_osmesa(), embree_ = embree::make_embree(),
+  std::unique_ptr<Renderer> ours_ = pipeline::make_pipeline(), osmesa_ = make_opengl(), embree_ = embree::make_embree(),
                             exact_ = exact::make_exact();
 };
 
