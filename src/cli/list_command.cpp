@@ -24,19 +24,25 @@ std::string how_to_build(const std::string& name) {
   return fmt::format("not built in: install {}, and build plumbline anew", what);
 }
 
+void list_renderer(const std::string& name) {
+  const std::unique_ptr<Renderer> renderer = make_reference(name, {});
+  if (renderer == nullptr) return fmt::print("{}: {}\n", name, how_to_build(name));
+  const RendererInfo info = renderer->info();
+  fmt::print("{} ({}){}\n", name, info.version, info.legal ? ": an oracle of legal answers" : "");
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const Ability& ability = info.stages[i];
+    fmt::print("  {:<10} {}{}{}\n", kStageNames[i], ability.shows ? "shown" : "not shown",
+               ability.runs ? ", can be run alone" : "", ability.reason.empty() ? "" : ": " + ability.reason);
+  }
+}
+
 void list_renderers() {
   for (const std::string& name : renderer_names()) {
-    const std::unique_ptr<Renderer> renderer = make_reference(name, {});
-    if (renderer == nullptr) {
-      fmt::print("{}: {}\n", name, how_to_build(name));
-      continue;
-    }
-    const RendererInfo info = renderer->info();
-    fmt::print("{} ({}){}\n", name, info.version, info.legal ? ": an oracle of legal answers" : "");
-    for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-      const Ability& ability = info.stages[i];
-      fmt::print("  {:<10} {}{}{}\n", kStageNames[i], ability.shows ? "shown" : "not shown",
-                 ability.runs ? ", can be run alone" : "", ability.reason.empty() ? "" : ": " + ability.reason);
+    try {
+      list_renderer(name);
+    } catch (const RendererFailed& e) {
+      fmt::print("{}: built in, and not to be used here: {}: install {}\n", name, e.what(),
+                 name == "osmesa" ? "libosmesa6" : "libgl1-mesa-dri");
     }
   }
 }
