@@ -23,8 +23,12 @@ bool can_show([[maybe_unused]] std::string_view ending) {
 #endif
 }
 
+// What hangs is to end soon; what else happens may take its time on a busy machine.
+std::string limits_of(const std::string& ending) {
+  return std::string(" --time-limit ") + (ending == "hang" ? "4" : "60") + " --memory-limit 512";
+}
+
 TEST_F(FailingRenderers, are_rows_with_the_stage_that_was_running) {
-  const std::string limits = " --against exact --time-limit 4 --memory-limit 512 ";
   const std::pair<const char*, const char*> kEndings[] = {
       {"throw", "vertex: a vertex too many"},
       {"memory", "light: took more memory than a worker may have"},
@@ -32,10 +36,11 @@ TEST_F(FailingRenderers, are_rows_with_the_stage_that_was_running) {
       {"hang", "window: took longer than 4s and was killed"}};
   for (const auto& [fault, says] : kEndings) {
     if (!can_show(fault)) continue;
+    const std::string limits = " --against exact" + limits_of(fault) + " ";
     const Outcome check = plumb("check " + kWindings + limits + "--fault endings." + fault + " --json " + at("c.json"));
     EXPECT_EQ(check.code, 1) << check.text;
     EXPECT_TRUE(check.says("failed cull/both_windings: ours, " + std::string(says))) << check.text;
-    EXPECT_TRUE(check.says("repeat: ") && check.says(" --time-limit 4 --memory-limit 512")) << check.text;
+    EXPECT_TRUE(check.says("repeat: ") && check.says(limits_of(fault))) << check.text;
     EXPECT_NE(read(at("c.json")).find("\"failed\""), std::string::npos) << "the run is written all the same";
     const Outcome diagnosis = plumb("diagnose " + kWindings + limits + "--fault endings." + fault);
     EXPECT_EQ(diagnosis.code, 1) << diagnosis.text;
@@ -50,8 +55,8 @@ TEST_F(FailingRenderers, may_lack_memory_from_their_start_on) {
   const std::string two = kWindings + " " + kScenes + "scissor/windows.json";
   const Outcome run = shell(PLUMBLINE_PLUMB " check " + two + " --memory-limit 64");  // libLLVM alone is larger
   EXPECT_EQ(run.code, 1) << run.text;
-  EXPECT_TRUE(run.says("failed cull/both_windings: osmesa, merge: ")) << run.text;
-  EXPECT_TRUE(run.says("failed scissor/windows: osmesa, merge: ")) << run.text;
+  EXPECT_TRUE(run.says("failed cull/both_windings: " + kOpenGl + ", merge: ")) << run.text;
+  EXPECT_TRUE(run.says("failed scissor/windows: " + kOpenGl + ", merge: ")) << run.text;
   EXPECT_TRUE(run.says(": while it was made")) << run.text;
   EXPECT_TRUE(run.says("exact, per stage         matrices   ") || run.says("exact, per stage         window     "))
       << run.text;
@@ -90,7 +95,7 @@ TEST_F(FailingRenderers, fail_one_scene_of_a_run) {
   scenes.push_back(kScenes + "blend/factors.json");
   std::string run = "check";
   for (const fs::path& scene : scenes) run += " " + scene.string();
-  run += " --against exact,image_order --time-limit 4 --memory-limit 512 --json " + at("run.json");
+  run += " --against exact,image_order --json " + at("run.json");
   const std::pair<const char*, const char*> kEndings[] = {{"throw", "a scene too many"},
                                                           {"memory", "took more memory than a worker may have"},
                                                           {"crash", "was killed by signal 11 (Segmentation fault)"},
@@ -98,7 +103,7 @@ TEST_F(FailingRenderers, fail_one_scene_of_a_run) {
                                                           {"hang", "took longer than 4s and was killed"}};
   for (const auto& [how, says] : kEndings) {
     if (!can_show(how)) continue;
-    const Outcome check = plumb(run + " --fault endings." + how + ":image_order:cull/both_windings");
+    const Outcome check = plumb(run + limits_of(how) + " --fault endings." + how + ":image_order:cull/both_windings");
     EXPECT_EQ(check.code, 1) << check.text;
     EXPECT_TRUE(check.says("FAILED: 50 scenes, ") && check.says(", 1 failed")) << check.text;
     EXPECT_TRUE(check.says("failed cull/both_windings: image_order, merge: ")) << check.text;

@@ -121,7 +121,7 @@ TEST_F(GoldenCommand, a_manifest_that_a_hand_has_changed_ends_2) {
     write(manifest, out);
     return golden("check");
   };
-  const Outcome vouched = with("\"vouched\":[\"osmesa\",", "\"vouched\":[\"ours\",");
+  const Outcome vouched = with("\"vouched\":[\"" + kOpenGl + "\",", "\"vouched\":[\"ours\",");
   EXPECT_EQ(vouched.code, 2);
   EXPECT_TRUE(vouched.says(manifest.string() + ": at \"/scenes/cull~1both_windings/seal\": expected the seal"))
       << vouched.text;
@@ -146,7 +146,7 @@ TEST_F(GoldenCommand, a_scene_that_changed_is_stale_until_the_references_vouch_a
   const Outcome would = golden("update", "--check");
   EXPECT_EQ(would.code, 1);
   EXPECT_TRUE(would.says("would be written cull/both_windings")) << would.text;
-  EXPECT_TRUE(would.says("vouched for by osmesa, embree, exact")) << would.text;
+  EXPECT_TRUE(would.says("vouched for by " + kOpenGl + ", embree, exact")) << would.text;
   EXPECT_TRUE(files() == before) << "--check writes nothing";
   const Outcome written = golden("update", "--report " + at("page"));
   EXPECT_EQ(written.code, 1) << "a run that writes does not pass";
@@ -171,7 +171,7 @@ TEST_F(GoldenCommand, a_fault_is_refused_with_the_reason_and_nothing_is_written)
   const Outcome update = golden("update", "--fault coverage.inclusive_edges");
   EXPECT_EQ(update.code, 1);
   EXPECT_TRUE(update.says("refused coverage/shared_edges")) << update.text;
-  EXPECT_TRUE(update.says("because of osmesa, coverage: different")) << update.text;
+  EXPECT_TRUE(update.says("because of " + kOpenGl + ", coverage: different")) << update.text;
   EXPECT_TRUE(update.says("because of exact, per stage, coverage: different")) << update.text;
   EXPECT_TRUE(files() == before);
 }

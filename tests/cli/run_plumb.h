@@ -13,6 +13,8 @@
 #include <sstream>
 #include <string>
 
+#include "cli/options/renderers.h"
+
 namespace plumbline {
 
 namespace fs = std::filesystem;
@@ -47,6 +49,9 @@ inline std::string read(const fs::path& file) {
 }
 
 inline void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+/// The OpenGL reference that is asked where none is named: osmesa, in a build without it egl.
+inline const std::string kOpenGl = cli::reference_names().front();
 
 inline const std::string kScenes = PLUMBLINE_SOURCE_DIR "/tests/scenes/";
 inline const std::string kSharedEdges = kScenes + "coverage/shared_edges.json";

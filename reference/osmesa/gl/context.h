@@ -30,7 +30,10 @@ enum class ShaderCode { quick_to_make, quick_to_run, approximate };
 std::unique_ptr<Context> make_osmesa_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
 
 /// EGL's, if it is built in. Throws RendererFailed.
-std::unique_ptr<Context> make_egl_context(MesaDriver driver);
+std::unique_ptr<Context> make_egl_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
+
+/// OSMesa's; in a build without it EGL's.
+std::unique_ptr<Context> make_opengl_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
 
 /// All of OpenGL's entry points that are used here. Throws RendererFailed, naming the one that lacks.
 Gl load(const Context& context);

@@ -45,8 +45,8 @@ EGLDisplay surfaceless_display() {
 
 class EglContext final : public Context {
  public:
-  explicit EglContext(MesaDriver driver) {
-    claim_process("EGL", driver);
+  EglContext(MesaDriver driver, ShaderCode code) {
+    claim_process("EGL", driver, code);
     display_ = surfaceless_display();
     if (!eglBindAPI(EGL_OPENGL_API)) fail("no OpenGL");
     const EGLint any_version[] = {EGL_NONE};  // which is a compatibility context
@@ -78,7 +78,9 @@ class EglContext final : public Context {
 
 }  // namespace
 
-std::unique_ptr<Context> make_egl_context(MesaDriver driver) { return std::make_unique<EglContext>(driver); }
+std::unique_ptr<Context> make_egl_context(MesaDriver driver, ShaderCode code) {
+  return std::make_unique<EglContext>(driver, code);
+}
 
 }  // namespace osmesa
 }  // namespace plumbline

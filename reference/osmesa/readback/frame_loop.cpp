@@ -11,7 +11,7 @@ namespace plumbline {
 
 struct OsmesaFrames::Frames {
   Frames(const Scene& scene, Filters filters)
-      : context(osmesa::make_osmesa_context(MesaDriver::llvmpipe, filters == Filters::exact
+      : context(osmesa::make_opengl_context(MesaDriver::llvmpipe, filters == Filters::exact
                                                                       ? osmesa::ShaderCode::quick_to_run
                                                                       : osmesa::ShaderCode::approximate)),
         gl(current(*context)),

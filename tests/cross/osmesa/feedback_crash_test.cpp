@@ -24,7 +24,7 @@ Request polygons() {
 }
 
 std::string gl_version() {
-  const auto context = make_osmesa_context(MesaDriver::llvmpipe);
+  const auto context = make_opengl_context(MesaDriver::llvmpipe);
   context->make_current();
   return reinterpret_cast<const char*>(load(*context).GetString(GL_VERSION));
 }
@@ -33,7 +33,7 @@ std::string gl_version() {
 // or 1 where there are none.
 void read_in_feedback() {
   const Scene scene = crashing_scene();
-  const auto context = make_osmesa_context(MesaDriver::llvmpipe);
+  const auto context = make_opengl_context(MesaDriver::llvmpipe);
   context->make_current();
   const Gl gl = load(*context);
   const SceneInGl in_gl(gl, scene);

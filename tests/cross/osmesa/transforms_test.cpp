@@ -24,7 +24,7 @@ double as_float(double x) { return static_cast<float>(x); }
 glm::dvec3 as_float(const glm::dvec3& v) { return glm::dvec3(glm::vec3(v)); }
 
 glm::dmat4 gl(const std::vector<osmesa::MatrixCall>& calls) {
-  static const osmesa::MatrixStack stack(osmesa::make_osmesa_context(MesaDriver::llvmpipe));
+  static const osmesa::MatrixStack stack(osmesa::make_opengl_context(MesaDriver::llvmpipe));
   return stack.product(calls);
 }
 
