@@ -169,6 +169,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   if (subject.page) {
     report::write_diagnosis_page(*subject.page, scene, diagnosis, pictured(scene, *candidate, references),
                                  history_text);
+    out += fmt::format("page: {}\n", (std::filesystem::absolute(o.report) / "index.html").lexically_normal().string());
   }
   return fmt::format(
       "{}{}", static_cast<int>(holds(diagnosis) && mistaken(candidate->info().conventions).empty() ? kHolds : kDiffers),

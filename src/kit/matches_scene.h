@@ -3,10 +3,14 @@
 //   plumbline::DrawnFrame frame = plumbline::frame_of_bytes(320, 180, rgba);   // or floats, and depth
 //   EXPECT_THAT(frame, plumbline::MatchesScene("triangle.json"));
 //
-// One header, C++17, for tests that link GoogleMock and have the program plumb. It is the target's that plumbline::kit
-// names, else that of the environment's PLUMBLINE_PLUMB, else the one in PATH. MIT licence.
+// One header, C++17, for tests that link GoogleMock and have the program plumb: that of the environment's
+// PLUMBLINE_PLUMB, else that of CMake's target plumbline::kit, else the one in PATH. MIT licence.
 #ifndef PLUMBLINE_MATCHES_SCENE_H
 #define PLUMBLINE_MATCHES_SCENE_H
+
+#if defined(__cplusplus) && __cplusplus < 201703L
+#error "plumbline/matches_scene.h: expected C++17 or later"
+#endif
 
 #include <sys/wait.h>
 
@@ -47,12 +51,13 @@ inline void PrintTo(const DrawnFrame& frame, std::ostream* out) {
 }
 
 /// Matches a DrawnFrame. Of one that does not match, the message is that of `plumb diagnose`: the first stage that is
-/// wrong, numbers, pixels; and a page with pictures, in the folder plumbline_pages. Throws std::runtime_error where the
-/// frame could not be judged (no such scene, another size, no plumb): then neither the matcher nor Not() of it passes.
+/// wrong, numbers, pixels; and a page with pictures, in plumbline_pages/TEST/SCENE of the working directory. Throws
+/// std::runtime_error where the frame could not be judged (no such scene, another size, an antialiased scene, no
+/// plumb): then neither the matcher nor Not() of it passes.
 class SceneMatcher {
  public:
   using is_gtest_matcher = void;
-  explicit SceneMatcher(std::filesystem::path scene) : scene_(std::move(scene)) {}
+  explicit SceneMatcher(const std::filesystem::path& scene) : scene_(found(scene)) {}
 
   bool MatchAndExplain(const DrawnFrame& frame, std::ostream* out) const {
     const Folder folder;
@@ -60,12 +65,11 @@ class SceneMatcher {
     const std::string judge =
         quoted(plumb()) + " diagnose " + quoted(scene_) + " --capture " + quoted(folder.path / "capture");
     auto [code, text] = run(judge);
-    if (code != 0 && code != 1) throw std::runtime_error("plumb diagnose: " + text);
-    if (out != nullptr && code == 1) {
-      const std::filesystem::path page = std::filesystem::absolute("plumbline_pages") / scene_.stem();
-      const bool has_page = run(judge + " --report " + quoted(page)).first == 1;
-      *out << "\n" << text << (has_page ? "page: " + (page / "index.html").string() + "\n" : "");
+    if ((code != 0 && code != 1) || text.find(" stages judged\n") == std::string::npos) {
+      throw std::runtime_error("MatchesScene(" + scene_.string() + ") was not judged: " + plumb() +
+                               " (PLUMBLINE_PLUMB), exit code " + std::to_string(code) + ": " + text);
     }
+    if (out != nullptr && code == 1) *out << "\n" << run(judge + " --report " + quoted(page())).second;
     return code == 0;
   }
   void DescribeTo(std::ostream* out) const { *out << "shows the scene " << scene_.string(); }
@@ -88,8 +92,27 @@ class SceneMatcher {
     }
   };
 
+  // Relative to the working directory, or else in plumbline's suite.
+  static std::filesystem::path found(const std::filesystem::path& scene) {
+#ifdef PLUMBLINE_SCENES
+    const std::filesystem::path of_suite = std::filesystem::path(PLUMBLINE_SCENES) / scene;
+    if (!std::filesystem::exists(scene) && std::filesystem::exists(of_suite)) return of_suite;
+#endif
+    return std::filesystem::absolute(scene);
+  }
+
+  // Of its own for each test and scene.
+  std::filesystem::path page() const {
+    std::string test = "no test";
+    if (const testing::TestInfo* const now = testing::UnitTest::GetInstance()->current_test_info())
+      test = std::string(now->test_suite_name()) + "." + now->name();
+    for (char& c : test) c = c == '/' ? '_' : c;  // of a parameterised test
+    return std::filesystem::absolute("plumbline_pages") / test / scene_.stem();
+  }
+
   static std::string plumb() {
-    if (const char* const named = std::getenv("PLUMBLINE_PLUMB")) return named;
+    const char* const named = std::getenv("PLUMBLINE_PLUMB");
+    if (named != nullptr && *named != '\0') return named;
 #ifdef PLUMBLINE_PLUMB
     return PLUMBLINE_PLUMB;
 #else
@@ -150,8 +173,8 @@ class SceneMatcher {
   std::filesystem::path scene_;
 };
 
-/// Of a scene file (src/scene/README.md).
-inline SceneMatcher MatchesScene(std::filesystem::path scene) { return SceneMatcher(std::move(scene)); }
+/// Of a scene file (src/scene/README.md): relative to the working directory, or of plumbline's suite.
+inline SceneMatcher MatchesScene(const std::filesystem::path& scene) { return SceneMatcher(scene); }
 
 }  // namespace plumbline
 

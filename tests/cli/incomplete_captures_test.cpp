@@ -120,6 +120,28 @@ TEST_F(IncompleteCaptures, AreJudgedAsFarAsTheyGo) {
   }
 }
 
+// Winners alone do not tell which of several legal fragments of a line wins, and no plane that is not there is compared.
+TEST_F(IncompleteCaptures, HaveNoJudgedWinnersOfLinesWithoutFragments) {
+  const std::string lines = kScenes + "lines/star.json";
+  const Capture whole = pipeline::make_pipeline()->capture(load_scene(lines, {}), {StageSet::all(), false, {}, {}});
+  Capture capture;
+  capture.renderer = "theirs";
+  capture.version = "1";
+  capture.width = whole.width;
+  capture.height = whole.height;
+  capture.planes.id = whole.planes.id;
+  const auto diagnosed = [&] {
+    write_capture(capture, at("capture"));
+    return plumb("diagnose " + lines + " --capture " + at("capture"));
+  };
+  const Outcome alone = diagnosed();
+  EXPECT_EQ(alone.code, 2) << alone.text;
+  EXPECT_TRUE(alone.says("visibility: of lines and points, it shows no count or id_sum")) << alone.text;
+  capture.planes.count = whole.planes.count;
+  capture.planes.id_sum = whole.planes.id_sum;
+  EXPECT_TRUE(diagnosed().says("visibility: coverage: it shows planes, no records"));
+}
+
 // A rasterizer need not invent what follows from its other arrays, nor keep its records in an order.
 TEST_F(IncompleteCaptures, MayLeaveOutWhatFollowsFromOthers) {
   const Scene scene = load_scene(kSharedEdges, {});

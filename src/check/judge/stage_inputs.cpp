@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "check/judge/scene_case.h"
+
 namespace plumbline::check {
 
 StageSet inputs_of(Stage stage) {
@@ -53,6 +55,10 @@ std::string lacking_records(const Scene& scene, const RendererInfo& candidate, S
 std::string lacking_beside(const Scene& scene, const Planes& planes, const RendererInfo& candidate, Stage stage) {
   if (stage == Stage::coverage && planes.id_sum.empty()) return "it shows counts of fragments alone";
   if (stage == Stage::visibility && planes.id.empty()) return "it shows no winners";
+  if (stage == Stage::visibility && draws_lines_or_points(scene)) {
+    if (planes.count.empty() || planes.id_sum.empty()) return "of lines and points, it shows no count or id_sum";
+    return lacking_records(scene, candidate, {Stage::coverage, Stage::depth});
+  }
   if (stage == Stage::coverage || stage == Stage::visibility) return "";
   StageSet inputs = inputs_of(stage);
   if (stage > Stage::coverage) {
