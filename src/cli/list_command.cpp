@@ -16,7 +16,7 @@ void list_stages() {
   for (std::size_t i = 0; i < kStageNames.size(); ++i) fmt::print("{:>2} {}\n", i, kStageNames[i]);
 }
 
-// Of a reference that is not built in: what its library is called, in Debian.
+// Packages of Debian that a reference which is not built in needs.
 std::string how_to_build(const std::string& name) {
   const std::string what = name == "osmesa"   ? "libosmesa6-dev (none from Mesa 25.1 on: egl takes its place)"
                            : name == "embree" ? "libembree-dev (Embree 3 or 4)"

@@ -30,7 +30,7 @@
 
 namespace plumbline {
 
-/// What a renderer drew. Row 0 is the lowest; of a scene whose frame says rows_from_top, the uppermost.
+/// A frame that a renderer drew. Row 0 is the lowest; of a scene whose frame says rows_from_top, the uppermost.
 struct DrawnFrame {
   int width = 0, height = 0;
   std::vector<float> color;   ///< [height, width, 4]: red, green, blue and alpha in [0,1]
@@ -101,7 +101,7 @@ class SceneMatcher {
     return std::filesystem::absolute(scene);
   }
 
-  // Of its own for each test and scene.
+  // Folder of the page, another for each test and scene.
   std::filesystem::path page() const {
     std::string test = "no test";
     if (const testing::TestInfo* const now = testing::UnitTest::GetInstance()->current_test_info())
@@ -120,7 +120,7 @@ class SceneMatcher {
 #endif
   }
 
-  // As one word of a shell.
+  // A shell's word for the path.
   static std::string quoted(const std::filesystem::path& path) {
     std::string out = "'";
     for (const char c : path.string()) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -173,7 +173,7 @@ class SceneMatcher {
   std::filesystem::path scene_;
 };
 
-/// Of a scene file (src/scene/README.md): relative to the working directory, or of plumbline's suite.
+/// Matcher by a scene file (src/scene/README.md): relative to the working directory, or of plumbline's suite.
 inline SceneMatcher MatchesScene(const std::filesystem::path& scene) { return SceneMatcher(scene); }
 
 }  // namespace plumbline

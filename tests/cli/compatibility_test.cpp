@@ -1,5 +1,5 @@
-// What CHANGELOG.md promises of files: those of earlier versions are read and mean the same, those of other versions of
-// a format are refused by name.
+// Files of earlier versions are read and mean the same, and files of other versions of a format are refused by name, as
+// CHANGELOG.md promises.
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_plumb.h"

@@ -23,7 +23,7 @@ bool can_show([[maybe_unused]] std::string_view ending) {
 #endif
 }
 
-// What hangs is to end soon; what else happens may take its time on a busy machine.
+// Limits of a run: a hang is to end soon, all else may take its time on a busy machine.
 std::string limits_of(const std::string& ending) {
   return std::string(" --time-limit ") + (ending == "hang" ? "4" : "60") + " --memory-limit 512";
 }

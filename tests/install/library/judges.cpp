@@ -1,4 +1,4 @@
-// A scene file, drawn by plumbline's renderer and judged by the exact reference, with and without the image codec.
+// A scene file, drawn by plumbline's renderer and judged by the exact reference.
 #include <cstdio>
 
 #include <plumbline/check/diagnose/diagnose.h>

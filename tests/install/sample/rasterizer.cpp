@@ -22,7 +22,7 @@ bool owns(Point a, Point b) {
   return b.y < a.y || (b.y == a.y && b.x > a.x);
 }
 
-// As a frame of 8 bits has it.
+// Channel as a frame of 8 bits holds it.
 float stored(double x) { return static_cast<float>(std::nearbyint(std::clamp(x, 0.0, 1.0) * 255) / 255); }
 
 }  // namespace
