@@ -30,7 +30,8 @@ struct Range {
 };
 
 void check_range(const char* array, const Range& r, Lines& out) {
-  if (r.not_finite > 0) out.push_back(fmt::format("{}: {} of {} values are no numbers", array, r.not_finite, r.count));
+  if (r.not_finite > 0)
+    out.push_back(fmt::format("{}: {} of {} values are NaN or infinite", array, r.not_finite, r.count));
   if (r.outside == 0) return;
   const bool codes = r.whole && r.high > 1;
   const char* probably = codes                        ? ": codes? code / (2^n - 1) is expected"

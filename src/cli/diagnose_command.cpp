@@ -122,7 +122,7 @@ std::string known_faults(const Scene& scene, const Capture& left, const check::D
   const std::string likely = likely_of(found, diagnosis.verdict);
   if (likely.empty() || (holds(diagnosis) && !found.whole)) return "";
   const bool is_open = !holds(diagnosis) && diagnosis.wrong.empty();
-  return fmt::format("\n{} pixels differ from ours in colour or depth; known faults that draw such a frame:\n{}{}",
+  return fmt::format("\npixels unlike ours in colour or depth: {}; known faults that draw such a frame:\n{}{}",
                      found.apart, found.text,
                      is_open            ? fmt::format("likely stage: {}\n", likely)
                      : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", likely)
