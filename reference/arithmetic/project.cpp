@@ -26,7 +26,7 @@ namespace {
 //   between two of its mesh vertices: 9, so 24. A convex combination of vertices, each within k u A of its place, is
 //   within k u max A of its place, and an error of t moves it along the edge: so cut edges obey the same bound.
 // A point (X, Y, W) = w d that moves by (eX, eY, eW) moves in the window by (eX - x eW) / w, to first order.
-constexpr double kRoundings = 14;
+constexpr double kRoundingsUncut = 14;
 constexpr double kRoundingsCut = 24;
 /// Scaling and translating to the window: rounded twice, window coordinates are at most the window's size; and 2 spare.
 constexpr double kWindowRoundings = 4;
@@ -243,7 +243,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
     const auto error = plane_errors(scene, corner->size, 0);
     for (std::size_t p = 0; p < 6; ++p) t.cut |= inside[p] < 4 * error[p];
   }
-  t.roundings = t.cut ? kRoundingsCut : kRoundings;
+  t.roundings = t.cut ? kRoundingsCut : kRoundingsUncut;
   t.ahead = true;
   t.z_min = std::numeric_limits<double>::infinity();
   t.z_max = -t.z_min;

@@ -62,7 +62,8 @@ Suite load(const GoldenOptions& o) {
 
 std::vector<std::string> orphans(const Suite& suite, const check::GoldenManifest& manifest) {
   std::vector<std::string> out;
-  for (const auto& [name, golden] : manifest.scenes) {
+  for (const auto& golden : manifest.scenes) {
+    const std::string& name = golden.first;
     const auto has_name = [&](const Scene& scene) { return scene.name == name; };
     const bool asked = suite.whole && (suite.groups.empty() || suite.groups.contains(group_of(name)));
     if (asked && std::ranges::none_of(suite.scenes, has_name)) out.push_back(name);

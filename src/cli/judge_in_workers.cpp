@@ -36,7 +36,7 @@ std::vector<std::size_t> order_to_judge(std::span<const Scene> scenes, std::size
   const double most = std::accumulate(costs.begin(), costs.end(), 0.0) / (4.0 * static_cast<double>(at_a_time));
   std::vector<std::size_t> out(scenes.size());
   std::iota(out.begin(), out.end(), std::size_t{0});
-  if (at_a_time > 1) std::ranges::stable_partition(out, [&](std::size_t i) { return costs[i] > most; });
+  if (at_a_time > 1) std::stable_partition(out.begin(), out.end(), [&](std::size_t i) { return costs[i] > most; });
   return out;
 }
 

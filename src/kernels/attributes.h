@@ -37,7 +37,8 @@ template <class W>
   const W most = greater_of(greater_of(inv_w[0], inv_w[1]), inv_w[2]);
   const auto little = [&](const Affine<W>& f) { return (size(f.x) + size(f.y)) * W(2.0 * (kBlock - 1)) <= least; };
   // 1/w within 2^-60 to 2^60: slopes, products and reciprocals are normal numbers of float.
-  return little(q1) & little(q2) & little(sum) & (least > W(0x1p-60)) & (most < W(0x1p60));
+  const auto q1_little = little(q1), q2_little = little(q2), sum_little = little(sum);
+  return q1_little & q2_little & sum_little & (least > W(0x1p-60)) & (most < W(0x1p60));
 }
 /// `colors_alone`: nothing else is interpolated. Lines and points are never in blocks.
 PerspectiveSetup perspective_setup(const WindowTriangle& triangle, const CornerPlanes<double>& planes,

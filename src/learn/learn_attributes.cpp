@@ -70,8 +70,7 @@ void learn_interpolation(Prober& prober) {
   for (int x = 0; x < kFrameSize; ++x) {
     const double s = (x + c.sample.x) / kFrameSize, share = (s / 16) / ((1 - s) / 2 + s / 16);
     const auto near_to = [&](double v) {
-      return std::abs(255 * (static_cast<double>(color(x, kFrameSize / 2).r) - v)) < 2 + 255.0 * 0.3 / kFrameSize ? 1
-                                                                                                                  : 0;
+      return std::abs(255 * (static_cast<double>(color(x, kFrameSize / 2).r) - v)) < 2 + 255.0 * 0.3 / kFrameSize;
     };
     perspective += near_to(share), affine += near_to(s);
   }

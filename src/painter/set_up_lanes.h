@@ -140,7 +140,8 @@ template <class R, int kSampleCount>
   const Color<R> d1 = color[1] - color[0], d2 = color[2] - color[0];
   Mask<R> constant = Lanes<R>::mask_of(~0u);
   for (int c = 0; c < 4; ++c) {
-    constant = constant & (d1[c] == R(0)) & (d2[c] == R(0));
+    const Mask<R> d1_none = d1[c] == R(0), d2_none = d2[c] == R(0);
+    constant = constant & d1_none & d2_none;
     store(color[0][c], out.color[0][c]), store(d1[c], out.color[1][c]), store(d2[c], out.color[2][c]);
   }
   store(select(constant, Int<R>(1), Int<R>(0)), out.constant_colors);

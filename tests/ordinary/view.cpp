@@ -114,7 +114,8 @@ Object projection(Builder& b) {
     return Object("perspective", perspective.text());
   }
   if (b.dialect == "games101" || c.chance(75)) {
-    return Object("orthographic", box(b, c.number(1, 4), sign * c.of({0, 0.1, 1, -10}), sign * far).text());
+    const double its_near = sign * c.of({0, 0.1, 1, -10}), half_height = c.number(1, 4);
+    return Object("orthographic", box(b, half_height, its_near, sign * far).text());
   }
   return Object("frustum", box(b, near * c.number(0.3, 0.9), near, far).text());
 }

@@ -147,7 +147,7 @@ TEST(PipelineCoverage, RandomTrianglesByDefinition) {
   std::uniform_int_distribution<int> place(-8, 40);
   int covered = 0;
   for (int i = 0; i < 1500; ++i) {
-    const auto corner = [&] { return glm::ivec2(place(random), place(random)) * 64; };
+    const auto corner = [&] { return glm::ivec2{place(random), place(random)} * 64; };
     const Triangle t = snapped_triangle(corner(), corner(), corner());
     if (snapped_area(t) == 0) continue;
     const Edges edges = edges_of(t);
@@ -181,7 +181,7 @@ TEST(PipelineCoverage, SharedEdgesArePaintedOnce) {
   int ties = 0;
   for (int i = 0; i < 6000; ++i) {
     const auto point = [&] {
-      return i % 2 == 0 ? glm::ivec2(coarse(random), coarse(random)) * 256 : glm::ivec2(fine(random), fine(random));
+      return i % 2 == 0 ? glm::ivec2{coarse(random), coarse(random)} * 256 : glm::ivec2{fine(random), fine(random)};
     };
     const glm::ivec2 a = point(), b = point(), c = point(), d = point();
     const auto side = [&](glm::ivec2 p) {
@@ -231,7 +231,7 @@ TEST(PipelineCoverage, AClosedStripIsPaintedOnce) {
     glm::ivec2 p[kCells + 1][kCells + 1];
     for (int y = 0; y <= kCells; ++y) {
       for (int x = 0; x <= kCells; ++x) {
-        p[y][x] = glm::ivec2(x - 1, y - 1) * kSide + glm::ivec2(jitter(random), jitter(random)) * 128;
+        p[y][x] = glm::ivec2(x - 1, y - 1) * kSide + glm::ivec2{jitter(random), jitter(random)} * 128;
       }
     }
     std::vector<Triangle> triangles;

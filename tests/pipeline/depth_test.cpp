@@ -275,7 +275,7 @@ TEST(PipelineDepth, SliversWithACornerWhereFloatsAreFineAreRoundedRightly) {
   std::vector<Triangle> triangles;
   for (int i = 0; i < 200; ++i) {
     const glm::dvec2 fine(unit(random) * 0.5, unit(random) * 0.5);
-    const glm::vec2 b(glm::dvec2(place(random), place(random))),
+    const glm::vec2 b(glm::dvec2{place(random), place(random)}),
         c(fine + (0.2 + 0.6 * unit(random)) * (glm::dvec2(b) - fine));
     // Onto the line of the rounded others, and off it by about 2^-22.
     const glm::dvec2 along(glm::normalize(glm::dvec2(c) - glm::dvec2(b))), across(-along.y, along.x);

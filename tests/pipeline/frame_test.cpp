@@ -41,7 +41,7 @@ std::vector<Triangle> random_triangles(int count, float lo, float hi, unsigned s
     const auto vertex = [&](glm::vec2 p) {
       return window_vertex({p, unit(random)}, 0.5f + unit(random), {unit(random), unit(random), unit(random), 1});
     };
-    const glm::vec2 b = a + glm::vec2(size(random), size(random)), c = a + glm::vec2(size(random), size(random));
+    const glm::vec2 b = a + glm::vec2{size(random), size(random)}, c = a + glm::vec2{size(random), size(random)};
     const Triangle t = window_triangle(vertex(a), vertex(b), vertex(c), static_cast<std::uint32_t>(triangles.size()));
     if (snapped_area(t) != 0) triangles.push_back(t);
   }

@@ -24,7 +24,7 @@ TEST(PipelineRenderer, TheTestSceneHasWhatItIsFor) {
   EXPECT_LT(r.polygons.polygons.size(), 66u) << "some are wholly outside";
   EXPECT_LT(r.triangles.size(), r.polygons.vertices.size() - 2 * r.polygons.polygons.size()) << "some are culled";
   const auto ranges = draw_ranges(scene);
-  for (std::size_t d : {0, 1, 4, 5, 6}) {
+  for (std::size_t d : {0u, 1u, 4u, 5u, 6u}) {
     EXPECT_TRUE(std::any_of(c.planes.id.values().begin(), c.planes.id.values().end(),
                             [&](std::int32_t id) {
                               return id >= static_cast<std::int32_t>(ranges[d].first_primitive) &&

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 
 #include <fmt/format.h>
@@ -98,7 +99,8 @@ Plane<std::int32_t> draw_tested_ids(const Gl& gl, const SceneInGl& scene, const 
         gl.UseProgram(0);
         gl.Enable(GL_LIGHTING);  // at the vertices: the alpha is the material's either way
       }
-      for (const GLenum after : {GL_FOG, GL_COLOR_SUM}) gl.Disable(after);  // they come after the texture environment
+      for (const GLenum after : std::initializer_list<GLenum>{GL_FOG, GL_COLOR_SUM})
+        gl.Disable(after);  // they come after the texture environment
       numbered.enable();
       scene.draw_one_by_one(i, [&](std::uint32_t primitive) { numbered.set(primitive + 1); });
       gl.UseProgram(0);

@@ -1,5 +1,7 @@
 #include "reference/osmesa/scene/default_state.h"
 
+#include <initializer_list>
+
 namespace plumbline::osmesa {
 namespace {
 
@@ -38,7 +40,7 @@ void set_arrays(const Gl& gl) {
 }
 
 void set_transformation(const Gl& gl) {
-  for (const GLenum mode : {GL_PROJECTION, GL_MODELVIEW}) {
+  for (const GLenum mode : std::initializer_list<GLenum>{GL_PROJECTION, GL_MODELVIEW}) {
     gl.MatrixMode(mode);
     gl.LoadIdentity();
   }
@@ -146,7 +148,7 @@ void set_default_state(const Gl& gl) {
   set_transformation(gl);
   set_lighting(gl);
   set_fog(gl);
-  for (const GLenum unit : {GL_TEXTURE1, GL_TEXTURE0}) set_texture_unit(gl, unit);
+  for (const GLenum unit : std::initializer_list<GLenum>{GL_TEXTURE1, GL_TEXTURE0}) set_texture_unit(gl, unit);
   set_rasterization(gl);
   set_fragment_operations(gl);
   set_pixels(gl);

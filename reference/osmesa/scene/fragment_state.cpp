@@ -1,5 +1,7 @@
 #include "reference/osmesa/scene/fragment_state.h"
 
+#include <initializer_list>
+
 namespace plumbline::osmesa {
 namespace {
 
@@ -59,7 +61,8 @@ void set_fragment_tests(const Gl& gl, const Draw& draw) {
 }
 
 void disable_tests(const Gl& gl) {
-  for (const GLenum test : {GL_ALPHA_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST}) gl.Disable(test);
+  for (const GLenum test : std::initializer_list<GLenum>{GL_ALPHA_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST})
+    gl.Disable(test);
 }
 
 void set_logic_op(const Gl& gl, const std::optional<LogicOp>& op) {

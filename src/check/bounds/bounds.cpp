@@ -188,8 +188,8 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y, co
 
 std::span<const WindowTriangle<double>> triangles_of(const Records<double>& r, std::int32_t primitive) {
   const auto number = [](const WindowTriangle<double>& t) { return static_cast<std::int32_t>(t.primitive); };
-  const auto run = std::ranges::equal_range(r.triangles, primitive, {}, number);
-  return {run.begin(), run.end()};
+  const auto first = std::ranges::lower_bound(r.triangles, primitive, {}, number);
+  return {first, std::ranges::upper_bound(first, r.triangles.end(), primitive, {}, number)};
 }
 
 PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, int x, int y,

@@ -162,13 +162,13 @@ class DepthsBeneath {
       if (records_.drawn[i].drawn && records_.depth[i] == z && leaves(i)) left = values(i, x, y);
     });
     if (!left) return;
-    const auto [left_low, left_high] = std::ranges::minmax(left->depths);
+    const auto of_left = std::ranges::minmax(left->depths);
     fragments_.each(x, y, [&](std::size_t i) {
       if (!leaves(i)) return;
       const Values of = values(i, x, y);
       const double reach = factor * u * (left->bound + of.bound) + depth_step(scene_.frame.depth, z);
       const auto [low, high] = std::ranges::minmax(of.depths);
-      const bool near = by_stencil || (low <= left_high + reach && high >= left_low - reach);
+      const bool near = by_stencil || (low <= of_left.max + reach && high >= of_left.min - reach);
       const bool tied = open_(x, y) != 0 && near;
       if (records_.depth[i] != z && !tied) return;
       for (const double depth : of.depths) visit(depth - z, of.bound);

@@ -164,13 +164,14 @@ std::vector<StoredComparison> compare_images(const StoredImage& a, const StoredI
   if (pairs.size() > 1) {
     const Plane<double>&size_a = a.channels[0].values, &size_b = b.channels[0].values;
     out.push_back(row("pixels", compare_planes(size_a, size_b, "", [&](Meter& meter, int x, int y) {
-                        for (const auto& [p, q] : pairs) add_pixel(meter, *p, *q, x, y, tolerance);
+                        for (const auto& pair : pairs) add_pixel(meter, *pair.first, *pair.second, x, y, tolerance);
                       })));
   }
-  for (const auto& [p, q] : pairs) {
-    Measurement m = compare_planes(p->values, q->values, "",
-                                   [&](Meter& meter, int x, int y) { add_pixel(meter, *p, *q, x, y, tolerance); });
-    out.push_back(row(p->name, std::move(m), p->scale == q->scale && p->scale > 1 ? p->scale : 0, note_of(*p, *q)));
+  for (const auto& pair : pairs) {
+    const auto &p = *pair.first, &q = *pair.second;
+    Measurement m = compare_planes(p.values, q.values, "",
+                                   [&](Meter& meter, int x, int y) { add_pixel(meter, p, q, x, y, tolerance); });
+    out.push_back(row(p.name, std::move(m), p.scale == q.scale && p.scale > 1 ? p.scale : 0, note_of(p, q)));
   }
   return out;
 }

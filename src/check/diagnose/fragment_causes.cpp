@@ -140,8 +140,7 @@ constexpr std::array kFragmentCauses = {
     given<[](Draw& d) { d.merge.depth_mask = true; }>(S::visibility, "visibility.depth_mask_ignored",
                                                       "depths are written that the draw's mask keeps out"),
     given<[](Draw& d) {
-      using enum CompareFunc;
-      if (d.alpha_test && d.alpha_test->func == greater) d.alpha_test->func = greater_equal;
+      if (d.alpha_test && d.alpha_test->func == CompareFunc::greater) d.alpha_test->func = CompareFunc::greater_equal;
     }>(S::visibility, "visibility.alpha_at_reference",
        "an alpha equal to the reference passes where only a greater may"),
     given<[](Draw& d) { d.alpha_test.reset(); }>(S::visibility, "visibility.alpha_test_ignored",

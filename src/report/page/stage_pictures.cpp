@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "check/bounds/bounds.h"
+
 namespace plumbline::report {
 
 namespace {
@@ -71,8 +73,7 @@ std::vector<Layer> stage_layers(const Scene& scene, const Capture& mine, const C
 }
 
 std::string positions_drawing(const Scene& scene, const Capture& mine, const Capture& expected, std::size_t most) {
-  using Triangles = std::vector<WindowTriangle<double>>;
-  const Triangles &a = mine.records.triangles, &b = expected.records.triangles;
+  const std::vector<WindowTriangle<double>>&a = mine.records.triangles, &b = expected.records.triangles;
   if (a.empty() && b.empty()) return {};
   // Rounding may snap a corner one unit elsewhere, and leave thin triangles out: they are found by their primitive.
   const auto same_place = [](const WindowTriangle<double>& t, const WindowTriangle<double>& w) {
@@ -82,8 +83,8 @@ std::string positions_drawing(const Scene& scene, const Capture& mine, const Cap
     }
     return true;
   };
-  const auto is_in = [&](const Triangles& all, const WindowTriangle<double>& t) {
-    return std::ranges::any_of(std::ranges::equal_range(all, t.primitive, {}, &WindowTriangle<double>::primitive),
+  const auto is_in = [&](const Records<double>& all, const WindowTriangle<double>& t) {
+    return std::ranges::any_of(check::triangles_of(all, static_cast<std::int32_t>(t.primitive)),
                                [&](const WindowTriangle<double>& w) { return same_place(t, w); });
   };
   const bool from_top = rows_from_top(scene.dialect);
@@ -105,12 +106,12 @@ std::string positions_drawing(const Scene& scene, const Capture& mine, const Cap
   std::size_t drawn = 0;
   for (const bool differing : {true, false}) {
     for (const WindowTriangle<double>& t : b) {
-      if (is_in(a, t) == differing || drawn >= 2 * most) continue;
+      if (is_in(mine.records, t) == differing || drawn >= 2 * most) continue;
       (differing ? expected_alone : same) += path(t, differing ? "expected" : "same");
       ++drawn;
     }
     for (const WindowTriangle<double>& t : a) {
-      if (!differing || is_in(b, t) || drawn >= 2 * most) continue;
+      if (!differing || is_in(expected.records, t) || drawn >= 2 * most) continue;
       mine_alone += path(t, "mine");
       ++drawn;
     }

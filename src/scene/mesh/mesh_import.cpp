@@ -99,7 +99,7 @@ class AllowedFiles : public Assimp::DefaultIOSystem {
 
 /// Complaints after which nothing of the shape is guessed: parts without nodes, an OBJ without "o", animations, third
 /// texture coordinates that are 0.
-constexpr std::array<std::string_view, 6> kHarmless = {
+constexpr std::array<std::string_view, 6> kHarmlessComplaints = {
     "No hierarchy information", "No object detected to attach",         "animation", "roll track",
     "Skipping pivot",           "UVs are declared to be 3D but they're"};
 
@@ -133,7 +133,7 @@ class Complaints {
       undefined_.emplace(line.substr(undefined + kUndefined.size(), rest - undefined - kUndefined.size()));
       return;
     }
-    const bool harmless = std::any_of(kHarmless.begin(), kHarmless.end(),
+    const bool harmless = std::any_of(kHarmlessComplaints.begin(), kHarmlessComplaints.end(),
                                       [&](std::string_view part) { return text.find(part) != text.npos; });
     if (first_.empty() && !harmless) first_ = line;
     if (const std::size_t head = first_.find(": "); head < 12) first_.erase(0, head + 2);  // "Warn,  T0: "

@@ -72,7 +72,7 @@ void check_face(std::string_view line, const Counts& all, const Counts& above) {
 }  // namespace
 
 std::string check_obj(std::string_view text) {
-  constexpr std::array<std::string_view, 8> kHarmless = {"vn", "g", "o", "s", "mg", "mtllib", "usemtl", ""};
+  constexpr std::array<std::string_view, 8> kHarmlessStatements = {"vn", "g", "o", "s", "mg", "mtllib", "usemtl", ""};
   std::string note;
   std::size_t numbers_of_all = 0;
   const Counts all = count_all(text);
@@ -103,7 +103,8 @@ std::string check_obj(std::string_view text) {
         }
       } else if (statement == "f") {
         check_face(line, all, above);
-      } else if (std::find(kHarmless.begin(), kHarmless.end(), statement) == kHarmless.end()) {
+      } else if (std::find(kHarmlessStatements.begin(), kHarmlessStatements.end(), statement) ==
+                 kHarmlessStatements.end()) {
         throw std::runtime_error(
             fmt::format("expected v, vn, vt, f, g, o, s, mtllib or usemtl, found \"{}\"", statement.substr(0, 40)));
       }

@@ -159,7 +159,8 @@ TEST_F(PlanePairs, StencilValuesAreHeldLikeWinners) {
 TEST_F(PlanePairs, DepthIsHeldToTheBoundAndOneStep) {
   for (DepthFormat format : {DepthFormat::z8, DepthFormat::z16, DepthFormat::z24, DepthFormat::z32f}) {
     scene.frame.depth = format;
-    for (const auto& [x, y, triangle] : {std::tuple(3, 1, 0u), std::tuple(2, 2, 1u)}) {
+    for (unsigned triangle : {0u, 1u}) {
+      const int x = triangle == 0 ? 3 : 2, y = triangle == 0 ? 1 : 2;
       const double bound = bounds_from_origin(capture.records.triangles[triangle], x, y).depth;
       ASSERT_GE(bound, 1);
       const double step = depth_step(format, 0.5);
@@ -258,7 +259,7 @@ TEST_F(PlanePairs, CodesMayBeNeighbours) {
 
 TEST_F(PlanePairs, EveryCodeIsItself) {
   for (int c = 0; c < 256; ++c) {
-    const auto shows = [&](int other) { return [this, other](Planes& p) { p.color(0, 3).b = code(other); }; };
+    const auto shows = [&](int other) { return [other](Planes& p) { p.color(0, 3).b = code(other); }; };
     EXPECT_EQ(run(codes(), shows(c), shows(c)).max_difference, 0) << c;
     EXPECT_EQ(run(codes(), shows(c), shows(c ^ 1)).max_difference, 1) << c;
     EXPECT_TRUE(fails(run(codes(), shows(c), shows(c ^ 2)))) << c;
@@ -366,7 +367,8 @@ TEST_F(PlanePairs, MergedFloatsAndDepthsAreEqual) {
 TEST_F(PlanePairs, WhatIsNoNumberFails) {
   for (double bad : not_numbers()) {
     const auto number = static_cast<float>(bad);
-    for (const auto& [x, y] : {std::pair(3, 1), std::pair(0, 0)}) {  // drawn, and the background
+    for (const auto& pixel : {std::pair(3, 1), std::pair(0, 0)}) {  // drawn, and the background
+      const int x = pixel.first, y = pixel.second;
       const PlaneChange z = [&](Planes& p) { p.depth(x, y) = bad; };
       for (const auto& compare : {depth(), merge()}) {
         EXPECT_TRUE(fails(run(compare, z)));

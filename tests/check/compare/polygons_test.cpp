@@ -129,7 +129,7 @@ TEST_F(Polygons, ACutVertexWithTheColourOfAnotherPlaceFails) {
 TEST_F(Polygons, ACutVertexAlongTheCutButOffItsEdgeFails) {
   // Still on its plane and on its triangle's: but the polygon has lost, or gained, a corner.
   for (std::size_t p : {1u, 2u}) {
-    const auto [i, j] = std::pair(cuts(p)[0], cuts(p)[1]);
+    const auto i = cuts(p)[0], j = cuts(p)[1];
     for (double share : {0.01, 0.5, 1.0, -0.01, -0.25}) {
       EXPECT_TRUE(fails(compare([&](auto& r) { slide(at(r, p, i), at(r, p, j), share); }))) << p << " " << share;
       EXPECT_TRUE(fails(compare([&](auto& r) { slide(at(r, p, j), at(r, p, i), share); }))) << p << " " << share;

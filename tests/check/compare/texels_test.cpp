@@ -89,7 +89,7 @@ TEST(TexelBound, HoldsWhereverThePlaceMayBe) {
         texel_bound(texture, math::texel_range(texture, st, lo, hi), st, error, 8 * u * largest_texel(texture));
     open += std::isinf(bound.slack.r) ? 1 : 0;
     for (int i = 0; i < 20; ++i) {
-      const glm::dvec2 at = st + error * glm::dvec2(share(random), share(random));
+      const glm::dvec2 at = st + error * glm::dvec2{share(random), share(random)};
       const double lambda = lo + 0.1 * (1 + share(random));
       const glm::dvec4 texel = math::filtered_texel(texture, at, lambda);
       for (int c = 0; c < 4; ++c) {
@@ -186,7 +186,7 @@ TEST(TexelBound, IsTightOnARamp) {
 TEST(EnvironError, HoldsForAllThatMayComeIn) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(0, 1), share(-1, 1);
-  const auto color = [&](auto& of) { return glm::dvec4(of(random), of(random), of(random), of(random)); };
+  const auto color = [&](auto& of) { return glm::dvec4{of(random), of(random), of(random), of(random)}; };
   for (int round = 0; round < 20000; ++round) {
     const auto format = static_cast<TextureFormat>(random() % 6);
     const auto environment = static_cast<TextureEnvironment>(random() % 5);

@@ -97,7 +97,7 @@ TEST(ExactClip, PartsClipToTheWhole) {
   std::uniform_real_distribution<double> uniform(-2, 2);
   int cut = 0;
   for (int i = 0; i < 20000; ++i) {
-    const auto corner = [&] { return glm::dvec4(uniform(random), uniform(random), uniform(random), 1); };
+    const auto corner = [&] { return glm::dvec4{uniform(random), uniform(random), uniform(random), 1}; };
     const glm::dvec4 a = corner(), b = corner(), c = corner();
     const glm::dvec4 ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
     const Polygon whole = clip(a, b, c);
@@ -119,7 +119,7 @@ TEST(ExactClip, NeighboursShareTheCutToTheBit) {
   std::uniform_real_distribution<double> uniform(-2, 2);
   int cuts = 0;
   for (int i = 0; i < 1000; ++i) {
-    const auto corner = [&] { return glm::dvec4(uniform(random), uniform(random), 0, 1); };
+    const auto corner = [&] { return glm::dvec4{uniform(random), uniform(random), 0, 1}; };
     const glm::dvec4 in = corner() * glm::dvec4(0.5, 0.5, 0, 1), out = glm::dvec4(1.5, 0, 0, 1);
     // The same edge, run through both ways, the third corner inside.
     const Polygon one = clip(in, out, {0, 0, 0, 1}), other = clip(out, in, {0, 0, 0, 1});

@@ -182,7 +182,7 @@ TEST(ExactCoverage, ASharedEdgeIsPaintedOnce) {
 TEST(ExactCoverage, AFanIsPaintedOnce) {
   std::mt19937 random(2);
   for (int fans = 0; fans < 1000; ++fans) {
-    const glm::ivec2 centre = glm::ivec2(random() % 3 + 3, random() % 3 + 3) * kSubpixel;  // on a pixel's centre
+    const glm::ivec2 centre = glm::ivec2{random() % 3 + 3, random() % 3 + 3} * kSubpixel;  // on a pixel's centre
     std::vector<glm::ivec2> rim;
     // One corner in each eighth of the way round, some straight above or beside the centre.
     for (const glm::ivec2 d : {glm::ivec2(1, 0), {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}})

@@ -63,7 +63,7 @@ TEST(ExactTexture, FiltersAsThePipelineDoes) {
 TEST(ExactTexture, EnvironmentsAreThePipelines) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> unit(0, 1);
-  const auto color = [&] { return glm::vec4(unit(random), unit(random), unit(random), unit(random)); };
+  const auto color = [&] { return glm::vec4{unit(random), unit(random), unit(random), unit(random)}; };
   for (int round = 0; round < 20000; ++round) {
     const auto format = any_of<TextureFormat>(random, 6);
     const auto environment = any_of<TextureEnvironment>(random, 5);
