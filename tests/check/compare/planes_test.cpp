@@ -133,12 +133,12 @@ TEST_F(PlanePairs, LegalAnswersOfAnotherPixelDecideNothing) {
 TEST_F(PlanePairs, StencilValuesAreHeldLikeWinners) {
   capture.planes.stencil = Plane<std::uint8_t>(kWidth, kHeight, 5);
   EXPECT_TRUE(passes(run(winners(), kUnchangedPlanes)));
-  for (const auto& [x, y] : {std::pair(3, 1), std::pair(0, 0)}) {  // a primitive's, and the background's
-    const PlaneChange other = [x = x, y = y](Planes& p) { p.stencil(x, y) = 4; };
+  for (const auto& pixel : {std::pair(3, 1), std::pair(0, 0)}) {  // a primitive's, and the background's
+    const PlaneChange other = [pixel](Planes& p) { p.stencil(pixel.first, pixel.second) = 4; };
     const Measurement m = run(winners(), other);
     EXPECT_TRUE(fails(m));
     EXPECT_TRUE(fails(run(winners(), kUnchangedPlanes, other)));
-    EXPECT_EQ(to_string(m.worst.place), fmt::format("pixel {},{} stencil", x, y));
+    EXPECT_EQ(to_string(m.worst.place), fmt::format("pixel {},{} stencil", pixel.first, pixel.second));
   }
   EXPECT_FALSE(passes(run(winners(), [](Planes& p) { p.stencil = {}; })));
   EXPECT_FALSE(passes(run(winners(), kUnchangedPlanes, [](Planes& p) { p.stencil = {}; })));
