@@ -41,7 +41,7 @@ inline void randomize_state(const FrameFormat& frame, Draw& draw) {
   const auto share = [] { return static_cast<float>(any_of<int>(17)) / 16; };
   if (now_and_then()) {
     draw.merge.blend = Blend{random_blend_term(), random_blend_term(), glm::vec4(0)};
-    for (int c = 3; c >= 0; --c) draw.merge.blend->color[c] = share();
+    for (int c = 3; c >= 0; --c) draw.merge.blend->color[c] = share();  // backwards: the seeds keep their scenes
   }
   if (now_and_then()) draw.merge.logic_op = any_of<LogicOp>(16);
   if (now_and_then()) {
