@@ -119,12 +119,13 @@ void within_rounding(Meter& meter, std::span<const ClipVertex<double>> polygon, 
   }
 }
 
-// A corner made by a cut that coincides with the next says nothing: where cuts meet, their order decides who makes it.
-void drop_coincident(std::vector<ClipVertex<double>>& polygon, double tolerance) {
+// A corner made by a cut that coincides with the next, colour and all, says nothing: where cuts meet, their order decides
+// who makes it.
+void drop_coincident(std::vector<ClipVertex<double>>& polygon, const Corners& corners, double factor) {
   for (std::size_t i = 0; i < polygon.size() && polygon.size() > 1;) {
     const ClipVertex<double>&v = polygon[i], &next = polygon[(i + 1) % polygon.size()];
-    const Vec4<double> apart = glm::abs(v.p_clip - next.p_clip);
-    const bool coincide = std::max({apart.x, apart.y, apart.z, apart.w}) <= tolerance;
+    const Vec8 apart = minus(joined(v.p_clip, v.color, corners), joined(next.p_clip, next.color, corners));
+    const bool coincide = largest(apart) <= factor * u;
     if (coincide && (v.cut || next.cut)) {
       polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(v.cut ? i : (i + 1) % polygon.size()));
     } else {
@@ -134,13 +135,16 @@ void drop_coincident(std::vector<ClipVertex<double>>& polygon, double tolerance)
 }
 
 // How many corners `mine` is turned on from `theirs`, of as many: the turn by which they lie nearest.
-std::size_t turn_of(std::span<const ClipVertex<double>> mine, std::span<const ClipVertex<double>> theirs) {
+std::size_t turn_of(std::span<const ClipVertex<double>> mine, std::span<const ClipVertex<double>> theirs,
+                    const Corners& corners) {
   std::size_t best = 0;
   double least = kInfinite;
   for (std::size_t turn = 0; turn < mine.size(); ++turn) {
     double sum = 0;
     for (std::size_t i = 0; i < mine.size(); ++i) {
-      sum += glm::distance(mine[(i + turn) % mine.size()].p_clip, theirs[i].p_clip);
+      const ClipVertex<double>&v = mine[(i + turn) % mine.size()], &w = theirs[i];
+      const Vec8 apart = minus(joined(v.p_clip, v.color, corners), joined(w.p_clip, w.color, corners));
+      sum += std::sqrt(dot(apart, apart));
     }
     if (sum < least) best = turn;
     least = std::min(least, sum);
@@ -173,8 +177,8 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   std::copy_if(all_theirs.begin(), all_theirs.end(), std::back_inserter(theirs), settled);
   if (a.count > 2 && a.count == b.count) {
     std::vector<ClipVertex<double>> fewer_mine = mine, fewer_theirs = theirs;
-    drop_coincident(fewer_mine, factor * unit);
-    drop_coincident(fewer_theirs, factor * unit);
+    drop_coincident(fewer_mine, corners, factor);
+    drop_coincident(fewer_theirs, corners, factor);
     // A cut along a nearly parallel edge slides: its neighbours may coincide on one side alone. Then each of the
     // vertices, of which there are as many, is held to its counterpart's planes and edge.
     if (fewer_mine.size() == fewer_theirs.size()) mine.swap(fewer_mine), theirs.swap(fewer_theirs);
@@ -186,7 +190,7 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   if (a.count != b.count) meter.ambiguous();
   // A polygon may begin at any of its corners; a line runs from its first to its last.
   if (a.count > 2)
-    std::rotate(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(turn_of(mine, theirs)), mine.end());
+    std::rotate(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(turn_of(mine, theirs, corners)), mine.end());
   for (std::size_t i = 0; i < mine.size(); ++i) {
     const ClipVertex<double>&v = mine[i], &w = theirs[i];
     if (v.cut != w.cut && a.count < 3 && may_end_in(v, corners, i, factor * unit)) {

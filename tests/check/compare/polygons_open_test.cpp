@@ -49,6 +49,27 @@ TEST_F(OpenPolygons, ACornerThatIsOpenCannotBeLost) {
   }
 }
 
+// The view reaches an edge beside the eye alone: what is left of the triangle is one place, with four colours.
+TEST_F(OpenPolygons, CutsThatCoincideButForTheirColoursAreEachHeldToTheirOwnEdge) {
+  set({{{1.8406438827514648, 2.145226001739502, -1.8975000381469727, 1.6325000524520874},
+        {-4.917383193969727e-07, -8.940696716308594e-07, 3.0000009536743164, -3.5762786865234375e-07},
+        {0.00038364529609680176, 0.0003886371850967407, 2.999000072479248, 0.0003333091735839844}}});
+  scene.depth_clamp = true;
+  records.lit[0].color = {0.125, 0.75, 0, 1};
+  records.lit[1].color = {0.875, 0.875, 0, 1};
+  records.lit[2].color = {0.5, 0.25, 0, 1};
+  Capture in;
+  in.records = records;
+  in.records.polygons = {};
+  records.polygons = exact::make_exact()->run_stage(scene, Stage::clip, in).records.polygons;
+  ASSERT_EQ(records.polygons.polygons.at(0).count, 4u);
+  for (std::ptrdiff_t turn = 0; turn < 4; ++turn) {
+    const Change turned = [&](auto& r) { std::rotate(&at(r, 0, 0), &at(r, 0, 0) + turn, &at(r, 0, 0) + 4); };
+    EXPECT_TRUE(passes(compare(turned))) << turn;
+    EXPECT_TRUE(fails(compare([&](auto& r) { turned(r), at(r, 0, 0).color.r += 1e-4; }))) << turn;
+  }
+}
+
 // A triangle over the corner of the view, which its long side passes in a distance of `outside`.
 TEST_F(OpenPolygons, AnExtraPolygonIsThereByItsCornersAlone) {
   const auto with_extra = [&](double outside, const glm::dvec4& place) {
