@@ -39,9 +39,10 @@ TEST(OsmesaSoftpipe, OneDriverPerProcess) {
     make_opengl(MesaDriver::llvmpipe);
     ADD_FAILURE() << "a second driver was given";
   } catch (const RendererFailed& failure) {
-    EXPECT_STREQ(
-        failure.what(),
-        "OpenGL: this process already uses OSMesa with softpipe; OSMesa with llvmpipe needs a process of its own");
+    const std::string what = failure.what();  // of the build's library, OSMesa or EGL
+    EXPECT_TRUE(what.starts_with("OpenGL: this process already uses ")) << what;
+    EXPECT_NE(what.find(" with softpipe; "), what.npos) << what;
+    EXPECT_TRUE(what.ends_with(" with llvmpipe needs a process of its own")) << what;
   }
 }
 
