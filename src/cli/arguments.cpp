@@ -11,72 +11,13 @@
 
 #include "base/did_you_mean.h"
 #include "cli/commands.h"
+#include "cli/options/argument_kinds.h"
 #include "cli/options/say.h"
 #include "notes/notes.h"
 
 namespace plumbline::cli {
 
 namespace {
-
-// An option of text: given, it says something.
-template <class Value>
-CLI::Option* text(CLI::App& command, const std::string& names, Value& value, const std::string& help) {
-  const auto not_empty = [](std::string& given) { return std::string(given.empty() ? "it is empty" : ""); };
-  return command.add_option(names, value, help)->check(CLI::Validator(not_empty, ""));
-}
-
-void add_assets(CLI::App& command, SceneArguments& arguments) {
-  command.add_option("--assets", arguments.assets, "Folders where mesh files are looked for, after the scene's own")
-      ->check(CLI::ExistingDirectory);
-}
-
-void add_against(CLI::App& command, std::vector<std::string>& against) {
-  command
-      .add_option("--against", against,
-                  fmt::format("References: {} (default: {})", fmt::join(known_reference_names(), ", "),
-                              fmt::join(reference_names(), ", ")))
-      ->check(CLI::IsMember(known_reference_names()))
-      ->delimiter(',');
-}
-
-// Limits of the worker processes in which renderers run.
-void add_limits(CLI::App& command, WorkerLimits& limits) {
-  command
-      .add_option_function<int>(
-          "--time-limit", [&limits](int seconds) { limits.step = std::chrono::seconds(seconds); },
-          "Seconds that a renderer may take to draw a scene or run a stage (default: 300)")
-      ->check(CLI::Range(1, 1'000'000));
-  command
-      .add_option_function<int>(
-          "--memory-limit", [&limits](int mebibytes) { limits.memory = static_cast<std::uint64_t>(mebibytes) << 20; },
-          "MiB that all renderers of a process may take (default: 12288)")
-      ->check(CLI::Range(64, 1 << 30));
-}
-
-const std::string kProgramHelp =
-    "{scene} in it is the scene's file, {input} the folder of its export, {output} that for the capture; or {serve}: "
-    "started once, it is asked by lines";
-
-void add_conventions(CLI::App& command, std::string& file) {
-  text(command, "--conventions", file,
-       "What the other renderer declares of itself (plumb learn finds it): what these explain is no difference, and "
-       "those that are mistakes are told once");
-}
-
-CLI::Option* add_program(CLI::App& command, ProgramArgument& program, const std::string& what) {
-  CLI::Option* line = text(command, "--program", program.command, what + kProgramHelp);
-  command
-      .add_flag("--each-primitive", program.probes,
-                "Call the program for each primitive alone as well: coverage and winners are judged by such pictures")
-      ->needs(line);
-  text(command, "--from", program.from,
-       "clip or window: the program begins with the export's vertices in clip space, or its triangles in window space; "
-       "the stages before are given, and not judged")
-      ->check(CLI::IsMember({"clip", "window"}))
-      ->needs(line);
-  add_conventions(command, program.conventions);
-  return line;
-}
 
 template <class Options>
 void add_drawing(CLI::App& command, Options& o) {
@@ -93,6 +34,23 @@ void add(CLI::App& command, RenderOptions& o) {
   text(command, "--depth", o.depth, "Window depth: .exr");
 }
 
+// Our renderer with a fault, or a program in its place.
+CLI::Option* add_candidate(CLI::App& command, CheckOptions& o) {
+  CLI::Option* fault = text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
+  CLI::Option* program =
+      add_program(command, o.candidate, "Judge what this command line draws, in our renderer's place: ");
+  program->excludes(fault);
+  command.get_option("--conventions")->needs(program);
+  return program;
+}
+
+void add_jobs(CLI::App& command, int& jobs) {
+  command
+      .add_option("--jobs", jobs,
+                  "Scenes judged at a time, each in a process of its own (default: the number of processors)")
+      ->check(CLI::Range(1, kMostJobs));
+}
+
 void add(CLI::App& command, CheckOptions& o) {
   text(command, "scenes", o.scenes, "Scene files, and folders of them")->required();
   add_against(command, o.against);
@@ -107,11 +65,8 @@ void add(CLI::App& command, CheckOptions& o) {
   text(command, "--today", o.today, "YYYY-MM-DD, for their last days (default: the clock's)");
   text(command, "--shard", o.shard, "I/N: every Nth scene, from number I on");
   text(command, "--golden", o.golden, "Compare with the goldens in this folder as well, stage by stage");
-  CLI::Option* fault = text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
-  CLI::Option* program =
-      add_program(command, o.candidate, "Judge what this command line draws, in our renderer's place: ");
-  program->excludes(fault)->excludes(command.get_option("--golden"));
-  command.get_option("--conventions")->needs(program);
+  CLI::Option* program = add_candidate(command, o);
+  program->excludes(command.get_option("--golden"));
   CLI::Option* submissions = text(command, "--submissions", o.submissions,
                                   "A folder: judge the program for each folder in it, which is {submission} in the "
                                   "command line; a row for each")
@@ -124,10 +79,7 @@ void add(CLI::App& command, CheckOptions& o) {
   grades->needs(rubric);
   for (const char* of_one : {"--json", "--report", "--ledger", "--junit", "--rows", "--failures", "--expect"})
     submissions->excludes(command.get_option(of_one));
-  command
-      .add_option("--jobs", o.jobs,
-                  "Scenes judged at a time, each in a process of its own (default: the number of processors)")
-      ->check(CLI::Range(1, kMostJobs));
+  add_jobs(command, o.jobs);
   add_limits(command, o.limits);
   text(command, "--cache", o.cache,
        "Keep verdicts in this folder for later runs (default: plumbline in the user's folder of caches)")
@@ -139,9 +91,29 @@ void add(CLI::App& command, CheckOptions& o) {
   add_assets(command, o.scene_arguments);
 }
 
+void add(CLI::App& command, CampaignOptions& o) {
+  text(command, "folder", o.folder, "Folder of the campaign: its journals, its findings, results.json")->required();
+  text(command, "--seeds", o.seeds,
+       "FIRST..LAST: judge a scene for each, but those that a journal holds; without it, "
+       "what was judged is told again");
+  command.add_option("--generator", o.generator, "ordinary, hard or both: who writes the scenes")
+      ->check(CLI::IsMember({"ordinary", "hard", "both"}))
+      ->capture_default_str();
+  command.add_flag("--judge-only", o.judge_only, "Fill the journal alone: findings are neither made smaller nor told")
+      ->needs(command.get_option("--seeds"));
+  command.add_flag("--write", o.write, "Write the scenes' files, FOLDER/GENERATOR/SEED.json, and judge none")
+      ->needs(command.get_option("--seeds"))
+      ->excludes(command.get_option("--judge-only"));
+  add_against(command, o.judging.against);
+  add_candidate(command, o.judging);
+  add_jobs(command, o.judging.jobs);
+  add_limits(command, o.judging.limits);
+  add_assets(command, o.judging.scene_arguments);
+}
+
 void add(CLI::App& command, LearnOptions& o) {
   CLI::Option* program =
-      text(command, "--program", o.candidate.command, "Ask what this command line draws: " + kProgramHelp);
+      text(command, "--program", o.candidate.command, std::string("Ask what this command line draws: ") + kProgramHelp);
   text(command, "--with", o.with, fmt::format("Or one of ours: {}", fmt::join(renderer_names(), ", ")))
       ->capture_default_str()
       ->excludes(program);
@@ -348,6 +320,10 @@ Parsed parse(int argc, char** argv) {
   if (argc > 0) check_options.program = argv[0];
   add_command(app, out.command, "check", "Compare our renderer with the references, stage by stage", check,
               check_options);
+  CampaignOptions campaign_options;
+  campaign_options.judging.program = check_options.program;
+  add_command(app, out.command, "campaign", "Judge random scenes by the thousand, and make small what is found",
+              campaign, campaign_options);
   add_command(app, out.command, "diagnose", "Name every stage that is wrong, with its numbers and likely causes",
               diagnose);
   add_command(app, out.command, "capture", "Write what a renderer hands out at every stage into a folder", capture);

@@ -1,4 +1,4 @@
-// The command line: the one place that knows CLI11, which takes long to compile.
+// The command line. CLI11, which takes long to compile, is known here and in options/argument_kinds.h alone.
 #pragma once
 
 #include <functional>

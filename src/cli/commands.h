@@ -44,6 +44,17 @@ struct CheckOptions {
 };
 int check(const CheckOptions& options);
 
+/// Random scenes, judged, and what is found made small. The folder holds the journals of all its processes.
+struct CampaignOptions {
+  std::string folder;
+  std::string seeds;               ///< FIRST..LAST, of each generator; empty: what was judged is told again
+  std::string generator = "both";  ///< or ordinary, hard
+  bool judge_only = false;         ///< findings are neither made smaller nor told
+  bool write = false;              ///< the scenes' files, and nothing else
+  CheckOptions judging;            ///< candidate, references, jobs, limits, assets; the rest is not used
+};
+int campaign(const CampaignOptions& options);
+
 /// One scene: every stage that is wrong, its numbers, and what may have caused it. The candidate is our renderer, with
 /// a fault or not; a capture's folder; or what a program leaves.
 struct DiagnoseOptions {

@@ -15,13 +15,12 @@
 
 namespace plumbline::cli {
 
-namespace {
-
-// Scenes judged at a time.
-std::size_t jobs(const CheckOptions& o, std::size_t scenes) {
+std::size_t worker_count(const CheckOptions& o, std::size_t requests) {
   const int wanted = o.jobs > 0 ? o.jobs : static_cast<int>(std::thread::hardware_concurrency());
-  return std::min(static_cast<std::size_t>(std::clamp(wanted, 1, kMostJobs)), std::max<std::size_t>(scenes, 1));
+  return std::min(static_cast<std::size_t>(std::clamp(wanted, 1, kMostJobs)), std::max<std::size_t>(requests, 1));
 }
+
+namespace {
 
 // Numbers of the scenes in the order of judging: those that take a good part of a thread's time come first, else they
 // would be waited for at the end.
@@ -45,7 +44,7 @@ std::vector<std::size_t> order_to_judge(std::span<const Scene> scenes, std::size
 void judge_in_workers(std::span<const Scene> scenes, const CheckRules& rules, std::set<std::string>& words,
                       const std::function<void(JudgedScene)>& take) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  const std::size_t at_a_time = jobs(rules.options, scenes.size());
+  const std::size_t at_a_time = worker_count(rules.options, scenes.size());
   const std::vector<std::size_t> order = order_to_judge(scenes, at_a_time);
   std::vector<JudgeRequest> requests(scenes.size());
   const auto make = [&](Progress& progress) -> Workers::Answer {

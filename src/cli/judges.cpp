@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "check/golden/golden_hash.h"
 
 namespace plumbline::cli {
 
@@ -56,6 +59,11 @@ std::string judges_of(const CheckOptions& o) {
   return fmt::format("{}\n{}{}{}against {} fault {} program {} from {} primitives {}", kJudgesPrint, loaded_libraries(),
                      processor(), settings(), fmt::join(o.against, ","), o.fault, o.candidate.command, o.candidate.from,
                      o.candidate.probes);
+}
+
+std::string program_print() {
+  std::ifstream in("/proc/self/exe", std::ios::binary);
+  return to_string(check::hash_of(std::string(std::istreambuf_iterator<char>(in), {})));
 }
 
 }  // namespace plumbline::cli

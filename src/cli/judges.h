@@ -15,4 +15,7 @@ extern const char* const kJudgesPrint;
 /// processor, for which Mesa compiles its shaders; Mesa's and Embree's settings in the environment; the run's options.
 std::string judges_of(const CheckOptions& options);
 
+/// Hash of this program's file: all that draws and judges.
+std::string program_print();
+
 }  // namespace plumbline::cli

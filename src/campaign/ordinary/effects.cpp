@@ -1,7 +1,7 @@
 // The tutorials' effects: overlays, blending, alpha and stencil tests.
 #include <fmt/format.h>
 
-#include "ordinary/builder.h"
+#include "campaign/ordinary/builder.h"
 
 namespace plumbline::ordinary {
 namespace {

@@ -1,17 +1,22 @@
 // Choices by seed: the same on every machine, for the distributions are integer arithmetic of our own (those of
 // <random> differ between libraries) on the numbers of std::mt19937_64, which the C++ standard fixes.
+//
+// A scene is changed at random by its choices, not by its text: whatever is chosen is a scene.
 #pragma once
 
 #include <cstdint>
 #include <initializer_list>
 #include <random>
+#include <span>
 #include <string_view>
+#include <vector>
 
-namespace plumbline::ordinary {
+namespace plumbline::campaign {
 
 class Choices {
  public:
-  explicit Choices(std::uint64_t seed) : bits_(seed) {}
+  /// Numbers of the first seed. Each seed after it replaces one number in 24 of those before by one of its own.
+  explicit Choices(std::span<const std::uint64_t> seeds);
 
   /// In [low, high]; each equally likely, to 2^-32 of the range.
   std::int64_t whole(std::int64_t low, std::int64_t high);
@@ -26,7 +31,9 @@ class Choices {
   double of(std::initializer_list<double> numbers);
 
  private:
-  std::mt19937_64 bits_;
+  std::uint64_t bits();
+
+  std::vector<std::mt19937_64> streams_;  ///< of each seed
 };
 
-}  // namespace plumbline::ordinary
+}  // namespace plumbline::campaign

@@ -1,9 +1,9 @@
-#include "ordinary/ordinary_scene.h"
+#include "campaign/ordinary/ordinary_scene.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "ordinary/builder.h"
+#include "campaign/ordinary/builder.h"
 
 namespace plumbline::ordinary {
 namespace {
@@ -48,8 +48,8 @@ Object defaults(Builder& b) {
 
 }  // namespace
 
-std::string ordinary_scene(std::uint64_t seed) {
-  Builder b(seed);
+std::string ordinary_scene(campaign::Choices choices, const std::string& description) {
+  Builder b(std::move(choices));
   choose_dialect(b);
   const Object seen = camera(b), onto = projection(b);
   b.is_lit = b.choose.chance(85);
@@ -61,7 +61,7 @@ std::string ordinary_scene(std::uint64_t seed) {
   const auto line = [&](std::string_view key, const std::string& value) {
     lines.push_back(fmt::format("  {}: {}", json_string(key), value));
   };
-  line("description", json_string(fmt::format("Ordinary scene {}.", seed)));
+  line("description", json_string(description));
   line("dialect", json_string(b.dialect));
   line("frame", frame(b).text());
   line("camera", seen.text());

@@ -1,7 +1,7 @@
 // Colours, materials, textures, fog and the state of solids.
 #include <fmt/format.h>
 
-#include "ordinary/builder.h"
+#include "campaign/ordinary/builder.h"
 
 namespace plumbline::ordinary {
 namespace {

@@ -1,7 +1,7 @@
 // Meshes: written out, or made by the format's generators.
 #include <fmt/format.h>
 
-#include "ordinary/builder.h"
+#include "campaign/ordinary/builder.h"
 
 namespace plumbline::ordinary {
 namespace {

@@ -1,5 +1,5 @@
 // Frame, camera, projection and lights.
-#include "ordinary/builder.h"
+#include "campaign/ordinary/builder.h"
 
 namespace plumbline::ordinary {
 namespace {

@@ -1,15 +1,22 @@
 // A scene as its parts are added; the parts' files each add some.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "ordinary/choices.h"
-#include "ordinary/json_text.h"
+#include "campaign/text/choices.h"
+#include "campaign/text/json_text.h"
 
 namespace plumbline::ordinary {
+
+using campaign::Choices;
+using campaign::json;
+using campaign::json_array;
+using campaign::json_numbers;
+using campaign::json_string;
+using campaign::Object;
 
 struct Builder {
   Choices choose;
@@ -24,7 +31,7 @@ struct Builder {
   Object textures;
   std::vector<Object> draws;
 
-  explicit Builder(std::uint64_t seed) : choose(seed) {}
+  explicit Builder(Choices choices) : choose(std::move(choices)) {}
 };
 
 // Small values.

@@ -1,12 +1,25 @@
-#include "ordinary/choices.h"
+#include "campaign/text/choices.h"
 
 #include <cmath>
 
-namespace plumbline::ordinary {
+namespace plumbline::campaign {
+
+Choices::Choices(std::span<const std::uint64_t> seeds) {
+  for (const std::uint64_t seed : seeds) streams_.emplace_back(seed);
+}
+
+std::uint64_t Choices::bits() {
+  std::uint64_t out = streams_.front()();
+  for (std::size_t i = 1; i < streams_.size(); ++i) {
+    const std::uint64_t its_own = streams_[i]();
+    if (its_own % 24 == 0) out = its_own;  // whose upper 32 bits are used
+  }
+  return out;
+}
 
 std::int64_t Choices::whole(std::int64_t low, std::int64_t high) {
   const std::uint64_t range = static_cast<std::uint64_t>(high - low) + 1;  // at most 2^32
-  return low + static_cast<std::int64_t>(((bits_() >> 32) * range) >> 32);
+  return low + static_cast<std::int64_t>(((bits() >> 32) * range) >> 32);
 }
 
 double Choices::number(double low, double high) {
@@ -25,4 +38,4 @@ double Choices::of(std::initializer_list<double> numbers) {
   return numbers.begin()[whole(0, static_cast<std::int64_t>(numbers.size()) - 1)];
 }
 
-}  // namespace plumbline::ordinary
+}  // namespace plumbline::campaign

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace plumbline::ordinary {
+namespace plumbline::campaign {
 
 /// At most nine digits; -0 is 0.
 std::string json(double number);
@@ -37,4 +37,4 @@ class Object {
   std::vector<Member> members_;
 };
 
-}  // namespace plumbline::ordinary
+}  // namespace plumbline::campaign

@@ -56,17 +56,17 @@ inline check::SceneVerdict judge_by_all(const Scene& scene) {
   return check::judge(scene, *ours, references);
 }
 
-/// A test failure that names the seed and the scene's file, where any row fails. The file is there before the scene is
-/// judged, so that a crash leaves it, too.
-inline void expect_holds(const Scene& scene, std::uint64_t seed, const std::filesystem::path& file,
-                         const std::string& text) {
+/// A test failure where any row fails, which names the scene's file. The file is there before the scene is judged, so
+/// that a crash leaves it, too. `name`: of the scene, a path.
+inline void expect_holds(const Scene& scene, const std::string& name, const std::string& text) {
+  const std::filesystem::path file = findings_folder() / (name + ".json");
   write_text(file, text);
   const std::string failed = failures(judge_by_all(scene));
   if (failed.empty()) {
     std::filesystem::remove(file);
     return;
   }
-  ADD_FAILURE() << "seed " << seed << ": plumb check " << file.string() << " --assets tests/scenes/texture\n" << failed;
+  ADD_FAILURE() << name << ": plumb check " << file.string() << " --assets tests/scenes/texture\n" << failed;
 }
 
 }  // namespace plumbline::test

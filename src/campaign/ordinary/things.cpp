@@ -1,7 +1,7 @@
 // Opaque things.
 #include <fmt/format.h>
 
-#include "ordinary/builder.h"
+#include "campaign/ordinary/builder.h"
 
 namespace plumbline::ordinary {
 namespace {

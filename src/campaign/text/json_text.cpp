@@ -1,11 +1,11 @@
-#include "ordinary/json_text.h"
+#include "campaign/text/json_text.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace plumbline::ordinary {
+namespace plumbline::campaign {
 
 std::string json(double number) { return fmt::format("{:.9g}", number == 0 ? 0 : number); }
 
@@ -39,4 +39,4 @@ std::string Object::text() const {
   return fmt::format("{{{}}}", fmt::join(members, ", "));
 }
 
-}  // namespace plumbline::ordinary
+}  // namespace plumbline::campaign

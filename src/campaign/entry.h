@@ -1,0 +1,34 @@
+// What a campaign keeps of a scene that was judged.
+#pragma once
+
+#include <compare>
+#include <string>
+#include <vector>
+
+#include "campaign/scene_id.h"
+
+namespace plumbline::campaign {
+
+/// What a bug is told from another by: scenes of one signature are one entry.
+struct Signature {
+  std::string stage;  ///< the first different one, by name
+  std::string cause;  ///< the outcome and the field of its worst record: "different color"; of a dispute, its reason
+  std::string reference;  ///< the judge's name for people
+  auto operator<=>(const Signature&) const = default;
+};
+/// STAGE, CAUSE (against REFERENCE).
+std::string to_string(const Signature& signature);
+
+struct Entry {
+  SceneId id;
+  std::vector<Signature> found;     ///< why the scene does not hold: one, or none where it does
+  std::vector<Signature> disputes;  ///< where a reference is shown to be wrong; sorted, each once
+  bool unable = false;              ///< the candidate drew nothing that could be judged
+  double milliseconds = 0;          ///< that judging took; another in each run
+};
+/// The same scene and the same verdict, in whatever time.
+inline bool same_verdict(const Entry& a, const Entry& b) {
+  return a.id == b.id && a.found == b.found && a.disputes == b.disputes && a.unable == b.unable;
+}
+
+}  // namespace plumbline::campaign

@@ -1,0 +1,87 @@
+#include "campaign/hard/hard_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "campaign/hard/builder.h"
+
+namespace plumbline::hard {
+namespace {
+
+constexpr std::string_view kModes[] = {"fill", "line", "point"};
+
+// How polygons are lit, culled and drawn.
+void add_surface_state(Builder& b, Object& draw, bool textured) {
+  Choices& c = b.choose;
+  if (c.chance(85)) draw.put("material", material(b));
+  if (c.chance(20)) draw.put("back_material", material(b));
+  if (c.chance(55)) draw.put("lit", c.chance(90) ? "false" : "true");
+  if (c.chance(30)) {
+    draw.put_word("color_material",
+                  c.word({"none", "ambient", "diffuse", "ambient_and_diffuse", "specular", "emission"}));
+  }
+  if (c.chance(30)) draw.put_word("normals", c.word({"normalize", "rescale", "as_they_are"}));
+  if (c.chance(50)) draw.put_word("shading", c.word({"flat", "flat", "gouraud", "phong", "phong"}));
+  if (c.chance(30)) draw.put_word("cull", c.word({"none", "back", "back", "front"}));
+  if (c.chance(20)) draw.put("fog", fog(b));
+  if (textured && c.chance(70)) {
+    draw.put("texture", draw_texture(b));
+  } else if (c.chance(15)) {
+    const std::string_view front = kModes[c.count(0, 2)], back = kModes[c.count(0, 2)];
+    draw.put_word("front_mode", front).put_word("back_mode", back);
+    b.has_thin |= front != "fill" || back != "fill";
+  }
+}
+
+Object draw(Builder& b) {
+  Choices& c = b.choose;
+  const HardMesh of = mesh(b);
+  Object out("mesh", of.text);
+  if (of.made) out.put("transforms", place_made(b));
+  add_surface_state(b, out, of.textured);
+  if (of.thin || out.has("front_mode")) {
+    if (c.chance(60)) out.put("line_width", c.of({1, 2, 3, 4, 7, 16}));
+    if (c.chance(60)) out.put("point_size", c.of({1, 2, 3, 5, 8, 64}));
+  }
+  add_fragment_state(b, out);
+  return out;
+}
+
+}  // namespace
+
+std::string hard_scene(campaign::Choices choices, const std::string& description) {
+  Builder b(std::move(choices));
+  Choices& c = b.choose;
+  b.dialect = c.word({"gl", "gl", "gl", "gl", "gl", "gl", "gl", "gzrender", "games101", "tinyrenderer"});
+  b.color_format = c.word({"rgba8", "rgba8", "rgba8", "rgba12", "rgba16", "rgba32f"});
+  b.has_stencil = c.chance(25);
+  choose_view(b);
+  const Object onto = projection(b);
+  Object defaults;
+  if (c.chance(10)) defaults.put("fog", fog(b));
+  if (c.chance(10)) defaults.put("material", material(b));
+  std::vector<std::string> draws;
+  const int count = static_cast<int>(c.of({1, 1, 2, 2, 3, 4}));
+  for (int i = 0; i < count; ++i) draws.push_back("    " + draw(b).text());
+
+  std::vector<std::string> lines;
+  const auto line = [&](std::string_view key, const std::string& value) {
+    lines.push_back(fmt::format("  {}: {}", json_string(key), value));
+  };
+  line("description", json_string(description));
+  if (c.chance(5)) line("version", "1");
+  if (b.dialect != "gl" || c.chance(50)) line("dialect", json_string(b.dialect));
+  line("frame", frame(b).text());
+  line("camera", camera(b).text());
+  line("projection", onto.text());
+  if (c.chance(70)) line("ambient", json_numbers(rgb(b)));
+  const Object model = light_model(b);
+  if (!model.empty()) line("light_model", model.text());
+  line("lights", lights(b));
+  if (!b.textures.empty()) line("textures", b.textures.text());
+  if (!defaults.empty()) line("defaults", defaults.text());
+  line("draws", fmt::format("[\n{}\n  ]", fmt::join(draws, ",\n")));
+  return fmt::format("{{\n{}\n}}\n", fmt::join(lines, ",\n"));
+}
+
+}  // namespace plumbline::hard

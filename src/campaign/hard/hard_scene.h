@@ -1,0 +1,16 @@
+// Hard scenes by seed: geometry and state at which pipelines break, in all states of the scene format.
+//
+// Written from the scene format's schema and from what hurts (builder.h). Shares nothing with src/campaign/ordinary but
+// random numbers and JSON text: two authors miss different things.
+#pragma once
+
+#include "campaign/text/choices.h"
+
+#include <string>
+
+namespace plumbline::hard {
+
+/// A scene file's text, of the numbers that `choices` hands out. It names no mesh file and no image file.
+std::string hard_scene(campaign::Choices choices, const std::string& description);
+
+}  // namespace plumbline::hard

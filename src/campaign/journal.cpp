@@ -1,0 +1,159 @@
+#include "campaign/journal.h"
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace plumbline::campaign {
+
+namespace {
+
+constexpr int kVersion = 1;      // of the tables
+constexpr int kId = 0x706c6362;  // "plcb": an SQLite file that is a journal
+
+constexpr const char* kTables =
+    "CREATE TABLE terms (text TEXT NOT NULL);"
+    "CREATE TABLE scene (id TEXT PRIMARY KEY, unable INTEGER NOT NULL, milliseconds REAL NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE signature (id TEXT NOT NULL, disputed INTEGER NOT NULL, stage TEXT NOT NULL, cause TEXT NOT NULL,"
+    "  reference TEXT NOT NULL, PRIMARY KEY (id, disputed, stage, cause, reference)) WITHOUT ROWID;";
+
+}  // namespace
+
+struct Journal::Database {
+  std::filesystem::path file;
+  sqlite3* handle = nullptr;
+
+  ~Database() { sqlite3_close(handle); }
+
+  [[noreturn]] void fail(int code) const {
+    if (code == SQLITE_BUSY || code == SQLITE_LOCKED) {
+      throw JournalError(fmt::format("{}: in use: another campaign judges these seeds", file.string()));
+    }
+    if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
+      throw JournalError(
+          fmt::format("{}: expected the journal of a campaign, found {}", file.string(), sqlite3_errstr(code)));
+    }
+    throw JournalError(fmt::format("{}: {}", file.string(), sqlite3_errmsg(handle)));
+  }
+  void require(int code) const {
+    if (code != SQLITE_OK) fail(code);
+  }
+  void run(const char* statements) const { require(sqlite3_exec(handle, statements, nullptr, nullptr, nullptr)); }
+};
+
+namespace {
+
+// One statement: values are bound in order, then each row visited.
+class Statement {
+ public:
+  Statement(sqlite3* handle, std::string_view text) {
+    code_ = sqlite3_prepare_v2(handle, text.data(), static_cast<int>(text.size()), &statement_, nullptr);
+  }
+  ~Statement() { sqlite3_finalize(statement_); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  Statement& text(const std::string& value) {
+    if (code_ == SQLITE_OK) {
+      code_ = sqlite3_bind_text(statement_, ++bound_, value.data(), static_cast<int>(value.size()), SQLITE_TRANSIENT);
+    }
+    return *this;
+  }
+  Statement& number(double value) {
+    if (code_ == SQLITE_OK) code_ = sqlite3_bind_double(statement_, ++bound_, value);
+    return *this;
+  }
+  /// SQLITE_ROW, SQLITE_DONE, or an error.
+  int step() { return code_ == SQLITE_OK ? sqlite3_step(statement_) : code_; }
+  std::string text_at(int column) const {
+    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    return text == nullptr ? "" : text;
+  }
+  double number_at(int column) const { return sqlite3_column_double(statement_, column); }
+
+ private:
+  sqlite3_stmt* statement_ = nullptr;
+  int code_ = SQLITE_OK, bound_ = 0;
+};
+
+}  // namespace
+
+Journal::Journal(const std::filesystem::path& file, const std::string& terms)
+    : database_(std::make_unique<Database>()) {
+  Database& db = *database_;
+  db.file = file;
+  db.require(sqlite3_open_v2(file.c_str(), &db.handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr));
+  // Exclusive: no second process, and no shared memory, which network file systems lack.
+  db.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; BEGIN IMMEDIATE;");
+  const auto value_of = [&](std::string_view query) {
+    Statement statement(db.handle, query);
+    const int code = statement.step();
+    if (code != SQLITE_ROW && code != SQLITE_DONE) db.fail(code);
+    return code == SQLITE_ROW ? statement.text_at(0) : "";
+  };
+  const bool is_new = value_of("SELECT count(*) FROM sqlite_schema") == "0";
+  if (is_new) {
+    db.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; {}", kId, kVersion, kTables).c_str());
+    if (const int code = Statement(db.handle, "INSERT INTO terms VALUES (?)").text(terms).step(); code != SQLITE_DONE)
+      db.fail(code);
+  } else if (value_of("PRAGMA application_id") != std::to_string(kId)) {
+    throw JournalError(fmt::format("{}: expected the journal of a campaign, found another database", file.string()));
+  } else if (const std::string version = value_of("PRAGMA user_version"); version != std::to_string(kVersion)) {
+    throw JournalError(fmt::format("{}: expected a journal of version {}, found {}", file.string(), kVersion, version));
+  } else if (const std::string its = value_of("SELECT text FROM terms"); its != terms) {
+    throw JournalError(
+        fmt::format("{}: expected a journal of this campaign ({}), found one of {}", file.string(), terms, its));
+  }
+  db.run("COMMIT;");
+  Statement scenes(db.handle, "SELECT id FROM scene");
+  for (int code; (code = scenes.step()) != SQLITE_DONE;) {
+    if (code != SQLITE_ROW) db.fail(code);
+    judged_.insert(scene_id_of(scenes.text_at(0)));
+  }
+}
+
+Journal::~Journal() = default;
+
+void Journal::add(const Entry& entry) {
+  if (!judged_.insert(entry.id).second) return;
+  const Database& db = *database_;
+  const std::string id = to_string(entry.id);
+  const auto done = [&](int code) {
+    if (code != SQLITE_DONE) db.fail(code);
+  };
+  db.run("BEGIN IMMEDIATE;");
+  Statement scene(db.handle, "INSERT INTO scene VALUES (?, ?, ?)");
+  done(scene.text(id).number(entry.unable ? 1 : 0).number(entry.milliseconds).step());
+  for (const auto* list : {&entry.found, &entry.disputes}) {
+    for (const Signature& s : *list) {
+      Statement insert(db.handle, "INSERT INTO signature VALUES (?, ?, ?, ?, ?)");
+      insert.text(id).number(list == &entry.disputes ? 1 : 0).text(s.stage).text(s.cause).text(s.reference);
+      done(insert.step());
+    }
+  }
+  db.run("COMMIT;");
+}
+
+std::vector<Entry> Journal::entries() const {
+  std::vector<Entry> out;
+  Statement rows(
+      database_->handle,
+      "SELECT scene.id, unable, milliseconds, disputed, stage, cause, reference FROM scene LEFT JOIN signature "
+      "USING (id) ORDER BY scene.id, disputed, stage, cause, reference");
+  for (int code; (code = rows.step()) != SQLITE_DONE;) {
+    if (code != SQLITE_ROW) database_->fail(code);
+    const SceneId id = scene_id_of(rows.text_at(0));
+    if (out.empty() || out.back().id != id) out.push_back({id, {}, {}, rows.number_at(1) != 0, rows.number_at(2)});
+    const Signature signature{rows.text_at(4), rows.text_at(5), rows.text_at(6)};
+    if (!signature.stage.empty())
+      (rows.number_at(3) != 0 ? out.back().disputes : out.back().found).push_back(signature);
+  }
+  std::ranges::sort(out, {}, &Entry::id);
+  return out;
+}
+
+}  // namespace plumbline::campaign

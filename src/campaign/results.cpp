@@ -1,0 +1,127 @@
+#include "campaign/results.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace plumbline::campaign {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Groups = std::map<Signature, Group>;
+
+void add(Groups& groups, const std::vector<Signature>& signatures, const SceneId& id) {
+  for (const Signature& signature : signatures) {
+    Group& group = groups[signature];
+    group.signature = signature;
+    ++group.scenes;
+    if (group.first.size() < kMostFirst) group.first.push_back(id);  // ids come sorted
+  }
+}
+
+std::vector<Group> list_of(Groups groups) {
+  std::vector<Group> out;
+  for (auto& [signature, group] : groups) out.push_back(std::move(group));
+  return out;
+}
+
+std::vector<std::string> texts_of(const std::vector<SceneId>& ids) {
+  std::vector<std::string> out;
+  for (const SceneId& id : ids) out.push_back(to_string(id));
+  return out;
+}
+
+std::string lines_of(std::vector<Group> groups) {
+  std::ranges::stable_sort(groups, std::ranges::greater(), &Group::scenes);
+  std::string out;
+  for (const Group& g : groups) {
+    out += fmt::format("{:>7}  {}: {}\n", g.scenes, to_string(g.signature), fmt::join(texts_of(g.first), ", "));
+  }
+  return out;
+}
+
+Json json_of_groups(const std::vector<Group>& groups) {
+  Json out = Json::array();
+  for (const Group& g : groups) {
+    out.push_back({{"stage", g.signature.stage},
+                   {"cause", g.signature.cause},
+                   {"reference", g.signature.reference},
+                   {"scenes", g.scenes},
+                   {"first", texts_of(g.first)}});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string to_string(const Signature& signature) {
+  return fmt::format("{}, {} (against {})", signature.stage, signature.cause, signature.reference);
+}
+
+std::uint64_t Results::scenes() const {
+  std::uint64_t out = 0;
+  for (const auto& [generator, count] : judged) out += count;
+  return out;
+}
+
+Results merged(const std::vector<std::vector<Entry>>& journals) {
+  std::map<SceneId, const Entry*> all;
+  std::vector<SceneId> conflicts;
+  for (const std::vector<Entry>& journal : journals) {
+    for (const Entry& entry : journal) {
+      const auto [known, is_new] = all.try_emplace(entry.id, &entry);
+      if (!is_new && !same_verdict(*known->second, entry)) conflicts.push_back(entry.id);
+    }
+  }
+  std::ranges::sort(conflicts);
+  conflicts.erase(std::unique(conflicts.begin(), conflicts.end()), conflicts.end());
+  Results out;
+  out.conflicts = std::move(conflicts);
+  Groups found, disputes;
+  for (const auto& [id, entry] : all) {
+    if (std::ranges::binary_search(out.conflicts, id)) continue;  // which of its verdicts is right, nobody knows
+    ++out.judged[id.generator];
+    out.unable += entry->unable && entry->found.empty() ? 1 : 0;
+    out.held += !entry->unable && entry->found.empty() ? 1 : 0;
+    out.milliseconds += entry->milliseconds;
+    add(found, entry->found, id);
+    add(disputes, entry->disputes, id);
+  }
+  out.found = list_of(std::move(found));
+  out.disputes = list_of(std::move(disputes));
+  return out;
+}
+
+std::string text_of(const Results& results) {
+  std::string out;
+  for (const auto& [generator, count] : results.judged)
+    out += fmt::format("{} scenes: {}\n", name_of(generator), count);
+  out += fmt::format("hold: {}\n", results.held);
+  if (results.unable > 0) out += fmt::format("nothing could be judged: {}\n", results.unable);
+  if (!results.found.empty())
+    out += fmt::format("findings: scenes, signature, first scenes\n{}", lines_of(results.found));
+  if (!results.disputes.empty()) {
+    out += fmt::format("the reference is wrong: scenes, signature, first scenes\n{}", lines_of(results.disputes));
+  }
+  if (!results.conflicts.empty()) {
+    out += fmt::format("judged differently by two journals: {}\n", fmt::join(texts_of(results.conflicts), ", "));
+  }
+  return out;
+}
+
+std::string json_of(const Results& results, const std::string& terms) {
+  Json out = {{"format", "plumbline campaign"}, {"version", 1}, {"terms", terms}};
+  out["judged"] = Json::object();
+  for (const auto& [generator, count] : results.judged) out["judged"][std::string(name_of(generator))] = count;
+  out["held"] = results.held;
+  out["unable"] = results.unable;
+  out["found"] = json_of_groups(results.found);
+  out["disputes"] = json_of_groups(results.disputes);
+  out["conflicts"] = texts_of(results.conflicts);
+  return out.dump(1) + "\n";
+}
+
+}  // namespace plumbline::campaign

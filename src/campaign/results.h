@@ -1,0 +1,38 @@
+// The results of a campaign: all its journals as one.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "campaign/entry.h"
+
+namespace plumbline::campaign {
+
+/// All scenes of one signature.
+struct Group {
+  Signature signature;
+  std::uint64_t scenes = 0;
+  std::vector<SceneId> first;  ///< the lowest, at most kMostFirst
+};
+inline constexpr std::size_t kMostFirst = 3;
+
+struct Results {
+  std::map<Generator, std::uint64_t> judged;  ///< scenes
+  std::uint64_t held = 0, unable = 0;         ///< scenes; unable: nothing of them could be judged
+  std::vector<Group> found, disputes;         ///< by signature
+  std::vector<SceneId> conflicts;             ///< scenes that two journals judge differently
+  double milliseconds = 0;                    ///< of judging, in all processes together
+  std::uint64_t scenes() const;
+};
+
+/// The union of the journals' entries: the order of journals, and what two of them share, makes no difference.
+Results merged(const std::vector<std::vector<Entry>>& journals);
+
+/// Lines for people: scenes, a line for each group, the most frequent first.
+std::string text_of(const Results& results);
+/// The same bytes for the same verdicts, whoever judged them and in whatever time.
+std::string json_of(const Results& results, const std::string& terms);
+
+}  // namespace plumbline::campaign

@@ -1,0 +1,44 @@
+#include "campaign/scene_id.h"
+
+#include <charconv>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "campaign/hard/hard_scene.h"
+#include "campaign/ordinary/ordinary_scene.h"
+
+namespace plumbline::campaign {
+
+std::string_view name_of(Generator generator) { return generator == Generator::ordinary ? "ordinary" : "hard"; }
+
+std::string to_string(const SceneId& id) {
+  return fmt::format("{}/{}", name_of(id.generator), fmt::join(id.seeds, "."));
+}
+
+SceneId scene_id_of(std::string_view text) {
+  for (const Generator generator : kGenerators) {
+    const std::string_view name = name_of(generator);
+    if (!text.starts_with(name)) continue;
+    SceneId out{generator, {}};
+    const char *at = text.data() + name.size(), *end = text.data() + text.size();
+    while (at != end && *at == (out.seeds.empty() ? '/' : '.')) {
+      const auto [stop, error] = std::from_chars(at + 1, end, out.seeds.emplace_back());
+      if (error != std::errc()) break;
+      at = stop;
+    }
+    if (at == end && to_string(out) == text) return out;
+  }
+  throw std::invalid_argument(fmt::format("expected GENERATOR/SEED such as hard/17, found {}", text));
+}
+
+std::string scene_text(const SceneId& id) {
+  const std::string seeds = fmt::format("{}", fmt::join(id.seeds, "."));
+  const Choices choices(id.seeds);
+  return id.generator == Generator::ordinary
+             ? ordinary::ordinary_scene(choices, fmt::format("Ordinary scene {}.", seeds))
+             : hard::hard_scene(choices, fmt::format("Hard scene {}.", seeds));
+}
+
+}  // namespace plumbline::campaign

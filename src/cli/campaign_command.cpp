@@ -1,0 +1,212 @@
+// plumb campaign: random scenes by the thousand, judged; what is found is made small and sorted.
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include "base/atomic_path.h"
+#include "base/temporary_path.h"
+#include "campaign/entry_bytes.h"
+#include "campaign/journal.h"
+#include "campaign/results.h"
+#include "cli/campaign_judge.h"
+#include "cli/commands.h"
+#include "cli/judge_in_workers.h"
+#include "cli/judges.h"
+#include "cli/options/program_argument.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t kMostSeeds = 10'000'000;  // of a process
+
+struct Range {
+  std::uint64_t first = 0, last = 0;
+};
+
+Range range_of(const std::string& text) {
+  Range out;
+  const std::size_t dots = text.find("..");
+  const auto number = [](std::string_view digits, std::uint64_t& to) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), to);
+    return error == std::errc() && end == digits.data() + digits.size() && !digits.empty();
+  };
+  const std::string_view all = text;
+  if (dots == text.npos || !number(all.substr(0, dots), out.first) || !number(all.substr(dots + 2), out.last) ||
+      out.first > out.last || out.last - out.first >= kMostSeeds) {
+    throw std::invalid_argument(
+        fmt::format("--seeds: expected FIRST..LAST, at most {} seeds, found {}", kMostSeeds, text));
+  }
+  return out;
+}
+
+std::vector<campaign::SceneId> scenes_of(const Range& range, const std::string& generator) {
+  std::vector<campaign::SceneId> out;
+  for (std::uint64_t seed = range.first;; ++seed) {  // both generators in turn: their findings come evenly
+    for (const campaign::Generator of : campaign::kGenerators) {
+      if (generator == "both" || generator == name_of(of)) out.push_back({of, {seed}});
+    }
+    if (seed == range.last) return out;
+  }
+}
+
+// What verdicts follow from but the scene.
+std::string terms_of(const CheckOptions& o) {
+  std::string out = fmt::format("plumb {} {}", PLUMBLINE_VERSION, program_print());
+  if (!o.fault.empty()) out += ", fault " + o.fault;
+  if (!o.candidate.command.empty()) out += ", program " + o.candidate.command;
+  if (!o.candidate.from.empty()) out += ", from " + o.candidate.from;
+  if (o.candidate.probes) out += ", each primitive";
+  if (!o.candidate.conventions.empty()) out += ", conventions " + o.candidate.conventions;
+  return out + fmt::format(", against {}", fmt::join(o.against, ","));
+}
+
+struct CampaignRequest {
+  std::size_t scene = 0;
+  EndedSteps ended;
+  std::string not_compared;  ///< how the comparison itself ended a worker
+  std::string bytes() {
+    ByteWriter writer;
+    visit_all(writer, scene, ended, not_compared);
+    return writer.done();
+  }
+  static CampaignRequest of(const std::string& bytes) {
+    CampaignRequest out;
+    ByteReader reader(bytes, nullptr);
+    visit_all(reader, out.scene, out.ended, out.not_compared);
+    return out;
+  }
+};
+
+// How far it has come: a line that is written over on a terminal, elsewhere one a minute.
+class Told {
+ public:
+  explicit Told(std::size_t scenes) : scenes_(scenes) {}
+  void scene(const campaign::Entry& entry) {
+    ++done_;
+    for (const campaign::Signature& signature : entry.found) {
+      ++found_;
+      if (known_.insert(signature).second)
+        fmt::print("{}{}: {}\n", terminal_ ? "\r\x1b[K" : "", to_string(entry.id), to_string(signature));
+    }
+    const auto now = Clock::now();
+    if (now - last_ < (terminal_ ? std::chrono::milliseconds(200) : std::chrono::minutes(1))) return;
+    last_ = now;
+    const double seconds = std::chrono::duration<double>(now - start_).count(),
+                 rate = static_cast<double>(done_) / seconds;
+    fmt::print(stderr, "{}{} of {} scenes, {:.1f}/s, {} do not hold, {:.0f} s left{}", terminal_ ? "\r\x1b[K" : "",
+               done_, scenes_, rate, found_, static_cast<double>(scenes_ - done_) / rate, terminal_ ? "" : "\n");
+    std::fflush(stdout);
+  }
+  ~Told() {
+    if (terminal_) fmt::print(stderr, "\r\x1b[K");
+  }
+
+ private:
+  std::size_t scenes_, done_ = 0, found_ = 0;
+  std::set<campaign::Signature> known_;
+  Clock::time_point start_ = Clock::now(), last_ = start_;
+  bool terminal_ = ::isatty(STDERR_FILENO) != 0;
+};
+
+void judge_scenes(std::vector<campaign::SceneId> scenes, const CheckRules& rules, campaign::Journal& journal) {
+  std::erase_if(scenes, [&](const campaign::SceneId& id) { return journal.judged().contains(id); });
+  const TemporaryPath scratch(fs::temp_directory_path(), "plumb-campaign-", TemporaryPath::Kind::private_folder);
+  std::vector<CampaignRequest> requests(scenes.size());
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < scenes.size(); ++i) order.push_back(i), requests[i].scene = i;
+  Told told(scenes.size());
+  const auto make = [&](Progress& progress) -> Workers::Answer {
+    const auto judge = std::make_shared<CampaignJudge>(rules, progress, scratch.path() / std::to_string(::getpid()));
+    return [&, judge](const std::string& bytes) {
+      CampaignRequest request = CampaignRequest::of(bytes);
+      campaign::Entry out;
+      if (request.not_compared.empty()) {
+        out = judge->judge(scenes[request.scene], std::move(request.ended));
+      } else {
+        out.found = {{"none", "failed: the comparison " + request.not_compared, "comparison"}};
+      }
+      ByteWriter writer;
+      visit(writer, out);
+      return writer.done();
+    };
+  };
+  const auto ask = [&](std::size_t i) { return requests[i].bytes(); };
+  const auto ask_again = [&](std::size_t i, const WorkerEnd& end) {
+    (end.step == Progress::kBetween ? requests[i].not_compared : requests[i].ended[end.step]) = end.how;
+    return requests[i].bytes();
+  };
+  const auto took = [&](std::size_t i, const std::string& bytes) {
+    campaign::Entry entry;
+    ByteReader reader(bytes, nullptr);
+    visit(reader, entry);
+    entry.id = scenes[i];
+    journal.add(entry);
+    told.scene(entry);
+  };
+  Workers(worker_count(rules.options, scenes.size()), rules.options.limits, make).run({order, ask, took, ask_again});
+}
+
+// Of all journals that no other process has.
+campaign::Results results_in(const fs::path& folder, const std::string& terms) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".journal") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  std::vector<std::vector<campaign::Entry>> journals;
+  for (const fs::path& file : files) journals.push_back(campaign::Journal(file, terms).entries());
+  return campaign::merged(journals);
+}
+
+}  // namespace
+
+int campaign(const CampaignOptions& o) {
+  if (o.write) {
+    for (const campaign::SceneId& id : scenes_of(range_of(o.seeds), o.generator)) {
+      const fs::path file = fs::path(o.folder) / (to_string(id) + ".json");
+      std::error_code none;  // what cannot be written says so below
+      fs::create_directories(file.parent_path(), none);
+      write_file(file, campaign::scene_text(id));
+    }
+    return kHolds;
+  }
+  CheckRules rules{o.judging, std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()), {}, {}, {}, {}};
+  rules.options.cache.clear();
+  if (!rules.options.candidate.command.empty())
+    make_program(rules.options.candidate);                                // refuses what is no command line
+  if (!rules.options.fault.empty()) make_candidate(rules.options.fault);  // and an unknown fault
+  const std::string terms = terms_of(rules.options);
+  const fs::path folder = o.folder, journals = folder / "journal";
+  if (!o.seeds.empty()) {
+    const Range range = range_of(o.seeds);
+    std::error_code error;
+    fs::create_directories(journals, error);
+    if (error) throw OutputError(journals, error.message());
+    campaign::Journal journal(journals / fmt::format("{}-{}-{}.journal", o.generator, range.first, range.last), terms);
+    judge_scenes(scenes_of(range, o.generator), rules, journal);
+    if (o.judge_only) return kHolds;
+  }
+  if (!fs::is_directory(journals)) {
+    throw std::invalid_argument(fmt::format("{}: expected the folder of a campaign, found no journal", o.folder));
+  }
+  const campaign::Results results = results_in(journals, terms);
+  const std::string findings = leave_findings(folder / "findings", results.found, rules);
+  write_file(folder / "results.json", json_of(results, terms));
+  fmt::print("{}{}judging: {:.1f} ms a scene\n", findings, text_of(results),
+             results.milliseconds / static_cast<double>(std::max<std::uint64_t>(results.scenes(), 1)));
+  return results.found.empty() && results.conflicts.empty() ? kHolds : kDiffers;
+}
+
+}  // namespace plumbline::cli

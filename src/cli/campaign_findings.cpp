@@ -1,0 +1,113 @@
+// Findings: a folder for each (campaign_judge.h).
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <numeric>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/atomic_path.h"
+#include "base/temporary_path.h"
+#include "cli/campaign_judge.h"
+#include "cli/check_failures.h"
+#include "cli/judge_in_workers.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A name for a folder: letters and digits, and one - for all else.
+std::string slug(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    if (plain) out += c;
+    if (!plain && !out.empty() && out.back() != '-') out += '-';
+  }
+  while (out.ends_with('-')) out.pop_back();
+  return out.substr(0, 120);
+}
+
+struct Finding {
+  const campaign::Group* group;
+  fs::path folder;
+  std::string found;  ///< the scene as it was found
+};
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Those that are not known, each with a folder of its own name.
+std::vector<Finding> unknown(const fs::path& folder, const std::vector<campaign::Group>& groups) {
+  std::set<std::string> names;
+  std::vector<Finding> out;
+  for (const campaign::Group& group : groups) {
+    const auto& [stage, cause, reference] = group.signature;
+    std::string name = slug(fmt::format("{}-{}-{}", stage, cause, reference));
+    while (!names.insert(name).second) name += "-2";
+    Finding finding{&group, folder / name, campaign::scene_text(group.first.front())};
+    if (!fs::exists(finding.folder / "scene.json") || read(finding.folder / "found.json") != finding.found) {
+      out.push_back(std::move(finding));
+    }
+  }
+  return out;
+}
+
+// found.json and scene.json of each. A worker that ends while it makes a scene smaller leaves it as it was found.
+void leave_smallest(const std::vector<Finding>& findings, const CheckRules& rules) {
+  constexpr std::string_view kAsFound = "as found";
+  std::vector<std::size_t> order(findings.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const TemporaryPath scratch(fs::temp_directory_path(), "plumb-campaign-", TemporaryPath::Kind::private_folder);
+  const auto make = [&](Progress& progress) -> Workers::Answer {
+    const auto judge = std::make_shared<CampaignJudge>(rules, progress, scratch.path() / std::to_string(::getpid()));
+    return [&, judge](const std::string& number) {
+      if (number == kAsFound) return std::string();
+      const campaign::Group& of = *findings[std::stoul(number)].group;
+      return judge->shrink(of.first.front(), of.signature);
+    };
+  };
+  const auto ask = [](std::size_t i) { return std::to_string(i); };
+  const auto ask_again = [&](std::size_t, const WorkerEnd&) { return std::string(kAsFound); };
+  const auto took = [&](std::size_t i, const std::string& smallest) {
+    const Finding& of = findings[i];
+    const fs::path found = of.folder / "found.json", file = of.folder / "scene.json";
+    fs::create_directories(of.folder);
+    const OutputFile files[] = {{found, of.found}, {file, smallest.empty() ? of.found : smallest}};
+    write_files(files);
+  };
+  Workers(worker_count(rules.options, findings.size()), rules.options.limits, make).run({order, ask, took, ask_again});
+}
+
+}  // namespace
+
+std::string leave_findings(const fs::path& folder, const std::vector<campaign::Group>& groups,
+                           const CheckRules& rules) {
+  const std::vector<Finding> findings = unknown(folder, groups);
+  if (findings.empty()) return "";
+  leave_smallest(findings, rules);
+  std::vector<Scene> scenes;
+  for (const Finding& finding : findings) {
+    scenes.push_back(rules.options.scene_arguments.load(finding.folder / "scene.json"));
+  }
+  CheckRules with_pages{rules.options, rules.today, {}, {}, {}, {}};
+  with_pages.options.failures = folder.string();
+  std::set<std::string> words;
+  std::string out;
+  judge_in_workers(scenes, with_pages, words, [&](const JudgedScene& judged) {
+    leave_rows(folder.string(), judged.verdict, judged.failure);
+    out += judged.failure;
+    if (!judged.verdict.cause.empty()) out += fmt::format("  likely: {}\n", judged.verdict.cause);
+  });
+  return out;
+}
+
+}  // namespace plumbline::cli

@@ -1,0 +1,134 @@
+#include "cli/campaign_judge.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/atomic_path.h"
+#include "campaign/shrink.h"
+#include "cli/options/renderers.h"
+#include "scene/file/scene_file.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+constexpr int kTrials = 400;  // scenes that shrinking asks about, by one judge
+
+// "p_clip.x" and "p_clip.y" are one bug's.
+std::string without_component(std::string_view field) {
+  const std::size_t dot = field.rfind('.');
+  return std::string(dot != field.npos && dot + 2 == field.size() ? field.substr(0, dot) : field);
+}
+
+// Without what differs from scene to scene: numbers, and all after the first 100 letters.
+std::string without_numbers(std::string_view text) {
+  std::string out;
+  for (const char c : text.substr(0, 100)) {
+    const bool digit = c >= '0' && c <= '9';
+    if (!digit || !out.ends_with('#')) out += digit ? '#' : c;
+  }
+  return out;
+}
+
+// Of the rows that say the same of a stage, one judge's wherever that judge is: a bug is one entry, not one for each.
+const check::Comparison& strongest(const check::SceneVerdict& verdict, const check::Comparison& row) {
+  for (const check::Kind kind : {check::Kind::per_stage, check::Kind::from_scene, check::Kind::legal}) {
+    for (const check::Comparison& other : verdict.comparisons) {
+      if (other.stage == row.stage && other.outcome == row.outcome && other.judge.kind == kind) return other;
+    }
+  }
+  return row;
+}
+
+std::string cause_of(const check::Comparison& row) {
+  std::string out(check::name_of(row.outcome));
+  if (row.outcome != check::Outcome::different) return row.note.empty() ? out : out + ": " + without_numbers(row.note);
+  if (!row.measurement.mismatch.empty()) return out + " (nothing fits)";
+  const std::string field = without_component(row.measurement.worst.place.field);
+  return field.empty() ? out : out + " " + field;
+}
+
+}  // namespace
+
+std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict) {
+  if (verdict.failure.empty()) return std::nullopt;
+  const check::Comparison* row = check::first_different(verdict);
+  if (row != nullptr) row = &strongest(verdict, *row);
+  if (row == nullptr) {
+    const auto fails = [](const check::Comparison& c) { return is_failure(c.outcome); };
+    const auto first = std::ranges::find_if(verdict.comparisons, fails);
+    if (first == verdict.comparisons.end()) {
+      const std::vector<Stage> nobody = check::unjudged_stages(verdict);
+      return campaign::Signature{nobody.empty() ? "none" : std::string(name_of(nobody.front())), "nobody judged it",
+                                 ""};
+    }
+    row = &*first;
+  }
+  return campaign::Signature{std::string(name_of(row->stage)), cause_of(*row), check::title_of(row->judge)};
+}
+
+CampaignJudge::CampaignJudge(const CheckRules& rules, Progress& progress, std::filesystem::path scratch)
+    : rules_(&rules), progress_(&progress), scratch_(std::move(scratch)), all_(rules, progress) {}
+
+std::filesystem::path CampaignJudge::write(const std::string& name, const std::string& text) const {
+  std::filesystem::path file = scratch_ / (name + ".json");
+  std::filesystem::create_directories(file.parent_path());
+  write_file(file, text);
+  return file;
+}
+
+// Without the notes that it has for people.
+Scene CampaignJudge::load(const std::filesystem::path& file) const {
+  SceneFileOptions options;
+  const auto& assets = rules_->options.scene_arguments.assets;
+  options.asset_folders.insert(options.asset_folders.begin(), assets.begin(), assets.end());
+  return load_scene(file, options);
+}
+
+campaign::Entry CampaignJudge::judge(const campaign::SceneId& id, EndedSteps ended) {
+  const std::filesystem::path file = write(to_string(id), campaign::scene_text(id));
+  const Scene scene = load(file);
+  const auto start = std::chrono::steady_clock::now();
+  const check::SceneVerdict verdict = all_.judge(scene, std::move(ended)).verdict;
+  campaign::Entry out{id, {}, {}, check::judged_stages(verdict).empty(), 0};
+  out.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  std::filesystem::remove(file);
+  if (auto signature = cli::signature_of(verdict)) out.found.push_back(std::move(*signature));
+  for (const check::Comparison& row : verdict.comparisons) {
+    if (row.outcome != check::Outcome::dispute) continue;
+    out.disputes.push_back({std::string(name_of(row.stage)), row.measurement.reason, check::title_of(row.judge)});
+  }
+  std::ranges::sort(out.disputes);
+  out.disputes.erase(std::unique(out.disputes.begin(), out.disputes.end()), out.disputes.end());
+  return out;
+}
+
+std::optional<campaign::Signature> CampaignJudge::signature_of(SceneJudge& judge, const std::string& text) {
+  try {
+    const Scene scene = load(write("shrink/scene", text));
+    return cli::signature_of(judge.judge(scene, {}).verdict);
+  } catch (const SceneError&) {
+    return std::nullopt;  // no scene is left
+  }
+}
+
+std::string CampaignJudge::shrink(const campaign::SceneId& id, const campaign::Signature& signature) {
+  const auto smaller = [&](SceneJudge& judge, const std::string& text) {
+    const auto shows = [&](const std::string& scene) { return signature_of(judge, scene) == signature; };
+    return shows(text) ? campaign::shrink(text, shows, kTrials) : text;
+  };
+  const std::string text = campaign::scene_text(id),
+                    reference = signature.reference.substr(0, signature.reference.find(','));
+  if (std::ranges::count(known_reference_names(), reference) == 0) return smaller(all_, text);
+  CheckRules of_one{rules_->options, rules_->today, {}, {}, {}, {}};
+  of_one.options.against = {reference};
+  SceneJudge its_own(of_one, *progress_);
+  const std::string by_one = smaller(its_own, text);
+  return smaller(all_, signature_of(all_, by_one) == signature ? by_one : text);
+}
+
+}  // namespace plumbline::cli

@@ -1,0 +1,48 @@
+// A campaign's scenes: judged in a worker process, made smaller, and left for people.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "campaign/entry.h"
+#include "campaign/results.h"
+#include "cli/scene_judge.h"
+
+namespace plumbline::cli {
+
+class CampaignJudge {
+ public:
+  /// Scene files are written to `scratch`, one at a time.
+  CampaignJudge(const CheckRules& rules, Progress& progress, std::filesystem::path scratch);
+
+  /// `ended`: the steps that ended workers before. Throws SceneError where the scene needs a file that is not there.
+  campaign::Entry judge(const campaign::SceneId& id, EndedSteps ended);
+
+  /// The scene made smaller, as long as it has this signature: by the signature's own reference alone, which is quick, as
+  /// far as that finds it by itself; then by all.
+  std::string shrink(const campaign::SceneId& id, const campaign::Signature& signature);
+
+ private:
+  std::optional<campaign::Signature> signature_of(SceneJudge& judge, const std::string& text);
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
+  Scene load(const std::filesystem::path& file) const;
+
+  const CheckRules* rules_;
+  Progress* progress_;
+  std::filesystem::path scratch_;
+  SceneJudge all_;
+};
+
+/// Why a scene does not hold, as what bugs are sorted by; none where it holds.
+std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict);
+
+/// Leaves `folder`/STAGE-CAUSE-REFERENCE of each group of findings: found.json, its lowest scene; scene.json, that scene
+/// made smaller; scene.txt, its rows and the command that repeats them; scene/, its page. A folder whose found.json is
+/// that scene is known, and stays as it is. Returns lines for people of the others. Throws OutputError.
+std::string leave_findings(const std::filesystem::path& folder, const std::vector<campaign::Group>& groups,
+                           const CheckRules& rules);
+
+}  // namespace plumbline::cli

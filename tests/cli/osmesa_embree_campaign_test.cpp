@@ -1,0 +1,169 @@
+// plumb campaign as a user runs it.
+#include <signal.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "tests/cli/run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+const std::string kAssets = " --assets " PLUMBLINE_SOURCE_DIR "/tests/scenes/texture";
+const std::string kTruncates = " --fault depth.truncated";
+
+class Campaign : public Cli {
+ protected:
+  Outcome campaign(const std::string& folder, const std::string& options) const {
+    return shell(fmt::format("{} campaign {} {}{}", PLUMBLINE_PLUMB, at(folder), options, kAssets));
+  }
+  std::string results(const std::string& folder) const { return read(folder_ / folder / "results.json"); }
+};
+
+TEST_F(Campaign, OfOursHolds) {
+  const Outcome run = campaign("c", "--seeds 1..6");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("ordinary scenes: 6\nhard scenes: 6\nhold: 12\n")) << run.text;
+  EXPECT_FALSE(fs::exists(folder_ / "c/findings"));
+}
+
+TEST_F(Campaign, OfAFaultNamesItAndLeavesItsSmallestScene) {
+  const Outcome run = campaign("c", "--seeds 1..6" + kTruncates);
+  EXPECT_EQ(run.code, 1) << run.text;
+  ASSERT_TRUE(run.says("depth, different z (against exact, per stage): ")) << run.text;
+  const fs::path finding = folder_ / "c/findings/depth-different-z-exact-per-stage";
+  for (const char* name : {"scene.json", "found.json", "scene.txt", "scene/index.html"}) {
+    EXPECT_TRUE(fs::exists(finding / name)) << name;
+  }
+  EXPECT_LT(read(finding / "scene.json").size(), read(finding / "found.json").size());
+  const std::string scene = (finding / "scene.json").string();
+  const Outcome faulted = plumb(fmt::format("check {} --no-cache{}", scene, kTruncates));
+  EXPECT_EQ(faulted.code, 1) << faulted.text;
+  EXPECT_TRUE(faulted.says("first different stage: depth")) << faulted.text;
+  EXPECT_EQ(plumb(fmt::format("check {} --no-cache", scene)).code, 0);
+  // A known finding stays as it is, and is counted.
+  write(finding / "scene.txt", "mine");
+  const Outcome again = campaign("c", kTruncates);
+  EXPECT_EQ(again.code, 1);
+  EXPECT_TRUE(again.says("depth, different z")) << again.text;
+  EXPECT_EQ(read(finding / "scene.txt"), "mine");
+}
+
+TEST_F(Campaign, IsTheSameInPartsAndInOne) {
+  ASSERT_EQ(campaign("one", "--seeds 1..8 --jobs 1" + kTruncates).code, 1);
+  ASSERT_EQ(campaign("parts", "--seeds 1..3 --judge-only --jobs 2" + kTruncates).code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "parts/results.json"));
+  ASSERT_EQ(campaign("parts", "--seeds 3..8 --jobs 2" + kTruncates).code, 1);
+  EXPECT_EQ(results("one"), results("parts"));
+  std::set<std::string> one, parts;
+  for (const auto& name : entries()) {
+    if (!name.ends_with("scene.json")) continue;
+    (name.starts_with("one/") ? one : parts).insert(name.substr(name.find('/')) + read(folder_ / name));
+  }
+  EXPECT_FALSE(one.empty());
+  EXPECT_EQ(one, parts);
+}
+
+TEST_F(Campaign, WritesScenesFiles) {
+  const Outcome run = campaign("c", "--seeds 3..4 --write");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_EQ(entries(), (std::set<std::string>{"c", "c/hard", "c/hard/3.json", "c/hard/4.json", "c/ordinary",
+                                              "c/ordinary/3.json", "c/ordinary/4.json"}));
+  const Outcome check = plumb(fmt::format("check {} --no-cache{}", at("c"), kAssets));
+  EXPECT_EQ(check.code, 0) << check.text;
+  EXPECT_EQ(campaign("c", "--write").code, 2);
+}
+
+TEST_F(Campaign, GoesOnWhereItWas) {
+  ASSERT_EQ(campaign("c", "--seeds 1..4 --generator hard --against exact").code, 0);
+  const auto journal = folder_ / "c/journal/hard-1-4.journal";
+  const auto before = read(journal);
+  ASSERT_FALSE(before.empty());
+  const Outcome again = campaign("c", "--seeds 1..4 --generator hard --against exact");
+  EXPECT_EQ(again.code, 0) << again.text;
+  EXPECT_TRUE(again.says("hard scenes: 4\nhold: 4\n")) << again.text;
+  EXPECT_EQ(read(journal), before);
+}
+
+TEST_F(Campaign, OfTwoCandidatesInOneFolderIsRefused) {
+  ASSERT_EQ(campaign("c", "--seeds 1..1 --against exact").code, 0);
+  for (const std::string& other : {kTruncates, std::string(" --against embree")}) {
+    const Outcome run = campaign("c", "--seeds 1..1" + other);
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_TRUE(run.says("expected a journal of this campaign")) << run.text;
+  }
+}
+
+TEST_F(Campaign, RefusesBadInput) {
+  const std::pair<const char*, const char*> kBad[] = {
+      {"", "expected the folder of a campaign, found no journal"},
+      {"--seeds 5", "--seeds: expected FIRST..LAST"},
+      {"--seeds 5..4", "--seeds: expected FIRST..LAST"},
+      {"--seeds 1..-4", "--seeds: expected FIRST..LAST"},
+      {"--seeds 1..x", "--seeds: expected FIRST..LAST"},
+      {"--seeds 1..99999999999999999999999", "--seeds: expected FIRST..LAST"},
+      {"--seeds 0..18446744073709551615", "--seeds: expected FIRST..LAST"},
+      {"--seeds 1..2 --generator soft", "soft"},
+      {"--seeds 1..2 --fault none_such", "none_such"},
+      {"--seeds 1..2 --against none_such", "none_such"},
+      {"--seeds 1..2 --program cp", "{scene}"},
+      {"--judge-only", "--seeds"}};
+  for (const auto& [options, why] : kBad) {
+    const Outcome run = campaign("c", options);
+    EXPECT_EQ(run.code, 2) << options << ": " << run.text;
+    EXPECT_TRUE(run.says(why)) << options << ": " << run.text;
+    EXPECT_FALSE(fs::exists(folder_ / "c/results.json"));
+  }
+}
+
+TEST_F(Campaign, NamesAFileThatAnOrdinarySceneLacks) {
+  const Outcome run =
+      shell(fmt::format("{} campaign {} --generator ordinary --seeds 1..60 --against exact", PLUMBLINE_PLUMB, at("c")));
+  EXPECT_EQ(run.code, 2) << run.text;
+  EXPECT_TRUE(run.says("expected an image file") || run.says("no file \"")) << run.text;
+}
+
+TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
+  const Outcome run =
+      campaign("c", fmt::format("--seeds 1..4 --program '{} {{input}} {{output}}'", PLUMBLINE_C_RENDERER));
+  EXPECT_TRUE(run.code == 0 || run.code == 1) << run.text;
+  EXPECT_TRUE(run.says("nothing could be judged: ")) << run.text;
+}
+
+// PLUMBLINE_KILLS: how often; scripts/kill_updates asks for many.
+TEST_F(Campaign, LosesNothingWhenItIsKilled) {
+  const std::string options = "--seeds 1..40 --against exact --jobs 2" + kTruncates;
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(campaign("whole", options).code, 1);
+  const auto duration = std::chrono::steady_clock::now() - start;
+  const char* said = std::getenv("PLUMBLINE_KILLS");
+  const int kills = said != nullptr ? std::atoi(said) : 5;
+  std::mt19937 random(11);
+  for (int i = 0; i < kills; ++i) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      const std::string line =
+          fmt::format("exec {} campaign {} {}{} >/dev/null 2>&1", PLUMBLINE_PLUMB, at("killed"), options, kAssets);
+      ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+      ::_exit(127);
+    }
+    std::this_thread::sleep_for(duration * (random() % 1000) / 1000 / 3);
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+  }
+  Outcome last{-1, ""};
+  for (int i = 0; i < 100; ++i) {  // until the kernel has ended the killed run's children
+    last = campaign("killed", options);
+    if (last.code != 2) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(last.code, 1) << last.text;
+  EXPECT_EQ(results("killed"), results("whole"));
+}
+
+}  // namespace
+}  // namespace plumbline
