@@ -115,6 +115,7 @@ void draw_inside(const Scene& scene, const Projected& projected, std::span<Pixel
     h.drawn = true;
     planes.id(x, y) = static_cast<std::int32_t>(h.hit.primitive);
     if (h.hit.depth_mask) planes.depth(x, y) = z;
+    color_hit(scene, projected, x, y, h);
     planes.shaded(x, y) = glm::vec4(h.hit.color);
     color.write(draw_of(scene, projected, h.hit).merge, around(h.hit.color, 0));
   }
@@ -137,6 +138,19 @@ void add_fragments(const Projected& projected, std::span<const PixelHit> hits, i
     if (wanted.has(Stage::depth)) out.depth.push_back(std::clamp(h.win.z, 0.0, 1.0));
     if (wanted.has(Stage::shade)) out.shaded.push_back({h.hit.color});
     if (wanted.has(Stage::visibility)) out.drawn.push_back({h.drawn});
+  }
+}
+
+/// Colours of the winners, whose hits may have been without.
+void color_answers(const Scene& scene, const Projected& projected, std::span<PixelHit> hits, int x, int y,
+                   std::span<LegalAnswer> answers) {
+  for (LegalAnswer& answer : answers) {
+    if (answer.primitive == kBackground) continue;
+    const auto primitive = static_cast<std::uint32_t>(answer.primitive);
+    PixelHit& h = *std::ranges::lower_bound(hits, primitive, {}, [](const PixelHit& of) { return of.hit.primitive; });
+    color_hit(scene, projected, x, y, h);
+    answer.color = h.hit.color;
+    answer.color_bound = static_cast<float>(h.hit.color_bound);
   }
 }
 
@@ -186,8 +200,10 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       hits.clear();
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
+      const bool records = std::ranges::find(request.pixels, glm::ivec2(x, y)) != request.pixels.end();
+      const Colors colors = records || !legal.color_lo.empty() ? Colors::now : Colors::asked;
       for (const std::uint32_t primitive : by_pixel.at(pixel)) {
-        if (const auto hit = pixel_hit(scene, projected, primitive, x, y)) hits.push_back(*hit);
+        if (const auto hit = pixel_hit(scene, projected, primitive, x, y, colors)) hits.push_back(*hit);
       }
       const auto groups = static_cast<std::uint32_t>(form_groups(projected, hits, x, y));
       std::uint32_t certain = groups;
@@ -200,12 +216,11 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       legal.possible(x, y) = most_fragments(projected, hits, groups, x, y);
       legal.shared(x, y) = groups > 0 ? 1 : 0;
       fold_hits(to_fold, frame, answers);
+      if (colors == Colors::asked) color_answers(scene, projected, hits, x, y, answers);
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());
       legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
       draw_inside(scene, projected, hits, x, y, out.planes);
-      if (std::ranges::find(request.pixels, glm::ivec2(x, y)) != request.pixels.end()) {
-        add_fragments(projected, hits, x, y, request.records, out.records);
-      }
+      if (records) add_fragments(projected, hits, x, y, request.records, out.records);
       if (!legal.color_lo.empty()) fold_colors(scene, projected, to_fold, x, y, legal);
       const DepthShare share = ambiguous_by_depth(scene, hits, out.planes.id(x, y));
       by_depth += share.area;

@@ -333,8 +333,18 @@ EdgeDistance edge_distance(const glm::dvec3& n, const glm::dvec3& v_j, const glm
   return nearest;
 }
 
+void color_hit(const Scene& scene, const Projected& projected, int px, int py, PixelHit& hit) {
+  if (hit.colored) return;
+  const Triangle& t = projected.triangles[hit.hit.primitive];
+  const glm::dvec3 d = projected.ray(px, py);
+  const Place at = place(projected, t, d);
+  const glm::dvec2 moved = float_displacement(projected, t, at.nearest, std::clamp(at.w, t.w_min, t.w_max));
+  set_color(scene, projected, t, d, {px, py}, at, moved, hit);
+  hit.colored = true;
+}
+
 std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected, std::uint32_t primitive, int px,
-                                  int py) {
+                                  int py, Colors colors) {
   const Triangle& t = projected.triangles[primitive];
   if (!t.drawn) return std::nullopt;
   const std::optional<Scissor>& scissor = scene.draws[t.draw].scissor;
@@ -361,7 +371,8 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   const PixelDepth& view = out.view;
   if (!scene.depth_clamp && std::isfinite(view.half) && (view.z + view.half < 0 || view.z - view.half > 1))
     return std::nullopt;
-  set_color(scene, projected, t, d, {px, py}, at, moved, out);
+  out.colored = colors == Colors::now || scene.draws[t.draw].alpha_test.has_value();
+  if (out.colored) set_color(scene, projected, t, d, {px, py}, at, moved, out);
   set_tests(scene.draws[t.draw], t, scene.frame, projected.conventions, out);
   out.inside = at.by_ties && at.inside && t.facing_kept && (scene.depth_clamp || (view.z >= 0 && view.z <= 1));
   return out;

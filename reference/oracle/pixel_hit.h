@@ -28,11 +28,19 @@ struct PixelHit {
   PixelDepth win;       ///< window z, clamped where the near and far plane do not cut
   bool drawn = false;   ///< inside, and double's own picture has it pass all tests (oracle.h)
   double delta = 0;     ///< pixels: how far its outline may be moved here
+  bool colored = false;  ///< its colour is known
 };
 
-/// The triangle `primitive` at the pixel (px, py), or nothing where no legal renderer covers it.
+/// Whether a hit's colour is computed with the hit, or where it is asked for (color_hit()): most hits are hidden.
+enum class Colors { now, asked };
+
+/// The triangle `primitive` at the pixel (px, py), or nothing where no legal renderer covers it. A hit whose alpha is
+/// tested has its colour in any case.
 std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected, std::uint32_t primitive, int px,
-                                  int py);
+                                  int py, Colors colors = Colors::now);
+
+/// Colour and its bound of a hit at its pixel, unless they are known.
+void color_hit(const Scene& scene, const Projected& projected, int px, int py, PixelHit& hit);
 
 /// Outcomes of the alpha test, and stencil state, of a hit whose colour is known.
 void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, const Conventions& conventions,
