@@ -91,6 +91,9 @@ std::string lines_of(std::span<const std::string> lines) {
 std::string not_asked_line(const CheckOptions& o) {
   std::vector<std::string> names = reference_names();
   std::erase_if(names, [&](const std::string& name) { return std::ranges::count(o.against, name) > 0; });
+  for (std::string& name : names) {
+    if (std::ranges::count(default_references(), name) == 0) name += " (not built in)";
+  }
   return names.empty() ? "" : fmt::format("not asked: {}\n", fmt::join(names, ", "));
 }
 

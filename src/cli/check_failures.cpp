@@ -22,7 +22,7 @@ namespace {
 std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& verdict) {
   const bool as_option = verdict.path.starts_with('-');
   std::string out = shell_word(o.program) + " check " + shell_word((as_option ? "./" : "") + verdict.path);
-  if (o.against != reference_names()) out += fmt::format(" --against {}", fmt::join(o.against, ","));
+  if (o.against != default_references()) out += fmt::format(" --against {}", fmt::join(o.against, ","));
   if (!o.golden.empty()) out += " --golden " + shell_word(o.golden);
   if (!o.fault.empty()) out += " --fault " + shell_word(o.fault);
   if (!o.candidate.command.empty()) out += " --program " + shell_word(o.candidate.command);
@@ -37,7 +37,7 @@ std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& ver
   return out + o.scene_arguments.repeated();
 }
 
-// Whether the references are asked that are asked where none are named, others beside them or not.
+// Whether the references of a whole judgement are asked, others beside them or not.
 bool all_asked(const CheckOptions& o) {
   return std::ranges::all_of(reference_names(),
                              [&](const std::string& name) { return std::ranges::count(o.against, name) > 0; });

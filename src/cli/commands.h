@@ -23,7 +23,7 @@ inline constexpr int kMostJobs = 256;
 /// Scenes against references, stage by stage. Paths may be empty: not wanted.
 struct CheckOptions {
   std::vector<std::string> scenes;  ///< files, and folders of them
-  std::vector<std::string> against = reference_names();
+  std::vector<std::string> against = default_references();
   std::string json, report, ledger, junit, markdown;
   std::string rows;            ///< a folder: each scene's rows, and what fails, in <group>/<scene>.txt
   std::string failures;        ///< a folder: of each scene that does not hold, a page in <group>/<scene>
@@ -59,7 +59,7 @@ int campaign(const CampaignOptions& options);
 /// a fault or not; a capture's folder; or what a program leaves.
 struct DiagnoseOptions {
   std::string scene;
-  std::vector<std::string> against = reference_names();
+  std::vector<std::string> against = default_references();
   std::string json, report;    ///< or empty
   std::string picture, depth;  ///< of another renderer, which is all that it left, or empty
   std::string fault;           ///< or empty

@@ -19,7 +19,7 @@ void add_against(CLI::App& command, std::vector<std::string>& against) {
   command
       .add_option("--against", against,
                   fmt::format("References: {} (default: {})", fmt::join(known_reference_names(), ", "),
-                              fmt::join(reference_names(), ", ")))
+                              fmt::join(default_references(), ", ")))
       ->check(CLI::IsMember(known_reference_names()))
       ->delimiter(',');
 }

@@ -36,6 +36,11 @@ constexpr bool kEgl = true;
 #else
 constexpr bool kEgl = false;
 #endif
+#ifdef PLUMBLINE_EMBREE
+constexpr bool kEmbree = true;
+#else
+constexpr bool kEmbree = false;
+#endif
 // The OpenGL reference of this process.
 constexpr const char* kOpenGl = kEgl && !kOsmesa ? "egl" : "osmesa";
 
@@ -80,6 +85,16 @@ RendererInfo opengl_info(const std::string& name) {
 
 const std::vector<std::string>& reference_names() {
   static const std::vector<std::string> kNames = {kOpenGl, "embree", "exact"};
+  return kNames;
+}
+
+const std::vector<std::string>& default_references() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names = reference_names();
+    if (!kOsmesa && !kEgl) std::erase(names, kOpenGl);
+    if (!kEmbree) std::erase(names, "embree");
+    return names;
+  }();
   return kNames;
 }
 

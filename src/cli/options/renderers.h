@@ -11,9 +11,11 @@
 
 namespace plumbline::cli {
 
-/// The references that are asked where none are named, in that order. Of the OpenGL ones, OSMesa; in a build without
-/// it, EGL.
+/// The references that a whole judgement asks, in that order: of the OpenGL ones OSMesa, in a build without it EGL;
+/// Embree; exact.
 const std::vector<std::string>& reference_names();
+/// Those of them that this program was built with: asked where none are named.
+const std::vector<std::string>& default_references();
 /// All references that there are, built in or not, in the order in which they are asked.
 const std::vector<std::string>& known_reference_names();
 /// These, `ours` and `definition`.
