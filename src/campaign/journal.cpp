@@ -31,7 +31,7 @@ struct Journal::Database {
 
   [[noreturn]] void fail(int code) const {
     if (code == SQLITE_BUSY || code == SQLITE_LOCKED) {
-      throw JournalError(fmt::format("{}: in use: another campaign judges these seeds", file.string()));
+      throw JournalInUse(fmt::format("{}: in use: another campaign judges these seeds", file.string()));
     }
     if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
       throw JournalError(

@@ -18,10 +18,15 @@ struct JournalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Another process has the journal.
+struct JournalInUse : JournalError {
+  using JournalError::JournalError;
+};
+
 class Journal {
  public:
   /// Makes the file, or goes on with it. `terms`: what verdicts follow from but the scene; a journal has one. Throws
-  /// JournalError where another process has the file, its terms are others, or it is no journal.
+  /// JournalInUse, or JournalError where its terms are others or it is no journal.
   Journal(const std::filesystem::path& file, const std::string& terms);
   ~Journal();
   Journal(const Journal&) = delete;

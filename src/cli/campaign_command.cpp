@@ -21,6 +21,7 @@
 #include "cli/judge_in_workers.h"
 #include "cli/judges.h"
 #include "cli/options/program_argument.h"
+#include "cli/options/say.h"
 
 namespace plumbline::cli {
 
@@ -120,8 +121,7 @@ class Told {
   bool terminal_ = ::isatty(STDERR_FILENO) != 0;
 };
 
-void judge_scenes(std::vector<campaign::SceneId> scenes, const CheckRules& rules, campaign::Journal& journal) {
-  std::erase_if(scenes, [&](const campaign::SceneId& id) { return journal.judged().contains(id); });
+void judge_scenes(std::span<const campaign::SceneId> scenes, const CheckRules& rules, campaign::Journal& journal) {
   const TemporaryPath scratch(fs::temp_directory_path(), "plumb-campaign-", TemporaryPath::Kind::private_folder);
   std::vector<CampaignRequest> requests(scenes.size());
   std::vector<std::size_t> order;
@@ -158,16 +158,41 @@ void judge_scenes(std::vector<campaign::SceneId> scenes, const CheckRules& rules
   Workers(worker_count(rules.options, scenes.size()), rules.options.limits, make).run({order, ask, took, ask_again});
 }
 
-// Of all journals that no other process has.
-campaign::Results results_in(const fs::path& folder, const std::string& terms) {
+// Of all journals but those that another process has, and `mine`.
+std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, const std::string& terms,
+                                                     const fs::path& mine = {}) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".journal") files.push_back(entry.path());
+    if (entry.path().extension() == ".journal" && entry.path() != mine) files.push_back(entry.path());
   }
   std::ranges::sort(files);
-  std::vector<std::vector<campaign::Entry>> journals;
-  for (const fs::path& file : files) journals.push_back(campaign::Journal(file, terms).entries());
-  return campaign::merged(journals);
+  std::vector<std::vector<campaign::Entry>> out;
+  for (const fs::path& file : files) {
+    try {
+      out.push_back(campaign::Journal(file, terms).entries());
+    } catch (const campaign::JournalInUse&) {
+      say(fmt::format("note: {}: in use by another campaign: its scenes are left out", file.string()));
+    }
+  }
+  return out;
+}
+
+// Scenes that no journal of the folder holds, into the range's own.
+void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::path& journals,
+                 const std::string& terms) {
+  const Range range = range_of(o.seeds);
+  std::error_code error;
+  fs::create_directories(journals, error);
+  if (error) throw OutputError(journals, error.message());
+  const fs::path file = journals / fmt::format("{}-{}-{}.journal", o.generator, range.first, range.last);
+  campaign::Journal journal(file, terms);
+  std::set<campaign::SceneId> judged = journal.judged();
+  for (const auto& of_other : entries_in(journals, terms, file)) {
+    for (const campaign::Entry& entry : of_other) judged.insert(entry.id);
+  }
+  std::vector<campaign::SceneId> scenes = scenes_of(range, o.generator);
+  std::erase_if(scenes, [&](const campaign::SceneId& id) { return judged.contains(id); });
+  judge_scenes(scenes, rules, journal);
 }
 
 }  // namespace
@@ -189,19 +214,12 @@ int campaign(const CampaignOptions& o) {
   if (!rules.options.fault.empty()) make_candidate(rules.options.fault);  // and an unknown fault
   const std::string terms = terms_of(rules.options);
   const fs::path folder = o.folder, journals = folder / "journal";
-  if (!o.seeds.empty()) {
-    const Range range = range_of(o.seeds);
-    std::error_code error;
-    fs::create_directories(journals, error);
-    if (error) throw OutputError(journals, error.message());
-    campaign::Journal journal(journals / fmt::format("{}-{}-{}.journal", o.generator, range.first, range.last), terms);
-    judge_scenes(scenes_of(range, o.generator), rules, journal);
-    if (o.judge_only) return kHolds;
-  }
+  if (!o.seeds.empty()) judge_range(o, rules, journals, terms);
+  if (o.judge_only) return kHolds;
   if (!fs::is_directory(journals)) {
     throw std::invalid_argument(fmt::format("{}: expected the folder of a campaign, found no journal", o.folder));
   }
-  const campaign::Results results = results_in(journals, terms);
+  const campaign::Results results = campaign::merged(entries_in(journals, terms));
   const std::string findings = leave_findings(folder / "findings", results.found, rules);
   write_file(folder / "results.json", json_of(results, terms));
   fmt::print("{}{}judging: {:.1f} ms a scene\n", findings, text_of(results),
