@@ -195,6 +195,16 @@ void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::pa
   judge_scenes(scenes, rules, journal);
 }
 
+// Where the images that ordinary scenes name are: beside an installed program, or in the project that it was built in.
+std::vector<std::string> with_suite_images(std::vector<std::string> assets) {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+  for (const char* from_program : {"../share/plumbline/scenes/texture", "../../tests/scenes/texture"}) {
+    const fs::path folder = (program / from_program).lexically_normal();
+    if (fs::is_directory(folder)) assets.push_back(folder.string());
+  }
+  return assets;
+}
+
 }  // namespace
 
 int campaign(const CampaignOptions& o) {
@@ -209,6 +219,7 @@ int campaign(const CampaignOptions& o) {
   }
   CheckRules rules{o.judging, std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()), {}, {}, {}, {}};
   rules.options.cache.clear();
+  rules.options.scene_arguments.assets = with_suite_images(o.judging.scene_arguments.assets);
   if (!rules.options.candidate.command.empty())
     make_program(rules.options.candidate);                                // refuses what is no command line
   if (!rules.options.fault.empty()) make_candidate(rules.options.fault);  // and an unknown fault
