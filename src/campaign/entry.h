@@ -24,11 +24,12 @@ struct Entry {
   std::vector<Signature> found;     ///< why the scene does not hold: one, or none where it does
   std::vector<Signature> disputes;  ///< where a reference is shown to be wrong; sorted, each once
   bool unable = false;              ///< the candidate drew nothing that could be judged
+  std::string states{};             ///< that it is of (states/states.h)
   double milliseconds = 0;          ///< that judging took; another in each run
 };
-/// The same scene and the same verdict, in whatever time.
+/// The same scene, verdict and states, in whatever time.
 inline bool same_verdict(const Entry& a, const Entry& b) {
-  return a.id == b.id && a.found == b.found && a.disputes == b.disputes && a.unable == b.unable;
+  return a.id == b.id && a.found == b.found && a.disputes == b.disputes && a.unable == b.unable && a.states == b.states;
 }
 
 }  // namespace plumbline::campaign

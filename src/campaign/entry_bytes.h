@@ -12,7 +12,7 @@ void visit(Archive& archive, Signature& s) {
 }
 template <class Archive>
 void visit(Archive& archive, Entry& e) {
-  visit_all(archive, e.found, e.disputes, e.unable, e.milliseconds);
+  visit_all(archive, e.found, e.disputes, e.unable, e.states, e.milliseconds);
 }
 
 }  // namespace plumbline::campaign

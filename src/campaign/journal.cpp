@@ -17,7 +17,8 @@ constexpr int kId = 0x706c6362;  // "plcb": an SQLite file that is a journal
 
 constexpr const char* kTables =
     "CREATE TABLE terms (text TEXT NOT NULL);"
-    "CREATE TABLE scene (id TEXT PRIMARY KEY, unable INTEGER NOT NULL, milliseconds REAL NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE scene (id TEXT PRIMARY KEY, unable INTEGER NOT NULL, states BLOB NOT NULL, milliseconds REAL NOT "
+    "NULL) WITHOUT ROWID;"
     "CREATE TABLE signature (id TEXT NOT NULL, disputed INTEGER NOT NULL, stage TEXT NOT NULL, cause TEXT NOT NULL,"
     "  reference TEXT NOT NULL, PRIMARY KEY (id, disputed, stage, cause, reference)) WITHOUT ROWID;";
 
@@ -63,6 +64,12 @@ class Statement {
     }
     return *this;
   }
+  Statement& bytes(const std::string& value) {
+    if (code_ == SQLITE_OK) {
+      code_ = sqlite3_bind_blob(statement_, ++bound_, value.data(), static_cast<int>(value.size()), SQLITE_TRANSIENT);
+    }
+    return *this;
+  }
   Statement& number(double value) {
     if (code_ == SQLITE_OK) code_ = sqlite3_bind_double(statement_, ++bound_, value);
     return *this;
@@ -72,6 +79,10 @@ class Statement {
   std::string text_at(int column) const {
     const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
     return text == nullptr ? "" : text;
+  }
+  std::string bytes_at(int column) const {
+    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement_, column));
+    return {bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
   }
   double number_at(int column) const { return sqlite3_column_double(statement_, column); }
 
@@ -126,8 +137,8 @@ void Journal::add(const Entry& entry) {
     if (code != SQLITE_DONE) db.fail(code);
   };
   db.run("BEGIN IMMEDIATE;");
-  Statement scene(db.handle, "INSERT INTO scene VALUES (?, ?, ?)");
-  done(scene.text(id).number(entry.unable ? 1 : 0).number(entry.milliseconds).step());
+  Statement scene(db.handle, "INSERT INTO scene VALUES (?, ?, ?, ?)");
+  done(scene.text(id).number(entry.unable ? 1 : 0).bytes(entry.states).number(entry.milliseconds).step());
   for (const auto* list : {&entry.found, &entry.disputes}) {
     for (const Signature& s : *list) {
       Statement insert(db.handle, "INSERT INTO signature VALUES (?, ?, ?, ?, ?)");
@@ -142,15 +153,16 @@ std::vector<Entry> Journal::entries() const {
   std::vector<Entry> out;
   Statement rows(
       database_->handle,
-      "SELECT scene.id, unable, milliseconds, disputed, stage, cause, reference FROM scene LEFT JOIN signature "
+      "SELECT scene.id, unable, states, milliseconds, disputed, stage, cause, reference FROM scene LEFT JOIN signature "
       "USING (id) ORDER BY scene.id, disputed, stage, cause, reference");
   for (int code; (code = rows.step()) != SQLITE_DONE;) {
     if (code != SQLITE_ROW) database_->fail(code);
     const SceneId id = scene_id_of(rows.text_at(0));
-    if (out.empty() || out.back().id != id) out.push_back({id, {}, {}, rows.number_at(1) != 0, rows.number_at(2)});
-    const Signature signature{rows.text_at(4), rows.text_at(5), rows.text_at(6)};
+    if (out.empty() || out.back().id != id)
+      out.push_back({id, {}, {}, rows.number_at(1) != 0, rows.bytes_at(2), rows.number_at(3)});
+    const Signature signature{rows.text_at(5), rows.text_at(6), rows.text_at(7)};
     if (!signature.stage.empty())
-      (rows.number_at(3) != 0 ? out.back().disputes : out.back().found).push_back(signature);
+      (rows.number_at(4) != 0 ? out.back().disputes : out.back().found).push_back(signature);
   }
   std::ranges::sort(out, {}, &Entry::id);
   return out;

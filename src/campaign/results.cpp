@@ -34,6 +34,21 @@ std::vector<std::string> texts_of(const std::vector<SceneId>& ids) {
   return out;
 }
 
+std::vector<std::string> names_of(const std::vector<std::size_t>& states) {
+  std::vector<std::string> out;
+  for (const std::size_t state : states) out.push_back(state_names()[state]);
+  return out;
+}
+
+std::string states_text(const Results& results) {
+  std::vector<std::string> rounds;
+  for (const auto& [round, kept] : results.kept) rounds.push_back(fmt::format("{} in round {}", kept.size(), round));
+  const std::vector<std::string> never = names_of(results.reached.never());
+  return fmt::format("states: {} of {}, and {} pairs of them; scenes that reached a new one: {}\n{}",
+                     results.reached.states(), state_names().size(), results.reached.pairs(), fmt::join(rounds, ", "),
+                     never.empty() ? "" : fmt::format("never: {}\n", fmt::join(never, "; ")));
+}
+
 std::string lines_of(std::vector<Group> groups) {
   std::ranges::stable_sort(groups, std::ranges::greater(), &Group::scenes);
   std::string out;
@@ -90,6 +105,13 @@ Results merged(const std::vector<std::vector<Entry>>& journals) {
     add(found, entry->found, id);
     add(disputes, entry->disputes, id);
   }
+  std::map<std::size_t, std::vector<const Entry*>> rounds;
+  for (const auto& [id, entry] : all) rounds[id.seeds.size()].push_back(entry);
+  for (const auto& [round, entries] : rounds) {
+    for (const Entry* entry : entries) {
+      if (out.reached.add(entry->states)) out.kept[round].push_back(entry->id);
+    }
+  }
   out.found = list_of(std::move(found));
   out.disputes = list_of(std::move(disputes));
   return out;
@@ -101,6 +123,7 @@ std::string text_of(const Results& results) {
     out += fmt::format("{} scenes: {}\n", name_of(generator), count);
   out += fmt::format("hold: {}\n", results.held);
   if (results.unable > 0) out += fmt::format("nothing could be judged: {}\n", results.unable);
+  out += states_text(results);
   if (!results.found.empty())
     out += fmt::format("findings: scenes, signature, first scenes\n{}", lines_of(results.found));
   if (!results.disputes.empty()) {
@@ -120,6 +143,9 @@ std::string json_of(const Results& results, const std::string& terms) {
   out["unable"] = results.unable;
   out["found"] = json_of_groups(results.found);
   out["disputes"] = json_of_groups(results.disputes);
+  out["states"] = {{"reached", results.reached.states()},
+                   {"pairs", results.reached.pairs()},
+                   {"never", names_of(results.reached.never())}};
   out["conflicts"] = texts_of(results.conflicts);
   return out.dump(1) + "\n";
 }

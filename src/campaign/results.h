@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "campaign/entry.h"
+#include "campaign/states/reached.h"
 
 namespace plumbline::campaign {
 
@@ -23,7 +24,11 @@ struct Results {
   std::uint64_t held = 0, unable = 0;         ///< scenes; unable: nothing of them could be judged
   std::vector<Group> found, disputes;         ///< by signature
   std::vector<SceneId> conflicts;             ///< scenes that two journals judge differently
-  double milliseconds = 0;                    ///< of judging, in all processes together
+  Reached reached;
+  /// By round (the number of its scenes' seeds): those that reached what no scene of an earlier round, nor one before it
+  /// in its own, had.
+  std::map<std::size_t, std::vector<SceneId>> kept;
+  double milliseconds = 0;  ///< of judging, in all processes together
   std::uint64_t scenes() const;
 };
 

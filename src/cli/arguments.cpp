@@ -99,6 +99,12 @@ void add(CLI::App& command, CampaignOptions& o) {
   command.add_option("--generator", o.generator, "ordinary, hard or both: who writes the scenes")
       ->check(CLI::IsMember({"ordinary", "hard", "both"}))
       ->capture_default_str();
+  command
+      .add_option("--round", o.round,
+                  "From 2 on: the seeds change scenes of the round before, those that reached something new")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str()
+      ->needs(command.get_option("--seeds"));
   command.add_flag("--judge-only", o.judge_only, "Fill the journal alone: findings are neither made smaller nor told")
       ->needs(command.get_option("--seeds"));
   command.add_flag("--write", o.write, "Write the scenes' files, FOLDER/GENERATOR/SEED.json, and judge none")

@@ -2,6 +2,8 @@
 #include <charconv>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <utility>
@@ -52,14 +54,32 @@ Range range_of(const std::string& text) {
   return out;
 }
 
-std::vector<campaign::SceneId> scenes_of(const Range& range, const std::string& generator) {
-  std::vector<campaign::SceneId> out;
-  for (std::uint64_t seed = range.first;; ++seed) {  // both generators in turn: their findings come evenly
-    for (const campaign::Generator of : campaign::kGenerators) {
-      if (generator == "both" || generator == name_of(of)) out.push_back({of, {seed}});
-    }
-    if (seed == range.last) return out;
+std::vector<campaign::Generator> generators_of(const std::string& option) {
+  std::vector<campaign::Generator> out;
+  for (const campaign::Generator of : campaign::kGenerators) {
+    if (option == "both" || option == name_of(of)) out.push_back(of);
   }
+  return out;
+}
+
+// A scene for each seed and generator, in turn, so that the findings of both come evenly. `parents`: of the round before;
+// a seed changes one of them, a function of the seed. Empty: the first round.
+std::vector<campaign::SceneId> scenes_of(const Range& range, const std::string& generator,
+                                         std::span<const campaign::SceneId> parents) {
+  std::vector<campaign::SceneId> out;
+  for (const campaign::Generator of : generators_of(generator)) {
+    std::vector<campaign::SceneId> mine;
+    std::ranges::copy_if(parents, std::back_inserter(mine),
+                         [&](const campaign::SceneId& id) { return id.generator == of; });
+    if (mine.empty() && !parents.empty()) continue;
+    for (std::uint64_t seed = range.first;; ++seed) {
+      out.push_back(mine.empty() ? campaign::SceneId{of, {}} : mine[seed % mine.size()]);
+      out.back().seeds.push_back(seed);
+      if (seed == range.last) break;
+    }
+  }
+  std::ranges::stable_sort(out, {}, [](const campaign::SceneId& id) { return id.seeds.back(); });
+  return out;
 }
 
 // What verdicts follow from but the scene.
@@ -158,7 +178,12 @@ void judge_scenes(std::span<const campaign::SceneId> scenes, const CheckRules& r
   Workers(worker_count(rules.options, scenes.size()), rules.options.limits, make).run({order, ask, took, ask_again});
 }
 
-// Of all journals but those that another process has, and `mine`.
+std::string journal_name(const CampaignOptions& o, const Range& range) {
+  const std::string round = o.round > 1 ? fmt::format("round{}-", o.round) : "";
+  return fmt::format("{}{}-{}-{}.journal", round, o.generator, range.first, range.last);
+}
+
+// Of all journals but `mine` and those that another process has, which are told.
 std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, const std::string& terms,
                                                      const fs::path& mine = {}) {
   std::vector<fs::path> files;
@@ -177,6 +202,31 @@ std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, con
   return out;
 }
 
+// The scenes of a round that the next one changes: a line for each in `folder`/rounds/ROUND.txt, which is written once,
+// from the results of this round and those before it. All processes of the next round read the same.
+std::vector<campaign::SceneId> kept_of(std::size_t round, const fs::path& folder, const std::string& terms) {
+  const fs::path file = folder / "rounds" / fmt::format("{}.txt", round);
+  if (!fs::exists(file)) {
+    std::vector<std::vector<campaign::Entry>> journals = entries_in(folder / "journal", terms);
+    for (auto& entries : journals) {
+      std::erase_if(entries, [&](const campaign::Entry& e) { return e.id.seeds.size() > round; });
+    }
+    campaign::Results results = campaign::merged(journals);
+    std::string lines;
+    for (const campaign::SceneId& id : results.kept[round]) lines += to_string(id) + "\n";
+    if (lines.empty()) {
+      throw std::invalid_argument(fmt::format("--round {}: expected the results of round {} in {}, found none",
+                                              round + 1, round, folder.string()));
+    }
+    fs::create_directories(file.parent_path());
+    write_file(file, lines);
+  }
+  std::vector<campaign::SceneId> out;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) out.push_back(campaign::scene_id_of(line));
+  return out;
+}
+
 // Scenes that no journal of the folder holds, into the range's own.
 void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::path& journals,
                  const std::string& terms) {
@@ -184,13 +234,15 @@ void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::pa
   std::error_code error;
   fs::create_directories(journals, error);
   if (error) throw OutputError(journals, error.message());
-  const fs::path file = journals / fmt::format("{}-{}-{}.journal", o.generator, range.first, range.last);
+  const std::vector<campaign::SceneId> parents =
+      o.round > 1 ? kept_of(o.round - 1, o.folder, terms) : std::vector<campaign::SceneId>();
+  const fs::path file = journals / journal_name(o, range);
   campaign::Journal journal(file, terms);
   std::set<campaign::SceneId> judged = journal.judged();
   for (const auto& of_other : entries_in(journals, terms, file)) {
     for (const campaign::Entry& entry : of_other) judged.insert(entry.id);
   }
-  std::vector<campaign::SceneId> scenes = scenes_of(range, o.generator);
+  std::vector<campaign::SceneId> scenes = scenes_of(range, o.generator, parents);
   std::erase_if(scenes, [&](const campaign::SceneId& id) { return judged.contains(id); });
   judge_scenes(scenes, rules, journal);
 }
@@ -209,7 +261,7 @@ std::vector<std::string> with_suite_images(std::vector<std::string> assets) {
 
 int campaign(const CampaignOptions& o) {
   if (o.write) {
-    for (const campaign::SceneId& id : scenes_of(range_of(o.seeds), o.generator)) {
+    for (const campaign::SceneId& id : scenes_of(range_of(o.seeds), o.generator, {})) {
       const fs::path file = fs::path(o.folder) / (to_string(id) + ".json");
       std::error_code none;  // what cannot be written says so below
       fs::create_directories(file.parent_path(), none);

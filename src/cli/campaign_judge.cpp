@@ -9,6 +9,7 @@
 
 #include "base/atomic_path.h"
 #include "campaign/shrink.h"
+#include "campaign/states/states.h"
 #include "cli/options/renderers.h"
 #include "scene/file/scene_file.h"
 
@@ -93,9 +94,11 @@ campaign::Entry CampaignJudge::judge(const campaign::SceneId& id, EndedSteps end
   const std::filesystem::path file = write(to_string(id), campaign::scene_text(id));
   const Scene scene = load(file);
   const auto start = std::chrono::steady_clock::now();
-  const check::SceneVerdict verdict = all_.judge(scene, std::move(ended)).verdict;
-  campaign::Entry out{id, {}, {}, check::judged_stages(verdict).empty(), 0};
+  check::BothCaptures drawn;
+  const check::SceneVerdict verdict = all_.judge(scene, std::move(ended), &drawn).verdict;
+  campaign::Entry out{id, {}, {}, check::judged_stages(verdict).empty(), {}, 0};
   out.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  out.states = campaign::states_of(scene, drawn.candidate);
   std::filesystem::remove(file);
   if (auto signature = cli::signature_of(verdict)) out.found.push_back(std::move(*signature));
   for (const check::Comparison& row : verdict.comparisons) {

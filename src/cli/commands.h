@@ -49,6 +49,7 @@ struct CampaignOptions {
   std::string folder;
   std::string seeds;               ///< FIRST..LAST, of each generator; empty: what was judged is told again
   std::string generator = "both";  ///< or ordinary, hard
+  std::size_t round = 1;           ///< from 2 on, scenes are changed that reached something new in the round before
   bool judge_only = false;         ///< findings are neither made smaller nor told
   bool write = false;              ///< the scenes' files, and nothing else
   CheckOptions judging;            ///< candidate, references, jobs, limits, assets; the rest is not used

@@ -16,7 +16,7 @@ namespace plumbline::cli {
 SceneJudge::SceneJudge(const CheckRules& rules, Progress& progress)
     : rules_(&rules), progress_(&progress), kept_(rules.kept) {}
 
-JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
+JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothCaptures* to_hand_out) {
   const CheckOptions& o = rules_->options;
   ended_ = std::move(ended);
   if (!candidate_) {  // here, since what is made may have ended a worker before
@@ -32,7 +32,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
   JudgedScene out;
   check::BothCaptures drawn;
   const bool outside = !o.candidate.command.empty();
-  check::BothCaptures* wanted = rules_->page || outside ? &drawn : nullptr;
+  check::BothCaptures* wanted = rules_->page || outside || to_hand_out != nullptr ? &drawn : nullptr;
   out.verdict = kept_ && ended_.empty() ? check::judge_or_recall(scene, *candidate_, references_.list, *kept_, wanted)
                                         : check::judge(scene, *candidate_, references_.list, wanted);
   check::SceneVerdict& verdict = out.verdict;
@@ -51,6 +51,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended) {
     out.drawing = rules_->page->draw(verdict, references_.list, drawn, scene, verdict.failure, verdict.repeat);
   }
   out.versions = versions_of(*candidate_, references_);
+  if (to_hand_out != nullptr) *to_hand_out = std::move(drawn);
   return out;
 }
 

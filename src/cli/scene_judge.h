@@ -48,9 +48,9 @@ class SceneJudge {
   SceneJudge(const CheckRules& rules, Progress& progress);
   SceneJudge(const SceneJudge&) = delete;
   SceneJudge& operator=(const SceneJudge&) = delete;
-  /// `ended`: the steps that ended workers before. Leaves a page of a scene that does not hold, if asked. Throws
+  /// `ended`: the steps that ended workers before. `drawn`: what both sides drew, if wanted. Leaves a page of a scene that does not hold, if asked. Throws
   /// OutputError.
-  JudgedScene judge(const Scene& scene, EndedSteps ended);
+  JudgedScene judge(const Scene& scene, EndedSteps ended, check::BothCaptures* drawn = nullptr);
 
  private:
   const CheckRules* rules_;

@@ -13,7 +13,7 @@ namespace plumbline::campaign {
 namespace {
 
 Entry entry(std::uint64_t seed) {
-  Entry out{{Generator::hard, {seed}}, {}, {}, seed % 5 == 0, 1.5};
+  Entry out{{Generator::hard, {seed}}, {}, {}, seed % 5 == 0, std::string("\0\x81", 2), 1.5};
   if (seed % 2 == 0) out.found = {{"shade", "different color", "exact, per stage"}};
   if (seed % 3 == 0) out.disputes = {{"merge", "Mesa's fog", "osmesa"}, {"shade", "it's \"so\"", "osmesa"}};
   return out;

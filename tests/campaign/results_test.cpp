@@ -11,7 +11,7 @@ namespace {
 const Signature kShade{"shade", "different color", "exact, per stage"}, kClip{"clip", "different p_clip", "osmesa"};
 
 Entry entry(Generator generator, std::uint64_t seed, std::vector<Signature> found = {}) {
-  return {{generator, {seed}}, std::move(found), {}, false, static_cast<double>(seed)};
+  return {{generator, {seed}}, std::move(found), {}, false, "", static_cast<double>(seed)};
 }
 std::vector<Entry> some() {
   std::vector<Entry> out;

@@ -139,6 +139,27 @@ TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
   EXPECT_TRUE(run.says("nothing could be judged: ")) << run.text;
 }
 
+// A round's scenes are a function of the results of the rounds before, whoever judged them.
+TEST_F(Campaign, GoesInRounds) {
+  EXPECT_EQ(campaign("none", "--seeds 1..2 --round 2").code, 2);
+  for (const char* first : {"1..8", "1..3"}) {
+    const std::string folder = first[3] == '8' ? "one" : "parts";
+    ASSERT_EQ(campaign(folder, fmt::format("--seeds {} --against exact", first)).code, 0);
+  }
+  ASSERT_EQ(campaign("parts", "--seeds 4..8 --against exact --judge-only").code, 0);
+  ASSERT_EQ(campaign("parts", "--seeds 1..4 --round 2 --against exact --judge-only").code, 0);
+  for (const char* folder : {"one", "parts"}) {
+    const Outcome run = campaign(folder, "--seeds 1..8 --round 2 --against exact");
+    EXPECT_EQ(run.code, 0) << run.text;
+    EXPECT_TRUE(run.says("ordinary scenes: 16\nhard scenes: 16\nhold: 32\n")) << run.text;
+  }
+  EXPECT_EQ(results("one"), results("parts"));
+  EXPECT_EQ(read(folder_ / "one/rounds/1.txt"), read(folder_ / "parts/rounds/1.txt"));
+  EXPECT_TRUE(read(folder_ / "one/rounds/1.txt").starts_with("ordinary/1\n"));
+  ASSERT_EQ(campaign("one", "--seeds 1..2 --round 3 --against exact").code, 0);
+  EXPECT_EQ(campaign("one", "--seeds 1..2 --round 0").code, 2);
+}
+
 // PLUMBLINE_KILLS: how often; scripts/kill_updates asks for many.
 TEST_F(Campaign, LosesNothingWhenItIsKilled) {
   const std::string options = "--seeds 1..40 --against exact --jobs 2" + kTruncates;

@@ -1,0 +1,27 @@
+// What scenes have reached together: pairs of states in one scene.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "campaign/states/states.h"
+
+namespace plumbline::campaign {
+
+class Reached {
+ public:
+  Reached();
+  /// Adds a scene's states; says whether any pair of them, or any of them alone, is new.
+  bool add(const StateBits& of_scene);
+  std::size_t states() const;
+  /// Unordered pairs of different states.
+  std::size_t pairs() const;
+  /// States that no scene was of, by number.
+  std::vector<std::size_t> never() const;
+
+ private:
+  std::vector<std::vector<bool>> together_;  ///< by state, by state up to it
+};
+
+}  // namespace plumbline::campaign

@@ -1,0 +1,27 @@
+// What a scene reaches: keys and values of the scene format, and outcomes of the stages.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "capture/capture.h"
+#include "scene/scene.h"
+
+namespace plumbline::campaign {
+
+/// States by number: a bit of the text for each.
+using StateBits = std::string;
+inline bool has_state(std::string_view bits, std::size_t state) {
+  return state / 8 < bits.size() && ((static_cast<unsigned char>(bits[state / 8]) >> (state % 8)) & 1u) != 0;
+}
+
+/// Names of all states, by number: "depth_func less", "clip: a vertex behind the eye".
+const std::vector<std::string>& state_names();
+
+/// The states that a scene is of. `drawn`: its capture; of a stage that it does not hold, no outcome is known.
+StateBits states_of(const Scene& scene, const Capture& drawn);
+
+}  // namespace plumbline::campaign
