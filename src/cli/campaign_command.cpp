@@ -273,8 +273,9 @@ int campaign(const CampaignOptions& o) {
   rules.options.cache.clear();
   rules.options.scene_arguments.assets = with_suite_images(o.judging.scene_arguments.assets);
   if (!rules.options.candidate.command.empty())
-    make_program(rules.options.candidate);                                // refuses what is no command line
-  if (!rules.options.fault.empty()) make_candidate(rules.options.fault);  // and an unknown fault
+    make_program(rules.options.candidate);  // refuses what is no command line
+  const std::string& fault = rules.options.fault;
+  make_candidate(faulted_reference(fault).empty() ? fault : "");  // an unknown fault
   const std::string terms = terms_of(rules.options);
   const fs::path folder = o.folder, journals = folder / "journal";
   if (!o.seeds.empty()) judge_range(o, rules, journals, terms);

@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 // A name for a folder: letters and digits, and one - for all else.
 std::string slug(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char given : text) {
+    const char c = given >= 'A' && given <= 'Z' ? static_cast<char>(given - 'A' + 'a') : given;
     const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
     if (plain) out += c;
     if (!plain && !out.empty() && out.back() != '-') out += '-';

@@ -25,14 +25,15 @@ std::string without_component(std::string_view field) {
   return std::string(dot != field.npos && dot + 2 == field.size() ? field.substr(0, dot) : field);
 }
 
-// Without what differs from scene to scene: numbers, and all after the first 100 letters.
+// Without what differs from scene to scene: the pass, numbers, and all after the first 100 letters.
 std::string without_numbers(std::string_view text) {
   std::string out;
   for (const char c : text.substr(0, 100)) {
     const bool digit = c >= '0' && c <= '9';
     if (!digit || !out.ends_with('#')) out += digit ? '#' : c;
   }
-  return out;
+  constexpr std::string_view kPass = "pass #: ";
+  return out.starts_with(kPass) ? out.substr(kPass.size()) : out;
 }
 
 // Of the rows that say the same of a stage, one judge's wherever that judge is: a bug is one entry, not one for each.

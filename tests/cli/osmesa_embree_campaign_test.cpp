@@ -98,6 +98,17 @@ TEST_F(Campaign, OfTwoCandidatesInOneFolderIsRefused) {
   }
 }
 
+// What crashes in a worker fails the rows of its renderer, and the campaign goes on.
+TEST_F(Campaign, OfRenderersThatCrashNamesThem) {
+  const Outcome reference =
+      campaign("c", "--seeds 1..2 --generator hard --against embree,exact --fault endings.crash:embree:hard/2");
+  EXPECT_EQ(reference.code, 1) << reference.text;
+  EXPECT_TRUE(reference.says("failed: ") && reference.says("(against embree): hard/2\n")) << reference.text;
+  const Outcome ours = campaign("d", "--seeds 1..2 --generator hard --against exact --fault endings.crash");
+  EXPECT_EQ(ours.code, 1) << ours.text;
+  EXPECT_TRUE(ours.says("      2  clip, failed: was killed by signal # (Segmentation fault)")) << ours.text;
+}
+
 TEST_F(Campaign, RefusesBadInput) {
   const std::pair<const char*, const char*> kBad[] = {
       {"", "expected the folder of a campaign, found no journal"},
