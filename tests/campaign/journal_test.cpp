@@ -39,6 +39,7 @@ class Journals : public TestFolder {
       EXPECT_TRUE(std::string(error.what()).starts_with(file_.string())) << error.what();
     }
   }
+  void make() const { const Journal journal(file_, "terms"); }
   void run_sql(const char* statements) const {
     sqlite3* handle = nullptr;
     ASSERT_EQ(sqlite3_open(file_.c_str(), &handle), SQLITE_OK);
@@ -90,7 +91,7 @@ TEST_F(Journals, HaveOneWriter) {
 }
 
 TEST_F(Journals, AreOfOneCampaign) {
-  { const Journal journal(file_, "terms"); }
+  make();
   expect_refused("expected a journal of this campaign (others), found one of terms", "others");
 }
 
@@ -102,7 +103,7 @@ TEST_F(Journals, OfAnotherKindAreRefused) {
   run_sql("CREATE TABLE terms (text TEXT); INSERT INTO terms VALUES ('terms');");
   expect_refused("found another database");
   std::filesystem::remove(file_);
-  { const Journal journal(file_, "terms"); }
+  make();
   run_sql("PRAGMA user_version = 2;");
   expect_refused("expected a journal of version 1, found 2");
   std::filesystem::remove(file_);
