@@ -260,8 +260,8 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   const bool all_count = counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; });
   // A surface after a winner that leaves the depth as it is, is compared with what the winner hides.
   const auto after = [&](const Surface& s) { return !won_writes && s.order > won.order; };
-  const std::size_t pairs_of = all_count || !won_writes ? others.size() : 0;  // else no pair counts
-  for (std::size_t i = 0; i < pairs_of; ++i) {
+  const std::size_t paired = all_count || !won_writes ? others.size() : 0;  // else no pair counts
+  for (std::size_t i = 0; i < paired; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (all_count || after(others[i]) || after(others[j])) share += meeting(scene.frame, others[i], others[j]);
     }

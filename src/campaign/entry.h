@@ -1,4 +1,4 @@
-// What a campaign keeps of a scene that was judged.
+// An entry of a campaign's journal: a scene that was judged.
 #pragma once
 
 #include <compare>
@@ -9,7 +9,7 @@
 
 namespace plumbline::campaign {
 
-/// What a bug is told from another by: scenes of one signature are one entry.
+/// A bug's signature: scenes of one signature are one finding.
 struct Signature {
   std::string stage;  ///< the first different one, by name
   std::string cause;  ///< the outcome and the field of its worst record: "different color"; of a dispute, its reason
@@ -27,7 +27,7 @@ struct Entry {
   std::string states{};             ///< that it is of (states/states.h)
   double milliseconds = 0;          ///< that judging took; another in each run
 };
-/// The same scene, verdict and states, in whatever time.
+/// Whether two entries are of one scene, verdict and states, in whatever time.
 inline bool same_verdict(const Entry& a, const Entry& b) {
   return a.id == b.id && a.found == b.found && a.disputes == b.disputes && a.unable == b.unable && a.states == b.states;
 }

@@ -93,11 +93,11 @@ Results merged(const std::vector<std::vector<Entry>>& journals) {
   }
   std::ranges::sort(conflicts);
   conflicts.erase(std::unique(conflicts.begin(), conflicts.end()), conflicts.end());
+  for (const SceneId& id : conflicts) all.erase(id);  // which of its verdicts is right, nobody knows
   Results out;
   out.conflicts = std::move(conflicts);
   Groups found, disputes;
   for (const auto& [id, entry] : all) {
-    if (std::ranges::binary_search(out.conflicts, id)) continue;  // which of its verdicts is right, nobody knows
     ++out.judged[id.generator];
     out.unable += entry->unable && entry->found.empty() ? 1 : 0;
     out.held += !entry->unable && entry->found.empty() ? 1 : 0;

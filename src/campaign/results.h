@@ -37,7 +37,7 @@ Results merged(const std::vector<std::vector<Entry>>& journals);
 
 /// Lines for people: scenes, a line for each group, the most frequent first.
 std::string text_of(const Results& results);
-/// The same bytes for the same verdicts, whoever judged them and in whatever time.
+/// JSON: the same bytes for the same verdicts, whoever judged them and in whatever time.
 std::string json_of(const Results& results, const std::string& terms);
 
 }  // namespace plumbline::campaign

@@ -17,7 +17,7 @@ using Pointer = Json::json_pointer;
 
 constexpr std::string_view kKept[] = {"description", "mesh", "width", "height", "image", "positions"};
 
-// What gets smaller, by trials: a smaller scene that shows the finding takes the scene's place.
+// A scene that gets smaller by trials: a smaller one that shows the finding takes its place.
 class Shrinker {
  public:
   Shrinker(const std::string& scene, const Shows& shows, int trials)
@@ -26,7 +26,7 @@ class Shrinker {
   std::string shrink() {
     for (std::string before; before != text() && left_ > 0;) {
       before = text();
-      fewer_items(Pointer("/draws"), {});
+      fewer_items({Pointer("/draws")});
       smaller_frame();
       fewer_members(Pointer());
       for (std::size_t i = 0; i < scene_["draws"].size(); ++i) smaller_mesh(Pointer("/draws") / i / "mesh");
@@ -46,25 +46,20 @@ class Shrinker {
     return true;
   }
 
-  // Takes away items of a list, and of the lists beside it: the half, then the quarters, down to each. One item stays.
-  void fewer_items(const Pointer& list, const std::vector<Pointer>& beside) {
+  // Items of lists that stand beside each other taken away: the half, then the quarters, down to each. One item stays.
+  void fewer_items(const std::vector<Pointer>& lists) {
+    const Pointer& list = lists.front();
     for (std::size_t run = scene_[list].size() / 2; run > 0; run /= 2) {
       for (std::size_t first = 0; first < scene_[list].size();) {
         const std::size_t size = scene_[list].size(), count = std::min(run, size - first);
         Json smaller = scene_;
-        for (const Pointer* of : all(list, beside)) {
-          Json& items = smaller[*of];
-          const auto at = static_cast<Json::difference_type>(first);
-          items.erase(items.begin() + at, items.begin() + at + static_cast<Json::difference_type>(count));
+        for (const Pointer& of : lists) {
+          const auto begin = smaller[of].begin() + static_cast<Json::difference_type>(first);
+          smaller[of].erase(begin, begin + static_cast<Json::difference_type>(count));
         }
         if (count == size || !try_instead(std::move(smaller))) first += count;
       }
     }
-  }
-  static std::vector<const Pointer*> all(const Pointer& list, const std::vector<Pointer>& beside) {
-    std::vector<const Pointer*> out{&list};
-    for (const Pointer& other : beside) out.push_back(&other);
-    return out;
   }
 
   void smaller_frame() {
@@ -110,17 +105,17 @@ class Shrinker {
     const Pointer mesh = place / kind;
     fewer_members(mesh);
     if (kind == "points") {
-      fewer_items(mesh / "positions", lists_beside_positions(mesh));
+      fewer_items(lists_of_vertices(mesh));
     } else if (scene_[mesh].contains("indices")) {
-      fewer_items(mesh / "indices", {});
+      fewer_items({mesh / "indices"});
       drop_unused_vertices(mesh);
     } else if (scene_[mesh].is_object()) {
       smaller_counts(mesh);
     }
   }
-  std::vector<Pointer> lists_beside_positions(const Pointer& mesh) const {
+  std::vector<Pointer> lists_of_vertices(const Pointer& mesh) const {
     std::vector<Pointer> out;
-    for (const char* key : {"normals", "colors", "texcoords"}) {
+    for (const char* key : {"positions", "normals", "colors", "texcoords"}) {
       if (scene_[mesh].contains(key)) out.push_back(mesh / key);
     }
     return out;
@@ -137,13 +132,12 @@ class Shrinker {
     for (Json& primitive : of["indices"]) {
       for (Json& i : primitive) i = now[i.get<std::size_t>()];
     }
-    for (const char* key : {"positions", "normals", "colors", "texcoords"}) {
-      if (!of.contains(key)) continue;
+    for (const Pointer& list : lists_of_vertices(mesh)) {
       Json kept = Json::array();
       for (std::size_t i = 0; i < used.size(); ++i) {
-        if (used[i]) kept.push_back(of[key][i]);
+        if (used[i]) kept.push_back(next[list][i]);
       }
-      of[key] = kept;
+      next[list] = kept;
     }
     try_instead(std::move(next));
   }

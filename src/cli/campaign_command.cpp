@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 #include <set>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,12 +19,14 @@
 #include "campaign/entry_bytes.h"
 #include "campaign/journal.h"
 #include "campaign/results.h"
+#include "capture/files/conventions_file.h"
 #include "cli/campaign_judge.h"
 #include "cli/commands.h"
 #include "cli/judge_in_workers.h"
 #include "cli/judges.h"
 #include "cli/options/program_argument.h"
 #include "cli/options/say.h"
+#include "cli/worker_bytes.h"
 
 namespace plumbline::cli {
 
@@ -89,31 +92,15 @@ std::string terms_of(const CheckOptions& o) {
   if (!o.candidate.command.empty()) out += ", program " + o.candidate.command;
   if (!o.candidate.from.empty()) out += ", from " + o.candidate.from;
   if (o.candidate.probes) out += ", each primitive";
-  if (!o.candidate.conventions.empty()) out += ", conventions " + o.candidate.conventions;
+  if (!o.candidate.conventions.empty())
+    out += ", conventions " + conventions_text(conventions_of(o.candidate.conventions));
   return out + fmt::format(", against {}", fmt::join(o.against, ","));
 }
 
-struct CampaignRequest {
-  std::size_t scene = 0;
-  EndedSteps ended;
-  std::string not_compared;  ///< how the comparison itself ended a worker
-  std::string bytes() {
-    ByteWriter writer;
-    visit_all(writer, scene, ended, not_compared);
-    return writer.done();
-  }
-  static CampaignRequest of(const std::string& bytes) {
-    CampaignRequest out;
-    ByteReader reader(bytes, nullptr);
-    visit_all(reader, out.scene, out.ended, out.not_compared);
-    return out;
-  }
-};
-
 // How far it has come: a line that is written over on a terminal, elsewhere one a minute.
-class Told {
+class ProgressLine {
  public:
-  explicit Told(std::size_t scenes) : scenes_(scenes) {}
+  explicit ProgressLine(std::size_t scenes) : scenes_(scenes) {}
   void scene(const campaign::Entry& entry) {
     ++done_;
     for (const campaign::Signature& signature : entry.found) {
@@ -130,7 +117,7 @@ class Told {
                done_, scenes_, rate, found_, static_cast<double>(scenes_ - done_) / rate, terminal_ ? "" : "\n");
     std::fflush(stdout);
   }
-  ~Told() {
+  ~ProgressLine() {
     if (terminal_) fmt::print(stderr, "\r\x1b[K");
   }
 
@@ -143,14 +130,14 @@ class Told {
 
 void judge_scenes(std::span<const campaign::SceneId> scenes, const CheckRules& rules, campaign::Journal& journal) {
   const TemporaryPath scratch(fs::temp_directory_path(), "plumb-campaign-", TemporaryPath::Kind::private_folder);
-  std::vector<CampaignRequest> requests(scenes.size());
+  std::vector<JudgeRequest> requests(scenes.size());
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < scenes.size(); ++i) order.push_back(i), requests[i].scene = i;
-  Told told(scenes.size());
+  ProgressLine line(scenes.size());
   const auto make = [&](Progress& progress) -> Workers::Answer {
     const auto judge = std::make_shared<CampaignJudge>(rules, progress, scratch.path() / std::to_string(::getpid()));
     return [&, judge](const std::string& bytes) {
-      CampaignRequest request = CampaignRequest::of(bytes);
+      JudgeRequest request = request_of(bytes);
       campaign::Entry out;
       if (request.not_compared.empty()) {
         out = judge->judge(scenes[request.scene], std::move(request.ended));
@@ -162,10 +149,10 @@ void judge_scenes(std::span<const campaign::SceneId> scenes, const CheckRules& r
       return writer.done();
     };
   };
-  const auto ask = [&](std::size_t i) { return requests[i].bytes(); };
+  const auto ask = [&](std::size_t i) { return to_bytes(requests[i]); };
   const auto ask_again = [&](std::size_t i, const WorkerEnd& end) {
     (end.step == Progress::kBetween ? requests[i].not_compared : requests[i].ended[end.step]) = end.how;
-    return requests[i].bytes();
+    return to_bytes(requests[i]);
   };
   const auto took = [&](std::size_t i, const std::string& bytes) {
     campaign::Entry entry;
@@ -173,7 +160,7 @@ void judge_scenes(std::span<const campaign::SceneId> scenes, const CheckRules& r
     visit(reader, entry);
     entry.id = scenes[i];
     journal.add(entry);
-    told.scene(entry);
+    line.scene(entry);
   };
   Workers(worker_count(rules.options, scenes.size()), rules.options.limits, make).run({order, ask, took, ask_again});
 }
@@ -183,16 +170,21 @@ std::string journal_name(const CampaignOptions& o, const Range& range) {
   return fmt::format("{}{}-{}-{}.journal", round, o.generator, range.first, range.last);
 }
 
+std::vector<fs::path> journals_in(const fs::path& folder) {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".journal") out.push_back(entry.path());
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
 // Of all journals but `mine` and those that another process has, which are told.
 std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, const std::string& terms,
                                                      const fs::path& mine = {}) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".journal" && entry.path() != mine) files.push_back(entry.path());
-  }
-  std::ranges::sort(files);
   std::vector<std::vector<campaign::Entry>> out;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : journals_in(folder)) {
+    if (file == mine) continue;
     try {
       out.push_back(campaign::Journal(file, terms).entries());
     } catch (const campaign::JournalInUse&) {
@@ -202,29 +194,56 @@ std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, con
   return out;
 }
 
-// The scenes of a round that the next one changes: a line for each in `folder`/rounds/ROUND.txt, which is written once,
-// from the results of this round and those before it. All processes of the next round read the same.
+// The scenes of a round, from the results of it and of those before. Throws JournalInUse while one is judged.
+std::string lines_of_kept(std::size_t round, const fs::path& folder, const std::string& terms) {
+  std::vector<std::vector<campaign::Entry>> journals;
+  for (const fs::path& file : journals_in(folder)) {
+    journals.push_back(campaign::Journal(file, terms).entries());
+    std::erase_if(journals.back(), [&](const campaign::Entry& e) { return e.id.seeds.size() > round; });
+  }
+  campaign::Results results = campaign::merged(journals);
+  std::string out;
+  for (const campaign::SceneId& id : results.kept[round]) out += to_string(id) + "\n";
+  if (out.empty())
+    throw std::invalid_argument(fmt::format("--round {}: expected results of round {}, found none", round + 1, round));
+  return out;
+}
+
+// The scenes of a round that the next one changes: a line for each in `folder`/rounds/ROUND.txt, which is written once.
+// All processes of the next round read the same. Some may begin at a time: who reads a journal has it for a moment.
 std::vector<campaign::SceneId> kept_of(std::size_t round, const fs::path& folder, const std::string& terms) {
   const fs::path file = folder / "rounds" / fmt::format("{}.txt", round);
-  if (!fs::exists(file)) {
-    std::vector<std::vector<campaign::Entry>> journals = entries_in(folder / "journal", terms);
-    for (auto& entries : journals) {
-      std::erase_if(entries, [&](const campaign::Entry& e) { return e.id.seeds.size() > round; });
+  const auto until = Clock::now() + std::chrono::seconds(10);
+  while (!fs::exists(file)) {
+    try {
+      const std::string lines = lines_of_kept(round, folder / "journal", terms);
+      fs::create_directories(file.parent_path());
+      write_file(file, lines);
+    } catch (const campaign::JournalInUse&) {
+      if (Clock::now() > until) throw;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    campaign::Results results = campaign::merged(journals);
-    std::string lines;
-    for (const campaign::SceneId& id : results.kept[round]) lines += to_string(id) + "\n";
-    if (lines.empty()) {
-      throw std::invalid_argument(fmt::format("--round {}: expected the results of round {} in {}, found none",
-                                              round + 1, round, folder.string()));
-    }
-    fs::create_directories(file.parent_path());
-    write_file(file, lines);
   }
   std::vector<campaign::SceneId> out;
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) out.push_back(campaign::scene_id_of(line));
   return out;
+}
+
+// The scenes that were asked for.
+std::vector<campaign::SceneId> scenes_of(const CampaignOptions& o, const std::string& terms) {
+  const Range range = range_of(o.seeds);
+  return scenes_of(range, o.generator,
+                   o.round > 1 ? kept_of(o.round - 1, o.folder, terms) : std::vector<campaign::SceneId>());
+}
+
+void write_scenes(const CampaignOptions& o, const std::string& terms) {
+  for (const campaign::SceneId& id : scenes_of(o, terms)) {
+    const fs::path file = fs::path(o.folder) / (to_string(id) + ".json");
+    std::error_code none;  // what cannot be written says so below
+    fs::create_directories(file.parent_path(), none);
+    write_file(file, campaign::scene_text(id));
+  }
 }
 
 // Scenes that no journal of the folder holds, into the range's own.
@@ -234,15 +253,13 @@ void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::pa
   std::error_code error;
   fs::create_directories(journals, error);
   if (error) throw OutputError(journals, error.message());
-  const std::vector<campaign::SceneId> parents =
-      o.round > 1 ? kept_of(o.round - 1, o.folder, terms) : std::vector<campaign::SceneId>();
+  std::vector<campaign::SceneId> scenes = scenes_of(o, terms);
   const fs::path file = journals / journal_name(o, range);
   campaign::Journal journal(file, terms);
   std::set<campaign::SceneId> judged = journal.judged();
   for (const auto& of_other : entries_in(journals, terms, file)) {
     for (const campaign::Entry& entry : of_other) judged.insert(entry.id);
   }
-  std::vector<campaign::SceneId> scenes = scenes_of(range, o.generator, parents);
   std::erase_if(scenes, [&](const campaign::SceneId& id) { return judged.contains(id); });
   judge_scenes(scenes, rules, journal);
 }
@@ -260,24 +277,19 @@ std::vector<std::string> with_suite_images(std::vector<std::string> assets) {
 }  // namespace
 
 int campaign(const CampaignOptions& o) {
-  if (o.write) {
-    for (const campaign::SceneId& id : scenes_of(range_of(o.seeds), o.generator, {})) {
-      const fs::path file = fs::path(o.folder) / (to_string(id) + ".json");
-      std::error_code none;  // what cannot be written says so below
-      fs::create_directories(file.parent_path(), none);
-      write_file(file, campaign::scene_text(id));
-    }
-    return kHolds;
-  }
   CheckRules rules{o.judging, std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()), {}, {}, {}, {}};
   rules.options.cache.clear();
   rules.options.scene_arguments.assets = with_suite_images(o.judging.scene_arguments.assets);
   if (!rules.options.candidate.command.empty())
     make_program(rules.options.candidate);  // refuses what is no command line
   const std::string& fault = rules.options.fault;
-  make_candidate(faulted_reference(fault).empty() ? fault : "");  // an unknown fault
+  make_candidate(faulted_reference(fault).empty() ? fault : "");  // refuses an unknown fault
   const std::string terms = terms_of(rules.options);
   const fs::path folder = o.folder, journals = folder / "journal";
+  if (o.write) {
+    write_scenes(o, terms);
+    return kHolds;
+  }
   if (!o.seeds.empty()) judge_range(o, rules, journals, terms);
   if (o.judge_only) return kHolds;
   if (!fs::is_directory(journals)) {
@@ -288,6 +300,9 @@ int campaign(const CampaignOptions& o) {
   write_file(folder / "results.json", json_of(results, terms));
   fmt::print("{}{}judging: {:.1f} ms a scene\n", findings, text_of(results),
              results.milliseconds / static_cast<double>(std::max<std::uint64_t>(results.scenes(), 1)));
+  if (results.held == 0 && results.found.empty() && results.conflicts.empty()) {
+    throw std::invalid_argument(fmt::format("{}: expected a scene that could be judged, found none", o.folder));
+  }
   return results.found.empty() && results.conflicts.empty() ? kHolds : kDiffers;
 }
 

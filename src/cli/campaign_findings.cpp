@@ -55,7 +55,7 @@ std::vector<Finding> unknown(const fs::path& folder, const std::vector<campaign:
     std::string name = slug(fmt::format("{}-{}-{}", stage, cause, reference));
     while (!names.insert(name).second) name += "-2";
     Finding finding{&group, folder / name, campaign::scene_text(group.first.front())};
-    if (!fs::exists(finding.folder / "scene.json") || read(finding.folder / "found.json") != finding.found) {
+    if (!fs::exists(finding.folder / "scene.txt") || read(finding.folder / "found.json") != finding.found) {
       out.push_back(std::move(finding));
     }
   }
@@ -82,6 +82,7 @@ void leave_smallest(const std::vector<Finding>& findings, const CheckRules& rule
     const Finding& of = findings[i];
     const fs::path found = of.folder / "found.json", file = of.folder / "scene.json";
     fs::create_directories(of.folder);
+    fs::remove(of.folder / "scene.txt");  // which is written last
     const OutputFile files[] = {{found, of.found}, {file, smallest.empty() ? of.found : smallest}};
     write_files(files);
   };

@@ -83,17 +83,9 @@ std::filesystem::path CampaignJudge::write(const std::string& name, const std::s
   return file;
 }
 
-// Without the notes that it has for people.
-Scene CampaignJudge::load(const std::filesystem::path& file) const {
-  SceneFileOptions options;
-  const auto& assets = rules_->options.scene_arguments.assets;
-  options.asset_folders.insert(options.asset_folders.begin(), assets.begin(), assets.end());
-  return load_scene(file, options);
-}
-
 campaign::Entry CampaignJudge::judge(const campaign::SceneId& id, EndedSteps ended) {
   const std::filesystem::path file = write(to_string(id), campaign::scene_text(id));
-  const Scene scene = load(file);
+  const Scene scene = rules_->options.scene_arguments.load_silently(file);
   const auto start = std::chrono::steady_clock::now();
   check::BothCaptures drawn;
   const check::SceneVerdict verdict = all_.judge(scene, std::move(ended), &drawn).verdict;
@@ -113,7 +105,7 @@ campaign::Entry CampaignJudge::judge(const campaign::SceneId& id, EndedSteps end
 
 std::optional<campaign::Signature> CampaignJudge::signature_of(SceneJudge& judge, const std::string& text) {
   try {
-    const Scene scene = load(write("shrink/scene", text));
+    const Scene scene = rules_->options.scene_arguments.load_silently(write("shrink/scene", text));
     return cli::signature_of(judge.judge(scene, {}).verdict);
   } catch (const SceneError&) {
     return std::nullopt;  // no scene is left

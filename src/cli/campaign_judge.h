@@ -28,7 +28,6 @@ class CampaignJudge {
  private:
   std::optional<campaign::Signature> signature_of(SceneJudge& judge, const std::string& text);
   std::filesystem::path write(const std::string& name, const std::string& text) const;
-  Scene load(const std::filesystem::path& file) const;
 
   const CheckRules* rules_;
   Progress* progress_;

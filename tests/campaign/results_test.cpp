@@ -59,6 +59,8 @@ TEST(CampaignResults, TwoVerdictsOfOneSceneAreAConflict) {
   std::vector<Entry> other = some();
   other[1].found = {kClip};
   other[2].unable = true;
+  other[1].states = "\x07";
+  EXPECT_EQ(json_of(merged({some(), other}), ""), json_of(merged({other, some()}), ""));
   for (const Results& r : {merged({some(), other}), merged({other, some()})}) {
     EXPECT_EQ(r.conflicts, (std::vector<SceneId>{{Generator::hard, {2}}, {Generator::hard, {3}}}));
     EXPECT_EQ(r.scenes(), 10u);

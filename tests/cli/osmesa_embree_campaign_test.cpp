@@ -98,6 +98,24 @@ TEST_F(Campaign, OfTwoCandidatesInOneFolderIsRefused) {
   }
 }
 
+// What was not judged never passes.
+TEST_F(Campaign, ThatJudgesNothingDoesNotHold) {
+  fs::create_directories(folder_ / "d/journal");
+  const Outcome empty = campaign("d", "");
+  EXPECT_EQ(empty.code, 2) << empty.text;
+  EXPECT_TRUE(empty.says("expected a scene that could be judged, found none")) << empty.text;
+}
+
+// A finding whose page was never written is made again.
+TEST_F(Campaign, EndsWhatAKilledOneBeganOfAFinding) {
+  ASSERT_EQ(campaign("c", "--seeds 1..2 --against exact" + kTruncates).code, 1);
+  const fs::path finding = folder_ / "c/findings/depth-different-z-exact-per-stage";
+  fs::remove_all(finding / "scene");
+  fs::remove(finding / "scene.txt");
+  ASSERT_EQ(campaign("c", "--against exact" + kTruncates).code, 1);
+  EXPECT_TRUE(fs::exists(finding / "scene/index.html") && fs::exists(finding / "scene.txt"));
+}
+
 // What crashes in a worker fails the rows of its renderer, and the campaign goes on.
 TEST_F(Campaign, OfRenderersThatCrashNamesThem) {
   const Outcome reference =
@@ -146,8 +164,8 @@ TEST_F(Campaign, NamesAFileThatAnOrdinarySceneLacks) {
 TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
   const Outcome run =
       campaign("c", fmt::format("--seeds 1..4 --program '{} {{input}} {{output}}'", PLUMBLINE_C_RENDERER));
-  EXPECT_TRUE(run.code == 0 || run.code == 1) << run.text;
-  EXPECT_TRUE(run.says("nothing could be judged: ")) << run.text;
+  EXPECT_EQ(run.code, 2) << run.text;
+  EXPECT_TRUE(run.says("hold: 0\nnothing could be judged: 8\n")) << run.text;
 }
 
 // A round's scenes are a function of the results of the rounds before, whoever judged them.
@@ -169,6 +187,9 @@ TEST_F(Campaign, GoesInRounds) {
   EXPECT_TRUE(read(folder_ / "one/rounds/1.txt").starts_with("ordinary/1\n"));
   ASSERT_EQ(campaign("one", "--seeds 1..2 --round 3 --against exact").code, 0);
   EXPECT_EQ(campaign("one", "--seeds 1..2 --round 0").code, 2);
+  ASSERT_EQ(campaign("one", "--seeds 1..1 --generator hard --round 2 --write").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "one/hard/1.json"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "one/hard"), fs::directory_iterator()), 1);
 }
 
 // A campaign is killed and begun again until it ends; then the next one. PLUMBLINE_KILLS: how often; scripts/kill_updates

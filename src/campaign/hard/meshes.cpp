@@ -12,7 +12,7 @@ std::string points_text(const std::vector<Point>& positions) {
   return json_array(out);
 }
 
-// Of unit length exactly, or to nine digits.
+// Normals of unit length, exactly or to nine digits.
 std::string normals_text(Builder& b, std::size_t count) {
   static constexpr std::array<Point, 8> kNormals = {{{0, 0, 1},
                                                      {0, 0, -1},

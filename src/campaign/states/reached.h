@@ -1,4 +1,4 @@
-// What scenes have reached together: pairs of states in one scene.
+// Pairs of states that scenes have reached together.
 #pragma once
 
 #include <cstddef>

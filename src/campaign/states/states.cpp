@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -228,7 +227,7 @@ class Teller {
   }
 
   const Scene& scene_;
-  const decltype(Capture::records)& records_;
+  const Records<double>& records_;
   const Planes& planes_;
   const std::function<void(const std::string&, bool)>& tell_;
 };

@@ -1,4 +1,4 @@
-// What a scene reaches: keys and values of the scene format, and outcomes of the stages.
+// States of a scene: keys and values of the scene format, and outcomes of the stages.
 #pragma once
 
 #include <cstddef>

@@ -26,6 +26,8 @@ void say_notes(const Scene& scene, const std::filesystem::path& file) {
 
 }  // namespace
 
+Scene SceneArguments::load_silently(const std::filesystem::path& file) const { return read(file, assets); }
+
 Scene SceneArguments::load(const std::filesystem::path& file) const {
   Scene scene = read(file, assets);
   say_notes(scene, file);
