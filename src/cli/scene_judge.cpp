@@ -33,8 +33,10 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothC
   check::BothCaptures drawn;
   const bool outside = !o.candidate.command.empty();
   check::BothCaptures* wanted = rules_->page || outside || to_hand_out != nullptr ? &drawn : nullptr;
-  out.verdict = kept_ && ended_.empty() ? check::judge_or_recall(scene, *candidate_, references_.list, *kept_, wanted)
-                                        : check::judge(scene, *candidate_, references_.list, wanted);
+  const References& asked = references_;
+  out.verdict = kept_ && ended_.empty()
+                    ? check::judge_or_recall(scene, *candidate_, asked.list, *kept_, wanted, asked.arbiters)
+                    : check::judge(scene, *candidate_, asked.list, wanted, ~std::uint64_t{0}, asked.arbiters);
   check::SceneVerdict& verdict = out.verdict;
   if (outside && report::conformance_of(verdict) == report::Conformance::differs) {
     verdict.cause = likely_fault(scene, drawn.candidate, verdict);

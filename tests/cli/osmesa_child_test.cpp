@@ -69,11 +69,18 @@ TEST_F(Cli, softpipe_breaks_ties_otherwise_which_exact_settles) {
   EXPECT_NE(row_of(run.text, "softpipe", "window").find("rounded otherwise"), std::string::npos) << run.text;
 }
 
-TEST_F(Cli, softpipe_alone_is_not_excused) {
+TEST_F(Cli, softpipe_alone_is_settled_by_exact_which_was_not_named) {
   const Outcome run = plumb("check " + kTies + " --against softpipe");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_NE(row_of(run.text, "softpipe", "coverage").find("dispute"), std::string::npos) << run.text;
+  EXPECT_FALSE(run.says(" exact ") || run.says(" embree ")) << "no row of an arbiter: " << run.text;
+}
+
+TEST_F(Cli, softpipe_alone_sees_a_fault) {
+  const Outcome run = plumb("check " + kTies + " --against softpipe --fault coverage.inclusive_edges");
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_NE(row_of(run.text, "softpipe", "coverage").find("different"), std::string::npos) << run.text;
-  EXPECT_TRUE(run.says("repeat: " PLUMBLINE_PLUMB " check " + kTies + " --against softpipe")) << run.text;
+  EXPECT_TRUE(run.says("repeat: " PLUMBLINE_PLUMB " check " + kTies + " --against softpipe --fault")) << run.text;
 }
 
 TEST_F(Cli, softpipe_sees_a_fault) {

@@ -76,8 +76,11 @@ bool tried_at_random(double seconds) {
 }
 
 SceneVerdict judge_or_recall(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
-                             KeptVerdicts& kept, BothCaptures* drawn) {
-  if (!was_read_from_its_files(scene, kept.began)) return judge(scene, candidate, references, drawn);
+                             KeptVerdicts& kept, BothCaptures* drawn, std::span<const Reference> arbiters) {
+  const auto judge_as = [&](Renderer& drawing) {
+    return judge(scene, drawing, references, drawn, ~std::uint64_t{0}, arbiters);
+  };
+  if (!was_read_from_its_files(scene, kept.began)) return judge_as(candidate);
   const auto start = std::chrono::steady_clock::now();
   const Hash key = key_of(scene, references, kept.judges);
   std::optional<Kept> before = find(kept.store, key, kept.words);
@@ -87,7 +90,7 @@ SceneVerdict judge_or_recall(const Scene& scene, Renderer& candidate, std::span<
     before->verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(before->verdict);
   }
-  SceneVerdict verdict = judge(scene, traced, references, drawn);
+  SceneVerdict verdict = judge_as(traced);
   if (before && without_time(before->verdict) != without_time(verdict)) {
     kept.store.forget(key);
     verdict.comparisons.push_back(not_judged(scene.name, "comparison", Stage::merge, Outcome::failed,

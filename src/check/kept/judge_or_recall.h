@@ -32,6 +32,7 @@ bool tried_at_random(double seconds);
 /// time. Only verdicts without a failure are kept. Where a verdict that is tried is another than the kept one, a row
 /// `failed` says so beside it. A kept one is without the pixels that differ (verdict_bytes.h), and leaves `drawn` empty.
 SceneVerdict judge_or_recall(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
-                             KeptVerdicts& kept, BothCaptures* drawn = nullptr);
+                             KeptVerdicts& kept, BothCaptures* drawn = nullptr,
+                             std::span<const Reference> arbiters = {});
 
 }  // namespace plumbline::check

@@ -20,12 +20,16 @@ References make_references(const std::vector<std::string>& names, const std::vec
                            const Watch& watch, const std::string& fault) {
   References out;
   std::uint32_t number = 0;
-  for (const std::string& name : names) {
+  const auto add = [&](const std::string& name, std::vector<check::Reference>& to) {
     Watch own = watch;
     if (in_own_process(name)) own.limit += kOwnProcessLimit;  // which ends it before
     const auto make = [&] { return make_reference(name, assets, fault); };
     out.owned.push_back(make_watched(name, make, ++number, own));
-    out.list.push_back({name, out.owned.back().get()});
+    to.push_back({name, out.owned.back().get()});
+  };
+  for (const std::string& name : names) add(name, out.list);
+  for (const std::string& name : default_references()) {
+    if (name != opengl_reference() && std::ranges::count(names, name) == 0) add(name, out.arbiters);
   }
   return out;
 }

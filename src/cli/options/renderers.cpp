@@ -88,6 +88,8 @@ const std::vector<std::string>& reference_names() {
   return kNames;
 }
 
+std::string_view opengl_reference() { return kOpenGl; }
+
 const std::vector<std::string>& default_references() {
   static const std::vector<std::string> kNames = [] {
     std::vector<std::string> names = reference_names();

@@ -16,6 +16,8 @@ namespace plumbline::cli {
 const std::vector<std::string>& reference_names();
 /// Those of them that this program was built with: asked where none are named.
 const std::vector<std::string>& default_references();
+/// The OpenGL one of reference_names().
+std::string_view opengl_reference();
 /// All references that there are, built in or not, in the order in which they are asked.
 const std::vector<std::string>& known_reference_names();
 /// These, `ours` and `definition`.
