@@ -84,12 +84,22 @@ class OpenGlRenderer final : public Renderer {
     if (samples && frame.stencil != StencilFormat::none) {
       throw Unsupported("OpenGL: multisampled stencil values are not read here");
     }
-    for (const Draw& draw : scene.draws) {
-      const bool one_filled = (draw.front_mode == PolygonMode::fill) != (draw.back_mode == PolygonMode::fill);
-      if (one_filled && draw.polygon_offset != PolygonOffset{}) {
-        throw Unsupported(
-            "where one face alone is filled, Mesa offsets the other's depths (OpenGL 2.1, section 3.5.5)");
-      }
+    for (const Draw& draw : scene.draws) require_outlines_shown(scene, draw);
+  }
+
+  // Faces that are not filled, as Mesa draws otherwise than OpenGL 2.1 says.
+  static void require_outlines_shown(const Scene& scene, const Draw& draw) {
+    const bool front = draw.front_mode == PolygonMode::fill, back = draw.back_mode == PolygonMode::fill;
+    const bool moved = draw.polygon_offset != PolygonOffset{};
+    if (front != back && moved) {
+      throw Unsupported("where one face alone is filled, Mesa offsets the other's depths (OpenGL 2.1, section 3.5.5)");
+    }
+    if (!front && !back && moved && scene.depth_clamp) {
+      throw Unsupported("of faces that are not filled, Mesa clamps the corners' offset depths (ARB_depth_clamp)");
+    }
+    if (!back && draw.stencil && draw.stencil->front != draw.stencil->back) {
+      throw Unsupported(
+          "where a back face is not filled, Mesa takes the front's stencil state (OpenGL 2.1, section 4.1.5)");
     }
   }
 

@@ -40,6 +40,7 @@ struct StencilFace {
   StencilOp depth_fail = StencilOp::keep;  ///< where it passes and the depth test fails
   StencilOp pass = StencilOp::keep;        ///< where both pass
   std::uint8_t write_mask = 0xff;          ///< the bits that an op may change
+  bool operator==(const StencilFace&) const = default;
 };
 /// Of triangles that face back, and of all else.
 struct Stencil {
