@@ -120,8 +120,9 @@ std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& siz
   return {z, z, x, x, y, y};
 }
 
-/// Distances inside the view volume's planes, each plus what float arithmetic may add; near and far first.
-std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin) {
+/// Distances inside the view volume's planes, each plus what float arithmetic may add; near and far first. `deep`: with
+/// the eye's plane for the near one, and no far one.
+std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin, bool deep) {
   const glm::dvec2 reach(0.5 * scene.width + margin, 0.5 * scene.height + margin);
   const glm::dvec2 at = glm::dvec2(c.v) + scene.sample * c.v.z;  // the frame itself is not moved
   std::array<double, 6> inside{
@@ -129,7 +130,7 @@ std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, dou
       reach.y * c.v.z + at.y};
   const std::array<double, 6> error = plane_errors(scene, c.size, margin);
   for (std::size_t p = 0; p < 6; ++p) inside[p] += error[p];
-  if (scene.depth_clamp) {  // the sides meet at the eye: nothing is behind it
+  if (deep) {  // the sides meet at the eye: nothing is behind it
     inside[0] = c.v.z + kRoundingsCut * kFloatRounding * c.size.w;
     inside[1] = 1;  // everything, and at the cuts between as well
   }
@@ -153,7 +154,7 @@ Polygon visible_part(const Projected& scene, const std::array<const Corner*, 3>&
   };
   std::array<Vertex, kMostCorners> in, out;
   std::size_t count = 3;
-  for (std::size_t i = 0; i < 3; ++i) in[i] = {corners[i]->v, inside_planes(scene, *corners[i], 0)};
+  for (std::size_t i = 0; i < 3; ++i) in[i] = {corners[i]->v, inside_planes(scene, *corners[i], 0, scene.depth_clamp)};
   for (std::size_t plane = 0; plane < 6; ++plane) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -230,6 +231,26 @@ void set_planes(const std::array<const Corner*, 3>& c, Triangle& t) {
   t.flat = !(std::abs(det) > 1e-12 * terms) || !std::isfinite(t.z_plane.z) || !std::isfinite(t.w_plane.z);
 }
 
+/// How far the triangle's places may be moved at a pixel, beyond first order.
+/// - Where w is e off, what is divided by it is w / (w - e) off again; from e = w/2 on, beside the eye, it may be
+///   anywhere.
+/// - A place is moved by C / w (float_displacement), and 1/w is affine in the window: of the places s pixels from the
+///   one nearest to a pixel some are moved by C g s more, g the slope of 1/w, and reach it where s <= moved + C g s:
+///   1 / (1 - C g) times as far. From C g = 1/2 on the largest displacement is taken for all.
+void set_growth(const Projected& scene, Triangle& t) {
+  const double in_float = kFloatRounding * t.roundings, of_w = in_float * t.size.w / t.w_min;
+  const glm::dvec2 half(0.5 * scene.width, 0.5 * scene.height);
+  const double moved = in_float * glm::length(glm::dvec2(t.size) + half * t.size.w);
+  const double grows = moved * glm::length(glm::dvec2(t.w_plane));
+  if (of_w < 0.5) {
+    t.reach /= 1 - of_w;
+    t.growth = grows < 0.5 ? 1 / (1 - grows) : std::numeric_limits<double>::infinity();
+  } else {
+    t.loose = t.flat = true;
+    t.reach = scene.width + scene.height;
+  }
+}
+
 void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   const std::array<const Corner*, 3> c{&scene.corners[t.corner[0]], &scene.corners[t.corner[1]],
                                        &scene.corners[t.corner[2]]};
@@ -239,7 +260,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   if (part.count < 3) return;
   set_planes(c, t);
   for (const Corner* corner : c) {  // a corner on a plane of the view volume may or may not be cut
-    const auto inside = inside_planes(scene, *corner, 0);
+    const auto inside = inside_planes(scene, *corner, 0, scene.depth_clamp);
     const auto error = plane_errors(scene, corner->size, 0);
     for (std::size_t p = 0; p < 6; ++p) t.cut |= inside[p] < 4 * error[p];
   }
@@ -264,6 +285,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
     farthest = glm::max(farthest, glm::abs(part.v[i] / w));
   }
   t.reach = displacement(scene, t, farthest, t.w_min);
+  set_growth(scene, t);
   const Widths width = widths(p_window, part.count, 2 * t.reach);
   t.altitude = t.cut ? width.pieces : width.whole;
   t.fat_altitude = t.cut ? width.fat : width.whole;
@@ -286,8 +308,9 @@ double displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, dou
   return scene.snap + glm::length(float_displacement(scene, t, d, w));
 }
 
-Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, double margin) {
-  const auto a = inside_planes(scene, j, margin), b = inside_planes(scene, k, margin);
+namespace {
+
+Piece piece_inside(const std::array<double, 6>& a, const std::array<double, 6>& b) {
   Piece piece;
   for (std::size_t p = 0; p < 6; ++p) {
     if (a[p] < 0 && b[p] < 0) return {1, 0};
@@ -296,6 +319,17 @@ Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, do
     if (b[p] < 0) piece.to = std::min(piece.to, t);
   }
   return piece;
+}
+
+}  // namespace
+
+Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, double margin) {
+  const bool deep = scene.depth_clamp;
+  return piece_inside(inside_planes(scene, j, margin, deep), inside_planes(scene, k, margin, deep));
+}
+
+Piece piece_in_window(const Projected& scene, const Corner& j, const Corner& k, double margin) {
+  return piece_inside(inside_planes(scene, j, margin, true), inside_planes(scene, k, margin, true));
 }
 
 namespace {

@@ -24,5 +24,7 @@ struct Piece {
 /// The part of the edge from corner j to corner k that lies between the near and far planes, with what float arithmetic
 /// may add to it, and within `margin` pixels of the window.
 Piece visible_piece(const Projected& scene, const Corner& j, const Corner& k, double margin);
+/// The part that lies before the eye, however deep, and within `margin` pixels of the window.
+Piece piece_in_window(const Projected& scene, const Corner& j, const Corner& k, double margin);
 
 }  // namespace plumbline::math

@@ -49,6 +49,7 @@ struct Triangle {
   bool flat = false;         ///< without area in double: it has no plane
   bool cut = false;          ///< some renderer may cut it at the view volume
   bool ahead = false;        ///< all w > 0
+  bool loose = false;        ///< float arithmetic may move it anywhere in the window; flat as well
   double sign = 0;           ///< of det
   std::array<glm::dvec3, 3> n;
   std::array<double, 3> per_pixel;  ///< 1 / |(n_i.x, n_i.y)|: e_i times it is the distance to the edge's line
@@ -63,6 +64,7 @@ struct Triangle {
   double altitude = 0;              ///< pixels: the smallest one of all planes a renderer may set up for it
   double fat_altitude = 0;  ///< of those that are thicker than snapping may turn; thinner ones lie along its border
   double reach = 0;         ///< pixels: the largest vertex displacement over its visible part
+  double growth = 1;        ///< times the displacement at the place nearest to a pixel: that of any place, at the pixel
 };
 
 /// z_win of a triangle's z_view.

@@ -41,7 +41,6 @@ namespace {
 /// a corner to the next, or its corners as points. Facing goes by the sign of the area of the whole, equation 3.6.
 void append_outline(const Draw& draw, const std::vector<WindowVertex<double>>& corners, std::uint32_t primitive,
                     bool front, PolygonMode mode, std::vector<WindowTriangle<double>>& out) {
-  if (culled(draw.cull, front)) return;
   const std::size_t n = corners.size();
   for (std::size_t i = 0; i < n; ++i) {
     const WindowVertex<double>&before = corners[(i + n - 1) % n], &corner = corners[i];
@@ -103,6 +102,8 @@ std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const C
       continue;
     }
     const bool front = faces_front(corners);
+    const bool filled = state.front_mode == PolygonMode::fill && state.back_mode == PolygonMode::fill;
+    if (!filled && culled(state.cull, front)) continue;  // by the face that chooses the mode: that of the whole
     if (const PolygonMode mode = front ? state.front_mode : state.back_mode; mode != PolygonMode::fill) {
       append_outline(state, corners, polygon.primitive, front, mode, triangles);
       continue;
@@ -111,7 +112,7 @@ std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const C
       WindowTriangle<double> triangle{{corners[i - 1], corners[i], corners[0]}, polygon.primitive, false};
       const int sign = facing(snapped_corners(triangle));
       triangle.front = sign > 0;
-      if (sign != 0 && !culled(scene.draws[draw].cull, triangle.front)) triangles.push_back(triangle);
+      if (sign != 0 && !culled(state.cull, triangle.front)) triangles.push_back(triangle);
     }
   }
   return triangles;

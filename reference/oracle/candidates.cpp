@@ -80,9 +80,13 @@ void add_by_edges(const Projected& projected, Candidates& out) {
   for (std::uint32_t primitive = 0; primitive < projected.triangles.size(); ++primitive) {
     const Triangle& t = projected.triangles[primitive];
     if (!t.drawn) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
+    const auto pixels = static_cast<std::uint32_t>(projected.width * projected.height);
+    for (std::uint32_t pixel = 0; t.loose && pixel < pixels; ++pixel) out.add(pixel, primitive);
+    for (std::size_t i = 0; i < 3 && !t.loose; ++i) {
       const Corner &j = projected.corners[t.corner[i]], &k = projected.corners[t.corner[(i + 1) % 3]];
-      const Piece piece = visible_piece(projected, j, k, t.reach + 1);
+      // Its parts before the near plane and behind the far one as well: a triangle that is seen edge on is snapped onto
+      // pixels that lie beyond such an edge and beyond the plane.
+      const Piece piece = piece_in_window(projected, j, k, t.reach + 1);
       if (piece.from > piece.to) continue;
       std::array<glm::dvec2, 2> p;
       for (std::size_t end = 0; end < 2; ++end) {

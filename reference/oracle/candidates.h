@@ -46,7 +46,7 @@ class Candidates {
 /// Throws OverBudget.
 void add_by_boxes(const Projected& projected, Candidates& out);
 /// Every triangle with the pixels whose centres are within snapping and float error of an edge of it, by walking along
-/// its edges. Throws OverBudget.
+/// its edges; of a loose one, all pixels. Throws OverBudget.
 void add_by_edges(const Projected& projected, Candidates& out);
 
 }  // namespace plumbline::math

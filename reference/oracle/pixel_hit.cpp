@@ -351,13 +351,13 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   if (scissor && !scissor->holds(px, py)) return std::nullopt;
   const glm::dvec3 d = projected.ray(px, py);
   const Place at = place(projected, t, d);
-  if (!at.inside && !(at.border <= t.reach)) return std::nullopt;
+  if (!at.inside && !t.loose && !(at.border <= t.reach)) return std::nullopt;
   const double w = std::clamp(at.w, t.w_min, t.w_max);
   const glm::dvec2 moved = float_displacement(projected, t, at.nearest, w);
   PixelHit out;
   // One that is seen edge on may, by rounding, show what comes nearest to the eye, wherever that is seen.
-  out.delta = t.flat ? t.reach : std::min(t.reach, projected.snap + glm::length(moved));
-  if (!at.inside && at.border > out.delta) return std::nullopt;
+  out.delta = t.flat ? t.reach : std::min(t.reach, projected.snap + t.growth * glm::length(moved));
+  if (!at.inside && !t.loose && at.border > out.delta) return std::nullopt;
   out.hit.primitive = primitive;
   out.hit.depth_func = scene.draws[t.draw].depth_func;
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
