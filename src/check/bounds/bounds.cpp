@@ -186,6 +186,18 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y, co
   return out;
 }
 
+bool area_may_vanish(const WindowTriangle<double>& t) {
+  if (t.corners < 3) return false;
+  const Vec2<double> a(t.v[0].p_win), e1 = Vec2<double>(t.v[1].p_win) - a, e2 = Vec2<double>(t.v[2].p_win) - a;
+  const double terms = std::abs(e1.x * e2.y) + std::abs(e1.y * e2.x);
+  return std::abs(e1.x * e2.y - e1.y * e2.x) <= 3 * kFloatRounding * terms;
+}
+
+bool is_near(const WindowTriangle<double>& t, int x, int y) {
+  const Vec3<double> b = barycentrics(t, x + 0.5, y + 0.5).value;
+  return std::min({b.x, b.y, b.z}) >= -1.0 / 64;
+}
+
 std::span<const WindowTriangle<double>> triangles_of(const Records<double>& r, std::int32_t primitive) {
   const auto number = [](const WindowTriangle<double>& t) { return static_cast<std::int32_t>(t.primitive); };
   const auto first = std::ranges::lower_bound(r.triangles, primitive, {}, number);
@@ -299,6 +311,27 @@ PlaneValue color_of_plane(const WindowTriangle<double>& t, int x, int y) {
   };
   const Vec4<double> value = sum(b.value, Vec4<double>(0));
   return {value, sum(b.d_dx, value), sum(b.d_dy, value)};
+}
+
+Vec4<double> slope_rounding(const WindowTriangle<double>& t, int x, int y) {
+  constexpr double kRounding = 0x1p-51, kPixels = 128;
+  const Barycentrics b = barycentrics(t, x + 0.5, y + 0.5);
+  const PlaneValue plane = color_of_plane(t, x, y);
+  const Vec4<double> size = glm::abs(plane.value), slope = glm::max(glm::abs(plane.d_dx), glm::abs(plane.d_dy));
+  double q = 0, q_slope = 0, q_error = 0, q_slope_error = 0;
+  Vec4<double> error(0), slope_error(0);  // of c/w and its slope
+  for (int i = 0; i < 3; ++i) {
+    const WindowVertex<double>& v = t.v[static_cast<std::size_t>(i)];
+    const double steep = std::abs(b.d_dx[i]) + std::abs(b.d_dy[i]), terms = kRounding * std::abs(v.inv_w);
+    q += b.value[i] * v.inv_w;
+    q_slope += steep * std::abs(v.inv_w);
+    q_error += terms * (1 + kPixels * steep);
+    q_slope_error += terms * steep;
+    error += terms * (1 + kPixels * steep) * glm::abs(v.color);
+    slope_error += terms * steep * glm::abs(v.color);
+  }
+  q = std::abs(q);
+  return (slope_error + size * q_slope_error + (error + size * q_error) * (q_slope / q) + slope * q_error) / q;
 }
 
 double depth_rounding(const WindowTriangle<double>& t) {

@@ -33,6 +33,11 @@ struct PlaneValue {
 };
 PlaneValue color_of_plane(const WindowTriangle<double>& triangle, int x, int y);
 
+/// What a renderer that evaluates these slopes in double may be off by, per channel and pixel: 2^-51 of the terms of
+/// c/w, of 1/w and of their slopes, evaluated from an anchor a tile away. Far behind a corner beside the eye, c/w and
+/// 1/w are small differences of large ones.
+Vec4<double> slope_rounding(const WindowTriangle<double>& triangle, int x, int y);
+
 /// How a plane's value at a pixel centre depends on the triangle: depth, and the colour's four channels.
 struct PlaneBounds {
   double depth;        ///< in window z, times u
@@ -59,6 +64,13 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, in
 /// The largest over a primitive's triangles, at least 1.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,
                              const DepthLimits& limits = {});
+
+/// Whether a renderer that finds the area of its corners in float, two differences a product, may find 0: then its
+/// planes are undefined.
+bool area_may_vanish(const WindowTriangle<double>& triangle);
+
+/// Whether a pixel's centre is in the triangle or beside it: no barycentric below -1/64.
+bool is_near(const WindowTriangle<double>& triangle, int x, int y);
 
 /// A primitive's window triangles.
 std::span<const WindowTriangle<double>> triangles_of(const Records<double>& records, std::int32_t primitive);

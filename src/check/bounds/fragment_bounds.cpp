@@ -70,6 +70,18 @@ double enlarged(WindowTriangle<double> t, int x, int y) {
   return std::max(1.0, weights.x + weights.y + weights.z);
 }
 
+// What the candidate's own mean of the corners may be off by (the ledger's exact.attributes): beside the eye, where a
+// corner is far away, more than all that a plane from the origin errs by.
+Vec4<double> mean_error(const WindowTriangle<double>& t, int x, int y) {
+  return tolerance(Profile::exact, Stage::attributes).factor * u * bounds_of_mean(t, x, y);
+}
+
+std::vector<Vec4<double>> lit_colors(const Records<double>& r) {
+  std::vector<Vec4<double>> out;
+  for (const Lit<double>& lit : r.lit) out.push_back(glm::abs(lit.color));
+  return out;
+}
+
 // An empty one is 0.
 std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<Vec4<double>>& b) {
   a.resize(std::max(a.size(), b.size()), Vec4<double>(0));
@@ -112,6 +124,7 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
       texels_(candidate.legal.texels),
       factor_(factor),
       draws_(scene),
+      lit_(larger(lit_colors(candidate.records), candidate.records.varyings[Varying::back_color].vertices)),
       lit_apart_(larger(columns_apart(candidate.records.lit, reference.records.lit, &Lit<double>::color,
                                       u * tolerance(Profile::opengl, Stage::light).factor),
                         granted(scene, candidate.records, Varying::back_color))),
@@ -154,15 +167,20 @@ std::optional<WindowTriangle<double>> FragmentBounds::as_color(std::size_t i, Va
   return out;
 }
 
-Vec4<double> FragmentBounds::cut_error(std::uint32_t primitive, Varying v) const {
+Vec4<double> FragmentBounds::cut_error(std::uint32_t primitive, const std::vector<Vec4<double>>& column) const {
   const auto& [vertices, polygons] = records_.polygons;
   const auto polygon = std::ranges::lower_bound(polygons, primitive, {}, &ClipPolygon::primitive);
   if (polygon == polygons.end() || polygon->primitive != primitive) return Vec4<double>(0);
   const auto corners = std::span(vertices).subspan(polygon->first, polygon->count);
   if (std::ranges::none_of(corners, [](const ClipVertex<double>& corner) { return corner.cut; }))
     return Vec4<double>(0);
-  return tolerance(Profile::opengl, Stage::clip).factor * u *
-         largest_of(primitive, records_.varyings[v].vertices, false);
+  return tolerance(Profile::opengl, Stage::clip).factor * u * largest_of(primitive, column, false);
+}
+
+Vec4<double> FragmentBounds::lit_error(std::uint32_t primitive, double times) const {
+  const Draw* draw = draws_.draw(primitive);
+  const bool flat = draw != nullptr && draw->shading == Shading::flat;
+  return times * largest_of(primitive, lit_apart_, true) + (flat ? Vec4<double>(0) : cut_error(primitive, lit_));
 }
 
 Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
@@ -177,7 +195,7 @@ Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
                                                          : kNowhere;
   return factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), beside) +
          enlarged(*triangle, c.x, c.y) * largest_of(triangle->primitive, vertices_apart, is_lit(v)) +
-         cut_error(triangle->primitive, v);
+         mean_error(*triangle, c.x, c.y) + cut_error(triangle->primitive, records_.varyings[v].vertices);
 }
 
 Vec4<double> FragmentBounds::by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const {
@@ -230,7 +248,7 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   FragmentFours errors;
   errors.color = factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), by_other_edges(i, nullptr)) +
-                 enlarged(triangle, c.x, c.y) * largest_of(triangle.primitive, lit_apart_, true);
+                 lit_error(triangle.primitive, enlarged(triangle, c.x, c.y)) + mean_error(triangle, c.x, c.y);
   for (const Varying v : kAllVaryings) {
     if (!is_back(v) && carries(scene_, draw, v)) errors[v] = varying_error(i, v);
   }
@@ -254,7 +272,9 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Vec3<double> sum(primary + fours[Varying::secondary]);
   const bool clamped = summed && (std::max({sum.x, sum.y, sum.z}) > 1 || std::min({sum.x, sum.y, sum.z}) < 0);
   if (draw.fog && clamped) out.reason = kClampedLate;
-  if (draw.fog && reaches_behind_eye(triangle.primitive)) out.reason = kBehindEye;
+  // A sample of a triangle before the eye may be drawn where the triangle's plane, at the centre, is behind it.
+  const bool behind = fours[Varying::position].z > 0 || reaches_behind_eye(triangle.primitive);
+  if (draw.fog && behind) out.reason = kBehindEye;
   return out;
 }
 
@@ -263,7 +283,8 @@ FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
   const WindowTriangle<double>& triangle = records_.triangles[c.triangle];
   if (!plain_[draws_.of_primitive(triangle.primitive).value()]) return surface(i);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
-  const Vec4<double> apart = enlarged(triangle, c.x, c.y) * largest_of(triangle.primitive, lit_apart_, true);
+  const Vec4<double> apart =
+      lit_error(triangle.primitive, enlarged(triangle, c.x, c.y)) + mean_error(triangle, c.x, c.y);
   return {factor_ * u * plane.color, plane.along_color, apart, {}};
 }
 
@@ -272,7 +293,11 @@ FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) co
   const auto draw = draws_.of_primitive(p);
   if (!draw || plain_[*draw]) {
     const PlaneBounds plane = primitive_bounds(records_, primitive, x, y);
-    return {factor_ * u * plane.color, plane.along_color, largest_of(p, lit_apart_, true), {}};
+    Vec4<double> mean(0);
+    for (const WindowTriangle<double>& t : triangles_of(records_, primitive)) {
+      if (is_near(t, x, y)) mean = glm::max(mean, mean_error(t, x, y));
+    }
+    return {factor_ * u * plane.color, plane.along_color, lit_error(p, 1) + mean, {}};
   }
   FragmentBound out{Vec4<double>(std::numeric_limits<double>::infinity()), {}, {}, {}};
   drawn_.each(x, y, [&](std::size_t i) {

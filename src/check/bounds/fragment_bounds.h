@@ -76,7 +76,10 @@ class FragmentBounds {
   Vec4<double> varying_error(std::size_t i, Varying v) const;
   /// Where the primitive is cut: what a renderer's cut may be off by, in proportion to the values at both ends (the
   /// ledger's opengl.clip). Of a share near 1 of a way of 10^6 that is more than all that comes after.
-  Vec4<double> cut_error(std::uint32_t primitive, Varying v) const;
+  Vec4<double> cut_error(std::uint32_t primitive, const std::vector<Vec4<double>>& column) const;
+  /// What the two sides' colours may be apart by at the primitive's corners: at its vertices, `times` as much, and at
+  /// those that a cut makes.
+  Vec4<double> lit_error(std::uint32_t primitive, double times) const;
   /// How far the values of other edges or corners of the fragment's triangle that the pixel may hold (bounds.h,
   /// EdgeValue) are from its own: of the columns' varying, or of the colour.
   Vec4<double> by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const;
@@ -86,6 +89,7 @@ class FragmentBounds {
   const std::vector<TexelRange>& texels_;
   double factor_;
   DrawIndex draws_;
+  std::vector<Vec4<double>> lit_;  // per vertex: the larger of both faces' colours
   std::vector<Vec4<double>> lit_apart_, secondary_apart_, eye_apart_, normals_apart_;  // per vertex
   std::vector<bool> plain_;                                                            // per draw
   std::vector<double> texel_arithmetic_;                                               // per texture

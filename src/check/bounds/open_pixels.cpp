@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "capture/fragment_outcomes.h"
@@ -51,6 +52,13 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
         std::isfinite(off) ? theirs_of(*draw->alpha_test, theirs, alpha - off, alpha + off) : Outcomes{true, true};
     if (mine ? other.may_fail : other.may_pass) open(c.x, c.y) = 1;
   }
+  // Of a fragment that the reference alone has, nobody knows the alpha; whether it may have it is coverage's matter.
+  const Planes &a = candidate.planes, &b = reference.planes;
+  for (int y = 0; a.count.size() == open.size() && b.count.size() == open.size() && y < open.height(); ++y) {
+    for (int x = 0; x < open.width(); ++x) {
+      if (b.count(x, y) > a.count(x, y)) open(x, y) = 1;
+    }
+  }
   return open;
 }
 
@@ -64,6 +72,7 @@ double depth_error(const Records<double>& r, const OffsetErrors& offsets, std::s
   const WindowTriangle<double>& triangle = r.triangles[c.triangle];
   const PlaneBounds bounds = bounds_from_origin(triangle, c.x, c.y, limits);
   const double z = r.depth[fragment];
+  if (area_may_vanish(triangle)) return std::numeric_limits<double>::infinity();
   double apart = std::abs(bounds.along_depth), arithmetic = bounds.depth;
   if (triangle.corners == 2) {
     const auto primitive = static_cast<std::int32_t>(triangle.primitive);

@@ -19,8 +19,8 @@ namespace plumbline::check {
 bool tests_alpha(const Scene& scene);
 
 /// 1 where some fragment of the candidate's, with an alpha off by up to its bound (fragment_bounds.h), may pass the
-/// test in the format `theirs` and fails it in the candidate's, or the other way round. The candidate's records have to
-/// be there.
+/// test in the format `theirs` and fails it in the candidate's, or the other way round; and where the reference alone has
+/// a fragment. The candidate's records have to be there.
 Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   ColorFormat theirs, double factor);
 

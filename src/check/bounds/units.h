@@ -45,13 +45,14 @@ inline double ulp(double value) {
   return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
 }
 
-// All entries of two vectors, the difference in units of `unit[c]`.
+// All entries of two vectors, the difference in units of `unit[c]`. `allowance`: as Meter's, in the entries' own unit.
 template <int n>
 void add(Meter& meter, const glm::vec<n, double>& a, const glm::vec<n, double>& b, const glm::vec<n, double>& unit,
-         double factor, const Place& place) {
+         double factor, const Place& place, const glm::vec<n, double>& allowance = glm::vec<n, double>(0)) {
   for (int c = 0; c < n; ++c) {
     const double diff = difference(a[c], b[c]);
-    meter.value(diff == 0 ? 0 : diff / unit[c], factor, place, a[c], b[c]);
+    meter.value(diff == 0 ? 0 : diff / unit[c], factor, place, a[c], b[c],
+                allowance[c] == 0 ? 0 : allowance[c] / unit[c]);
   }
 }
 

@@ -161,6 +161,7 @@ class DepthsBeneath {
       by_stencil = by_stencil || (draw != nullptr && draw->stencil);
       if (records_.drawn[i].drawn && records_.depth[i] == z && leaves(i)) left = values(i, x, y);
     });
+    if (!left && z == static_cast<double>(scene_.frame.clear_depth)) left = Values{{z}, 0};  // nothing was drawn
     if (!left) return;
     const auto of_left = std::ranges::minmax(left->depths);
     fragments_.each(x, y, [&](std::size_t i) {

@@ -85,7 +85,7 @@ double distance_from_edge(const ClipVertex<double>& v, const Corners& c, std::si
 }
 
 // The planes whose cuts rounding decides about: a corner lies on one, or an edge goes through the meeting of several,
-// as the reference's polygon has it.
+// as the polygon has it.
 void open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, double tolerance,
                  std::array<bool, 6>& open) {
   for (std::size_t p = 0; p < c.planes; ++p) {
@@ -106,27 +106,45 @@ std::span<const ClipVertex<double>> vertices_of(const ClipPolygon& polygon, cons
   return {r.polygons.vertices.data() + polygon.first, polygon.count};
 }
 
-// Vertices that rounding may make: of the triangle, and nowhere outside.
+// Vertices that rounding may make: of the triangle, on a plane that cuts them or a corner, and nowhere outside.
 template <class At>
 void within_rounding(Meter& meter, std::span<const ClipVertex<double>> polygon, const Corners& corners, double factor,
                      const At& at) {
   for (const ClipVertex<double>& v : polygon) {
     meter.value(distance_from_triangle(v, corners) / u, factor, at("off its triangle"), 0, 0);
     const auto d = distances(v.p_clip);
+    double nearest = kInfinite;
+    int planes = 0;
     for (std::size_t p = 0; p < corners.planes; ++p) {
       meter.value(std::max(-d[p], 0.0) / (u * corners.scale), factor, at("outside a plane"), d[p], 0);
+      nearest = std::min(nearest, std::abs(d[p]));
+      planes += std::abs(d[p]) <= factor * u * corners.scale ? 1 : 0;
+    }
+    if (v.cut) {
+      meter.value(nearest / (u * corners.scale), factor, at("off its plane"), nearest, 0);
+      double to_edge = kInfinite;
+      for (std::size_t i = 0; i < 3; ++i) to_edge = std::min(to_edge, distance_from_edge(v, corners, i));
+      if (planes < 2) meter.value(to_edge / u, factor, at("off its edge"), to_edge, 0);
+    } else {
+      const bool corner = std::ranges::find(corners.p_clip, v.p_clip) != corners.p_clip.end();
+      meter.value(corner ? 0 : kInfinite, 0, at("cut"), 0, 1);
     }
   }
 }
 
 // A corner made by a cut that coincides with the next, colour and all, says nothing: where cuts meet, their order decides
-// who makes it.
-void drop_coincident(std::vector<ClipVertex<double>>& polygon, const Corners& corners, double factor) {
+// who makes it. `planes`: how many must meet there.
+void drop_coincident(std::vector<ClipVertex<double>>& polygon, const Corners& corners, double factor, int planes) {
+  const auto meet_at = [&](const ClipVertex<double>& v) {
+    int count = 0;
+    for (std::size_t p = 0; p < corners.planes; ++p) count += on_plane(v, p, factor * u * corners.scale) ? 1 : 0;
+    return count >= planes;
+  };
   for (std::size_t i = 0; i < polygon.size() && polygon.size() > 1;) {
     const ClipVertex<double>&v = polygon[i], &next = polygon[(i + 1) % polygon.size()];
     const Vec8 apart = minus(joined(v.p_clip, v.color, corners), joined(next.p_clip, next.color, corners));
     const bool coincide = largest(apart) <= factor * u;
-    if (coincide && (v.cut || next.cut)) {
+    if (coincide && (v.cut || next.cut) && meet_at(v.cut ? v : next)) {
       polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(v.cut ? i : (i + 1) % polygon.size()));
     } else {
       ++i;
@@ -152,15 +170,16 @@ std::size_t turn_of(std::span<const ClipVertex<double>> mine, std::span<const Cl
   return best;
 }
 
+// `loosely`: vertices on planes whose cuts rounding decides about are held to the triangle and the planes alone.
 void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, const Records<double>& candidate,
-                     const Records<double>& reference, const Corners& corners, double factor) {
+                     const Records<double>& reference, const Corners& corners, double factor, bool loosely) {
   const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(a.primitive), field, true}; };
   const double unit = u * corners.scale;
   std::vector<ClipVertex<double>> mine, theirs;  // without those that rounding decides about, where the numbers differ
   const auto all_mine = vertices_of(a, candidate), all_theirs = vertices_of(b, reference);
   std::array<bool, 6> open{};
-  if (a.count != b.count) {
-    open_planes(corners, all_theirs, factor * unit, open);
+  if (loosely) {
+    for (const auto& polygon : {all_mine, all_theirs}) open_planes(corners, polygon, factor * unit, open);
     within_rounding(meter, all_mine, corners, factor, at);
     // All that no rounding cuts off is there: edges are off by `factor` u in each of four coordinates.
     for (const ClipVertex<double>& v : clipped(corners, factor * unit)) {
@@ -175,19 +194,21 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   };
   std::copy_if(all_mine.begin(), all_mine.end(), std::back_inserter(mine), settled);
   std::copy_if(all_theirs.begin(), all_theirs.end(), std::back_inserter(theirs), settled);
-  if (a.count > 2 && a.count == b.count) {
+  if (a.count > 2 && (!loosely || mine.size() != theirs.size())) {
     std::vector<ClipVertex<double>> fewer_mine = mine, fewer_theirs = theirs;
-    drop_coincident(fewer_mine, corners, factor);
-    drop_coincident(fewer_theirs, corners, factor);
+    drop_coincident(fewer_mine, corners, factor, loosely ? 2 : 1);
+    drop_coincident(fewer_theirs, corners, factor, loosely ? 2 : 1);
     // A cut along a nearly parallel edge slides: its neighbours may coincide on one side alone. Then each of the
-    // vertices, of which there are as many, is held to its counterpart's planes and edge.
+    // vertices, where there are as many, is held to its counterpart's planes and edge.
     if (fewer_mine.size() == fewer_theirs.size()) mine.swap(fewer_mine), theirs.swap(fewer_theirs);
   }
+  // Where cuts are open, so is which corners they make: each side is in the other, which was seen above.
+  if (mine.size() != theirs.size() && std::ranges::find(open, true) != open.end()) return meter.ambiguous();
   if (mine.size() != theirs.size()) {
     meter.value(kInfinite, 0, at("vertices"), a.count, b.count);
     return;
   }
-  if (a.count != b.count) meter.ambiguous();
+  if (loosely) meter.ambiguous();
   // A polygon may begin at any of its corners; a line runs from its first to its last.
   if (a.count > 2)
     std::rotate(mine.begin(), mine.begin() + static_cast<std::ptrdiff_t>(turn_of(mine, theirs, corners)), mine.end());
@@ -227,6 +248,27 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   }
 }
 
+bool is_cut(std::span<const ClipVertex<double>> polygon) {
+  return std::ranges::any_of(polygon, [](const ClipVertex<double>& v) { return v.cut; });
+}
+
+// Whether a corner lies on a plane, as far as rounding goes.
+bool may_cut_otherwise(const Corners& corners, double factor) {
+  const auto on_any = [&](const Vec4<double>& corner) {
+    const auto d = distances(corner);
+    return std::any_of(d.begin(), d.begin() + static_cast<std::ptrdiff_t>(corners.planes),
+                       [&](double distance) { return std::abs(distance) <= factor * u * corners.scale; });
+  };
+  return std::ranges::any_of(corners.p_clip, on_any);
+}
+
+bool fails(auto compare_strictly) {
+  Meter trial("u");
+  compare_strictly(trial, false);
+  trial.item();
+  return trial.done().differing > 0;
+}
+
 // visit(mine, theirs) of each primitive's polygon, null on the side that lacks it.
 template <class Visit>
 void each_polygon(const Records<double>& candidate, const Records<double>& reference, Visit visit) {
@@ -257,7 +299,13 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
     const std::uint32_t primitive = a != nullptr ? a->primitive : b->primitive;
     const Corners corners = corners_of(draws, primitive, candidate, flat_applies);
     if (a != nullptr && b != nullptr) {
-      compare_polygon(meter, *a, *b, candidate, reference, corners, factor);
+      const auto compare = [&](Meter& to, bool loosely) {
+        compare_polygon(to, *a, *b, candidate, reference, corners, factor, loosely);
+      };
+      // As many vertices may be others: in a triangle that lies in a plane, the order of cuts decides which there are.
+      const bool loosely = a->count != b->count || (a->count > 2 && is_cut(vertices_of(*a, candidate)) &&
+                                                    may_cut_otherwise(corners, factor) && fails(compare));
+      compare(meter, loosely);
     } else {
       const auto at = [&](const char* field) { return Place{-1, -1, primitive, field, true}; };
       const double tolerance = factor * u * corners.scale;

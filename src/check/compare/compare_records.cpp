@@ -85,6 +85,18 @@ Measurement compare_lights(const Scene& scene, const Records<double>& candidate,
   });
 }
 
+namespace {
+
+// What two sides' matrices, each rounded from a double of its own, come to at p, of magnitude |M| |p|: entries that
+// nearly cancel differ in their last bits, and then sums round otherwise.
+Vec4<double> by_matrices(const Mat4<double>& a, const Mat4<double>& b, const Vec4<double>& p,
+                         const Vec4<double>& magnitude_at_p) {
+  const Vec4<double> apart = magnitude(a - b, p);
+  return glm::mix(apart + 8 * u * magnitude_at_p, Vec4<double>(0), glm::equal(apart, Vec4<double>(0)));
+}
+
+}  // namespace
+
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double positions, double normals, Inversion inversion) {
   const DrawIndex draws(scene);
@@ -104,8 +116,13 @@ Measurement compare_vertices(const Scene& scene, const Records<double>& candidat
         magnitude(m.model_view, p) + 1e-12 / u * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + 1);
     const auto at = [&](const char* field) { return Place{-1, -1, static_cast<std::int64_t>(i), field}; };
     const Vertex<double>&a = candidate.vertices[i], &b = reference.vertices[i];
-    add(meter, a.p_eye, b.p_eye, u * eye, positions, at("p_eye"));
-    add(meter, a.p_clip, b.p_clip, u * magnitude(m.projection, eye), positions, at("p_clip"));
+    const bool bit_for_bit = positions == 0 && reference.matrices.size() == candidate.matrices.size();
+    const Matrices<double>& other = bit_for_bit ? reference.matrices[d] : m;
+    const Vec4<double> clip = magnitude(m.projection, eye),
+                       eye_apart = by_matrices(m.model_view, other.model_view, p, eye),
+                       clip_apart = by_matrices(m.projection, other.projection, eye, clip);
+    add(meter, a.p_eye, b.p_eye, u * eye, positions, at("p_eye"), eye_apart);
+    add(meter, a.p_clip, b.p_clip, u * clip, positions, at("p_clip"), magnitude(m.projection, eye_apart) + clip_apart);
     const Vec3<double> normal(mesh.normals[i - draws.ranges()[d].first_vertex]);
     const auto condition = [&](const Vec3<double>& of) {
       return inversion == Inversion::in_float ? inverted_normal_magnitude(m.model_view, m.normal, of)

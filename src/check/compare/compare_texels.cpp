@@ -13,6 +13,38 @@
 
 namespace plumbline::check {
 
+namespace {
+
+// What double arithmetic leaves of a level of detail, where texel coordinates hardly change from pixel to pixel.
+class LodRounding {
+ public:
+  LodRounding(const Scene& scene, const Records<double>& records) : scene_(scene), records_(records), draws_(scene) {}
+
+  double operator()(const Covered& c) const {
+    const auto& texcoords = records_.varyings[Varying::texture].triangles;
+    if (c.triangle >= records_.triangles.size() || c.triangle >= texcoords.size()) return 0;
+    WindowTriangle<double> t = records_.triangles[c.triangle];
+    const Draw* draw = draws_.draw(t.primitive);
+    if (draw == nullptr || !draw->texture) return 0;
+    for (std::size_t k = 0; k < 3; ++k) t.v[k].color = texcoords[c.triangle][k];
+    const Texture& texture = scene_.textures.at(draw->texture->texture);
+    const TextureLevel& base = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
+    const Vec2<double> size(base.width, base.height);
+    const PlaneValue plane = color_of_plane(t, c.x, c.y);
+    const double rho =
+        std::max(glm::length(size * Vec2<double>(plane.d_dx)), glm::length(size * Vec2<double>(plane.d_dy)));
+    const double error = glm::length(size * Vec2<double>(slope_rounding(t, c.x, c.y))) / (rho * std::log(2.0));
+    return std::isfinite(error) ? error : 0;
+  }
+
+ private:
+  const Scene& scene_;
+  const Records<double>& records_;
+  DrawIndex draws_;
+};
+
+}  // namespace
+
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor) {
   const std::size_t count = candidate.covered.size();
@@ -22,6 +54,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
   double magnitude = 1;
   for (const Texture& texture : scene.textures) magnitude = std::max(magnitude, largest_texel(texture));
   constexpr double kLeast = -16;
+  const LodRounding rounding(scene, candidate);
   Meter meter("u");
   for (std::size_t i = 0; i < count; ++i) {
     const Covered& c = candidate.covered[i];
@@ -31,8 +64,9 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
                   a.color[k], b.color[k]);
     }
     const double lod = std::max(a.lod, kLeast), exact = std::max(b.lod, kLeast);
-    meter.value(difference(lod, exact) / (u * std::max(1.0, std::abs(exact))), factor,
-                {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod);
+    const double unit = u * std::max(1.0, std::abs(exact));
+    meter.value(difference(lod, exact) / unit, factor, {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod,
+                lod == exact ? 0 : rounding(c) / unit);
     meter.item();
   }
   return meter.done();

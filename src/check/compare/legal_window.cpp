@@ -202,6 +202,18 @@ std::optional<std::vector<std::size_t>> LegalWindow::match(std::span<const Windo
   return out;
 }
 
+namespace {
+
+std::vector<double> depths_of(std::span<const WindowTriangle<double>> run) {
+  std::vector<double> out;
+  for (const WindowTriangle<double>& t : run) {
+    for (const WindowVertex<double>& v : t.v) out.push_back(v.p_win.z);
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<double>& candidate,
                                            const Records<double>& reference) {
   std::vector<std::uint32_t> out;
@@ -218,21 +230,27 @@ std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<dou
     const bool same =
         std::ranges::equal(mine, theirs, {}, &WindowTriangle<double>::corners, &WindowTriangle<double>::corners);
     const bool face_shows = carries(scene, *draw, Varying::back_color) || draw->stencil;
-    if (same && !face_shows) return;
+    // Mesa finds the slope of a polygon offset for faces that are not filled, too: of one without area, 0/0.
+    const bool slope_shows = draw->polygon_offset != PolygonOffset{} && depths_of(mine) != depths_of(theirs);
+    if (same && !face_shows && !slope_shows) return;
     const auto answers = legal.of(primitive);
     if (answers.size() < 2) return;
     const auto is_legal = [&](std::span<const WindowTriangle<double>> run) {
       return std::ranges::any_of(answers, [&](const auto& list) { return legal.match(run, list).has_value(); });
     };
-    // The reference hands out no facing of edges and corners.
-    const auto is_legal_of_any_face = [&](std::span<const WindowTriangle<double>> run) {
-      return std::ranges::any_of(answers, [&](const auto& list) {
-        std::vector<WindowTriangle<double>> faced(run.begin(), run.end());
-        for (WindowTriangle<double>& t : faced) t.front = t.corners < 3 && !list.empty() ? list.front().front : t.front;
-        return legal.match(faced, list).has_value();
+    // The reference hands out no facing of edges and corners, and may face each triangle of the fan by itself: of what
+    // rounding decides about, it may draw a part of either face.
+    const auto may_be_drawn = [&](const WindowTriangle<double>& t) {
+      return std::ranges::any_of(answers, [&](const std::vector<WindowAnswer>& list) {
+        return std::ranges::any_of(list, [&](const WindowAnswer& answer) {
+          WindowTriangle<double> faced = t;
+          if (t.corners < 3) faced.front = answer.front;
+          for (std::size_t k = 0; slope_shows && k < 3; ++k) faced.v[k].p_win.z = answer.record.v[k].p_win.z;
+          return legal.match({&faced, 1}, {answer}).has_value();
+        });
       });
     };
-    if (is_legal(mine) && is_legal_of_any_face(theirs)) out.push_back(primitive);
+    if (is_legal(mine) && std::ranges::all_of(theirs, may_be_drawn)) out.push_back(primitive);
   });
   return out;
 }

@@ -57,7 +57,8 @@ class LegalWindow {
 };
 
 /// Primitives that are not filled, of open facing, that both sides draw legally and maybe as other faces: in another
-/// polygon mode, culled on one side alone, or, where the face shows, in its colours or stencil operations. In order.
+/// polygon mode, culled on one side alone, or, where the face shows, in its colours or stencil operations; or, with a
+/// polygon offset, at other depths of the reference's. In order.
 /// The reference's facing may go by either area; of edges and corners, it need not tell it.
 std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<double>& candidate,
                                            const Records<double>& reference);

@@ -87,8 +87,10 @@ constexpr std::array kLedger = {
     Tolerance{
         Profile::opengl, Stage::attributes, "", 8, "u",
         "As opengl.depth, 4 u for colour / w and for 1 / w, which the magnitude joins, and 4 more for the products by "
-        "1/w at the corners and the division; besides, what the two sides' vertex colours differ by. Along a line "
-        "the nearer of the two colours counts, as for opengl.depth."},
+        "1/w at the corners and the division; besides, what the two sides' vertex colours differ by, the "
+        "candidate's own error (exact.attributes), and of a triangle that is cut opengl.clip's u of its largest. Along "
+        "a line the nearer of the two colours counts, as for opengl.depth.",
+        "Two renderers' worst cases add up, and roundings do not all go one way."},
     Tolerance{Profile::exact, Stage::texture, "", 3, "u",
               "Texel coordinates are exact in double; two means of texels in one level and one of two levels, each "
               "rounded to float (1 u); lambda is rounded once."},
@@ -97,7 +99,8 @@ constexpr std::array kLedger = {
               "level's size, its fraction and the half texel): three means of texels, each a difference, a product "
               "and a sum. Levels of detail may be anything between the least and the greatest at the four pixels of "
               "a square, by a logarithm that is linear between powers of two, as the driver's, of differences of "
-              "coordinates in float."},
+              "coordinates in float.",
+              "As opengl.attributes, whose bounds of coordinates it has."},
     Tolerance{Profile::exact, Stage::shade, "", 4, "u",
               "Fog: f is computed in double from the distance in float and rounded once (1 u), so is 1 - f (1 u); two "
               "products and a sum (3 u), each of the magnitudes of shade_bounds.h. Light per fragment: as exact.light, "

@@ -184,10 +184,15 @@ TEST_F(PlanePairs, TheBackgroundsDepthAndColoursAreEqual) {
   EXPECT_TRUE(fails(run(codes(), [](Planes& p) { p.color(0, 3).g = code(2); })));
 }
 
+// Of primitive 3, at the pixel (3, 1): the reference's plane, and the candidate's mean.
+double shaded_limit(const Capture& candidate, int c) {
+  const WindowTriangle<double>& t = candidate.records.triangles[0];
+  return (64 * bounds_from_origin(t, 3, 1).color[c] + 10 * bounds_of_mean(t, 3, 1)[c]) * kU;
+}
+
 TEST_F(PlanePairs, ShadedIsHeldToTheBound) {
-  const Vec4<double> bound = bounds_from_origin(capture.records.triangles[0], 3, 1).color;
   for (int c = 0; c < 4; ++c) {
-    const double limit = 64 * bound[c] * kU;
+    const double limit = shaded_limit(capture, c);
     for (double by : {0.99, 1.01}) {
       const PlaneChange moved = [&](Planes& p) { p.shaded(3, 1)[c] += static_cast<float>(by * limit); };
       EXPECT_EQ(passes(run(shaded(), moved)), by < 1) << c;
@@ -201,10 +206,10 @@ TEST_F(PlanePairs, ShadedIsHeldToTheBound) {
 }
 
 TEST_F(PlanePairs, WhatTheVerticesColoursDifferByIsLightsMatter) {
-  const double limit = 64 * bounds_from_origin(capture.records.triangles[0], 3, 1).color.g * kU;
   const auto apart = [&](std::size_t vertex, double by) {
     Capture a = capture, b = capture;
     a.records.lit[vertex].color.g += 0.125;
+    const double limit = shaded_limit(a, 1);
     for (auto* plane : {&a.planes.shaded, &a.planes.color}) (*plane)(3, 1).g += static_cast<float>(0.125 + by * limit);
     return std::pair(compare_shaded_planes(scene, a, b, 64), compare_codes(scene, a, b, 1, 64));
   };
@@ -227,9 +232,7 @@ TEST_F(PlanePairs, AReferenceWithoutColoursOfVerticesIsGrantedLightsTolerance) {
   const auto moved = [&](double by) {
     Capture a = capture, b = capture;
     b.records.lit.clear();
-    const double limit = (64 * bounds_from_origin(capture.records.triangles[0], 3, 1).color.r +
-                          tolerance(Profile::opengl, Stage::light).factor) *
-                         kU;
+    const double limit = shaded_limit(capture, 0) + tolerance(Profile::opengl, Stage::light).factor * kU;
     a.planes.shaded(3, 1).r += static_cast<float>(by * limit);
     return compare_shaded_planes(scene, a, b, 64);
   };
