@@ -17,8 +17,8 @@ using ThreeReals = std::array<Real, 3>;
 /// linear between powers of two, to the greatest, with the bias or Mesa's. Along a row and along a column the
 /// derivative of a perspective mapping has one direction, and its length is monotone: a difference of neighbours lies
 /// between theirs. Without bound where the plane reaches the eye within the square. Such differences are of coordinates
-/// in float, each a quotient of sums that is off by 3 u: by 6 u |st| together, in proportion to their length; a
-/// logarithm in float is off by some u of its own magnitude more.
+/// in float, each a quotient of sums that is off by 3 u of its terms, which are slopes from the window's origin on: by
+/// 6 u together, in proportion to their length; a logarithm in float is off by some u of its own magnitude more.
 void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, double& lo, double& hi) {
   constexpr double kRounding = 1.0 / 16777216.0;
   const TextureLevel& base = t.texture.levels[static_cast<std::size_t>(t.texture.sampler.base_level)];
@@ -33,8 +33,9 @@ void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, dou
     const bool ahead = q * t.triangle.v[0].inv_w > 0;
     const TextureGradient g = texture_gradient(t, qx, qy);
     const double rho = std::max(glm::length(size * g.d_dx), glm::length(size * g.d_dy));
-    const double error =
-        rho > 0 ? kRounding * (6 * glm::length(size * st) / rho + 4 * (1 + std::abs(std::log2(rho)))) : 0;
+    const double terms =
+        glm::length(size * (glm::abs(st) + glm::abs(g.d_dx) * (qx + 1.0) + glm::abs(g.d_dy) * (qy + 1.0)));
+    const double error = rho > 0 ? kRounding * (6 * terms / rho + 4 * (1 + std::abs(std::log2(rho)))) : 0;
     const double least = std::max(1 - error, 0.0), most = 1 + error;
     lo = std::min(lo, ahead ? math::smallest_level_of_detail(t.texture, least * g.d_dx, least * g.d_dy)
                             : static_cast<double>(t.texture.sampler.min_lod));

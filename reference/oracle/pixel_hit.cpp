@@ -195,12 +195,24 @@ BoundedFour at_pixel(const Projected& scene, const Triangle& t, const std::array
                      value_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end * size)};
 }
 
+/// Share by which a renderer's slopes of attributes may be off: corners that float arithmetic moves, or snapping, turn a
+/// plane by as much over its altitude; w is off by its own error; 16 u for the evaluation.
+double slopes_off(const Projected& scene, const Triangle& t, glm::dvec2 moved, bool certain) {
+  const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
+  const double altitude = certain ? t.fat_altitude : t.altitude, by = glm::length(moved) + (snapped ? scene.snap : 0);
+  const double of_w = t.roundings * kFloatRounding * t.size.w / t.w_min;
+  constexpr double kAnything = 1e30;
+  return altitude > 0 ? std::min(4 * by / altitude + 4 * of_w + 16 * kFloatRounding, kAnything) : kAnything;
+}
+
 /// Where in its texture the hit is, and the levels of detail at the four pixels of its square of two by two: ray
-/// differentials, d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j.
+/// differentials, d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j. They may be `off` by a share of their length.
 BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const std::array<glm::dvec2, 3>& texcoords,
-                              const BoundedFour& st, glm::dvec3 d, glm::ivec2 pixel, const LevelRules& rules) {
+                              const BoundedFour& st, glm::dvec3 d, glm::ivec2 pixel, const LevelRules& rules,
+                              double off) {
   BoundedPlace out{glm::dvec2(st.value), st.bound, 0, kInfinity, -kInfinity};
   const glm::dvec3 n_sum = t.n[0] + t.n[1] + t.n[2];
+  const double least_off = std::max(1 - off, 0.0);
   for (int k = 0; k < 4; ++k) {
     const glm::ivec2 at((pixel.x & ~1) + k % 2, (pixel.y & ~1) + k / 2);
     const glm::dvec3 ray = d + glm::dvec3(glm::dvec2(at - pixel), 0);
@@ -214,9 +226,9 @@ BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const s
     }
     const bool ahead = sum * t.sign > 0;
     const double lambda = ahead ? level_of_detail(texture, d_dx, d_dy) : static_cast<double>(texture.sampler.max_lod);
-    const double least =
-        ahead ? smallest_level_of_detail(texture, d_dx, d_dy, rules) : static_cast<double>(texture.sampler.min_lod);
-    const double most = ahead ? largest_level_of_detail(texture, d_dx, d_dy, rules) : lambda;
+    const double least = ahead ? smallest_level_of_detail(texture, least_off * d_dx, least_off * d_dy, rules)
+                               : static_cast<double>(texture.sampler.min_lod);
+    const double most = ahead ? largest_level_of_detail(texture, (1 + off) * d_dx, (1 + off) * d_dy, rules) : lambda;
     if (at == pixel) out.lambda = lambda;
     out.lambda_lo = std::min(out.lambda_lo, least);
     out.lambda_hi = std::max(out.lambda_hi, most);
@@ -292,7 +304,7 @@ void set_color(const Scene& scene, const Projected& projected, const Triangle& t
     const LevelRules rules = level_rules(projected.conventions);
     const BoundedPlace place =
         place_in_texture(texture, t, {corner(0).texcoord, corner(1).texcoord, corner(2).texcoord}, st,
-                         projected.to_centre(d), pixel, rules);
+                         projected.to_centre(d), pixel, rules, slopes_off(projected, t, moved, out.hit.certain));
     color = bounded_textured_color(texture, *draw.texture, color, place, rules);
   }
   if (draw.lit && model.separate_specular) {
