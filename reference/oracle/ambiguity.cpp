@@ -230,6 +230,28 @@ DepthShare cut(const PixelDepth& surface, double plane) {
   return {visible && apart <= kStandsFor * slope ? 2 * surface.half / slope / kStandsFor : 0, within};
 }
 
+/// The bands' shares of all pairs that count. `surfaces` far from each other for their slopes do not meet here: in
+/// order of depth, each is asked about its neighbours alone.
+template <class Counts>
+DepthShare meetings(const FrameFormat& frame, std::vector<Surface> surfaces, Counts counts) {
+  std::ranges::sort(surfaces, {}, [](const Surface& s) { return s.win.z; });
+  const auto reach = [](const Surface& s) { return s.win.half + kStandsFor * glm::length(s.win.slope); };
+  double most = 0;
+  for (const Surface& s : surfaces) most = std::max(most, reach(s));
+  DepthShare share;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Surface& a = surfaces[i];
+    for (std::size_t j = i + 1; j < surfaces.size(); ++j) {
+      const Surface& b = surfaces[j];
+      const double step = depth_step(frame.depth, std::clamp(b.win.z, 0.0, 1.0));
+      if (b.win.z - a.win.z > reach(a) + most + step) break;
+      if (counts(a, b)) share += meeting(frame, a, b);
+      if (share.area >= 1 && share.centre) return share;
+    }
+  }
+  return share;
+}
+
 }  // namespace
 
 DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner) {
@@ -260,11 +282,9 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   const bool all_count = counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; });
   // A surface after a winner that leaves the depth as it is, is compared with what the winner hides.
   const auto after = [&](const Surface& s) { return !won_writes && s.order > won.order; };
-  const std::size_t paired = all_count || !won_writes ? others.size() : 0;  // else no pair counts
-  for (std::size_t i = 0; i < paired; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (all_count || after(others[i]) || after(others[j])) share += meeting(scene.frame, others[i], others[j]);
-    }
+  if (all_count || !won_writes) {  // else no pair counts
+    share += meetings(scene.frame, others,
+                      [&](const Surface& a, const Surface& b) { return all_count || after(a) || after(b); });
   }
   if (scene.depth_clamp) return share;
   const auto add_cuts = [&](const Surface& of) {

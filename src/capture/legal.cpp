@@ -66,28 +66,40 @@ LegalAnswer answer(const Hit& hit, Interval z) {
   return {static_cast<std::int32_t>(hit.primitive), static_cast<float>(hit.color_bound), z.lo, z.hi, hit.color};
 }
 
-void add(const LegalAnswer& answer, std::vector<LegalAnswer>& all) {
-  for (LegalAnswer& a : all) {
-    if (a.primitive != answer.primitive || a.stencil != answer.stencil) continue;
-    a.z_lo = std::min(a.z_lo, answer.z_lo);
-    a.z_hi = std::max(a.z_hi, answer.z_hi);
-    return;
+/// In draw order, one for each primitive and stencil value, of whose depths it is the hull.
+void unite(std::vector<LegalAnswer>& all) {
+  const auto key = [](const LegalAnswer& l) { return std::pair(l.primitive, l.stencil); };
+  std::ranges::stable_sort(all, {}, key);
+  std::size_t kept = 0;
+  for (const LegalAnswer& l : all) {
+    if (kept > 0 && key(all[kept - 1]) == key(l)) {
+      all[kept - 1].z_lo = std::min(all[kept - 1].z_lo, l.z_lo);
+      all[kept - 1].z_hi = std::max(all[kept - 1].z_hi, l.z_hi);
+    } else {
+      all[kept++] = l;
+    }
   }
-  all.push_back(answer);
+  all.resize(kept);
+}
+
+std::vector<LegalAnswer> united(std::vector<LegalAnswer> a, const std::vector<LegalAnswer>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  unite(a);
+  return a;
 }
 
 /// Draws one hit over winners of any stencil values.
 std::vector<LegalAnswer> drawn_by_stencil(const Hit& hit, bool certain, const StencilFace* face, DepthFormat format,
                                           const std::vector<LegalAnswer>& winners) {
-  std::vector<LegalAnswer> left, won;
-  const auto put = [&](LegalAnswer a, bool nearer, std::uint8_t held, std::vector<LegalAnswer>& to) {
+  std::vector<LegalAnswer> left;
+  const auto put = [&](LegalAnswer a, bool nearer, std::uint8_t held) {
     a.stencil = face == nullptr ? held : stencil_after(*face, nearer, held);
-    add(a, to);
+    left.push_back(a);
   };
   for (const LegalAnswer& held : winners) {
-    if (!certain) add(held, left);
+    if (!certain) left.push_back(held);
     if (face != nullptr && !stencil_passes(*face, held.stencil)) {
-      put(held, false, held.stencil, left);
+      put(held, false, held.stencil);
       continue;
     }
     const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
@@ -96,12 +108,12 @@ std::vector<LegalAnswer> drawn_by_stencil(const Hit& hit, bool certain, const St
       LegalAnswer failed = held;
       failed.z_lo = test.failed.lo;
       failed.z_hi = test.failed.hi;
-      put(failed, false, held.stencil, left);
+      put(failed, false, held.stencil);
     }
     if (!test.may_pass) continue;
-    put(answer(hit, hit.depth_mask ? test.passed : test.under), true, held.stencil, won);
+    put(answer(hit, hit.depth_mask ? test.passed : test.under), true, held.stencil);
   }
-  for (const LegalAnswer& a : won) add(a, left);
+  unite(left);
   return left;
 }
 
@@ -117,25 +129,6 @@ std::vector<Group> groups_of(std::span<const Hit> hits) {
     groups[number].push_back(i);
   }
   return groups;
-}
-
-/// The union of two sets of winners, in draw order; of one winner, the hull of its depths.
-std::vector<LegalAnswer> united(const std::vector<LegalAnswer>& a, const std::vector<LegalAnswer>& b) {
-  const auto key = [](const LegalAnswer& l) { return std::pair(l.primitive, l.stencil); };
-  std::vector<LegalAnswer> out = a;
-  out.insert(out.end(), b.begin(), b.end());
-  std::ranges::stable_sort(out, {}, key);
-  std::size_t kept = 0;
-  for (const LegalAnswer& l : out) {
-    if (kept > 0 && key(out[kept - 1]) == key(l)) {
-      out[kept - 1].z_lo = std::min(out[kept - 1].z_lo, l.z_lo);
-      out[kept - 1].z_hi = std::max(out[kept - 1].z_hi, l.z_hi);
-    } else {
-      out[kept++] = l;
-    }
-  }
-  out.resize(kept);
-  return out;
 }
 
 /// Folds where it is open which hit of each group is the certain one: from a group's first hit to its last, a branch
@@ -264,9 +257,7 @@ void LegalFold::draw_either_side(const Hit& hit, bool certain) {
   if (hit.or_stencil == nullptr) return draw(hit, certain, hit.stencil);
   std::vector<LegalAnswer> other = drawn_by_stencil(hit, certain, hit.or_stencil, format_, winners_);
   draw(hit, certain, hit.stencil);
-  std::vector<LegalAnswer> both = winners_;
-  for (const LegalAnswer& a : other) plumbline::add(a, both);
-  set(both);
+  set(united(winners_, other));
 }
 
 void LegalFold::draw(const Hit& hit, bool certain) {
