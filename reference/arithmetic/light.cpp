@@ -115,7 +115,7 @@ glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, Li
 }
 
 glm::dvec4 color_sum(const glm::dvec4& primary, const glm::dvec4& secondary) {
-  return {glm::clamp(glm::dvec3(primary) + glm::dvec3(secondary), 0.0, 1.0), primary.a};
+  return glm::clamp(primary + glm::dvec4(glm::dvec3(secondary), 0), 0.0, 1.0);
 }
 
 glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, Lights lights, std::uint32_t vertex, glm::dvec3 p_eye,

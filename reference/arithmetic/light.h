@@ -38,7 +38,7 @@ glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, Lights ligh
 glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, Lights lights, const glm::dvec4& color,
                           glm::dvec3 n, glm::dvec3 p_eye);
 
-/// rgb of the two added up and clamped to [0,1]; the first's alpha (OpenGL 2.1 spec 3.9).
+/// rgb of the two added up, the first's alpha; clamped to [0,1], alpha too (OpenGL 2.1 spec 3.9).
 glm::dvec4 color_sum(const glm::dvec4& primary, const glm::dvec4& secondary);
 
 /// The colour of the mesh's vertex number `vertex`: lit, or where the draw's vertices are not, the mesh's colour there,

@@ -99,11 +99,11 @@ Color<R> fogged(const Fog& fog, const Color<R>& color, R z_eye) {
   return {f * Vec3<R>(color) + rest * Vec3<R>(fog.color), color.a};
 }
 
-/// rgb of the two added up and clamped (OpenGL 2.1 spec 3.9).
+/// rgb of the two added up, the first's alpha, all four clamped to [0,1] (OpenGL 2.1 spec 3.9).
 template <class R>
 Color<R> color_sum(const Color<R>& primary, const Color<R>& secondary) {
   const Color<R> sum = primary + secondary;
-  return {clamp01(sum.r), clamp01(sum.g), clamp01(sum.b), primary.a};
+  return {clamp01(sum.r), clamp01(sum.g), clamp01(sum.b), clamp01(primary.a)};
 }
 
 /// In OpenGL's order (2.1, figure 3.1): light, where it is per fragment, texture environment, sum of colours, fog.
