@@ -165,8 +165,10 @@ void add_up_coverage(const Plane<glm::vec4>& sums, Planes& planes) {
     for (int x = 0; x < sums.width(); ++x) {
       const glm::vec4& sum = sums(x, y);
       if (!(sum.r <= kMost)) {
-        throw RendererFailed(
-            fmt::format("osmesa: {} fragments at pixel ({}, {}); it can tell up to {} apart", sum.r, x, y, kMost));
+        const std::string what = fmt::format("OpenGL: {} fragments at pixel ({}, {}): sums in float are exact up to {}",
+                                             sum.r, x, y, kMost);
+        if (std::isfinite(sum.r)) throw Unsupported(what);
+        throw RendererFailed(what);
       }
       planes.count(x, y) = static_cast<std::uint32_t>(sum.r);
       planes.id_sum(x, y) = static_cast<std::uint64_t>(sum.g) + (static_cast<std::uint64_t>(sum.b) << 20) +
