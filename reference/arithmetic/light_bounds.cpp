@@ -105,7 +105,8 @@ LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vert
   const double n_dot_e = glm::dot(vertex.n_eye, e);
   const Vec3<double> n = flips && n_dot_e < 0 ? -vertex.n_eye : vertex.n_eye;
   const double length = std::max(glm::length(n), 1.0);
-  out.magnitude = Vec3<double>(m.emission) + Vec3<double>(m.ambient) * Vec3<double>(model.ambient);
+  // A colour that is carried on beyond its triangle may be negative, and so a material that follows it.
+  out.magnitude = glm::abs(Vec3<double>(m.emission)) + glm::abs(Vec3<double>(m.ambient) * Vec3<double>(model.ambient));
   out.inherited = errors.color * (Vec3<double>(1) + Vec3<double>(model.ambient));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
@@ -117,9 +118,9 @@ LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vert
     const Share share = share_of(light, source, r, off);
     const Highlight h = highlight(model, n, r, e, length);
     const Power p = power(h.cosine, m.shininess, h.error * kError);
-    const Vec3<double> ambient = Vec3<double>(light.ambient) * Vec3<double>(m.ambient);
-    const Vec3<double> diffuse = Vec3<double>(light.diffuse) * Vec3<double>(m.diffuse);
-    const Vec3<double> specular = Vec3<double>(light.specular) * Vec3<double>(m.specular);
+    const Vec3<double> ambient = glm::abs(Vec3<double>(light.ambient) * Vec3<double>(m.ambient));
+    const Vec3<double> diffuse = glm::abs(Vec3<double>(light.diffuse) * Vec3<double>(m.diffuse));
+    const Vec3<double> specular = glm::abs(Vec3<double>(light.specular) * Vec3<double>(m.specular));
     if (std::pow(std::max(h.cosine + h.error * kError, 0.0), m.shininess) >= 0x1p127) {
       for (int c = 0; c < 3; ++c) out.overflows[c] = out.overflows[c] || share.value * specular[c] == 0;
     }

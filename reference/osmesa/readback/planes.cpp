@@ -165,8 +165,8 @@ void add_up_coverage(const Plane<glm::vec4>& sums, Planes& planes) {
     for (int x = 0; x < sums.width(); ++x) {
       const glm::vec4& sum = sums(x, y);
       if (!(sum.r <= kMost)) {
-        const std::string what = fmt::format("OpenGL: {} fragments at pixel ({}, {}): sums in float are exact up to {}",
-                                             sum.r, x, y, kMost);
+        const std::string what =
+            fmt::format("OpenGL: {} fragments at pixel ({}, {}): sums in float are exact up to {}", sum.r, x, y, kMost);
         if (std::isfinite(sum.r)) throw Unsupported(what);
         throw RendererFailed(what);
       }

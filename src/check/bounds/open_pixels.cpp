@@ -45,11 +45,12 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
     const Draw* draw = draws.draw(r.triangles[c.triangle].primitive);
     if (draw == nullptr || !draw->alpha_test) continue;
     const double alpha = r.shaded[i].color.a;
-    const FragmentBound bound = bounds.of_fragment(i);
+    const FragmentBound bound = bounds.of_fragment(i);  // with a reason, its texel may be another by Mesa's mistake
     const double off = bound.color.a + std::abs(bound.along.a) + bound.apart.a;
     const bool mine = alpha_outcomes(*draw->alpha_test, scene.frame.color, alpha, alpha).may_pass;
-    const Outcomes other =
-        std::isfinite(off) ? theirs_of(*draw->alpha_test, theirs, alpha - off, alpha + off) : Outcomes{true, true};
+    const Outcomes other = std::isfinite(off) && bound.reason.empty()
+                               ? theirs_of(*draw->alpha_test, theirs, alpha - off, alpha + off)
+                               : Outcomes{true, true};
     if (mine ? other.may_fail : other.may_pass) open(c.x, c.y) = 1;
   }
   // Of a fragment that the reference alone has, nobody knows the alpha; whether it may have it is coverage's matter.
