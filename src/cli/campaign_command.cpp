@@ -1,6 +1,7 @@
 // plumb campaign: random scenes by the thousand, judged; what is found is made small and sorted.
 #include <charconv>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -25,6 +26,7 @@
 #include "cli/judge_in_workers.h"
 #include "cli/judges.h"
 #include "cli/options/program_argument.h"
+#include "cli/options/references.h"
 #include "cli/options/say.h"
 #include "cli/worker_bytes.h"
 
@@ -85,7 +87,7 @@ std::vector<campaign::SceneId> scenes_of(const Range& range, const std::string& 
   return out;
 }
 
-// What verdicts follow from but the scene.
+// Everything but the scene that decides a verdict.
 std::string terms_of(const CheckOptions& o) {
   std::string out = fmt::format("plumb {} {}", PLUMBLINE_VERSION, program_print());
   if (!o.fault.empty()) out += ", fault " + o.fault;
@@ -94,6 +96,8 @@ std::string terms_of(const CheckOptions& o) {
   if (o.candidate.probes) out += ", each primitive";
   if (!o.candidate.conventions.empty())
     out += ", conventions " + conventions_text(conventions_of(o.candidate.conventions));
+  if (o.limits.step != CheckOptions().limits.step || o.limits.memory != CheckOptions().limits.memory)
+    out += fmt::format(", {} s, {} MiB", std::chrono::duration<double>(o.limits.step).count(), o.limits.memory >> 20);
   return out + fmt::format(", against {}", fmt::join(o.against, ","));
 }
 
@@ -150,7 +154,11 @@ void judge_scenes(std::span<const campaign::SceneId> scenes, const CheckRules& r
     };
   };
   const auto ask = [&](std::size_t i) { return to_bytes(requests[i]); };
+  // Whoever kills a worker once, for instance where the machine's memory is short, means no scene.
+  std::set<std::size_t> killed;
   const auto ask_again = [&](std::size_t i, const WorkerEnd& end) {
+    if (end.how.starts_with(fmt::format("was killed by signal {} ", SIGKILL)) && killed.insert(i).second)
+      return to_bytes(requests[i]);
     (end.step == Progress::kBetween ? requests[i].not_compared : requests[i].ended[end.step]) = end.how;
     return to_bytes(requests[i]);
   };
@@ -255,9 +263,10 @@ void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::pa
   if (error) throw OutputError(journals, error.message());
   std::vector<campaign::SceneId> scenes = scenes_of(o, terms);
   const fs::path file = journals / journal_name(o, range);
+  const auto of_others = entries_in(journals, terms, file);  // a journal of other terms is refused before there is ours
   campaign::Journal journal(file, terms);
   std::set<campaign::SceneId> judged = journal.judged();
-  for (const auto& of_other : entries_in(journals, terms, file)) {
+  for (const auto& of_other : of_others) {
     for (const campaign::Entry& entry : of_other) judged.insert(entry.id);
   }
   std::erase_if(scenes, [&](const campaign::SceneId& id) { return judged.contains(id); });
@@ -279,6 +288,7 @@ std::vector<std::string> with_suite_images(std::vector<std::string> assets) {
 int campaign(const CampaignOptions& o) {
   CheckRules rules{o.judging, std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()), {}, {}, {}, {}};
   rules.options.cache.clear();
+  rules.options.against = without_repeats(rules.options.against);
   rules.options.scene_arguments.assets = with_suite_images(o.judging.scene_arguments.assets);
   if (!rules.options.candidate.command.empty())
     make_program(rules.options.candidate);  // refuses what is no command line

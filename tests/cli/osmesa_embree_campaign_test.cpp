@@ -96,6 +96,10 @@ TEST_F(Campaign, OfTwoCandidatesInOneFolderIsRefused) {
     EXPECT_EQ(run.code, 2) << run.text;
     EXPECT_TRUE(run.says("expected a journal of this campaign")) << run.text;
   }
+  EXPECT_EQ(campaign("c", "--seeds 1..2 --against embree").code, 2) << "other seeds";
+  EXPECT_EQ(campaign("c", "--seeds 1..2 --memory-limit 9000 --against exact").code, 2) << "another limit";
+  const Outcome run = campaign("c", "--seeds 1..2 --against exact,exact");
+  EXPECT_EQ(run.code, 0) << "what was refused left nothing: " << run.text;
 }
 
 // What was not judged never passes.

@@ -39,6 +39,21 @@ std::vector<Vec4<double>> normals_apart(const Records<double>& a, const Records<
   return out;
 }
 
+// Per vertex, how far a reference's fog coordinate may be from the z_eye that it hands out: both are that row of M p, of
+// four products and three sums each in an order of its own.
+std::vector<Vec4<double>> fog_apart(const Scene& scene, const Records<double>& r) {
+  std::vector<Vec4<double>> out(r.vertices.size(), Vec4<double>(0));
+  const DrawIndex draws(scene);
+  for (std::size_t i = 0; i < std::min(out.size(), draws.vertices()); ++i) {
+    const std::size_t d = draws.of_vertex(i).value();
+    if (!scene.draws[d].fog || d >= r.matrices.size()) continue;
+    const Mesh& mesh = scene.meshes[scene.draws[d].mesh];
+    const Vec4<double> p(mesh.positions[i - draws.ranges()[d].first_vertex], 1);
+    out[i].z = 4 * u * magnitude(r.matrices[d].model_view, p).z;
+  }
+  return out;
+}
+
 // Per vertex, what the two sides may be apart in a part of its light that the reference does not hand out; empty where
 // there is no such part.
 std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, Varying v) {
@@ -130,7 +145,8 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
                         granted(scene, candidate.records, Varying::back_color))),
       secondary_apart_(larger(granted(scene, candidate.records, Varying::secondary),
                               granted(scene, candidate.records, Varying::back_secondary))),
-      eye_apart_(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0)),
+      eye_apart_(larger(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0),
+                        fog_apart(scene, candidate.records))),
       normals_apart_(normals_apart(candidate.records, reference.records)),
       drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
   for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));
