@@ -145,8 +145,9 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
                         granted(scene, candidate.records, Varying::back_color))),
       secondary_apart_(larger(granted(scene, candidate.records, Varying::secondary),
                               granted(scene, candidate.records, Varying::back_secondary))),
-      eye_apart_(larger(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0),
-                        fog_apart(scene, candidate.records))),
+      eye_apart_(
+          larger(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0),
+                 fog_apart(scene, candidate.records))),
       normals_apart_(normals_apart(candidate.records, reference.records)),
       drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
   for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));

@@ -146,7 +146,8 @@ Measurement compare_resolved(const Scene& scene, const Capture& candidate, const
     for (int c = 0; c < 4; ++c) {
       const double v = a(x, y)[c], w = b(x, y)[c], one = scale > 0 ? 1 / scale : u;
       const double all = apart[c] + by_fault[c], diff = difference(v, w);
-      const double rounding = all == 0 ? 0 : scale > 0 ? one + 4 * u : 16 * (u * largest[c] + kGradualUnderflow);
+      const double in_float = all == 0 ? kFlushedUnderflow : 16 * (u * largest[c] + kFlushedUnderflow);
+      const double rounding = scale == 0 ? in_float : all == 0 ? 0 : one + 4 * u;
       const bool explained = diff <= all + rounding;
       meter.suspect(explained ? disputed.reason : "");
       meter.value(diff / one, 0, {x, y, -1, "color"}, v, w, (apart[c] + rounding) / one);

@@ -33,9 +33,9 @@ struct Disputed {
   std::vector<std::set<std::pair<int, int>>> at;
   std::string reason;
 };
-/// Against what another made of its own samples: where those are the candidate's, nothing may differ; where they
-/// are not (which is the passes' matter), the mean of their differences, and a rounding on either side. What disputed
-/// samples alone explain is disputed again.
+/// Against what another made of its own samples: where those are the candidate's, nothing may differ but what is flushed
+/// to zero; where they are not (which is the passes' matter), the mean of their differences, and a rounding on either
+/// side. What disputed samples alone explain is disputed again.
 Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& reference,
                              const Disputed& disputed = {});
 

@@ -105,10 +105,11 @@ constexpr std::array kLedger = {
               "Fog: f is computed in double from the distance in float and rounded once (1 u), so is 1 - f (1 u); two "
               "products and a sum (3 u), each of the magnitudes of shade_bounds.h. Light per fragment: as exact.light, "
               "with its 16 u for 4."},
-    Tolerance{Profile::opengl, Stage::shade, "", 8, "u",
-              "As exact.shade, by a renderer that evaluates attributes as opengl.attributes says and f in float: the "
-              "argument (3 u) and the exponential (its polynomial is 4 u off). Its fog coordinate may be 4 u of |M| |p| "
-              "from the z_eye that it hands out."},
+    Tolerance{
+        Profile::opengl, Stage::shade, "", 8, "u",
+        "As exact.shade, by a renderer that evaluates attributes as opengl.attributes says and f in float: the "
+        "argument (3 u) and the exponential (its polynomial is 4 u off). Its fog coordinate may be 4 u of |M| |p| "
+        "from the z_eye that it hands out."},
     Tolerance{Profile::opengl, Stage::merge, "rgba8", 1, "1/255",
               "Both sides are within their float bound of one value, and round it to the nearest code: neighbours at "
               "most, where opengl.attributes is below a code; for slivers its whole codes more."},

@@ -53,11 +53,13 @@ TEST_F(Resolved, IsTheReferencesWhereTheSamplesAre) {
   scene.frame.color = ColorFormat::rgba32f;
   EXPECT_TRUE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 2)));
   EXPECT_FALSE(side_by_side(of({1, 2, 3, 4}, 2), of({1, 2, 3, 4}, 2.00001)));
-  // The rounding of samples below the smallest normal number is absolute, 2^-150.
-  const double tiny = 255 * 0x1p-140, step = 255 * 0x1p-149;
+  // Below the smallest normal number, 2^-126, a mean may be flushed to zero, whatever the samples.
+  const double tiny = 255 * 0x1p-128, normal = 255 * 0x1p-125;
   const Capture flushed = of({0, 0, 0, 0}, 0);
-  EXPECT_TRUE(side_by_side(of({tiny, tiny, tiny, tiny}, tiny + step), flushed));
-  EXPECT_FALSE(side_by_side(of({tiny, tiny, tiny, tiny}, tiny + 16 * step), flushed));
+  EXPECT_TRUE(side_by_side(of({tiny, tiny, tiny, tiny}, tiny), flushed));
+  EXPECT_TRUE(side_by_side(of({tiny, tiny, tiny, tiny}, tiny), of({tiny, tiny, tiny, tiny}, 0)));
+  EXPECT_FALSE(side_by_side(of({normal, normal, normal, normal}, normal), of({normal, normal, normal, normal}, 0)));
+  EXPECT_FALSE(side_by_side(of({tiny, tiny, tiny, tiny}, 32 * normal), flushed));
 }
 
 TEST_F(Resolved, SamplesAreThoseOfThePassesBitForBit) {
