@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <regex>
 #include <string_view>
 #include <utility>
 
@@ -25,15 +26,10 @@ std::string without_component(std::string_view field) {
   return std::string(dot != field.npos && dot + 2 == field.size() ? field.substr(0, dot) : field);
 }
 
-// Without what differs from scene to scene: the pass, numbers, and all after the first 100 letters.
-std::string without_numbers(std::string_view text) {
-  std::string out;
-  for (const char c : text.substr(0, 100)) {
-    const bool digit = c >= '0' && c <= '9';
-    if (!digit || !out.ends_with('#')) out += digit ? '#' : c;
-  }
-  constexpr std::string_view kPass = "pass #: ";
-  return out.starts_with(kPass) ? out.substr(kPass.size()) : out;
+// Without what differs from scene to scene: the pass, numbers, and all after the first 100 letters of the rest.
+std::string without_numbers(const std::string& text) {
+  static const std::regex pass("^pass [0-9]+: "), number("0x[0-9a-fA-F]+|[0-9]+");
+  return std::regex_replace(std::regex_replace(text, pass, ""), number, "#").substr(0, 100);
 }
 
 // Of the rows that say the same of a stage, one judge's wherever that judge is: a bug is one entry, not one for each.
