@@ -92,6 +92,18 @@ class Statement {
 
 }  // namespace
 
+namespace {
+
+SceneId id_in(const std::filesystem::path& file, const std::string& text) {
+  try {
+    return scene_id_of(text);
+  } catch (const std::invalid_argument& bad) {
+    throw JournalError(fmt::format("{}: {}", file.string(), bad.what()));
+  }
+}
+
+}  // namespace
+
 Journal::Journal(const std::filesystem::path& file, const std::string& terms)
     : database_(std::make_unique<Database>()) {
   Database& db = *database_;
@@ -122,7 +134,7 @@ Journal::Journal(const std::filesystem::path& file, const std::string& terms)
   Statement scenes(db.handle, "SELECT id FROM scene");
   for (int code; (code = scenes.step()) != SQLITE_DONE;) {
     if (code != SQLITE_ROW) db.fail(code);
-    judged_.insert(scene_id_of(scenes.text_at(0)));
+    judged_.insert(id_in(db.file, scenes.text_at(0)));
   }
 }
 
@@ -156,7 +168,7 @@ std::vector<Entry> Journal::entries() const {
       "USING (id) ORDER BY scene.id, disputed, stage, cause, reference");
   for (int code; (code = rows.step()) != SQLITE_DONE;) {
     if (code != SQLITE_ROW) database_->fail(code);
-    const SceneId id = scene_id_of(rows.text_at(0));
+    const SceneId id = id_in(database_->file, rows.text_at(0));
     if (out.empty() || out.back().id != id)
       out.push_back({id, {}, {}, rows.number_at(1) != 0, rows.bytes_at(2), rows.number_at(3)});
     const Signature signature{rows.text_at(5), rows.text_at(6), rows.text_at(7)};

@@ -25,7 +25,7 @@ struct JournalInUse : JournalError {
 
 class Journal {
  public:
-  /// Makes the file, or goes on with it. `terms`: what verdicts follow from but the scene; a journal has one. Throws
+  /// Makes the file, or goes on with it. `terms`: everything but the scene that decides a verdict; a journal has one. Throws
   /// JournalInUse, or JournalError where its terms are others or it is no journal.
   Journal(const std::filesystem::path& file, const std::string& terms);
   ~Journal();

@@ -91,7 +91,7 @@ std::vector<campaign::SceneId> scenes_of(const Range& range, const std::string& 
 std::string terms_of(const CheckOptions& o) {
   std::string out = fmt::format("plumb {} {}", PLUMBLINE_VERSION, program_print());
   if (!o.fault.empty()) out += ", fault " + o.fault;
-  if (!o.candidate.command.empty()) out += ", program " + o.candidate.command;
+  if (!o.candidate.command.empty()) out += ", program " + o.candidate.command + files_print(o.candidate.command);
   if (!o.candidate.from.empty()) out += ", from " + o.candidate.from;
   if (o.candidate.probes) out += ", each primitive";
   if (!o.candidate.conventions.empty())
@@ -234,7 +234,14 @@ std::vector<campaign::SceneId> kept_of(std::size_t round, const fs::path& folder
   }
   std::vector<campaign::SceneId> out;
   std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) out.push_back(campaign::scene_id_of(line));
+  for (std::string line; std::getline(in, line);) {
+    try {
+      out.push_back(campaign::scene_id_of(line));
+    } catch (const std::invalid_argument& bad) {
+      throw std::invalid_argument(fmt::format("{}: line {}: {}", file.string(), out.size() + 1, bad.what()));
+    }
+  }
+  if (out.empty()) throw std::invalid_argument(fmt::format("{}: expected scenes, found none", file.string()));
   return out;
 }
 

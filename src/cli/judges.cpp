@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -61,9 +63,25 @@ std::string judges_of(const CheckOptions& o) {
                      o.candidate.probes);
 }
 
-std::string program_print() {
-  std::ifstream in("/proc/self/exe", std::ios::binary);
-  return to_string(check::hash_of(std::string(std::istreambuf_iterator<char>(in), {})));
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+}  // namespace
+
+std::string program_print() { return to_string(check::hash_of(bytes_of("/proc/self/exe"))); }
+
+std::string files_print(const std::string& command) {
+  std::string all;
+  std::istringstream words(command);
+  for (std::string word; words >> word;) {
+    std::error_code none;
+    if (std::filesystem::is_regular_file(word, none)) all += bytes_of(word);
+  }
+  return all.empty() ? "" : fmt::format(" ({})", to_string(check::hash_of(all)));
 }
 
 }  // namespace plumbline::cli

@@ -18,4 +18,7 @@ std::string judges_of(const CheckOptions& options);
 /// Hash of this program's file: all that draws and judges.
 std::string program_print();
 
+/// " (HASH)" of the files that words of the command line name; of none, nothing.
+std::string files_print(const std::string& command);
+
 }  // namespace plumbline::cli

@@ -173,6 +173,29 @@ TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
 }
 
 // A round's scenes are a function of the results of the rounds before, whoever judged them.
+TEST_F(Campaign, NamesTheFileOfABadRound) {
+  ASSERT_EQ(campaign("c", "--seeds 1..2 --generator hard --against exact").code, 0);
+  fs::create_directories(folder_ / "c/rounds");
+  write(folder_ / "c/rounds/1.txt", "hard/1\nnonsense\n");
+  const Outcome bad = campaign("c", "--seeds 1..2 --generator hard --against exact --round 2");
+  EXPECT_EQ(bad.code, 2) << bad.text;
+  EXPECT_TRUE(bad.says("rounds/1.txt: line 2: expected GENERATOR/SEED such as hard/17, found nonsense")) << bad.text;
+  write(folder_ / "c/rounds/1.txt", "");
+  const Outcome none = campaign("c", "--seeds 1..2 --generator hard --against exact --round 2");
+  EXPECT_TRUE(none.says("rounds/1.txt: expected scenes, found none")) << none.text;
+}
+
+// A program that is mended is another one.
+TEST_F(Campaign, OfAProgramThatWasChangedIsRefused) {
+  write(folder_ / "mine.sh", "exit 3\n");
+  const std::string options = "--seeds 1..1 --generator hard --judge-only --program 'sh " + at("mine.sh") + " {serve}'";
+  ASSERT_EQ(campaign("c", options).code, 0);
+  write(folder_ / "mine.sh", "exit 4\n");
+  const Outcome run = campaign("c", options);
+  EXPECT_EQ(run.code, 2) << run.text;
+  EXPECT_TRUE(run.says("expected a journal of this campaign")) << run.text;
+}
+
 TEST_F(Campaign, GoesInRounds) {
   EXPECT_EQ(campaign("none", "--seeds 1..2 --round 2").code, 2);
   for (const char* first : {"1..8", "1..3"}) {
