@@ -302,7 +302,7 @@ FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   const Vec4<double> apart =
       lit_error(triangle.primitive, enlarged(triangle, c.x, c.y)) + mean_error(triangle, c.x, c.y);
-  return {factor_ * u * plane.color, plane.along_color, apart, {}};
+  return {factor_ * u * plane.color, glm::max(glm::abs(plane.along_color), by_other_edges(i, nullptr)), apart, {}};
 }
 
 FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
