@@ -33,7 +33,7 @@ struct PlaneValue {
 };
 PlaneValue color_of_plane(const WindowTriangle<double>& triangle, int x, int y);
 
-/// What a renderer that evaluates these slopes in double may be off by, per channel and pixel: 2^-51 of the terms of
+/// Rounding error of these slopes where they are evaluated in double, per channel and pixel: 2^-51 of the terms of
 /// c/w, of 1/w and of their slopes, evaluated from an anchor a tile away. Far behind a corner beside the eye, c/w and
 /// 1/w are small differences of large ones.
 Vec4<double> slope_rounding(const WindowTriangle<double>& triangle, int x, int y);

@@ -85,7 +85,7 @@ double enlarged(WindowTriangle<double> t, int x, int y) {
   return std::max(1.0, weights.x + weights.y + weights.z);
 }
 
-// What the candidate's own mean of the corners may be off by (the ledger's exact.attributes): beside the eye, where a
+// Error of the candidate's own mean of the corners (the ledger's exact.attributes): beside the eye, where a
 // corner is far away, more than all that a plane from the origin errs by.
 Vec4<double> mean_error(const WindowTriangle<double>& t, int x, int y) {
   return tolerance(Profile::exact, Stage::attributes).factor * u * bounds_of_mean(t, x, y);

@@ -77,7 +77,7 @@ class FragmentBounds {
   /// Where the primitive is cut: what a renderer's cut may be off by, in proportion to the values at both ends (the
   /// ledger's opengl.clip). Of a share near 1 of a way of 10^6 that is more than all that comes after.
   Vec4<double> cut_error(std::uint32_t primitive, const std::vector<Vec4<double>>& column) const;
-  /// What the two sides' colours may be apart by at the primitive's corners: at its vertices, `times` as much, and at
+  /// Difference of the two sides' colours at the primitive's corners, at most: at its vertices, `times` as much, and at
   /// those that a cut makes.
   Vec4<double> lit_error(std::uint32_t primitive, double times) const;
   /// How far the values of other edges or corners of the fragment's triangle that the pixel may hold (bounds.h,

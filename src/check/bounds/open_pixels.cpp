@@ -53,7 +53,7 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
                                : Outcomes{true, true};
     if (mine ? other.may_fail : other.may_pass) open(c.x, c.y) = 1;
   }
-  // Of a fragment that the reference alone has, nobody knows the alpha; whether it may have it is coverage's matter.
+  // A fragment that the reference alone has is of unknown alpha; coverage judges whether it may be there.
   const Planes &a = candidate.planes, &b = reference.planes;
   for (int y = 0; a.count.size() == open.size() && b.count.size() == open.size() && y < open.height(); ++y) {
     for (int x = 0; x < open.width(); ++x) {

@@ -302,7 +302,7 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
       const auto compare = [&](Meter& to, bool loosely) {
         compare_polygon(to, *a, *b, candidate, reference, corners, factor, loosely);
       };
-      // As many vertices may be others: in a triangle that lies in a plane, the order of cuts decides which there are.
+      // Vertices of the same number may be others: of a triangle that lies in a plane, the order of cuts decides.
       const bool loosely = a->count != b->count || (a->count > 2 && is_cut(vertices_of(*a, candidate)) &&
                                                     may_cut_otherwise(corners, factor) && fails(compare));
       compare(meter, loosely);

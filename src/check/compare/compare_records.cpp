@@ -87,7 +87,7 @@ Measurement compare_lights(const Scene& scene, const Records<double>& candidate,
 
 namespace {
 
-// What two sides' matrices, each rounded from a double of its own, come to at p, of magnitude |M| |p|: entries that
+// Difference at p by two sides' matrices, each rounded from a double of its own; |M| |p| is its magnitude. Entries that
 // nearly cancel differ in their last bits, and then sums round otherwise.
 Vec4<double> by_matrices(const Mat4<double>& a, const Mat4<double>& b, const Vec4<double>& p,
                          const Vec4<double>& magnitude_at_p) {

@@ -15,7 +15,7 @@ namespace plumbline::check {
 
 namespace {
 
-// What double arithmetic leaves of a level of detail, where texel coordinates hardly change from pixel to pixel.
+// Rounding error of a level of detail in double, which shows where texel coordinates hardly change between pixels.
 class LodRounding {
  public:
   LodRounding(const Scene& scene, const Records<double>& records) : scene_(scene), records_(records), draws_(scene) {}
@@ -66,7 +66,7 @@ Measurement compare_texels(const Scene& scene, const Records<double>& candidate,
     const double lod = std::max(a.lod, kLeast), exact = std::max(b.lod, kLeast);
     const double unit = u * std::max(1.0, std::abs(exact));
     meter.value(difference(lod, exact) / unit, factor, {c.x, c.y, c.triangle, "level of detail"}, a.lod, b.lod,
-                lod == exact ? 0 : rounding(c) / unit);
+                difference(lod, exact) <= factor * unit ? 0 : rounding(c) / unit);
     meter.item();
   }
   return meter.done();

@@ -18,7 +18,8 @@ struct References {
 };
 /// `assets`: where those in processes of their own look for meshes as well.
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets);
-/// In a worker: each is watched, numbered from 1, and there are arbiters. `fault`: of one of them (faults/endings.h), or of none.
+/// In a worker: each is watched, numbered from 1, and there are arbiters. `fault`: of one of them (faults/endings.h), or
+/// of none.
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
                            const Watch& watch, const std::string& fault = "");
 

@@ -15,7 +15,7 @@ struct SceneArguments {
   std::vector<std::string> assets;  ///< folders where mesh files are looked for, after the scene's own
 
   Scene load(const std::filesystem::path& file) const;
-  /// The same without its notes for people.
+  /// A scene as load() reads it, without its notes for people.
   Scene load_silently(const std::filesystem::path& file) const;
   /// All of them, several at a time, each accepted by `require`, which throws else. Throws what the first bad one in
   /// order does. No thread is left: the caller may fork.
