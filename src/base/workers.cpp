@@ -112,6 +112,12 @@ void set_limits(const WorkerLimits& limits) {
   if (pages > 0) ::setrlimit(RLIMIT_AS, &memory);
 }
 
+// Memory was refused, or address space for a library.
+bool lacks_memory(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         std::strstr(error.what(), "failed to map segment") != nullptr;
+}
+
 [[noreturn]] void be_worker(int socket, const WorkerLimits& limits, Progress& progress,
                             const std::function<Workers::Answer(Progress&)>& make) {
   set_limits(limits);
@@ -130,6 +136,7 @@ void set_limits(const WorkerLimits& limits) {
       reply = "+" + answer(*request);
     } catch (const std::exception& error) {
       reply = std::string("-") + error.what();
+      if (lacks_memory(error)) reply += fmt::format(" (a worker's memory is limited to {} MiB)", limits.memory >> 20);
     }
     if (!send_message(socket, reply)) _exit(0);
   }

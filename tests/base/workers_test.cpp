@@ -154,6 +154,18 @@ TEST(Workers, MemoryIsLimited) {
   EXPECT_EQ(ran.taken[1].second, "refused");
 }
 
+TEST(Workers, ALackOfMemoryNamesTheLimit) {
+  const auto make = [](Progress&) -> Workers::Answer {
+    return [](const std::string&) -> std::string { throw std::bad_alloc(); };
+  };
+  try {
+    run(1, 1, make, {.memory = std::uint64_t{256} << 20});
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "std::bad_alloc (a worker's memory is limited to 256 MiB)");
+  }
+}
+
 TEST(Workers, AnExceptionIsThrownInItsTurnAndNothingBeginsAfterIt) {
   for (const std::size_t workers : {1u, 3u}) {
     std::vector<std::size_t> taken;
