@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -55,6 +57,15 @@ void remove_abandoned(const fs::path& folder, std::string_view prefix) {
 }
 
 }  // namespace
+
+fs::path temporary_files() {
+  std::error_code error;
+  fs::path out = fs::temp_directory_path(error);
+  if (!error) return out;
+  const char* said = std::getenv("TMPDIR");
+  throw std::runtime_error(
+      fmt::format("TMPDIR: {}: expected a folder for temporary files: {}", said ? said : "", error.message()));
+}
 
 TemporaryPath::Held TemporaryPath::make(const fs::path& folder, std::string_view prefix, Kind kind) {
   remove_abandoned(folder, prefix);

@@ -8,6 +8,9 @@
 
 namespace plumbline {
 
+/// $TMPDIR, else /tmp. Throws std::runtime_error, which names it, where it is no folder.
+std::filesystem::path temporary_files();
+
 /// A new file, or a new folder, of a hidden name, which its destructor removes with all that is in it. Where the
 /// program ends before: the supervisor removes it (supervise.h), or after SIGKILL the next TemporaryPath that is made
 /// with the same prefix in the same folder.
