@@ -80,7 +80,7 @@ void add(CLI::App& command, CheckOptions& o) {
   for (const char* of_one : {"--json", "--report", "--ledger", "--junit", "--rows", "--failures", "--expect"})
     submissions->excludes(command.get_option(of_one));
   add_jobs(command, o.jobs);
-  add_limits(command, o.limits);
+  add_limits(command, o.limits, o.candidate);
   text(command, "--cache", o.cache,
        "Keep verdicts in this folder for later runs (default: plumbline in the user's folder of caches)")
       ->envname("PLUMBLINE_CACHE");
@@ -113,7 +113,7 @@ void add(CLI::App& command, CampaignOptions& o) {
   add_against(command, o.judging.against);
   add_candidate(command, o.judging);
   add_jobs(command, o.judging.jobs);
-  add_limits(command, o.judging.limits);
+  add_limits(command, o.judging.limits, o.judging.candidate);
   add_assets(command, o.judging.scene_arguments);
 }
 
@@ -139,7 +139,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
       .add_option("--fragments", o.most_fragments,
                   "Of a scene with more fragments, look at those about the worst pixels alone")
       ->capture_default_str();
-  add_limits(command, o.limits);
+  add_limits(command, o.limits, o.candidate);
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
   add_program(command, o.candidate, "Diagnose what this command line leaves within a minute: ")

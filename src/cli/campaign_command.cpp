@@ -37,7 +37,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kMostSeeds = 10'000'000;  // of a process
+constexpr std::uint64_t kMostSeeds = 1'000'000;  // of a process: their scenes' numbers take some 500 MB
 
 struct Range {
   std::uint64_t first = 0, last = 0;
@@ -133,7 +133,7 @@ class ProgressLine {
 };
 
 void judge_scenes(std::span<const campaign::SceneId> scenes, const CheckRules& rules, campaign::Journal& journal) {
-  const TemporaryPath scratch(fs::temp_directory_path(), "plumb-campaign-", TemporaryPath::Kind::private_folder);
+  const TemporaryPath scratch(temporary_files(), "plumb-campaign-", TemporaryPath::Kind::private_folder);
   std::vector<JudgeRequest> requests(scenes.size());
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < scenes.size(); ++i) order.push_back(i), requests[i].scene = i;
@@ -180,6 +180,7 @@ std::string journal_name(const CampaignOptions& o, const Range& range) {
 
 std::vector<fs::path> journals_in(const fs::path& folder) {
   std::vector<fs::path> out;
+  if (!fs::exists(folder)) return out;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".journal") out.push_back(entry.path());
   }
@@ -252,12 +253,23 @@ std::vector<campaign::SceneId> scenes_of(const CampaignOptions& o, const std::st
                    o.round > 1 ? kept_of(o.round - 1, o.folder, terms) : std::vector<campaign::SceneId>());
 }
 
+// Files that appear whole, each written in a folder beside: among thousands, write_file() would read them all each time.
 void write_scenes(const CampaignOptions& o, const std::string& terms) {
-  for (const campaign::SceneId& id : scenes_of(o, terms)) {
-    const fs::path file = fs::path(o.folder) / (to_string(id) + ".json");
-    std::error_code none;  // what cannot be written says so below
-    fs::create_directories(file.parent_path(), none);
-    write_file(file, campaign::scene_text(id));
+  const std::vector<campaign::SceneId> scenes = scenes_of(o, terms);
+  const fs::path folder = o.folder;
+  std::error_code error;
+  for (const campaign::Generator of : generators_of(o.generator)) {
+    fs::create_directories(folder / name_of(of), error);
+    if (error) throw OutputError(folder / name_of(of), error.message());
+  }
+  const TemporaryPath scratch(folder, ".plumb-", TemporaryPath::Kind::private_folder);
+  for (const campaign::SceneId& id : scenes) {
+    const fs::path file = folder / (to_string(id) + ".json"), written = scratch.path() / "scene.json";
+    std::ofstream out(written, std::ios::binary);
+    out << campaign::scene_text(id);
+    out.close();
+    if (out) fs::rename(written, file, error);
+    if (!out || error) throw OutputError(file, out ? error.message() : "the device is full, or refuses");
   }
 }
 
@@ -265,10 +277,10 @@ void write_scenes(const CampaignOptions& o, const std::string& terms) {
 void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::path& journals,
                  const std::string& terms) {
   const Range range = range_of(o.seeds);
+  std::vector<campaign::SceneId> scenes = scenes_of(o, terms);
   std::error_code error;
   fs::create_directories(journals, error);
   if (error) throw OutputError(journals, error.message());
-  std::vector<campaign::SceneId> scenes = scenes_of(o, terms);
   const fs::path file = journals / journal_name(o, range);
   const auto of_others = entries_in(journals, terms, file);  // a journal of other terms is refused before there is ours
   campaign::Journal journal(file, terms);
@@ -297,8 +309,10 @@ int campaign(const CampaignOptions& o) {
   rules.options.cache.clear();
   rules.options.against = without_repeats(rules.options.against);
   rules.options.scene_arguments.assets = with_suite_images(o.judging.scene_arguments.assets);
-  if (!rules.options.candidate.command.empty())
+  if (!rules.options.candidate.command.empty()) {
     make_program(rules.options.candidate);  // refuses what is no command line
+    require_program(rules.options.candidate);
+  }
   const std::string& fault = rules.options.fault;
   make_candidate(faulted_reference(fault).empty() ? fault : "");  // refuses an unknown fault
   const std::string terms = terms_of(rules.options);

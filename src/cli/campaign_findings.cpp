@@ -55,9 +55,8 @@ std::vector<Finding> unknown(const fs::path& folder, const std::vector<campaign:
     std::string name = slug(fmt::format("{}-{}-{}", stage, cause, reference));
     while (!names.insert(name).second) name += "-2";
     Finding finding{&group, folder / name, campaign::scene_text(group.first.front())};
-    if (!fs::exists(finding.folder / "scene.txt") || read(finding.folder / "found.json") != finding.found) {
-      out.push_back(std::move(finding));
-    }
+    const bool whole = fs::exists(finding.folder / "scene.txt") && fs::exists(finding.folder / "scene.json");
+    if (!whole || read(finding.folder / "found.json") != finding.found) out.push_back(std::move(finding));
   }
   return out;
 }
@@ -67,7 +66,7 @@ void leave_smallest(const std::vector<Finding>& findings, const CheckRules& rule
   constexpr std::string_view kAsFound = "as found";
   std::vector<std::size_t> order(findings.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const TemporaryPath scratch(fs::temp_directory_path(), "plumb-campaign-", TemporaryPath::Kind::private_folder);
+  const TemporaryPath scratch(temporary_files(), "plumb-campaign-", TemporaryPath::Kind::private_folder);
   const auto make = [&](Progress& progress) -> Workers::Answer {
     const auto judge = std::make_shared<CampaignJudge>(rules, progress, scratch.path() / std::to_string(::getpid()));
     return [&, judge](const std::string& number) {

@@ -18,7 +18,8 @@ namespace plumbline::cli {
 
 namespace {
 
-constexpr int kTrials = 400;  // scenes that shrinking asks about, by one judge
+// Each scene may take until the time limit.
+bool hangs(const campaign::Signature& signature) { return signature.cause.find("took longer") != std::string::npos; }
 
 // "p_clip.x" and "p_clip.y" are one bug's.
 std::string without_component(std::string_view field) {
@@ -109,13 +110,14 @@ std::optional<campaign::Signature> CampaignJudge::signature_of(SceneJudge& judge
 }
 
 std::string CampaignJudge::shrink(const campaign::SceneId& id, const campaign::Signature& signature) {
+  const int trials = hangs(signature) ? 10 : 400;  // by one judge
   const auto smaller = [&](SceneJudge& judge, const std::string& text) {
     const auto shows = [&](const std::string& scene) { return signature_of(judge, scene) == signature; };
-    return shows(text) ? campaign::shrink(text, shows, kTrials) : text;
+    return shows(text) ? campaign::shrink(text, shows, trials) : text;
   };
   const std::string text = campaign::scene_text(id),
                     reference = signature.reference.substr(0, signature.reference.find(','));
-  if (std::ranges::count(known_reference_names(), reference) == 0) return smaller(all_, text);
+  if (hangs(signature) || std::ranges::count(known_reference_names(), reference) == 0) return smaller(all_, text);
   CheckRules of_one{rules_->options, rules_->today, {}, {}, {}, {}};
   of_one.options.against = {reference};
   SceneJudge its_own(of_one, *progress_);

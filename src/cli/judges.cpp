@@ -79,7 +79,9 @@ std::string files_print(const std::string& command) {
   std::istringstream words(command);
   for (std::string word; words >> word;) {
     std::error_code none;
-    if (std::filesystem::is_regular_file(word, none)) all += bytes_of(word);
+    if (!std::filesystem::is_regular_file(word, none)) continue;
+    const std::string bytes = bytes_of(word);
+    all += fmt::format("{} {}\n", word, bytes.size()) + bytes;
   }
   return all.empty() ? "" : fmt::format(" ({})", to_string(check::hash_of(all)));
 }

@@ -87,8 +87,9 @@ int check_submissions(const CheckRules& given, std::span<const Scene> scenes,
   const CheckOptions& o = given.options;
   const std::vector<fs::path> folders = folders_in(o.submissions);
   for (const fs::path& folder : folders) {  // refuses what is no command line
-    make_program({command_of_submission(o.candidate.command, folder), o.candidate.probes, o.candidate.from,
-                  o.candidate.conventions});
+    ProgramArgument of_folder = o.candidate;
+    of_folder.command = command_of_submission(o.candidate.command, folder);
+    make_program(of_folder);
   }
   const Output outputs[] = {{"--markdown", o.markdown}};
   require_outputs(outputs, {"--report", ""}, {});

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <future>
+#include <map>
 #include <random>
 #include <thread>
 
@@ -144,6 +146,12 @@ TEST_F(Campaign, RefusesBadInput) {
       {"--seeds 1..2 --fault none_such", "none_such"},
       {"--seeds 1..2 --against none_such", "none_such"},
       {"--seeds 1..2 --program cp", "{scene}"},
+      {"--seeds 1..2 --program './none_such {serve}'",
+       "--program: ./none_such: expected a program that can be run, found none"},
+      {"--seeds 1..2 --program 'none_such {serve}'",
+       "--program: none_such: expected a program that can be run, found none"},
+      {"--seeds 1..2 --program '/etc/passwd {serve}'", "found another file"},
+      {"--seeds 1..1000001", "at most 1000000 seeds"},
       {"--judge-only", "--seeds"}};
   for (const auto& [options, why] : kBad) {
     const Outcome run = campaign("c", options);
@@ -151,6 +159,7 @@ TEST_F(Campaign, RefusesBadInput) {
     EXPECT_TRUE(run.says(why)) << options << ": " << run.text;
     EXPECT_FALSE(fs::exists(folder_ / "c/results.json"));
   }
+  EXPECT_FALSE(fs::exists(folder_ / "c/journal"));
 }
 
 // Away from the project's folders, in a program that is alone.
@@ -183,6 +192,48 @@ TEST_F(Campaign, NamesTheFileOfABadRound) {
   write(folder_ / "c/rounds/1.txt", "");
   const Outcome none = campaign("c", "--seeds 1..2 --generator hard --against exact --round 2");
   EXPECT_TRUE(none.says("rounds/1.txt: expected scenes, found none")) << none.text;
+}
+
+TEST_F(Campaign, GivesAProgramTheTimeLimit) {
+  const Outcome run =
+      campaign("c", "--seeds 1..1 --generator hard --judge-only --time-limit 1 --program 'sleep 100; {serve}'");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("took longer than #s and was killed")) << run.text;
+}
+
+// The process that does the work of the others, once there are three: supervisor, program, worker.
+pid_t worker_of(const std::string& mark) {
+  std::map<pid_t, pid_t> parents;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const pid_t pid = std::atoi(entry.path().filename().c_str());
+    if (pid <= 0 || read(entry.path() / "environ").find(mark) == std::string::npos) continue;
+    const std::string stat = read(entry.path() / "stat");
+    const std::size_t state = stat.rfind(')') + 2;
+    if (state + 2 < stat.size()) parents[pid] = std::atoi(stat.c_str() + state + 2);
+  }
+  for (const auto& [pid, parent] : parents) {
+    if (parents.contains(parent) && parents.contains(parents.at(parent))) return pid;
+  }
+  return 0;
+}
+
+// Whoever kills a worker once means no scene: what follows is the scene's own, here that its reference hangs.
+TEST_F(Campaign, AsksAgainWhereAWorkerWasKilled) {
+  const std::string mark = "PLUMBLINE_KILLED_WORKER=" + folder_.string();
+  auto killed = std::async(std::launch::async, [&] {
+    for (int i = 0; i < 2000; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(5))) {
+      if (const pid_t worker = worker_of(mark); worker != 0) return ::kill(worker, SIGKILL) == 0;
+    }
+    return false;
+  });
+  const Outcome run = shell(fmt::format(
+      "{} {} campaign {} --seeds 2..2 --generator hard --against exact --jobs 1 --judge-only --time-limit 3 "
+      "--fault endings.hang:exact:hard/2",
+      mark, PLUMBLINE_PLUMB, at("c")));
+  EXPECT_TRUE(killed.get());
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("failed: took longer than #s and was killed (against exact)")) << run.text;
+  EXPECT_FALSE(run.says("signal")) << run.text;
 }
 
 // A program that is mended is another one.

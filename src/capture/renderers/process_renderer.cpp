@@ -53,7 +53,7 @@ struct Ending {
 Ending ending_of(const ProgramEnd& end, std::chrono::milliseconds limit) {
   if (end.start_error != 0) return {fmt::format("cannot be started: {}", std::strerror(end.start_error))};
   if (end.spoke) return {"answered before it was asked, and was killed"};
-  if (end.hung) return {fmt::format("took longer than {} and was killed", limit)};
+  if (end.hung) return {fmt::format("took longer than {} and was killed", std::chrono::duration<double>(limit))};
   if (WIFSIGNALED(end.status) && WTERMSIG(end.status) == SIGXFSZ) {
     return {"was killed: it wrote a file, or to stderr, beyond the limit of a capture"};
   }
@@ -142,7 +142,7 @@ class ProcessRenderer : public Renderer {
     require_budget(scene, plane_bytes(scene), request.memory_budget);
     if (spec_.serves) start_server(request);
     const std::unique_ptr<TemporaryPath> temporary =
-        temporary_folder(spec_.serves ? server_folder_->path() : fs::temp_directory_path());
+        temporary_folder(spec_.serves ? server_folder_->path() : temporary_files());
     const fs::path input = temporary->path() / "input", output = temporary->path() / "output";
     fs::create_directory(output);
     if (spec_.write_input) spec_.write_input(scene, input);
@@ -189,7 +189,7 @@ class ProcessRenderer : public Renderer {
 
   void start_server(const Request& request) {
     if (server_) return;
-    server_folder_ = temporary_folder(fs::temp_directory_path());
+    server_folder_ = temporary_folder(temporary_files());
     log_ = server_folder_->path() / "stderr.txt";
     argv_ = spec_.argv;
     server_.emplace(call(request, server_folder_->path()));

@@ -24,11 +24,13 @@ void add_against(CLI::App& command, std::vector<std::string>& against) {
       ->delimiter(',');
 }
 
-void add_limits(CLI::App& command, WorkerLimits& limits) {
+void add_limits(CLI::App& command, WorkerLimits& limits, ProgramArgument& program) {
   command
       .add_option_function<int>(
-          "--time-limit", [&limits](int seconds) { limits.step = std::chrono::seconds(seconds); },
-          "Seconds that a renderer may take to draw a scene or run a stage (default: 300)")
+          "--time-limit",
+          [&limits, &program](int seconds) { limits.step = program.time_limit = std::chrono::seconds(seconds); },
+          "Seconds that a renderer may take to draw a scene or run a stage (default: 300), or the program to answer "
+          "(default: 60)")
       ->check(CLI::Range(1, 1'000'000));
   command
       .add_option_function<int>(

@@ -21,8 +21,8 @@ CLI::Option* text(CLI::App& command, const std::string& names, Value& value, con
 
 void add_assets(CLI::App& command, SceneArguments& arguments);
 void add_against(CLI::App& command, std::vector<std::string>& against);
-/// Limits of the worker processes in which renderers run.
-void add_limits(CLI::App& command, WorkerLimits& limits);
+/// Limits of the worker processes in which renderers run, and of the program.
+void add_limits(CLI::App& command, WorkerLimits& limits, ProgramArgument& program);
 void add_conventions(CLI::App& command, std::string& file);
 /// What stands for what in a program's command line.
 extern const char* const kProgramHelp;

@@ -1,6 +1,11 @@
 #include "cli/options/program_argument.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -64,6 +69,7 @@ ProcessSpec spec_of(const ProgramArgument& program) {
   spec.name = "program";
   spec.shown = command;
   spec.confined = true;
+  spec.timeout = program.time_limit;
   std::string line = command;  // a shell's
   spec.serves = replace(line, "{serve}", "--serve");
   const bool scene = replace(line, "{scene}", "\"$1\""), input = replace(line, "{input}", "\"$2\""),
@@ -132,6 +138,20 @@ class Program : public Renderer {
 };
 
 }  // namespace
+
+void require_program(const ProgramArgument& program) {
+  const std::string first = program.command.substr(0, program.command.find_first_of(" \t\n"));
+  constexpr std::string_view kOfShell = "\\\"'`$&|;<>(){}[]*?!#~=%";
+  if (first.empty() || first.find_first_of(kOfShell) != first.npos) return;
+  const std::filesystem::path path = first;
+  const bool found = path.has_parent_path()
+                         ? std::filesystem::is_regular_file(path) && ::access(first.c_str(), X_OK) == 0
+                         : std::system(("command -v -- " + first + " >/dev/null 2>&1").c_str()) == 0;
+  if (found) return;
+  throw std::invalid_argument(
+      fmt::format("--program: {}: expected a program that can be run, found {}", first,
+                  std::filesystem::exists(path) && path.has_parent_path() ? "another file" : "none"));
+}
 
 std::unique_ptr<Renderer> make_program(const ProgramArgument& program) { return std::make_unique<Program>(program); }
 

@@ -1,6 +1,7 @@
 // --program: another renderer, by the command line that runs it.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -14,7 +15,8 @@ struct ProgramArgument {
   std::string command;  ///< empty: none is asked
   bool probes = false;  ///< it is called for each primitive, too, for coverage and winners (capture/renderers/probes.h)
   std::string from{};   ///< "clip" or "window": it begins there, and the stages before are given; empty: with all
-  std::string conventions{};  ///< a file that declares them (capture/files/conventions_file.h), or empty
+  std::string conventions{};            ///< a file that declares them (capture/files/conventions_file.h), or empty
+  std::chrono::seconds time_limit{60};  ///< of a scene
 };
 
 /// The renderer that this command line is, run by a shell: {scene} in it is the scene's file, {input} the folder of its
@@ -22,6 +24,10 @@ struct ProgramArgument {
 /// asked by lines (capture/renderers/process_renderer.h). After capture(), info() is of what the program left for that
 /// scene. Throws std::invalid_argument where the command line has none of them.
 std::unique_ptr<Renderer> make_program(const ProgramArgument& program);
+
+/// Throws std::invalid_argument where the first word of the command line is a path, and no program is there, or where it
+/// is a name that the shell does not know. A first word with a sign that the shell reads, "$" for instance, passes.
+void require_program(const ProgramArgument& program);
 
 /// A program for probes: its depths are handed on as they are left, not taken for codes of the scene's format.
 std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program);
