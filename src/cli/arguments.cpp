@@ -142,9 +142,7 @@ void add(CLI::App& command, DiagnoseOptions& o) {
   add_limits(command, o.limits, o.candidate);
   CLI::Option* fault = text(command, "--fault", o.fault, "Put a fault into our renderer (plumb list faults)");
   CLI::Option* folder = text(command, "--capture", o.folder, "Diagnose what another renderer left in this folder");
-  add_program(command, o.candidate, "Diagnose what this command line leaves within a minute: ")
-      ->excludes(fault)
-      ->excludes(folder);
+  add_program(command, o.candidate, "Diagnose what this command line leaves: ")->excludes(fault)->excludes(folder);
   folder->excludes(fault);
   CLI::Option* picture = text(command, "--picture", o.picture,
                               "Name the known faults that draw pictures like this one, which is all there is");

@@ -96,6 +96,8 @@ std::vector<Lookalike> of_files(const Pictured& right, const Measure& measure) {
     const glm::vec4 c = glm::clamp(out.color(x, y), 0.0f, 1.0f);
     out.color(x, y) = glm::vec4(encoded(c.r), encoded(c.g), encoded(c.b), 1);
   };
+  const auto of_ndc = [](Pictured& out, int x, int y) { out.depth(x, y) = 2 * out.depth(x, y) - 1; };
+  const auto farthest_first = [](Pictured& out, int x, int y) { out.depth(x, y) = 1 - out.depth(x, y); };
   std::vector<Lookalike> out;
   const auto add = [&](const char* name, const char* says, auto change) {
     out.push_back({"file", name, says, measure(changed(right, change))});
@@ -104,6 +106,9 @@ std::vector<Lookalike> of_files(const Pictured& right, const Measure& measure) {
   add("file.mirrored", "the columns are written from the other end", mirrored);
   add("file.bgr", "red and blue are swapped", swapped);
   add("file.srgb", "colours are encoded as sRGB once more", srgb);
+  if (right.depth.empty()) return out;
+  add("file.depth_of_ndc", "depths are in [-1, 1], those of normalized device coordinates", of_ndc);
+  add("file.depth_reversed", "depths are 1 at the near plane and 0 at the far one", farthest_first);
   return out;
 }
 

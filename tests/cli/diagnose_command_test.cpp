@@ -1,4 +1,9 @@
 // plumb diagnose: ours, a fault, what another renderer left, and a program.
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "capture/files/image_file.h"
 #include "tests/cli/run_plumb.h"
 
 namespace plumbline {
@@ -97,6 +102,22 @@ TEST_F(Cli, diagnose_of_a_picture_takes_its_depth_too) {
   EXPECT_EQ(wrong.code, 1) << wrong.text;
   EXPECT_TRUE(wrong.says(" 100.0 %            0  depth.at_corner ")) << wrong.text;
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --depth " + at("z.exr")).code, 2);
+}
+
+TEST_F(Cli, diagnose_of_a_picture_names_depths_of_another_convention) {
+  const std::string judged =
+      "diagnose " + kScenes + "depth/functions.json --picture " + at("picture.png") + " --depth ";
+  ASSERT_EQ(
+      plumb("render " + kScenes + "depth/functions.json -o " + at("picture.png") + " --depth " + at("z.exr")).code, 0);
+  for (const auto& [name, scale, offset] :
+       {std::tuple("file.depth_of_ndc", 2.0f, -1.0f), {"file.depth_reversed", -1.0f, 1.0f}}) {
+    Plane<glm::vec4> depth = read_image(at("z.exr"));
+    for (glm::vec4& z : depth.values()) z = glm::vec4(scale * z.r + offset);
+    write_image(at("other.exr"), depth);
+    const Outcome run = plumb(judged + at("other.exr"));
+    EXPECT_EQ(run.code, 1) << run.text;
+    EXPECT_TRUE(run.says(fmt::format("likely stage: file (fault {})", name))) << run.text;
+  }
 }
 
 TEST_F(Cli, diagnose_of_a_capture_names_the_bugs_that_draw_its_frame) {
