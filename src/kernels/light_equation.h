@@ -5,10 +5,10 @@
 #include <limits>
 #include <span>
 
-#include "base/fixed_vector.h"
 #include "capture/stages.h"
 #include "kernels/attributes.h"
 #include "kernels/math.h"
+#include "scene/fixed_vector.h"
 #include "scene/scene.h"
 
 namespace plumbline::pipeline {

@@ -4,11 +4,11 @@
 #include <array>
 #include <optional>
 
-#include "base/fixed_vector.h"
 #include "capture/stages.h"
 #include "kernels/attributes.h"
 #include "kernels/light_equation.h"
 #include "kernels/texture.h"
+#include "scene/fixed_vector.h"
 #include "scene/scene.h"
 #include "scene/texture.h"
 

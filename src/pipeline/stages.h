@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "base/fixed_vector.h"
 #include "capture/stages.h"
 #include "kernels/attributes.h"
 #include "kernels/coverage.h"
@@ -16,6 +15,7 @@
 #include "kernels/shade.h"
 #include "kernels/texture.h"
 #include "pipeline/resolve.h"
+#include "scene/fixed_vector.h"
 #include "scene/scene.h"
 
 namespace plumbline::pipeline {

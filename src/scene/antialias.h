@@ -12,7 +12,7 @@
 
 #include <glm/glm.hpp>
 
-#include "base/fixed_vector.h"
+#include "scene/fixed_vector.h"
 #include "scene/scene.h"
 
 namespace plumbline {
