@@ -104,11 +104,12 @@ SceneId id_in(const std::filesystem::path& file, const std::string& text) {
 
 }  // namespace
 
-Journal::Journal(const std::filesystem::path& file, const std::string& terms)
+Journal::Journal(const std::filesystem::path& file, const std::string& terms, std::chrono::milliseconds wait)
     : database_(std::make_unique<Database>()) {
   Database& db = *database_;
   db.file = file;
   db.require(sqlite3_open_v2(file.c_str(), &db.handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr));
+  db.require(sqlite3_busy_timeout(db.handle, static_cast<int>(wait.count())));
   // Exclusive: no second process, and no shared memory, which network file systems lack.
   db.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; BEGIN IMMEDIATE;");
   const auto value_of = [&](std::string_view query) {

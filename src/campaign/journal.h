@@ -2,6 +2,7 @@
 // goes on where it was. An SQLite file in WAL mode, which one process at a time writes.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -25,9 +26,10 @@ struct JournalInUse : JournalError {
 
 class Journal {
  public:
-  /// Makes the file, or goes on with it. `terms`: everything but the scene that decides a verdict; a journal has one. Throws
-  /// JournalInUse, or JournalError where its terms are others or it is no journal.
-  Journal(const std::filesystem::path& file, const std::string& terms);
+  /// Makes the file, or goes on with it. `terms`: everything but the scene that decides a verdict; a journal has one.
+  /// `wait`: for a process that has it, for instance to read it. Throws JournalInUse, or JournalError where its terms
+  /// are others or it is no journal.
+  Journal(const std::filesystem::path& file, const std::string& terms, std::chrono::milliseconds wait = {});
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;

@@ -1,4 +1,5 @@
 // plumb campaign: random scenes by the thousand, judged; what is found is made small and sorted.
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <csignal>
@@ -188,14 +189,21 @@ std::vector<fs::path> journals_in(const fs::path& folder) {
   return out;
 }
 
+// Another process may read a journal, which takes a moment.
+constexpr std::chrono::seconds kReading{10};
+
 // Of all journals but `mine` and those that another process has, which are told.
 std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, const std::string& terms,
                                                      const fs::path& mine = {}) {
   std::vector<std::vector<campaign::Entry>> out;
+  const auto until = Clock::now() + kReading;
   for (const fs::path& file : journals_in(folder)) {
     if (file == mine) continue;
     try {
-      out.push_back(campaign::Journal(file, terms).entries());
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
+      const std::chrono::milliseconds wait =
+          std::clamp(left, std::chrono::milliseconds(0), std::chrono::milliseconds(500));
+      out.push_back(campaign::Journal(file, terms, wait).entries());
     } catch (const campaign::JournalInUse&) {
       say(fmt::format("note: {}: in use by another campaign: its scenes are left out", file.string()));
     }
@@ -222,7 +230,7 @@ std::string lines_of_kept(std::size_t round, const fs::path& folder, const std::
 // All processes of the next round read the same. Some may begin at a time: who reads a journal has it for a moment.
 std::vector<campaign::SceneId> kept_of(std::size_t round, const fs::path& folder, const std::string& terms) {
   const fs::path file = folder / "rounds" / fmt::format("{}.txt", round);
-  const auto until = Clock::now() + std::chrono::seconds(10);
+  const auto until = Clock::now() + kReading;
   while (!fs::exists(file)) {
     try {
       const std::string lines = lines_of_kept(round, folder / "journal", terms);
@@ -283,7 +291,7 @@ void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::pa
   if (error) throw OutputError(journals, error.message());
   const fs::path file = journals / journal_name(o, range);
   const auto of_others = entries_in(journals, terms, file);  // a journal of other terms is refused before there is ours
-  campaign::Journal journal(file, terms);
+  campaign::Journal journal(file, terms, kReading);
   std::set<campaign::SceneId> judged = journal.judged();
   for (const auto& of_other : of_others) {
     for (const campaign::Entry& entry : of_other) judged.insert(entry.id);

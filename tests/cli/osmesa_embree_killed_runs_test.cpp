@@ -41,6 +41,7 @@ class KilledRuns : public Cli {
   pid_t begin(const std::string& arguments) {
     const pid_t child = ::fork();
     if (child != 0) return child;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);  // nohup's, or a shell's, are ignored
     const std::string line = fmt::format("exec env TMPDIR={} PLUMBLINE_KILLED_RUN={} {} {} >/dev/null 2>&1", at("tmp"),
                                          folder_.string(), PLUMBLINE_PLUMB, arguments);
     ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
