@@ -1,8 +1,11 @@
 #include "campaign/journal.h"
 
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -83,6 +86,7 @@ class Statement {
     const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement_, column));
     return {bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
   }
+  bool is_null(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_NULL; }
   double number_at(int column) const { return sqlite3_column_double(statement_, column); }
 
  private:
@@ -104,10 +108,29 @@ SceneId id_in(const std::filesystem::path& file, const std::string& text) {
 
 }  // namespace
 
+namespace {
+
+// A file of whole pages, but where a killed process left the last ones in the file beside, which SQLite then takes over.
+bool is_cut(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kPage = 4096;
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(file, none);
+  return !none && size % kPage != 0 && !std::filesystem::exists(file.string() + "-wal");
+}
+
+}  // namespace
+
 Journal::Journal(const std::filesystem::path& file, const std::string& terms, std::chrono::milliseconds wait)
     : database_(std::make_unique<Database>()) {
   Database& db = *database_;
   db.file = file;
+  const bool is_there = std::filesystem::exists(file);
+  const std::filesystem::path written = is_there ? file : file.parent_path();
+  if (::access(written.c_str(), R_OK | W_OK) != 0) {
+    throw JournalError(fmt::format("{}: expected a {} to read and write: {}", written.string(),
+                                   is_there ? "journal" : "folder", std::strerror(errno)));
+  }
+  const bool was_cut = is_cut(file);
   db.require(sqlite3_open_v2(file.c_str(), &db.handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr));
   db.require(sqlite3_busy_timeout(db.handle, static_cast<int>(wait.count())));
   // Exclusive: no second process, and no shared memory, which network file systems lack.
@@ -131,6 +154,11 @@ Journal::Journal(const std::filesystem::path& file, const std::string& terms, st
     throw JournalError(
         fmt::format("{}: expected a journal of this campaign ({}), found one of {}", file.string(), terms, its));
   }
+  if (was_cut)
+    throw JournalError(fmt::format("{}: expected the journal of a campaign, found a part of one", file.string()));
+  if (const std::string found = value_of("PRAGMA quick_check(1)"); found != "ok")
+    throw JournalError(
+        fmt::format("{}: expected the journal of a campaign, found one with damage: {}", file.string(), found));
   db.run("COMMIT;");
   Statement scenes(db.handle, "SELECT id FROM scene");
   for (int code; (code = scenes.step()) != SQLITE_DONE;) {
@@ -173,8 +201,10 @@ std::vector<Entry> Journal::entries() const {
     if (out.empty() || out.back().id != id)
       out.push_back({id, {}, {}, rows.number_at(1) != 0, rows.bytes_at(2), rows.number_at(3)});
     const Signature signature{rows.text_at(5), rows.text_at(6), rows.text_at(7)};
-    if (!signature.stage.empty())
-      (rows.number_at(4) != 0 ? out.back().disputes : out.back().found).push_back(signature);
+    if (rows.is_null(4)) continue;  // a scene without
+    if (signature.stage.empty())
+      throw JournalError(fmt::format("{}: {}: expected a stage, found none", database_->file.string(), to_string(id)));
+    (rows.number_at(4) != 0 ? out.back().disputes : out.back().found).push_back(signature);
   }
   std::ranges::sort(out, {}, &Entry::id);
   return out;

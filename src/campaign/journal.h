@@ -36,7 +36,7 @@ class Journal {
 
   /// Scenes that the journal holds.
   const std::set<SceneId>& judged() const { return judged_; }
-  /// After this call SIGKILL takes nothing away. A scene that the journal holds is left as it is.
+  /// After this call SIGKILL takes nothing away; a failure of power may. A scene that the journal holds is left as it is.
   void add(const Entry& entry);
   /// All of them, by scene.
   std::vector<Entry> entries() const;

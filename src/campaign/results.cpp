@@ -43,10 +43,15 @@ std::vector<std::string> names_of(const std::vector<std::size_t>& states) {
 std::string states_text(const Results& results) {
   std::vector<std::string> rounds;
   for (const auto& [round, kept] : results.kept) rounds.push_back(fmt::format("{} in round {}", kept.size(), round));
-  const std::vector<std::string> never = names_of(results.reached.never());
+  constexpr std::size_t kShown = 10;
+  std::vector<std::string> never = names_of(results.reached.never());
+  const std::size_t more = never.size() - std::min(never.size(), kShown);
+  never.resize(never.size() - more);
   return fmt::format("states: {} of {}, and {} pairs of them; scenes that reached a new one: {}\n{}",
                      results.reached.states(), state_names().size(), results.reached.pairs(), fmt::join(rounds, ", "),
-                     never.empty() ? "" : fmt::format("never: {}\n", fmt::join(never, "; ")));
+                     never.empty() ? ""
+                                   : fmt::format("never: {}{}\n", fmt::join(never, "; "),
+                                                 more > 0 ? fmt::format("; {} more (results.json)", more) : ""));
 }
 
 std::string lines_of(std::vector<Group> groups) {

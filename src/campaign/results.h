@@ -25,8 +25,8 @@ struct Results {
   std::vector<Group> found, disputes;         ///< by signature
   std::vector<SceneId> conflicts;             ///< scenes that two journals judge differently
   Reached reached;
-  /// By round (the number of its scenes' seeds): those that reached what no scene of an earlier round, nor one before it
-  /// in its own, had.
+  /// By round (the number of its scenes' seeds): scenes that reached a pair of states first, in the order of rounds, and
+  /// of names within a round.
   std::map<std::size_t, std::vector<SceneId>> kept;
   double milliseconds = 0;  ///< of judging, in all processes together
   std::uint64_t scenes() const;

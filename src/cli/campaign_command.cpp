@@ -21,7 +21,6 @@
 #include "campaign/entry_bytes.h"
 #include "campaign/journal.h"
 #include "campaign/results.h"
-#include "capture/files/conventions_file.h"
 #include "cli/campaign_judge.h"
 #include "cli/commands.h"
 #include "cli/judge_in_workers.h"
@@ -86,20 +85,6 @@ std::vector<campaign::SceneId> scenes_of(const Range& range, const std::string& 
   }
   std::ranges::stable_sort(out, {}, [](const campaign::SceneId& id) { return id.seeds.back(); });
   return out;
-}
-
-// Everything but the scene that decides a verdict.
-std::string terms_of(const CheckOptions& o) {
-  std::string out = fmt::format("plumb {} {}", PLUMBLINE_VERSION, program_print());
-  if (!o.fault.empty()) out += ", fault " + o.fault;
-  if (!o.candidate.command.empty()) out += ", program " + o.candidate.command + files_print(o.candidate.command);
-  if (!o.candidate.from.empty()) out += ", from " + o.candidate.from;
-  if (o.candidate.probes) out += ", each primitive";
-  if (!o.candidate.conventions.empty())
-    out += ", conventions " + conventions_text(conventions_of(o.candidate.conventions));
-  if (o.limits.step != CheckOptions().limits.step || o.limits.memory != CheckOptions().limits.memory)
-    out += fmt::format(", {} s, {} MiB", std::chrono::duration<double>(o.limits.step).count(), o.limits.memory >> 20);
-  return out + fmt::format(", against {}", fmt::join(o.against, ","));
 }
 
 // How far it has come: a line that is written over on a terminal, elsewhere one a minute.
@@ -192,7 +177,8 @@ std::vector<fs::path> journals_in(const fs::path& folder) {
 // Another process may read a journal, which takes a moment.
 constexpr std::chrono::seconds kReading{10};
 
-// Of all journals but `mine` and those that another process has, which are told.
+// Of all journals but `mine`, and but those that another process has, which are told. Without `mine` all are wanted:
+// throws JournalInUse.
 std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, const std::string& terms,
                                                      const fs::path& mine = {}) {
   std::vector<std::vector<campaign::Entry>> out;
@@ -205,7 +191,8 @@ std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, con
           std::clamp(left, std::chrono::milliseconds(0), std::chrono::milliseconds(500));
       out.push_back(campaign::Journal(file, terms, wait).entries());
     } catch (const campaign::JournalInUse&) {
-      say(fmt::format("note: {}: in use by another campaign: its scenes are left out", file.string()));
+      if (mine.empty()) throw;
+      say(fmt::format("note: {}: in use by another campaign: its scenes may be judged twice", file.string()));
     }
   }
   return out;
@@ -257,8 +244,13 @@ std::vector<campaign::SceneId> kept_of(std::size_t round, const fs::path& folder
 // The scenes that were asked for.
 std::vector<campaign::SceneId> scenes_of(const CampaignOptions& o, const std::string& terms) {
   const Range range = range_of(o.seeds);
-  return scenes_of(range, o.generator,
-                   o.round > 1 ? kept_of(o.round - 1, o.folder, terms) : std::vector<campaign::SceneId>());
+  std::vector<campaign::SceneId> out = scenes_of(
+      range, o.generator, o.round > 1 ? kept_of(o.round - 1, o.folder, terms) : std::vector<campaign::SceneId>());
+  if (out.empty()) {
+    throw std::invalid_argument(fmt::format("--round {}: expected {} scenes that round {} keeps, found none", o.round,
+                                            o.generator, o.round - 1));
+  }
+  return out;
 }
 
 // Files that appear whole, each written in a folder beside: among thousands, write_file() would read them all each time.
@@ -281,6 +273,24 @@ void write_scenes(const CampaignOptions& o, const std::string& terms) {
   }
 }
 
+// A folder has one campaign: also where a process of another has its journal, which then cannot be read.
+void require_terms(const fs::path& journals, const std::string& terms) {
+  const fs::path file = journals / "terms.txt";
+  if (!fs::exists(file)) write_file(file, terms + "\n");
+  std::ifstream in(file);
+  const std::string its{std::istreambuf_iterator<char>(in), {}};
+  if (its == terms + "\n") return;
+  throw std::invalid_argument(fmt::format("{}: expected a journal of this campaign ({}), found one of {}",
+                                          file.string(), terms, its.substr(0, its.find_last_not_of('\n') + 1)));
+}
+
+// Before the work: what is told will find its place.
+void require_results(const fs::path& folder) {
+  require_writable_file(folder / "results.json");
+  const fs::path findings = folder / "findings";
+  if (fs::exists(findings) && !fs::is_directory(findings)) throw OutputError(findings, "it is no folder");
+}
+
 // Scenes that no journal of the folder holds, into the range's own.
 void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::path& journals,
                  const std::string& terms) {
@@ -289,8 +299,10 @@ void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::pa
   std::error_code error;
   fs::create_directories(journals, error);
   if (error) throw OutputError(journals, error.message());
+  if (!o.judge_only) require_results(o.folder);
   const fs::path file = journals / journal_name(o, range);
   const auto of_others = entries_in(journals, terms, file);  // a journal of other terms is refused before there is ours
+  require_terms(journals, terms);
   campaign::Journal journal(file, terms, kReading);
   std::set<campaign::SceneId> judged = journal.judged();
   for (const auto& of_other : of_others) {
@@ -334,14 +346,16 @@ int campaign(const CampaignOptions& o) {
   if (!fs::is_directory(journals)) {
     throw std::invalid_argument(fmt::format("{}: expected the folder of a campaign, found no journal", o.folder));
   }
+  require_results(folder);
   const campaign::Results results = campaign::merged(entries_in(journals, terms));
+  if (results.held == 0 && results.found.empty() && results.conflicts.empty()) {
+    fmt::print("{}", text_of(results));
+    throw std::invalid_argument(fmt::format("{}: expected a scene that could be judged, found none", o.folder));
+  }
   const std::string findings = leave_findings(folder / "findings", results.found, rules);
   write_file(folder / "results.json", json_of(results, terms));
   fmt::print("{}{}judging: {:.1f} ms a scene\n", findings, text_of(results),
              results.milliseconds / static_cast<double>(std::max<std::uint64_t>(results.scenes(), 1)));
-  if (results.held == 0 && results.found.empty() && results.conflicts.empty()) {
-    throw std::invalid_argument(fmt::format("{}: expected a scene that could be judged, found none", o.folder));
-  }
   return results.found.empty() && results.conflicts.empty() ? kHolds : kDiffers;
 }
 

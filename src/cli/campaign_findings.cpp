@@ -46,6 +46,12 @@ std::string read(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+bool has_bytes(const fs::path& file) {
+  std::error_code none;
+  const std::uintmax_t size = fs::file_size(file, none);
+  return !none && size > 0;
+}
+
 // Those that are not known, each with a folder of its own name.
 std::vector<Finding> unknown(const fs::path& folder, const std::vector<campaign::Group>& groups) {
   std::set<std::string> names;
@@ -55,7 +61,7 @@ std::vector<Finding> unknown(const fs::path& folder, const std::vector<campaign:
     std::string name = slug(fmt::format("{}-{}-{}", stage, cause, reference));
     while (!names.insert(name).second) name += "-2";
     Finding finding{&group, folder / name, campaign::scene_text(group.first.front())};
-    const bool whole = fs::exists(finding.folder / "scene.txt") && fs::exists(finding.folder / "scene.json");
+    const bool whole = has_bytes(finding.folder / "scene.txt") && has_bytes(finding.folder / "scene.json");
     if (!whole || read(finding.folder / "found.json") != finding.found) out.push_back(std::move(finding));
   }
   return out;

@@ -12,6 +12,7 @@
 #include "campaign/shrink.h"
 #include "campaign/states/states.h"
 #include "cli/options/renderers.h"
+#include "report/text/safe_text.h"
 #include "scene/file/scene_file.h"
 
 namespace plumbline::cli {
@@ -30,7 +31,9 @@ std::string without_component(std::string_view field) {
 // Without what differs from scene to scene: the pass, numbers, and all after the first 100 letters of the rest.
 std::string without_numbers(const std::string& text) {
   static const std::regex pass("^pass [0-9]+: "), number("0x[0-9a-fA-F]+|[0-9]+");
-  return std::regex_replace(std::regex_replace(text, pass, ""), number, "#").substr(0, 100);
+  std::string out = std::regex_replace(std::regex_replace(text, pass, ""), number, "#").substr(0, 100);
+  std::ranges::replace(out, '\n', ' ');
+  return report::as_utf8(out);
 }
 
 // Of the rows that say the same of a stage, one judge's wherever that judge is: a bug is one entry, not one for each.

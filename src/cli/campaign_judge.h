@@ -39,8 +39,8 @@ class CampaignJudge {
 std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict);
 
 /// Leaves `folder`/STAGE-CAUSE-REFERENCE of each group of findings: found.json, its lowest scene; scene.json, that scene
-/// made smaller; scene.txt, its rows and the command that repeats them; scene/, its page. A folder whose found.json is
-/// that scene is known, and stays as it is. Returns lines for people of the others. Throws OutputError.
+/// made smaller; scene.txt, its rows and the command that repeats them; scene/, its page. A folder that has all files, and whose
+/// found.json is that scene, is known, and stays as it is. Returns lines for people of the others. Throws OutputError.
 std::string leave_findings(const std::filesystem::path& folder, const std::vector<campaign::Group>& groups,
                            const CheckRules& rules);
 

@@ -32,7 +32,8 @@ std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& ver
   if (!o.today.empty()) out += " --today " + o.today;
   if (o.allow_missing) out += " --allow-missing";
   const WorkerLimits usual;
-  if (o.limits.step != usual.step) out += fmt::format(" --time-limit {}", o.limits.step / std::chrono::seconds(1));
+  if (o.limits.step != usual.step || o.candidate.time_limit != ProgramArgument().time_limit)
+    out += fmt::format(" --time-limit {}", o.limits.step / std::chrono::seconds(1));
   if (o.limits.memory != usual.memory) out += fmt::format(" --memory-limit {}", o.limits.memory >> 20);
   return out + o.scene_arguments.repeated();
 }

@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,7 +18,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "capture/files/conventions_file.h"
 #include "check/golden/golden_hash.h"
+#include "cli/options/program_argument.h"
+#include "report/text/safe_text.h"
 
 namespace plumbline::cli {
 
@@ -65,25 +71,72 @@ std::string judges_of(const CheckOptions& o) {
 
 namespace {
 
-std::string bytes_of(const std::filesystem::path& file) {
+namespace fs = std::filesystem;
+
+std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-}  // namespace
-
-std::string program_print() { return to_string(check::hash_of(bytes_of("/proc/self/exe"))); }
-
-std::string files_print(const std::string& command) {
+std::string print_of(const std::vector<fs::path>& files) {
   std::string all;
+  for (const fs::path& file : files) {
+    const std::string bytes = bytes_of(file);
+    all += fmt::format("{} {}\n", file.filename().string(), bytes.size()) + bytes;
+  }
+  return files.empty() ? "" : fmt::format(" ({})", to_string(check::hash_of(all)));
+}
+
+// The files that words of a command line name; the first word's may be one in PATH.
+std::vector<fs::path> files_of(std::string command) {
+  std::erase_if(command, [](char c) { return c == '"' || c == '\''; });
+  std::vector<fs::path> out;
+  std::error_code none;
   std::istringstream words(command);
   for (std::string word; words >> word;) {
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(word, none)) continue;
-    const std::string bytes = bytes_of(word);
-    all += fmt::format("{} {}\n", word, bytes.size()) + bytes;
+    if (fs::is_regular_file(word, none)) {
+      out.emplace_back(word);
+    } else if (out.empty() && word.find('/') == word.npos && std::getenv("PATH") != nullptr) {
+      std::istringstream folders(std::getenv("PATH"));
+      for (std::string folder; out.empty() && std::getline(folders, folder, ':');) {
+        if (fs::is_regular_file(fs::path(folder) / word, none)) out.push_back(fs::path(folder) / word);
+      }
+    }
   }
-  return all.empty() ? "" : fmt::format(" ({})", to_string(check::hash_of(all)));
+  return out;
+}
+
+std::vector<fs::path> files_in(const std::vector<std::string>& folders) {
+  std::vector<fs::path> out;
+  for (const std::string& folder : folders) {
+    const std::size_t begin = out.size();
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_regular_file()) out.push_back(entry.path());
+    }
+    std::sort(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string terms_of(const CheckOptions& o) {
+  std::string out = fmt::format("plumb {}{}", PLUMBLINE_VERSION, print_of({"/proc/self/exe"}));
+  if (!o.fault.empty()) out += ", fault " + o.fault;
+  if (!o.candidate.command.empty())
+    out += ", program " + report::as_utf8(o.candidate.command) + print_of(files_of(o.candidate.command));
+  if (!o.candidate.from.empty()) out += ", from " + o.candidate.from;
+  if (o.candidate.probes) out += ", each primitive";
+  if (!o.candidate.conventions.empty())
+    out += ", conventions " + conventions_text(conventions_of(o.candidate.conventions));
+  const CheckOptions usual;
+  if (o.limits.step != usual.limits.step || o.limits.memory != usual.limits.memory ||
+      o.candidate.time_limit != usual.candidate.time_limit) {
+    out += fmt::format(", {} s, of a program {} s, {} MiB", o.limits.step / std::chrono::seconds(1),
+                       o.candidate.time_limit.count(), o.limits.memory >> 20);
+  }
+  return out +
+         fmt::format(", assets{}, against {}", print_of(files_in(o.scene_arguments.assets)), fmt::join(o.against, ","));
 }
 
 }  // namespace plumbline::cli

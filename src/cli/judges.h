@@ -15,10 +15,8 @@ extern const char* const kJudgesPrint;
 /// processor, for which Mesa compiles its shaders; Mesa's and Embree's settings in the environment; the run's options.
 std::string judges_of(const CheckOptions& options);
 
-/// Hash of this program's file: all that draws and judges.
-std::string program_print();
-
-/// " (HASH)" of the files that words of the command line name; of none, nothing.
-std::string files_print(const std::string& command);
+/// Another text wherever verdicts of a campaign may be others, but the scene: this program's file, candidate and the
+/// files that its command line names, those of the folders of --assets, references, limits.
+std::string terms_of(const CheckOptions& options);
 
 }  // namespace plumbline::cli

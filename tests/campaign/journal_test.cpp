@@ -120,6 +120,23 @@ TEST_F(Journals, AreOfOneCampaign) {
   expect_refused("expected a journal of this campaign (others), found one of terms", "others");
 }
 
+TEST_F(Journals, ThatWereCutAreRefused) {
+  {
+    Journal journal(file_, "terms");
+    for (const Entry& of : entries(30)) journal.add(of);
+  }
+  const std::string whole = read(file_);
+  for (const std::size_t cut : {1u, 10u, 100u, 300u, 600u, 1000u, 2000u, 4000u, 4096u, 8192u}) {
+    std::ofstream(file_, std::ios::binary) << whole.substr(0, whole.size() - cut);
+    SCOPED_TRACE(cut);
+    expect_refused("expected the journal of a campaign, found ");
+  }
+  std::ofstream(file_, std::ios::binary) << whole;
+  expect_same(Journal(file_, "terms").entries(), entries(30));
+  run_sql("UPDATE signature SET stage = '' WHERE id = 'hard/6';");
+  EXPECT_THROW(Journal(file_, "terms").entries(), JournalError);
+}
+
 TEST_F(Journals, OfAnotherKindAreRefused) {
   std::ofstream(file_) << "no database, but text that is long enough to be read as the header of one: "
                        << std::string(200, '.');

@@ -1,5 +1,7 @@
 // plumb campaign as a user runs it.
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -236,6 +238,55 @@ TEST_F(Campaign, AsksAgainWhereAWorkerWasKilled) {
   EXPECT_FALSE(run.says("signal")) << run.text;
 }
 
+// A campaign is not told without the scenes that another process judges, and no other campaign enters its folder.
+TEST_F(Campaign, IsNotToldWhileAPartOfItRuns) {
+  const std::string hangs = "--generator hard --against exact --fault endings.hang:exact:hard/9";
+  ASSERT_EQ(campaign("c", "--seeds 1..4 " + hangs).code, 0);
+  const std::string before = results("c");
+  for (const char* folder : {"c", "d"}) {
+    const pid_t part = ::fork();
+    if (part == 0) {
+      const std::string line = fmt::format("exec {} campaign {} --seeds 9..9 --judge-only {} >/dev/null 2>&1",
+                                           PLUMBLINE_PLUMB, at(folder), hangs);
+      ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+      ::_exit(127);
+    }
+    const fs::path journal = folder_ / folder / "journal/hard-9-9.journal";
+    for (int i = 0; i < 6000 && !fs::exists(journal.string() + "-wal"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const Outcome told = campaign(folder, hangs);
+    EXPECT_EQ(told.code, 2) << told.text;
+    EXPECT_TRUE(told.says("hard-9-9.journal: in use")) << told.text;
+    const Outcome other = campaign(folder, "--seeds 5..5 --generator hard --against exact --judge-only");
+    EXPECT_EQ(other.code, 2) << other.text;
+    EXPECT_TRUE(other.says("expected a journal of this campaign")) << other.text;
+    ::kill(part, SIGKILL);
+    ::waitpid(part, nullptr, 0);
+  }
+  EXPECT_EQ(results("c"), before);
+  EXPECT_FALSE(fs::exists(folder_ / "d/results.json"));
+}
+
+TEST_F(Campaign, OfAProgramWhoseWordsAreNoUtf8IsTold) {
+  write(folder_ / "mine.sh", "printf 'grob \\351\\nund mehr\\n' >&2; exit 3\n");
+  const Outcome run =
+      campaign("c", "--seeds 1..1 --generator hard --program 'sh " + at("mine.sh") + " {input} {output}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(results("c").starts_with("{")) << run.text;
+}
+
+TEST_F(Campaign, ProvesItsOutputsBeforeTheWork) {
+  for (const char* name : {"results.json", "findings"}) {
+    const std::string folder = std::string("of_") + name;
+    fs::create_directories(folder_ / folder / (name == std::string("findings") ? "" : name));
+    if (name == std::string("findings")) write(folder_ / folder / name, "a file");
+    const Outcome run = campaign(folder, "--seeds 1..1 --generator hard --against exact");
+    EXPECT_EQ(run.code, 2) << run.text;
+    EXPECT_TRUE(run.says(std::string(name) + ": cannot be written")) << run.text;
+    EXPECT_FALSE(fs::exists(folder_ / folder / "journal/hard-1-1.journal"));
+  }
+}
+
 // A program that is mended is another one.
 TEST_F(Campaign, OfAProgramThatWasChangedIsRefused) {
   write(folder_ / "mine.sh", "exit 3\n");
@@ -265,6 +316,10 @@ TEST_F(Campaign, GoesInRounds) {
   EXPECT_TRUE(read(folder_ / "one/rounds/1.txt").starts_with("ordinary/1\n"));
   ASSERT_EQ(campaign("one", "--seeds 1..2 --round 3 --against exact").code, 0);
   EXPECT_EQ(campaign("one", "--seeds 1..2 --round 0").code, 2);
+  ASSERT_EQ(campaign("hard", "--seeds 1..2 --generator hard --against exact").code, 0);
+  const Outcome none = campaign("hard", "--seeds 1..2 --generator ordinary --round 2 --against exact");
+  EXPECT_EQ(none.code, 2) << none.text;
+  EXPECT_TRUE(none.says("--round 2: expected ordinary scenes that round 1 keeps, found none")) << none.text;
   ASSERT_EQ(campaign("one", "--seeds 1..1 --generator hard --round 2 --write").code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "one/hard/1.json"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "one/hard"), fs::directory_iterator()), 1);

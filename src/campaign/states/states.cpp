@@ -167,8 +167,8 @@ class Teller {
     tell("clip: a vertex beside the eye", any_vertex([](const auto& p) { return std::abs(p.w) < 1e-5; }));
     tell("clip: a vertex beyond near", any_vertex([](const auto& p) { return p.z < -p.w; }));
     tell("clip: a vertex beyond far", any_vertex([](const auto& p) { return p.z > p.w; }));
-    tell("clip: a vertex beyond a side", any_vertex([](const auto& p) { return std::abs(p.x) > p.w; }));
-    tell("clip: a vertex on a plane",
+    tell("clip: a vertex beyond left or right", any_vertex([](const auto& p) { return std::abs(p.x) > p.w; }));
+    tell("clip: a vertex on near, far, left or right",
          any_vertex([](const auto& p) { return std::abs(p.z) == p.w || std::abs(p.x) == p.w; }));
     for (const std::uint32_t corners : {3u, 4u, 5u, 6u, 7u}) {
       tell(fmt::format("clip: a polygon of {} corners{}", corners, corners == 7 ? " or more" : ""),
@@ -193,7 +193,7 @@ class Teller {
     for (const Covered& c : records_.covered) ++covered[c.triangle];
     tell("coverage: a triangle without a fragment", std::ranges::count(covered, 0u) > 0);
     tell("coverage: a triangle of one fragment", std::ranges::count(covered, 1u) > 0);
-    tell("coverage: a triangle of 1000 fragments",
+    tell("coverage: a triangle of 1000 fragments or more",
          std::ranges::any_of(covered, [](std::size_t n) { return n >= 1000; }));
     tell("depth: at 0", std::ranges::count(records_.depth, 0.0) > 0);
     tell("depth: at 1", std::ranges::count(records_.depth, 1.0) > 0);

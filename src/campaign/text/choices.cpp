@@ -12,7 +12,7 @@ std::uint64_t Choices::bits() {
   std::uint64_t out = streams_.front()();
   for (std::size_t i = 1; i < streams_.size(); ++i) {
     const std::uint64_t its_own = streams_[i]();
-    if (its_own % 24 == 0) out = its_own;  // whose upper 32 bits are used
+    if (its_own % 24 == 0) out = its_own;  // by its lower bits: whole() uses the upper 32
   }
   return out;
 }

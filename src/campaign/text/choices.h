@@ -23,7 +23,8 @@ class Choices {
   int count(int low, int high) { return static_cast<int>(whole(low, high)); }
   /// True in `percent` of 100 cases.
   bool chance(int percent) { return whole(0, 99) < percent; }
-  /// A number in [low, high] as people write them: a multiple of 1, 1/2, 1/10 or 1/100, seldom of 1e-6.
+  /// A number in [low, high] as people write them: a multiple of 1, 1/2, 1/10 or 1/100, seldom of 1e-6; of a
+  /// finer one where the range holds none.
   double number(double low, double high);
   /// One of the words; a word written twice is twice as likely.
   std::string_view word(std::initializer_list<std::string_view> words);
