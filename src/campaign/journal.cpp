@@ -94,10 +94,6 @@ class Statement {
   int code_ = SQLITE_OK, bound_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 SceneId id_in(const std::filesystem::path& file, const std::string& text) {
   try {
     return scene_id_of(text);
@@ -105,10 +101,6 @@ SceneId id_in(const std::filesystem::path& file, const std::string& text) {
     throw JournalError(fmt::format("{}: {}", file.string(), bad.what()));
   }
 }
-
-}  // namespace
-
-namespace {
 
 // A file of whole pages, but where a killed process left the last ones in the file beside, which SQLite then takes over.
 bool is_cut(const std::filesystem::path& file) {

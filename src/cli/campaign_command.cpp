@@ -8,7 +8,6 @@
 #include <iterator>
 #include <memory>
 #include <set>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -177,8 +176,8 @@ std::vector<fs::path> journals_in(const fs::path& folder) {
 // Another process may read a journal, which takes a moment.
 constexpr std::chrono::seconds kReading{10};
 
-// Of all journals but `mine`, and but those that another process has, which are told. Without `mine` all are wanted:
-// throws JournalInUse.
+// Entries of the folder's journals but `mine`; a journal that another process has is left out, with a note. Without
+// `mine`, all journals: throws JournalInUse.
 std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, const std::string& terms,
                                                      const fs::path& mine = {}) {
   std::vector<std::vector<campaign::Entry>> out;
@@ -198,11 +197,11 @@ std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, con
   return out;
 }
 
-// The scenes of a round, from the results of it and of those before. Throws JournalInUse while one is judged.
+// Scenes of a round, from its results and those of the rounds before. Throws JournalInUse while one is judged.
 std::string lines_of_kept(std::size_t round, const fs::path& folder, const std::string& terms) {
   std::vector<std::vector<campaign::Entry>> journals;
   for (const fs::path& file : journals_in(folder)) {
-    journals.push_back(campaign::Journal(file, terms).entries());
+    journals.push_back(campaign::Journal(file, terms, kReading).entries());
     std::erase_if(journals.back(), [&](const campaign::Entry& e) { return e.id.seeds.size() > round; });
   }
   campaign::Results results = campaign::merged(journals);
@@ -214,19 +213,13 @@ std::string lines_of_kept(std::size_t round, const fs::path& folder, const std::
 }
 
 // The scenes of a round that the next one changes: a line for each in `folder`/rounds/ROUND.txt, which is written once.
-// All processes of the next round read the same. Some may begin at a time: who reads a journal has it for a moment.
+// All processes of the next round read the same.
 std::vector<campaign::SceneId> kept_of(std::size_t round, const fs::path& folder, const std::string& terms) {
   const fs::path file = folder / "rounds" / fmt::format("{}.txt", round);
-  const auto until = Clock::now() + kReading;
-  while (!fs::exists(file)) {
-    try {
-      const std::string lines = lines_of_kept(round, folder / "journal", terms);
-      fs::create_directories(file.parent_path());
-      write_file(file, lines);
-    } catch (const campaign::JournalInUse&) {
-      if (Clock::now() > until) throw;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
+  if (!fs::exists(file)) {
+    const std::string lines = lines_of_kept(round, folder / "journal", terms);
+    fs::create_directories(file.parent_path());
+    write_file(file, lines);
   }
   std::vector<campaign::SceneId> out;
   std::ifstream in(file);
