@@ -4,17 +4,31 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <new>
 #include <vector>
 
-#include <tbb/cache_aligned_allocator.h>
-
 namespace plumbline {
+
+/// Memory from a cache line's first byte on.
+template <class T>
+struct CacheLineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};  // [bytes]
+
+  CacheLineAllocator() = default;
+  template <class U>
+  CacheLineAllocator(const CacheLineAllocator<U>& /*other*/) {}
+
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+  void deallocate(T* values, std::size_t /*count*/) { ::operator delete(values, kLine); }
+  bool operator==(const CacheLineAllocator& /*other*/) const { return true; }
+};
 
 /// width x height values, stored row by row, row 0 first, without padding, from a cache line's first byte on.
 template <class T>
 class Plane {
  public:
-  using Values = std::vector<T, tbb::cache_aligned_allocator<T>>;
+  using Values = std::vector<T, CacheLineAllocator<T>>;
 
   Plane() = default;
   Plane(int width, int height, T fill = T{})
