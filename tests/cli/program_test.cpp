@@ -32,6 +32,17 @@ TEST_F(Cli, program_is_handed_an_export_and_judged_by_colour_and_depth) {
   EXPECT_TRUE(run.says("2 of 13 stages judged")) << run.text;
 }
 
+TEST_F(Cli, program_that_is_missing_is_refused_before_the_work) {
+  for (const std::string& command : {"check " + kSharedEdges, "diagnose " + kSharedEdges, std::string("learn")}) {
+    for (const char* program : {"./none_such", "none_such"}) {
+      const Outcome run = plumb(command + " --program '" + program + " {serve}'");
+      EXPECT_EQ(run.code, 2) << run.text;
+      EXPECT_TRUE(run.says(std::string("--program: ") + program + ": expected a program that can be run, found none"))
+          << run.text;
+    }
+  }
+}
+
 TEST_F(Cli, program_of_a_suite_ends_with_a_row_per_feature) {
   const Outcome run = plumb("check " + kScenes + " --program " + kServer);
   EXPECT_EQ(run.code, 0) << run.text;
