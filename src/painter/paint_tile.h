@@ -93,23 +93,39 @@ std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun>
   return count;
 }
 
-/// `tiles`: of each sample one.
+/// Whether the kernels of the commonest draws are compiled for R. Processors without SSE4, one lane at a time, have
+/// paint_run() alone, which draws the same.
+template <class R>
+inline constexpr bool kHasKernels = Lanes<R>::width > 1;
+
+/// Paints the run by its draw's kernel; false where none is for it.
 template <class R, int kSampleCount>
-void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
+bool paint_by_kernel(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
   const PaintDraw& draw = painting.draws[run.draw];
   const auto paint_opaque = [&]<PaintKernel kKernel>() {
     OpaqueRun<R, kKernel, kSampleCount>(painting, run, tiles, false).paint();
   };
   switch (draw.kernel) {
-    case PaintKernel::replaces: return paint_opaque.template operator()<PaintKernel::replaces>();
-    case PaintKernel::blends_over: return paint_opaque.template operator()<PaintKernel::blends_over>();
-    case PaintKernel::depth_alone: return paint_opaque.template operator()<PaintKernel::depth_alone>();
-    case PaintKernel::shades: return paint_opaque.template operator()<PaintKernel::shades>();
+    case PaintKernel::replaces: paint_opaque.template operator()<PaintKernel::replaces>(); return true;
+    case PaintKernel::blends_over: paint_opaque.template operator()<PaintKernel::blends_over>(); return true;
+    case PaintKernel::depth_alone: paint_opaque.template operator()<PaintKernel::depth_alone>(); return true;
+    case PaintKernel::shades: paint_opaque.template operator()<PaintKernel::shades>(); return true;
     case PaintKernel::lines:
-      return each_sample<kSampleCount>(painting, tiles,
-                                       [&](const Painting& of, PackedTile& tile) { paint_lines<R>(of, run, tile); });
+      each_sample<kSampleCount>(painting, tiles,
+                                [&](const Painting& of, PackedTile& tile) { paint_lines<R>(of, run, tile); });
+      return true;
     case PaintKernel::any: break;
   }
+  return false;
+}
+
+/// `tiles`: of each sample one.
+template <class R, int kSampleCount>
+void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
+  if constexpr (kHasKernels<R>) {
+    if (paint_by_kernel<R, kSampleCount>(painting, run, tiles)) return;
+  }
+  const PaintDraw& draw = painting.draws[run.draw];
   const DepthFunc func = draw.draw->depth_func;
   const bool farther =
       func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;
@@ -221,7 +237,9 @@ void paint_tile(const Painting& painting, int number, TileMemory& memory, Frame&
   PackedTile& first = memory.packed[0];
   if (painting.samples.size() == 1 || runs.empty()) {
     begin(first);
-    for (std::size_t i = paint_first_runs<R>(painting, runs, first); i < runs.size(); ++i) {
+    std::size_t i = 0;
+    if constexpr (kHasKernels<R>) i = paint_first_runs<R>(painting, runs, first);
+    for (; i < runs.size(); ++i) {
       paint_next_run<R, 1>(painting, runs[i], &first);
     }
   } else {
