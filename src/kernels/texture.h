@@ -54,9 +54,9 @@ template <class W>
 GradientSetup gradient_setup(const WindowTriangle& triangle, const std::array<Vec4<float>, 3>& texcoords,
                              const BarycentricPlanes& planes);
 
-/// `q`: 1/w. Exact for each pixel: no neighbours are asked.
+/// `g`: GradientSetupOf one triangle or each lane's; `q`: 1/w. Exact for each pixel: no neighbours are asked.
 template <class R>
-[[gnu::always_inline]] inline Gradients<R> gradients(const GradientSetup& g, const Offset<R>& at, const Wide<R>& q) {
+[[gnu::always_inline]] inline Gradients<R> gradients(const auto& g, const Offset<R>& at, const Wide<R>& q) {
   return {g.ds_dx + at.dy * g.s_turn, g.dt_dx + at.dy * g.t_turn, g.ds_dy - at.dx * g.s_turn,
           g.dt_dy - at.dx * g.t_turn, q};
 }

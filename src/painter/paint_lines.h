@@ -50,7 +50,7 @@ void paint_lines(const Painting& painting, const PaintRun& run, PackedTile& tile
     const CornerLanes<R> corners = load_corners<R>(lines.corner);
     set_up_colors<R>(lines.corner, draw.flat(), lines.lanes);
     set_up_planes<R>(planes_of_lines<R>(corners.p_win, {tile.x0, tile.y0}), corners.p_win, painting, lines.lanes);
-    PixelsOfLanes<R, true, false, kTile> values(lines.lanes, 0);
+    PixelsOfLanes<R, PixelColors::own, false, kTile> values(lines.lanes, 0);
     for (int k = 0; k < most; ++k) {
       const Int<R> pixel = Lanes<R>::load(pixel_of[k]);
       values.work_out(k, pixel & Int<R>(kTile - 1), shifted_right<6>(pixel));

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <limits>
+#include <optional>
 
 #include "painter/paint_pixels.h"
 #include "painter/paint_shaded.h"
@@ -35,7 +37,9 @@ class OpaqueRun {
     while (lanes_.next()) {
       lanes_.set_up();
       if (lanes_.all_fit() && paint_together()) continue;
+      const unsigned covering = lanes_.all_fit() ? covering_lanes() : ~0u;
       for (int lane = 0; lane < lanes_.count; ++lane) {
+        if ((covering >> lane & 1u) == 0) continue;
         if (lanes_.fits(lane)) {
           paint_lane(lane);
         } else {
@@ -57,12 +61,23 @@ class OpaqueRun {
   bool paint_together() {
     const auto& lanes = lanes_.lanes;
     const int box = std::max(lanes.width, 0) * std::max(lanes.height, 0);
-    if (kKernel == PaintKernel::blends_over || kKernel == PaintKernel::shades || kLanes == 1 || box > kSmall)
-      return false;
+    if (kKernel == PaintKernel::blends_over || box > kSmall) return false;
+    if constexpr (kKernel == PaintKernel::shades && kSamples == 1) return box == 0 || shade_small();
+    if (kKernel == PaintKernel::shades) return false;
     if (kKernel == PaintKernel::replaces && lanes.in_blocks != 0) return false;
     const bool plain = (lanes.plain_depth & lanes.plain_color) == ~0u >> (32 - kLanes);
     for (int i = 0; i < kSamples && box != 0; ++i) plain ? paint_small<true>(i) : paint_small<false>(i);
     return true;
+  }
+
+  // Lanes whose triangles cover a pixel; where boxes are not small, all.
+  unsigned covering_lanes() const {
+    const auto& lanes = lanes_.lanes;
+    if (lanes.width <= 0 || lanes.height <= 0) return 0;
+    if (lanes.width * lanes.height > kSmall) return ~0u;
+    Int<R> covered(0);
+    for (int i = 0; i < kSamples; ++i) covered = covered | covered_in_boxes(i);
+    return ~bits_of(covered == Int<R>(0));
   }
 
   [[gnu::always_inline]] void paint_lane(int lane) {
@@ -233,9 +248,8 @@ class OpaqueRun {
     }
   }
 
-  // Pixels that the triangles cover in their boxes of lanes.width x lanes.height, found and painted (paint_pixels.h).
-  template <bool kPlain>
-  void paint_small(int sample) {
+  // Pixels that the triangles cover in their boxes of lanes.width x lanes.height: a bit each, row by row.
+  Int<R> covered_in_boxes(int sample) const {
     const auto& lanes = lanes_.lanes;
     using I = Int<R>;
     const I x0 = Lanes<R>::load(lanes.bounds[0]), y0 = Lanes<R>::load(lanes.bounds[1]);
@@ -246,7 +260,7 @@ class OpaqueRun {
       step_x[k] = Lanes<R>::load(lanes.step_x[k]), step_y[k] = Lanes<R>::load(lanes.step_y[k]);
       e_of_row[k] = Lanes<R>::load(lanes.at_sample[sample][k]) + step_x[k] * x0 + step_y[k] * y0;
     }
-    I covered(0);  // a bit a pixel, row by row
+    I covered(0);
     for (int row = 0, bit = 0; row < lanes.height; ++row) {
       const Mask<R> in_row = wanted & (I(row) < rows);
       I e[3] = {e_of_row[0], e_of_row[1], e_of_row[2]};
@@ -257,25 +271,72 @@ class OpaqueRun {
       }
       for (int k = 0; k < 3; ++k) e_of_row[k] = e_of_row[k] + step_y[k];
     }
-    alignas(64) std::int32_t covered_of[kLanes];
-    store(covered, covered_of);
-    int most = 0;
-    for (int lane = 0; lane < lanes_.count; ++lane) {
-      most = std::max(most, std::popcount(static_cast<unsigned>(covered_of[lane])));
-    }
+    return covered;
+  }
 
-    PixelsOfLanes<R, kKernel == PaintKernel::replaces, kPlain, kSmall> values(lanes, sample);
+  // Calls visit(i, x, y, lanes that have one) for the lanes' i-th pixels of those.
+  void visit_pixels(Int<R> covered, int most, auto visit) const {
+    using I = Int<R>;
+    const auto& lanes = lanes_.lanes;
+    const I x0 = Lanes<R>::load(lanes.bounds[0]), y0 = Lanes<R>::load(lanes.bounds[1]);
     const I width(lanes.width), per_width((1 << 16) / lanes.width + 1);
     for (int i = 0; i < most; ++i) {
       const I rest = covered & (covered - I(1)), lowest = covered ^ rest;
       const I bit = shifted_right<23>(as_int(to_float(lowest))) - I(127);  // a float's exponent
       const I row = shifted_right<16>(bit * per_width);
-      values.work_out(i, x0 + (bit - row * width), y0 + row);
+      visit(i, x0 + (bit - row * width), y0 + row, lowest != I(0));
       covered = rest;
     }
-    for (int lane = 0; lane < lanes_.count; ++lane) {
-      values.paint(lane, std::popcount(static_cast<unsigned>(covered_of[lane])), tie_ != 0, cleared_, tiles_[sample]);
+  }
+
+  // How many pixels each lane covers, and the most.
+  struct Counts {
+    explicit Counts(const Int<R>& covered) {
+      alignas(64) std::int32_t covered_of[kLanes];
+      store(covered, covered_of);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        of[lane] = std::popcount(static_cast<unsigned>(covered_of[lane]));
+        most = std::max(most, of[lane]);
+      }
     }
+    int of[kLanes], most = 0;
+  };
+
+  // The pixels that the triangles cover, one of each at a time (paint_pixels.h).
+  template <bool kPlain>
+  void paint_small(int sample) {
+    const Int<R> covered = covered_in_boxes(sample);
+    const Counts counts(covered);
+    constexpr PixelColors kColors = kKernel == PaintKernel::replaces ? PixelColors::own : PixelColors::none;
+    PixelsOfLanes<R, kColors, kPlain, kSmall> values(lanes_.lanes, sample);
+    visit_pixels(covered, counts.most,
+                 [&](int i, const Int<R>& x, const Int<R>& y, const Mask<R>&) { values.work_out(i, x, y); });
+    for (int lane = 0; lane < lanes_.count; ++lane) {
+      values.paint(lane, counts.of[lane], tie_ != 0, cleared_, tiles_[sample]);
+    }
+  }
+
+  // The same, coloured by the surface. False where fewer pixels would be shaded at once than of one triangle after the
+  // other, or where faces differ and light has two sides: then nothing is painted.
+  bool shade_small() {
+    const Int<R> covered = covered_in_boxes(0);
+    const Counts counts(covered);
+    int alone = 0, front = 0;
+    for (int lane = 0; lane < lanes_.count; ++lane) {
+      alone += (counts.of[lane] + kLanes - 1) / kLanes;
+      front += lanes_.triangle(lane).front ? 1 : 0;
+    }
+    if (counts.most > alone || (front != 0 && front != lanes_.count)) return false;
+    PixelsOfLanes<R, PixelColors::given, false, kSmall> values(lanes_.lanes, 0);
+    std::optional<SurfaceLanes<R>> surface;
+    visit_pixels(covered, counts.most, [&](int i, const Int<R>& x, const Int<R>& y, const Mask<R>& wanted) {
+      values.work_out(i, x, y);
+      if (!values.any_nearer(i, bits_of(wanted), tiles_[0])) return;
+      if (!surface) surface.emplace(painting_, draw_, lanes_.corner, lanes_.lanes, front != 0);
+      values.set_codes(i, surface->codes({to_wide(x), to_wide(y)}, wanted));
+    });
+    for (int lane = 0; lane < lanes_.count; ++lane) values.paint(lane, counts.of[lane], false, cleared_, tiles_[0]);
+    return true;
   }
 
   const Painting& painting_;

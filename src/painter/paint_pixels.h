@@ -2,7 +2,9 @@
 // once; then, one triangle after the other, these into the tile.
 #pragma once
 
-#include "painter/set_up_lanes.h"
+#include <bit>
+
+#include "painter/surface_lanes.h"
 
 namespace plumbline::pipeline {
 
@@ -17,9 +19,12 @@ template <class R>
   return {Vec3<R>(mixed<R>(s, k)), alpha};
 }
 
+/// Whose colours the pixels have: none, the triangles' own, or set_codes()'.
+enum class PixelColors { none, own, given };
+
 /// Fragments of rgba8 and z24 that replace what is there where they are nearer. `kPlain`: LaneTriangles' of all lanes;
 /// `kMost`: pixels of each.
-template <class R, bool kColors, bool kPlain, int kMost>
+template <class R, PixelColors kColors, bool kPlain, int kMost>
 class PixelsOfLanes {
  public:
   /// `sample`: of which depths are taken.
@@ -29,13 +34,7 @@ class PixelsOfLanes {
         q1_(lanes.q1.of_all()),
         q2_(lanes.q2.of_all()),
         sum_(lanes.sum.of_all()),
-        constant_(Lanes<R>::load(lanes.constant_colors) != Int<R>(0)) {
-    for (int c = 0; c < 4; ++c) {
-      attributes_.color0[c] = Lanes<R>::load(lanes.color[0][c]);
-      attributes_.d_color1[c] = Lanes<R>::load(lanes.color[1][c]);
-      attributes_.d_color2[c] = Lanes<R>::load(lanes.color[2][c]);
-    }
-  }
+        color_(colors_of<R>(lanes)) {}
 
   /// Each lane's i-th pixel, counted from the tile.
   [[gnu::always_inline]] void work_out(int i, const Int<R>& x, const Int<R>& y) {
@@ -48,17 +47,25 @@ class PixelsOfLanes {
     } else {
       store(to_float(round_even(clamped(value(code_), W(0), W(kMostZ24)))), z_of_[i]);
     }
-    if constexpr (kColors) {
+    if constexpr (kColors == PixelColors::own) {
       const R q1 = to_float(value(q1_)), q2 = to_float(value(q2_)), sum = to_float(value(sum_));
       if constexpr (kPlain) {
-        store(packed_merge_near(plain_color(attributes_, q1, q2, sum, attributes_.color0.a)), color_of_[i]);
+        store(packed_merge_near(plain_color(color_, q1, q2, sum, color_.color0.a)), color_of_[i]);
       } else {
-        const Weights<R> k = weights<R>(q1, q2, sum);
-        const Weights<R> known{select(constant_, R(0), k.k1), select(constant_, R(0), k.k2)};
-        store(packed_merge(mixed<R>(attributes_, known)), color_of_[i]);
+        store(packed_merge(mean_of_lanes<R>(color_, weights<R>(q1, q2, sum))), color_of_[i]);
       }
     }
   }
+
+  /// Whether the i-th pixel is nearer than what is there in any of the lanes, a bit each.
+  [[gnu::always_inline]] bool any_nearer(int i, unsigned of_lanes, const PackedTile& tile) const {
+    for (; of_lanes != 0; of_lanes &= of_lanes - 1) {
+      const int lane = std::countr_zero(of_lanes);
+      if (z_of_[i][lane] < tile.depth[place_of_[i][lane]]) return true;
+    }
+    return false;
+  }
+  [[gnu::always_inline]] void set_codes(int i, const Int<R>& codes) { store(codes, color_of_[i]); }
 
   /// A lane's first `count` pixels. `from_last`: triangles come from the last to the first, so that one as near as what
   /// is there comes before it; one as near as the clear depth is none.
@@ -68,7 +75,7 @@ class PixelsOfLanes {
       const float z = z_of_[i][lane], held = tile.depth[place];
       if (from_last ? z <= held && z < cleared : z < held) {
         tile.depth[place] = z;
-        if constexpr (kColors) tile.color[place] = static_cast<std::uint32_t>(color_of_[i][lane]);
+        if constexpr (kColors != PixelColors::none) tile.color[place] = static_cast<std::uint32_t>(color_of_[i][lane]);
       }
     }
   }
@@ -76,10 +83,7 @@ class PixelsOfLanes {
  private:
   static constexpr int kLanes = Lanes<R>::width;
   Affine<Wide<R>> code_, q1_, q2_, sum_;
-  Mask<R> constant_;
-  struct {
-    Color<R> color0, d_color1, d_color2;
-  } attributes_;  // AttributeSetup, of all lanes
+  AttributeLanes<R> color_;
   alignas(64) float z_of_[kMost][kLanes];
   alignas(64) std::int32_t color_of_[kMost][kLanes], place_of_[kMost][kLanes];
 };

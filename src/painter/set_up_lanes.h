@@ -49,6 +49,10 @@ struct GradientLanes {
     const auto& e = of_each;
     return {e[0][lane], e[1][lane], e[2][lane], e[3][lane], e[4][lane], e[5][lane]};
   }
+  GradientSetupOf<Wide<R>> of_all() const {
+    const auto all = [&](int i) { return Lanes<R>::load(of_each[i]); };
+    return {all(0), all(1), all(2), all(3), all(4), all(5)};
+  }
 };
 /// As many triangles as there are lanes.
 template <class R, int kSampleCount = 1>

@@ -83,6 +83,39 @@ TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
   }
 }
 
+// Surfaces on triangles of few pixels or none, a pixel of each at a time: textured, lit per fragment from one side and
+// from two, foggy, with flat and with smooth colours; of one face and of both; nearer ones first and last.
+TEST(Painter, ShadesSmallTrianglesAsItsDefinitionDoes) {
+  const Stages stages = production_stages();
+  const auto all = painters();
+  for (unsigned round = 0; round < 48; ++round) {
+    const auto one_in = [&](unsigned n) { return round % n == 0; };
+    Scene scene = spheres(4, one_in(3) ? Cull::none : Cull::back);
+    scene.frame.width = one_in(4) ? 200 : 72;
+    scene.frame.height = one_in(4) ? 136 : 56;
+    scene.meshes = {make_globe(one_in(5) ? 160 : 40, one_in(7) ? 80 : 20)};
+    scene.frame.clear_depth = one_in(6) ? 0.97 : 1.0;
+    scene.light_model.sides = one_in(2) ? LightModel::Sides::two : LightModel::Sides::one;
+    scene.light_model.separate_specular = one_in(5);
+    Texture texture;
+    texture.sampler.min = one_in(4) ? MinFilter::nearest : MinFilter::linear_mipmap_linear;
+    texture.sampler.wrap_s = one_in(3) ? Wrap::clamp_to_border : Wrap::mirrored_repeat;
+    set_levels(texture, make_noise(one_in(5) ? 30 : 64, 16, 1));
+    scene.textures.push_back(texture);
+    if (one_in(9)) std::reverse(scene.draws.begin(), scene.draws.end());
+    for (Draw& draw : scene.draws) {
+      draw.shading = round % 3 == 0 ? Shading::phong : round % 3 == 1 ? Shading::flat : Shading::gouraud;
+      draw.material.specular = {1, 0.5, 1, 1};
+      if (!one_in(6)) draw.texture = DrawTexture{};
+      if (one_in(4)) draw.fog = Fog{};
+    }
+    const Frame definition = render(scene, stages);
+    for (const auto& [name, painter] : all) {
+      EXPECT_TRUE(same_bits(painter->draw(scene), definition)) << name << ", round " << round;
+    }
+  }
+}
+
 // Two meshes before an orthographic camera: x and y are the window's, z its distance; the second is red.
 Scene wall_and_others(int size, Mesh wall, Mesh others) {
   Scene scene;

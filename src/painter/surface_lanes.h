@@ -1,0 +1,88 @@
+// Stages 7 to 9 of a pixel of each of as many triangles as there are lanes, coloured by their draw's surface: what
+// surface_attributes() (fragments.h) and shade() make of one triangle's pixels.
+#pragma once
+
+#include <array>
+
+#include "kernels/shade.h"
+#include "painter/set_up_lanes.h"
+
+namespace plumbline::pipeline {
+
+/// AttributeSetup, of all lanes.
+template <class R>
+struct AttributeLanes {
+  Color<R> color0, d_color1, d_color2;
+  Mask<R> constant;
+};
+/// mean(): of lanes without differences, whose weights need not be numbers, by none.
+template <class R>
+[[gnu::always_inline]] inline Color<R> mean_of_lanes(const AttributeLanes<R>& s, const Weights<R>& k) {
+  const Weights<R> known{select(s.constant, R(0), k.k1), select(s.constant, R(0), k.k2)};
+  return mixed<R>(s, known);
+}
+/// Setup of the colours that set_up_colors() found.
+template <class R, int kSampleCount>
+[[gnu::always_inline]] inline AttributeLanes<R> colors_of(const LaneTriangles<R, kSampleCount>& lanes) {
+  AttributeLanes<R> out;
+  for (int c = 0; c < 4; ++c) {
+    out.color0[c] = Lanes<R>::load(lanes.color[0][c]);
+    out.d_color1[c] = Lanes<R>::load(lanes.color[1][c]);
+    out.d_color2[c] = Lanes<R>::load(lanes.color[2][c]);
+  }
+  out.constant = Lanes<R>::load(lanes.constant_colors) != Int<R>(0);
+  return out;
+}
+
+/// A draw's surface on the lanes' triangles.
+template <class R>
+class SurfaceLanes {
+ public:
+  /// `front`: all triangles' face.
+  SurfaceLanes(const Painting& painting, const PaintDraw& draw, const CornersOfLanes<R>& corner,
+               const LaneTriangles<R, 1>& lanes, bool front)
+      : surface_(*draw.surface),
+        front_(front),
+        q1_(lanes.q1.of_all()),
+        q2_(lanes.q2.of_all()),
+        sum_(lanes.sum.of_all()),
+        gradients_(lanes.gradients.of_all()),
+        color_(colors_of<R>(lanes)) {
+    for (const Varying v : surface_.carried) {
+      const Vec4<float>* const column = painting.varyings[static_cast<std::size_t>(v)];
+      const auto value_of = [&](const PaintVertex* vertex) { return &column[vertex - painting.vertices].x; };
+      const bool flat = draw.flat() && is_lit(v);
+      const auto at = [&](int k) { return load_corner<R>(corner[flat ? 1 : k], value_of); };
+      AttributeLanes<R>& to = varyings_[static_cast<std::size_t>(v)];
+      to.color0 = at(0), to.d_color1 = at(1) - to.color0, to.d_color2 = at(2) - to.color0;
+      to.constant = Lanes<R>::mask_of(~0u);
+      for (int c = 0; c < 4; ++c) to.constant = to.constant & (to.d_color1[c] == R(0)) & (to.d_color2[c] == R(0));
+    }
+  }
+
+  /// Codes of the pixels `at`, counted from the tile's first, of rgba8. In lanes that are not `wanted`, any.
+  Int<R> codes(const Offset<R>& at, Mask<R> wanted) const {
+    const auto value = [&](const Affine<Wide<R>>& f) { return (f.at_0 + at.dy * f.y) + at.dx * f.x; };  // value_at()
+    const Wide<R> q = value(sum_);
+    const Weights<R> all = weights<R>(to_float(value(q1_)), to_float(value(q2_)), to_float(q));
+    const Weights<R> k{select(wanted, all.k1, R(0)), select(wanted, all.k2, R(0))};
+    SurfaceAttributes<R> out;
+    out.color = mean_of_lanes<R>(color_, k);
+    for (const Varying v : surface_.carried) out[v] = mean_of_lanes<R>(varyings_[static_cast<std::size_t>(v)], k);
+    if (surface_.texture) {
+      const Color<R>& st = out[Varying::texture];
+      out.texel.color = texel_color<R>(*surface_.texture, {st.r, st.g}, gradients<R>(gradients_, at, q));
+    }
+    return packed_merge(shade<R>(surface_, front_, out));
+  }
+
+ private:
+  const Surface& surface_;
+  bool front_;
+  Affine<Wide<R>> q1_, q2_, sum_;
+  GradientSetupOf<Wide<R>> gradients_;
+  AttributeLanes<R> color_;
+  std::array<AttributeLanes<R>, kVaryings> varyings_;  ///< those that the surface carries
+};
+
+}  // namespace plumbline::pipeline
