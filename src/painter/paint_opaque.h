@@ -316,17 +316,19 @@ class OpaqueRun {
     }
   }
 
-  // The same, coloured by the surface. False where fewer pixels would be shaded at once than of one triangle after the
-  // other, or where faces differ and light has two sides: then nothing is painted.
+  // The same, coloured by the surface. False, and nothing painted, where that shades more often than one triangle after
+  // the other does, or where light has two sides and the triangles' faces differ.
   bool shade_small() {
     const Int<R> covered = covered_in_boxes(0);
     const Counts counts(covered);
-    int alone = 0, front = 0;
+    int alone = 0, front = 0;  // times that pixels are shaded of one triangle after the other; front faces
     for (int lane = 0; lane < lanes_.count; ++lane) {
       alone += (counts.of[lane] + kLanes - 1) / kLanes;
       front += lanes_.triangle(lane).front ? 1 : 0;
     }
-    if (counts.most > alone || (front != 0 && front != lanes_.count)) return false;
+    const Surface& surface_of_draw = *draw_.surface;
+    const bool by_face = surface_of_draw.light && surface_of_draw.scene->light_model.sides == LightModel::Sides::two;
+    if (counts.most > alone || (by_face && front != 0 && front != lanes_.count)) return false;
     PixelsOfLanes<R, PixelColors::given, false, kSmall> values(lanes_.lanes, 0);
     std::optional<SurfaceLanes<R>> surface;
     visit_pixels(covered, counts.most, [&](int i, const Int<R>& x, const Int<R>& y, const Mask<R>& wanted) {
