@@ -84,7 +84,8 @@ TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
 }
 
 // Surfaces on triangles of few pixels or none, a pixel of each at a time: textured, lit per fragment from one side and
-// from two, foggy, with flat and with smooth colours; of one face and of both; nearer ones first and last.
+// from two, foggy, with flat and with smooth colours; of one face, and of both
+// side by side; nearer ones first and last.
 TEST(Painter, ShadesSmallTrianglesAsItsDefinitionDoes) {
   const Stages stages = production_stages();
   const auto all = painters();
@@ -94,6 +95,8 @@ TEST(Painter, ShadesSmallTrianglesAsItsDefinitionDoes) {
     scene.frame.width = one_in(4) ? 200 : 72;
     scene.frame.height = one_in(4) ? 136 : 56;
     scene.meshes = {make_globe(one_in(5) ? 160 : 40, one_in(7) ? 80 : 20)};
+    std::vector<glm::uvec3>& triangles = scene.meshes[0].triangles;
+    for (std::size_t i = 0; i < triangles.size() && one_in(3); i += 2) std::swap(triangles[i].x, triangles[i].y);
     scene.frame.clear_depth = one_in(6) ? 0.97 : 1.0;
     scene.light_model.sides = one_in(2) ? LightModel::Sides::two : LightModel::Sides::one;
     scene.light_model.separate_specular = one_in(5);
@@ -106,6 +109,7 @@ TEST(Painter, ShadesSmallTrianglesAsItsDefinitionDoes) {
     for (Draw& draw : scene.draws) {
       draw.shading = round % 3 == 0 ? Shading::phong : round % 3 == 1 ? Shading::flat : Shading::gouraud;
       draw.material.specular = {1, 0.5, 1, 1};
+      draw.material.shininess = 20;
       if (!one_in(6)) draw.texture = DrawTexture{};
       if (one_in(4)) draw.fog = Fog{};
     }
