@@ -322,10 +322,7 @@ int campaign(const CampaignOptions& o) {
   rules.options.cache.clear();
   rules.options.against = without_repeats(rules.options.against);
   rules.options.scene_arguments.assets = with_suite_images(o.judging.scene_arguments.assets);
-  if (!rules.options.candidate.command.empty()) {
-    make_program(rules.options.candidate);  // refuses what is no command line
-    require_program(rules.options.candidate);
-  }
+  if (!rules.options.candidate.command.empty()) require_program(rules.options.candidate);
   const std::string& fault = rules.options.fault;
   make_candidate(faulted_reference(fault).empty() ? fault : "");  // refuses an unknown fault
   const std::string terms = terms_of(rules.options);

@@ -122,10 +122,7 @@ int check(const CheckOptions& given) {
     throw std::invalid_argument(fmt::format("--fault: {} is not among the references asked", faulted));
   const auto start = std::chrono::steady_clock::now();
   const auto began = std::filesystem::file_time_type::clock::now();
-  if (!o.candidate.command.empty() && o.submissions.empty()) {
-    make_program(o.candidate);  // refuses what is no command line
-    require_program(o.candidate);
-  }
+  if (!o.candidate.command.empty() && o.submissions.empty()) require_program(o.candidate);
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
   std::vector<std::filesystem::path> files = find_scenes(paths);
   const report::Shard shard = take_shard(files, o.shard);

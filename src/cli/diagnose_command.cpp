@@ -50,8 +50,8 @@ std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scen
     to_dialect(conventions, left);
     return make_replayed_renderer(std::move(left), scene, o.folder, conventions);
   }
-  const std::unique_ptr<Renderer> program = make_program(o.candidate);
   require_program(o.candidate);
+  const std::unique_ptr<Renderer> program = make_program(o.candidate);
   Capture left = program->capture(scene, {StageSet::all(), false, {}, {}});
   return std::make_unique<Left>(std::move(left), program->info());
 }

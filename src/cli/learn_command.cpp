@@ -19,9 +19,8 @@ namespace {
 
 std::unique_ptr<Renderer> asked_renderer(const LearnOptions& o) {
   if (!o.candidate.command.empty()) {
-    std::unique_ptr<Renderer> program = make_probed_program(o.candidate);  // refuses what is no command line
     require_program(o.candidate);
-    return program;
+    return make_probed_program(o.candidate);
   }
   std::unique_ptr<Renderer> renderer = make_renderer(o.with);
   if (renderer == nullptr) throw std::invalid_argument(fmt::format("this plumb was built without {}", o.with));

@@ -22,9 +22,9 @@ template <class R>
 struct Offset {
   Wide<R> dx, dy;
 };
-/// The sum in brackets is a row's.
-template <class R>
-[[gnu::always_inline]] inline Wide<R> value_at(const Affine<double>& f, const Offset<R>& from_anchor) {
+/// `f`: one function, in double, or each lane's own, in Wide<R>. The sum in brackets is a row's.
+template <class R, class W>
+[[gnu::always_inline]] inline Wide<R> value_at(const Affine<W>& f, const Offset<R>& from_anchor) {
   return (f.at_0 + from_anchor.dy * f.y) + from_anchor.dx * f.x;
 }
 

@@ -39,8 +39,8 @@ class PixelsOfLanes {
   /// Each lane's i-th pixel, counted from the tile.
   [[gnu::always_inline]] void work_out(int i, const Int<R>& x, const Int<R>& y) {
     using W = Wide<R>;
-    const W dx = to_wide(x), dy = to_wide(y);
-    const auto value = [&](const Affine<W>& f) { return (f.at_0 + dy * f.y) + dx * f.x; };  // value_at()
+    const Offset<R> at{to_wide(x), to_wide(y)};
+    const auto value = [&](const Affine<W>& f) { return value_at<R>(f, at); };
     store(place_in_tile(x, y), place_of_[i]);
     if constexpr (kPlain) {
       store(to_float(nearest_int(value(code_))), z_of_[i]);

@@ -98,34 +98,33 @@ std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun>
 template <class R>
 inline constexpr bool kHasKernels = Lanes<R>::width > 1;
 
-/// Paints the run by its draw's kernel; false where none is for it.
+/// Paints the run by its draw's kernel, which is not PaintKernel::any.
 template <class R, int kSampleCount>
-bool paint_by_kernel(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
+void paint_by_kernel(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
   const PaintDraw& draw = painting.draws[run.draw];
   const auto paint_opaque = [&]<PaintKernel kKernel>() {
     OpaqueRun<R, kKernel, kSampleCount>(painting, run, tiles, false).paint();
   };
   switch (draw.kernel) {
-    case PaintKernel::replaces: paint_opaque.template operator()<PaintKernel::replaces>(); return true;
-    case PaintKernel::blends_over: paint_opaque.template operator()<PaintKernel::blends_over>(); return true;
-    case PaintKernel::depth_alone: paint_opaque.template operator()<PaintKernel::depth_alone>(); return true;
-    case PaintKernel::shades: paint_opaque.template operator()<PaintKernel::shades>(); return true;
+    case PaintKernel::replaces: paint_opaque.template operator()<PaintKernel::replaces>(); break;
+    case PaintKernel::blends_over: paint_opaque.template operator()<PaintKernel::blends_over>(); break;
+    case PaintKernel::depth_alone: paint_opaque.template operator()<PaintKernel::depth_alone>(); break;
+    case PaintKernel::shades: paint_opaque.template operator()<PaintKernel::shades>(); break;
     case PaintKernel::lines:
       each_sample<kSampleCount>(painting, tiles,
                                 [&](const Painting& of, PackedTile& tile) { paint_lines<R>(of, run, tile); });
-      return true;
+      break;
     case PaintKernel::any: break;
   }
-  return false;
 }
 
 /// `tiles`: of each sample one.
 template <class R, int kSampleCount>
 void paint_next_run(const Painting& painting, const PaintRun& run, PackedTile* tiles) {
-  if constexpr (kHasKernels<R>) {
-    if (paint_by_kernel<R, kSampleCount>(painting, run, tiles)) return;
-  }
   const PaintDraw& draw = painting.draws[run.draw];
+  if constexpr (kHasKernels<R>) {
+    if (draw.kernel != PaintKernel::any) return paint_by_kernel<R, kSampleCount>(painting, run, tiles);
+  }
   const DepthFunc func = draw.draw->depth_func;
   const bool farther =
       func != DepthFunc::never && func != DepthFunc::less && func != DepthFunc::less_equal && func != DepthFunc::equal;

@@ -134,22 +134,38 @@ template <class R>
   return out;
 }
 
+/// AttributeSetup, of all lanes.
+template <class R>
+struct AttributeLanes {
+  Color<R> color0, d_color1, d_color2;
+  Mask<R> constant;
+};
+/// attribute_setup() of what `member` points to in a corner: four floats. `flat`: the provoking vertex's, of all corners.
+template <class R>
+[[gnu::always_inline]] inline AttributeLanes<R> attribute_lanes(const CornersOfLanes<R>& corner, bool flat,
+                                                                auto member) {
+  const auto at = [&](int k) { return load_corner<R>(corner[flat ? 1 : k], member); };
+  AttributeLanes<R> out;
+  out.color0 = at(0), out.d_color1 = at(1) - out.color0, out.d_color2 = at(2) - out.color0;
+  out.constant = Lanes<R>::mask_of(~0u);
+  for (int c = 0; c < 4; ++c) {
+    out.constant = out.constant & (out.d_color1[c] == R(0)) & (out.d_color2[c] == R(0));
+  }
+  return out;
+}
+
 /// Colours into `out`; returns which lanes' corners all have the same alpha.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline Mask<R> set_up_colors(const CornersOfLanes<R>& corner, bool flat,
                                                     LaneTriangles<R, kSampleCount>& out) {
   const auto color_of = [](const PaintVertex* v) { return &v->color.r; };
-  Color<R> color[3];
-  for (int k = 0; k < 3; ++k) color[k] = load_corner<R>(corner[flat ? 1 : k], color_of);
-  const Color<R> d1 = color[1] - color[0], d2 = color[2] - color[0];
-  Mask<R> constant = Lanes<R>::mask_of(~0u);
+  const AttributeLanes<R> color = attribute_lanes<R>(corner, flat, color_of);
   for (int c = 0; c < 4; ++c) {
-    const Mask<R> d1_none = d1[c] == R(0), d2_none = d2[c] == R(0);
-    constant = constant & d1_none & d2_none;
-    store(color[0][c], out.color[0][c]), store(d1[c], out.color[1][c]), store(d2[c], out.color[2][c]);
+    store(color.color0[c], out.color[0][c]);
+    store(color.d_color1[c], out.color[1][c]), store(color.d_color2[c], out.color[2][c]);
   }
-  store(select(constant, Int<R>(1), Int<R>(0)), out.constant_colors);
-  return (color[1].a == color[0].a) & (color[2].a == color[0].a);
+  store(select(color.constant, Int<R>(1), Int<R>(0)), out.constant_colors);
+  return (color.d_color1.a == R(0)) & (color.d_color2.a == R(0));
 }
 
 /// Planes of depth at each sample, and of the colours' weights, which are the centre's.

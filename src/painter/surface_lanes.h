@@ -9,12 +9,6 @@
 
 namespace plumbline::pipeline {
 
-/// AttributeSetup, of all lanes.
-template <class R>
-struct AttributeLanes {
-  Color<R> color0, d_color1, d_color2;
-  Mask<R> constant;
-};
 /// mean(): of lanes without differences, whose weights need not be numbers, by none.
 template <class R>
 [[gnu::always_inline]] inline Color<R> mean_of_lanes(const AttributeLanes<R>& s, const Weights<R>& k) {
@@ -51,20 +45,14 @@ class SurfaceLanes {
     for (const Varying v : surface_.carried) {
       const Vec4<float>* const column = painting.varyings[static_cast<std::size_t>(v)];
       const auto value_of = [&](const PaintVertex* vertex) { return &column[vertex - painting.vertices].x; };
-      const bool flat = draw.flat() && is_lit(v);
-      const auto at = [&](int k) { return load_corner<R>(corner[flat ? 1 : k], value_of); };
-      AttributeLanes<R>& to = varyings_[static_cast<std::size_t>(v)];
-      to.color0 = at(0), to.d_color1 = at(1) - to.color0, to.d_color2 = at(2) - to.color0;
-      to.constant = Lanes<R>::mask_of(~0u);
-      for (int c = 0; c < 4; ++c) to.constant = to.constant & (to.d_color1[c] == R(0)) & (to.d_color2[c] == R(0));
+      varyings_[static_cast<std::size_t>(v)] = attribute_lanes<R>(corner, draw.flat() && is_lit(v), value_of);
     }
   }
 
   /// Codes of the pixels `at`, counted from the tile's first, of rgba8. In lanes that are not `wanted`, any.
   Int<R> codes(const Offset<R>& at, Mask<R> wanted) const {
-    const auto value = [&](const Affine<Wide<R>>& f) { return (f.at_0 + at.dy * f.y) + at.dx * f.x; };  // value_at()
-    const Wide<R> q = value(sum_);
-    const Weights<R> all = weights<R>(to_float(value(q1_)), to_float(value(q2_)), to_float(q));
+    const Wide<R> q = value_at<R>(sum_, at);
+    const Weights<R> all = weights<R>(to_float(value_at<R>(q1_, at)), to_float(value_at<R>(q2_, at)), to_float(q));
     const Weights<R> k{select(wanted, all.k1, R(0)), select(wanted, all.k2, R(0))};
     SurfaceAttributes<R> out;
     out.color = mean_of_lanes<R>(color_, k);

@@ -140,6 +140,7 @@ class Program : public Renderer {
 }  // namespace
 
 void require_program(const ProgramArgument& program) {
+  make_program(program);
   const std::string first = program.command.substr(0, program.command.find_first_of(" \t\n"));
   constexpr std::string_view kOfShell = "\\\"'`$&|;<>(){}[]*?!#~=%";
   if (first.empty() || first.find_first_of(kOfShell) != first.npos) return;

@@ -25,8 +25,9 @@ struct ProgramArgument {
 /// scene. Throws std::invalid_argument where the command line has none of them.
 std::unique_ptr<Renderer> make_program(const ProgramArgument& program);
 
-/// Throws std::invalid_argument where the first word of the command line is a path, and no program is there, or where it
-/// is a name that the shell does not know. A first word with a sign that the shell reads, "$" for instance, passes.
+/// Throws std::invalid_argument where make_program() does, where the first word of the command line is a path, and no
+/// program is there, or where it is a name that the shell does not know. A first word with a sign that the shell reads,
+/// "$" for instance, passes.
 void require_program(const ProgramArgument& program);
 
 /// A program for probes: its depths are handed on as they are left, not taken for codes of the scene's format.
