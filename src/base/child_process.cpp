@@ -1,20 +1,70 @@
 #include "base/child_process.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
+#include <linux/close_range.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <vector>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 namespace plumbline {
 namespace {
+
+// The first byte of an answer: what follows is the work's result, an exception's words, or how the work failed.
+constexpr char kResult = '+', kThrown = '-', kFailed = '!';
+
+std::optional<std::string> beside_libraries(const std::string& program) {
+  Dl_serinfo size{};
+  void* const self = dlopen(nullptr, RTLD_LAZY);
+  if (self == nullptr || dlinfo(self, RTLD_DI_SERINFOSIZE, &size) != 0) return std::nullopt;
+  const std::unique_ptr<char[]> memory(new char[size.dls_size]);
+  auto* const folders = reinterpret_cast<Dl_serinfo*>(memory.get());
+  folders->dls_size = size.dls_size, folders->dls_cnt = size.dls_cnt;
+  if (dlinfo(self, RTLD_DI_SERINFO, folders) != 0) return std::nullopt;
+  const Dl_serpath* const first = folders->dls_serpath;
+  for (unsigned i = 0; i < folders->dls_cnt; ++i) {
+    const std::string path = fmt::format("{}/{}", first[i].dls_name, program);
+    if (access(path.c_str(), X_OK) == 0) return path;
+  }
+  return std::nullopt;
+}
+
+// Between fork() and execv(), where functions safe for signal handlers are allowed alone.
+[[noreturn]] void become(char* const* argv, unsigned seconds, int to) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  signal(SIGALRM, SIG_DFL);
+  alarm(seconds);
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  const int nowhere = open("/dev/null", O_RDWR);
+  dup2(nowhere, STDIN_FILENO);
+  dup2(to, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
+  execv(argv[0], argv);
+  _exit(1);
+}
+
+void limit_memory() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit memory{};
+  getrlimit(RLIMIT_AS, &memory);
+  const rlim_t most = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{4} << 30);
+  memory.rlim_cur = std::min(most, memory.rlim_max);
+  if (pages > 0) setrlimit(RLIMIT_AS, &memory);
+}
 
 void write_all(int to, const char* bytes, std::size_t count) {
   while (count > 0) {
@@ -24,43 +74,6 @@ void write_all(int to, const char* bytes, std::size_t count) {
     bytes += written;
     count -= static_cast<std::size_t>(written);
   }
-}
-
-void set_limits(unsigned seconds) {
-  signal(SIGALRM, SIG_DFL);
-  alarm(seconds);
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const rlim_t bytes = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{4} << 30);
-  const rlimit memory{bytes, bytes};
-  if (pages > 0) setrlimit(RLIMIT_AS, &memory);
-  const int nowhere = open("/dev/null", O_WRONLY);
-  if (nowhere >= 0) {
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-  }
-}
-
-[[noreturn]] void be_child(const std::function<std::string()>& work, unsigned seconds, int to) {
-  char outcome = '+';
-  std::string result;
-  try {
-    set_limits(seconds);
-    result = work();
-  } catch (const std::bad_alloc&) {
-    outcome = '!';
-    result = "one that takes more than 4 GiB of memory to read";
-  } catch (const std::exception& error) {
-    outcome = '-';
-    result = error.what();
-  } catch (...) {
-    _exit(1);
-  }
-  write_all(to, &outcome, 1);
-  write_all(to, result.data(), result.size());
-  _exit(0);  // nothing that the parent will do at its own end
 }
 
 std::string read_all(int from) {
@@ -76,22 +89,24 @@ std::string read_all(int from) {
 
 }  // namespace
 
-std::string in_child_process(const std::function<std::string()>& work, unsigned seconds) {
+std::string answer_of_child(const std::string& program, const std::vector<std::string>& arguments, unsigned seconds) {
+  const std::optional<std::string> path = beside_libraries(program);
+  if (!path) throw std::runtime_error(fmt::format("no program {} where plumbline's libraries are", program));
+  std::vector<std::string> words = arguments;
+  words.insert(words.begin(), *path);
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw ChildFailed(fmt::format("no pipe: {}", std::strerror(errno)));
   const pid_t child = fork();
-  if (child < 0) {
-    close(ends[0]);
-    close(ends[1]);
-    throw ChildFailed(fmt::format("no new process: {}", std::strerror(errno)));
-  }
-  if (child == 0) {
-    close(ends[0]);
-    be_child(work, seconds, ends[1]);
-  }
+  if (child == 0) become(argv.data(), seconds, ends[1]);
+  const int error = errno;
   close(ends[1]);
-  std::string bytes = read_all(ends[0]);
+  std::string bytes = child < 0 ? "" : read_all(ends[0]);
   close(ends[0]);
+  if (child < 0) throw ChildFailed(fmt::format("no new process: {}", std::strerror(error)));
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -104,9 +119,29 @@ std::string in_child_process(const std::function<std::string()>& work, unsigned 
   if (WEXITSTATUS(status) != 0 || bytes.empty()) throw ChildFailed("one on which its reader gives up");
   const char outcome = bytes.front();
   bytes.erase(0, 1);
-  if (outcome == '!') throw ChildFailed(bytes);
-  if (outcome == '-') throw std::runtime_error(bytes);
+  if (outcome == kFailed) throw ChildFailed(bytes);
+  if (outcome == kThrown) throw std::runtime_error(bytes);
   return bytes;
+}
+
+void answer_parent(const std::function<std::string()>& work) {
+  char outcome = kResult;
+  std::string result;
+  try {
+    limit_memory();
+    result = work();
+  } catch (const std::bad_alloc&) {
+    outcome = kFailed;
+    result = "one that takes more than 4 GiB of memory to read";
+  } catch (const std::exception& error) {
+    outcome = kThrown;
+    result = error.what();
+  } catch (...) {
+    _exit(1);
+  }
+  write_all(STDOUT_FILENO, &outcome, 1);
+  write_all(STDOUT_FILENO, result.data(), result.size());
+  _exit(0);  // no destructor of a library that has read bad input
 }
 
 }  // namespace plumbline

@@ -1,21 +1,28 @@
-// Work that may crash or never end.
+// Programs of plumbline's own, for work that may crash or never end.
+//
+// Not a copy of this process (fork): it may have threads, and what they hold at that moment, a lock of the memory
+// allocator say, is held in the copy for ever (POSIX, fork()).
 #pragma once
 
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace plumbline {
 
-/// The work did not come to an end of its own: the message says how it ended, as words that follow "found".
+/// The program did not come to an end of its own: the message says how it ended, as words that follow "found".
 struct ChildFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Does the work in a copy of this process and hands back its result, so that libraries which crash, hang or take all
-/// memory on bad input take nothing else with them. The work may take `seconds`, and 4 GiB beyond what this process
-/// has; what it prints is lost. Throws ChildFailed, or a std::runtime_error that says what an exception of the work
-/// said.
-std::string in_child_process(const std::function<std::string()>& work, unsigned seconds);
+/// What the program answers; it may take `seconds`. It is looked for where the libraries of this one are (DT_RPATH), and
+/// its main() is answer_parent(). What it writes to stderr is lost. Throws ChildFailed; std::runtime_error where there
+/// is no such program, and where its work throws an exception, with the exception's words.
+std::string answer_of_child(const std::string& program, const std::vector<std::string>& arguments, unsigned seconds);
+
+/// Does the work, which may take 4 GiB of memory beyond what the program has, and writes its result to stdout, for
+/// answer_of_child(). Ends the program.
+[[noreturn]] void answer_parent(const std::function<std::string()>& work);
 
 }  // namespace plumbline

@@ -19,7 +19,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libplumbline-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libglm-dev, libtbb-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-    "plumbline (= ${PROJECT_VERSION}), libassimp-dev, zlib1g-dev, libxxhash-dev, libembree-dev, libegl-dev, pkg-config, libgmock-dev")
+    "plumbline (= ${PROJECT_VERSION}), zlib1g-dev, libxxhash-dev, libembree-dev, libegl-dev, pkg-config, libgmock-dev")
 set(CPACK_COMPONENT_PLUMBLINE_DESCRIPTION "The program plumb compares what each stage of a renderer draws with independent
 references, and names the stages that differ. With a suite of scenes and the Python kit.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries of the renderer and of what judges others, the kit for C and C++,

@@ -1,18 +1,34 @@
-// Work in a process of its own: whatever becomes of it, the caller hears of it and goes on.
+// Work in a program of its own: whatever becomes of it, the caller hears of it and goes on.
 #include "base/child_process.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <csignal>
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
 
 namespace plumbline {
 namespace {
 
-std::string failure(const std::function<std::string()>& work, unsigned seconds = 60) {
+// program/child.cpp
+std::string answer(const std::string& how, unsigned seconds = 60) { return answer_of_child("child", {how}, seconds); }
+
+std::string failure(const std::string& how, unsigned seconds = 60) {
   try {
-    in_child_process(work, seconds);
+    answer(how, seconds);
   } catch (const ChildFailed& error) {
+    return error.what();
+  }
+  return "none";
+}
+std::string words_of_exception(const std::string& program, const std::string& how) {
+  try {
+    answer_of_child(program, {how}, 60);
+  } catch (const ChildFailed&) {
+    return "it came to no end of its own";
+  } catch (const std::runtime_error& error) {
     return error.what();
   }
   return "none";
@@ -21,36 +37,32 @@ std::string failure(const std::function<std::string()>& work, unsigned seconds =
 TEST(ChildProcess, HandsBackTheResult) {
   std::string large(5'000'000, 'x');
   large[3] = '\0';
-  EXPECT_EQ(in_child_process([&] { return large; }, 60), large);
-  EXPECT_EQ(in_child_process([] { return ""; }, 60), "");
-  const pid_t here = getpid();
-  EXPECT_NE(in_child_process([] { return std::to_string(getpid()); }, 60), std::to_string(here));
+  EXPECT_EQ(answer("writes 5000000"), large);
+  EXPECT_EQ(answer("nothing"), "");
 }
 
 TEST(ChildProcess, TellsOfExceptionsCrashesAndHangs) {
-  try {
-    in_child_process([]() -> std::string { throw std::logic_error("so it is"); }, 60);
-    ADD_FAILURE();
-  } catch (const ChildFailed&) {
-    ADD_FAILURE() << "it came to an end of its own";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "so it is");
+  EXPECT_EQ(words_of_exception("child", "throws"), "so it is");
+  EXPECT_EQ(words_of_exception("no_child", ""), "no program no_child where plumbline's libraries are");
+  EXPECT_EQ(failure("crashes"), "one on which its reader crashes (Killed)");
+  EXPECT_EQ(failure("throws a number"), "one on which its reader gives up");
+  EXPECT_EQ(failure("ends"), "one on which its reader gives up");
+  EXPECT_EQ(failure("hangs", 1), "one that takes more than 1 seconds to read");
+  EXPECT_EQ(failure("takes 5 GiB"), "one that takes more than 4 GiB of memory to read");
+}
+
+// Threads that allocate all the time hold the allocator's locks at any moment.
+TEST(ChildProcess, StartsFromAProcessOfManyThreads) {
+  std::atomic<bool> ends = false;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&] {
+      while (!ends) std::make_unique<std::string>(100'000, 'x');
+    });
   }
-  EXPECT_EQ(failure([]() -> std::string {
-              kill(getpid(), SIGKILL);
-              return "";
-            }),
-            "one on which its reader crashes (Killed)");
-  EXPECT_EQ(failure([]() -> std::string { throw 3; }), "one on which its reader gives up");
-  EXPECT_EQ(failure([]() -> std::string { _exit(0); }), "one on which its reader gives up");
-  EXPECT_EQ(failure(
-                []() -> std::string {
-                  while (true) pause();
-                },
-                1),
-            "one that takes more than 1 seconds to read");
-  EXPECT_EQ(failure([]() -> std::string { throw std::bad_alloc(); }),
-            "one that takes more than 4 GiB of memory to read");
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(answer("nothing", 20), "");
+  ends = true;
+  for (std::thread& thread : threads) thread.join();
 }
 
 }  // namespace

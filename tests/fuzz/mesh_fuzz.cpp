@@ -1,5 +1,5 @@
 // Any bytes as a mesh file of each format (the first byte chooses), read in this process, not in a child.
-#include "scene/mesh/mesh_import.h"
+#include "scene/mesh/import/mesh_import.h"
 #include "tests/fuzz/fuzz_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -110,7 +110,8 @@ bool Tree::build_changed(const Change& change, const fs::path& to) {
 
 void Tree::copy_programs(const fs::path& to) const {
   fs::create_directories(to);
-  for (const char* name : {"plumb", "scene_hashes", "data_tests", "plumbline_openimageio.so"}) {
+  for (const char* name :
+       {"plumb", "scene_hashes", "data_tests", "plumbline_mesh_reader", "plumbline_openimageio.so"}) {
     fs::copy_file(build() / name, to / name, fs::copy_options::overwrite_existing);
   }
 }

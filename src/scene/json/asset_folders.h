@@ -17,6 +17,7 @@ class AssetFolders {
   explicit AssetFolders(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
 
   bool allow(const std::filesystem::path& file) const;
+  const std::vector<std::filesystem::path>& all() const { return folders_; }
 
   /// The file of the name that `node` holds, from the first folder that has it. `what` is what messages expect.
   /// Throws JsonError: absolute, no such file, none that may be read.

@@ -25,9 +25,9 @@ namespace plumbline {
 /// Left out with a note: materials of an OBJ file whose material file is missing, or that names none; an OBJ file's
 /// third texture coordinates other than 0 (the depth in a volume texture; textures here have two dimensions).
 ///
-/// The library that reads the files crashes, hangs and guesses on some bad ones: it runs in a process of its own, for
-/// at most a minute, what it would guess is checked before, and what it complains about is refused. It opens files
-/// (materials, buffers) that `folders` allow, and no others.
+/// The library that reads the files crashes, hangs and guesses on some bad ones: it runs in a program of its own,
+/// plumbline_mesh_reader, for at most a minute; what it would guess is checked before, and what it complains about is
+/// refused. It opens files (materials, buffers) that `folders` allow, and no others.
 ///
 /// Throws MeshError: not readable, longer than 256 MiB, not one of the formats, truncated; no triangles, or more than
 /// `most_triangles`; faces of fewer than three corners, polygons that are not flat or cross themselves (polygon.h);

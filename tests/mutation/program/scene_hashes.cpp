@@ -1,16 +1,19 @@
 // What the pipeline hands on of scenes, as hashes: scene_hashes FOLDER, or scene_hashes --random SEED COUNT. A line for
 // each scene, fields apart by tabs: name, about what drawing it takes, the hash of each stage (-: none), and of the
-// picture as it ships. Each scene has a process of its own; of one that crashes or never ends the line is name, work,
-// "failed" and why. After three such no more are drawn.
+// picture as it ships. A process of its own draws them; of a scene on which that crashes, throws or never ends the line is
+// name, work, "failed" and why. After three such no more are drawn.
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "base/child_process.h"
+#include "base/workers.h"
 #include "check/golden/golden_hash.h"
 #include "mutation/program/random_scenes.h"
 #include "renderers/pipeline_renderer.h"
@@ -20,7 +23,8 @@
 namespace plumbline::mutation {
 namespace {
 
-constexpr unsigned kMostSeconds = 60;  // of a scene: the slowest takes 2 s on an idle machine, 20 s on a busy one
+// Of a scene: the slowest takes 2 s on an idle machine, 20 s on a busy one.
+constexpr std::chrono::seconds kMostTime{60};
 constexpr int kMostFailed = 3;
 
 // Pixels of each draw, and a triangle as 50 of them.
@@ -61,38 +65,60 @@ std::string hashes_of(const Scene& scene) {
   return fmt::format("{}\t{}", out, hash_of_pictures(scene));
 }
 
-// Whether the scene could be drawn.
-bool print_line(const Scene& scene) {
-  std::string line;
-  bool drawn = true;
-  try {
-    line = in_child_process([&] { return hashes_of(scene); }, kMostSeconds);
-  } catch (const std::runtime_error& error) {
-    line = fmt::format("\tfailed\t{}", error.what());
-    drawn = false;
-  }
-  fmt::print("{}\t{}{}\n", scene.name, work_of(scene), line);
-  std::fflush(stdout);
-  return drawn;
+std::string line_of(const Scene& scene, const std::string& fields) {
+  return fmt::format("{}\t{}{}\n", scene.name, work_of(scene), fields);
+}
+std::string failed(const std::string& why) { return "\tfailed\t" + why; }
+
+// A line of each scene, in their order.
+int print_lines(std::size_t count, const std::function<Scene(std::size_t)>& scene_of) {
+  constexpr std::uint32_t kDraws = 1;  // Progress
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  int lines_failed = 0;
+  const auto make = [&](Progress& progress) -> Workers::Answer {
+    return [&](const std::string& request) -> std::string {
+      if (request.empty()) return "";
+      const std::size_t number = std::stoull(request), why = request.find(' ');
+      const Scene scene = scene_of(number);
+      if (why != request.npos) return line_of(scene, failed(request.substr(why + 1)));
+      progress.begin(kDraws, kMostTime);
+      std::string fields;
+      try {
+        fields = hashes_of(scene);
+      } catch (const std::exception& error) {
+        fields = failed(error.what());
+      }
+      progress.end(kMostTime);
+      return line_of(scene, fields);
+    };
+  };
+  const auto ask = [&](std::size_t i) { return lines_failed < kMostFailed ? std::to_string(i) : ""; };
+  const auto ask_again = [&](std::size_t i, const WorkerEnd& end) {
+    if (end.step != kDraws) throw std::runtime_error(fmt::format("scene {}: the process that loads it {}", i, end.how));
+    return fmt::format("{} {}", i, end.how);
+  };
+  const auto take = [&](std::size_t, const std::string& line) {
+    lines_failed += line.find("\tfailed\t") == line.npos ? 0 : 1;
+    fmt::print("{}", line);
+    std::fflush(stdout);
+  };
+  Workers(1, {.step = kMostTime}, make).run({order, ask, take, ask_again});
+  return EXIT_SUCCESS;
 }
 
 int of_folder(const char* folder) {
-  int failed = 0;
   const std::filesystem::path path = folder;
-  for (const auto& file : find_scenes({&path, 1})) {
-    if (!print_line(load_scene(file)) && ++failed == kMostFailed) break;
-  }
-  return EXIT_SUCCESS;
+  const std::vector<std::filesystem::path> files = find_scenes({&path, 1});
+  return print_lines(files.size(), [&](std::size_t i) { return load_scene(files[i]); });
 }
 
 int of_random_scenes(std::uint64_t seed, int count) {
-  int failed = 0;
-  for (int i = 0; i < count && failed < kMostFailed; ++i) {
-    Scene scene = random_scene_of(seed, i);
+  return print_lines(static_cast<std::size_t>(count), [&](std::size_t i) {
+    Scene scene = random_scene_of(seed, static_cast<int>(i));
     scene.name = fmt::format("random {}", i);
-    failed += print_line(scene) ? 0 : 1;
-  }
-  return EXIT_SUCCESS;
+    return scene;
+  });
 }
 
 }  // namespace

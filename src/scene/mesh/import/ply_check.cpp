@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/mesh/mesh_check.h"
-#include "scene/mesh/text_scan.h"
+#include "scene/mesh/import/mesh_check.h"
+#include "scene/mesh/import/text_scan.h"
 
 namespace plumbline {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/mesh/mesh_import.h"
+#include "scene/mesh/import/mesh_import.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@
 #include <assimp/LogStream.hpp>
 
 #include "scene/json/scene_values.h"
-#include "scene/mesh/mesh_check.h"
+#include "scene/mesh/import/mesh_check.h"
 #include "scene/mesh/mesh_shapes.h"
 #include "scene/mesh/polygon.h"
 

@@ -1,0 +1,18 @@
+// plumbline_mesh_reader FILE MOST_TRIANGLES FOLDER...: what import_mesh() makes of the file, for load_mesh()
+// (mesh_file.h). A program of its own: the library that reads the files crashes, hangs and guesses on some bad ones.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/child_process.h"
+#include "scene/mesh/import/mesh_import.h"
+#include "scene/mesh/mesh_bytes.h"
+
+int main(int argc, char** argv) {
+  using namespace plumbline;
+  if (argc < 3) return 2;
+  const std::filesystem::path file = argv[1];
+  const std::size_t most_triangles = std::stoull(argv[2]);
+  const AssetFolders folders(std::vector<std::filesystem::path>(argv + 3, argv + argc));
+  answer_parent([&] { return to_bytes(import_mesh(file, folders, most_triangles)); });
+}
