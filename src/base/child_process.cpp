@@ -47,9 +47,9 @@ std::optional<std::string> beside_libraries(const std::string& program) {
   alarm(seconds);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  const int nowhere = open("/dev/null", O_RDWR);
+  const int nowhere = open("/dev/null", O_RDWR), beyond_stderr = fcntl(to, F_DUPFD, STDERR_FILENO + 1);
   dup2(nowhere, STDIN_FILENO);
-  dup2(to, STDOUT_FILENO);
+  dup2(beyond_stderr, STDOUT_FILENO);  // where the parent has closed its own, `to` may be that
   dup2(nowhere, STDERR_FILENO);
   close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
   execv(argv[0], argv);

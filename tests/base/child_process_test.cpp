@@ -2,6 +2,7 @@
 #include "base/child_process.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <memory>
@@ -49,6 +50,17 @@ TEST(ChildProcess, TellsOfExceptionsCrashesAndHangs) {
   EXPECT_EQ(failure("ends"), "one on which its reader gives up");
   EXPECT_EQ(failure("hangs", 1), "one that takes more than 1 seconds to read");
   EXPECT_EQ(failure("takes 5 GiB"), "one that takes more than 4 GiB of memory to read");
+}
+
+// Then the pipe's ends are descriptors 0 and 1.
+TEST(ChildProcess, AnswersAParentWithoutStdinAndStdout) {
+  EXPECT_EXIT(
+      {
+        close(STDIN_FILENO);
+        close(STDOUT_FILENO);
+        _exit(answer("writes 5000000").size() == 5'000'000 ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 // Threads that allocate all the time hold the allocator's locks at any moment.

@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/sanitizer.h"
+
 namespace plumbline {
 namespace {
 
@@ -136,9 +138,7 @@ TEST(Workers, EachStepHasTheWholeLimit) {
 }
 
 TEST(Workers, MemoryIsLimited) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "AddressSanitizer's new ends the process where it ought to throw";
-#endif
+  if (kAddressSanitizer) GTEST_SKIP() << "AddressSanitizer's new ends the process where it ought to throw";
   const auto make = [](Progress&) -> Workers::Answer {
     return [](const std::string& request) {
       try {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_plumb.h"
+#include "tests/sanitizer.h"
 
 namespace plumbline {
 namespace {
@@ -15,36 +16,31 @@ const std::string kWindings = kScenes + "cull/both_windings.json";
 class FailingRenderers : public Cli {};
 
 // AddressSanitizer's new ends the process instead of throwing.
-bool can_show([[maybe_unused]] std::string_view ending) {
-#ifdef __SANITIZE_ADDRESS__
-  return ending != "memory";
-#else
-  return true;
-#endif
-}
+bool can_show(std::string_view ending) { return !kAddressSanitizer || ending != "memory"; }
 
-// Limits of a run: a hang is to end soon, all else may take its time on a busy machine.
+// Limits of a run: a hang is to end soon, all else may take its time on a busy machine. [s]
+const std::string kHangs = kAddressSanitizer ? "30" : "4";
 std::string limits_of(const std::string& ending) {
-  return std::string(" --time-limit ") + (ending == "hang" ? "4" : "60") + " --memory-limit 512";
+  return " --time-limit " + (ending == "hang" ? kHangs : "60") + " --memory-limit 512";
 }
 
 TEST_F(FailingRenderers, are_rows_with_the_stage_that_was_running) {
-  const std::pair<const char*, const char*> kEndings[] = {
+  const std::pair<const char*, std::string> kEndings[] = {
       {"throw", "vertex: a vertex too many"},
       {"memory", "light: took more memory than a worker may have"},
       {"crash", "clip: was killed by signal 11 (Segmentation fault)"},
-      {"hang", "window: took longer than 4s and was killed"}};
+      {"hang", "window: took longer than " + kHangs + "s and was killed"}};
   for (const auto& [fault, says] : kEndings) {
     if (!can_show(fault)) continue;
     const std::string limits = " --against exact" + limits_of(fault) + " ";
     const Outcome check = plumb("check " + kWindings + limits + "--fault endings." + fault + " --json " + at("c.json"));
     EXPECT_EQ(check.code, 1) << check.text;
-    EXPECT_TRUE(check.says("failed cull/both_windings: ours, " + std::string(says))) << check.text;
+    EXPECT_TRUE(check.says("failed cull/both_windings: ours, " + says)) << check.text;
     EXPECT_TRUE(check.says("repeat: ") && check.says(limits_of(fault))) << check.text;
     EXPECT_NE(read(at("c.json")).find("\"failed\""), std::string::npos) << "the run is written all the same";
     const Outcome diagnosis = plumb("diagnose " + kWindings + limits + "--fault endings." + fault);
     EXPECT_EQ(diagnosis.code, 1) << diagnosis.text;
-    const std::string stage = std::string(says).substr(0, std::string(says).find(':'));
+    const std::string stage = says.substr(0, says.find(':'));
     EXPECT_TRUE(diagnosis.says("first different stage: " + stage + " (failed)")) << diagnosis.text;
     EXPECT_TRUE(diagnosis.says("wrong by itself: " + stage + "\n")) << diagnosis.text;
   }
@@ -96,11 +92,11 @@ TEST_F(FailingRenderers, fail_one_scene_of_a_run) {
   std::string run = "check";
   for (const fs::path& scene : scenes) run += " " + scene.string();
   run += " --against exact,image_order --json " + at("run.json");
-  const std::pair<const char*, const char*> kEndings[] = {{"throw", "a scene too many"},
+  const std::pair<const char*, std::string> kEndings[] = {{"throw", "a scene too many"},
                                                           {"memory", "took more memory than a worker may have"},
                                                           {"crash", "was killed by signal 11 (Segmentation fault)"},
                                                           {"exit", "ended its process with status 0"},
-                                                          {"hang", "took longer than 4s and was killed"}};
+                                                          {"hang", "took longer than " + kHangs + "s and was killed"}};
   for (const auto& [how, says] : kEndings) {
     if (!can_show(how)) continue;
     const Outcome check = plumb(run + limits_of(how) + " --fault endings." + how + ":image_order:cull/both_windings");
