@@ -1,4 +1,4 @@
-// Which sanitizer the tests are built with.
+// Sanitizer with which the tests are built.
 #pragma once
 
 namespace plumbline {

@@ -9,7 +9,7 @@
 namespace plumbline {
 
 std::string to_bytes(const std::vector<MeshPart>& parts);
-/// Of other bytes than to_bytes() made, anything.
+/// Parts of which to_bytes() made the bytes; of other bytes, anything.
 std::vector<MeshPart> parts_of(std::string bytes);
 
 }  // namespace plumbline

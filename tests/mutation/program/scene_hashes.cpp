@@ -23,7 +23,7 @@
 namespace plumbline::mutation {
 namespace {
 
-// Of a scene: the slowest takes 2 s on an idle machine, 20 s on a busy one.
+// Time limit of a scene; the slowest takes 2 s on an idle machine, 20 s on a busy one.
 constexpr std::chrono::seconds kMostTime{60};
 constexpr int kMostFailed = 3;
 
