@@ -4,19 +4,19 @@
 #include <fcntl.h>
 #include <linux/close_range.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
+
+#include "base/process_limits.h"
 
 namespace plumbline {
 namespace {
@@ -45,8 +45,7 @@ std::optional<std::string> beside_libraries(const std::string& program) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGALRM, SIG_DFL);
   alarm(seconds);
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
+  leave_no_core();
   const int nowhere = open("/dev/null", O_RDWR), beyond_stderr = fcntl(to, F_DUPFD, STDERR_FILENO + 1);
   dup2(nowhere, STDIN_FILENO);
   dup2(beyond_stderr, STDOUT_FILENO);  // where the parent has closed its own, `to` may be that
@@ -54,16 +53,6 @@ std::optional<std::string> beside_libraries(const std::string& program) {
   close_range(STDERR_FILENO + 1, ~0u, CLOSE_RANGE_CLOEXEC);
   execv(argv[0], argv);
   _exit(1);
-}
-
-void limit_memory() {
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  rlimit memory{};
-  getrlimit(RLIMIT_AS, &memory);
-  const rlim_t most = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{4} << 30);
-  memory.rlim_cur = std::min(most, memory.rlim_max);
-  if (pages > 0) setrlimit(RLIMIT_AS, &memory);
 }
 
 void write_all(int to, const char* bytes, std::size_t count) {
@@ -99,24 +88,22 @@ std::string answer_of_child(const std::string& program, const std::vector<std::s
   argv.push_back(nullptr);
 
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw ChildFailed(fmt::format("no pipe: {}", std::strerror(errno)));
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(fmt::format("no pipe: {}", std::strerror(errno)));
   const pid_t child = fork();
   if (child == 0) become(argv.data(), seconds, ends[1]);
   const int error = errno;
   close(ends[1]);
   std::string bytes = child < 0 ? "" : read_all(ends[0]);
   close(ends[0]);
-  if (child < 0) throw ChildFailed(fmt::format("no new process: {}", std::strerror(error)));
+  if (child < 0) throw std::runtime_error(fmt::format("no new process: {}", std::strerror(error)));
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
-    throw ChildFailed(fmt::format("one that takes more than {} seconds to read", seconds));
+    throw ChildFailed(fmt::format("takes more than {} seconds", seconds));
   }
-  if (WIFSIGNALED(status)) {
-    throw ChildFailed(fmt::format("one on which its reader crashes ({})", strsignal(WTERMSIG(status))));
-  }
-  if (WEXITSTATUS(status) != 0 || bytes.empty()) throw ChildFailed("one on which its reader gives up");
+  if (WIFSIGNALED(status)) throw ChildFailed(fmt::format("crashes ({})", strsignal(WTERMSIG(status))));
+  if (WEXITSTATUS(status) != 0 || bytes.empty()) throw ChildFailed("ends without an answer");
   const char outcome = bytes.front();
   bytes.erase(0, 1);
   if (outcome == kFailed) throw ChildFailed(bytes);
@@ -128,11 +115,11 @@ void answer_parent(const std::function<std::string()>& work) {
   char outcome = kResult;
   std::string result;
   try {
-    limit_memory();
+    limit_memory(std::uint64_t{4} << 30);
     result = work();
   } catch (const std::bad_alloc&) {
     outcome = kFailed;
-    result = "one that takes more than 4 GiB of memory to read";
+    result = "takes more than 4 GiB of memory";
   } catch (const std::exception& error) {
     outcome = kThrown;
     result = error.what();

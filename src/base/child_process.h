@@ -11,14 +11,14 @@
 
 namespace plumbline {
 
-/// The program did not come to an end of its own: the message says how it ended, as words that follow "found".
+/// The program gave no answer. The message says why, as words that follow its name: "crashes (Killed)".
 struct ChildFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 /// Answer of the program, which may take `seconds`. It is looked for where the libraries of this one are (DT_RPATH), and
 /// its main() is answer_parent(). What it writes to stderr is lost. Throws ChildFailed; std::runtime_error where there
-/// is no such program, and where its work throws an exception, with the exception's words.
+/// is no such program or no process for it, and where its work throws an exception, with the exception's words.
 std::string answer_of_child(const std::string& program, const std::vector<std::string>& arguments, unsigned seconds);
 
 /// Does the work, which may take 4 GiB of memory beyond what the program has, and writes its result to stdout, for

@@ -3,7 +3,6 @@
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,7 +14,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <new>
 #include <optional>
@@ -25,6 +23,8 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+
+#include "base/process_limits.h"
 
 namespace plumbline {
 
@@ -100,18 +100,6 @@ std::optional<std::string> take_message(std::string& bytes) {
   return out;
 }
 
-void set_limits(const WorkerLimits& limits) {
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const rlim_t bytes = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + limits.memory;
-  rlimit memory{};
-  ::getrlimit(RLIMIT_AS, &memory);
-  memory.rlim_cur = std::min(bytes, memory.rlim_max);  // the hard limit stays: a program's is another (program.cpp)
-  if (pages > 0) ::setrlimit(RLIMIT_AS, &memory);
-}
-
 // Memory was refused, or address space for a library.
 bool lacks_memory(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
@@ -120,7 +108,8 @@ bool lacks_memory(const std::exception& error) {
 
 [[noreturn]] void be_worker(int socket, const WorkerLimits& limits, Progress& progress,
                             const std::function<Workers::Answer(Progress&)>& make) {
-  set_limits(limits);
+  leave_no_core();
+  limit_memory(limits.memory);
   // exit() in a renderer runs none of the handlers that the parent registered: they may wait for the parent's threads.
   ::on_exit([](int status, void*) { ::_exit(status); }, nullptr);
   Workers::Answer answer;

@@ -45,11 +45,11 @@ TEST(ChildProcess, HandsBackTheResult) {
 TEST(ChildProcess, TellsOfExceptionsCrashesAndHangs) {
   EXPECT_EQ(words_of_exception("child", "throws"), "so it is");
   EXPECT_EQ(words_of_exception("no_child", ""), "no program no_child where plumbline's libraries are");
-  EXPECT_EQ(failure("crashes"), "one on which its reader crashes (Killed)");
-  EXPECT_EQ(failure("throws a number"), "one on which its reader gives up");
-  EXPECT_EQ(failure("ends"), "one on which its reader gives up");
-  EXPECT_EQ(failure("hangs", 1), "one that takes more than 1 seconds to read");
-  EXPECT_EQ(failure("takes 5 GiB"), "one that takes more than 4 GiB of memory to read");
+  EXPECT_EQ(failure("crashes"), "crashes (Killed)");
+  EXPECT_EQ(failure("throws a number"), "ends without an answer");
+  EXPECT_EQ(failure("ends"), "ends without an answer");
+  EXPECT_EQ(failure("hangs", 1), "takes more than 1 seconds");
+  EXPECT_EQ(failure("takes 5 GiB"), "takes more than 4 GiB of memory");
 }
 
 // Then the pipe's ends are descriptors 0 and 1.

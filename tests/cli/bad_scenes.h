@@ -275,7 +275,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {mesh(R"({"file": "huge.ply"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/huge.ply: expected 4000000000 of vertex, found 1: a truncated file)"},
     {mesh(R"({"file": "index.ply"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/index.ply: expected vertices below 3, found 3 in face 0)"},
     {mesh(R"({"file": "broken.gltf"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.gltf: expected a mesh, found ...)"},
-    {mesh(R"({"file": "broken.glb"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.glb: expected a mesh, found ...)"},
+    {mesh(R"({"file": "broken.glb"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.glb: expected a whole binary glTF file, found its end at byte 4 of 12)"},
     {mesh(R"({"file": "broken.3ds"})"), R"(at "/draws/0/mesh/file": expected a mesh file that can be used, found @group/broken.3ds: expected a mesh, found ...)"},
     // Textures
     {textures(R"([])"), R"(at "/textures": expected an object, found an array of 0)"},

@@ -98,8 +98,6 @@ TEST_F(MeshFile, RefusesGltf) {
   fs::create_directories(root_ / "inner");
   write("outside", "outside.bin");
   refused(write(gltf("", 3, "../outside.bin"), "inner/mesh.gltf"), "outside.bin\", which is elsewhere");
-  refused(write("glTF", "mesh.glb"), "expected a mesh");
-  refused(write(std::string("glTF\2\0\0\0\xff\xff\0\0", 12), "mesh.glb"), "expected a mesh");
 }
 
 TEST_F(MeshFile, Refuses3ds) {
@@ -127,6 +125,46 @@ std::string bytes_of(std::initializer_list<T> values) {
   std::string bytes(values.size() * sizeof(T), '\0');
   std::memcpy(bytes.data(), std::data(values), bytes.size());
   return bytes;
+}
+
+/// A binary glTF file whose header and first chunk say these lengths [bytes]; 0: the true ones.
+std::string glb(const std::string& json, const std::string& data, std::uint32_t length = 0, std::uint32_t first = 0) {
+  constexpr std::uint32_t kVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942;
+  const auto n = static_cast<std::uint32_t>(json.size()), m = static_cast<std::uint32_t>(data.size());
+  return "glTF" + bytes_of<std::uint32_t>({kVersion, length ? length : n + m + 28, first ? first : n, kJson}) + json +
+         bytes_of<std::uint32_t>({m, kBinary}) + data;
+}
+
+TEST_F(MeshFile, ReadsGlbAndRefusesLengthsBeyondTheFile) {
+  const auto refuse = [&](const std::string& bytes, const std::string& expected) {
+    refused(write(bytes, "mesh.glb"), expected);
+  };
+  const std::string data = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 0.5}) +
+                           bytes_of<std::uint16_t>({0, 1, 2, 0});
+  std::string json = gltf();
+  const std::size_t uri = json.find(", \"uri\"");
+  json.erase(uri, json.find('}', uri) - uri);
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto n = static_cast<std::uint32_t>(json.size());
+
+  const std::string whole = glb(json, data);
+  const Mesh mesh = load_one(write(whole, "mesh.glb")), of_text = load_one(write(gltf(), "mesh.gltf"));
+  EXPECT_EQ(mesh.positions, of_text.positions);
+  EXPECT_EQ(mesh.colors, of_text.colors);
+  EXPECT_NO_THROW(load_one(write(whole + "rest", "mesh.glb")));  // bytes beyond the length do not count
+
+  const std::string size = std::to_string(whole.size()), left = std::to_string(whole.size() - 20);
+  refuse(glb(json, data, 0xffffffff), "expected a length of at most " + size + " bytes in the header");
+  refuse(glb(json, data, n + 28 + 92 + 1), "expected a length of at most " + size);
+  refuse(whole.substr(0, whole.size() - 1), "expected a length of at most");
+  refuse(glb(json, data, 0, 0xffffffff), "expected a chunk of at most " + left + " bytes at byte 20, found 4294967295");
+  refuse(glb(json, data, 0, n + 8 + 92 + 1), "expected a chunk of at most " + left);
+  refuse("glTF", "found its end at byte 4 of 12");
+  refuse(glb("", "", 12).substr(0, 12), "found its end at byte 12 of 20");
+  std::string of_version_1 = whole;
+  of_version_1[4] = 1;
+  refuse(of_version_1, "expected binary glTF of version 2, found version 1");
+  refuse("glTf" + whole.substr(4), "beginning with glTF");
 }
 
 /// A tetrahedron whose node is scaled by -1 along x: inside out if placed without turning its triangles.

@@ -17,7 +17,7 @@ std::vector<MeshPart> load_mesh(const std::filesystem::path& file, const AssetFo
   try {
     return parts_of(answer_of_child("plumbline_mesh_reader", arguments, kSeconds));
   } catch (const ChildFailed& error) {
-    throw MeshError(fmt::format("{}: expected a mesh, found {}", file.string(), error.what()));
+    throw MeshError(fmt::format("{}: expected a mesh, found a file whose reader {}", file.string(), error.what()));
   } catch (const std::runtime_error& error) {
     throw MeshError(fmt::format("{}: {}", file.string(), error.what()));
   }

@@ -1,5 +1,6 @@
 // What has to be checked in mesh files before assimp reads them, as it goes on by guessing: it leaves out vertices that
-// it cannot read, makes up what a truncated file lacks, and takes hours over counts that are not true.
+// it cannot read, makes up what a truncated file lacks, takes hours over counts that are not true, and memory for lengths
+// beyond the file's end.
 #pragma once
 
 #include <string>
@@ -12,6 +13,10 @@ namespace plumbline {
 /// Returns a note where something is left out, else nothing: a third texture coordinate other than 0.
 /// Throws std::runtime_error: expected ..., found ... in line n.
 std::string check_obj(std::string_view text);
+
+/// Checks a binary glTF file's header and the heads of its chunks (glTF 2.0, section 4.4): version 2, and no length that
+/// reaches beyond the file. Throws std::runtime_error: expected ..., found ....
+void check_glb(std::string_view bytes);
 
 /// Checks a PLY file's bytes, ASCII or binary: the header; the elements that it announces, one after the other to the
 /// file's end (in ASCII each on a line of its own); faces of three corners or more.

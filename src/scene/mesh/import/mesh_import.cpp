@@ -20,6 +20,7 @@
 
 #include "scene/json/scene_values.h"
 #include "scene/mesh/import/mesh_check.h"
+#include "scene/mesh/import/refuse.h"
 #include "scene/mesh/mesh_shapes.h"
 #include "scene/mesh/polygon.h"
 
@@ -28,18 +29,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(std::string_view expected, std::string_view found) {
-  throw std::runtime_error(fmt::format("expected {}, found {}", expected, found));
-}
-
 std::string read_bytes(const fs::path& file) {
   constexpr std::uintmax_t kLargest = 256u << 20;
-  if (!fs::is_regular_file(file)) fail("a mesh file", "none");
+  if (!fs::is_regular_file(file)) refuse("a mesh file", "none");
   const std::uintmax_t size = fs::file_size(file);
-  if (size > kLargest) fail(fmt::format("a mesh file of at most {} bytes", kLargest), fmt::format("{}", size));
+  if (size > kLargest) refuse(fmt::format("a mesh file of at most {} bytes", kLargest), fmt::format("{}", size));
   std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) fail("a mesh file", "one that cannot be read");
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) refuse("a mesh file", "one that cannot be read");
   return bytes;
 }
 
@@ -147,37 +144,37 @@ void check_part(const aiMesh& part) {
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
     if (face.mNumIndices < 3) {
-      fail("faces of three corners or more (lines and points are not drawn)",
-           fmt::format("{} in face {}", face.mNumIndices, f));
+      refuse("faces of three corners or more (lines and points are not drawn)",
+             fmt::format("{} in face {}", face.mNumIndices, f));
     }
     constexpr unsigned kMostCorners = 1024;
     if (face.mNumIndices > kMostCorners) {
-      fail(fmt::format("polygons of at most {} corners", kMostCorners),
-           fmt::format("{} in face {}", face.mNumIndices, f));
+      refuse(fmt::format("polygons of at most {} corners", kMostCorners),
+             fmt::format("{} in face {}", face.mNumIndices, f));
     }
     std::vector<glm::dvec3> corners;
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       const unsigned i = face.mIndices[k];
       if (i >= part.mNumVertices) {
-        fail(fmt::format("vertices below {}", part.mNumVertices), fmt::format("{} in face {}", i, f));
+        refuse(fmt::format("vertices below {}", part.mNumVertices), fmt::format("{} in face {}", i, f));
       }
       const aiVector3D& p = part.mVertices[i];
       if (face.mNumIndices > 3) corners.emplace_back(p.x, p.y, p.z);
     }
     if (const std::string fault = polygon_fault(corners); !fault.empty()) {
-      fail("flat polygons that do not cross themselves", fmt::format("in face {} {}", f, fault));
+      refuse("flat polygons that do not cross themselves", fmt::format("in face {} {}", f, fault));
     }
   }
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& p = part.mVertices[i];
     for (const float x : {p.x, p.y, p.z}) {
-      if (!std::isfinite(x)) fail("coordinates that are finite", fmt::format("{} in vertex {}", x, i));
+      if (!std::isfinite(x)) refuse("coordinates that are finite", fmt::format("{} in vertex {}", x, i));
     }
     if (part.HasNormals()) {
       const aiVector3D& n = part.mNormals[i];
       if (!std::isnormal(n.SquareLength())) {
-        fail("finite normals that are not zero, for all corners or for none",
-             fmt::format("({}, {}, {}) in vertex {}", n.x, n.y, n.z, i));
+        refuse("finite normals that are not zero, for all corners or for none",
+               fmt::format("({}, {}, {}) in vertex {}", n.x, n.y, n.z, i));
       }
     }
     if (part.HasTextureCoords(0)) {
@@ -185,15 +182,15 @@ void check_part(const aiMesh& part) {
       const aiVector3D& c = part.mTextureCoords[0][i];
       for (const float x : {c.x, c.y}) {
         if (!(std::abs(x) <= kLargest)) {
-          fail(fmt::format("texture coordinates from {} to {}", -kLargest, kLargest),
-               fmt::format("{} in vertex {}", x, i));
+          refuse(fmt::format("texture coordinates from {} to {}", -kLargest, kLargest),
+                 fmt::format("{} in vertex {}", x, i));
         }
       }
     }
     if (part.HasVertexColors(0)) {
       const aiColor4D& c = part.mColors[0][i];
       for (const float x : {c.r, c.g, c.b, c.a}) {
-        if (!(x >= 0 && x <= 1)) fail("colours from 0 to 1", fmt::format("{} in vertex {}", x, i));
+        if (!(x >= 0 && x <= 1)) refuse("colours from 0 to 1", fmt::format("{} in vertex {}", x, i));
       }
     }
   }
@@ -204,7 +201,7 @@ glm::vec4 read_color(const aiMaterial& from, const char* key, float alpha) {
   if (from.Get(key, 0, 0, c) != aiReturn_SUCCESS) return {0, 0, 0, alpha};
   for (const float x : {c.r, c.g, c.b}) {
     if (!(x >= 0 && x <= 1))
-      fail("colours from 0 to 1", fmt::format("{} in the material {}", x, from.GetName().C_Str()));
+      refuse("colours from 0 to 1", fmt::format("{} in the material {}", x, from.GetName().C_Str()));
   }
   return {c.r, c.g, c.b, alpha};
 }
@@ -218,8 +215,8 @@ std::optional<Material> read_material(const aiMaterial& from, std::string_view e
   from.Get(AI_MATKEY_OPACITY, opacity);
   from.Get(AI_MATKEY_SHININESS, shininess);
   if (!(opacity >= 0 && opacity <= 1))
-    fail("an opacity from 0 to 1", fmt::format("{} in the material {}", opacity, name));
-  if (!(shininess >= 0)) fail("a shininess of 0 or more", fmt::format("{} in the material {}", shininess, name));
+    refuse("an opacity from 0 to 1", fmt::format("{} in the material {}", opacity, name));
+  if (!(shininess >= 0)) refuse("a shininess of 0 or more", fmt::format("{} in the material {}", shininess, name));
   Material to;
   to.diffuse = read_color(from, "$clr.diffuse", opacity);
   to.emission = read_color(from, "$clr.emissive", 1);
@@ -241,7 +238,7 @@ class Assembly {
 
   void add(const aiNode& node, const aiMatrix4x4& parent, int depth = 0) {
     constexpr int kDeepest = 256;
-    if (depth > kDeepest) fail(fmt::format("at most {} levels of nodes", kDeepest), "more");
+    if (depth > kDeepest) refuse(fmt::format("at most {} levels of nodes", kDeepest), "more");
     const aiMatrix4x4 placement = parent * node.mTransformation;
     for (unsigned m = 0; m < node.mNumMeshes; ++m) add(*scene_.mMeshes[node.mMeshes[m]], placement);
     for (unsigned c = 0; c < node.mNumChildren; ++c) add(*node.mChildren[c], placement, depth + 1);
@@ -251,7 +248,7 @@ class Assembly {
  private:
   void add(const aiMesh& from, const aiMatrix4x4& placement) {
     triangles_ += from.mNumFaces;
-    if (triangles_ > most_triangles_) fail(fmt::format("at most {} triangles", most_triangles_), "more");
+    if (triangles_ > most_triangles_) refuse(fmt::format("at most {} triangles", most_triangles_), "more");
     if (parts_.empty() || material_ != from.mMaterialIndex) {
       parts_.push_back({{}, read_material(*scene_.mMaterials[from.mMaterialIndex], ending_, undefined_), ""});
       material_ = from.mMaterialIndex;
@@ -268,8 +265,8 @@ class Assembly {
       const aiVector3D p = placement * from.mVertices[i];
       for (const float x : {p.x, p.y, p.z}) {
         if (!(std::abs(x) <= kLargestCoordinate)) {
-          fail(fmt::format("coordinates from {} to {}", -kLargestCoordinate, kLargestCoordinate),
-               fmt::format("{} in vertex {}", x, first + i));
+          refuse(fmt::format("coordinates from {} to {}", -kLargestCoordinate, kLargestCoordinate),
+                 fmt::format("{} in vertex {}", x, first + i));
         }
       }
       mesh.positions.emplace_back(p.x, p.y, p.z);
@@ -317,12 +314,11 @@ void add_note(std::string& notes, const std::string& note) { notes += (notes.emp
 
 /// On bytes that are not the ending's, assimp tries every format that it knows, and may then read for ever.
 void check_beginning(std::string_view bytes, std::string_view ending) {
-  if (ending == ".glb" && !bytes.starts_with("glTF"))
-    fail("a binary glTF file, beginning with glTF", "another beginning");
-  if (ending == ".3ds" && !bytes.starts_with("MM")) fail("a 3DS file, beginning with MM", "another beginning");
+  if (ending == ".glb") check_glb(bytes);
+  if (ending == ".3ds" && !bytes.starts_with("MM")) refuse("a 3DS file, beginning with MM", "another beginning");
   if (ending != ".gltf") return;
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  if (first == bytes.npos || bytes[first] != '{') fail("a glTF file, beginning with {", "another beginning");
+  if (first == bytes.npos || bytes[first] != '{') refuse("a glTF file, beginning with {", "another beginning");
 }
 
 }  // namespace
@@ -331,7 +327,7 @@ std::vector<MeshPart> import_mesh(const fs::path& file, const AssetFolders& fold
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   if (ending != ".obj" && ending != ".3ds" && ending != ".ply" && ending != ".gltf" && ending != ".glb") {
-    fail("a mesh file ending in .obj, .3ds, .ply, .gltf or .glb", fmt::format("\"{}\"", ending));
+    refuse("a mesh file ending in .obj, .3ds, .ply, .gltf or .glb", fmt::format("\"{}\"", ending));
   }
   std::string bytes = read_bytes(file);
   check_beginning(bytes, ending);
@@ -349,12 +345,12 @@ std::vector<MeshPart> import_mesh(const fs::path& file, const AssetFolders& fold
   importer.SetIOHandler(new AllowedFiles(folders, file, bytes, asked));
   const aiScene* scene = importer.ReadFile(file.string(), 0);
   if (!asked.refused.empty())
-    fail("a mesh whose other files are in the scene's folder or an asset folder", asked.refused);
-  if (scene == nullptr) fail("a mesh", importer.GetErrorString());
-  if (scene->mRootNode == nullptr) fail("a mesh", "a scene of nothing");
-  if (!complaints.first().empty()) fail("a mesh that can be read as it is", complaints.first());
+    refuse("a mesh whose other files are in the scene's folder or an asset folder", asked.refused);
+  if (scene == nullptr) refuse("a mesh", importer.GetErrorString());
+  if (scene->mRootNode == nullptr) refuse("a mesh", "a scene of nothing");
+  if (!complaints.first().empty()) refuse("a mesh that can be read as it is", complaints.first());
   if (!undefined.empty() && asked.materials && asked.missing.empty()) {
-    fail("materials that the material files define", fmt::format("\"{}\"", *undefined.begin()));
+    refuse("materials that the material files define", fmt::format("\"{}\"", *undefined.begin()));
   }
   if (!asked.missing.empty()) {
     add_note(note, fmt::format("materials of \"{}\" are left out: there is no such file", asked.missing));
@@ -365,13 +361,13 @@ std::vector<MeshPart> import_mesh(const fs::path& file, const AssetFolders& fold
 
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                        aiProcess_GenSmoothNormals);
-  if (scene == nullptr) fail("a mesh", importer.GetErrorString());
-  if (!complaints.first().empty()) fail("polygons that can be cut into triangles", complaints.first());
+  if (scene == nullptr) refuse("a mesh", importer.GetErrorString());
+  if (!complaints.first().empty()) refuse("polygons that can be cut into triangles", complaints.first());
   Assembly assembly(*scene, ending, undefined, most_triangles);
   assembly.add(*scene->mRootNode, aiMatrix4x4());
   std::vector<MeshPart> parts = assembly.take();
   std::erase_if(parts, [](const MeshPart& part) { return part.mesh.triangles.empty(); });
-  if (parts.empty()) fail("triangles", "none");
+  if (parts.empty()) refuse("triangles", "none");
   for (MeshPart& part : parts) repair_normals(part.mesh);
   parts.front().note = std::move(note);
   return parts;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scene/mesh/import/mesh_check.h"
+#include "scene/mesh/import/refuse.h"
 #include "scene/mesh/import/text_scan.h"
 
 namespace plumbline {
@@ -20,7 +21,7 @@ std::vector<double> read_numbers(std::string_view line) {
     const bool point_first = word.front() == '.';
     const auto number = number_in<double>(word);
     if (!number || point_first) {
-      throw std::runtime_error(fmt::format("expected a number that begins with a sign or a digit, found \"{}\"", word));
+      refuse("a number that begins with a sign or a digit", fmt::format("\"{}\"", word));
     }
     numbers.push_back(*number);
   }
@@ -52,8 +53,7 @@ void check_corner(std::string_view corner, const Counts& all, const Counts& abov
     if (word.empty()) continue;
     const auto index = number_in<std::int64_t>(word);
     if (!index || *index == 0 || *index > all[i] || *index < -above[i]) {
-      throw std::runtime_error(
-          fmt::format("expected an index of the {} {} that there are, found {}", all[i], kIndexed[i], word));
+      refuse(fmt::format("an index of the {} {} that there are", all[i], kIndexed[i]), word);
     }
   }
 }
@@ -62,11 +62,11 @@ void check_face(std::string_view line, const Counts& all, const Counts& above) {
   int corners = 0;
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++corners) {
     if (word.find_first_not_of("0123456789/-") != word.npos) {
-      throw std::runtime_error(fmt::format("expected a corner such as 1, 1/2, 1//3 or 1/2/3, found \"{}\"", word));
+      refuse("a corner such as 1, 1/2, 1//3 or 1/2/3", fmt::format("\"{}\"", word));
     }
     check_corner(word, all, above);
   }
-  if (corners < 3) throw std::runtime_error(fmt::format("expected a face of three corners or more, found {}", corners));
+  if (corners < 3) refuse("a face of three corners or more", fmt::format("{}", corners));
 }
 
 }  // namespace
@@ -86,17 +86,16 @@ std::string check_obj(std::string_view text) {
       if (statement == "v") {
         const std::size_t numbers = read_numbers(line).size();
         if (numbers != 3 && numbers != 4 && numbers != 6) {
-          throw std::runtime_error(fmt::format("expected v with 3, 4 or 6 numbers, found {}", numbers));
+          refuse("v with 3, 4 or 6 numbers", fmt::format("{}", numbers));
         }
         if (numbers_of_all != 0 && numbers != numbers_of_all) {
-          throw std::runtime_error(
-              fmt::format("expected v with {} numbers as in the lines before, found {}", numbers_of_all, numbers));
+          refuse(fmt::format("v with {} numbers as in the lines before", numbers_of_all), fmt::format("{}", numbers));
         }
         numbers_of_all = numbers;
       } else if (statement == "vt") {
         const std::vector<double> numbers = read_numbers(line);
         if (numbers.size() != 2 && numbers.size() != 3) {
-          throw std::runtime_error(fmt::format("expected vt with 2 or 3 numbers, found {}", numbers.size()));
+          refuse("vt with 2 or 3 numbers", fmt::format("{}", numbers.size()));
         }
         if (note.empty() && numbers.size() == 3 && numbers[2] != 0) {
           note = fmt::format("third texture coordinates, as in line {}, are left out: textures have two", number);
@@ -105,8 +104,7 @@ std::string check_obj(std::string_view text) {
         check_face(line, all, above);
       } else if (std::find(kHarmlessStatements.begin(), kHarmlessStatements.end(), statement) ==
                  kHarmlessStatements.end()) {
-        throw std::runtime_error(
-            fmt::format("expected v, vn, vt, f, g, o, s, mtllib or usemtl, found \"{}\"", statement.substr(0, 40)));
+        refuse("v, vn, vt, f, g, o, s, mtllib or usemtl", fmt::format("\"{}\"", statement.substr(0, 40)));
       }
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(fmt::format("{} in line {}", error.what(), number));

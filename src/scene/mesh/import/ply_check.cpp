@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scene/mesh/import/mesh_check.h"
+#include "scene/mesh/import/refuse.h"
 #include "scene/mesh/import/text_scan.h"
 
 namespace plumbline {
@@ -31,10 +31,6 @@ struct Header {
   std::vector<Element> elements;
 };
 
-[[noreturn]] void bad_ply(std::string_view expected, std::string_view found) {
-  throw std::runtime_error(fmt::format("expected {}, found {}", expected, found));
-}
-
 std::size_t size_of(std::string_view type, bool integer) {
   constexpr std::pair<std::string_view, std::size_t> kSizes[] = {
       {"char", 1},  {"uchar", 1},  {"short", 2},   {"ushort", 2}, {"int", 4},   {"uint", 4},
@@ -43,14 +39,14 @@ std::size_t size_of(std::string_view type, bool integer) {
   for (const auto& [name, size] : kSizes) {
     if (name == type && !(integer && (type.starts_with("float") || type == "double"))) return size;
   }
-  bad_ply(integer ? "an integer type of PLY" : "a type of PLY", fmt::format("\"{}\" in the header", type));
+  refuse(integer ? "an integer type of PLY" : "a type of PLY", fmt::format("\"{}\" in the header", type));
 }
 
 Format format_of(std::string_view word) {
   if (word == "ascii") return Format::ascii;
   if (word == "binary_little_endian") return Format::little;
   if (word == "binary_big_endian") return Format::big;
-  bad_ply("a PLY format, ascii, binary_little_endian or binary_big_endian", fmt::format("\"{}\"", word));
+  refuse("a PLY format, ascii, binary_little_endian or binary_big_endian", fmt::format("\"{}\"", word));
 }
 
 Property read_property(std::string_view line) {
@@ -69,14 +65,14 @@ Property read_property(std::string_view line) {
 
 /// Takes the header off the bytes.
 Header read_header(std::string_view& bytes) {
-  if (take_line(bytes) != "ply") bad_ply("a PLY file that begins with the line \"ply\"", "another");
+  if (take_line(bytes) != "ply") refuse("a PLY file that begins with the line \"ply\"", "another");
   Header header;
   bool format_told = false;
   while (!bytes.empty()) {
     std::string_view line = take_line(bytes);
     const std::string_view word = take_word(line);
     if (word == "end_header") {
-      if (!format_told) bad_ply("a PLY header that tells the format", "none");
+      if (!format_told) refuse("a PLY header that tells the format", "none");
       return header;
     }
     if (word == "comment" || word == "obj_info") continue;
@@ -86,16 +82,16 @@ Header read_header(std::string_view& bytes) {
     } else if (word == "element") {
       const std::string_view name = take_word(line), count = take_word(line);
       const auto number = number_in<std::uint32_t>(count);
-      if (!number) bad_ply("an element's count in the PLY header", fmt::format("\"{}\"", count));
+      if (!number) refuse("an element's count in the PLY header", fmt::format("\"{}\"", count));
       header.elements.push_back({std::string(name), *number, {}});
     } else if (word == "property" && !header.elements.empty()) {
       header.elements.back().properties.push_back(read_property(line));
     } else {
-      bad_ply("format, element, property, comment or end_header in the PLY header",
-              fmt::format("\"{}\"", word.substr(0, 40)));
+      refuse("format, element, property, comment or end_header in the PLY header",
+             fmt::format("\"{}\"", word.substr(0, 40)));
     }
   }
-  bad_ply("end_header", "the file's end in its header");
+  refuse("end_header", "the file's end in its header");
 }
 
 void require_positions(const Header& header) {
@@ -105,7 +101,7 @@ void require_positions(const Header& header) {
                                                      [&](const Property& p) { return p.name == axis; });
     };
     if (std::none_of(header.elements.begin(), header.elements.end(), has_axis)) {
-      bad_ply("vertices with x, y and z in the PLY header", fmt::format("no {}", axis));
+      refuse("vertices with x, y and z in the PLY header", fmt::format("no {}", axis));
     }
   }
 }
@@ -113,32 +109,32 @@ void require_positions(const Header& header) {
 void check_corners(const Element& element, const Property& property, std::uint64_t row, std::uint64_t corners) {
   const bool face = property.name == "vertex_indices" || property.name == "vertex_index";
   if (face && corners < 3) {
-    bad_ply("faces of three corners or more", fmt::format("{} in {} {}", corners, element.name, row));
+    refuse("faces of three corners or more", fmt::format("{} in {} {}", corners, element.name, row));
   }
 }
 
 void check_row_of_text(std::string_view& text, const Element& element, std::uint64_t row) {
   const auto where = [&] { return fmt::format("{} {} of {}", element.name, row, element.count); };
   if (text.empty())
-    bad_ply(fmt::format("{} of {}", element.count, element.name), fmt::format("{}: a truncated file", row));
+    refuse(fmt::format("{} of {}", element.count, element.name), fmt::format("{}: a truncated file", row));
   std::string_view line = take_line(text);
   for (const Property& property : element.properties) {
     std::uint64_t values = 1;
     if (property.count_size > 0) {
       const std::string_view word = take_word(line);
       const auto count = number_in<std::uint32_t>(word);
-      if (!count) bad_ply("a list's count", fmt::format("\"{}\" in {}", word, where()));
+      if (!count) refuse("a list's count", fmt::format("\"{}\" in {}", word, where()));
       check_corners(element, property, row, values = *count);
     }
     for (; values > 0; --values) {
       const std::string_view word = take_word(line);
       if (!number_in<double>(word)) {
-        bad_ply(fmt::format("a number for {}", property.name), fmt::format("\"{}\" in {}", word, where()));
+        refuse(fmt::format("a number for {}", property.name), fmt::format("\"{}\" in {}", word, where()));
       }
     }
   }
   if (const std::string_view word = take_word(line); !word.empty()) {
-    bad_ply("the line's end", fmt::format("\"{}\" in {}", word, where()));
+    refuse("the line's end", fmt::format("\"{}\" in {}", word, where()));
   }
 }
 
@@ -154,7 +150,7 @@ std::uint64_t read_count(std::string_view bytes, std::size_t size, Format format
 void check_row_of_bytes(std::string_view& bytes, const Element& element, std::uint64_t row, Format format) {
   const auto take = [&](std::uint64_t size) {
     if (size > bytes.size()) {
-      bad_ply(fmt::format("{} of {}", element.count, element.name), fmt::format("{}: a truncated file", row));
+      refuse(fmt::format("{} of {}", element.count, element.name), fmt::format("{}: a truncated file", row));
     }
     bytes.remove_prefix(size);
   };
@@ -187,10 +183,10 @@ void require_strips_alone(const Header& header) {
     const Property property = one ? element.properties.front() : Property{};
     const bool of_indices = property.name == "vertex_indices" || property.name == "vertex_index";
     if (!of_indices || property.count_size == 0 || !property.integer) {
-      bad_ply("tristrips with one property, a list vertex_indices of integers", "others");
+      refuse("tristrips with one property, a list vertex_indices of integers", "others");
     }
   }
-  if (elements > 1) bad_ply("faces in one element, face or tristrips", "more");
+  if (elements > 1) refuse("faces in one element, face or tristrips", "more");
 }
 
 /// The indices in a row of a strips' element, taken off the bytes.
@@ -201,7 +197,7 @@ std::vector<std::int64_t> take_strip(std::string_view& bytes, const Property& pr
     take_word(line);  // the count
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
       const auto index = number_in<std::int64_t>(word);
-      if (!index) bad_ply("an index of a vertex in tristrips", fmt::format("\"{}\"", word));
+      if (!index) refuse("an index of a vertex in tristrips", fmt::format("\"{}\"", word));
       indices.push_back(*index);
     }
     return indices;
@@ -227,7 +223,7 @@ void add_triangles(const std::vector<std::int64_t>& strip, std::uint64_t vertice
     if (strip[i] == -1) {
       first = i + 1;
     } else if (strip[i] < 0 || static_cast<std::uint64_t>(strip[i]) >= vertices) {
-      bad_ply(fmt::format("vertices below {} in tristrips, or -1", vertices), fmt::format("{}", strip[i]));
+      refuse(fmt::format("vertices below {} in tristrips, or -1", vertices), fmt::format("{}", strip[i]));
     } else if (i >= first + 2) {
       const bool turned = (i - first) % 2 == 1;
       triangles.push_back({strip[i - (turned ? 1 : 2)], strip[i - (turned ? 2 : 1)], strip[i]});
@@ -274,11 +270,11 @@ void check_ply(std::string_view bytes) {
   const Header header = read_header(bytes);
   require_positions(header);
   for (const Element& element : header.elements) {
-    if (element.properties.empty() && element.count > 0) bad_ply("properties", fmt::format("none of {}", element.name));
+    if (element.properties.empty() && element.count > 0) refuse("properties", fmt::format("none of {}", element.name));
     for (std::uint64_t row = 0; row < element.count; ++row) check_row(bytes, element, row, header.format);
   }
   if (bytes.find_first_not_of(" \t\r\n") != bytes.npos) {
-    bad_ply("the file's end after its last element", fmt::format("{} bytes more", bytes.size()));
+    refuse("the file's end after its last element", fmt::format("{} bytes more", bytes.size()));
   }
 }
 
