@@ -20,6 +20,9 @@ namespace plumbline {
 
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+/// A struct of numbers without pointers. That it has none is for the caller to see to.
+template <class T>
+concept Copyable = std::is_trivially_copyable_v<T>;
 
 class ByteWriter {
  public:
@@ -31,6 +34,12 @@ class ByteWriter {
     std::size_t size = text.size();
     (*this)(size);
     bytes_ += text;
+  }
+  /// An array at once.
+  template <Copyable T>
+  void block(std::vector<T>& items) {
+    count(items);
+    bytes_.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T));
   }
   void word(const char*& text) {
     std::string copy = text;
@@ -67,6 +76,13 @@ class ByteReader {
     std::size_t size = 0;
     (*this)(size);
     text.assign(take(size), size);
+  }
+  template <Copyable T>
+  void block(std::vector<T>& items) {
+    const std::size_t size = count(items);
+    if (size > bytes_.size() / sizeof(T)) throw std::runtime_error("bytes are cut off");
+    items.resize(size);
+    if (size > 0) std::memcpy(static_cast<void*>(items.data()), take(size * sizeof(T)), size * sizeof(T));
   }
   void word(const char*& text) {
     std::string read;
