@@ -9,12 +9,14 @@
 #include <iterator>
 #include <string>
 
+#include "base/temporary_path.h"
+
 namespace plumbline {
 
 class TestFolder : public testing::Test {
  protected:
   TestFolder() {
-    std::string name = testing::TempDir() + "plumbline-XXXXXX";
+    std::string name = temporary_files() / "plumbline-XXXXXX";
     root_ = mkdtemp(name.data());
     std::filesystem::permissions(root_, std::filesystem::perms(0755));  // as folders usually are
   }

@@ -1,13 +1,16 @@
 #include "base/temporary_path.h"
 
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -56,9 +59,22 @@ void remove_abandoned(const fs::path& folder, std::string_view prefix) {
   }
 }
 
+constexpr const char* kMemory = "/dev/shm";  // tmpfs(5)
+
+bool is_roomy_memory(const char* folder) {
+  constexpr std::uint64_t kRoom = std::uint64_t{2} << 30;  // four captures of the largest budget [bytes]
+  struct statfs of {};
+  return ::statfs(folder, &of) == 0 && of.f_type == TMPFS_MAGIC && ::access(folder, W_OK | X_OK) == 0 &&
+         static_cast<std::uint64_t>(of.f_bavail) * static_cast<std::uint64_t>(of.f_bsize) >= kRoom;
+}
+
 }  // namespace
 
 fs::path temporary_files() {
+  constexpr const char* kVariables[] = {"TMPDIR", "TMP", "TEMP",
+                                        "TEMPDIR"};  // of std::filesystem::temp_directory_path()
+  const bool is_said = std::ranges::any_of(kVariables, [](const char* name) { return std::getenv(name) != nullptr; });
+  if (!is_said && is_roomy_memory(kMemory)) return kMemory;
   std::error_code error;
   fs::path out = fs::temp_directory_path(error);
   if (!error) return out;

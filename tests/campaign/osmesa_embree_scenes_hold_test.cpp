@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include "base/temporary_path.h"
 #include "campaign/scene_id.h"
 #include "tests/campaign/scene_trial.h"
 #include "tests/extent.h"
@@ -21,7 +22,7 @@ constexpr std::uint64_t kSeeds = 20000;  // of each generator
 class ScenesHold : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / fmt::format("plumb-scenes-{}", getpid());
+    folder_ = temporary_files() / fmt::format("plumb-scenes-{}", getpid());
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

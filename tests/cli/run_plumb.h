@@ -13,6 +13,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/temporary_path.h"
 #include "cli/options/renderers.h"
 
 namespace plumbline {
@@ -60,9 +61,9 @@ inline const std::string kSharedEdges = kScenes + "coverage/shared_edges.json";
 class Cli : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("plumb-cli-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
-               std::to_string(getpid()));
+    folder_ =
+        temporary_files() / ("plumb-cli-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+                             "-" + std::to_string(getpid()));
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <thread>
 
+#include "base/temporary_path.h"
 #include "check/golden/golden_set.h"
 
 namespace plumbline::check {
@@ -57,9 +58,8 @@ std::string bytes_of(const fs::path& file) {
 TEST(golden_kill, leaves_the_old_set_or_the_new_one) {
   const char* said = std::getenv("PLUMBLINE_KILLS");
   const int kills = said != nullptr ? std::atoi(said) : 30;
-  // In memory where there is such a folder: a disk takes long to sync, and most kills would find it at that.
-  const fs::path memory = "/dev/shm", base = fs::is_directory(memory) ? memory : fs::temp_directory_path();
-  const fs::path folder = base / fmt::format("plumb-golden-kill-{}", ::getpid());
+  // In memory, if it is free: a disk takes long to sync, and most kills would find it at that.
+  const fs::path folder = temporary_files() / fmt::format("plumb-golden-kill-{}", ::getpid());
   fs::create_directories(folder);
   const Update updates[] = {update_of(0), update_of(1)};
   const std::string texts[] = {manifest_text(updates[0].manifest), manifest_text(updates[1].manifest)};

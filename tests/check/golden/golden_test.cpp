@@ -17,6 +17,7 @@
 #include <sstream>
 
 #include "base/atomic_path.h"
+#include "base/temporary_path.h"
 #include "capture/files/image_file.h"
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
@@ -32,8 +33,8 @@ const fs::path kGoldens = PLUMBLINE_SOURCE_DIR "/golden";
 class Goldens : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / fmt::format("plumb-golden-{}-{}", ::getpid(),
-                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = temporary_files() / fmt::format("plumb-golden-{}-{}", ::getpid(),
+                                              testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_ / "golden");
   }
   void TearDown() override { fs::remove_all(folder_); }

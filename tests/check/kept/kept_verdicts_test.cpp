@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "base/temporary_path.h"
 #include "capture/files/capture_columns.h"
 #include "check/kept/judge_or_recall.h"
 #include "check/kept/traced_renderer.h"
@@ -55,7 +56,7 @@ class KeptVerdicts : public Judge {
     candidate.before_capture = [this](auto&) { ++drawn; };
     referee.before_capture = [this](auto&) { ++asked; };
     scene.name = "group/name";
-    std::string name = testing::TempDir() + "plumbline-kept-XXXXXX";
+    std::string name = temporary_files() / "plumbline-kept-XXXXXX";
     root = mkdtemp(name.data());
     folder = root;
   }
