@@ -149,7 +149,8 @@ template <class R>
   out.color0 = at(0), out.d_color1 = at(1) - out.color0, out.d_color2 = at(2) - out.color0;
   out.constant = Lanes<R>::mask_of(~0u);
   for (int c = 0; c < 4; ++c) {
-    out.constant = out.constant & (out.d_color1[c] == R(0)) & (out.d_color2[c] == R(0));
+    const Mask<R> as_1 = out.d_color1[c] == R(0), as_2 = out.d_color2[c] == R(0);
+    out.constant = out.constant & as_1 & as_2;
   }
   return out;
 }
