@@ -84,19 +84,20 @@ TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
 }
 
 // Surfaces on triangles of few pixels or none, a pixel of each at a time: textured, lit per fragment from one side and
-// from two, foggy, with flat and with smooth colours; of one face, and of both
-// side by side; nearer ones first and last.
+// from two, foggy, with flat and with smooth colours; of one face, and of both side by side; nearer ones first and last.
 TEST(Painter, ShadesSmallTrianglesAsItsDefinitionDoes) {
   const Stages stages = production_stages();
   const auto all = painters();
   for (unsigned round = 0; round < 48; ++round) {
-    const auto one_in = [&](unsigned n) { return round % n == 0; };
+    std::mt19937 random(round);
+    const auto one_in = [&](unsigned n) { return random() % n == 0; };
     Scene scene = spheres(4, one_in(3) ? Cull::none : Cull::back);
     scene.frame.width = one_in(4) ? 200 : 72;
     scene.frame.height = one_in(4) ? 136 : 56;
     scene.meshes = {make_globe(one_in(5) ? 160 : 40, one_in(7) ? 80 : 20)};
     std::vector<glm::uvec3>& triangles = scene.meshes[0].triangles;
-    for (std::size_t i = 0; i < triangles.size() && one_in(3); i += 2) std::swap(triangles[i].x, triangles[i].y);
+    const std::size_t turned = one_in(3) ? triangles.size() : 0;
+    for (std::size_t i = 0; i < turned; i += 2) std::swap(triangles[i].x, triangles[i].y);
     scene.frame.clear_depth = one_in(6) ? 0.97 : 1.0;
     scene.light_model.sides = one_in(2) ? LightModel::Sides::two : LightModel::Sides::one;
     scene.light_model.separate_specular = one_in(5);
@@ -107,7 +108,7 @@ TEST(Painter, ShadesSmallTrianglesAsItsDefinitionDoes) {
     scene.textures.push_back(texture);
     if (one_in(9)) std::reverse(scene.draws.begin(), scene.draws.end());
     for (Draw& draw : scene.draws) {
-      draw.shading = round % 3 == 0 ? Shading::phong : round % 3 == 1 ? Shading::flat : Shading::gouraud;
+      draw.shading = one_in(3) ? Shading::phong : one_in(2) ? Shading::flat : Shading::gouraud;
       draw.material.specular = {1, 0.5, 1, 1};
       draw.material.shininess = 20;
       if (!one_in(6)) draw.texture = DrawTexture{};
