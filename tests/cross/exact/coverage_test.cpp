@@ -14,14 +14,14 @@ namespace {
 
 using exact::CoveredRows;
 using exact::Int128;
-using Corners = std::array<glm::ivec2, 3>;
+using SnappedCorners = std::array<glm::ivec2, 3>;
 
-Corners centres(std::array<glm::ivec2, 3> pixels) {
+SnappedCorners centres(std::array<glm::ivec2, 3> pixels) {
   for (glm::ivec2& p : pixels) p *= kSubpixel;
   return pixels;
 }
 
-Capture cover(int width, int height, const std::vector<Corners>& triangles) {
+Capture cover(int width, int height, const std::vector<SnappedCorners>& triangles) {
   Records<double> in;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) in.triangles.push_back(snapped_triangle(triangles[i], i));
   return run(scene_of(width, height, static_cast<std::uint32_t>(triangles.size())), Stage::coverage, in);
@@ -113,7 +113,7 @@ TEST(ExactCoverage, RecordsRunByTriangleThenRowThenColumn) {
 
 TEST(ExactCoverage, WeightsAreOfThePrimitiveNotOfTheTriangle) {
   Records<double> in;
-  const Corners pixel = centres({{{1, 1}, {2, 1}, {1, 2}}});
+  const SnappedCorners pixel = centres({{{1, 1}, {2, 1}, {1, 2}}});
   in.triangles = {snapped_triangle(pixel, 7), snapped_triangle(pixel, 4099)};
   const Capture c = run(scene_of(3, 3, 5000), Stage::coverage, in);
   EXPECT_EQ(c.planes.count(1, 1), 2u);
@@ -123,7 +123,7 @@ TEST(ExactCoverage, WeightsAreOfThePrimitiveNotOfTheTriangle) {
 
 TEST(ExactCoverage, RefusesWhatWouldNotFit) {
   // 3000 triangles, each over the whole of 512 x 512.
-  const std::vector<Corners> all(3000, centres({{{-600, -600}, {2000, -600}, {-600, 2000}}}));
+  const std::vector<SnappedCorners> all(3000, centres({{{-600, -600}, {2000, -600}, {-600, 2000}}}));
   EXPECT_THROW(cover(512, 512, all), OverBudget);
 }
 
@@ -148,7 +148,8 @@ bool inside(const std::vector<glm::ivec2>& polygon, int x, int y) {
   return odd;
 }
 
-void expect_painted_once(int size, const std::vector<Corners>& triangles, const std::vector<glm::ivec2>& polygon) {
+void expect_painted_once(int size, const std::vector<SnappedCorners>& triangles,
+                         const std::vector<glm::ivec2>& polygon) {
   const Capture c = cover(size, size, triangles);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
@@ -174,7 +175,7 @@ TEST(ExactCoverage, ASharedEdgeIsPaintedOnce) {
     if (side(a, b, c) * side(a, b, d) >= 0) continue;
     ++pairs;
     const bool flipped = random() % 2 != 0;  // the shared edge run through the same way, or the other
-    expect_painted_once(8, {{a, b, c}, flipped ? Corners{a, b, d} : Corners{d, b, a}}, {a, c, b, d});
+    expect_painted_once(8, {{a, b, c}, flipped ? SnappedCorners{a, b, d} : SnappedCorners{d, b, a}}, {a, c, b, d});
     if (HasFatalFailure()) return;
   }
 }
@@ -187,7 +188,7 @@ TEST(ExactCoverage, AFanIsPaintedOnce) {
     // One corner in each eighth of the way round, some straight above or beside the centre.
     for (const glm::ivec2 d : {glm::ivec2(1, 0), {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}})
       rim.push_back(centre + d * static_cast<int>(random() % 600 + 1));
-    std::vector<Corners> triangles;
+    std::vector<SnappedCorners> triangles;
     for (std::size_t i = 0; i < rim.size(); ++i) triangles.push_back({centre, rim[i], rim[(i + 1) % rim.size()]});
     std::shuffle(triangles.begin(), triangles.end(), random);
     expect_painted_once(9, triangles, rim);
@@ -201,20 +202,20 @@ TEST(ExactCoverage, TiesInEveryDirection) {
     for (int dx = -4; dx <= 4; ++dx) {
       if (dx == 0 && dy == 0) continue;
       const glm::ivec2 d(dx, dy), left(-dy, dx), centre(4, 4);
-      const Corners t = centres({centre - d, centre + d, centre + left});
+      const SnappedCorners t = centres({centre - d, centre + d, centre + left});
       const bool in = -dy != 0 ? -dy > 0 : dx > 0;  // the interior to the right, or above
       const Capture c = cover(9, 9, {t});
       EXPECT_EQ(c.planes.count(4, 4), in ? 1u : 0u) << dx << "," << dy << picture(c);
       EXPECT_EQ(exact::tie_is_in(-dy, dx), in);
       expect_painted_once(9, {t}, {t.begin(), t.end()});
-      expect_painted_once(9, {Corners{t[1], t[0], t[2]}}, {t.begin(), t.end()});
+      expect_painted_once(9, {SnappedCorners{t[1], t[0], t[2]}}, {t.begin(), t.end()});
     }
 }
 
 TEST(ExactCoverage, LargestFrame) {
   constexpr int kSize = 16384;
-  const Corners lower = centres({{{0, 0}, {kSize, 0}, {0, kSize}}});
-  const Corners upper = centres({{{kSize, 0}, {kSize, kSize}, {0, kSize}}});
+  const SnappedCorners lower = centres({{{0, 0}, {kSize, 0}, {0, kSize}}});
+  const SnappedCorners upper = centres({{{kSize, 0}, {kSize, kSize}, {0, kSize}}});
   const CoveredRows a(lower, kSize, kSize), b(upper, kSize, kSize);
   EXPECT_EQ(exact::covered_count(a), std::size_t{kSize} * (kSize + 1) / 2);
   EXPECT_EQ(exact::covered_count(b), std::size_t{kSize} * (kSize - 1) / 2);
