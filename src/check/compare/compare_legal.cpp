@@ -129,8 +129,11 @@ Measurement compare_legal_merge(const Scene& scene, const Planes& candidate, con
     return compare_planes(candidate.color, legal.color_lo, "bound", [&](Meter& meter, int x, int y) {
       clear_depth(meter, x, y);
       const glm::vec4 &color = candidate.color(x, y), &low = legal.color_lo(x, y), &high = legal.color_hi(x, y);
-      if (!std::isfinite(low.x)) return open_value(meter, color.x, {x, y, -1, "color"}, 0);
       for (int c = 0; c < 4; ++c) {
+        if (!std::isfinite(low.x)) {
+          open_value(meter, color[c], {x, y, -1, "color"}, 0);
+          continue;
+        }
         const double value = stored.middle(color[c]), clear = scene.frame.clear_color[c];
         double off = outside(value, stored.of_channel(low[c], c), stored.of_channel(high[c], c));
         const bool may_be_clear = outside(clear, low[c], high[c]) <= rounding;  // rounded, and encoded, as it may be

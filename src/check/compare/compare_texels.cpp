@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -104,9 +103,11 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
     if (!std::isfinite(bound.slack.r)) {
       ++open;
       meter.ambiguous();
-      const bool finite = std::isfinite(b.texel(x, y).r);
-      return meter.value(finite ? 0 : std::numeric_limits<double>::infinity(), 0, place, a.texel(x, y).r,
-                         b.texel(x, y).r);
+      for (int c = 0; c < 4; ++c) {
+        const double v = a.texel(x, y)[c], w = b.texel(x, y)[c];
+        meter.value(std::isfinite(v) && std::isfinite(w) ? 0 : kInfinite, 0, place, v, w);
+      }
+      return;
     }
     const auto beyond = [&](const glm::vec4& texel) {
       return glm::any(glm::lessThan(Vec4<double>(texel), bound.range.lo - bound.slack)) ||

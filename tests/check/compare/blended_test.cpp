@@ -180,6 +180,11 @@ TEST_F(BlendedPairs, AgainstBoundsHalfACodeBeyondThem) {
   EXPECT_TRUE(passes(run(by_oracle, [](Planes& p) { p.color(3, 1).r += code(1); })));
   EXPECT_TRUE(fails(run(by_oracle, [](Planes& p) { p.color(3, 1).r += code(2); })));
   EXPECT_TRUE(fails(run(by_oracle, [](Planes& p) { p.color(2, 2).r = static_cast<float>(kNaN); })));
+  legal.color_lo(3, 1) = glm::vec4(-static_cast<float>(kInf));
+  EXPECT_TRUE(passes(run(by_oracle, [](Planes& p) { p.color(3, 1).r += code(2); }))) << "open";
+  for (int c = 0; c < 4; ++c) {
+    EXPECT_TRUE(fails(run(by_oracle, [&](Planes& p) { p.color(3, 1)[c] = static_cast<float>(kNaN); }))) << c;
+  }
 }
 
 TEST_F(BlendedPairs, CodesOfALogicOpAreEqualWhereTheFragmentsCodesAreCertainAndOpenElsewhere) {

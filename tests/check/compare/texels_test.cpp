@@ -336,6 +336,16 @@ TEST_F(TexelPlanes, OpenPixelsAreAsManyAsTheTrianglesPlanesPredict) {
   EXPECT_EQ(of(moved(1.0 / 64)).ambiguous, 0u);
 }
 
+TEST_F(TexelPlanes, AnOpenTexelIsANumberOnBothSides) {
+  EXPECT_EQ(of({{{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}}).differing, 0u);
+  for (int c = 0; c < 4; ++c) {
+    Capture other = capture;
+    other.planes.texel(3, 4)[c] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(compare_texel_planes(scene, other, capture, 64, note).differing, 1u) << c;
+    EXPECT_EQ(compare_texel_planes(scene, capture, other, 64, note).differing, 1u) << c;
+  }
+}
+
 TEST_F(TexelPlanes, BothSidesAreHeldToTheLegalTexels) {
   const std::array<Vec2<double>, 3> inside = {{{0.53, 0.53}, {0.53, 0.53}, {0.53, 0.53}}};
   EXPECT_EQ(of(inside).max_difference, 0);
