@@ -61,7 +61,7 @@ std::vector<PixelFragment> fragments_at(const Scene& scene, const Records<double
       if (!std::isnan(r.texels[i].lod)) f.lod = r.texels[i].lod;
     }
     if (r.shaded.size() == all) f.shaded = r.shaded[i].color;
-    f.drawn = r.drawn.size() == all && r.drawn[i].drawn;
+    if (r.drawn.size() == all) f.drawn = r.drawn[i].drawn;
   }
   return out;
 }
@@ -105,7 +105,7 @@ std::vector<Test> tests_of(const Scene& scene, glm::ivec2 pixel, const PixelFrag
                    compared("alpha", draw.alpha_test->func, in_codes(a, scale), in_codes(reference, scale))});
   }
   const bool arrives = std::ranges::all_of(out, &Test::passes);
-  bool nearer = f.drawn;
+  bool nearer = f.drawn.value_or(true);
   std::optional<Test> depth;
   if (f.depth) {
     const double z = depth_in_format(scene.frame.depth, *f.depth), scale = depth_scale(scene.frame.depth);
@@ -136,7 +136,8 @@ void tell_fate(const Scene& scene, glm::ivec2 pixel, PixelFragment& f, Held& hel
   for (const Test& t : tests) {
     if (t.passes && t.fate != Fate::scissor) passed.push_back(t.text);
   }
-  if (f.drawn) {
+  const bool is_drawn = f.drawn.value_or(failed == tests.end());
+  if (is_drawn) {
     f.fate = Fate::overwritten;  // until it is known to be the last
     f.why = fmt::format("{}", fmt::join(passed, ", "));
     if (failed != tests.end()) f.why += fmt::format("{}though not {}", f.why.empty() ? "" : ", ", failed->text);
@@ -166,10 +167,10 @@ void tell_fates(const Scene& scene, const Planes& planes, glm::ivec2 pixel, Pixe
   PixelFragment* last = nullptr;
   std::size_t arrived = 0;
   for (PixelFragment& f : history.fragments) {
-    if (!f.why.empty()) continue;  // never arrived
+    if (f.fate == Fate::culled || f.fate == Fate::scissor) continue;
     ++arrived;
     tell_fate(scene, pixel, f, held);
-    if (!f.drawn) continue;
+    if (f.fate != Fate::overwritten) continue;
     if (last != nullptr) {
       last->why += fmt::format("{}primitive {} {}", last->why.empty() ? "" : "; ", f.primitive,
                                goes_over(scene.draws[f.draw].merge));
@@ -185,6 +186,7 @@ void tell_fates(const Scene& scene, const Planes& planes, glm::ivec2 pixel, Pixe
   };
   const std::int32_t winner = last == nullptr ? kBackground : static_cast<std::int32_t>(last->primitive);
   if (!planes.count.empty()) note("count", arrived, std::size_t{planes.count(pixel.x, pixel.y)});
+  if (history.lacks.contains("drawn")) return;
   if (!planes.id.empty()) note("winner", winner, planes.id(pixel.x, pixel.y));
   const bool in_format = !history.depth || depth_in_format(frame.depth, *history.depth) == *history.depth;
   if (!in_format) {  // OpenGL has no 8 bits
@@ -239,6 +241,8 @@ void name_lacks(const Scene& scene, const RendererInfo& info, PixelHistory& hist
        [&](const auto& f) { return f.lod.has_value() || !textured(f); });
   lack("shaded", Stage::shade, "it tells no colour of single fragments",
        [](const auto& f) { return f.shaded.has_value(); });
+  lack("drawn", Stage::visibility, "it does not tell which fragments are drawn",
+       [](const auto& f) { return f.drawn.has_value(); });
 }
 
 void read_frame(const Planes& planes, glm::ivec2 pixel, PixelHistory& out) {

@@ -41,7 +41,7 @@ struct PixelFragment {
   std::optional<glm::dvec4> texel;
   std::optional<double> lod;
   std::optional<glm::dvec4> shaded;
-  bool drawn = false;  ///< as the renderer says
+  std::optional<bool> drawn;  ///< as the renderer says
   Fate fate = Fate::discarded;
   std::string why;                           ///< with the numbers: of tests in codes where the frame has codes
   std::optional<double> held_depth;          ///< what it met, in the frame's format; culled, outside the box: nothing

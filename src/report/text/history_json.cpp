@@ -15,6 +15,7 @@ Json number(const glm::dvec4& v) { return {number(v.x), number(v.y), number(v.z)
 Json number(const glm::vec4& v) { return number(glm::dvec4(v)); }
 Json number(std::uint8_t v) { return static_cast<int>(v); }
 Json number(std::uint32_t v) { return v; }
+Json number(bool v) { return v; }
 template <class T>
 Json number(const std::optional<T>& v) {
   return v ? number(*v) : Json(nullptr);
@@ -35,7 +36,7 @@ Json fragment(const check::PixelFragment& f) {
           {"texel", number(f.texel)},
           {"lod", number(f.lod)},
           {"shaded", number(f.shaded)},
-          {"drawn", f.drawn},
+          {"drawn", number(f.drawn)},
           {"fate", name_of(f.fate)},
           {"why", f.why},
           {"held_depth", number(f.held_depth)},

@@ -76,6 +76,17 @@ TEST_F(HistoryTest, every_fate_happens_in_order_with_its_numbers) {
   }
 }
 
+// visibility.drawn is optional: without it the tests say what is drawn, and nothing is said against the frame.
+TEST_F(HistoryTest, where_it_is_not_told_what_is_drawn_the_tests_say) {
+  candidate.on_capture = [](Capture& c) { c.records.drawn.clear(); };
+  const std::vector<PixelHistory> both = renderers();
+  EXPECT_EQ(fates(both[0]), fates(both[1]));
+  EXPECT_TRUE(both[0].lacks.contains("drawn"));
+  EXPECT_TRUE(both[0].notes.empty());
+  EXPECT_EQ(both[0].fragments[0].drawn, std::nullopt);
+  EXPECT_EQ(both[0].fragments[0].why, both[1].fragments[0].why);
+}
+
 TEST_F(HistoryTest, a_pixel_that_nothing_reaches_has_the_clear_values) {
   for (const PixelHistory& h : renderers({7, 7})) {
     EXPECT_TRUE(h.fragments.empty() && h.lacks.empty() && h.notes.empty()) << h.renderer;
@@ -137,9 +148,9 @@ TEST_F(HistoryTest, a_fault_shows_another_fate_than_exact) {
     const std::vector<PixelHistory> both = with_fault(c.fault);
     const PixelFragment &mine = both[0].fragments.at(c.primitive), &theirs = both[1].fragments.at(c.primitive);
     EXPECT_EQ(theirs.fate, c.exact);
-    EXPECT_FALSE(theirs.drawn);
+    EXPECT_EQ(theirs.drawn, false);
     EXPECT_EQ(mine.fate, Fate::overwritten);
-    EXPECT_TRUE(mine.drawn);
+    EXPECT_EQ(mine.drawn, true);
     EXPECT_NE(mine.why.find(c.why), std::string::npos) << mine.why;
   }
 }
