@@ -28,6 +28,7 @@ std::string repeat_command(const CheckOptions& o, const check::SceneVerdict& ver
   if (!o.candidate.command.empty()) out += " --program " + shell_word(o.candidate.command);
   if (o.candidate.probes) out += " --each-primitive";
   if (!o.candidate.from.empty()) out += " --from " + o.candidate.from;
+  if (!o.candidate.conventions.empty()) out += " --conventions " + shell_word(o.candidate.conventions);
   if (!o.expect.empty()) out += " --expect " + shell_word(o.expect);
   if (!o.today.empty()) out += " --today " + o.today;
   if (o.allow_missing) out += " --allow-missing";

@@ -47,6 +47,13 @@ TEST_F(Cli, a_mistaken_convention_of_a_suite_ends_1_with_one_line) {
   EXPECT_TRUE(run.says("convention color_rounding: down, expected nearest (how colours become codes)\n")) << run.text;
 }
 
+TEST_F(Cli, a_failure_is_repeated_by_the_conventions_too) {
+  write(at("c.json"), declared(R"("depth_range": "one_to_zero")"));
+  const Outcome run = plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json"));
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("repeat: ") && run.says("' --conventions " + at("c.json") + "\n")) << run.text;
+}
+
 TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
   write(at("c.json"), declared(R"("open": ["blending"], "unexplained": ["one scene drawn twice differs"])"));
   const std::string by = kLearnedProgram + " --conventions " + at("c.json");
