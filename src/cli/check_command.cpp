@@ -192,11 +192,9 @@ int check(const CheckOptions& given) {
   }
   if (rubric) write_file(o.grades, report::gradescope_json(*rubric, verdicts));
   if (rules.page) rules.page->write(outside ? report::conformance_text(verdicts) + summary : summary);
-  const auto unable = [](const check::SceneVerdict& v) {
-    return report::conformance_of(v) == report::Conformance::unable;
-  };
-  if (outside && std::ranges::all_of(verdicts, unable)) {
-    throw std::invalid_argument("--program: expected a scene that it draws and that can be judged, found none");
+  if (holds && !verdicts.empty() && !check::any_judged(verdicts)) {
+    throw std::invalid_argument(outside ? "--program: expected a scene that it draws and that can be judged, found none"
+                                        : "expected a scene that a reference can judge, found none");
   }
   return holds ? kHolds : kDiffers;
 }

@@ -145,9 +145,10 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   }
   const References references = make_references(without_repeats(o.against), o.scene_arguments.assets, watch);
   const check::Diagnosis diagnosis = check::diagnose(scene, *candidate, references.list, o.most_fragments);
-  if (outside && check::judged_stages(diagnosis.verdict).empty()) {
-    throw std::invalid_argument(fmt::format("{}: expected the arrays of a stage that can be judged, found {}",
-                                            o.folder.empty() ? "--program" : o.folder,
+  if (check::judged_stages(diagnosis.verdict).empty() && (outside || holds(diagnosis))) {
+    const std::string what = !o.folder.empty() ? o.folder : outside ? "--program" : scene.path;
+    throw std::invalid_argument(fmt::format("{}: expected {} that can be judged, found {}", what,
+                                            outside ? "the arrays of a stage" : "a stage",
                                             check::judged_text(diagnosis.verdict)));
   }
   std::string against_itself, faults;

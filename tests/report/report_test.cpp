@@ -134,6 +134,14 @@ TEST_F(Reports, EachGroupHasALineOfItsScenesAndOutcomes) {
 TEST_F(Reports, ASummaryOfNothingIsNotOk) {
   EXPECT_FALSE(summary({}, true, 0).starts_with("ok")) << summary({}, true, 0);
   EXPECT_FALSE(summary(std::vector{verdict_of({})}, true, 0).starts_with("ok")) << "nothing was compared for a scene";
+  Comparison picture = compared(Outcome::equal);
+  picture.judge = {"picture", check::Kind::picture};
+  const std::string repeated =
+      summary(std::vector{verdict_of({not_compared(Outcome::unsupported, ""), picture})}, true, 0);
+  EXPECT_TRUE(repeated.starts_with("nothing was judged: ")) << "the frame repeats the candidate: " << repeated;
+  Comparison excused = not_compared(Outcome::missing, "");
+  excused.outcome = Outcome::expected;
+  EXPECT_TRUE(summary(std::vector{verdict_of({excused})}, true, 0).starts_with("nothing was judged: "));
 }
 
 TEST_F(Reports, JsonHasAllKeys) {

@@ -170,6 +170,9 @@ TEST_F(RunFiles, ADiffNamesWhatBrokeAndWhatIsLost) {
   const RunDiff fixed = diff(rows(Outcome::different, Outcome::equal), before);
   EXPECT_TRUE(holds(fixed));
   EXPECT_EQ(fixed.fixed.size(), 1u);
+  const RunDiff unjudged = diff(rows(Outcome::missing, Outcome::equal), rows(Outcome::unsupported, Outcome::equal));
+  EXPECT_EQ(unjudged.fixed.size(), 0u) << "judged by nobody";
+  EXPECT_EQ(unjudged.moved.size(), 1u);
 
   for (const Outcome outcome : {Outcome::unsupported, Outcome::missing}) {
     EXPECT_FALSE(holds(diff(before, rows(outcome, Outcome::equal)))) << name_of(outcome);
@@ -258,13 +261,19 @@ TEST_F(RunFiles, ADiffNamesWhatMovedBeyondItsLimits) {
 }
 
 TEST_F(RunFiles, AsJUnit) {
-  const std::string text = junit(std::vector{failing("light/a"), scene("light/b", {})});
+  const std::string text =
+      junit(std::vector{failing("light/a"), scene("light/b", {scene_row("light/b", Stage::clip, Outcome::equal)}),
+                        scene("light/c", {scene_row("light/c", Stage::clip, Outcome::unsupported)})});
   EXPECT_NE(
       text.find(
-          "<testsuite name=\"plumb check\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"0\" time=\"1.000\">"),
+          "<testsuite name=\"plumb check\" tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\" time=\"1.500\">"),
       std::string::npos)
       << text;
   EXPECT_NE(text.find("<testcase classname=\"light\" name=\"b\" file=\"scenes/light/b.json\" time=\"0.500\"/>"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("<testcase classname=\"light\" name=\"c\" file=\"scenes/light/c.json\" time=\"0.500\">"
+                      "<skipped message=\"nothing was judged\"/></testcase>"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("<failure message=\"different light/a: first different stage: depth\">"), std::string::npos);

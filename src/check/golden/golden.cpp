@@ -21,8 +21,6 @@ std::string hashes_at(const GoldenDifference& d, Stage stage) {
   return fmt::format("hash {}, the golden {}", word(d.drawn.stages[i]), word(d.golden.stages[i]));
 }
 
-bool agrees(Outcome o) { return o == Outcome::equal || o == Outcome::within || o == Outcome::ambiguous_only; }
-
 }  // namespace
 
 GoldenDifference compare_golden(const Scene& scene, Renderer& candidate, const GoldenSet& goldens) {
@@ -132,7 +130,7 @@ Vouch vouch(const SceneVerdict& verdict, const std::string& candidate, std::span
       out.disputed.push_back(fmt::format("{}, {}: {} of {}: {}", title_of(c.judge), name_of(c.stage),
                                          c.measurement.disputed, c.measurement.items, c.measurement.reason));
       judged.insert(c.stage);
-    } else if (agrees(c.outcome)) {
+    } else if (holds(c.outcome)) {
       judged.insert(c.stage);
       agreed.insert(c.stage);
       if (std::ranges::count(out.by, reference) == 0) out.by.push_back(reference);

@@ -79,13 +79,16 @@ Comparison not_judged(std::string scene, JudgeId judge, Stage stage, Outcome out
   return {std::move(scene), std::move(judge), stage, outcome, {}, "", std::move(note)};
 }
 
-namespace {
-
 bool holds(Outcome outcome) {
   return outcome == Outcome::equal || outcome == Outcome::within || outcome == Outcome::ambiguous_only;
 }
 
-}  // namespace
+bool was_compared(const Comparison& row) {
+  const bool is_lack =
+      row.outcome == Outcome::unsupported || row.outcome == Outcome::missing || row.outcome == Outcome::failed;
+  const bool is_known_lack = row.outcome == Outcome::expected && row.measurement.items == 0;
+  return !is_lack && !is_known_lack;
+}
 
 bool is_legal(const SceneVerdict& verdict, Stage stage) {
   bool legal = false;
@@ -116,10 +119,8 @@ const Comparison* first_different(const SceneVerdict& verdict) {
 namespace {
 
 bool was_judged(const SceneVerdict& verdict, Stage stage) {
-  return std::ranges::any_of(verdict.comparisons, [&](const Comparison& c) {
-    return c.stage == stage && votes(c) && c.outcome != Outcome::unsupported && c.outcome != Outcome::missing &&
-           c.outcome != Outcome::failed;
-  });
+  return std::ranges::any_of(verdict.comparisons,
+                             [&](const Comparison& c) { return c.stage == stage && votes(c) && was_compared(c); });
 }
 
 }  // namespace
@@ -130,6 +131,10 @@ std::vector<Stage> judged_stages(const SceneVerdict& verdict) {
     if (was_judged(verdict, static_cast<Stage>(i))) out.push_back(static_cast<Stage>(i));
   }
   return out;
+}
+
+bool any_judged(std::span<const SceneVerdict> verdicts) {
+  return std::ranges::any_of(verdicts, [](const SceneVerdict& v) { return !judged_stages(v).empty(); });
 }
 
 std::string judged_text(const SceneVerdict& verdict) {

@@ -17,18 +17,20 @@
 namespace plumbline::check {
 
 enum class Outcome {
-  equal,           ///< not a bit apart
+  equal,           ///< no difference (-0 is 0, but for pictures and goldens)
   within,          ///< within the tolerance
-  ambiguous_only,  ///< apart only where more than one answer is legal, and among the legal ones
+  ambiguous_only,  ///< within, and some items have more than one legal answer
   different,       ///< beyond the tolerance, or outside the legal answers
   dispute,         ///< the reference, not the candidate, is outside the legal answers: listed, not our failure
-  unsupported,     ///< the reference does not show the stage
+  unsupported,     ///< not judged: one side does not show the stage, or it cannot be compared; `note` says why
   missing,         ///< the reference is not here
   failed,          ///< a renderer crashed, hung, or broke the protocol
-  expected         ///< one of the three above, and known (expectations.h)
+  expected         ///< different, missing or failed, and known (expectations.h)
 };
 inline constexpr std::size_t kOutcomes = 9;
 std::string_view name_of(Outcome outcome);
+/// equal, within, ambiguous_only.
+bool holds(Outcome outcome);
 /// different, failed, missing.
 bool is_failure(Outcome outcome);
 
@@ -68,6 +70,8 @@ struct Comparison {
   std::string note;        ///< why unsupported, missing, failed; what is ambiguous
 };
 
+/// Whether the row compared anything: not where it is unsupported, missing or failed, or was before it was expected.
+bool was_compared(const Comparison& row);
 /// Whether the row judges a stage: goldens and pictures repeat the candidate, and have no vote.
 inline bool votes(const Comparison& row) { return row.judge.kind < Kind::golden; }
 /// Whether the row says what is legal, whatever the conventions.
@@ -116,9 +120,11 @@ const Comparison* first_different(const SceneVerdict& verdict);
 bool is_legal(const SceneVerdict& verdict, Stage stage);
 /// Stages that a reference judged.
 std::vector<Stage> judged_stages(const SceneVerdict& verdict);
+/// Whether a reference judged a stage of a scene.
+bool any_judged(std::span<const SceneVerdict> verdicts);
 /// For people: how many of the 13 stages were judged, and why the others were not.
 std::string judged_text(const SceneVerdict& verdict);
-/// The stages, but texture, that nobody judged: none compared them, or all that are there declined (`unsupported`).
+/// Stages that no reference judged, in order; texture and resolve only where some row names them.
 std::vector<Stage> unjudged_stages(const SceneVerdict& verdict);
 /// Those of them that a reference which is missing may have judged: none that is there declined them.
 std::vector<Stage> stages_lost_to_missing(const SceneVerdict& verdict);

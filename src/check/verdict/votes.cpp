@@ -10,10 +10,6 @@ namespace plumbline::check {
 
 namespace {
 
-bool holds(const Comparison& row) {
-  return row.outcome == Outcome::equal || row.outcome == Outcome::within || row.outcome == Outcome::ambiguous_only;
-}
-
 bool fails(const Comparison& row) { return row.outcome == Outcome::different || row.outcome == Outcome::failed; }
 
 // Who speaks with the row. From texture on Embree's texels, light, fog, formats and blending are those of exact's
@@ -31,7 +27,7 @@ std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Compa
     const bool own = other.judge.reference == row.judge.reference;
     if (!votes(other) || other.stage > row.stage || (own && other.stage == row.stage)) continue;
     if (fails(other)) return {};
-    if (other.stage < row.stage || !holds(other)) continue;
+    if (other.stage < row.stage || !holds(other.outcome)) continue;
     if (other.judge.kind == Kind::per_stage) exact = voice(other);
     against.insert(voice(other));
   }
@@ -64,7 +60,7 @@ void leave_recipes_to_exact(std::vector<Comparison>& rows) {
     bool judged_by_exact = false, held = true;
     for (const Comparison& other : rows) {
       if (other.stage != row.stage || !by_exact(other)) continue;
-      judged_by_exact |= holds(other);
+      judged_by_exact |= holds(other.outcome);
       held &= !fails(other);
     }
     if (!judged_by_exact || !held) continue;

@@ -55,7 +55,7 @@ std::pair<bool, std::string> stage_grade(const check::SceneVerdict& verdict, Sta
   bool judged = false;
   for (const check::Comparison& c : verdict.comparisons) {
     if (c.stage != stage || !check::votes(c)) continue;
-    judged |= c.outcome != check::Outcome::unsupported && c.outcome != check::Outcome::missing;
+    judged |= check::was_compared(c);
     const bool differs = c.outcome == check::Outcome::different && !check::is_legal(verdict, stage);
     if (wrong == nullptr && (differs || c.outcome == check::Outcome::failed)) wrong = &c;
   }
@@ -89,7 +89,7 @@ SceneGrade grade(const SceneRubric& rubric, const check::SceneVerdict& verdict) 
     const Conformance is = conformance_of(verdict);
     const bool holds = is == Conformance::holds || is == Conformance::legal;
     out.earned = holds ? rubric.points : 0;
-    const check::Comparison* first = check::first_different(verdict);
+    const check::Comparison* first = first_wrong(verdict);
     out.text = holds ? "right\n"
                : first != nullptr
                    ? fmt::format("wrong, from the stage {} on: {}\n", name_of(first->stage), told(*first))

@@ -26,18 +26,20 @@ std::string xml(std::string text) {
 }  // namespace
 
 std::string junit(std::span<const check::SceneVerdict> verdicts, std::span<const std::string> of_run) {
-  const auto failures = std::ranges::count_if(verdicts, [](const auto& v) { return !v.failure.empty(); });
+  const auto fails = [](const check::SceneVerdict& v) { return !v.failure.empty(); };
+  const auto is_unjudged = [&](const check::SceneVerdict& v) { return !fails(v) && check::judged_stages(v).empty(); };
+  const auto failures = std::ranges::count_if(verdicts, fails), skipped = std::ranges::count_if(verdicts, is_unjudged);
   std::string out = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites><testsuite name=\"plumb check\" tests=\"{}\" "
-      "failures=\"{}\" errors=\"0\" skipped=\"0\" time=\"{:.3f}\">\n",
-      verdicts.size() + of_run.size(), static_cast<std::size_t>(failures) + of_run.size(), seconds(verdicts));
+      "failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\">\n",
+      verdicts.size() + of_run.size(), static_cast<std::size_t>(failures) + of_run.size(), skipped, seconds(verdicts));
   for (const check::SceneVerdict& v : verdicts) {
     const std::size_t slash = v.scene.find('/');
     out +=
         fmt::format("<testcase classname=\"{}\" name=\"{}\" file=\"{}\" time=\"{:.3f}\"", xml(v.scene.substr(0, slash)),
                     xml(slash == std::string::npos ? v.scene : v.scene.substr(slash + 1)), xml(v.path), v.seconds);
-    if (v.failure.empty()) {
-      out += "/>\n";
+    if (!fails(v)) {
+      out += is_unjudged(v) ? "><skipped message=\"nothing was judged\"/></testcase>\n" : "/>\n";
       continue;
     }
     out += fmt::format("><failure message=\"{}\">{}\n{}{}</failure></testcase>\n",

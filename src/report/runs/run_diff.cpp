@@ -42,10 +42,6 @@ std::map<std::string, const Comparison*> rows_of(const CheckRun& run) {
   return out;
 }
 
-bool was_judged(Outcome outcome) {
-  return outcome != Outcome::unsupported && outcome != Outcome::missing && outcome != Outcome::failed;
-}
-
 std::string text(const Comparison& c) {
   const check::Worst* worst = check::shown(c);
   if (worst == nullptr || c.outcome != Outcome::different) return std::string(name_of(c.outcome));
@@ -77,11 +73,11 @@ void add_row(RunDiff& out, const std::string& what, const Comparison& was, const
   const bool failed = is_failure(was.outcome), fails = is_failure(now.outcome);
   if (fails && !failed) {
     out.broken.push_back(change);
-  } else if (was_judged(was.outcome) && !was_judged(now.outcome)) {
+  } else if (was_compared(was) && !was_compared(now)) {
     out.lost.push_back(change);
   } else if (now.outcome == Outcome::expected && was.outcome != Outcome::expected) {
     out.excused.push_back(change);
-  } else if ((failed || was.outcome == Outcome::expected) && !fails && now.outcome != Outcome::expected) {
+  } else if ((failed || was.outcome == Outcome::expected) && check::holds(now.outcome)) {
     out.fixed.push_back(change);
   } else if (was.outcome != now.outcome) {
     out.moved.push_back(change);
@@ -129,7 +125,7 @@ RunDiff diff(const CheckRun& before, const CheckRun& now, const DiffLimits& limi
     if (found != rows.end()) {
       add_row(out, what, *was, *found->second, limits);
     } else {
-      (was_judged(was->outcome) ? out.lost : out.gone).push_back({what, text(*was), "not there"});
+      (was_compared(*was) ? out.lost : out.gone).push_back({what, text(*was), "not there"});
     }
   }
   for (const auto& [what, row] : rows) {

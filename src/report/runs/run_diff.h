@@ -26,7 +26,7 @@ struct RunDiff {
   std::vector<Change> broken;       ///< fails, and did not
   std::vector<Change> lost;         ///< was judged and is not run, or not judged, any more
   std::vector<Change> excused;      ///< differs as expected, and was not expected to
-  std::vector<Change> fixed;        ///< failed, or differed as expected, and does neither
+  std::vector<Change> fixed;        ///< failed, or differed as expected, and holds
   std::vector<Change> added, gone;  ///< rows that were not there, and those that nobody had judged and are gone
   std::vector<Change> moved;        ///< other outcomes, of which none fails
   std::vector<Change> tolerances;   ///< the ledger's factors

@@ -31,7 +31,14 @@ std::string reason_of(const check::SceneVerdict& verdict) {
   return by_itself ? rows.front().note : "nothing that it left could be judged";
 }
 
-// The first stage that is wrong, and that no oracle calls legal; null: none.
+std::string counted(const std::vector<std::pair<std::string, std::size_t>>& counts) {
+  std::vector<std::string> words;
+  for (const auto& [word, count] : counts) words.push_back(fmt::format("{} {}", word, count));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
 const check::Comparison* first_wrong(const check::SceneVerdict& verdict) {
   const check::Comparison* first = nullptr;
   for (const check::Comparison& c : verdict.comparisons) {
@@ -40,14 +47,6 @@ const check::Comparison* first_wrong(const check::SceneVerdict& verdict) {
   }
   return first;
 }
-
-std::string counted(const std::vector<std::pair<std::string, std::size_t>>& counts) {
-  std::vector<std::string> words;
-  for (const auto& [word, count] : counts) words.push_back(fmt::format("{} {}", word, count));
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
-}  // namespace
 
 Conformance conformance_of(const check::SceneVerdict& verdict) {
   const auto any = [&](auto holds) { return std::ranges::any_of(verdict.comparisons, holds); };

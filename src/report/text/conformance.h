@@ -21,6 +21,8 @@ enum class Conformance {
   unable    ///< the program said that it cannot draw the scene, or nothing that it left could be judged
 };
 Conformance conformance_of(const check::SceneVerdict& verdict);
+/// The first stage that is wrong, and that no oracle calls legal; null: none.
+const check::Comparison* first_wrong(const check::SceneVerdict& verdict);
 
 /// Scenes of one feature: a folder of the suite.
 struct FeatureTally {

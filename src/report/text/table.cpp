@@ -17,10 +17,6 @@ namespace {
 
 constexpr const char* kRow = "{:<28} {:<24} {:<10} {:<14} {:>9} {:>9} {:>9}  {:<24} {}\n";
 
-bool was_judged(const Comparison& c) {
-  return c.outcome != Outcome::unsupported && c.outcome != Outcome::missing && c.outcome != Outcome::failed;
-}
-
 std::string largest(const Comparison& c) {
   const check::Worst* worst = check::shown(c);
   if (worst == nullptr) return "0";
@@ -38,7 +34,7 @@ std::string table_rows(const SceneVerdict& verdict) {
   std::string out;
   for (const Comparison& c : verdict.comparisons) {
     const check::Measurement& m = c.measurement;
-    if (was_judged(c)) {
+    if (check::was_compared(c)) {
       out += fmt::format(kRow, c.scene, title_of(c.judge), name_of(c.stage), name_of(c.outcome), m.items, m.differing,
                          m.ambiguous, largest(c), check::remark(c));
     } else {
@@ -124,10 +120,10 @@ std::string summary(std::span<const SceneVerdict> verdicts, bool all_hold, doubl
   for (Outcome outcome : {Outcome::unsupported, Outcome::missing, Outcome::dispute, Outcome::expected}) {
     complete &= tally.count(outcome) == 0;
   }
-  const char* word = !all_hold                                                ? "FAILED"
-                     : tally.comparisons == tally.count(Outcome::unsupported) ? "nothing was judged"
-                     : complete                                               ? "ok"
-                                                                              : "ok where judged";
+  const char* word = !all_hold                      ? "FAILED"
+                     : !check::any_judged(verdicts) ? "nothing was judged"
+                     : complete                     ? "ok"
+                                                    : "ok where judged";
   return fmt::format("{}: {} scenes, {} comparisons in {:.2f} s: {}\n", word, tally.scenes, tally.comparisons, seconds,
                      tally.text());
 }
