@@ -37,7 +37,7 @@ void Prober::fits_none(const ConventionWords& words, const std::string& evidence
 }
 
 ConventionWords words_of(std::string_view name) {
-  ConventionWords out = kSampleWords;
+  ConventionWords out = name == kOffsetWords.name ? kOffsetWords : kSampleWords;
   const auto take = [&](const ConventionWords& words, auto) {
     if (words.name == name) out = words;
   };
@@ -46,11 +46,50 @@ ConventionWords words_of(std::string_view name) {
   return out;
 }
 
+namespace {
+
+struct Probe {
+  void (*find)(Prober&);
+  std::vector<std::string_view> names;  ///< of the conventions that it finds
+};
+
+// In the order in which they build upon each other, after the rows.
+const std::vector<Probe>& probes() {
+  static const std::vector<Probe> all = {
+      {learn_clipping, {"clip_depth", "depth_planes"}},
+      {learn_depths, {"depth_range", "depth_format", "depth_rounding"}},
+      {learn_grid, {kSampleWords.name, "subpixel_bits", "subpixel_rounding"}},
+      {learn_ties, {"tie_rule"}},
+      {learn_colors, {"color_rounding", "color_encoding"}},
+      {learn_interpolation, {"interpolation"}},
+      {learn_corners, {"attribute_corners"}},
+      {learn_provoking_vertex, {"provoking_vertex"}},
+      {learn_alpha_test, {"alpha_test"}},
+      {learn_blending, {"blending"}},
+      {learn_offset_unit, {kOffsetWords.name}},
+      {learn_weights, {"texture_bits"}},
+      {learn_levels, {"level_of_detail"}},
+      {learn_magnification, {"magnified"}},
+      {learn_half_way, {"half_way_level"}},
+  };
+  return all;
+}
+
+}  // namespace
+
 Learned learn(Renderer& renderer) {
   Prober prober(renderer);
-  for (const auto& part : {learn_rows, learn_clipping, learn_depths, learn_grid, learn_ties, learn_colors,
-                           learn_attributes, learn_tests, learn_offset_unit, learn_textures}) {
-    part(prober);
+  learn_rows(prober);
+  for (const Probe& probe : probes()) {
+    try {
+      probe.find(prober);
+    } catch (const Unsupported& e) {
+      for (const std::string_view name : probe.names) {
+        const bool is_found =
+            std::ranges::find(prober.learned.rows, name, &LearnedRow::name) != prober.learned.rows.end();
+        if (!is_found) prober.open(words_of(name), e.what());
+      }
+    }
   }
   for (const char* words : {"polygons' cuts", "lines and points", "places of samples"}) {
     prober.learned.rows.push_back({words, "open", "no picture of triangles tells"});

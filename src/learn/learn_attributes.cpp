@@ -53,8 +53,6 @@ void learn_clipping(Prober& prober) {
   prober.found(planes, name_of(c.depth_planes), evidence);
 }
 
-namespace {
-
 // A wall that goes from w = 2 at the left to w = 16 at the right, black to white.
 void learn_interpolation(Prober& prober) {
   const ConventionWords words = words_of("interpolation");
@@ -138,22 +136,6 @@ void learn_provoking_vertex(Prober& prober) {
   if (!is(first) && !is(last)) return prober.fits_none(words, evidence);
   prober.learned.conventions.provoking_vertex = is(last) ? C::Provoking::last : C::Provoking::first;
   prober.found(words, name_of(prober.learned.conventions.provoking_vertex), evidence);
-}
-
-void ask(Prober& prober, const ConventionWords& words, void (*probe)(Prober&)) {
-  try {
-    probe(prober);
-  } catch (const Unsupported& e) {
-    prober.open(words, e.what());
-  }
-}
-
-}  // namespace
-
-void learn_attributes(Prober& prober) {
-  ask(prober, words_of("interpolation"), learn_interpolation);
-  ask(prober, words_of("attribute_corners"), learn_corners);
-  ask(prober, words_of("provoking_vertex"), learn_provoking_vertex);
 }
 
 }  // namespace plumbline::learn

@@ -112,23 +112,17 @@ void learn_colors(Prober& prober) {
   prober.found(encoding, name_of(c.color_encoding), evidence);
 }
 
-namespace {
-
 // Alphas of 128.2 codes against 127.8: of one code, and greater as floats.
 void learn_alpha_test(Prober& prober) {
   const ConventionWords words = words_of("alpha_test");
   prober.learned.conventions.alpha_test = C::AlphaTest::either;
-  try {
-    Scene scene = probe_frame("alpha_test", 16, 16);
-    add_triangles(scene, rectangle({0, 0}, {16, 16}, 0.5, {1, 1, 1, 128.2f / 255})).alpha_test =
-        AlphaTest{CompareFunc::greater, 127.8f / 255};
-    const bool passes = prober.draw(scene).color(8, 8).r > 0.5f;
-    prober.learned.conventions.alpha_test = passes ? C::AlphaTest::in_float : C::AlphaTest::in_codes;
-    prober.found(words, name_of(prober.learned.conventions.alpha_test),
-                 fmt::format("128.2 / 255 {} 127.8 / 255", passes ? "passes as greater than" : "is equal to"));
-  } catch (const Unsupported& e) {
-    prober.open(words, e.what());
-  }
+  Scene scene = probe_frame("alpha_test", 16, 16);
+  add_triangles(scene, rectangle({0, 0}, {16, 16}, 0.5, {1, 1, 1, 128.2f / 255})).alpha_test =
+      AlphaTest{CompareFunc::greater, 127.8f / 255};
+  const bool passes = prober.draw(scene).color(8, 8).r > 0.5f;
+  prober.learned.conventions.alpha_test = passes ? C::AlphaTest::in_float : C::AlphaTest::in_codes;
+  prober.found(words, name_of(prober.learned.conventions.alpha_test),
+               fmt::format("128.2 / 255 {} 127.8 / 255", passes ? "passes as greater than" : "is equal to"));
 }
 
 // Two sources, of some alpha each, over a colour: of a renderer that blends numbers and rounds each result once, the
@@ -139,37 +133,26 @@ void learn_blending(Prober& prober) {
   const auto under = [&](int i) { return (static_cast<float>(code_under(i)) + 0.3f) / 255; };  // rounded either way
   const auto over = [](int i) { return static_cast<float>((i * 91 + 40) % 256) / 255; };
   const auto alpha = [](int i) { return (static_cast<float>((i * 53 + 7) % 255) + 0.4f) / 255; };
-  try {
-    Scene scene = probe_frame("blending", 4 * kInRow, 4 * kInRow);
-    add_tiles(scene, [&](int i) { return glm::vec4(glm::vec3(under(i)), 1); });
-    const BlendTerm term{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
-    for (int layer = 0; layer < 2; ++layer) {
-      add_tiles(scene, [&](int i) { return glm::vec4(glm::vec3(over(i)), alpha(i)); }).merge.blend =
-          Blend{term, term, glm::vec4(0)};
-    }
-    const C::Rounding rounding = prober.learned.conventions.color_rounding;
-    const Plane<glm::vec4> color = prober.draw(scene).color;
-    double most = 0;
-    for (int i = 0; i < kAll; ++i) {
-      const double a = alpha(i), first = a * 255 * over(i) + (1 - a) * code_under(i);
-      const double exact = a * 255 * over(i) + (1 - a) * rounded(rounding, first);
-      most = std::max(most, std::abs(255 * static_cast<double>(pixel_of(color, i).r) - exact));
-    }
-    const double once = rounding == C::Rounding::nearest ? 0.501 : 1.001;
-    const std::string evidence = fmt::format("{} blends in two layers, {:.2f} codes off at most", kAll, most);
-    if (most > once + 4) return prober.fits_none(words, evidence);
-    prober.learned.conventions.blending = most > once ? C::Blending::in_codes : C::Blending::in_float;
-    prober.found(words, name_of(prober.learned.conventions.blending), evidence);
-  } catch (const Unsupported& e) {
-    prober.open(words, e.what());
+  Scene scene = probe_frame("blending", 4 * kInRow, 4 * kInRow);
+  add_tiles(scene, [&](int i) { return glm::vec4(glm::vec3(under(i)), 1); });
+  const BlendTerm term{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
+  for (int layer = 0; layer < 2; ++layer) {
+    add_tiles(scene, [&](int i) { return glm::vec4(glm::vec3(over(i)), alpha(i)); }).merge.blend =
+        Blend{term, term, glm::vec4(0)};
   }
-}
-
-}  // namespace
-
-void learn_tests(Prober& prober) {
-  learn_alpha_test(prober);
-  learn_blending(prober);
+  const C::Rounding rounding = prober.learned.conventions.color_rounding;
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  double most = 0;
+  for (int i = 0; i < kAll; ++i) {
+    const double a = alpha(i), first = a * 255 * over(i) + (1 - a) * code_under(i);
+    const double exact = a * 255 * over(i) + (1 - a) * rounded(rounding, first);
+    most = farther(most, 255 * static_cast<double>(pixel_of(color, i).r) - exact);
+  }
+  const double once = rounding == C::Rounding::nearest ? 0.501 : 1.001;
+  const std::string evidence = fmt::format("{} blends in two layers, {:.2f} codes off at most", kAll, most);
+  if (most > once + 4) return prober.fits_none(words, evidence);
+  prober.learned.conventions.blending = most > once ? C::Blending::in_codes : C::Blending::in_float;
+  prober.found(words, name_of(prober.learned.conventions.blending), evidence);
 }
 
 }  // namespace plumbline::learn

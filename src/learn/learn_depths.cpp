@@ -47,7 +47,7 @@ std::optional<std::vector<double>> depths_of(Prober& prober, const std::string& 
   return out;
 }
 
-// How many depths lie within `apart` of what the range makes of them.
+// Number of depths within 1e-4 of what the range makes of those given.
 std::size_t fitting(C::DepthRange range, const std::vector<double>& given, const std::vector<double>& left) {
   std::size_t out = 0;
   for (std::size_t i = 0; i < given.size(); ++i) {
@@ -112,8 +112,9 @@ void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes
   };
   const std::string of_24 = fmt::format("{} of {} depths are within a code of 24 bits", codes.near, n);
   try {
-    const std::vector<double> left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16).value();
-    const Codes of_16 = codes_of(16, given, left), still = codes_of(24, given, left);
+    const auto left = depths_of(prober, "depth_codes_16", given, DepthFormat::z16);
+    if (!left) throw Unsupported("it leaves no planes.depth");
+    const Codes of_16 = codes_of(16, given, *left), still = codes_of(24, given, *left);
     if (of_16.codes == n) {
       for (std::size_t k = 0; k < codes.fits.size(); ++k) codes.fits[k] += of_16.fits[k];
       found(C::Depth::as_asked, of_24 + ", of 16 bits where those are asked for");
@@ -132,7 +133,9 @@ void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes
 void learn_format(Prober& prober) {
   const ConventionWords format = words_of("depth_format"), rounding = words_of("depth_rounding");
   const std::vector<double> given = given_depths();
-  const std::vector<double> left = depths_of(prober, "depth_codes", given).value();
+  const auto drawn = depths_of(prober, "depth_codes", given);
+  if (!drawn) throw Unsupported("it leaves no planes.depth");
+  const std::vector<double>& left = *drawn;
   if (depths_of(prober, "depth_codes", given) != left) prober.unexplained("one scene's depths, drawn twice, differ");
   const std::size_t n = given.size();
   const Codes of_16 = codes_of(16, given, left), of_24 = codes_of(24, given, left);
@@ -189,11 +192,7 @@ void learn_depths(Prober& prober) {
   const ConventionWords range = words_of("depth_range");
   const std::vector<double> given = {0.125, 0.25, 0.5, 0.75, 0.875};
   const auto left = depths_of(prober, "depth_range", given);
-  if (!left) {
-    for (const char* name : {"depth_range", "depth_format", "depth_rounding"})
-      prober.open(words_of(name), "it leaves no planes.depth");
-    return;
-  }
+  if (!left) throw Unsupported("it leaves no planes.depth");
   for (const auto found : {C::DepthRange::zero_to_one, C::DepthRange::minus_one_to_one, C::DepthRange::one_to_zero}) {
     if (fitting(found, given, *left) != given.size()) continue;
     prober.learned.conventions.depth_range = found;
@@ -211,31 +210,27 @@ void learn_offset_unit(Prober& prober) {
   C& c = prober.learned.conventions;
   if (c.depth_format == C::Depth::z32f) return prober.open(kOffsetWords, "depths are floats, whose unit is their step");
   std::string evidence;
-  try {
-    for (const DepthFormat format : {DepthFormat::z24, DepthFormat::z16}) {
-      const bool codes_of_16 =
-          c.depth_format == C::Depth::z16 || (format == DepthFormat::z16 && c.depth_format != C::Depth::z24);
-      const double units = codes_of_16 ? 14336 : 14336 * 256, scale = codes_of_16 ? 65535 : 16777215;
-      double left[2] = {0, 0};
-      for (const int moved : {0, 1}) {
-        Scene scene = at_depths(prober, "offset_unit", {0.75});
-        scene.frame.depth = format;
-        scene.draws[0].polygon_offset = {0, static_cast<float>(-units * moved)};
-        const Plane<double> depth = prober.draw(scene).depth;
-        if (depth.empty()) return prober.open(kOffsetWords, "it leaves no planes.depth");
-        left[moved] = depth(1, 2);
-      }
-      const double codes = (left[0] - left[1]) * scale, unit = codes / units;
-      if (!(unit > 0.01))
-        return prober.fits_none(kOffsetWords, fmt::format("{} units move a depth by {:.0f} codes", units, codes));
-      (format == DepthFormat::z16 ? c.offset_unit.y : c.offset_unit.x) = std::round(unit * 1e4) / 1e4;
-      evidence += fmt::format("{}{} units move a depth of {} bits by {:.0f} codes", evidence.empty() ? "" : ", ", units,
-                              codes_of_16 ? 16 : 24, codes);
+  for (const DepthFormat format : {DepthFormat::z24, DepthFormat::z16}) {
+    const bool codes_of_16 =
+        c.depth_format == C::Depth::z16 || (format == DepthFormat::z16 && c.depth_format != C::Depth::z24);
+    const double units = codes_of_16 ? 14336 : 14336 * 256, scale = codes_of_16 ? 65535 : 16777215;
+    double left[2] = {0, 0};
+    for (const int moved : {0, 1}) {
+      Scene scene = at_depths(prober, "offset_unit", {0.75});
+      scene.frame.depth = format;
+      scene.draws[0].polygon_offset = {0, static_cast<float>(-units * moved)};
+      const Plane<double> depth = prober.draw(scene).depth;
+      if (depth.empty()) return prober.open(kOffsetWords, "it leaves no planes.depth");
+      left[moved] = depth(1, 2);
     }
-    prober.found(kOffsetWords, fmt::format("{:.4g}, {:.4g}", c.offset_unit.x, c.offset_unit.y), evidence);
-  } catch (const Unsupported& e) {
-    prober.open(kOffsetWords, e.what());
+    const double codes = (left[0] - left[1]) * scale, unit = codes / units;
+    if (!(unit > 0.01))
+      return prober.fits_none(kOffsetWords, fmt::format("{} units move a depth by {:.0f} codes", units, codes));
+    (format == DepthFormat::z16 ? c.offset_unit.y : c.offset_unit.x) = std::round(unit * 1e4) / 1e4;
+    evidence += fmt::format("{}{} units move a depth of {} bits by {:.0f} codes", evidence.empty() ? "" : ", ", units,
+                            codes_of_16 ? 16 : 24, codes);
   }
+  prober.found(kOffsetWords, fmt::format("{:.4g}, {:.4g}", c.offset_unit.x, c.offset_unit.y), evidence);
 }
 
 }  // namespace plumbline::learn

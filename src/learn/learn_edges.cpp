@@ -139,12 +139,7 @@ glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
 void learn_grid(Prober& prober) {
   const ConventionWords bits = words_of("subpixel_bits"), rounding = words_of("subpixel_rounding");
   std::array<std::optional<Grid>, 2> grids;
-  try {
-    for (const int along : {0, 1}) grids[static_cast<std::size_t>(along)] = grid_along(prober, along);
-  } catch (const Unsupported& e) {
-    for (const ConventionWords& words : {kSampleWords, bits, rounding}) prober.open(words, e.what());
-    return;
-  }
+  for (const int along : {0, 1}) grids[static_cast<std::size_t>(along)] = grid_along(prober, along);
   const auto &rows = grids[0], &columns = grids[1];
   if (!rows || !columns) {
     prober.unexplained("edges that are moved in small steps go by no grid");
@@ -247,33 +242,29 @@ void learn_ties(Prober& prober) {
   if (c.sample * steps != glm::round(c.sample * steps)) {
     return prober.open(words, "no edge can be laid through a sample: its place is not on the grid");
   }
-  try {
-    Scene scene = probe_frame("edges", 16, 16);
-    add_triangles(scene, rectangle(glm::dvec2(3) + c.sample, glm::dvec2(9) + c.sample, 0.5, glm::vec4(1)));
-    const Plane<glm::vec4> color = prober.draw(scene).color;
-    const bool left = is_white(color(3, 6)), right = is_white(color(9, 6)), bottom = is_white(color(6, 3)),
-               top = is_white(color(6, 9));
-    const Shared shared = shared_edges(prober, c.sample);
-    const std::size_t all = shared.none + shared.one + shared.more;
-    const std::string evidence = fmt::format("{} of {} samples on a fan's edges are in one triangle", shared.one, all);
-    using enum C::TieRule;
-    if (left != right && bottom != top && shared.one == all) {
-      c.tie_rule = left ? (bottom ? left_bottom : left_top) : (bottom ? right_bottom : right_top);
-    } else if (shared.one == all) {
-      c.tie_rule = any;
-    } else if (left && right && bottom && top && shared.none == 0) {
-      c.tie_rule = inclusive;
-    } else if (!left && !right && !bottom && !top && shared.more == 0) {
-      c.tie_rule = exclusive;
-    } else {
-      return prober.fits_none(
-          words, fmt::format("of {} samples on a fan's edges, {} are in no triangle (cracks), {} in several", all,
-                             shared.none, shared.more));
-    }
-    prober.found(words, name_of(c.tie_rule), evidence);
-  } catch (const Unsupported& e) {
-    prober.open(words, e.what());
+  Scene scene = probe_frame("edges", 16, 16);
+  add_triangles(scene, rectangle(glm::dvec2(3) + c.sample, glm::dvec2(9) + c.sample, 0.5, glm::vec4(1)));
+  const Plane<glm::vec4> color = prober.draw(scene).color;
+  const bool left = is_white(color(3, 6)), right = is_white(color(9, 6)), bottom = is_white(color(6, 3)),
+             top = is_white(color(6, 9));
+  const Shared shared = shared_edges(prober, c.sample);
+  const std::size_t all = shared.none + shared.one + shared.more;
+  const std::string evidence = fmt::format("{} of {} samples on a fan's edges are in one triangle", shared.one, all);
+  using enum C::TieRule;
+  if (left != right && bottom != top && shared.one == all) {
+    c.tie_rule = left ? (bottom ? left_bottom : left_top) : (bottom ? right_bottom : right_top);
+  } else if (shared.one == all) {
+    c.tie_rule = any;
+  } else if (left && right && bottom && top && shared.none == 0) {
+    c.tie_rule = inclusive;
+  } else if (!left && !right && !bottom && !top && shared.more == 0) {
+    c.tie_rule = exclusive;
+  } else {
+    return prober.fits_none(
+        words, fmt::format("of {} samples on a fan's edges, {} are in no triangle (cracks), {} in several", all,
+                           shared.none, shared.more));
   }
+  prober.found(words, name_of(c.tie_rule), evidence);
 }
 
 }  // namespace plumbline::learn

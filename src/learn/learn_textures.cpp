@@ -45,6 +45,8 @@ Texture texture_of(int size, auto code) {
   return out;
 }
 
+}  // namespace
+
 void learn_weights(Prober& prober) {
   const ConventionWords words = words_of("texture_bits");
   const auto code = [](int x, int y) { return (x * 83 + y * 151 + 11) % 256; };
@@ -64,7 +66,7 @@ void learn_weights(Prober& prober) {
       };
       const double exact =
           glm::mix(glm::mix(grey(0, 0), grey(1, 0), share.x), glm::mix(grey(0, 1), grey(1, 1), share.x), share.y);
-      most = std::max(most, std::abs(255 * static_cast<double>(color(x, y).r) - exact));
+      most = farther(most, 255 * static_cast<double>(color(x, y).r) - exact);
     }
   }
   const std::string evidence = fmt::format("{} texels, {:.2f} codes off at most", kTexturedSize * kTexturedSize, most);
@@ -75,6 +77,8 @@ void learn_weights(Prober& prober) {
   prober.learned.conventions.texture_bits = bits;
   prober.found(words, bits_text(bits), evidence);
 }
+
+namespace {
 
 // A floor that reaches from near to far, each level of its texture in its own grey: at the window's corners, its place
 // in eye space and its texture coordinates. The texture lies askew: the length of a derivative is another than its
@@ -154,16 +158,20 @@ Levels levels_of(const Plane<glm::vec4>& color, glm::dvec2 sample) {
   return out;
 }
 
+}  // namespace
+
 void learn_levels(Prober& prober) {
   C& c = prober.learned.conventions;
   const Levels levels = levels_of(prober.draw(floor_scene()).color, c.sample);
   using enum C::LevelOfDetail;
   const bool one_each = levels.squares > 0 && levels.alike * 10 >= levels.squares * 9;
+  const std::string evidence = fmt::format(
+      "{} of {} pixels have a level of their square of 2 x 2, {} their own; "
+      "{} of {} squares with several levels are drawn in one",
+      levels.of_square, levels.pixels, levels.own, levels.alike, levels.squares);
+  if (2 * levels.of_square < levels.pixels) return prober.fits_none(words_of("level_of_detail"), evidence);
   c.level_of_detail = levels.of_square < levels.pixels ? approximate : one_each ? per_square : per_pixel;
-  prober.found(words_of("level_of_detail"), name_of(c.level_of_detail),
-               fmt::format("{} of {} pixels have a level of their square of 2 x 2, {} their own; "
-                           "{} of {} squares with several levels are drawn in one",
-                           levels.of_square, levels.pixels, levels.own, levels.alike, levels.squares));
+  prober.found(words_of("level_of_detail"), name_of(c.level_of_detail), evidence);
 }
 
 // Texels of 0 and 255 by turns, at a level of detail of 1/4: mixed where it is magnified, and by a linear filter.
@@ -173,12 +181,17 @@ void learn_magnification(Prober& prober) {
   Texture texture = texture_of(64, [](int x, int) { return x % 2 * 255; });
   texture.sampler.min = MinFilter::nearest_mipmap_nearest, texture.sampler.mag = MagFilter::linear;
   const Plane<glm::vec4> color = prober.draw(textured_frame("magnification", texture, most)).color;
-  std::size_t mixed = 0;
-  for (int x = 2; x < 48; ++x) mixed += color(x, 8).r > 0.05f && color(x, 8).r < 0.95f ? 1 : 0;
+  std::size_t mixed = 0, unmixed = 0;
+  for (int x = 2; x < 48; ++x) {
+    const float red = color(x, 8).r;
+    mixed += red > 0.05f && red < 0.95f ? 1 : 0;
+    unmixed += std::abs(red) <= 0.05f || std::abs(red - 1) <= 0.05f ? 1 : 0;
+  }
+  const std::string evidence = fmt::format("{} of 46 texels are mixed at a level of detail of 1/4", mixed);
+  if (mixed + unmixed < 46) return prober.fits_none(words, evidence);
   C& c = prober.learned.conventions;
   c.magnified = mixed > 12 ? C::Magnified::up_to_half : C::Magnified::up_to_zero;
-  prober.found(words, name_of(c.magnified),
-               fmt::format("{} of 46 texels are mixed at a level of detail of 1/4", mixed));
+  prober.found(words, name_of(c.magnified), evidence);
 }
 
 void learn_half_way(Prober& prober) {
@@ -191,26 +204,15 @@ void learn_half_way(Prober& prober) {
     const Plane<glm::vec4> color = prober.draw(textured_frame("half_way", texture, 1)).color;
     levels[static_cast<std::size_t>(i)] = std::round(255 * static_cast<double>(color(8, 8).r) / 40);
   }
+  const std::string evidence =
+      fmt::format("1.5, 2.5 and 3.5 take levels {:.0f}, {:.0f} and {:.0f}", levels[0], levels[1], levels[2]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double below = static_cast<double>(i) + 1;
+    if (levels[i] != below && levels[i] != below + 1) return prober.fits_none(words, evidence);
+  }
   const bool down = levels == std::array<double, 3>{1, 2, 3};
   prober.learned.conventions.half_way_level = down ? C::HalfWay::down : C::HalfWay::either;
-  prober.found(words, name_of(prober.learned.conventions.half_way_level),
-               fmt::format("1.5, 2.5 and 3.5 take levels {:.0f}, {:.0f} and {:.0f}", levels[0], levels[1], levels[2]));
-}
-
-}  // namespace
-
-void learn_textures(Prober& prober) {
-  const std::array<std::pair<const char*, void (*)(Prober&)>, 4> parts = {{{"texture_bits", learn_weights},
-                                                                           {"level_of_detail", learn_levels},
-                                                                           {"magnified", learn_magnification},
-                                                                           {"half_way_level", learn_half_way}}};
-  for (const auto& [name, part] : parts) {
-    try {
-      part(prober);
-    } catch (const Unsupported& e) {
-      prober.open(words_of(name), e.what());
-    }
-  }
+  prober.found(words, name_of(prober.learned.conventions.half_way_level), evidence);
 }
 
 }  // namespace plumbline::learn

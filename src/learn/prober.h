@@ -1,7 +1,11 @@
 // A renderer that is asked for its conventions, and what has been found so far.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/conventions.h"
@@ -17,7 +21,7 @@ struct LearnedRow {
   std::string evidence;  ///< such as "1,024 of 1,024 probes", or why it is open
 };
 
-/// A picture that a row is read from, as the renderer drew it.
+/// A probe's picture, by the conventions found before it (to_dialect()).
 struct ProbePicture {
   std::string name;
   Plane<glm::vec4> color;
@@ -53,20 +57,30 @@ class Prober {
   Renderer& renderer_;
 };
 
+/// The larger of `most` and |off|, where NaN is infinite.
+inline double farther(double most, double off) {
+  return std::isnan(off) ? std::numeric_limits<double>::infinity() : std::max(most, std::abs(off));
+}
+
 /// Words of the convention of that name (capture/conventions.h).
 ConventionWords words_of(std::string_view name);
 
-// The probes, in the order in which they build upon each other. Each finds its conventions, or leaves them open; what
-// the renderer cannot draw (Unsupported) is open.
+// The probes. Each finds its conventions, or leaves them open. They throw what Prober::draw() throws.
 void learn_rows(Prober& prober);
 void learn_clipping(Prober& prober);
 void learn_depths(Prober& prober);
 void learn_grid(Prober& prober);
 void learn_ties(Prober& prober);
 void learn_colors(Prober& prober);
-void learn_attributes(Prober& prober);
-void learn_tests(Prober& prober);
+void learn_interpolation(Prober& prober);
+void learn_corners(Prober& prober);
+void learn_provoking_vertex(Prober& prober);
+void learn_alpha_test(Prober& prober);
+void learn_blending(Prober& prober);
 void learn_offset_unit(Prober& prober);
-void learn_textures(Prober& prober);
+void learn_weights(Prober& prober);
+void learn_levels(Prober& prober);
+void learn_magnification(Prober& prober);
+void learn_half_way(Prober& prober);
 
 }  // namespace plumbline::learn

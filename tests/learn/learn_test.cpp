@@ -19,6 +19,8 @@ namespace {
 using C = Conventions;
 using Alter = std::function<void(Capture&)>;
 
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
+
 // Another renderer's pictures, altered.
 class Altered : public Renderer {
  public:
@@ -33,6 +35,24 @@ class Altered : public Renderer {
  private:
   std::unique_ptr<Renderer> renderer_;
   Alter alter_;
+};
+
+// Ours, of a scene that is altered before it is drawn, and whose picture is altered then.
+class OfAlteredScenes : public Renderer {
+ public:
+  RendererInfo info() const override { return renderer_->info(); }
+  Capture capture(const Scene& scene, const Request& request) override {
+    Scene other = scene;
+    before(other);
+    Capture out = renderer_->capture(other, request);
+    after(scene, out);
+    return out;
+  }
+  std::function<void(Scene&)> before = [](Scene&) {};
+  std::function<void(const Scene&, Capture&)> after = [](const Scene&, Capture&) {};
+
+ private:
+  std::unique_ptr<Renderer> renderer_ = pipeline::make_pipeline();
 };
 
 std::unique_ptr<Renderer> faulted(const std::string& name) {
@@ -200,6 +220,55 @@ TEST(Learn, WhatNoValueExplainsIsAFinding) {
       EXPECT_NE(std::ranges::find(found.open, of.open), found.open.end()) << of.finding;
     else
       EXPECT_EQ(found.provoking_vertex, C::Provoking::last);
+  }
+}
+
+// A probe that the renderer refuses leaves its own conventions open, and no other.
+TEST(Learn, ARefusedProbeLeavesItsConventionsOpen) {
+  for (const auto& [probe, names] : {std::pair("clipping", std::vector<std::string>{"clip_depth", "depth_planes"}),
+                                     std::pair("provoking_vertex", std::vector<std::string>{"provoking_vertex"}),
+                                     std::pair("offset_unit", std::vector<std::string>{"offset_unit"})}) {
+    OfAlteredScenes renderer;
+    renderer.before = [&](Scene& scene) {
+      if (scene.name == std::string("probe/") + probe) throw Unsupported("not drawn");
+    };
+    C expected = ours();
+    expected.open = names;
+    EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(expected)) << probe;
+  }
+}
+
+TEST(Learn, ARendererOfOneDepthFormatLeavesNoDepthsOfTheOther) {
+  OfAlteredScenes renderer;
+  renderer.after = [](const Scene& scene, Capture& c) {
+    if (scene.frame.depth == DepthFormat::z16) c.planes.depth = {};
+  };
+  C expected = ours();
+  expected.open = {"offset_unit"};
+  EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(expected));
+}
+
+TEST(Learn, TexturesThatNoConventionExplainsAreFindings) {
+  const auto finds = [](Renderer& renderer, const std::string& name) {
+    const C found = learn(renderer).conventions;
+    const auto begins = [&](const std::string& line) { return line.starts_with(name + ": "); };
+    return std::ranges::any_of(found.unexplained, begins) && std::ranges::count(found.open, name) == 1;
+  };
+  OfAlteredScenes no_mipmaps;
+  no_mipmaps.before = [](Scene& scene) {
+    for (Texture& texture : scene.textures) texture.sampler.min = MinFilter::nearest;
+  };
+  EXPECT_TRUE(finds(no_mipmaps, "level_of_detail"));
+  EXPECT_TRUE(finds(no_mipmaps, "half_way_level"));
+  for (const auto& [probe, name] : {std::pair("texture_weights", "texture_bits"), std::pair("blending", "blending"),
+                                    std::pair("magnification", "magnified"), std::pair("levels", "level_of_detail"),
+                                    std::pair("half_way", "half_way_level")}) {
+    OfAlteredScenes nan;
+    nan.after = [&](const Scene& scene, Capture& c) {
+      if (scene.name == std::string("probe/") + probe)
+        std::ranges::fill(c.planes.color.values(), glm::vec4(kNotANumber));
+    };
+    EXPECT_TRUE(finds(nan, name)) << name;
   }
 }
 
