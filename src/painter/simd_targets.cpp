@@ -1,3 +1,5 @@
+#include <cpuid.h>
+
 #include <array>
 
 #include "painter/cull_lanes.h"
@@ -9,6 +11,18 @@ namespace plumbline::pipeline {
 
 extern constinit const SimdTarget kSimd_sse4, kSimd_avx2, kSimd_avx512;  // simd_kernels.cpp
 
+namespace {
+
+// __builtin_cpu_supports() of clang 14 does not know it.
+bool has_f16c() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
+}
+
+}  // namespace
+
+// Of a target, all instructions that its code is compiled for (plumbline_simd() in CMakeLists.txt): a virtual machine may
+// hide some of them.
 std::span<const SimdTarget> simd_targets() {
   static const std::array<SimdTarget, 4> kTargets = {
       {{"float", paint_vertices<float>, cull_triangles<float>, paint_tile<float>},
@@ -18,7 +32,8 @@ std::span<const SimdTarget> simd_targets() {
   __builtin_cpu_init();
   const bool has_sse4 = __builtin_cpu_supports("sse4.2") != 0;
   const bool has_avx2 = has_sse4 && __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
-                        __builtin_cpu_supports("bmi2") != 0;
+                        __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0 &&
+                        __builtin_cpu_supports("pclmul") != 0 && __builtin_cpu_supports("aes") != 0 && has_f16c();
   const bool has_avx512 = has_avx2 && __builtin_cpu_supports("avx512f") != 0 &&
                           __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
                           __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0;
