@@ -12,6 +12,8 @@ void require_drawable(std::size_t triangles, const FrameFormat& format) {
   if (triangles > kMostTriangles)
     throw std::invalid_argument(
         fmt::format("a program of {} triangles: expected at most {}", triangles, kMostTriangles));
+  if (format.antialias.kind != Antialias::Kind::none)
+    throw std::invalid_argument("a program's frame: expected one sample a pixel");
   const auto fits = [](int side) { return side >= 1 && side <= kLargestFrame; };
   if (!fits(format.width) || !fits(format.height)) {
     throw std::invalid_argument(fmt::format("a program's frame of {} x {} pixels: expected 1 to {} a side",

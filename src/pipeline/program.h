@@ -46,7 +46,8 @@ struct ProgramState {
   DepthFunc depth_func = DepthFunc::less;
 };
 
-/// Throws std::invalid_argument for more than 2^24 triangles, or a frame of no or more than 16384 pixels a side.
+/// Throws std::invalid_argument for more than 2^24 triangles, an antialiased frame, or one of no or more than 16384
+/// pixels a side.
 void require_drawable(std::size_t triangles, const FrameFormat& format);
 
 /// A program's vertices and varyings, three vertices to a triangle, drawn on a cleared frame. Throws as

@@ -300,6 +300,9 @@ TEST(Program, RefusesWhatNoFrameAndNoSceneMayBe) {
   refused(1, floats(0, 8), "a program's frame of 0 x 8 pixels: expected 1 to 16384 a side");
   refused(1, floats(8, 16385), "a program's frame of 8 x 16385 pixels: expected 1 to 16384 a side");
   refused(1, floats(-3, 8), "a program's frame of -3 x 8 pixels: expected 1 to 16384 a side");
+  FrameFormat smoothed = floats(8, 8);
+  smoothed.antialias = {Antialias::Kind::multisample, 1};
+  refused(1, smoothed, "a program's frame: expected one sample a pixel");
   EXPECT_EQ(fragments, 0);
 }
 

@@ -261,10 +261,12 @@ Plane<glm::vec4> read_image(const fs::path& file) {
 namespace {
 
 void require_channels(const fs::path& file, const StoredImage& image, std::size_t count, double scale) {
-  if (image.channels.size() == count && image.channels[0].scale == scale) return;
-  throw ImageError(fmt::format("{}: expected {} channels of {}, found {} of {}", file.string(), count,
-                               scale == 1 ? "floats" : fmt::format("codes up to {}", scale), image.channels.size(),
-                               image.channels[0].scale));
+  const auto other = std::ranges::find_if(image.channels, [&](const auto& c) { return c.scale != scale; });
+  if (image.channels.size() == count && other == image.channels.end()) return;
+  const auto numbers = [](double largest) { return largest == 1 ? "floats" : fmt::format("codes up to {}", largest); };
+  throw ImageError(fmt::format("{}: expected {} channels of {}, found {}{}", file.string(), count, numbers(scale),
+                               image.channels.size(),
+                               other == image.channels.end() ? "" : ", one of " + numbers(other->scale)));
 }
 
 }  // namespace
