@@ -93,13 +93,26 @@ void derive_cut(const DrawIndex& draws, Records<double>& r) {
   }
 }
 
-// Positions are below 2^31, differences below 2^32: the 64 bits of a long double hold their products exactly.
+// Positions are below 2^30 (require_in_range()), differences below 2^31, products below 2^62.
 bool faces_front(const WindowTriangle<double>& t) {
   const glm::i64vec2 a(t.v[0].snapped), e1 = glm::i64vec2(t.v[1].snapped) - a, e2 = glm::i64vec2(t.v[2].snapped) - a;
-  const auto product = [](std::int64_t p, std::int64_t q) {
-    return static_cast<long double>(p) * static_cast<long double>(q);
-  };
-  return product(e1.x, e2.y) > product(e1.y, e2.x);
+  return e1.x * e2.y > e1.y * e2.x;
+}
+
+// Numbers with which the judges can compute: differences of positions are ints, and their products 64 bits.
+void require_in_range(const WindowTriangle<double>& t, std::size_t record) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 30;  // [1/256 pixel]
+  constexpr std::uint32_t kWidest = 64;
+  for (const WindowVertex<double>& v : t.v) {
+    const glm::i64vec2 p = glm::abs(glm::i64vec2(v.snapped));
+    if (std::max(p.x, p.y) >= kFarthest)
+      throw std::invalid_argument(
+          fmt::format("window.snapped: record {} is at ({}, {}) [1/256 pixel]: expected numbers between {} and {}",
+                      record, v.snapped.x, v.snapped.y, -kFarthest, kFarthest));
+  }
+  if (t.width < 1 || t.width > kWidest)
+    throw std::invalid_argument(
+        fmt::format("window.width: record {}: expected 1 to {}, found {}", record, kWidest, t.width));
 }
 
 void derive_window(const DrawIndex& draws, Capture& c) {
@@ -123,6 +136,7 @@ void derive_window(const DrawIndex& draws, Capture& c) {
     if (lacks("window.snapped")) {
       for (WindowVertex<double>& v : t.v) v.snapped = snapped(v.p_win, i);
     }
+    require_in_range(t, i);
     if (lacks("window.front")) t.front = t.corners < 3 || faces_front(t);
   }
 }

@@ -48,7 +48,7 @@ void require_fitting(const Scene& scene, Stage stage, const Capture& in) {
   const auto in_corners = [&](const ClipPolygon& p) { return p.first <= corners && p.count <= corners - p.first; };
   if (stage == Stage::window)
     require(fit(
-                scene, r.polygons.polygons, [](const ClipPolygon& p) { return p.count; }, 3, 9) &&
+                scene, r.polygons.polygons, [](const ClipPolygon& p) { return p.count; }, 3, kMostPolygonVertices) &&
                 std::ranges::all_of(r.polygons.polygons, in_corners),
             "polygons");
   for (const Varying v : carried(scene)) {

@@ -93,8 +93,10 @@ struct ClipVertex {
 struct ClipPolygon {
   std::uint32_t primitive;  ///< numbered over the scene (scene.h, DrawRange)
   std::uint32_t first;      ///< index of its first vertex
-  std::uint32_t count;      ///< 3 to 9; of a line 2, of a point 1
+  std::uint32_t count;      ///< 3 to 9, up to kMostPolygonVertices by rounding; of a line 2, of a point 1
 };
+/// Six planes cut a triangle to 9 vertices. With rounding, to no more than these (pipeline/clip.cpp).
+inline constexpr std::uint32_t kMostPolygonVertices = 28;
 template <class T>
 struct ClipPolygons {
   std::vector<ClipVertex<T>> vertices;

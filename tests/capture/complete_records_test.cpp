@@ -187,11 +187,21 @@ TEST(CompleteRecords, refuse_what_nothing_follows_from) {
   expect_refused(scene, capture, "window.primitive: record 2 is of primitive 2147483648");
   capture = whole_capture(scene);
   capture.derived = {"window.front"};
-  constexpr int kLeast = std::numeric_limits<int>::min(), kMost = std::numeric_limits<int>::max();
+  constexpr int kMost = (1 << 30) - 1, kLeast = -kMost;
   for (std::size_t k = 0; k < 3; ++k)
     capture.records.triangles[0].v[k].snapped = {k == 1 ? kMost : kLeast, k == 2 ? kMost : kLeast};
   complete_records(scene, capture);
   EXPECT_TRUE(capture.records.triangles[0].front);
+  for (const int beyond : {kMost + 1, kLeast - 1, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
+    Capture far = whole_capture(scene);
+    far.records.triangles[1].v[2].snapped.y = beyond;
+    expect_refused(scene, far, "window.snapped: record 1 is at (");
+  }
+  for (const std::uint32_t width : {0u, 65u}) {
+    capture = whole_capture(scene);
+    capture.records.triangles[1].width = width;
+    expect_refused(scene, capture, fmt::format("window.width: record 1: expected 1 to 64, found {}", width));
+  }
 }
 
 TEST(CompleteRecords, refuse_to_guess_the_facing_of_outlines) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "renderers/pipeline_renderer.h"
 #include "scene/file/scene_file.h"
 
@@ -64,6 +66,27 @@ TEST(Probes, ShowNoCoverageWhereOneOfThePicturesIsLacking) {
   EXPECT_TRUE(capture.planes.count.empty());
 }
 
+// A program with a background of its own: its pixels name primitives that the scene does not have.
+class OfAnotherBackground : public Renderer {
+ public:
+  RendererInfo info() const override { return {}; }
+  Capture capture(const Scene& scene, const Request& request) override {
+    Scene other = scene;
+    if (scene.meshes.front().triangles.size() > 1) other.frame.clear_color = glm::vec4(1);
+    return pipeline::make_pipeline()->capture(other, request);
+  }
+};
+
+TEST(Probes, ShowNoWinnersWhereAColourIsNoPrimitives) {
+  const Scene scene = scene_named("coverage/shared_edges");
+  OfAnotherBackground renderer;
+  Capture capture;
+  capture.width = scene.frame.width;
+  capture.height = scene.frame.height;
+  EXPECT_THROW(add_probed_planes(scene, renderer, capture), Unsupported);
+  EXPECT_TRUE(capture.planes.id.empty());
+}
+
 TEST(Probes, ColoursAreNumbersAndBack) {
   Scene scene;
   scene.meshes.resize(1);
@@ -76,6 +99,10 @@ TEST(Probes, ColoursAreNumbersAndBack) {
     EXPECT_EQ(winner_of(apart.colors[3 * static_cast<std::size_t>(primitive)]), primitive);
   }
   EXPECT_EQ(winner_of(glm::vec4(0, 0, 0, 1)), -1);
+  for (const float v : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(), -1e30f}) {
+    EXPECT_EQ(winner_of(glm::vec4(v)), -1);
+  }
+  EXPECT_EQ(winner_of(glm::vec4(1e30f)), (1 << 24) - 2);
   const auto renderer = pipeline::make_pipeline();
   Capture capture;
   EXPECT_THROW(add_probed_planes(scene, *renderer, capture), Unsupported);

@@ -208,7 +208,7 @@ TEST(PipelineRenderer, RecordsThatDoNotFitAreRefused) {
   refused(Stage::clip, [](auto& r) { r.lit.pop_back(); });
   refused(Stage::window, [](auto& r) { r.matrices.clear(); });
   refused(Stage::window, [](auto& r) { r.polygons.vertices.pop_back(); });
-  refused(Stage::window, [](auto& r) { r.polygons.polygons[0].count = 10; });
+  refused(Stage::window, [](auto& r) { r.polygons.polygons[0].count = 29; });
   refused(Stage::window, [](auto& r) { r.polygons.polygons.back().primitive = 66; });
   refused(Stage::coverage, [](auto& r) { r.triangles.back().primitive = 66; });
   refused(Stage::depth, [](auto& r) { r.triangles.pop_back(); });

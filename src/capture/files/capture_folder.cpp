@@ -260,8 +260,9 @@ void check_indices(const Capture& capture, const fs::path& folder) {
   const ClipPolygons<double>& clip = records.polygons;
   for (std::size_t i = 0; i < clip.polygons.size(); ++i) {
     const ClipPolygon& polygon = clip.polygons[i];
-    if (polygon.count < 1 || polygon.count > 9) {
-      fail("clip.polygon.count", i, fmt::format("expected 1 to 9 vertices, found {}", polygon.count));
+    if (polygon.count < 1 || polygon.count > kMostPolygonVertices) {
+      fail("clip.polygon.count", i,
+           fmt::format("expected 1 to {} vertices, found {}", kMostPolygonVertices, polygon.count));
     }
     if (std::uint64_t{polygon.first} + polygon.count > clip.vertices.size()) {
       fail("clip.polygon.first", i,

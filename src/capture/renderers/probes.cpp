@@ -103,7 +103,10 @@ Scene primitives_told_apart(const Scene& scene) {
 }
 
 std::int32_t winner_of(const glm::vec4& color) {
-  const auto code = [&](int channel) { return static_cast<std::int32_t>(std::lround(color[channel] * 255.0f)); };
+  const auto code = [&](int channel) {
+    const float v = color[channel];  // of a program: any number, or none
+    return v > 0 ? static_cast<std::int32_t>(std::lround(std::min(v, 1.0f) * 255.0f)) : 0;
+  };
   return code(0) + (code(1) << 8) + (code(2) << 16) - 1;
 }
 
@@ -131,8 +134,13 @@ void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture)
   const bool by_alpha = std::ranges::any_of(scene.draws, [](const Draw& d) { return d.alpha_test.has_value(); });
   if (!planes.id.empty() || by_alpha || scene.frame.stencil != StencilFormat::none) return;
   const Plane<glm::vec4> picture = picture_of(primitives_told_apart(scene), renderer);
-  planes.id = Plane<std::int32_t>(capture.width, capture.height);
-  std::ranges::transform(picture.values(), planes.id.values().begin(), winner_of);
+  Plane<std::int32_t> id(capture.width, capture.height);
+  std::ranges::transform(picture.values(), id.values().begin(), winner_of);
+  const auto is_none = [&](std::int32_t winner) { return winner >= static_cast<std::int32_t>(primitives); };
+  if (std::ranges::any_of(id.values(), is_none)) {
+    throw Unsupported("primitives in colours of their own are drawn in others: pixels tell no winner");
+  }
+  planes.id = std::move(id);
 }
 
 }  // namespace plumbline
