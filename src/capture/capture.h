@@ -34,7 +34,7 @@ constexpr std::uint32_t id_weight_part(std::uint32_t primitive, int part) {
   h = (h ^ (h >> 12)) * 0x297a2d39u;
   return (h >> 15) & 0xfffu;
 }
-/// The parts as one integer, 20 bits apart, so that no sum of 255 or fewer carries over and any carry is the same sum.
+/// The three parts in one integer, 20 bits apart: sums of up to 256 weights do not carry from part to part.
 constexpr std::uint64_t id_weight(std::uint32_t primitive) {
   return static_cast<std::uint64_t>(id_weight_part(primitive, 0)) |
          static_cast<std::uint64_t>(id_weight_part(primitive, 1)) << 20 |

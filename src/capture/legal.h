@@ -48,7 +48,7 @@ struct LegalAnswer {
 };
 
 /// The legal winners of one pixel while its hits are drawn, in draw order. Time per hit: the number of different depth
-/// intervals among the winners; with stencil values, the square of the number of winners.
+/// intervals among the winners, or the number n of winners where one is removed or narrowed; with stencil values n log n.
 class LegalFold {
  public:
   explicit LegalFold(const FrameFormat& frame);
@@ -81,8 +81,9 @@ class LegalFold {
 };
 
 /// All legal winners of a pixel, in draw order, the background first; one for each stencil value that may go with it.
-/// `hits` in draw order (ascending primitive), groups numbered from 0 on. A depth within `step` of another may compare
-/// either way. `out` is emptied first.
+/// `hits` in draw order (ascending primitive), groups numbered from 0 on. Depths within
+/// depth_step() (scene.h) of each other may compare either way, but for two that are clamped to the same end. `out` is
+/// emptied first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
 /// Legal texels of a fragment: its level of detail may be taken for four pixels together, by a logarithm that is linear

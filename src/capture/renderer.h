@@ -48,7 +48,7 @@ struct Request {
   StageSet records;                       ///< stages whose records are wanted
   bool legal = false;                     ///< an oracle's legal answers; of `pixels` at least
   std::vector<std::uint32_t> primitives;  ///< only these primitives' records, ascending; empty: all. Planes show all.
-  std::vector<glm::ivec2> pixels;         ///< only these pixels' fragments (stages 5 to 9); empty: all
+  std::vector<glm::ivec2> pixels;         ///< only these pixels' fragments (stages 5 to 10); empty: all
   std::size_t memory_budget = std::size_t{512} << 20;  ///< bytes a capture may take
   WantedPlanes planes = WantedPlanes::all;
   std::string painter = {};      ///< one of info().painters, where planes is `picture`; empty: the one that ships

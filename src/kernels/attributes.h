@@ -13,12 +13,14 @@
 
 namespace plumbline::pipeline {
 
-/// 1/w at the corners, and what is affine by it: q_1 = l_1 / w_1, q_2 likewise, and the sum of all three.
+/// Planes of q_1 = l_1 / w_1, q_2 = l_2 / w_2 and sum = q_0 + q_1 + q_2. inv_w: the corners' 1/w, read by tests/faults
+/// alone.
 struct PerspectiveSetup {
   std::array<float, 3> inv_w;
   Affine<double> q1, q2, sum;
-  /// The three are evaluated in double at a block's first pixel alone, and from there in float: changes_little(), and
-  /// colours alone are interpolated. (Texture coordinates stay in double: a border of texels on a pixel's centre is.)
+  /// The three are evaluated in double at the first pixel of each 4 x 4 block, and in float from there: where
+  /// changes_little() holds and the draw carries no varying. (With a texture, float could move a border between texels
+  /// off a pixel's centre.)
   bool in_blocks = false;
 };
 template <class W>

@@ -7,7 +7,7 @@
 //        a ----- b
 //
 // Positions are integers in 1/256 pixel (Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH 1988), so
-// every E is exact: below 2^46 for frames of up to 16384 pixels a side.
+// every E is exact: corners lie within 2^28 (stage 4), |E| below 2^59 over frames of up to 16384 pixels a side.
 #pragma once
 
 #include <algorithm>

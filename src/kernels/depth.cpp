@@ -38,9 +38,9 @@ BarycentricPlanes planes_of(const WindowTriangle& triangle, int x0, int y0) {
   return planes;
 }
 
-BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place) {
-  if (place == glm::ivec2(0)) return planes;
-  const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
+BarycentricPlanes at_offset(const BarycentricPlanes& planes, glm::ivec2 offset) {
+  if (offset == glm::ivec2(0)) return planes;
+  const glm::dvec2 by = glm::dvec2(offset) / static_cast<double>(kSubpixel);
   return {planes, {planes.x0 - by.x, planes.y0 - by.y}};
 }
 
@@ -67,9 +67,9 @@ DepthPlane depth_plane(const DepthSetup& depth, const CornerPlanes<double>& plan
           depth.high * unit};
 }
 
-DepthPlane moved(const DepthPlane& depth, glm::ivec2 place) {
-  if (place == glm::ivec2(0)) return depth;
-  const glm::dvec2 by = glm::dvec2(place) / static_cast<double>(kSubpixel);
+DepthPlane at_offset(const DepthPlane& depth, glm::ivec2 offset) {
+  if (offset == glm::ivec2(0)) return depth;
+  const glm::dvec2 by = glm::dvec2(offset) / static_cast<double>(kSubpixel);
   DepthPlane out = depth;
   out.code.at_0 += by.x * out.code.x + by.y * out.code.y;
   return out;

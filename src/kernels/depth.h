@@ -109,8 +109,8 @@ struct BarycentricPlanes : CornerPlanes<double>, Anchor {};
 /// would be so large that double itself is too coarse.
 BarycentricPlanes planes_of(const WindowTriangle& triangle, int x0, int y0);
 
-/// Planes that answer for the points `place` [1/256 pixel] from those that are asked for.
-BarycentricPlanes moved(const BarycentricPlanes& planes, glm::ivec2 place);
+/// Planes whose value at p is the given planes' at p + offset [1/256 pixel].
+BarycentricPlanes at_offset(const BarycentricPlanes& planes, glm::ivec2 offset);
 
 template <class R>
 [[gnu::always_inline]] inline Offset<R> from_anchor(const Anchor& anchor, const Pixels<R>& p) {
@@ -139,8 +139,8 @@ struct DepthPlane {
   double scale, low, high;  ///< as DepthSetup, but in codes
 };
 DepthPlane depth_plane(const DepthSetup& depth, const CornerPlanes<double>& planes);
-/// Plane that answers for the points `place` [1/256 pixel] from those that are asked for.
-DepthPlane moved(const DepthPlane& depth, glm::ivec2 place);
+/// Plane whose value at p is the given plane's at p + offset [1/256 pixel].
+DepthPlane at_offset(const DepthPlane& depth, glm::ivec2 offset);
 
 /// The code nearest to `scaled` in [0, scale], half to even; of 8 bits half up, as tinyrenderer's int(z + .5) (note
 /// 002).

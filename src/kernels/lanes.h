@@ -1,7 +1,7 @@
-// The words that the per-pixel kernels (stages 5 to 11) are written in, so that one source serves every width.
+// Lane operations: the primitives of the per-pixel kernels (stages 5 to 11), so that one source serves every width.
 //
-// A kernel is a template over its number type R. For R = float, below, each word is the plain operation on one pixel:
-// this is the definition. A SIMD type needs its own Lanes and the same words, each lane doing the same operation.
+// A kernel is a template over its number type R. For R = float, below, each operation is the plain one on one pixel:
+// this is the definition. A SIMD type needs its own Lanes and the same operations, each lane doing the same.
 #pragma once
 
 #include <bit>
@@ -172,8 +172,9 @@ inline void store_fours(const Vec4<float>& values, float* const (&to)[1]) {
   for (int i = 0; i < 4; ++i) to[0][i] = values[i];
 }
 
-/// Row `row` [0, 3] of the lanes' four floats at at(lane), widened to double, in the target's own order; of shares `k`,
-/// as many rows of each lane's own. The first argument selects the overload by its type.
+/// Vector row [0, 3] of the four that hold the lanes' vec4 at at(lane), widened to double. Float: component row. SIMD:
+/// all components of some of the lanes, which fours_of_rows() transposes. row_of_shares: the lanes' weights k in that
+/// arrangement. The first argument selects the overload by its type.
 inline double row_of_fours(float, int row, auto at) { return to_wide(at(0)[row]); }
 inline double row_of_shares(float, int, const double (&k)[1]) { return k[0]; }
 inline Vec4<float> fours_of_rows(const double (&rows)[4]) { return {rows[0], rows[1], rows[2], rows[3]}; }

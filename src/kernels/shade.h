@@ -37,7 +37,8 @@ inline Surface surface_of(const Scene& scene, const Draw& draw, Lights lights) {
   return surface;
 }
 
-/// A fragment's attributes, zero where the surface does not carry one; and its texel, where there is a texture.
+/// A fragment's attributes, and its texel where there is a texture. Varyings that the surface does not carry are never
+/// read: 0 in the definition, unset in the painter.
 template <class R>
 struct SurfaceAttributes {
   Color<R> color;

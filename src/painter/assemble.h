@@ -1,4 +1,5 @@
-// Stages 3 and 4 of triangles whose vertices have been through them already: assembled, culled, and put into bins.
+// Triangles of vertices that went through stages 1, 2 and 4 in lanes: trivial accept and reject (3), culling and
+// binning (4).
 #pragma once
 
 #include <span>

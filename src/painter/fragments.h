@@ -12,7 +12,7 @@
 namespace plumbline::pipeline {
 
 /// How a draw's triangles and lines are painted: paint_opaque.h and paint_lines.h have those that are commonest.
-enum class PaintKernel { any, replaces, blends_over, depth_alone, shades, lines };
+enum class PaintKernel { any, replaces, blends_over, depth_only, shades, lines };
 
 /// A draw, as tiles want it.
 struct PaintDraw {

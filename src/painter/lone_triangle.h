@@ -43,7 +43,7 @@ inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, auto& tile) {
   const WindowTriangle t = window_triangle_of(painting, triangle), seen = as_seen_from(t, painting.formats.sample);
   const BarycentricPlanes planes = planes_of(t, tile.x0, tile.y0);
-  const DepthPlane depth = moved(depth_plane(depth_setup(t, draw.depth), planes), painting.formats.sample);
+  const DepthPlane depth = at_offset(depth_plane(depth_setup(t, draw.depth), planes), painting.formats.sample);
   const auto color = [&](int k) { return painting.vertices[triangle.corner[draw.flat() ? 1 : k]].color; };
   const FragmentSetup s{t.front, planes, depth, perspective_setup(t, planes, draw.surface == nullptr),
                         attribute_setup({color(0), color(1), color(2)})};

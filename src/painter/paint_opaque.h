@@ -1,6 +1,6 @@
-// Stages 5 to 11 of triangles whose nearer fragments replace what is there, or are blended over it, or leave their
-// depth alone, without further tests, in frames of rgba8 and z24: what paint_fragments() does (fragments.h), its terms
-// taken out of the loops that they do not change in.
+// Stages 5 to 11, in frames of rgba8 and z24, of triangles under depth function less without further tests, whose
+// fragments replace the colour, are blended over it, are shaded by a surface, or write depth only (PaintKernel):
+// paint_fragments() (fragments.h), its loop-invariant terms hoisted.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ class OpaqueRun {
   static constexpr int kLanes = Lanes<R>::width;
   static constexpr int kSmall = 30;  // pixels of a box: as many bits a float's exponent tells apart
   static constexpr bool kFromEither = kKernel == PaintKernel::replaces && kSamples == 1;  // paint_first_runs()
-  static constexpr bool kDepthFirst = kKernel == PaintKernel::depth_alone || kKernel == PaintKernel::shades;
+  static constexpr bool kDepthFirst = kKernel == PaintKernel::depth_only || kKernel == PaintKernel::shades;
 
   // All lanes' triangles at once, where their boxes are small.
   bool paint_together() {
@@ -90,7 +90,7 @@ class OpaqueRun {
       ShadedPixels<R, kSamples> shaded(painting_, draw_, triangle, s, tiles_);
       s.plain_depth ? paint_triangle<Plain::one_color>(s, &shaded) : paint_triangle<Plain::nothing>(s, &shaded);
       shaded.finish();
-    } else if (kKernel == PaintKernel::depth_alone || s.attributes.constant) {
+    } else if (kKernel == PaintKernel::depth_only || s.attributes.constant) {
       s.plain_depth ? paint_triangle<Plain::one_color>(s, nullptr) : paint_triangle<Plain::nothing>(s, nullptr);
     } else {
       s.perspective.in_blocks ? paint_colors<true>(s) : paint_colors<false>(s);

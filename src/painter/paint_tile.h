@@ -18,7 +18,7 @@ inline DepthPlane depth_of_lane(const Painting& painting, const PaintDraw& draw,
     return {code, scale, draw.depth.low * unit, draw.depth.high * unit};
   }
   const WindowTriangle record = window_triangle_of(painting, t);
-  return moved(depth_plane(depth_setup(record, draw.depth), planes_of(record, x0, y0)), painting.formats.sample);
+  return at_offset(depth_plane(depth_setup(record, draw.depth), planes_of(record, x0, y0)), painting.formats.sample);
 }
 
 /// Paints the triangles, lines and points of the run, whatever the draw's state.
@@ -108,7 +108,7 @@ void paint_by_kernel(const Painting& painting, const PaintRun& run, PackedTile* 
   switch (draw.kernel) {
     case PaintKernel::replaces: paint_opaque.template operator()<PaintKernel::replaces>(); break;
     case PaintKernel::blends_over: paint_opaque.template operator()<PaintKernel::blends_over>(); break;
-    case PaintKernel::depth_alone: paint_opaque.template operator()<PaintKernel::depth_alone>(); break;
+    case PaintKernel::depth_only: paint_opaque.template operator()<PaintKernel::depth_only>(); break;
     case PaintKernel::shades: paint_opaque.template operator()<PaintKernel::shades>(); break;
     case PaintKernel::lines:
       each_sample<kSampleCount>(painting, tiles,

@@ -46,7 +46,7 @@ PaintKernel kernel_of(const Mesh& mesh, const Draw& draw, const DepthState& dept
     return is_opaque(draw.merge) && !has_surface ? PaintKernel::lines : PaintKernel::any;
   }
   if (!triangles || !draws_as(draw, PolygonMode::fill) || depth.offset != PolygonOffset{}) return PaintKernel::any;
-  if (!glm::any(draw.merge.color_mask)) return PaintKernel::depth_alone;
+  if (!glm::any(draw.merge.color_mask)) return PaintKernel::depth_only;
   if (is_opaque(draw.merge)) return !has_surface ? PaintKernel::replaces : PaintKernel::shades;
   const bool over =
       draw.merge.blend && is_over(*draw.merge.blend) && !draw.merge.logic_op && glm::all(draw.merge.color_mask);
@@ -167,7 +167,7 @@ void Painter::Memory::prepare(const Scene& scene) {
     const DepthState depth = depth_state(draw, scene.frame.depth, scene.depth_clamp);
     const bool plain = is_plain(scene, draw);
     const PaintKernel kernel = kernel_of(scene.meshes[draw.mesh], draw, depth, !plain);
-    const bool colors = !plain && kernel != PaintKernel::depth_alone;  // which nothing asks for colours
+    const bool colors = !plain && kernel != PaintKernel::depth_only;  // which nothing asks for colours
     draws.push_back({&draw, depth, colors ? &surfaces[d] : nullptr, kernel});
   }
   painting.draws = draws;

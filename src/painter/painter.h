@@ -1,5 +1,5 @@
-// The fastest way from a scene to its frame: stages 0 to 11 by SIMD and threads, in memory that is kept from frame to
-// frame. What render() by stage functions (render.h) draws is its definition, bit for bit.
+// The fast path from a scene to its frame: stages 0 to 12 in SIMD lanes and on threads, in memory that is kept from
+// frame to frame. render() (pipeline/render.h) defines its bits.
 //
 //   vertices (paint_vertices.h)   stages 1, 2 and 4, each once, as many at a time as there are lanes
 //   triangles (assemble.h)        culled and put into bins of tiles, in shares ("chunks") of the scene's primitives

@@ -95,9 +95,9 @@ struct Chunk {
   std::vector<std::uint32_t> numbers;
 };
 
-/// A draw's triangles in a tile, of one chunk.
+/// Triangles of one chunk in a tile, of one draw or of consecutive draws that can_share_run() (paint_tile.h).
 struct PaintRun {
-  std::uint32_t draw;
+  std::uint32_t draw;  ///< the first of them
   const PaintTriangle* triangles;
   std::span<const std::uint32_t> numbers;
 };
@@ -106,7 +106,8 @@ struct PaintRun {
 struct Painting {
   FrameFormat format;
   Formats formats;
-  /// Formats::sample, one of them, or of all that a pixel's colour is the mean of
+  /// Sample offsets from the pixel's centre [1/256 pixel]: the pass' own (Formats::sample), or the four of a multisampled
+  /// pixel (takes_samples(), painter.cpp); within each_sample(), one of these.
   std::span<const glm::ivec2> samples;
   int columns, rows;  ///< of tiles
   const PaintVertex* vertices;

@@ -183,7 +183,7 @@ template <class R, int kSampleCount>
   out.q2.keep(scaled(planes.l2, to_wide(p_win[2][3])));
   out.sum.keep(through_corners(3, 1));
   const Affine<W> code = through_corners(2, painting.formats.depth_scale == 0 ? 1 : painting.formats.depth_scale);
-  for (int i = 0; i < kSampleCount; ++i) {  // moved(), depth.h
+  for (int i = 0; i < kSampleCount; ++i) {  // at_offset(), depth.h
     Affine<W> at_sample = code;
     const glm::dvec2 by = glm::dvec2(painting.samples[static_cast<std::size_t>(i)]) / static_cast<double>(kSubpixel);
     if (by != glm::dvec2(0)) at_sample.at_0 = code.at_0 + (by.x * code.x + by.y * code.y);
@@ -226,7 +226,7 @@ void set_up_lanes(const CornersOfLanes<R>& corner, const float (&facing)[Lanes<R
   set_up_gradients<R>(corner, planes, p_win, painting, draw, out);
   const Affine<W> q1 = out.q1.of_all(), q2 = out.q2.of_all(), sum = out.sum.of_all();
   out.in_blocks = 0;
-  if (draw.surface == nullptr && draw.kernel != PaintKernel::depth_alone) {
+  if (draw.surface == nullptr && draw.kernel != PaintKernel::depth_only) {
     const W inv_w[3] = {to_wide(p_win[0][3]), to_wide(p_win[1][3]), to_wide(p_win[2][3])};
     out.in_blocks = bits_of(Mask<R>(changes_little(q1, q2, sum, inv_w)));
   }

@@ -16,9 +16,8 @@ float distance_to(const Vec4<float>& plane, const Vec4<float>& p) {
   return ((p.x * plane.x + p.y * plane.y) + p.z * plane.z) + p.w * plane.w;
 }
 
-// A plane adds one vertex to a convex polygon. Rounding may make one cross a plane many times: each run of vertices
-// outside becomes two, so that six planes make 3, 4, 6, 9, 13, 19, 28 vertices at most (Polygon::kMostCorners).
-ClipVertex moved(const ClipVertex& v, const ClipVertex& towards, float t) {
+// Vertex at t of the way from `v` to `towards`, attributes too.
+ClipVertex lerp(const ClipVertex& v, const ClipVertex& towards, float t) {
   ClipVertex out{v.p_clip + t * (towards.p_clip - v.p_clip), {}, true};
   for (std::size_t i = 0; i < kAttributes; ++i) {
     out.attributes[i] = v.attributes[i] + t * (towards.attributes[i] - v.attributes[i]);
@@ -26,6 +25,8 @@ ClipVertex moved(const ClipVertex& v, const ClipVertex& towards, float t) {
   return out;
 }
 
+// A plane adds one vertex to a convex polygon. Rounding may make the polygon cross a plane many times; each run of
+// vertices outside becomes two: at most 3, 4, 6, 9, 13, 19, 28 vertices after 0 to 6 planes (Polygon::kMostCorners).
 Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
   Polygon out{in.primitive, {}};
   for (std::size_t i = 0; i < in.corners.size(); ++i) {
@@ -37,8 +38,8 @@ Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
     const bool from_inside = d_from >= 0;
     const float d_in = from_inside ? d_from : d_to, d_out = from_inside ? d_to : d_from;
     const bool start_outside = -d_out < d_in;
-    out.corners.push_back(start_outside == from_inside ? moved(to, from, d_to / (d_to - d_from))
-                                                       : moved(from, to, d_from / (d_from - d_to)));
+    out.corners.push_back(start_outside == from_inside ? lerp(to, from, d_to / (d_to - d_from))
+                                                       : lerp(from, to, d_from / (d_from - d_to)));
   }
   return out;
 }
@@ -54,8 +55,8 @@ Polygon cut_line(std::span<const Vec4<float>> planes, const Polygon& line) {
   }
   Polygon out{line.primitive, {}};
   if (from_a + from_b >= 1) return out;
-  out.corners.push_back(from_a > 0 ? moved(a, b, from_a) : a);
-  out.corners.push_back(from_b > 0 ? moved(b, a, from_b) : b);
+  out.corners.push_back(from_a > 0 ? lerp(a, b, from_a) : a);
+  out.corners.push_back(from_b > 0 ? lerp(b, a, from_b) : b);
   return out;
 }
 

@@ -7,8 +7,8 @@ TriangleSetup set_up(const Stages& stages, const ShadedTriangle& triangle, const
   TriangleSetup out{};
   const BarycentricPlanes planes = planes_of(triangle, anchor.x, anchor.y);
   out.depth = stages.depth_setup(triangle, depth);
-  out.planes = moved(planes, offsets.color);
-  out.depth_plane = moved(depth_plane(out.depth, planes), offsets.depth - offsets.color);
+  out.planes = at_offset(planes, offsets.color);
+  out.depth_plane = at_offset(depth_plane(out.depth, planes), offsets.depth - offsets.color);
   out.perspective = perspective_setup(triangle, planes, surface.carried.empty());
   const auto corners = [&](std::size_t i) {
     const auto& a = triangle.attributes;
@@ -48,7 +48,7 @@ bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool neare
   if (draw.alpha_test) alive = alive && stages.alpha_passes(*draw.alpha_test, shaded.color.a, color_scale);
   if (!draw.stencil) return alive;
   const StencilFace& face = front ? draw.stencil->front : draw.stencil->back;
-  return stages.stencil_passes(face, alive, nearer, held) && nearer;
+  return stages.stencil_test(face, alive, nearer, held) && nearer;
 }
 
 void write_fragment(const Stages& stages, const Merge& state, float z, const Color<float>& color, float color_scale,

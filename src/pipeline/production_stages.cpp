@@ -33,7 +33,7 @@ Stages production_stages() {
   };
   s.depth_passes = compares<float, float>;
   s.alpha_passes = alpha_passes<float>;
-  s.stencil_passes = stencil_test<float>;
+  s.stencil_test = stencil_test<float>;
   s.merge_state = [](const Merge& of_draw) { return of_draw; };
   s.merge = merge<float>;
   s.blend = blend<float>;

@@ -41,7 +41,7 @@ Frame render(const Scene& scene, const Stages& stages, Recorder records) {
   return finished(scene.frame, frame);
 }
 
-void draw_primitives(const DrawVertices& d, const FrameFormat& format, const Stages& stages, FrameBuffer& frame,
+void draw_primitives(const PreparedDraw& d, const FrameFormat& format, const Stages& stages, FrameBuffer& frame,
                      Recorder& records) {
   const Draw& draw = *d.input.draw;
   const Formats formats = formats_of(format);

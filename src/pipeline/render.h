@@ -13,8 +13,8 @@ namespace plumbline::pipeline {
 /// Draws the scene by these stage functions; of a scene that is not antialiased, `records` keeps what it is asked for.
 Frame render(const Scene& scene, const Stages& stages = production_stages(), Recorder records = {});
 
-/// Stages 3 to 11 of the primitives of one draw, whose vertices have been through stages 0 to 2.
-struct DrawVertices {
+/// Input of stages 3 to 11 of one draw: its primitives, and vertices that have been through stages 0 to 2.
+struct PreparedDraw {
   DrawInput input;
   std::span<const glm::uvec3> primitives;  ///< corners: numbers of vertices
   std::span<const Vertex<float>> vertices;
@@ -22,7 +22,8 @@ struct DrawVertices {
   std::uint32_t first_primitive;           ///< number of the first
   Surface surface;
 };
-void draw_primitives(const DrawVertices& draw, const FrameFormat& format, const Stages& stages, FrameBuffer& frame,
+/// Draws the primitives into `frame`: stages 3 to 11.
+void draw_primitives(const PreparedDraw& draw, const FrameFormat& format, const Stages& stages, FrameBuffer& frame,
                      Recorder& records);
 
 /// The frames of an antialiased scene's passes.

@@ -38,8 +38,8 @@ struct ClipVertex {
 };
 /// A convex polygon; a line has 2 corners, a point 1; none: nothing is left.
 struct Polygon {
-  static constexpr std::size_t kMostCorners = 28;  // derived in clip.cpp
-  std::uint32_t primitive = 0;                     ///< numbered over the scene (scene.h, DrawRange)
+  static constexpr std::size_t kMostCorners = kMostPolygonVertices;
+  std::uint32_t primitive = 0;  ///< numbered over the scene (scene.h, DrawRange)
   FixedVector<ClipVertex, kMostCorners> corners;
 };
 
@@ -65,9 +65,10 @@ struct SampleOffsets {
   glm::ivec2 coverage, depth, color;
 };
 
-/// Planes are anchored at the lower left pixel of the 64 x 64 tile that a fragment lies in (from a far anchor, the
-/// terms of a sliver's sum would be too large for double), and colours' weights at that of its block of 4 x 4
-/// (attributes.h): the two rules of tiles that decide bits.
+/// Side of the tiles that anchor planes [pixels]. Planes are evaluated from the centre of the lower left pixel of the
+/// fragment's tile: from a far anchor, the terms of a sliver's sum would be too large for double. Where
+/// PerspectiveSetup::in_blocks is set, q1, q2 and sum go on in float from the lower left pixel of its 4 x 4 block. No
+/// other rule of tiles decides bits.
 inline constexpr int kTile = 64;
 
 /// Per-triangle input of stages 6 to 8, for the fragments of one tile.
@@ -118,7 +119,7 @@ struct Stages {
   // 10 visibility
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
   bool (*alpha_passes)(const AlphaTest&, float alpha, float color_scale);
-  bool (*stencil_passes)(const StencilFace&, bool alive, bool nearer, std::uint8_t* held);
+  bool (*stencil_test)(const StencilFace&, bool alive, bool nearer, std::uint8_t* held);
   // 11 merge, in the frame's format: codes, or floats
   Merge (*merge_state)(const Merge& of_draw);
   Color<float> (*merge)(const Color<float>&, float color_scale);

@@ -75,7 +75,7 @@ struct Some {
     return stages;
   }
 };
-using Rare = Some<&Stages::scissor, &Stages::texture, &Stages::alpha_passes, &Stages::stencil_passes, &Stages::blend,
+using Rare = Some<&Stages::scissor, &Stages::texture, &Stages::alpha_passes, &Stages::stencil_test, &Stages::blend,
                   &Stages::logic, &pipeline::ResolveStage::multisample, &pipeline::ResolveStage::weighted>;
 
 // Stages 0 to 4 of `stages`, the pipeline's own after them; and the other way round.

@@ -82,9 +82,9 @@ Frame by_target(const SimdTarget& target, const Triangles& triangles, const Draw
 // By each kernel that may paint it, of every target.
 void expect_same(const Triangles& triangles, const FrameFormat& format, const std::string& what,
                  bool any_long_edge = true) {
-  Draw draw, over, depth_alone;
+  Draw draw, over, depth_only;
   over.merge.blend = kOver;
-  depth_alone.merge.color_mask = glm::bvec4(false);
+  depth_only.merge.color_mask = glm::bvec4(false);
   for (const SimdTarget& target : simd_targets()) {
     for (const PaintKernel kernel : {PaintKernel::any, PaintKernel::replaces}) {
       const Frame frame = by_target(target, triangles, draw, kernel, format, any_long_edge);
@@ -92,9 +92,9 @@ void expect_same(const Triangles& triangles, const FrameFormat& format, const st
       EXPECT_TRUE(frame.color_rgba8.values() == definition.color_rgba8.values()) << target.name << ", " << what;
       EXPECT_TRUE(frame.depth_code.values() == definition.depth_code.values()) << target.name << ", " << what;
     }
-    for (const PaintKernel kernel : {PaintKernel::any, PaintKernel::depth_alone}) {
-      const Frame frame = by_target(target, triangles, depth_alone, kernel, format);
-      const Frame definition = by_definition(triangles, depth_alone, format);
+    for (const PaintKernel kernel : {PaintKernel::any, PaintKernel::depth_only}) {
+      const Frame frame = by_target(target, triangles, depth_only, kernel, format);
+      const Frame definition = by_definition(triangles, depth_only, format);
       EXPECT_TRUE(frame.color_rgba8.values() == definition.color_rgba8.values()) << target.name << ", " << what;
       EXPECT_TRUE(frame.depth_code.values() == definition.depth_code.values()) << target.name << ", " << what;
     }

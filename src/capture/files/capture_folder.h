@@ -26,7 +26,7 @@ struct CaptureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes all of a capture but its legal answers. A folder that holds a capture and nothing else, or nothing, is
+/// Writes a capture's records and planes; not its samples (an antialiased scene's passes), nor its legal answers. A folder that holds a capture and nothing else, or nothing, is
 /// replaced, in one moment; its parents are made. Throws OutputError (atomic_path.h).
 void write_capture(const Capture& capture, const std::filesystem::path& folder);
 
