@@ -95,7 +95,7 @@ void add(CLI::App& command, CampaignOptions& o) {
   text(command, "folder", o.folder, "Folder of the campaign: its journals, its findings, results.json")->required();
   text(command, "--seeds", o.seeds,
        "FIRST..LAST: judge a scene for each, but those that a journal holds; without it, "
-       "what was judged is told again");
+       "report what the journals hold");
   command.add_option("--generator", o.generator, "ordinary, hard or both: who writes the scenes")
       ->check(CLI::IsMember({"ordinary", "hard", "both"}))
       ->capture_default_str();
@@ -105,7 +105,7 @@ void add(CLI::App& command, CampaignOptions& o) {
       ->check(CLI::Range(1, 100))
       ->capture_default_str()
       ->needs(command.get_option("--seeds"));
-  command.add_flag("--judge-only", o.judge_only, "Fill the journal alone: findings are neither made smaller nor told")
+  command.add_flag("--judge-only", o.judge_only, "Fill the journal alone: findings are neither shrunk nor reported")
       ->needs(command.get_option("--seeds"));
   command.add_flag("--write", o.write, "Write the scenes' files, FOLDER/GENERATOR/SEED.json, and judge none")
       ->needs(command.get_option("--seeds"))
@@ -234,8 +234,10 @@ void add(CLI::App& command, DiffOptions& o) {
   text(command, "NEW", o.now, "and now")->required();
   text(command, "--json", o.json, "Write the changes as JSON");
   text(command, "--markdown", o.markdown, "Write the changes for a CI page");
-  add_factor(command, "--moved", o.factor, "By which factor a largest difference is larger or smaller to be told");
-  add_factor(command, "--slower", o.slower, "By which factor a scene's time is, and by 0.25 s");
+  add_factor(command, "--moved", o.factor,
+             "Report a row whose largest difference or counts changed by more than this factor");
+  add_factor(command, "--slower", o.slower,
+             "Report a scene whose time changed by more than this factor, and by 0.25 s or more");
 }
 
 void add(CLI::App& command, MergeOptions& o) {
@@ -245,7 +247,8 @@ void add(CLI::App& command, MergeOptions& o) {
   text(command, "--markdown", o.markdown, "Write a summary for a CI page");
   text(command, "--ledger", o.ledger, "Write the largest difference seen for each tolerance");
   text(command, "--suite", o.suite, "A folder of which every scene is to be in the runs");
-  text(command, "--without", o.without, "Names of its scenes that are not: told as not run");
+  text(command, "--without", o.without,
+       "Scenes of --suite that may be absent from the runs (GROUP/SCENE); listed as not run");
   text(command, "--expect", o.expect, "The runs' known differences: each is to be of a scene that is there");
 }
 

@@ -61,12 +61,13 @@ std::vector<Stage> unjudged(const check::SceneVerdict& verdict, const CheckOptio
 
 }  // namespace
 
-std::vector<check::Settled> settle(check::SceneVerdict& verdict, const CheckOptions& o,
-                                   const std::vector<check::Expectation>& expectations, std::chrono::sys_days today) {
+std::vector<check::Settled> settle_and_explain(check::SceneVerdict& verdict, const CheckOptions& o,
+                                               const std::vector<check::Expectation>& expectations,
+                                               std::chrono::sys_days today) {
   std::vector<std::string> asked = o.against;
   if (!o.golden.empty()) asked.emplace_back("golden");
   if (o.fault.empty()) asked.emplace_back("picture");
-  std::vector<check::Settled> out = check::settle(expectations, asked, today, verdict);
+  std::vector<check::Settled> out = check::settle_expectations(expectations, asked, today, verdict);
   std::string lines;
   for (const check::Settled& settled : out) {
     if (settled.fate != check::Settlement::occurred) lines += settled.line + "\n";

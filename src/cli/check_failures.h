@@ -14,8 +14,9 @@ namespace plumbline::cli {
 
 /// Settles the verdict's expectations, and says in it why it does not hold, if so, and the command that repeats it.
 /// Returns what became of the expectations.
-std::vector<check::Settled> settle(check::SceneVerdict& verdict, const CheckOptions& options,
-                                   const std::vector<check::Expectation>& expectations, std::chrono::sys_days today);
+std::vector<check::Settled> settle_and_explain(check::SceneVerdict& verdict, const CheckOptions& options,
+                                               const std::vector<check::Expectation>& expectations,
+                                               std::chrono::sys_days today);
 
 /// How many expectations came to what.
 std::string settled_line(const std::vector<check::Settled>& settled, std::size_t expectations);

@@ -47,10 +47,10 @@ int check(const CheckOptions& options);
 /// Random scenes, judged, and what is found made small. The folder holds the journals of all its processes.
 struct CampaignOptions {
   std::string folder;
-  std::string seeds;               ///< FIRST..LAST, of each generator; empty: what was judged is told again
+  std::string seeds;               ///< FIRST..LAST, of each generator; empty: report what the journals hold
   std::string generator = "both";  ///< or ordinary, hard
   std::size_t round = 1;           ///< from 2 on, scenes are changed that reached something new in the round before
-  bool judge_only = false;         ///< findings are neither made smaller nor told
+  bool judge_only = false;         ///< findings are neither shrunk nor reported
   bool write = false;              ///< the scenes' files, and nothing else
   CheckOptions judging;            ///< candidate, references, jobs, limits, assets; the rest is not used
 };

@@ -44,7 +44,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothC
   if (rules_->goldens)
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),
                       std::back_inserter(verdict.comparisons));
-  out.settled = settle(verdict, o, rules_->expectations, rules_->today);
+  out.settled = settle_and_explain(verdict, o, rules_->expectations, rules_->today);
   out.failure = verdict.failure;
   if (!verdict.failure.empty() && !o.failures.empty()) {
     out.failure += leave_report(o.failures, scene, verdict, *candidate_, references_.list);
@@ -63,7 +63,7 @@ JudgedScene not_compared(const Scene& scene, const CheckRules& rules, const std:
   out.verdict.path = scene.path;
   out.verdict.comparisons = {
       check::not_judged(scene.name, "comparison", Stage::merge, check::Outcome::failed, "the comparison " + how)};
-  out.settled = settle(out.verdict, rules.options, rules.expectations, rules.today);
+  out.settled = settle_and_explain(out.verdict, rules.options, rules.expectations, rules.today);
   out.failure = out.verdict.failure;
   return out;
 }

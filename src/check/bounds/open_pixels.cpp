@@ -230,7 +230,7 @@ void settle_plane(Plane<T>& theirs, const Plane<T>& mine, const Plane<std::uint8
 
 }  // namespace
 
-std::uint64_t settle(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference) {
+std::uint64_t copy_open_pixels(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference) {
   settle_plane(reference.id, candidate.id, open);
   settle_plane(reference.stencil, candidate.stencil, open);
   settle_plane(reference.texel, candidate.texel, open);
@@ -240,14 +240,14 @@ std::uint64_t settle(const Plane<std::uint8_t>& open, const Planes& candidate, P
   return static_cast<std::uint64_t>(std::ranges::count(open.values(), std::uint8_t{1}));
 }
 
-std::uint64_t settle_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
-                           Capture& reference) {
+std::uint64_t copy_pixels_open_by_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
+                                        Capture& reference) {
   // Alpha and its reference are converted with m bits, at least the frame's (OpenGL 2.1 spec, 4.1.4, 2.14.9). We take
   // the frame's, and so does Mesa of 8 bits; of more it compares them in float, which is legal.
   const bool in_float = stage == Stage::attributes || stage == Stage::shade || scene.frame.color != ColorFormat::rgba8;
   const auto open =
       open_by_alpha(scene, candidate, reference, in_float ? ColorFormat::rgba32f : scene.frame.color, factor);
-  return settle(open, candidate.planes, reference.planes);
+  return copy_open_pixels(open, candidate.planes, reference.planes);
 }
 
 }  // namespace plumbline::check

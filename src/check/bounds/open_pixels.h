@@ -57,11 +57,11 @@ BesideTurned beside_turned(const Scene& scene, const Capture& candidate, const C
                            std::span<const std::uint32_t> turned, Renderer& referee);
 
 /// The reference's planes from texture on get the candidate's own values where `open` is 1; returns how many pixels.
-std::uint64_t settle(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference);
+std::uint64_t copy_open_pixels(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference);
 
 /// An OpenGL renderer's planes get the candidate's own values where the pixel is open; returns how many are. It tests
 /// alpha in the frame's format of 8 bits, else in float, as it does where colours before merge are drawn.
-std::uint64_t settle_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
-                           Capture& reference);
+std::uint64_t copy_pixels_open_by_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
+                                        Capture& reference);
 
 }  // namespace plumbline::check

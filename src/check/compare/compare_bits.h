@@ -1,4 +1,4 @@
-// Pictures compared bit for bit: -0 is not 0, and NaN equals nothing.
+// Pictures compared bit for bit: -0 is not 0, and a NaN equals a NaN of the same bits alone.
 #pragma once
 
 #include "capture/capture.h"

@@ -8,8 +8,9 @@
 
 namespace plumbline::check {
 
-/// Overdraw count and sum of weights, both with tolerance zero. `legal` (empty: nothing is open): where it allows
-/// several counts, the candidate's among them, a difference is ambiguous, as long as other pixels differ.
+/// Overdraw count and sum of weights, both with tolerance zero. A pixel is open where `legal` (empty: nowhere) allows
+/// several counts, the candidate's among them. If a pixel that is not open differs, differences at open pixels are
+/// ambiguous; if open pixels alone differ, they count as different.
 Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal = {});
 
 /// Winners against winners. Where they differ, `legal` decides (empty: nothing is ambiguous): both among the legal

@@ -36,11 +36,11 @@ struct Diagnosis {
   std::vector<Finding> findings;
 };
 
-/// Rows that diagnose() adds to judge()'s. Kind::repaired: of the stages after the first one that is wrong by itself,
-/// where the candidate runs stages. Each stage is run on the candidate's own records of the stages before it, but on
-/// exact's, rounded to float, in place of those of a stage that is wrong, and compared with exact's: it shows what a
-/// fault before it hides. Kind::at_worst: of a scene of more fragments than are looked at one by one, stages 6 to 9 of
-/// the fragments about the worst pixels of the planes, captured once more.
+// Rows that diagnose() adds to judge()'s. Kind::repaired: of the stages after the first one that is wrong by itself,
+// where the candidate runs stages. Each stage is run on the candidate's own records of the stages before it, but on
+// exact's, rounded to float, in place of those of a stage that is wrong, and compared with exact's: it shows what a
+// fault before it hides. Kind::at_worst: of a scene of more fragments than are looked at one by one, stages 6 to 9 of
+// the fragments about the worst pixels of the planes, captured once more.
 
 /// The fragments that a diagnosis looks at one by one, an antialiased scene's passes together: some seconds' work.
 inline constexpr std::uint64_t kMostFragments = std::uint64_t{1} << 20;

@@ -7,13 +7,14 @@
 
 namespace plumbline::check {
 
-/// One stage of the candidate beside what it should be, both made of the same records.
+/// One stage of the candidate beside what was expected. With `referee`: exact's stage, of the candidate's records.
+/// Without: a reference's capture of the same scene.
 struct Evidence {
   const Scene& scene;
   Stage stage;
   const Capture& candidate;      ///< with the records that came in
-  const Capture& expected;       ///< exact's, of that stage alone: real numbers
-  Renderer* referee = nullptr;   ///< that made it; null: nobody to try a cause with
+  const Capture& expected;       ///< exact's are real numbers
+  Renderer* referee = nullptr;   ///< that made `expected`; null: nobody to try a cause with
   Conventions conventions = {};  ///< of the candidate
 };
 

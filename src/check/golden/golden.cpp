@@ -110,7 +110,8 @@ Vouch vouch(const SceneVerdict& verdict, const std::string& candidate, std::span
   Vouch out;
   const std::set<std::string> names(asked.begin(), asked.end());
   if (names.contains(candidate)) out.refusals.push_back(fmt::format("{} cannot vouch for itself", candidate));
-  if (names.size() < 3) out.refusals.push_back(fmt::format("{} references are asked, of three", names.size()));
+  if (names.size() < 3)
+    out.refusals.push_back(fmt::format("expected three references or more, found {}", names.size()));
   std::map<std::string, std::map<Outcome, std::set<Stage>>> rows;
   std::set<Stage> judged, agreed;
   std::set<std::string> against;

@@ -80,11 +80,11 @@ GoldenSet::GoldenSet(const fs::path& folder, Access access) : folder_(folder) {
         fmt::format("{}: expected the goldens' folder, found: {}", folder.string(), std::strerror(errno)));
   // A run that was killed holds the lock until the last of its processes has ended: a moment.
   constexpr int kAttempts = 100;
-  const auto is_locked = [&] { return ::flock(lock_, (update ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0; };
-  bool locked = is_locked();
+  const auto try_lock = [&] { return ::flock(lock_, (update ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0; };
+  bool locked = try_lock();
   for (int i = 0; i < kAttempts && !locked; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    locked = is_locked();
+    locked = try_lock();
   }
   if (!locked) {
     ::close(lock_);

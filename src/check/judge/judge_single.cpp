@@ -87,7 +87,8 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
         continue;
       }
       Capture settled = theirs;
-      c.open = settle_alpha(c.scene, c.candidate, stage, tolerance(info.profile, Stage::attributes).factor, settled);
+      c.open = copy_pixels_open_by_alpha(c.scene, c.candidate, stage, tolerance(info.profile, Stage::attributes).factor,
+                                         settled);
       side_by_side(c, settled, stage, name);
       c.open = 0;
     } else if (!exact) {

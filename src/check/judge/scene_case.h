@@ -1,4 +1,5 @@
-// One scene's judgement, as judge.cpp, run_exact_stage.cpp and side_by_side.cpp see it.
+// One scene's judgement, shared by judge_single.cpp, ask_oracle.cpp, run_exact_stage.cpp, side_by_side.cpp and
+// src/check/diagnose.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +30,9 @@ struct Case {
   Profile profile = Profile::exact;  // of the reference
   bool foreign = false;              // the candidate is none of ours: what is legal is no difference
   Conventions conventions = {};      // of the candidate
-  std::uint64_t open = 0;  // pixels that the stage at hand leaves out, for the alpha test may go either way there
+  // Items that the stage at hand leaves out: pixels open by the alpha test or by a turned outline; in coverage, turned
+  // primitives.
+  std::uint64_t open = 0;
 
   void add(const JudgeId& judge, Stage stage, Measurement m, const Tolerance* row = nullptr, std::string note = "") {
     m.ambiguous += open;
@@ -54,7 +57,7 @@ struct Case {
   }
 };
 
-/// Fragments were drawn, but none are recorded.
+/// Whether fragments were drawn and none are recorded: beyond the budget, or of a capture of planes alone.
 inline bool over_budget(const Capture& c) {
   const auto& count = c.planes.count.values();
   return c.records.covered.empty() && std::any_of(count.begin(), count.end(), [](std::uint32_t n) { return n != 0; });
@@ -76,7 +79,7 @@ void ask_oracle(Case& c, const Legal& legal, Stage stage, const JudgeId& name);
 /// What the reference shows, beside the candidate's.
 void side_by_side(Case& c, const Capture& theirs, Stage stage, const JudgeId& name);
 
-/// Whether the stage's comparison needs to know which texels are legal, and nobody told.
+/// Whether the stage's comparison needs legal texels and the candidate's capture holds none.
 bool lacks_texels(const Case& c, Stage stage);
 
 }  // namespace plumbline::check

@@ -176,7 +176,7 @@ bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const Ju
     compare_covers(c, beside.candidate, beside.reference, name);
   } else {
     Capture settled = theirs;
-    c.open += settle(beside.open, c.candidate.planes, settled.planes);
+    c.open += copy_open_pixels(beside.open, c.candidate.planes, settled.planes);
     compare_shown(c, settled, stage, name);
   }
   c.open = before;

@@ -93,8 +93,9 @@ SceneVerdict judge_or_recall(const Scene& scene, Renderer& candidate, std::span<
   SceneVerdict verdict = judge_as(traced);
   if (before && without_time(before->verdict) != without_time(verdict)) {
     kept.store.forget(key);
-    verdict.comparisons.push_back(not_judged(scene.name, "comparison", Stage::merge, Outcome::failed,
-                                             "the verdict kept of an earlier run is another one (--no-cache)"));
+    verdict.comparisons.push_back(
+        not_judged(scene.name, "comparison", Stage::merge, Outcome::failed,
+                   "the cached verdict differs from a new one of the same answers (--no-cache judges anew)"));
   } else if (traced.calls() && is_kept(verdict)) {
     kept.store.keep(key, to_bytes(Kept{*traced.calls(), verdict}));
   }

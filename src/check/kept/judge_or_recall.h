@@ -21,7 +21,7 @@ struct KeptVerdicts {
   std::function<bool(double seconds)> is_tried;
   /// Start of the run, before it read scenes: of a scene whose files were written since, nobody knows which was read.
   std::filesystem::file_time_type began;
-  std::set<std::string> words{};  ///< that verdicts of now refer to
+  std::set<std::string> words{};  ///< field names (Place::field) of recalled verdicts
 };
 
 /// One in 64; of those that took longer than a second, fewer in proportion.

@@ -96,8 +96,8 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& path, st
   return out;
 }
 
-std::vector<Settled> settle(std::span<const Expectation> expectations, std::span<const std::string> asked,
-                            std::chrono::sys_days today, SceneVerdict& verdict) {
+std::vector<Settled> settle_expectations(std::span<const Expectation> expectations, std::span<const std::string> asked,
+                                         std::chrono::sys_days today, SceneVerdict& verdict) {
   std::vector<Settled> out;
   for (const Expectation& e : expectations) {
     if (e.scene != verdict.scene || std::ranges::count(asked, e.reference) == 0) continue;

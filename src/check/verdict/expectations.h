@@ -47,8 +47,8 @@ struct Settled {
 };
 
 /// Settles the expectations of the verdict's scene whose reference was asked; `asked`: names of renderers.
-std::vector<Settled> settle(std::span<const Expectation> expectations, std::span<const std::string> asked,
-                            std::chrono::sys_days today, SceneVerdict& verdict);
+std::vector<Settled> settle_expectations(std::span<const Expectation> expectations, std::span<const std::string> asked,
+                                         std::chrono::sys_days today, SceneVerdict& verdict);
 
 /// Of a whole suite: a line for each expectation whose scene is none of it.
 std::vector<std::string> of_no_scene(std::span<const Expectation> expectations, std::span<const SceneVerdict> verdicts);

@@ -41,8 +41,8 @@ struct Measurement {
   std::uint64_t differing = 0;  ///< items beyond their tolerance
   std::uint64_t ambiguous = 0;  ///< items for which more than one answer is legal
   std::uint64_t disputed = 0;   ///< items where the reference, not the candidate, is outside the legal answers
-  double max_difference = 0;    ///< in `unit`, but of what is disputed; infinite: NaN, a wrong size, a missing record
-  double max_ratio = 0;         ///< likewise, largest share of a tolerance that was used; above 1 something differs
+  double max_difference = 0;    ///< [unit], disputed values left out; infinite: NaN, a wrong size, a missing record
+  double max_ratio = 0;         ///< largest share of a tolerance that was used, likewise; above 1 something differs
   Worst worst;
   Worst dispute;                        ///< of what is disputed, the largest difference
   std::string reason;                   ///< and what the reference's fault is there
@@ -86,8 +86,8 @@ class Meter {
   std::string why_;
 };
 
-/// The worse of two measurements of one stage: the one with more items beyond tolerance; of as many, with the larger
-/// largest difference.
+/// The worse of two measurements of one stage: the one with more items beyond tolerance; of as many, the one with the
+/// larger max_ratio.
 inline Measurement worse(Measurement a, Measurement b) {
   const bool a_tells = a.differing != b.differing ? a.differing > b.differing : a.max_ratio >= b.max_ratio;
   return a_tells ? std::move(a) : std::move(b);

@@ -9,8 +9,8 @@ namespace plumbline::check {
 
 /// One scene's rows: `different` becomes `dispute`, with the evidence as its reason, where a reference is outvoted: of
 /// one stage its row alone differs; exact, from the candidate's own records of the stage before, holds, and so does
-/// another reference that judges the stage. And no row of an earlier stage differs: what is wrong from the input on
-/// would come out of exact's arithmetic as it went in, and be right by two votes that cannot know. (Embree and exact
+/// another reference that judges the stage. No row of an earlier stage differs either: exact only propagates such an
+/// error, so its agreement is no evidence. (Embree and exact
 /// share the formula of what is legal: of that they are one vote, and the arithmetic on records the other. From texture
 /// on they share that, too, and are one vote in all.)
 void settle_votes(std::vector<Comparison>& rows);

@@ -18,7 +18,7 @@ namespace plumbline::report {
 struct Layer {
   std::string name;            ///< such as "depth": unique among a viewer's layers
   std::string says;            ///< what its colours mean
-  std::string paint;           ///< how numbers become colours: a painter of web/painters.js
+  std::string paint;           ///< how numbers become colours: a painter of web/planes.js (PAINTERS)
   std::vector<Stage> judged;   ///< the stages whose rows are about it, the likeliest first
   std::vector<Numbers> sides;  ///< empty where a side hands out none; of the frame's size, or not shown
 };

@@ -30,20 +30,23 @@ struct RunHead {
   std::vector<std::string> failures;  ///< a line each, such as an expectation of a scene that is not there
 };
 
-/// {"format": "plumbline run", "version": 1, "versions": {renderer: version}, "fault", "against", "golden", "failures", "tolerances": {the ledger's row:
-/// factor}, "shard": {index, of, scenes}, "scenes": [{scene, file, seconds, failure, repeat}] (the last two where it
-/// does not hold), "comparisons": [{scene, reference, stage, outcome, pixels, differing, ambiguous, max_difference,
-/// unit, tolerance, worst, ...}]}. Numbers that JSON cannot hold are the strings "inf" and "nan". Text that is no UTF-8
-/// has U+FFFD for each byte. Written whole or not at all. Throws OutputError (atomic_path.h).
+/// {"format": "plumbline run", "version": 1, "versions": {renderer: version}, "fault", "against", "golden", "failures",
+/// "tolerances": {the ledger's row: factor}, "shard": {index, of, scenes}, "scenes": [{scene, file, seconds, failure,
+/// repeat}] (the last two where it does not hold), "comparisons": [{scene, reference, kind, title, stage, outcome, pixels,
+/// differing, ambiguous, max_difference, unit, worst, disputed, max_ratio, histogram, dispute, ledger, note}] (the last
+/// three where there are any)}. Numbers that JSON cannot hold are the strings "inf", "-inf"
+/// and "nan". Text that is no UTF-8 has U+FFFD for each byte. Written whole or not at all. Throws OutputError
+/// (atomic_path.h).
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts, const RunHead& head);
 
-/// {"format": "plumbline diagnosis", "version": 1, "scene", "file", "versions", "first" (a stage or null), "wrong": [stages], "findings": [{stage, reference,
-/// differing, pixels, numbers, causes, picture}], "comparisons": as above}; "pixel_history", where there is one
-/// (history_text.h, history_json()).
+/// {"format": "plumbline diagnosis", "version": 1, "scene", "file", "versions", "first" (a stage or null), "wrong":
+/// [stages], "findings": [{stage, reference, kind, title, pixels, differing, explains, numbers, causes, picture}],
+/// "comparisons": as above}; "pixel_history", where there is one (history_text.h, history_json()).
 void write_json(const std::filesystem::path& file, const check::Diagnosis& diagnosis,
                 const std::map<std::string, std::string>& versions, const std::string& pixel_history = "");
 
-/// {"format": "plumbline comparison", "version": 1, "a", "b", "tolerance", "comparisons": [{what, outcome, items, differing, max_difference, codes, worst, ...}]}
+/// {"format": "plumbline comparison", "version": 1, "a", "b", "tolerance", "comparisons": [{what, outcome, items,
+/// differing, max_difference, codes, worst, ...}]}
 void write_json(const std::filesystem::path& file, const std::string& a, const std::string& b, double tolerance,
                 std::span<const check::StoredComparison> comparisons);
 

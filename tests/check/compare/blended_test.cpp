@@ -225,7 +225,7 @@ TEST(SettledAlpha, IsOpenWhereABetterConversionDropsTheFragment) {
     const Capture mine = exact_capture(scene);
     Capture theirs = mine;
     theirs.planes.id.values().assign(mine.planes.id.size(), kBackground);
-    const std::uint64_t open = settle_alpha(scene, mine, Stage::visibility, 8, theirs);
+    const std::uint64_t open = copy_pixels_open_by_alpha(scene, mine, Stage::visibility, 8, theirs);
     if (open > 0) {
       EXPECT_EQ(theirs.planes.id.values(), mine.planes.id.values());
     }

@@ -41,7 +41,7 @@ SceneVerdict verdict(Outcome outcome, Stage stage = Stage::depth) {
 const std::vector<std::string> kAsked = {"osmesa", "exact"};
 
 Settled settled_one(const std::vector<Expectation>& known, const std::string& day, SceneVerdict& v) {
-  const std::vector<Settled> all = settle(known, kAsked, day_of(day), v);
+  const std::vector<Settled> all = settle_expectations(known, kAsked, day_of(day), v);
   if (all.size() != 1) throw std::logic_error("not one");
   return all[0];
 }
@@ -81,9 +81,9 @@ TEST_F(Expectations, WhatPassesUnexpectedlyOrIsNowhereFails) {
 TEST_F(Expectations, AreNotAskedOfOtherScenesAndReferences) {
   const auto known = this->known();
   SceneVerdict v = verdict(Outcome::different);
-  EXPECT_TRUE(settle(known, std::vector<std::string>{"exact"}, day_of("2026-01-01"), v).empty());
+  EXPECT_TRUE(settle_expectations(known, std::vector<std::string>{"exact"}, day_of("2026-01-01"), v).empty());
   v.scene = "light/b";
-  EXPECT_TRUE(settle(known, kAsked, day_of("2026-01-01"), v).empty());
+  EXPECT_TRUE(settle_expectations(known, kAsked, day_of("2026-01-01"), v).empty());
   EXPECT_EQ(v.comparisons[0].outcome, Outcome::different);
 }
 
