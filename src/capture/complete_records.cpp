@@ -40,14 +40,14 @@ void reorder(std::vector<T>& column, const Order& order) {
 
 // ---- columns
 
-glm::ivec2 snapped(const Vec3<double>& p_win, std::size_t record) {
+glm::ivec2 snapped_place(const Vec3<double>& p_win, std::size_t record, const Conventions& conventions) {
   const glm::dvec2 steps = (glm::dvec2(p_win) - 0.5) * double{kSubpixel};
   if (!(std::abs(steps.x) < 0x1p30 && std::abs(steps.y) < 0x1p30)) {
     throw std::invalid_argument(fmt::format(
         "window.snapped: left out, and the p_win of record {} is ({} {}): expected a place within 2^22 pixels", record,
         p_win.x, p_win.y));
   }
-  return {std::nearbyint(steps.x), std::nearbyint(steps.y)};
+  return {snapped(conventions, steps.x), snapped(conventions, steps.y)};
 }
 
 Vec3<double> unit(const Vec3<double>& v) {
@@ -115,7 +115,7 @@ void require_in_range(const WindowTriangle<double>& t, std::size_t record) {
         fmt::format("window.width: record {}: expected 1 to {}, found {}", record, kWidest, t.width));
 }
 
-void derive_window(const DrawIndex& draws, Capture& c) {
+void derive_window(const DrawIndex& draws, const Conventions& conventions, Capture& c) {
   const auto lacks = [&](const char* column) { return c.derived.contains(column); };
   for (std::size_t i = 0; i < c.records.triangles.size(); ++i) {
     WindowTriangle<double>& t = c.records.triangles[i];
@@ -134,7 +134,7 @@ void derive_window(const DrawIndex& draws, Capture& c) {
       t.width = static_cast<std::uint32_t>(t.corners == 3 ? 1 : t.corners == 2 ? draw.line_width : draw.point_size);
     }
     if (lacks("window.snapped")) {
-      for (WindowVertex<double>& v : t.v) v.snapped = snapped(v.p_win, i);
+      for (WindowVertex<double>& v : t.v) v.snapped = snapped_place(v.p_win, i, conventions);
     }
     require_in_range(t, i);
     if (lacks("window.front")) t.front = t.corners < 3 || faces_front(t);
@@ -170,13 +170,13 @@ void sort_fragments(Records<double>& r) {
 
 }  // namespace
 
-void complete_records(const Scene& scene, Capture& capture) {
+void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions) {
   const DrawIndex draws(scene);
   Records<double>& r = capture.records;
   std::ranges::stable_sort(r.polygons.polygons, {}, &ClipPolygon::primitive);
   if (capture.derived.contains("vertex.n_eye")) derive_normals(draws, r);
   if (capture.derived.contains("clip.cut")) derive_cut(draws, r);
-  derive_window(draws, capture);
+  derive_window(draws, conventions, capture);
   sort_triangles(r);
   sort_fragments(r);
   capture.derived.clear();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "capture/capture.h"
+#include "capture/conventions.h"
 #include "scene/scene.h"
 
 namespace plumbline {
@@ -10,14 +11,15 @@ namespace plumbline {
 /// and column. Order of drawing shows in the frame, and is judged there.
 ///
 /// Fills the columns of `capture.derived`, which is empty then: vertex.n_eye by the capture's matrices and the mesh;
-/// clip.cut by whether the corner's place is, in float, that of one of its primitive's vertices; window.snapped by the
-/// rounding of p_win, window.front by the snapped area, window.corners and window.width by the mesh and the draw.
+/// clip.cut by whether the corner's place is, in float, that of one of its primitive's vertices; window.snapped by
+/// p_win and the conventions, window.front by the snapped area, window.corners and window.width by the mesh and the draw.
 ///
 /// Where planes.depth was read from floats, its values become those of the nearest codes.
 ///
 /// Throws std::invalid_argument, naming the column and the record: of a primitive that the scene does not have, of
-/// n_eye without matrices, of cut without vertices, of a p_win that cannot be snapped, of front and corners where a
+/// n_eye without matrices, of cut without vertices, of a p_win that cannot be snapped, of a
+/// position beyond 2^22 pixels or a width beyond 64, of front and corners where a
 /// draw's polygons are not filled.
-void complete_records(const Scene& scene, Capture& capture);
+void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions = {});
 
 }  // namespace plumbline

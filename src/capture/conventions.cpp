@@ -21,6 +21,14 @@ double middle_of(Conventions::Rounding rounding) {
   return rounding == down ? 0.5 : rounding == up ? -0.5 : 0;
 }
 
+double snapped(const Conventions& conventions, double from_centre) {
+  constexpr int kBits = 8;  // of 1/256
+  const int bits = conventions.subpixel_bits;
+  if (bits < 0 || bits > kBits) return std::nearbyint(from_centre);
+  const double steps = std::ldexp(1.0, kBits - bits);
+  return rounded(conventions.subpixel_rounding, from_centre / steps) * steps;
+}
+
 std::vector<std::string> mistaken(const Conventions& conventions) {
   const Conventions expected;
   std::vector<std::string> out;

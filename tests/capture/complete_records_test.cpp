@@ -204,6 +204,27 @@ TEST(CompleteRecords, refuse_what_nothing_follows_from) {
   }
 }
 
+TEST(CompleteRecords, snap_to_the_grid_of_the_conventions) {
+  const Scene scene = load_scene(kScenes + "cull/both_windings.json", {});
+  const auto derived = [&](int bits, Conventions::Rounding rounding) {
+    Capture capture = whole_capture(scene);
+    capture.derived = {"window.snapped"};
+    capture.records.triangles[0].v[0].p_win = {10.5 + 100.7 / 256, 20.5 - 100.7 / 256, 0.5};
+    Conventions conventions;
+    conventions.subpixel_bits = bits;
+    conventions.subpixel_rounding = rounding;
+    complete_records(scene, capture, conventions);
+    return capture.records.triangles[0].v[0].snapped - glm::ivec2(2560, 5120);
+  };
+  using enum Conventions::Rounding;
+  EXPECT_EQ(derived(8, nearest), glm::ivec2(101, -101));
+  EXPECT_EQ(derived(8, down), glm::ivec2(100, -101));
+  EXPECT_EQ(derived(4, nearest), glm::ivec2(96, -96));
+  EXPECT_EQ(derived(4, up), glm::ivec2(112, -96));
+  EXPECT_EQ(derived(Conventions::kFloat, down), glm::ivec2(101, -101));
+  EXPECT_EQ(derived(12, down), glm::ivec2(101, -101));
+}
+
 TEST(CompleteRecords, refuse_to_guess_the_facing_of_outlines) {
   const Scene scene = load_scene(kScenes + "polygon_mode/wireframe.json", {});
   for (const char* column : {"window.front", "window.corners"}) {

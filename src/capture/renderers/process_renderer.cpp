@@ -231,7 +231,7 @@ class ProcessRenderer : public Renderer {
       to_dialect(spec_.conventions, capture);
       if (spec_.raw_depth) capture.depth_in_float = false;
       if (spec_.give && request.records.has(Stage::coverage)) spec_.give(scene, capture);
-      complete_records(scene, capture);
+      complete_records(scene, capture, spec_.conventions);
       visit_capture(KeepOnly{request.records}, capture);
       capture.renderer = spec_.name;
       return capture;

@@ -116,7 +116,7 @@ std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& s
     require(id < static_cast<std::int64_t>(primitives), fmt::format("winners of the scene's {} primitives", primitives),
             std::to_string(id));
   try {
-    complete_records(scene, capture);
+    complete_records(scene, capture, conventions);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("{}: {}", from, error.what()));
   }

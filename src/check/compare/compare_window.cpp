@@ -104,21 +104,13 @@ class RunComparison {
       meter_.value(difference(v.inv_w, w.inv_w) / (u * std::abs(w.inv_w) + kGradualUnderflow), factor_,
                    at(number, "inv_w"), v.inv_w, w.inv_w);
       for (int c = 0; c < 2; ++c) {
-        const double own = snapped(v.p_win[c] - 0.5);
+        const double own = snapped(conventions_, (v.p_win[c] - 0.5) * kSubpixel);
         meter_.value(difference(v.snapped[c], own), 0, at(number, "snapped"), v.snapped[c], own);
       }
       add(meter_, v.color, colors[k], Vec4<double>(u), 0, at(number, "color"));
     }
     meter_.value(a.corners == b.corners ? 0 : kInfinite, 0, at(number, "corners"), a.corners, b.corners);
     meter_.value(difference(a.width, b.width), 0, at(number, "width"), a.width, b.width);
-  }
-
-  // On the grid of the renderer's conventions, in 1/256 pixel. Where it has none, or a finer one, to the nearest.
-  double snapped(double at) const {
-    const int bits = conventions_.subpixel_bits;
-    const double steps = bits < 0 || bits > 8 ? kSubpixel : std::ldexp(1.0, bits), place = at * steps;
-    const auto rounding = bits < 0 ? Conventions::Rounding::nearest : conventions_.subpixel_rounding;
-    return rounded(rounding, place) * kSubpixel / steps;
   }
 
   static Place at(std::size_t number, const char* field) { return {-1, -1, static_cast<std::int64_t>(number), field}; }
