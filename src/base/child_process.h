@@ -16,9 +16,9 @@ struct ChildFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Answer of the program, which may take `seconds`. It is looked for where the libraries of this one are (DT_RPATH), and
-/// its main() is answer_parent(). What it writes to stderr is lost. Throws ChildFailed; std::runtime_error where there
-/// is no such program or no process for it, and where its work throws an exception, with the exception's words.
+/// Answer of the program, which may take `seconds`. It is looked for where the libraries of this one are (DT_RPATH),
+/// and its main() is answer_parent(). What it writes to stderr is lost. Throws ChildFailed; std::runtime_error where
+/// there is no such program or no process for it, and where its work throws an exception, with the exception's words.
 std::string answer_of_child(const std::string& program, const std::vector<std::string>& arguments, unsigned seconds);
 
 /// Does the work, which may take 4 GiB of memory beyond what the program has, and writes its result to stdout, for

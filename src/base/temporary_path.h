@@ -8,9 +8,9 @@
 
 namespace plumbline {
 
-/// The folder for temporary files: $TMPDIR; without it /dev/shm, whose files lie in memory, if 2 GiB are free there; else
-/// /tmp. A disk's file system takes time over many small files: ext4 looks for an inode that was not freed in the last
-/// 5 s. Throws std::runtime_error, which names $TMPDIR, where that is no folder.
+/// The folder for temporary files: $TMPDIR; without it /dev/shm, whose files lie in memory, if 2 GiB are free there;
+/// else /tmp. A disk's file system takes time over many small files: ext4 looks for an inode that was not freed in the
+/// last 5 s. Throws std::runtime_error, which names $TMPDIR, where that is no folder.
 std::filesystem::path temporary_files();
 
 /// A new file, or a new folder, of a hidden name, which its destructor removes with all that is in it. Where the

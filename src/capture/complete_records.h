@@ -12,7 +12,8 @@ namespace plumbline {
 ///
 /// Fills the columns of `capture.derived`, which is empty then: vertex.n_eye by the capture's matrices and the mesh;
 /// clip.cut by whether the corner's place is, in float, that of one of its primitive's vertices; window.snapped by
-/// p_win and the conventions, window.front by the snapped area, window.corners and window.width by the mesh and the draw.
+/// p_win and the conventions, window.front by the snapped area, window.corners and window.width by the mesh and the
+/// draw.
 ///
 /// Where planes.depth was read from floats, its values become those of the nearest codes.
 ///

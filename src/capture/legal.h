@@ -48,7 +48,8 @@ struct LegalAnswer {
 };
 
 /// The legal winners of one pixel while its hits are drawn, in draw order. Time per hit: the number of different depth
-/// intervals among the winners, or the number n of winners where one is removed or narrowed; with stencil values n log n.
+/// intervals among the winners, or the number of winners n where one is removed or narrowed; with stencil
+/// values n log n.
 class LegalFold {
  public:
   explicit LegalFold(const FrameFormat& frame);

@@ -53,7 +53,7 @@ struct Probe {
   std::vector<std::string_view> names;  ///< of the conventions that it finds
 };
 
-// In the order in which they build upon each other, after the rows.
+// Probes in the order in which they build upon each other, after learn_rows().
 const std::vector<Probe>& probes() {
   static const std::vector<Probe> all = {
       {learn_clipping, {"clip_depth", "depth_planes"}},

@@ -31,8 +31,8 @@ struct KeptTriangle {
 using CullTriangles = void (*)(const Painting& painting, const AssemblyWork& draw, std::span<const glm::uvec3> corners,
                                KeptTriangle* to);
 
-/// Stages 0 to 4 by the definition, of primitives that do not go through them in lanes (clipped triangles, for one). Its
-/// memory is kept from frame to frame.
+/// Stages 0 to 4 by the definition, of primitives that do not go through them in lanes (clipped triangles, for one).
+/// Its memory is kept from frame to frame.
 class ScalarGeometry {
  public:
   /// `draws`: one for each of the scene's. Window triangles in draw order.

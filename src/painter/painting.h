@@ -106,8 +106,8 @@ struct PaintRun {
 struct Painting {
   FrameFormat format;
   Formats formats;
-  /// Sample offsets from the pixel's centre [1/256 pixel]: the pass' own (Formats::sample), or the four of a multisampled
-  /// pixel (takes_samples(), painter.cpp); within each_sample(), one of these.
+  /// Sample offsets from the pixel's centre [1/256 pixel]: the pass' own (Formats::sample), or the four of a
+  /// multisampled pixel (takes_samples(), painter.cpp); within each_sample(), one of these.
   std::span<const glm::ivec2> samples;
   int columns, rows;  ///< of tiles
   const PaintVertex* vertices;

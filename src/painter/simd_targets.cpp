@@ -21,8 +21,8 @@ bool has_f16c() {
 
 }  // namespace
 
-// Of a target, all instructions that its code is compiled for (plumbline_simd() in CMakeLists.txt): a virtual machine may
-// hide some of them.
+// Targets are those of which the processor has every instruction that their code is compiled for (plumbline_simd() in
+// CMakeLists.txt): a virtual machine may hide some.
 std::span<const SimdTarget> simd_targets() {
   static const std::array<SimdTarget, 4> kTargets = {
       {{"float", paint_vertices<float>, cull_triangles<float>, paint_tile<float>},

@@ -1,4 +1,4 @@
-// Where temporary files lie.
+// The folder for temporary files.
 #include "base/temporary_path.h"
 
 #include <gtest/gtest.h>

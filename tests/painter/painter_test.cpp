@@ -84,7 +84,8 @@ TEST(Painter, DrawsTrianglesOfAllSizesAsItsDefinitionDoes) {
 }
 
 // Surfaces on triangles of few pixels or none, a pixel of each at a time: textured, lit per fragment from one side and
-// from two, foggy, with flat and with smooth colours; of one face, and of both side by side; nearer ones first and last.
+// from two, foggy, with flat and with smooth colours; of one face, and of both side by side; nearer ones first and
+// last.
 TEST(Painter, ShadesSmallTrianglesAsItsDefinitionDoes) {
   const Stages stages = production_stages();
   const auto all = painters();

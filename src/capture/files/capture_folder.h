@@ -5,12 +5,12 @@
 //    "width": 97, "height": 61, "byte_order": "little",
 //    "arrays": [{"name": "window.p_win", "dtype": "f64", "shape": [1234, 3, 3], "file": "window.p_win.bin"}, ...]}
 //
-// dtype is one of f32 f64 u8 u16 u32 u64 i32; f32 may stand where f64 is expected. The first extent of a record's array is the number of records (of
-// window.* the next is the corner), of a plane's the row, from the bottom; the last is the component; matrices are
-// column by column. A file is its array's elements, the last index running fastest, and nothing else. The names, and
-// what belongs to each, are listed in capture_columns.h; values mean what stages.h and capture.h say. What was not
-// captured is left out: a plane, or all arrays of a record. Polygons, window triangles and
-// fragments may be in any order, a polygon's triangles in its own; columns that follow from others may be left out
+// dtype is one of f32 f64 u8 u16 u32 u64 i32; f32 may stand where f64 is expected. The first extent of a record's array
+// is the number of records (of window.* the next is the corner), of a plane's the row, from the bottom; the last is the
+// component; matrices are column by column. A file is its array's elements, the last index running fastest, and nothing
+// else. The names, and what belongs to each, are listed in capture_columns.h; values mean what stages.h and capture.h
+// say. What was not captured is left out: a plane, or all arrays of a record. Polygons, window triangles and fragments
+// may be in any order, a polygon's triangles in its own; columns that follow from others may be left out
 // (complete_records.h).
 #pragma once
 
@@ -26,8 +26,9 @@ struct CaptureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes a capture's records and planes; not its samples (an antialiased scene's passes), nor its legal answers. A folder that holds a capture and nothing else, or nothing, is
-/// replaced, in one moment; its parents are made. Throws OutputError (atomic_path.h).
+/// Writes a capture's records and planes; not its samples (an antialiased scene's passes), nor its legal answers. A
+/// folder that holds a capture and nothing else, or nothing, is replaced, in one moment; its parents are made. Throws
+/// OutputError (atomic_path.h).
 void write_capture(const Capture& capture, const std::filesystem::path& folder);
 
 /// What write_capture would throw of the folder, before there is a capture; leaves nothing behind.

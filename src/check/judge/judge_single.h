@@ -42,8 +42,8 @@ using MadeStages = std::map<Stage, Capture>;
 
 /// Rows of Kind::per_stage: every stage but matrices and resolve, as `referee` makes it of the candidate's own records,
 /// against the candidate's. `shown`: the candidate's info, which gives its abilities, profile and conventions; null: it
-/// shows every stage, is not foreign, and draws by OpenGL's conventions. `made`: stages that the referee has run already.
-/// `legal`: answers that are no difference in a foreign candidate's coverage (Profile::foreign).
+/// shows every stage, is not foreign, and draws by OpenGL's conventions. `made`: stages that the referee has run
+/// already. `legal`: answers that are no difference in a foreign candidate's coverage (Profile::foreign).
 std::vector<Comparison> judge_records(const Scene& scene, const Capture& candidate, Renderer& referee,
                                       const RendererInfo* shown = nullptr, const MadeStages& made = {},
                                       const Legal& legal = {});

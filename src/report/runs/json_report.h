@@ -32,11 +32,10 @@ struct RunHead {
 
 /// {"format": "plumbline run", "version": 1, "versions": {renderer: version}, "fault", "against", "golden", "failures",
 /// "tolerances": {the ledger's row: factor}, "shard": {index, of, scenes}, "scenes": [{scene, file, seconds, failure,
-/// repeat}] (the last two where it does not hold), "comparisons": [{scene, reference, kind, title, stage, outcome, pixels,
-/// differing, ambiguous, max_difference, unit, worst, disputed, max_ratio, histogram, dispute, ledger, note}] (the last
-/// three where there are any)}. Numbers that JSON cannot hold are the strings "inf", "-inf"
-/// and "nan". Text that is no UTF-8 has U+FFFD for each byte. Written whole or not at all. Throws OutputError
-/// (atomic_path.h).
+/// repeat}] (the last two where it does not hold), "comparisons": [{scene, reference, kind, title, stage, outcome,
+/// pixels, differing, ambiguous, max_difference, unit, worst, disputed, max_ratio, histogram, dispute, ledger, note}]
+/// (the last three where there are any)}. Numbers that JSON cannot hold are the strings "inf", "-inf" and "nan". Text
+/// that is no UTF-8 has U+FFFD for each byte. Written whole or not at all. Throws OutputError (atomic_path.h).
 void write_json(const std::filesystem::path& file, std::span<const check::SceneVerdict> verdicts, const RunHead& head);
 
 /// {"format": "plumbline diagnosis", "version": 1, "scene", "file", "versions", "first" (a stage or null), "wrong":

@@ -19,8 +19,8 @@ std::string failure_lines(const check::SceneVerdict& verdict, std::span<const St
 /// A line per group (the part of a scene's name before its first '/'), sorted: its scenes, and how many of their
 /// comparisons came to what.
 std::string group_lines(std::span<const check::SceneVerdict> verdicts);
-/// The last line: a word, and how many comparisons came to what. "FAILED" unless all hold; "nothing was judged"; "ok" where
-/// every stage was judged and no row is unsupported, missing, disputed or expected; else "ok where judged".
+/// The last line: a word, and how many comparisons came to what. "FAILED" unless all hold; "nothing was judged"; "ok"
+/// where every stage was judged and no row is unsupported, missing, disputed or expected; else "ok where judged".
 std::string summary(std::span<const check::SceneVerdict> verdicts, bool all_hold, double seconds);
 
 /// A comparison of two images or captures: a line each, under a head.

@@ -1,4 +1,5 @@
-// Meshes as bytes in memory's own form, from the program that reads mesh files (program/mesh_reader.cpp) to load_mesh().
+// Meshes as bytes in memory's own form, from the program that reads mesh files (program/mesh_reader.cpp) to
+// load_mesh().
 #pragma once
 
 #include <string>
@@ -10,7 +11,8 @@
 namespace plumbline {
 
 std::string to_bytes(std::vector<MeshPart> parts);
-/// Parts of which to_bytes() made the bytes; of other bytes, anything. Throws std::runtime_error where they end too early.
+/// Parts of which to_bytes() made the bytes; of other bytes, anything. Throws std::runtime_error where they end too
+/// early.
 std::vector<MeshPart> parts_of(std::string_view bytes);
 
 }  // namespace plumbline

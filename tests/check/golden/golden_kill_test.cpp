@@ -58,7 +58,7 @@ std::string bytes_of(const fs::path& file) {
 TEST(golden_kill, leaves_the_old_set_or_the_new_one) {
   const char* said = std::getenv("PLUMBLINE_KILLS");
   const int kills = said != nullptr ? std::atoi(said) : 30;
-  // In memory, if it is free: a disk takes long to sync, and most kills would find it at that.
+  // A folder in memory, if that is free: a disk takes long to sync, and most kills would find it at that.
   const fs::path folder = temporary_files() / fmt::format("plumb-golden-kill-{}", ::getpid());
   fs::create_directories(folder);
   const Update updates[] = {update_of(0), update_of(1)};

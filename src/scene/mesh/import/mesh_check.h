@@ -1,6 +1,6 @@
 // What has to be checked in mesh files before assimp reads them, as it goes on by guessing: it leaves out vertices that
-// it cannot read, makes up what a truncated file lacks, takes hours over counts that are not true, and memory for lengths
-// beyond the file's end.
+// it cannot read, makes up what a truncated file lacks, takes hours over counts that are not true, and memory for
+// lengths beyond the file's end.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ namespace plumbline {
 /// Throws std::runtime_error: expected ..., found ... in line n.
 std::string check_obj(std::string_view text);
 
-/// Checks a binary glTF file's header and the heads of its chunks (glTF 2.0, section 4.4): version 2, and no length that
-/// reaches beyond the file. Throws std::runtime_error: expected ..., found ....
+/// Checks a binary glTF file's header and the heads of its chunks (glTF 2.0, section 4.4): version 2, and no length
+/// that reaches beyond the file. Throws std::runtime_error: expected ..., found ....
 void check_glb(std::string_view bytes);
 
 /// Checks a PLY file's bytes, ASCII or binary: the header; the elements that it announces, one after the other to the
