@@ -6,9 +6,9 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <random>
-#include <sstream>
+#include <string>
+#include <utility>
 
 #include "kernels/coverage.h"
 #include "painter/painter.h"
@@ -215,10 +215,10 @@ TEST(SimdTargets, BeginWithFloat) { EXPECT_EQ(simd_targets()[0].name, "float"); 
 
 // What the linker may put in the place of others of its name is this target's own.
 TEST(SimdTargets, NoneOfTheirFunctionsAreSharedWithOtherCode) {
-  std::istringstream objects(PLUMBLINE_SIMD_OBJECTS);
-  int functions = 0;
-  for (std::string object; std::getline(objects, object, ':');) {
-    const std::string stem = std::filesystem::path(object).stem(), target = stem.substr(stem.rfind('_') + 1);
+  const std::pair<std::string, std::string> objects[] = {
+      {"sse4", PLUMBLINE_OBJECT_sse4}, {"avx2", PLUMBLINE_OBJECT_avx2}, {"avx512", PLUMBLINE_OBJECT_avx512}};
+  for (const auto& [target, object] : objects) {
+    int functions = 0;
     FILE* nm = popen(("nm --defined-only --extern-only --format=posix '" + object + "'").c_str(), "r");
     ASSERT_NE(nm, nullptr);
     std::array<char, 65536> line;
@@ -228,8 +228,8 @@ TEST(SimdTargets, NoneOfTheirFunctionsAreSharedWithOtherCode) {
       ++functions;
     }
     EXPECT_EQ(pclose(nm), 0) << object;
+    EXPECT_GE(functions, 1) << object;
   }
-  EXPECT_GE(functions, 2);
 }
 
 }  // namespace
