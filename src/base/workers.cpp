@@ -272,7 +272,8 @@ void Workers::Run::run(const WorkerJobs& jobs) {
       } else {
         const std::uint32_t step = worker.progress.step();
         const int status = reap(worker);
-        const WorkerEnd ended{step, how_ended(status, worker.hung, worker.progress.limit())};
+        const WorkerEnd ended{step, how_ended(status, worker.hung, worker.progress.limit()),
+                              !worker.hung && WIFSIGNALED(status) ? WTERMSIG(status) : 0};
         if (++job.attempts > kMostAttempts) throw std::runtime_error("the worker process " + ended.how);
         job.request = jobs.ask_again(number, ended);
         again.push_back(number);

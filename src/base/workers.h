@@ -43,6 +43,7 @@ struct WorkerLimits {
 struct WorkerEnd {
   std::uint32_t step = Progress::kBetween;
   std::string how;  ///< such as "was killed by signal 11 (Segmentation fault)"
+  int signal = 0;   ///< that killed it, before its step's limit; 0: none
 };
 
 /// Requests 0 to n - 1, in the order in which they begin, and what becomes of them.

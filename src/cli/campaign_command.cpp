@@ -142,8 +142,7 @@ void judge_scenes(std::span<const campaign::SceneId> scenes, const CheckRules& r
   // Whoever kills a worker once, for instance where the machine's memory is short, means no scene.
   std::set<std::size_t> killed;
   const auto ask_again = [&](std::size_t i, const WorkerEnd& end) {
-    if (end.how.starts_with(fmt::format("was killed by signal {} ", SIGKILL)) && killed.insert(i).second)
-      return to_bytes(requests[i]);
+    if (end.signal == SIGKILL && killed.insert(i).second) return to_bytes(requests[i]);
     (end.step == Progress::kBetween ? requests[i].not_compared : requests[i].ended[end.step]) = end.how;
     return to_bytes(requests[i]);
   };

@@ -95,7 +95,7 @@ Ran harmed(const std::function<void()>& harm, const WorkerLimits& limits = {}) {
       limits);
 }
 
-void expect_one_end(const Ran& ran, const std::string& how) {
+void expect_one_end(const Ran& ran, const std::string& how, int signal = 0) {
   ASSERT_EQ(ran.taken.size(), 5u);
   EXPECT_EQ(ran.taken[2].second, "done again");
   EXPECT_EQ(ran.taken[4].second, "done 4");
@@ -103,11 +103,12 @@ void expect_one_end(const Ran& ran, const std::string& how) {
   EXPECT_EQ(ran.ends[0].first, 2u);
   EXPECT_EQ(ran.ends[0].second.step, 7u);
   EXPECT_EQ(ran.ends[0].second.how, how);
+  EXPECT_EQ(ran.ends[0].second.signal, signal);
 }
 
 TEST(Workers, ACrashEndsOneWorkerAndItsStepIsKnown) {
-  expect_one_end(harmed([] { raise(SIGSEGV); }), "was killed by signal 11 (Segmentation fault)");
-  expect_one_end(harmed([] { raise(SIGKILL); }), "was killed by signal 9 (Killed)");
+  expect_one_end(harmed([] { raise(SIGSEGV); }), "was killed by signal 11 (Segmentation fault)", SIGSEGV);
+  expect_one_end(harmed([] { raise(SIGKILL); }), "was killed by signal 9 (Killed)", SIGKILL);
   expect_one_end(harmed([] { _exit(3); }), "ended its process with status 3");
 }
 
