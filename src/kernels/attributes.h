@@ -50,8 +50,8 @@ PerspectiveSetup perspective_setup(const std::array<float, 3>& inv_w, const Corn
                                    bool may_go_in_blocks);
 
 struct AttributeSetup {
-  Vec4<float> color0, d_color1, d_color2;  ///< corner 0's, and the others' differences from it
-  bool constant = false;                   ///< no differences
+  Vec4<float> value0, delta1, delta2;  ///< corner 0's, and the others' differences from it
+  bool constant = false;               ///< no differences
 };
 /// Setup of an attribute from its values at the corners.
 AttributeSetup attribute_setup(const std::array<Vec4<float>, 3>& corners);
@@ -94,12 +94,12 @@ template <class R>
 /// The mean by these weights. `s`: an AttributeSetup, or one of lanes.
 template <class R>
 [[gnu::always_inline]] inline Color<R> mixed(const auto& s, const Weights<R>& k) {
-  return (Color<R>(s.color0) + k.k1 * Color<R>(s.d_color1)) + k.k2 * Color<R>(s.d_color2);
+  return (Color<R>(s.value0) + k.k1 * Color<R>(s.delta1)) + k.k2 * Color<R>(s.delta2);
 }
 /// The same; where there are no differences, without weights.
 template <class R>
 [[gnu::always_inline]] inline Color<R> mean(const AttributeSetup& s, const Weights<R>& k) {
-  if (s.constant) return Color<R>(s.color0) + R(0);  // + 0: -0 is 0, as it is where there are differences
+  if (s.constant) return Color<R>(s.value0) + R(0);  // + 0: -0 is 0, as it is where there are differences
   return mixed<R>(s, k);
 }
 

@@ -109,7 +109,7 @@ class OpaqueRun {
                                              [[maybe_unused]] ShadedPixels<R, kSamples>* shaded) {
     using W = Wide<R>;
     constexpr bool kColors = !kDepthFirst && kPlain != Plain::one_color;
-    const Color<R> one_color(s.attributes.color0);
+    const Color<R> one_color(s.attributes.value0);
     const Int<R> one_code = packed_merge(one_color);
 
     const Affine<double>* const weight_plane[3] = {&s.perspective.q1, &s.perspective.q2, &s.perspective.sum};

@@ -50,7 +50,7 @@ class PixelsOfLanes {
     if constexpr (kColors == PixelColors::own) {
       const R q1 = to_float(value(q1_)), q2 = to_float(value(q2_)), sum = to_float(value(sum_));
       if constexpr (kPlain) {
-        store(packed_merge_near(plain_color(color_, q1, q2, sum, color_.color0.a)), color_of_[i]);
+        store(packed_merge_near(plain_color(color_, q1, q2, sum, color_.value0.a)), color_of_[i]);
       } else {
         store(packed_merge(mean_of_lanes<R>(color_, weights<R>(q1, q2, sum))), color_of_[i]);
       }

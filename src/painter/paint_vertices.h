@@ -55,7 +55,7 @@ Int<R> paint_vertex_lanes(const VertexWork& work, std::size_t i) {
   Vec4<R> p_eye(R(0));
   if (work.wants_normals) {
     n = product<R>(work.matrices.normal, Lanes<R>::load_threes(&work.mesh->normals[i].x));
-    n = n / (work.normal_divisor != 0.0f ? R(work.normal_divisor) : length(n));
+    n = n / (work.normalizes ? length(n) : R(work.normal_divisor));
   }
   if (work.wants_normals || carries(Varying::position)) p_eye = product<R>(work.matrices.model_view, p_model);
   if (carries(Varying::normal)) store_varying(Varying::normal, {n, R(0)});

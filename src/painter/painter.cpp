@@ -198,9 +198,8 @@ void Painter::Memory::run_vertices(const Scene& scene) {
     work.mesh = &mesh;
     work.matrices = matrices(scene, draw);
     work.to_clip = clip_matrix(work.matrices);
-    work.normal_divisor = draw.normals == Normals::normalize ? 0.0f
-                          : draw.normals == Normals::rescale ? length(work.matrices.normal[2])
-                                                             : 1.0f;
+    work.normalizes = draw.normals == Normals::normalize;
+    work.normal_divisor = draw.normals == Normals::rescale ? length(work.matrices.normal[2]) : 1.0f;
     if (is_lit_per_vertex(draw)) {
       work.illumination = &illumination;
       work.reflectance = reflectance<float>(scene, {lit_material(scene, draw, {}, nullptr)}, {});

@@ -55,7 +55,8 @@ struct VertexWork {
   const Mesh* mesh;
   Matrices<float> matrices;
   Mat4<float> to_clip;
-  float normal_divisor;  ///< 0: each normal's own length
+  bool normalizes;       ///< normals are divided by their own length
+  float normal_divisor;  ///< else by this
   bool wants_normals;
   const Illumination* illumination;           ///< null: vertices have the mesh's colours, or `color`
   Reflectance<float> reflectance, secondary;  ///< as LitPart

@@ -93,9 +93,9 @@ struct LaneTriangles {
     s.perspective.q1 = q1.of(lane), s.perspective.q2 = q2.of(lane), s.perspective.sum = sum.of(lane);
     s.perspective.in_blocks = (in_blocks >> lane & 1u) != 0;
     for (int c = 0; c < 4; ++c) {
-      s.attributes.color0[c] = color[0][c][lane];
-      s.attributes.d_color1[c] = color[1][c][lane];
-      s.attributes.d_color2[c] = color[2][c][lane];
+      s.attributes.value0[c] = color[0][c][lane];
+      s.attributes.delta1[c] = color[1][c][lane];
+      s.attributes.delta2[c] = color[2][c][lane];
     }
     s.attributes.constant = constant_colors[lane] != 0;
     s.nearest = nearest[lane];
@@ -137,7 +137,7 @@ template <class R>
 /// AttributeSetup, of all lanes.
 template <class R>
 struct AttributeLanes {
-  Color<R> color0, d_color1, d_color2;
+  Color<R> value0, delta1, delta2;
   Mask<R> constant;
 };
 /// attribute_setup() of what `member` points to in a corner: four floats. `flat`: the provoking vertex's, of all corners.
@@ -146,10 +146,10 @@ template <class R>
                                                                 auto member) {
   const auto at = [&](int k) { return load_corner<R>(corner[flat ? 1 : k], member); };
   AttributeLanes<R> out;
-  out.color0 = at(0), out.d_color1 = at(1) - out.color0, out.d_color2 = at(2) - out.color0;
+  out.value0 = at(0), out.delta1 = at(1) - out.value0, out.delta2 = at(2) - out.value0;
   out.constant = Lanes<R>::mask_of(~0u);
   for (int c = 0; c < 4; ++c) {
-    const Mask<R> as_1 = out.d_color1[c] == R(0), as_2 = out.d_color2[c] == R(0);
+    const Mask<R> as_1 = out.delta1[c] == R(0), as_2 = out.delta2[c] == R(0);
     out.constant = out.constant & as_1 & as_2;
   }
   return out;
@@ -162,11 +162,11 @@ template <class R, int kSampleCount>
   const auto color_of = [](const PaintVertex* v) { return &v->color.r; };
   const AttributeLanes<R> color = attribute_lanes<R>(corner, flat, color_of);
   for (int c = 0; c < 4; ++c) {
-    store(color.color0[c], out.color[0][c]);
-    store(color.d_color1[c], out.color[1][c]), store(color.d_color2[c], out.color[2][c]);
+    store(color.value0[c], out.color[0][c]);
+    store(color.delta1[c], out.color[1][c]), store(color.delta2[c], out.color[2][c]);
   }
   store(select(color.constant, Int<R>(1), Int<R>(0)), out.constant_colors);
-  return (color.d_color1.a == R(0)) & (color.d_color2.a == R(0));
+  return (color.delta1.a == R(0)) & (color.delta2.a == R(0));
 }
 
 /// Planes of depth at each sample, and of the colours' weights, which are the centre's.

@@ -20,9 +20,9 @@ template <class R, int kSampleCount>
 [[gnu::always_inline]] inline AttributeLanes<R> colors_of(const LaneTriangles<R, kSampleCount>& lanes) {
   AttributeLanes<R> out;
   for (int c = 0; c < 4; ++c) {
-    out.color0[c] = Lanes<R>::load(lanes.color[0][c]);
-    out.d_color1[c] = Lanes<R>::load(lanes.color[1][c]);
-    out.d_color2[c] = Lanes<R>::load(lanes.color[2][c]);
+    out.value0[c] = Lanes<R>::load(lanes.color[0][c]);
+    out.delta1[c] = Lanes<R>::load(lanes.color[1][c]);
+    out.delta2[c] = Lanes<R>::load(lanes.color[2][c]);
   }
   out.constant = Lanes<R>::load(lanes.constant_colors) != Int<R>(0);
   return out;

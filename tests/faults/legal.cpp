@@ -234,8 +234,8 @@ Color<float> attributes_in_double(const Setup& s, const pipeline::AttributeSetup
                q2 = b.l2 * static_cast<double>(inv_w[2]), sum = q0 + q1 + q2;
   if (!(std::abs(sum) > 1e-37)) return pipeline::mean<float>(of, weights_of(s, p));
   const auto channel = [&](int i) {
-    const double of_0 = static_cast<double>(of.color0[i]), d1 = static_cast<double>(of.d_color1[i]),
-                 d2 = static_cast<double>(of.d_color2[i]);
+    const double of_0 = static_cast<double>(of.value0[i]), d1 = static_cast<double>(of.delta1[i]),
+                 d2 = static_cast<double>(of.delta2[i]);
     return static_cast<float>(of_0 + (q1 * d1 + q2 * d2) / sum);
   };
   return {channel(0), channel(1), channel(2), channel(3)};

@@ -184,9 +184,9 @@ TEST(PipelineAttributes, BesideTheHorizonOfTheFarthestCornersToo) {
 
 TEST(PipelineAttributes, SetUpIsDifferencesFromCornerZero) {
   const AttributeSetup s = color_setup(triangle(1, 4, 0.5f));
-  EXPECT_EQ(s.color0, kA);
-  EXPECT_EQ(s.d_color1, kB - kA);
-  EXPECT_EQ(s.d_color2, kC - kA);
+  EXPECT_EQ(s.value0, kA);
+  EXPECT_EQ(s.delta1, kB - kA);
+  EXPECT_EQ(s.delta2, kC - kA);
 }
 
 TEST(PipelineShade, IsTheAttributesColour) {
