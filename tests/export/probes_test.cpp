@@ -15,12 +15,17 @@ Scene scene_named(const std::string& name) {
   return load_scene(PLUMBLINE_SOURCE_DIR "/tests/scenes/" + name + ".json");
 }
 
+Capture capture_of_nothing(const Scene& scene) {
+  Capture out;
+  out.width = scene.frame.width;
+  out.height = scene.frame.height;
+  return out;
+}
+
 // The planes that pictures alone come to.
 Planes probed(const Scene& scene) {
   const auto renderer = pipeline::make_pipeline();
-  Capture capture;
-  capture.width = scene.frame.width;
-  capture.height = scene.frame.height;
+  Capture capture = capture_of_nothing(scene);
   add_probed_planes(scene, *renderer, capture);
   return capture.planes;
 }
@@ -59,9 +64,7 @@ struct WholeAlone : Renderer {
 TEST(Probes, ShowNoCoverageWhereOneOfThePicturesIsLacking) {
   const Scene scene = scene_named("clip/crowd");
   WholeAlone renderer;
-  Capture capture;
-  capture.width = scene.frame.width;
-  capture.height = scene.frame.height;
+  Capture capture = capture_of_nothing(scene);
   EXPECT_THROW(add_probed_planes(scene, renderer, capture), Unsupported);
   EXPECT_TRUE(capture.planes.count.empty());
 }
@@ -80,9 +83,7 @@ class OfAnotherBackground : public Renderer {
 TEST(Probes, ShowNoWinnersWhereAColourIsNoPrimitives) {
   const Scene scene = scene_named("coverage/shared_edges");
   OfAnotherBackground renderer;
-  Capture capture;
-  capture.width = scene.frame.width;
-  capture.height = scene.frame.height;
+  Capture capture = capture_of_nothing(scene);
   EXPECT_THROW(add_probed_planes(scene, renderer, capture), Unsupported);
   EXPECT_TRUE(capture.planes.id.empty());
 }

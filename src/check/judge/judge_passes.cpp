@@ -129,8 +129,8 @@ Measurement compare_resolved(const Scene& scene, const Capture& candidate, const
   });
 }
 
-Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& reference,
-                             const Disputed& disputed) {
+Measurement compare_frames(const Scene& scene, const Capture& candidate, const Capture& reference,
+                           const Disputed& disputed) {
   const Plane<glm::vec4>&a = candidate.planes.color, &b = reference.planes.color;
   const double scale = color_scale(scene.frame.color);
   const std::string unit = scale > 0 ? fmt::format("1/{}", scale) : "u";
@@ -226,7 +226,7 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
         continue;
       }
       verdict.comparisons.push_back(judged(scene.name, name, Stage::resolve,
-                                           compare_resolved(scene, *mine, theirs[i], disputed_by(info.name, passes))));
+                                           compare_frames(scene, *mine, theirs[i], disputed_by(info.name, passes))));
     } catch (const Unsupported& e) {
       skip(name, Outcome::unsupported, e.what());
     } catch (const OverBudget& e) {

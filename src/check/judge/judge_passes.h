@@ -36,7 +36,7 @@ struct Disputed {
 /// Against what another made of its own samples: where those are the candidate's, nothing may differ but what is flushed
 /// to zero; where they are not (which is the passes' matter), the mean of their differences, and a rounding on either
 /// side. What disputed samples alone explain is disputed again.
-Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& reference,
-                             const Disputed& disputed = {});
+Measurement compare_frames(const Scene& scene, const Capture& candidate, const Capture& reference,
+                           const Disputed& disputed = {});
 
 }  // namespace plumbline::check

@@ -23,7 +23,7 @@ struct Resolved : testing::Test {
   bool by_exact(const std::vector<double>& samples, double resolved, double mean) const {
     return compare_resolved(scene, of(samples, resolved), of(samples, mean), 1).differing == 0;
   }
-  bool side_by_side(const Capture& a, const Capture& b) const { return compare_resolved(scene, a, b).differing == 0; }
+  bool side_by_side(const Capture& a, const Capture& b) const { return compare_frames(scene, a, b).differing == 0; }
   Scene scene;
 };
 
@@ -84,7 +84,7 @@ TEST_F(Resolved, WhatDisputedSamplesAloneExplainIsDisputed) {
   const Capture mine = of({1, 2, 3, 4}, 2);
   Disputed disputed{{{}, {}, {}, {{0, 0}}}, "switched early"};
   const auto against = [&](const std::vector<double>& samples, double resolved) {
-    const Measurement m = compare_resolved(scene, mine, of(samples, resolved), disputed);
+    const Measurement m = compare_frames(scene, mine, of(samples, resolved), disputed);
     return std::array{m.differing, m.disputed};
   };
   using Counts = std::array<std::uint64_t, 2>;
@@ -92,7 +92,7 @@ TEST_F(Resolved, WhatDisputedSamplesAloneExplainIsDisputed) {
   EXPECT_EQ(against({1, 2, 3, 12}, 6), (Counts{1, 0})) << "more than it explains";
   EXPECT_EQ(against({1, 2, 11, 4}, 5), (Counts{0, 0})) << "of another sample";
   EXPECT_EQ(against({1, 2, 3, 4}, 3), (Counts{1, 0})) << "its samples are ours";
-  const Measurement m = compare_resolved(scene, mine, of({1, 2, 3, 12}, 5), disputed);
+  const Measurement m = compare_frames(scene, mine, of({1, 2, 3, 12}, 5), disputed);
   EXPECT_EQ(m.reason, "switched early");
   EXPECT_EQ(to_string(m.dispute.place), "pixel 0,0 color");
   EXPECT_NEAR(m.dispute.difference, 3, 1e-5);
