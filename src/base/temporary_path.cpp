@@ -63,7 +63,7 @@ constexpr const char* kMemory = "/dev/shm";  // tmpfs(5)
 
 bool is_roomy_memory(const char* folder) {
   constexpr std::uint64_t kRoom = std::uint64_t{2} << 30;  // four captures of the largest budget [bytes]
-  struct statfs of {};
+  struct statfs of = {};
   return ::statfs(folder, &of) == 0 && of.f_type == TMPFS_MAGIC && ::access(folder, W_OK | X_OK) == 0 &&
          static_cast<std::uint64_t>(of.f_bavail) * static_cast<std::uint64_t>(of.f_bsize) >= kRoom;
 }
@@ -71,8 +71,8 @@ bool is_roomy_memory(const char* folder) {
 }  // namespace
 
 fs::path temporary_files() {
-  constexpr const char* kVariables[] = {"TMPDIR", "TMP", "TEMP",
-                                        "TEMPDIR"};  // of std::filesystem::temp_directory_path()
+  // Of std::filesystem::temp_directory_path().
+  constexpr const char* kVariables[] = {"TMPDIR", "TMP", "TEMP", "TEMPDIR"};
   const bool is_said = std::ranges::any_of(kVariables, [](const char* name) { return std::getenv(name) != nullptr; });
   if (!is_said && is_roomy_memory(kMemory)) return kMemory;
   std::error_code error;
