@@ -95,7 +95,7 @@ TEST(Probes, ColoursAreNumbersAndBack) {
   scene.meshes[0].normals.resize(3);
   scene.meshes[0].triangles.assign(70000, {0, 1, 2});
   scene.draws.resize(1);
-  const Mesh apart = primitives_told_apart(scene).meshes[0];
+  const Mesh apart = primitives_by_color(scene).meshes[0];
   for (const int primitive : {0, 1, 254, 255, 256, 65534, 65535, 69999}) {
     EXPECT_EQ(winner_of(apart.colors[3 * static_cast<std::size_t>(primitive)]), primitive);
   }

@@ -39,8 +39,8 @@ struct Builder {
   Choices choose;
   std::string dialect = "gl";
   View view;
-  bool has_stencil = false;  ///< of the frame
-  bool has_thin = false;     ///< lines, points, or polygons drawn as such
+  bool has_stencil = false;        ///< of the frame
+  bool has_line_or_point = false;  ///< lines, points, or polygons drawn as such
   std::string_view color_format = "rgba8";
   Object textures;
   std::vector<std::string> texture_names;
@@ -71,8 +71,8 @@ Shape shape(Builder& b);
 struct HardMesh {
   std::string text;
   bool textured = false;  ///< the mesh has texture coordinates
-  bool thin = false;      ///< lines or points
-  bool made = false;      ///< by a generator, about the origin, of about unit size
+  bool line_or_point = false;
+  bool made = false;  ///< by a generator, about the origin, of about unit size
 };
 HardMesh mesh(Builder& b);
 std::string place_made(Builder& b);  ///< transforms that bring what is made into view

@@ -29,7 +29,7 @@ void add_surface_state(Builder& b, Object& draw, bool textured) {
   } else if (c.chance(15)) {
     const std::string_view front = kModes[c.count(0, 2)], back = kModes[c.count(0, 2)];
     draw.put_word("front_mode", front).put_word("back_mode", back);
-    b.has_thin |= front != "fill" || back != "fill";
+    b.has_line_or_point |= front != "fill" || back != "fill";
   }
 }
 
@@ -39,7 +39,7 @@ Object draw(Builder& b) {
   Object out("mesh", of.text);
   if (of.made) out.put("transforms", place_made(b));
   add_surface_state(b, out, of.textured);
-  if (of.thin || out.has("front_mode")) {
+  if (of.line_or_point || out.has("front_mode")) {
     if (c.chance(60)) out.put("line_width", c.of({1, 2, 3, 4, 7, 16}));
     if (c.chance(60)) out.put("point_size", c.of({1, 2, 3, 5, 8, 64}));
   }

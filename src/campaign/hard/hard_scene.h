@@ -1,7 +1,7 @@
 // Hard scenes by seed: geometry and state at which pipelines break, in all states of the scene format.
 //
 // Written from the scene format's schema and from what hurts (builder.h). Shares nothing with src/campaign/ordinary but
-// random numbers and JSON text: two authors miss different things.
+// random numbers and JSON text: what one author forgets, the other may not.
 #pragma once
 
 #include "campaign/text/choices.h"

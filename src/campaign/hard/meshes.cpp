@@ -74,9 +74,9 @@ HardMesh quad(Builder& b) {
   return {Object("quad", out.text()).text(), true, false, unit};
 }
 
-HardMesh thin(Builder& b) {
+HardMesh lines_or_points(Builder& b) {
   Choices& c = b.choose;
-  b.has_thin = true;
+  b.has_line_or_point = true;
   Shape of = shape(b);
   if (of.positions.size() < 2) of.positions.push_back(of.positions.front());
   Object out("positions", points_text(of.positions));
@@ -123,7 +123,7 @@ HardMesh made(Builder& b) {
 HardMesh mesh(Builder& b) {
   switch (b.choose.count(0, 9)) {
     case 0: return made(b);
-    case 1: return thin(b);
+    case 1: return lines_or_points(b);
     case 2: return quad(b);
     default: return written_out(b);
   }

@@ -27,7 +27,7 @@ Angle angle(Builder& b) { return kAngles[b.choose.count(0, 6)]; }
 
 Object antialias(Builder& b) {
   const std::string_view kind =
-      b.has_thin ? "taps" : b.choose.word({"samples", "samples", "samples", "supersample", "taps"});
+      b.has_line_or_point ? "taps" : b.choose.word({"samples", "samples", "samples", "supersample", "taps"});
   if (kind == "samples") return Object("samples", "4");
   if (kind == "taps") return Object("taps", json_string("gzrender"));
   return Object("supersample", json(b.choose.count(1, 3)));

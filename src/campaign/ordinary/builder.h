@@ -25,7 +25,7 @@ struct Builder {
   bool greater_is_nearer = false;  ///< the dialect's depth buffer
   int width = 64, height = 64;     ///< pixels
   bool wants_stencil = false;      ///< a draw tests the stencil buffer
-  bool has_thin = false;           ///< lines or points are drawn
+  bool has_line_or_point = false;  ///< lines or points are drawn
   bool is_lit = true;              ///< lights stand in the scene
   int texture_count = 0;
   Object textures;
@@ -71,7 +71,7 @@ Object wire_grid_mesh(Builder& b);
 Object curve_mesh(Builder& b);
 Object star_mesh(Builder& b, int count);
 
-// Things (things.cpp): each adds one or several draws.
+// Opaque draws (opaque_draws.cpp): each adds one or several.
 std::string place(Builder& b, const Solid& solid);  ///< transforms that stand it somewhere on the floor
 void add_floor(Builder& b);
 void add_wall(Builder& b);

@@ -60,7 +60,7 @@ void add_wireframe(Builder& b) {
   if (over) wire.put_word("depth_func", nearer_or_equal(b));
   if (c.chance(30)) wire.put("line_width", c.of({2, 2, 3, 4}));
   if (c.chance(20)) wire.put_word("cull", "back");
-  b.has_thin = true;
+  b.has_line_or_point = true;
   b.draws.push_back(wire);
 }
 
@@ -113,7 +113,7 @@ void add_glow(Builder& b) {
   Object draw;
   if (c.chance(50)) {
     draw.put("mesh", star_mesh(b, c.count(3, 30))).put("point_size", c.of({2, 3, 4, 6, 8}));
-    b.has_thin = true;
+    b.has_line_or_point = true;
   } else {
     draw.put("mesh", quad(b, b.reach * 0.4, b.reach * 0.4)).put("transforms", somewhere(b));
     if (c.chance(60)) draw.put("texture", draw_texture(b, add_texture(b)));

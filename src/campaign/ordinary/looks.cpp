@@ -154,7 +154,7 @@ void add_solid_state(Builder& b, Object& draw) {
     draw.put_word("back_mode", c.chance(70) ? mode : c.word({"fill", "line", "point"}));
     if (c.chance(30)) draw.put("line_width", c.count(1, 4));
     if (c.chance(30)) draw.put("point_size", c.count(1, 6));
-    b.has_thin = true;
+    b.has_line_or_point = true;
   }
 }
 

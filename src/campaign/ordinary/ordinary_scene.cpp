@@ -14,7 +14,7 @@ void choose_dialect(Builder& b) {
   if (b.dialect == "tinyrenderer") b.reach = 1;
 }
 
-// Opaque things, then effects, then what is seen through: as a tutorial orders them.
+// Opaque draws, then effects, then translucent draws: the order of tutorials.
 void add_draws(Builder& b) {
   Choices& c = b.choose;
   if (c.chance(12)) add_triangles(b);

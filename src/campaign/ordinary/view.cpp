@@ -17,7 +17,8 @@ std::string_view depth_format(Builder& b) {
 }
 
 Object antialias(Builder& b) {
-  if (b.has_thin) return Object("taps", json_string("gzrender"));  // the format's only kind for lines and points
+  if (b.has_line_or_point)
+    return Object("taps", json_string("gzrender"));  // the format's only kind for lines and points
   const std::string_view kind = b.choose.word({"samples", "samples", "supersample", "taps"});
   if (kind == "samples") return Object("samples", "4");
   if (kind == "taps") return Object("taps", json_string("gzrender"));
@@ -75,7 +76,7 @@ Object frame(Builder& b) {
   if (b.choose.chance(50)) out.put_numbers("clear_color", opaque(b));
   if (b.wants_stencil) out.put_word("stencil", "s8");
   if (b.wants_stencil && b.choose.chance(10)) out.put("clear_stencil", b.choose.of({1, 128, 255}));
-  if (b.choose.chance(b.has_thin ? 2 : 8)) out.put("antialias", antialias(b));
+  if (b.choose.chance(b.has_line_or_point ? 2 : 8)) out.put("antialias", antialias(b));
   return out;
 }
 

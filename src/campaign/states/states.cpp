@@ -13,9 +13,9 @@ namespace plumbline::campaign {
 namespace {
 
 // Says of each state whether a scene is of it. The order of the calls numbers the states.
-class Teller {
+class StateFinder {
  public:
-  Teller(const Scene& scene, const Capture& drawn, const std::function<void(const std::string&, bool)>& tell)
+  StateFinder(const Scene& scene, const Capture& drawn, const std::function<void(const std::string&, bool)>& tell)
       : scene_(scene), records_(drawn.records), planes_(drawn.planes), tell_(tell) {}
 
   void all() {
@@ -244,7 +244,7 @@ const std::vector<std::string>& state_names() {
     };
     const Scene none;
     const Capture nothing;
-    Teller(none, nothing, take).all();
+    StateFinder(none, nothing, take).all();
     return out;
   }();
   return kNames;
@@ -257,7 +257,7 @@ StateBits states_of(const Scene& scene, const Capture& drawn) {
     if (is) out[state / 8] = static_cast<char>(out[state / 8] | (1 << (state % 8)));
     ++state;
   };
-  Teller(scene, drawn, take).all();
+  StateFinder(scene, drawn, take).all();
   return out;
 }
 

@@ -87,7 +87,7 @@ Scene primitive_alone(const Scene& scene, std::uint32_t primitive) {
   return out;
 }
 
-Scene primitives_told_apart(const Scene& scene) {
+Scene primitives_by_color(const Scene& scene) {
   Scene out = stage_of(scene);
   std::uint32_t primitive = 0;
   for (const Draw& of : scene.draws) {
@@ -133,7 +133,7 @@ void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture)
   }
   const bool by_alpha = std::ranges::any_of(scene.draws, [](const Draw& d) { return d.alpha_test.has_value(); });
   if (!planes.id.empty() || by_alpha || scene.frame.stencil != StencilFormat::none) return;
-  const Plane<glm::vec4> picture = picture_of(primitives_told_apart(scene), renderer);
+  const Plane<glm::vec4> picture = picture_of(primitives_by_color(scene), renderer);
   Plane<std::int32_t> id(capture.width, capture.height);
   std::ranges::transform(picture.values(), id.values().begin(), winner_of);
   const auto is_none = [&](std::int32_t winner) { return winner >= static_cast<std::int32_t>(primitives); };

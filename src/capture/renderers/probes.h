@@ -15,7 +15,7 @@ inline constexpr std::size_t kMostProbes = 4096;
 Scene primitive_alone(const Scene& scene, std::uint32_t primitive);
 /// The scene whose colours tell the winners: each primitive has one colour, nothing is blended; depth and stencil tests
 /// are the scene's. `winner_of` takes a colour back.
-Scene primitives_told_apart(const Scene& scene);
+Scene primitives_by_color(const Scene& scene);
 std::int32_t winner_of(const glm::vec4& color);
 
 /// Adds to a capture the planes of coverage (count, id_sum) and of the winners (id), from pictures that the renderer

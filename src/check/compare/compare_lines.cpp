@@ -173,7 +173,7 @@ Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, 
   return meter.done();
 }
 
-Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, const Capture& reference) {
+Measurement compare_line_or_point_winners(const Scene& scene, const Capture& candidate, const Capture& reference) {
   const Planes &mine = candidate.planes, &theirs = reference.planes;
   std::string why;
   if (!same_size(mine.id_sum, theirs.id_sum, why) || !same_size(mine.count, theirs.count, why) ||

@@ -19,6 +19,6 @@ Measurement compare_covered_lines(const Scene& scene, const Capture& candidate, 
 /// Winners, and stencil values, of scenes with lines or points. Where the two sides cover a pixel with other
 /// primitives, that is coverage's matter; where both sides' are legal by the candidate's earlier records
 /// (open_pixels.h, LegalWinners), let them be: either is ambiguous.
-Measurement compare_thin_winners(const Scene& scene, const Capture& candidate, const Capture& reference);
+Measurement compare_line_or_point_winners(const Scene& scene, const Capture& candidate, const Capture& reference);
 
 }  // namespace plumbline::check

@@ -66,16 +66,16 @@ class OthersCover {
  public:
   OthersCover(const Planes& a, const Planes& b) : a_(a), b_(b) {
     std::string why;
-    told_ = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why) && same_size(a.count, b.count, why) &&
-            same_size(a.count, a.id, why);
+    comparable_ = same_size(a.id_sum, b.id_sum, why) && same_size(a.id_sum, a.id, why) &&
+                  same_size(a.count, b.count, why) && same_size(a.count, a.id, why);
   }
   bool operator()(int x, int y) const {
-    return told_ && (a_.id_sum(x, y) != b_.id_sum(x, y) || a_.count(x, y) != b_.count(x, y));
+    return comparable_ && (a_.id_sum(x, y) != b_.id_sum(x, y) || a_.count(x, y) != b_.count(x, y));
   }
 
  private:
   const Planes &a_, &b_;
-  bool told_ = false;
+  bool comparable_ = false;
 };
 
 bool reads_frame(const BlendTerm& term) {

@@ -127,7 +127,7 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
       if (mine.depth.size() != mine.covered.size()) {
         return c.skip(name, stage, Outcome::unsupported, "it shows no depths of fragments");
       }
-      return c.add(name, stage, compare_thin_winners(c.scene, c.candidate, theirs));
+      return c.add(name, stage, compare_line_or_point_winners(c.scene, c.candidate, theirs));
     case Stage::merge: {
       const bool replaced = colors_replace(c.scene);
       if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {

@@ -105,8 +105,8 @@ Mesh read_triangles(const JsonNode& node) {
 }
 
 /// Primitives that have no side, and so no normal of their own: +z.
-Mesh thin_mesh(std::vector<glm::vec3> positions, std::vector<glm::uvec3> primitives, std::vector<glm::vec4> colors,
-               Topology topology) {
+Mesh line_or_point_mesh(std::vector<glm::vec3> positions, std::vector<glm::uvec3> primitives,
+                        std::vector<glm::vec4> colors, Topology topology) {
   std::vector<glm::vec3> normals(positions.size(), glm::vec3(0, 0, 1));
   return {std::move(positions), std::move(normals), std::move(colors), std::move(primitives), topology};
 }
@@ -124,7 +124,7 @@ Mesh read_lines(const JsonNode& node) {
     lines.emplace_back(a, b, b);
   }
   std::vector<glm::vec4> colors = read_colors(node, positions.size());
-  return thin_mesh(std::move(positions), std::move(lines), std::move(colors), Topology::lines);
+  return line_or_point_mesh(std::move(positions), std::move(lines), std::move(colors), Topology::lines);
 }
 
 Mesh read_points(const JsonNode& node) {
@@ -133,7 +133,7 @@ Mesh read_points(const JsonNode& node) {
   std::vector<glm::uvec3> points;
   for (std::uint32_t i = 0; i < positions.size(); ++i) points.emplace_back(i);
   std::vector<glm::vec4> colors = read_colors(node, positions.size());
-  return thin_mesh(std::move(positions), std::move(points), std::move(colors), Topology::points);
+  return line_or_point_mesh(std::move(positions), std::move(points), std::move(colors), Topology::points);
 }
 
 Mesh read_quad(const JsonNode& node) {

@@ -16,7 +16,7 @@ Measurement lines_compared(const Pixels& theirs) {
 
 Measurement winners(Capture mine, const Capture& theirs) {
   mine.records.depth.resize(mine.records.covered.size(), 0.5);
-  return compare_thin_winners({}, mine, theirs);
+  return compare_line_or_point_winners({}, mine, theirs);
 }
 
 TEST(CheckLines, the_same_pixels_are_equal) {

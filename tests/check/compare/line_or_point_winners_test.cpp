@@ -7,8 +7,8 @@ namespace {
 
 // At (4, 3), the pixel above a line's middle: the line's fragment (1), whose depth of 0.55 moves by 0.05 where it goes
 // by the major axis, and over it that of a point (9).
-struct ThinWinners : testing::Test {
-  ThinWinners() {
+struct LineOrPointWinners : testing::Test {
+  LineOrPointWinners() {
     scene.frame.width = 16;
     scene.frame.height = 12;
     scene.frame.depth = DepthFormat::z32f;
@@ -27,12 +27,12 @@ struct ThinWinners : testing::Test {
     return c;
   }
   Measurement compare(double z, std::int32_t mine, std::int32_t theirs) const {
-    return compare_thin_winners(scene, with(z, mine), with(z, theirs));
+    return compare_line_or_point_winners(scene, with(z, mine), with(z, theirs));
   }
   Scene scene;
 };
 
-TEST_F(ThinWinners, of_nearly_one_depth_are_ambiguous) {
+TEST_F(LineOrPointWinners, of_nearly_one_depth_are_ambiguous) {
   for (const double z : {0.5, 0.55, 0.6}) {
     EXPECT_TRUE(passes(compare(z, 1, 9))) << z;
     EXPECT_TRUE(passes(compare(z, 9, 1))) << z;
@@ -47,7 +47,7 @@ TEST_F(ThinWinners, of_nearly_one_depth_are_ambiguous) {
   EXPECT_TRUE(fails(compare(0.5, 9, 2)));
 }
 
-TEST_F(ThinWinners, depths_that_stay_in_the_frame_excuse_nothing) {
+TEST_F(LineOrPointWinners, depths_that_stay_in_the_frame_excuse_nothing) {
   scene.draws[0].merge.depth_mask = false;  // both sides hold the cleared depth, and what is drawn last wins
   EXPECT_TRUE(fails(compare(0.5, 1, 9)));
   EXPECT_TRUE(fails(compare(0.5, 9, 1)));
@@ -56,7 +56,7 @@ TEST_F(ThinWinners, depths_that_stay_in_the_frame_excuse_nothing) {
   EXPECT_TRUE(passes(compare(1 - 0x1p-25, 9, kBackground))) << "the cleared depth, or nearly";
 }
 
-TEST_F(ThinWinners, stencil_values_are_those_of_open_tests) {
+TEST_F(LineOrPointWinners, stencil_values_are_those_of_open_tests) {
   scene.frame.stencil = StencilFormat::s8;
   Stencil test;
   test.front.pass = test.back.pass = StencilOp::increment;
@@ -66,7 +66,7 @@ TEST_F(ThinWinners, stencil_values_are_those_of_open_tests) {
     a.planes.stencil = b.planes.stencil = Plane<std::uint8_t>(16, 12, 0);
     a.planes.stencil(4, 3) = static_cast<std::uint8_t>(mine);
     b.planes.stencil(4, 3) = static_cast<std::uint8_t>(theirs);
-    return compare_thin_winners(scene, a, b);
+    return compare_line_or_point_winners(scene, a, b);
   };
   EXPECT_TRUE(fails(against(0.55, 1, 2))) << "the line wins where the point is not counted";
   EXPECT_TRUE(fails(against(0.8, 1, 2)));
@@ -74,15 +74,15 @@ TEST_F(ThinWinners, stencil_values_are_those_of_open_tests) {
   EXPECT_TRUE(passes(against(0.8, 1, 1)));
 }
 
-TEST_F(ThinWinners, alphas_that_fail_are_not_drawn) {
+TEST_F(LineOrPointWinners, alphas_that_fail_are_not_drawn) {
   scene.draws[0].alpha_test = AlphaTest{.func = CompareFunc::greater, .reference = 0.5f};
   Capture mine = with(0.5, 1), theirs = with(0.5, 9);
   mine.records.shaded = {{Vec4<double>(1)}, {Vec4<double>(0.25)}};
-  EXPECT_TRUE(fails(compare_thin_winners(scene, mine, theirs)));
+  EXPECT_TRUE(fails(compare_line_or_point_winners(scene, mine, theirs)));
   mine.records.shaded[1].color.a = 0.75;
-  EXPECT_TRUE(passes(compare_thin_winners(scene, mine, theirs)));
+  EXPECT_TRUE(passes(compare_line_or_point_winners(scene, mine, theirs)));
   mine.records.depth.pop_back();
-  EXPECT_NE(compare_thin_winners(scene, mine, theirs).mismatch, "");
+  EXPECT_NE(compare_line_or_point_winners(scene, mine, theirs).mismatch, "");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Opaque things.
+// Draws that nothing is seen through, and the state of lines and points.
 #include <fmt/format.h>
 
 #include "campaign/ordinary/builder.h"
@@ -14,9 +14,9 @@ void maybe_material(Builder& b, Object& draw) {
   if (b.choose.chance(80)) draw.put("material", material(b));
 }
 
-// An unlit thing of colours of its own, as lines and points are drawn.
-void add_thin_state(Builder& b, Object& draw) {
-  b.has_thin = true;
+// State of lines and points: mostly unlit, in colours of their own.
+void add_line_or_point_state(Builder& b, Object& draw) {
+  b.has_line_or_point = true;
   draw.put("lit", b.choose.chance(92) ? "false" : "true");
   if (b.choose.chance(60)) draw.put("material", Object("diffuse", json_numbers(opaque(b))).text());
 }
@@ -86,14 +86,14 @@ void add_solids(Builder& b) {
 void add_lines(Builder& b) {
   const std::string_view kind = b.choose.word({"axes", "axes", "grid", "curve"});
   Object draw("mesh", (kind == "axes" ? axes_mesh(b) : kind == "grid" ? wire_grid_mesh(b) : curve_mesh(b)).text());
-  add_thin_state(b, draw);
+  add_line_or_point_state(b, draw);
   if (b.choose.chance(35)) draw.put("line_width", b.choose.of({1, 2, 2, 3, 3, 4, 5, 8}));
   b.draws.push_back(draw);
 }
 
 void add_points(Builder& b) {
   Object draw("mesh", star_mesh(b, b.choose.count(1, 40)).text());
-  add_thin_state(b, draw);
+  add_line_or_point_state(b, draw);
   if (b.choose.chance(60)) draw.put("point_size", b.choose.of({1, 2, 2, 3, 4, 5, 8, 10}));
   b.draws.push_back(draw);
 }
