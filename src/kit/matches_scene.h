@@ -69,7 +69,10 @@ class SceneMatcher {
       throw std::runtime_error("MatchesScene(" + scene_.string() + ") was not judged: " + plumb() +
                                " (PLUMBLINE_PLUMB), exit code " + std::to_string(code) + ": " + text);
     }
-    if (out != nullptr && code == 1) *out << "\n" << run(judge + " --report " + quoted(page())).second;
+    if (out != nullptr && code == 1) {
+      const auto [ended, with_page] = run(judge + " --report " + quoted(page()));
+      *out << "\n" << (ended == 1 ? with_page : text + with_page);  // no page can be written: the finding, and why
+    }
     return code == 0;
   }
   void DescribeTo(std::ostream* out) const { *out << "shows the scene " << scene_.string(); }
@@ -154,8 +157,10 @@ class SceneMatcher {
     const std::size_t pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
     if (frame.width < 1 || frame.height < 1 || frame.color.size() != 4 * pixels ||
         (!frame.depth.empty() && frame.depth.size() != pixels)) {
-      throw std::runtime_error("a frame of " + std::to_string(frame.width) + " x " + std::to_string(frame.height) +
-                               " pixels: expected 4 numbers of colour a pixel, and of depth 1 or none; found " +
+      throw std::runtime_error("MatchesScene: a frame of " + std::to_string(frame.width) + " x " +
+                               std::to_string(frame.height) +
+                               " pixels: expected at least 1 x 1, 4 numbers of colour a pixel, and of depth 1 or none;"
+                               " found " +
                                std::to_string(frame.color.size()) + " and " + std::to_string(frame.depth.size()));
     }
     const std::filesystem::path capture = folder / "capture";

@@ -464,6 +464,8 @@ static void pl_run(const char* input, const char* output, const char* renderer, 
   PlCapture capture;
   *open = pl_open(input);
   if (!pl_is(*open, "plumbline export", "format")) pl_fail("%s: expected a plumbline export", input);
+  if (!pl_has(*open, "version") || pl_number(*open, "version") != 1)
+    pl_fail("%s: expected a plumbline export of version 1", input);
   capture.folder = output;
   capture.width = (int)pl_number(*open, "frame.width");
   capture.height = (int)pl_number(*open, "frame.height");

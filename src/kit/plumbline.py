@@ -42,6 +42,8 @@ class Scene(dict):
             super().__init__(json.load(file))
         if self.get("format") != "plumbline export":
             raise ValueError(f"{folder}: expected a plumbline export, found {self.get('format')!r}")
+        if self.get("version") != 1:
+            raise ValueError(f"{folder}: expected a plumbline export of version 1, found {self.get('version')!r}")
         self._folder = folder
         self._arrays = {array["name"]: array for array in self["arrays"]}
 

@@ -1,4 +1,5 @@
-// Stages 5 to 11 of one triangle, line or point at a time: those that do not fit lanes (set_up_lanes.h).
+// One primitive as the definition's records have it; and stages 5 to 11, one at a time, of those that do not fit lanes
+// (set_up_lanes.h).
 #pragma once
 
 #include <optional>
@@ -27,7 +28,7 @@ inline WindowTriangle window_triangle_of(const Painting& painting, const PaintTr
   return out;
 }
 
-/// Varyings of a draw's triangle; none without a surface. `gradients`: of a textured one.
+/// Varyings of a draw's triangle; none without a surface. `gradients`: of its texture coordinates, if it has a texture.
 inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const PaintDraw& draw,
                                                  const PaintTriangle& t, const GradientSetup& gradients) {
   if (draw.surface == nullptr) return {};
@@ -39,11 +40,11 @@ inline std::optional<SurfaceSetup> surface_setup(const Painting& painting, const
   return out;
 }
 
-/// Pixel by pixel.
+/// Stages 5 to 11 of a triangle, line or point, pixel by pixel.
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, Tile& tile);
 void paint_alone(const Painting& painting, const PaintDraw& draw, const PaintTriangle& triangle, PackedTile& tile);
 
-/// paint(painting, tile) of each sample's own.
+/// Calls paint(painting, tile) for each sample: the painting with that sample alone, and the sample's tile.
 template <int kSampleCount>
 void each_sample(const Painting& painting, PackedTile* tiles, auto paint) {
   if constexpr (kSampleCount == 1) return paint(painting, tiles[0]);

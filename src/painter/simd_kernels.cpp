@@ -1,4 +1,4 @@
-// Compiled once for each target (src/CMakeLists.txt).
+// Compiled once for each target: plumbline_simd() in CMakeLists.txt.
 #include "painter/painter.h"
 
 #include "kernels/simd.h"

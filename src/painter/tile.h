@@ -12,7 +12,7 @@
 
 namespace plumbline::pipeline {
 
-/// Where the next pixels' values are: depth and colour in the frame's formats, as floats.
+/// Addresses of the first of some pixels' values: depth and colour in the frame's formats, as floats.
 struct Stored {
   float* depth;
   float* color[4];

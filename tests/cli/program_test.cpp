@@ -223,6 +223,22 @@ TEST_F(Cli, program_is_graded) {
   EXPECT_EQ(plumb("check " + kSharedEdges + " --grade " + at("rubric.json")).code, 2) << "of a program";
 }
 
+// The kit guesses at no other format (CHANGELOG.md).
+TEST_F(Cli, export_of_another_version_is_refused_by_the_kit) {
+  ASSERT_EQ(plumb("export " + kSharedEdges + " " + at("export")).code, 0);
+  const std::string manifest = read(at("export/manifest.json")), version = "\"version\": 1";
+  const std::size_t place = manifest.find(version);
+  ASSERT_NE(place, std::string::npos) << manifest;
+  const std::string run = PLUMBLINE_C_RENDERER " " + at("export") + " " + at("out");
+  for (const char* other : {"\"version\": 2", "\"version\": \"1\"", "\"v\": 1"}) {
+    std::string changed = manifest;
+    write(at("export/manifest.json"), changed.replace(place, version.size(), other));
+    const Outcome refused = shell(run);
+    EXPECT_EQ(refused.code, 1) << other;
+    EXPECT_TRUE(refused.says("export: expected a plumbline export of version 1")) << refused.text;
+  }
+}
+
 TEST_F(Cli, export_writes_the_scene) {
   EXPECT_EQ(plumb("export " + kSharedEdges + " " + at("export")).code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "export" / "meshes.0.positions.bin"));

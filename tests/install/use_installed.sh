@@ -28,6 +28,7 @@ built library "-DHARNESS=$([ "${3:-}" = renderer ] && echo OFF || echo ON)"
 ctest --test-dir library/build || fail "the libraries' tests"
 [ "${3:-}" != renderer ] || exit 0
 
+"$prefix/bin/plumb" render "my sample/fan.json" -o fan.png && [ -s fan.png ] || fail "plumb writes no image"
 built "my sample"
 ctest --test-dir "my sample/build" || fail "the sample's tests"
 built "my sample" -DPLANTED_BUG=ON
