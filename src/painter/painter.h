@@ -36,6 +36,7 @@ class Painter {
   ~Painter();
 
   /// The frame is the painter's, until it draws the next; a caller may move it away. Another scene each time is fine.
+  /// Its meshes' arrays are as long as scene.h says, normals as many as positions: nothing checks it here.
   Frame& draw(const Scene& scene);
 
  private:

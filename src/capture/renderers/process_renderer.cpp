@@ -69,7 +69,7 @@ std::unique_ptr<TemporaryPath> temporary_folder(const fs::path& in) {
   try {
     return std::make_unique<TemporaryPath>(in, "plumbline-", TemporaryPath::Kind::private_folder);
   } catch (const std::system_error& error) {
-    throw RendererFailed(fmt::format("no temporary folder: {}", error.code().message()));
+    throw RendererFailed(fmt::format("{}: no temporary folder there: {}", in.string(), error.code().message()));
   }
 }
 
