@@ -139,8 +139,8 @@ class StateFinder {
     for (const auto& [when, op] : {std::pair("fail", &StencilFace::fail),
                                    {"depth_fail", &StencilFace::depth_fail},
                                    {"pass", &StencilFace::pass}}) {
-      each<StencilOp>(fmt::format("stencil {}", when), [&, op = op](StencilOp o) {
-        return any([&](const Draw& d) { return d.stencil && (d.stencil->front.*op == o || d.stencil->back.*op == o); });
+      each<StencilOp>(fmt::format("stencil {}", when), [&, of = op](StencilOp o) {
+        return any([&](const Draw& d) { return d.stencil && (d.stencil->front.*of == o || d.stencil->back.*of == o); });
       });
     }
     each<BlendFactor>("blend source", [&](BlendFactor f) {
