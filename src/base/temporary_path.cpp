@@ -71,7 +71,7 @@ bool is_roomy_memory(const char* folder) {
 }  // namespace
 
 fs::path temporary_files() {
-  // Of std::filesystem::temp_directory_path().
+  // Variables that std::filesystem::temp_directory_path() reads.
   constexpr const char* kVariables[] = {"TMPDIR", "TMP", "TEMP", "TEMPDIR"};
   const bool is_said = std::ranges::any_of(kVariables, [](const char* name) { return std::getenv(name) != nullptr; });
   if (!is_said && is_roomy_memory(kMemory)) return kMemory;
