@@ -83,6 +83,16 @@ fs::path temporary_files() {
       fmt::format("TMPDIR: {}: expected a folder for temporary files: {}", said ? said : "", error.message()));
 }
 
+void require_temporary_files() {
+  const fs::path in = temporary_files();
+  try {
+    const TemporaryPath made(in, "plumbline-", TemporaryPath::Kind::private_folder);
+  } catch (const std::system_error& error) {
+    throw std::runtime_error(fmt::format("{}: expected a folder for temporary files, in which folders can be made: {}",
+                                         in.string(), error.code().message()));
+  }
+}
+
 TemporaryPath::Held TemporaryPath::make(const fs::path& folder, std::string_view prefix, Kind kind) {
   remove_abandoned(folder, prefix);
   const bool is_folder = kind != Kind::file;

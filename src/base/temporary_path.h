@@ -12,6 +12,8 @@ namespace plumbline {
 /// else /tmp. A disk's file system takes time over many small files: ext4 looks for an inode that was not freed in the
 /// last 5 s. Throws std::runtime_error, which names $TMPDIR, where that is no folder.
 std::filesystem::path temporary_files();
+/// Makes a folder there, and removes it. Throws std::runtime_error, which names the folder, where that fails.
+void require_temporary_files();
 
 /// A new file, or a new folder, of a hidden name, which its destructor removes with all that is in it. Where the
 /// program ends before: the supervisor removes it (supervise.h), or after SIGKILL the next TemporaryPath that is made

@@ -120,6 +120,7 @@ int check(const CheckOptions& given) {
   if (const std::string faulted = faulted_reference(o.fault);
       !faulted.empty() && std::ranges::count(o.against, faulted) == 0)
     throw std::invalid_argument(fmt::format("--fault: {} is not among the references asked", faulted));
+  require_references(o.against);
   const auto start = std::chrono::steady_clock::now();
   const auto began = std::filesystem::file_time_type::clock::now();
   if (!o.candidate.command.empty() && o.submissions.empty()) require_program(o.candidate);

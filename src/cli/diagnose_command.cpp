@@ -135,6 +135,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   const DiagnoseOptions& o = subject.options;
   const Scene& scene = subject.scene;
   const bool outside = !o.folder.empty() || !o.candidate.command.empty();
+  require_references(o.against);
   std::unique_ptr<Renderer> candidate;
   try {
     candidate = make_watched(outside ? outside_candidate(o, scene) : make_candidate(o.fault), 0, watch);

@@ -1,9 +1,11 @@
 // plumb list: what there is.
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "base/temporary_path.h"
 #include "cli/commands.h"
 #include "scene/file/scene_file.h"
 #include "scene/frame_buffer.h"
@@ -24,9 +26,18 @@ std::string how_to_build(const std::string& name) {
   return fmt::format("not built in: install {}, and build plumbline anew", what);
 }
 
+// A renderer in a process of its own is made without that process: it draws a frame of one pixel. Throws RendererFailed.
+void try_out(Renderer& renderer) {
+  const TemporaryPath file(temporary_files(), "plumb-list-", TemporaryPath::Kind::file);
+  std::ofstream(file.path()) << R"({"description": "A point.", "frame": {"width": 1, "height": 1},
+    "draws": [{"mesh": {"points": {"positions": [[0, 0, 0]]}}, "lit": false}]})";
+  renderer.capture(load_scene(file.path()), {});
+}
+
 void list_renderer(const std::string& name) {
   const std::unique_ptr<Renderer> renderer = make_reference(name, {});
   if (renderer == nullptr) return fmt::print("{}: {}\n", name, how_to_build(name));
+  if (in_own_process(name)) try_out(*renderer);
   const RendererInfo info = renderer->info();
   fmt::print("{} ({}){}\n", name, info.version, info.legal ? ": an oracle of legal answers" : "");
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
@@ -41,8 +52,8 @@ void list_renderers() {
     try {
       list_renderer(name);
     } catch (const RendererFailed& e) {
-      fmt::print("{}: built in, and not to be used here: {}: install {}\n", name, e.what(),
-                 name == "osmesa" ? "libosmesa6" : "libgl1-mesa-dri");
+      fmt::print("{}: built in, and not usable here, install {}: {}\n", name,
+                 name == "osmesa" ? "libosmesa6" : "libgl1-mesa-dri", e.what());
     }
   }
 }

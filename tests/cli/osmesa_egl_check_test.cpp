@@ -39,5 +39,30 @@ TEST_F(Cli, egl_is_listed_with_its_stages) {
   EXPECT_NE(stages("egl"), stages("softpipe")) << text;
 }
 
+// libglvnd looks for EGL's libraries in the folder that the variable names.
+TEST_F(Cli, egl_is_listed_as_not_usable_where_its_process_fails) {
+  ::setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1);
+  const Outcome run = plumb("list renderers");
+  ::unsetenv("__EGL_VENDOR_LIBRARY_DIRS");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_NE(run.text.find("\negl: built in, and not usable here, install libgl1-mesa-dri: "), std::string::npos)
+      << run.text;
+  EXPECT_EQ(run.text.find("\negl ("), std::string::npos) << run.text;
+  EXPECT_NE(run.text.find("\nosmesa ("), std::string::npos) << run.text;
+}
+
+TEST_F(Cli, a_reference_without_a_temporary_folder_is_bad_input) {
+  ::setenv("TMPDIR", "/proc", 1);  // where root makes no folder either
+  for (const std::string& line : {kScenes + "frame/one_pixel.json --against egl,softpipe",
+                                  kScenes + "frame/one_pixel.json --program 'true {scene} {output}'"}) {
+    for (const char* command : {"check ", "diagnose "}) {
+      const Outcome run = plumb(command + line);
+      EXPECT_EQ(run.code, 2) << run.text;
+      EXPECT_NE(run.text.find("/proc: expected a folder for temporary files, in which"), std::string::npos) << run.text;
+    }
+  }
+  ::unsetenv("TMPDIR");
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -23,7 +23,7 @@ bool needs_program(const std::string& arguments) {
   for (const char* child : {"egl", "softpipe", "--program"}) {
     if (arguments.find(child) != std::string::npos) return true;
   }
-  return false;
+  return arguments.starts_with("list");  // tries egl and softpipe
 }
 
 [[noreturn]] void run_and_exit(const wordexp_t& words, int output) {

@@ -264,6 +264,7 @@ std::unique_ptr<Renderer> make_process_renderer(ProcessSpec spec) {
   if (spec.argv.empty() || spec.argv[0].empty()) {
     throw std::invalid_argument(fmt::format("{}: expected a program to run, found none", spec.name));
   }
+  require_temporary_files();
   return std::make_unique<ProcessRenderer>(std::move(spec));
 }
 

@@ -45,7 +45,8 @@ struct ProcessSpec {
 /// stderr, where it cannot be started, exits with other than 0 and 77, is killed by a signal, takes longer than the
 /// timeout, or leaves no capture, a broken one, or one of another size; OverBudget where what it left is beyond the
 /// budget; and Unsupported where it exits with 77, or says so, and of {scene} for a scene that was not read from a
-/// file. Refuses a spec without argv (std::invalid_argument).
+/// file. Refuses a spec without argv (std::invalid_argument), and a machine on which no temporary folder can be made
+/// (std::runtime_error).
 std::unique_ptr<Renderer> make_process_renderer(ProcessSpec spec);
 
 }  // namespace plumbline

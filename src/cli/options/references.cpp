@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/temporary_path.h"
 #include "check/golden/golden.h"
 #include "cli/options/renderers.h"
 
@@ -32,6 +33,10 @@ References make_references(const std::vector<std::string>& names, const std::vec
     if (name != opengl_reference() && std::ranges::count(names, name) == 0) add(name, out.arbiters);
   }
   return out;
+}
+
+void require_references(const std::vector<std::string>& names) {
+  if (std::ranges::any_of(names, in_own_process)) require_temporary_files();
 }
 
 std::vector<std::string> without_repeats(const std::vector<std::string>& names) {

@@ -23,6 +23,9 @@ References make_references(const std::vector<std::string>& names, const std::vec
 References make_references(const std::vector<std::string>& names, const std::vector<std::string>& assets,
                            const Watch& watch, const std::string& fault = "");
 
+/// Throws std::runtime_error where one of them runs in a process of its own, and no temporary folder can be made.
+void require_references(const std::vector<std::string>& names);
+
 /// Each once, in their order: `exact,exact` is `exact`, and all three are all, however they are written.
 std::vector<std::string> without_repeats(const std::vector<std::string>& names);
 

@@ -57,6 +57,7 @@ class OwnProcess final : public Renderer {
                  "--with",
                  info_.name};
     for (const std::string& folder : assets) spec.argv.insert(spec.argv.end(), {"--assets", folder});
+    spec.shown = fmt::format("plumb capture {{scene}} {{output}} --with {}", info_.name);
     spec.timeout = kOwnProcessLimit;
     process_ = make_process_renderer(std::move(spec));
   }
