@@ -51,8 +51,8 @@ inline void PrintTo(const DrawnFrame& frame, std::ostream* out) {
 }
 
 /// Matches a DrawnFrame. Of one that does not match, the message is that of `plumb diagnose`: the first stage that is
-/// wrong, numbers, pixels; and a page with pictures, in plumbline_pages/TEST/SCENE of the working directory. Throws
-/// std::runtime_error where the frame could not be judged (no such scene, another size, an antialiased scene, no
+/// wrong, numbers, pixels; and a page with pictures, in plumbline_pages/TEST/SCENE of the working directory, or in
+/// SCENE.1 after one failure of the test, SCENE.2 after two. Throws std::runtime_error where the frame could not be judged (no such scene, another size, an antialiased scene, no
 /// plumb): then neither the matcher nor Not() of it passes.
 class SceneMatcher {
  public:
@@ -104,13 +104,15 @@ class SceneMatcher {
     return std::filesystem::absolute(scene);
   }
 
-  // Folder of the page, another for each test and scene.
+  // Folder of the page, another for each test, scene and failure.
   std::filesystem::path page() const {
-    std::string test = "no test";
-    if (const testing::TestInfo* const now = testing::UnitTest::GetInstance()->current_test_info())
+    std::string test = "no test", scene = scene_.stem().string();
+    if (const testing::TestInfo* const now = testing::UnitTest::GetInstance()->current_test_info()) {
       test = std::string(now->test_suite_name()) + "." + now->name();
+      if (const int failures = now->result()->total_part_count(); failures > 0) scene += "." + std::to_string(failures);
+    }
     for (char& c : test) c = c == '/' ? '_' : c;  // of a parameterised test
-    return std::filesystem::absolute("plumbline_pages") / test / scene_.stem();
+    return std::filesystem::absolute("plumbline_pages") / test / scene;
   }
 
   static std::string plumb() {

@@ -109,7 +109,8 @@ Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, con
       return meter.value(std::isfinite(z) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "z"}, z, 0);
     }
     const LegalAnswer& nearest = *std::ranges::min_element(answers, {}, apart);
-    meter.value(apart(nearest), factor, {x, y, nearest.primitive, "z"}, z, std::clamp(z, nearest.z_lo, nearest.z_hi));
+    const double expected = std::isnan(z) ? nearest.z_lo : std::clamp(z, nearest.z_lo, nearest.z_hi);
+    meter.value(apart(nearest), factor, {x, y, nearest.primitive, "z"}, z, expected);
   });
 }
 

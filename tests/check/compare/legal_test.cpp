@@ -99,6 +99,7 @@ TEST_F(LegalAnswers, WithoutWinnersAnyOfThemIsLegal) {
   planes.depth(kX, kY) = NAN;
   planes.shaded(kX, kY).b = planes.color(kX, kY).b = NAN;
   for (const Measurement& m : {depth(), shaded(), merge()}) EXPECT_TRUE(fails(m)) << m.unit;
+  EXPECT_EQ(depth().worst.reference, 0.25) << "the number that was expected";
   planes.depth(kX, kY) = 0.25;
   planes.color(kX, kY) = glm::vec4(1, 0.5, 0, 1);
   planes.depth(0, 0) = 0.25;

@@ -1,0 +1,56 @@
+// The kit's matcher: what its message says, and where its pages lie. Its use by an installed project: tests/install.
+#include "src/kit/matches_scene.h"
+
+#include <sstream>
+
+#include "tests/cli/run_plumb.h"
+
+namespace plumbline {
+namespace {
+
+// Runs in a folder of its own, where pages are left.
+struct MatcherOfScenes : Cli {
+  void SetUp() override {
+    Cli::SetUp();
+    fs::current_path(folder_);
+  }
+  void TearDown() override {
+    fs::current_path(before_);
+    Cli::TearDown();
+  }
+
+  // The message about a frame of one black pixel, or "matches".
+  static std::string said_of_black() {
+    const DrawnFrame black{1, 1, {0, 0, 0, 1}, {}};
+    std::ostringstream out;
+    return MatchesScene(kScenes + "frame/one_pixel.json").MatchAndExplain(black, &out) ? "matches" : out.str();
+  }
+
+ private:
+  fs::path before_ = fs::current_path();
+};
+
+TEST_F(MatcherOfScenes, leaves_a_page_of_each_failure) {
+  const std::string page = at("plumbline_pages/MatcherOfScenes.leaves_a_page_of_each_failure/one_pixel");
+  const std::string first = said_of_black();
+  EXPECT_NE(first.find("page: " + page + "/index.html"), std::string::npos) << first;
+  SUCCEED();  // a part of the test's result, as a failure is
+  const std::string second = said_of_black();
+  EXPECT_NE(second.find("page: " + page + ".1/index.html"), std::string::npos) << second;
+  EXPECT_TRUE(fs::exists(page + "/index.html") && fs::exists(page + ".1/index.html"));
+}
+
+TEST_F(MatcherOfScenes, keeps_its_finding_where_no_page_can_be_written) {
+  std::ofstream("plumbline_pages") << "a file";
+  const std::string said = said_of_black();
+  EXPECT_NE(said.find("first different stage: "), std::string::npos) << said;
+  EXPECT_NE(said.find("plumbline_pages"), std::string::npos) << said;
+}
+
+TEST_F(MatcherOfScenes, refuses_a_frame_without_pixels) {
+  EXPECT_THROW(MatchesScene(kScenes + "frame/one_pixel.json").MatchAndExplain(DrawnFrame{}, nullptr),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace plumbline
