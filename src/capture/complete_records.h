@@ -18,9 +18,8 @@ namespace plumbline {
 /// Where planes.depth was read from floats, its values become those of the nearest codes.
 ///
 /// Throws std::invalid_argument, naming the column and the record: of a primitive that the scene does not have, of
-/// n_eye without matrices, of cut without vertices, of a p_win that cannot be snapped, of a
-/// position beyond 2^22 pixels or a width beyond 64, of front and corners where a
-/// draw's polygons are not filled.
+/// n_eye without matrices, of cut without vertices, of a p_win that cannot be snapped, of a position beyond 2^22 pixels or
+/// a width beyond 64, of front and corners where a draw's polygons are not filled.
 void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions = {});
 
 }  // namespace plumbline

@@ -21,7 +21,7 @@ void paint_pixels(const Painting& painting, const PaintDraw& draw, const PaintTr
     gradients = gradient_setup(t, varying_of(painting, draw, triangle, Varying::texture), planes);
   const std::optional<SurfaceSetup> surface = surface_setup(painting, draw, triangle, gradients);
   const auto paint = [&](glm::ivec2 p) {
-    const int place = tile.offset(p.x, p.y) + p.y % kBlock * kBlock + p.x % kBlock;
+    const int place = pixel_offset(p.x - tile.x0, p.y - tile.y0);
     paint_fragments<float>(*draw.draw, s, surface, pixel_at(p), true, place, painting.formats.color_scale, tile);
   };
   const PixelBounds of_tile{tile.x0, tile.y0, tile.x0 + kTile, tile.y0 + kTile};

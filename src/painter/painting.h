@@ -22,7 +22,7 @@ T* room_for(std::size_t count, std::vector<T>& values) {
   return values.data();
 }
 
-/// Where a tile keeps its pixel (x, y), as block_offset() has it, and back.
+/// Where a tile keeps its pixel (x, y), as pixel_offset() has it, of integers or lanes; and back.
 template <class I>
 [[gnu::always_inline]] inline I place_in_tile(const I& x, const I& y) {
   const I within(kBlock - 1);

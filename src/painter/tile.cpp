@@ -11,7 +11,7 @@ void copy_blocks(auto& tile, Frame& frame) {
   const auto copy = [&](auto& plane, auto value_at) {
     for (int y = tile.y0; y < std::min(tile.y0 + kTile, plane.height()); ++y) {
       for (int x = tile.x0; x < std::min(tile.x0 + kTile, plane.width()); ++x) {
-        plane(x, y) = value_at(tile.offset(x, y) + y % kBlock * kBlock + x % kBlock);
+        plane(x, y) = value_at(pixel_offset(x - tile.x0, y - tile.y0));
       }
     }
   };

@@ -63,6 +63,8 @@ inline int block_offset(int x, int y) {
   static_assert(kBlock == 4 && kTile == 64);
   return (y >> 2 << 8) + (x >> 2 << 4);
 }
+/// Place of the pixel (x, y) of the tile.
+inline int pixel_offset(int x, int y) { return block_offset(x, y) + y % kBlock * kBlock + x % kBlock; }
 
 /// A square of the frame, stored block by block; colour and depth in the frame's formats, as floats.
 struct Tile {
@@ -71,7 +73,6 @@ struct Tile {
   alignas(64) float color[4][kTile * kTile];
   alignas(64) std::uint8_t stencil[kTile * kTile];  ///< left alone where the frame has none
 
-  int offset(int x, int y) const { return block_offset(x - x0, y - y0); }
   Stored at(int place) {
     return {depth + place, {color[0] + place, color[1] + place, color[2] + place, color[3] + place}, stencil + place};
   }
@@ -86,7 +87,6 @@ struct PackedTile {
   alignas(64) float farthest[kTile * kTile / kBlockPixels];  ///< of each block: none of its depths is greater
   float farthest_of_all;
 
-  int offset(int x, int y) const { return block_offset(x - x0, y - y0); }
   StoredCodes at(int place) { return {depth + place, color + place, stencil + place}; }
 };
 

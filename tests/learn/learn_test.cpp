@@ -229,8 +229,8 @@ TEST(Learn, ARefusedProbeLeavesItsConventionsOpen) {
                                      std::pair("provoking_vertex", std::vector<std::string>{"provoking_vertex"}),
                                      std::pair("offset_unit", std::vector<std::string>{"offset_unit"})}) {
     OfAlteredScenes renderer;
-    renderer.before = [&](Scene& scene) {
-      if (scene.name == std::string("probe/") + probe) throw Unsupported("not drawn");
+    renderer.before = [refused = std::string("probe/") + probe](Scene& scene) {
+      if (scene.name == refused) throw Unsupported("not drawn");
     };
     C expected = ours();
     expected.open = names;
@@ -264,9 +264,8 @@ TEST(Learn, TexturesThatNoConventionExplainsAreFindings) {
                                     std::pair("magnification", "magnified"), std::pair("levels", "level_of_detail"),
                                     std::pair("half_way", "half_way_level")}) {
     OfAlteredScenes nan;
-    nan.after = [&](const Scene& scene, Capture& c) {
-      if (scene.name == std::string("probe/") + probe)
-        std::ranges::fill(c.planes.color.values(), glm::vec4(kNotANumber));
+    nan.after = [altered = std::string("probe/") + probe](const Scene& scene, Capture& c) {
+      if (scene.name == altered) std::ranges::fill(c.planes.color.values(), glm::vec4(kNotANumber));
     };
     EXPECT_TRUE(finds(nan, name)) << name;
   }
