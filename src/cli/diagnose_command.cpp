@@ -1,7 +1,8 @@
-// plumb diagnose: one scene, every stage that is wrong.
+// plumb diagnose: one scene, every stage that is wrong; with --picture, known faults that draw such a frame.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "capture/by_conventions.h"
 #include "capture/contradictions.h"
 #include "capture/files/capture_folder.h"
+#include "capture/files/image_file.h"
 #include "capture/renderers/replayed_renderer.h"
 #include "check/diagnose/diagnose.h"
 #include "check/diagnose/history.h"
@@ -31,9 +33,9 @@ namespace plumbline::cli {
 namespace {
 
 // The capture that a program left, and what the program shows of it.
-class Left : public Renderer {
+class LeftCapture : public Renderer {
  public:
-  Left(Capture capture, RendererInfo info) : capture_(std::move(capture)), info_(std::move(info)) {}
+  LeftCapture(Capture capture, RendererInfo info) : capture_(std::move(capture)), info_(std::move(info)) {}
   RendererInfo info() const override { return info_; }
   Capture capture(const Scene&, const Request&) override { return capture_; }
 
@@ -53,7 +55,7 @@ std::unique_ptr<Renderer> outside_candidate(const DiagnoseOptions& o, const Scen
   require_program(o.candidate);
   const std::unique_ptr<Renderer> program = make_program(o.candidate);
   Capture left = program->capture(scene, {StageSet::all(), false, {}, {}});
-  return std::make_unique<Left>(std::move(left), program->info());
+  return std::make_unique<LeftCapture>(std::move(left), program->info());
 }
 
 // Of an antialiased scene its frame, and the stages of its first pass; else the stages of the frame.
@@ -179,6 +181,19 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
       out);
 }
 
+// A picture's rows are the file's from its end, whatever the scene's order is.
+template <class T>
+Plane<T> in_scenes_order(const Scene& scene, Plane<T> plane) {
+  return rows_from_top(scene.dialect) ? upside_down(plane) : plane;
+}
+
+template <class T>
+void require_size(const std::string& file, const Plane<T>& plane, const Scene& scene) {
+  if (plane.width() == scene.frame.width && plane.height() == scene.frame.height) return;
+  throw std::runtime_error(fmt::format("{}: expected a picture of the scene's {} x {} pixels, found one of {} x {}",
+                                       file, scene.frame.width, scene.frame.height, plane.width(), plane.height()));
+}
+
 }  // namespace
 
 int diagnose(const DiagnoseOptions& o) {
@@ -219,6 +234,30 @@ int diagnose(const DiagnoseOptions& o) {
   const std::size_t only[] = {0};
   Workers(1, limits, make).run({only, [&](std::size_t) { return to_bytes(request); }, take, ask_again});
   return code;
+}
+
+int diagnose_picture(const DiagnoseOptions& o) {
+  const Scene scene = o.scene_arguments.load(o.scene);
+  require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
+  ColorAndDepth given;
+  given.color = in_scenes_order(scene, read_image(o.picture));
+  require_size(o.picture, given.color, scene);
+  if (!o.depth.empty() && std::filesystem::path(o.depth).extension() != ".exr") {
+    throw std::invalid_argument(fmt::format("--depth: expected an .exr file of window z, found {}", o.depth));
+  }
+  if (!o.depth.empty()) {
+    const Plane<glm::vec4> depth = in_scenes_order(scene, read_image(o.depth));
+    require_size(o.depth, depth, scene);
+    given.depth = Plane<double>(depth.width(), depth.height());
+    std::ranges::transform(depth.values(), given.depth.values().begin(), [](const glm::vec4& z) { return z.r; });
+  }
+  const Lookalikes found = lookalikes(scene, given);
+  fmt::print("{}: {} of {} pixels are more than {}/255{} from ours\n", o.picture, found.apart, given.color.size(),
+             found.codes, o.depth.empty() ? "" : ", or a step of depth,");
+  if (found.apart == 0) return kHolds;
+  fmt::print("{}", found.text);
+  if (!found.likely.empty()) fmt::print("likely stage: {}\n", found.likely);
+  return kDiffers;
 }
 
 }  // namespace plumbline::cli

@@ -1,20 +1,15 @@
-// plumb diagnose --picture, and the last lines of other diagnoses: what a frame alone can tell.
 #include "cli/lookalikes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "capture/files/image_file.h"
-#include "cli/commands.h"
 #include "cli/options/renderers.h"
 #include "scene/draw_index.h"
 
@@ -24,7 +19,7 @@ namespace {
 
 constexpr float kCode = 1.0f / 255;
 
-Pictured drawn(const Scene& scene, const std::string& fault) {
+ColorAndDepth drawn(const Scene& scene, const std::string& fault) {
   Request request;
   request.planes = WantedPlanes::picture;
   Planes planes = make_candidate(fault)->capture(scene, request).planes;
@@ -46,7 +41,7 @@ struct Eye {
 };
 constexpr double kFloatDepth = 0x1p-20;
 
-std::size_t pixels_apart(const Scene& scene, const Pictured& given, const Pictured& other, Eye eye) {
+std::size_t pixels_apart(const Scene& scene, const ColorAndDepth& given, const ColorAndDepth& other, Eye eye) {
   const bool by_depth = eye.sees_depth && !given.depth.empty() && given.depth.size() == other.depth.size();
   std::size_t count = 0;
   for (std::size_t i = 0; i < given.color.size(); ++i) {
@@ -62,8 +57,8 @@ std::size_t pixels_apart(const Scene& scene, const Pictured& given, const Pictur
 }
 
 template <class Change>
-Pictured changed(const Pictured& from, Change change) {
-  Pictured out = from;
+ColorAndDepth changed(const ColorAndDepth& from, Change change) {
+  ColorAndDepth out = from;
   for (int y = 0; y < out.color.height(); ++y) {
     for (int x = 0; x < out.color.width(); ++x) change(out, x, y);
   }
@@ -74,7 +69,7 @@ float encoded(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-using Measure = std::function<std::size_t(const Pictured&)>;
+using Measure = std::function<std::size_t(const ColorAndDepth&)>;
 
 // A known mistake, and how many pixels it leaves apart.
 struct Lookalike {
@@ -83,21 +78,21 @@ struct Lookalike {
 };
 
 // Mistakes that are made of a right frame on its way into a file.
-std::vector<Lookalike> of_files(const Pictured& right, const Measure& measure) {
+std::vector<Lookalike> of_files(const ColorAndDepth& right, const Measure& measure) {
   const int width = right.color.width(), height = right.color.height();
-  const auto from = [&](Pictured& out, int x, int y, int from_x, int from_y) {
+  const auto from = [&](ColorAndDepth& out, int x, int y, int from_x, int from_y) {
     out.color(x, y) = right.color(from_x, from_y);
     if (!out.depth.empty()) out.depth(x, y) = right.depth(from_x, from_y);
   };
-  const auto reversed = [&](Pictured& out, int x, int y) { from(out, x, y, x, height - 1 - y); };
-  const auto mirrored = [&](Pictured& out, int x, int y) { from(out, x, y, width - 1 - x, y); };
-  const auto swapped = [](Pictured& out, int x, int y) { std::swap(out.color(x, y).r, out.color(x, y).b); };
-  const auto srgb = [](Pictured& out, int x, int y) {
+  const auto reversed = [&](ColorAndDepth& out, int x, int y) { from(out, x, y, x, height - 1 - y); };
+  const auto mirrored = [&](ColorAndDepth& out, int x, int y) { from(out, x, y, width - 1 - x, y); };
+  const auto swapped = [](ColorAndDepth& out, int x, int y) { std::swap(out.color(x, y).r, out.color(x, y).b); };
+  const auto srgb = [](ColorAndDepth& out, int x, int y) {
     const glm::vec4 c = glm::clamp(out.color(x, y), 0.0f, 1.0f);
     out.color(x, y) = glm::vec4(encoded(c.r), encoded(c.g), encoded(c.b), 1);
   };
-  const auto of_ndc = [](Pictured& out, int x, int y) { out.depth(x, y) = 2 * out.depth(x, y) - 1; };
-  const auto farthest_first = [](Pictured& out, int x, int y) { out.depth(x, y) = 1 - out.depth(x, y); };
+  const auto of_ndc = [](ColorAndDepth& out, int x, int y) { out.depth(x, y) = 2 * out.depth(x, y) - 1; };
+  const auto farthest_first = [](ColorAndDepth& out, int x, int y) { out.depth(x, y) = 1 - out.depth(x, y); };
   std::vector<Lookalike> out;
   const auto add = [&](const char* name, const char* says, auto change) {
     out.push_back({"file", name, says, measure(changed(right, change))});
@@ -134,28 +129,15 @@ Lookalikes ranked(std::vector<Lookalike> all, std::size_t apart) {
   return out;
 }
 
-// A picture's rows are the file's from its end, whatever the scene's order is.
-template <class T>
-Plane<T> in_scenes_order(const Scene& scene, Plane<T> plane) {
-  return rows_from_top(scene.dialect) ? upside_down(plane) : plane;
-}
-
-template <class T>
-void require_size(const std::string& file, const Plane<T>& plane, const Scene& scene) {
-  if (plane.width() == scene.frame.width && plane.height() == scene.frame.height) return;
-  throw std::runtime_error(fmt::format("{}: expected a picture of the scene's {} x {} pixels, found one of {} x {}",
-                                       file, scene.frame.width, scene.frame.height, plane.width(), plane.height()));
-}
-
 }  // namespace
 
-Lookalikes lookalikes(const Scene& scene, const Pictured& given) {
-  const Pictured right = drawn(scene, "");
+Lookalikes lookalikes(const Scene& scene, const ColorAndDepth& given) {
+  const ColorAndDepth right = drawn(scene, "");
   // Where all is within a code, half a code counts: truncation is no more.
   Eye eye;
   const bool coarse = pixels_apart(scene, given, right, eye) > 0;
   if (!coarse) eye = {0.5f, false};
-  const Measure measure = [&](const Pictured& frame) { return pixels_apart(scene, given, frame, eye); };
+  const Measure measure = [&](const ColorAndDepth& frame) { return pixels_apart(scene, given, frame, eye); };
   const std::size_t apart = measure(right);
   if (apart == 0) return {};
   std::vector<Lookalike> all = of_files(right, measure);
@@ -186,30 +168,6 @@ std::string likely_fault(const Scene& scene, const Capture& left, const check::S
       color.height() != scene.frame.height)
     return "";
   return likely_of(lookalikes(scene, {color, left.planes.depth}), verdict);
-}
-
-int diagnose_picture(const DiagnoseOptions& o) {
-  const Scene scene = o.scene_arguments.load(o.scene);
-  require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
-  Pictured given;
-  given.color = in_scenes_order(scene, read_image(o.picture));
-  require_size(o.picture, given.color, scene);
-  if (!o.depth.empty() && std::filesystem::path(o.depth).extension() != ".exr") {
-    throw std::invalid_argument(fmt::format("--depth: expected an .exr file of window z, found {}", o.depth));
-  }
-  if (!o.depth.empty()) {
-    const Plane<glm::vec4> depth = in_scenes_order(scene, read_image(o.depth));
-    require_size(o.depth, depth, scene);
-    given.depth = Plane<double>(depth.width(), depth.height());
-    std::ranges::transform(depth.values(), given.depth.values().begin(), [](const glm::vec4& z) { return z.r; });
-  }
-  const Lookalikes found = lookalikes(scene, given);
-  fmt::print("{}: {} of {} pixels are more than {}/255{} from ours\n", o.picture, found.apart, given.color.size(),
-             found.codes, o.depth.empty() ? "" : ", or a step of depth,");
-  if (found.apart == 0) return kHolds;
-  fmt::print("{}", found.text);
-  if (!found.likely.empty()) fmt::print("likely stage: {}\n", found.likely);
-  return kDiffers;
 }
 
 }  // namespace plumbline::cli

@@ -11,7 +11,7 @@
 namespace plumbline::cli {
 
 /// What a renderer left of a frame: rows in the scene's order. Depth, window z, may be empty.
-struct Pictured {
+struct ColorAndDepth {
   Plane<glm::vec4> color;
   Plane<double> depth;
 };
@@ -25,7 +25,7 @@ struct Lookalikes {
   std::string likely;     ///< "STAGE (fault NAME)", where the nearest explains nine tenths of them or more; else empty
   bool whole = false;     ///< and all of them
 };
-Lookalikes lookalikes(const Scene& scene, const Pictured& given);
+Lookalikes lookalikes(const Scene& scene, const ColorAndDepth& given);
 /// The likely fault of a renderer with this verdict; empty where the faults tell less than half as many pixels as are
 /// wrong at merge: they tell a legal rule of its own, then.
 std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
