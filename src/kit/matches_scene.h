@@ -62,9 +62,11 @@ class SceneMatcher {
   bool MatchAndExplain(const DrawnFrame& frame, std::ostream* out) const {
     const Folder folder;
     write(frame, folder.path);
-    const std::string judge =
-        quoted(plumb()) + " diagnose " + quoted(scene_) + " --capture " + quoted(folder.path / "capture");
+    const std::filesystem::path capture = folder.path / "capture";
+    const std::string judge = quoted(plumb()) + " diagnose " + quoted(scene_) + " --capture " + quoted(capture);
     auto [code, text] = run(judge);
+    for (std::size_t at = 0; (at = text.find(capture.string(), at)) != text.npos;)
+      text.replace(at, capture.string().size(), "the frame");  // whose folder goes
     if ((code != 0 && code != 1) || text.find(" stages judged\n") == std::string::npos) {
       throw std::runtime_error("MatchesScene(" + scene_.string() + ") was not judged: " + plumb() +
                                " (PLUMBLINE_PLUMB), exit code " + std::to_string(code) + ": " + text);

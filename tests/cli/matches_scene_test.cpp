@@ -47,6 +47,19 @@ TEST_F(MatcherOfScenes, keeps_its_finding_where_no_page_can_be_written) {
   EXPECT_NE(said.find("plumbline_pages"), std::string::npos) << said;
 }
 
+TEST_F(MatcherOfScenes, says_which_size_a_frame_has) {
+  const DrawnFrame large{2, 1, {0, 0, 0, 1, 0, 0, 0, 1}, {}};
+  try {
+    MatchesScene(kScenes + "frame/one_pixel.json").MatchAndExplain(large, nullptr);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("the frame: "), std::string::npos) << said;
+    EXPECT_EQ(said.find("/capture"), std::string::npos) << said;
+    EXPECT_NE(said.find("2 x 1"), std::string::npos) << said;
+  }
+}
+
 TEST_F(MatcherOfScenes, refuses_a_frame_without_pixels) {
   EXPECT_THROW(MatchesScene(kScenes + "frame/one_pixel.json").MatchAndExplain(DrawnFrame{}, nullptr),
                std::runtime_error);
