@@ -18,16 +18,16 @@ struct LightBounds {
   /// s: shininess, by which a power multiplies its argument's error (of cosines above 1, by s n^(s-1)); e: that error,
   /// |n| k (1 + 1 / |L + E|) of the half vector (|L + E|: its length before it is normalised; 1 / |L + E| more of a
   /// local viewer), 4 |n|^2 (k + 1) of 2 (N.L) (N.E) - L.E; k: of a point light, (|light| + |p_eye|) / |light - p_eye|
-  /// + 1. Attenuation has 2 k, a cone the slope of its power times k + 1. Infinite where no direction is left (a light at
-  /// the vertex).
+  /// + 1. Attenuation has 2 k, a cone the slope of its power times k + 1. Infinite where the light lies at the vertex and
+  /// has no direction.
   Vec3<double> magnitude{0};
   /// Per channel, the light that rounding may add or take away: the specular terms of lights whose N.L is within
   /// rounding of 0; all of a light whose cone ends within rounding; in GzRender's rule, where N.E is.
   Vec3<double> jump{0};
-  /// Per channel, what the inputs' errors come to, to which the magnitude knows nothing.
+  /// Per channel, the error that the inputs' errors (LightInputs) cause; `magnitude` does not contain it.
   Vec3<double> inherited{0};
-  /// Per channel: a specular term of 0 with a power that may be beyond float, of which a renderer that does not limit
-  /// its power makes 0 times infinity.
+  /// Per channel: the specular term is 0 while its power may overflow float. A renderer that does not limit the power
+  /// then computes 0 times infinity.
   glm::bvec3 overflows{false};
 };
 /// How far position and normal (in length), the material's colours that follow the vertex', and each light's place or

@@ -226,7 +226,7 @@ void set_planes(const std::array<const Corner*, 3>& c, Triangle& t) {
   t.sign = det > 0 ? 1 : det < 0 ? -1 : 0;
   t.z_plane = 0.5 / det * z_sum;
   t.w_plane = 1 / det * w_sum;
-  // Below 2^-40 of its terms, double's own rounding has eaten the determinant.
+  // Below 1e-12 of its terms, the determinant is double's own rounding.
   const double terms = glm::dot(glm::abs(c[0]->v), glm::abs(t.n[0]));
   t.flat = !(std::abs(det) > 1e-12 * terms) || !std::isfinite(t.z_plane.z) || !std::isfinite(t.w_plane.z);
 }

@@ -64,7 +64,7 @@ struct Triangle {
   double altitude = 0;              ///< pixels: the smallest one of all planes a renderer may set up for it
   double fat_altitude = 0;  ///< of those that are thicker than snapping may turn; thinner ones lie along its border
   double reach = 0;         ///< pixels: the largest vertex displacement over its visible part
-  double growth = 1;        ///< times the displacement at the place nearest to a pixel: that of any place, at the pixel
+  double growth = 1;        ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
 };
 
 /// z_win of a triangle's z_view.

@@ -20,7 +20,7 @@ static_assert(kSubpixel == 1 << 8);
 static_assert(corner_count(Topology::triangles) == 3 && corner_count(Topology::lines) == 2);
 static_assert(corner_count(Topology::points) == 1);
 
-// GzRender alone counts rows from the top (CSCI-580, note 002).
+// GzRender alone counts rows from the top (CSCI-580, note 000).
 static_assert(rows_from_top(Dialect::gzrender) && !rows_from_top(Dialect::gl));
 static_assert(!rows_from_top(Dialect::games101) && !rows_from_top(Dialect::tinyrenderer));
 

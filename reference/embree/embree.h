@@ -7,10 +7,10 @@
 
 namespace plumbline::embree {
 
-/// A renderer named "embree": an oracle. It hands out legal answers, planes as double precision has them,
-/// and, where a request names pixels, all hits there (oracle.h). Embree
-/// finds the triangles; no number of its own is used. capture() throws Unsupported where a vertex is not finite or
-/// beyond Embree's range, naming it, and RendererFailed where the device reports an error.
+/// A renderer named "embree": an oracle. Hands out legal answers, planes in double precision and, where a request names
+/// pixels, all hits there (oracle.h). Embree only finds the triangles; none of its numbers is used. capture() throws
+/// Unsupported where the scene draws lines or points, or where a vertex (named in the message) is not finite or beyond
+/// Embree's range, and RendererFailed where the device reports an error.
 std::unique_ptr<Renderer> make_embree();
 
 }  // namespace plumbline::embree

@@ -9,10 +9,10 @@
 
 namespace plumbline::exact {
 
-/// The plane's coefficients: a point is inside where dot(plane, p_clip) >= 0.
+/// Number of clip planes.
 inline constexpr int kPlanes = 6;
-inline constexpr int kSides = 4;  ///< where depth is clamped, and no near and far plane cut
-/// In the order of the cuts: right, left, top, bottom, near, far.
+inline constexpr int kSides = 4;  ///< number without near and far, which do not cut under depth clamp
+/// Coefficients of clip plane `index`: inside is dot(plane, p_clip) >= 0. Right, left, top, bottom, near, far.
 glm::dvec4 clip_plane(int index);
 
 /// What is left of one triangle at the first `planes`, by Sutherland and Hodgman: no vertices, or 3 to 9, in the

@@ -14,7 +14,7 @@ namespace plumbline::exact {
 struct Fragment {
   int x, y;
   const Draw& draw;
-  bool front;    ///< a line and a point are
+  bool front;    ///< facing of the triangle, or of the polygon of an outline; true for a mesh's lines and points
   double depth;  ///< window z
   double alpha;  ///< looked at where the draw tests it
 };

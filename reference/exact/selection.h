@@ -15,7 +15,7 @@ class Selection {
   Selection(const Scene& scene, const Request& request);
 
   bool primitive(std::uint32_t number) const;
-  /// Whether any fragment's records (stages 5 to 10) are asked for, and of the pixel's.
+  /// fragments(): whether records of stages 5 to 10 are asked for. pixel(): whether those of this pixel are.
   bool fragments() const { return bytes_per_fragment() > 0; }
   bool pixel(int x, int y) const { return pixels_.empty() || pixels_(x, y) != 0; }
   std::size_t bytes_per_fragment() const;

@@ -56,11 +56,11 @@ Planes empty_planes(const FrameFormat& frame) {
   return planes;
 }
 
-/// A cut triangle is drawn as a fan. One of its pieces may be so thin that snapping turns it over: along the border it
-/// then lies on its neighbour, and both cover the pixel.
+/// Upper bound of the fragments that the hits make at the pixel. A possible hit of a cut triangle makes up to two:
+/// snapping may turn over a sliver of its fan, which then covers the pixel together with its neighbour in the fan.
 ///
-/// Most fragments of a group (groups.cpp) whose triangles are neither cut nor turned over: its winding number. The
-/// number is the same everywhere within delta of the pixel; it is counted beside the pixel, where no edge runs through.
+/// A group (groups.cpp) whose triangles are neither cut nor turned over makes as many as its winding number, at least
+/// one. That number is the same everywhere within delta of the pixel, and is counted where no edge runs through.
 std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits, std::size_t groups, int x,
                              int y) {
   const auto beside = [&](double delta) { return projected.ray(x, y) + delta * glm::dvec3(0.37, 0.21, 0); };

@@ -22,9 +22,8 @@ struct Oracle {
   Records<double> records;
 };
 
-/// Each candidate confirmed in double, and the pixels' answers. Every triangle that a legal renderer may cover a pixel
-/// with must be among the candidates; their order does not matter. Of the request,
-/// pixels and records count.
+/// Confirms each candidate in double and finds the pixels' legal answers. Candidates: every triangle that a legal
+/// renderer may cover a pixel with, in any order. Of the request, only `pixels` and `records` are read.
 Oracle consult(const Scene& scene, const Projected& projected, const Candidates& candidates, const Request& request);
 
 /// Throws OverBudget where planes and legal answers would not fit; else how many candidates the rest holds.

@@ -86,7 +86,7 @@ void sleep_ms(int ms) {
   ::nanosleep(&pause, nullptr);
 }
 
-/// Waits for the program's end. Returns its wait status, and the signal by which the supervisor was told to end, or 0.
+/// Waits for the program's end. Returns its wait status, and the signal that ends the supervisor, or 0.
 std::pair<int, int> wait_for_program(pid_t program, const sigset_t& waited, const Shared& memory) {
   int ended_by = 0, status = 0;
   while (true) {

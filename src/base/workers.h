@@ -64,8 +64,8 @@ class Workers {
   ~Workers();
 
   /// Runs all requests. An exception of a worker becomes a std::runtime_error of the same words, thrown when its number
-  /// is next to be taken; nothing with a greater number begins after it. Throws std::runtime_error, too, where a
-  /// request ends 100 workers.
+  /// is next to be taken; nothing with a greater number begins after it. Throws std::runtime_error, too, where one
+  /// request ends more than 100 workers.
   void run(const WorkerJobs& jobs);
 
  private:

@@ -276,7 +276,7 @@ void require_terms(const fs::path& journals, const std::string& terms) {
                                           file.string(), terms, its.substr(0, its.find_last_not_of('\n') + 1)));
 }
 
-// Before the work: what is told will find its place.
+// Before the work: the findings can be written at its end.
 void require_results(const fs::path& folder) {
   require_writable_file(folder / "results.json");
   const fs::path findings = folder / "findings";

@@ -1,5 +1,5 @@
-// A scene's state as JSON, every default written out: the keys of scene files (tests/scenes/scene.schema.json), but for
-// what stages 0 has made of them.
+// A scene's state as JSON, every default written out, under the keys of scene files (tests/scenes/scene.schema.json).
+// Lights are in eye space, as stage 0 leaves them; camera, projection and transforms are left out.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -8,11 +8,12 @@
 
 namespace plumbline::image_order {
 
-/// A renderer named "image_order": per pixel one ray, in double, and of the triangles that it crosses the one that is
-/// left by their depth functions, in draw order: the nearest, for less and less_equal. Hands out planes.id and
-/// planes.depth. No matrix of view or projection, no clipping, no snapping and no z-buffer: between near and far is
-/// what lies there along the ray. Depths are in the frame's format before they are compared. Throws OverBudget;
-/// Unsupported where a scene has lines or points, which no ray meets.
+/// A renderer named "image_order". One ray per pixel, in double; the depth tests of the triangles that it crosses, in
+/// draw order, choose the winner (for less and less_equal, the nearest). Hands out planes.id, planes.depth and, as
+/// cleared, planes.stencil. Uses no view or projection matrix, clipping, snapping or z-buffer: a crossing counts where
+/// its distance along the view is in [near, far]. Depths are rounded to the frame's format before they are compared.
+/// capture() throws OverBudget, and Unsupported for lines, points, alpha tests, stencil tests, polygon offset and
+/// antialiased frames.
 std::unique_ptr<Renderer> make_image_order();
 
 }  // namespace plumbline::image_order

@@ -44,7 +44,7 @@ BarycentricPlanes at_offset(const BarycentricPlanes& planes, glm::ivec2 offset) 
   return {planes, {planes.x0 - by.x, planes.y0 - by.y}};
 }
 
-// What the near and far plane do not cut is clamped to where they are (GL_ARB_depth_clamp); else to what formats hold.
+// Clamp range of window z: under depth clamp the draw's depth range (GL_ARB_depth_clamp), else [0,1].
 DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp) {
   if (!depth_clamp) return {format, 0, 1, draw.polygon_offset};
   const auto [low, high] = std::minmax(draw.depth_range.near, draw.depth_range.far);

@@ -79,8 +79,8 @@ struct CornerPlanes {
   W area_1, area_2;  ///< l1 and l2 at the anchor, times twice the triangle's area
   Affine<W> l1, l2;
 
-  /// The plane of what is `v0` at corner 0, and `d1` and `d2` more at the others; its slopes, however thin the triangle
-  /// is, to within a few roundings.
+  /// Plane through the values v0, v0 + d1 and v0 + d2 at corners 0, 1 and 2. Its slopes are within a few roundings of
+  /// the exact ones, also for a sliver.
   [[gnu::always_inline]] Affine<W> through(const W& v0, const W& d1, const W& d2) const {
     const PlaneCorners<W>& c = corners;
     return {v0 + difference_of_products(area_1, d1, -area_2, d2) / c.twice_area,

@@ -71,7 +71,8 @@ Reflectance<R> reflectance(const Scene& scene, const ColoredMaterial& material, 
   return out;
 }
 
-/// N.L, and the cosine whose power the highlight is; 0 where the light does not reach.
+/// diffuse: max(N.L, 0), and 0 where Sides::flip excludes the light. specular: max(N.H, 0) or max(R.E, 0), the base of
+/// the shininess power; it counts only where diffuse is above 0.
 template <class R>
 struct Cosines {
   R diffuse, specular;

@@ -16,11 +16,12 @@
 
 namespace plumbline::raster {
 
-/// A line's way along its major axis, and the division that says where it is on the other, by its remainder.
+/// Integer DDA of a line. A step of `toward` along the major axis adds `step` to the remainder `rest`; where `rest`
+/// leaves [0, divisor), the minor coordinate moves by one.
 struct DiamondSteps {
   int major;            ///< axis
-  std::int64_t count;   ///< of columns, 0 or less: none
-  glm::i64vec2 pixel;   ///< the first
+  std::int64_t count;   ///< steps, one pixel each; 0: no pixel
+  glm::i64vec2 pixel;   ///< first pixel
   std::int64_t toward;  ///< 1 or -1
   std::int64_t rest, step, divisor;
 };

@@ -67,7 +67,7 @@ struct TextureSetup {
   Sampler sampler;
   int last;                                 ///< the highest level that may be sampled
   double c;                                 ///< lambda up to which a texture is magnified
-  double magnified_rho2;                    ///< up to which it surely is; 0: none
+  double magnified_rho2;                    ///< rho^2 up to which a texture is surely magnified; 0: no such bound
   double width, height;                     ///< of the base level
   std::array<const glm::vec4*, 16> texels;  ///< of each level
   glm::vec4 border;                         ///< texture source components
@@ -101,16 +101,16 @@ template <class R>
   return to_float(select(low < most, low, most));
 }
 
-/// A texel coordinate, every other image of a repeated row of `size` turned round. The coordinate is, not the texel's
-/// number (3.8.7): between two texels it is the one that then lies to its right.
+/// Texel coordinate `u`, mirrored in every odd image of a row of `size` texels. The coordinate is mirrored, not the
+/// texel number (3.8.7): on the border of two texels, floor() then takes the texel right of the mirrored coordinate.
 template <class W>
 W mirrored(const W& u, const W& size) {
   const W image = floor_of(floor_of(u) / size), within = u - image * size;
   return select(image - 2.0 * floor_of(image * 0.5) != 0.0, size - within, within);
 }
 
-/// Where texel `i` of a row of `size` is found; -1: the border. Whole numbers, `i` up to 2^40: what is below a whole
-/// number by 1 / size is not rounded to it.
+/// Number of texel `i` in a row of `size` texels after wrapping; -1: the border. `i`: an integer, |i| <= 2^40, so that
+/// i / size in double never rounds up to the next integer.
 template <class W>
 W wrapped(Wrap wrap, const W& i, const W& size) {
   switch (wrap) {
@@ -148,13 +148,13 @@ template <class R>
   return greater_of(floor_of(static_cast<double>(base) * power_of_two(-to_wide(level))), Wide<R>(1));
 }
 
-/// The texels about a place in each lane's level: it and its neighbours to the right, above, and both; and how far the
-/// place is towards them. The nearest texel is the first.
+/// Texels around the sample point in each lane's level: tap 0 below left of the point (with a nearest filter: the
+/// nearest texel), 1 right of tap 0, 2 above, 3 right and above; and the point's fractions `right` and `above`, [0,1).
 template <class R>
 struct Taps {
   static constexpr int kLanes = Lanes<R>::width;
   const glm::vec4* texels[kLanes];  ///< of the level
-  std::int32_t twice[4][kLanes];    ///< their numbers', for machines scale an address by up to 8; below 0: the border
+  std::int32_t twice[4][kLanes];    ///< 2 x texel number (x86 scales an index by at most 8 bytes); below 0: the border
   double right[kLanes], above[kLanes];
 };
 /// `level`: one number, or each lane's.

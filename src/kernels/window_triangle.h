@@ -19,7 +19,7 @@ struct WindowVertex {
 struct WindowTriangle {
   std::array<WindowVertex, 3> v;
   std::uint32_t primitive = 0;
-  bool front = true;          ///< counter-clockwise in the window; a line or point
+  bool front = true;          ///< counter-clockwise triangle, or polygon of an outline; a mesh's line or point: true
   std::uint32_t corners = 3;  ///< of a line 2, of a point 1
   std::uint32_t width = 1;    ///< [pixels] of a line, or the side of a point's square
 };

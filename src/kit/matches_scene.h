@@ -50,10 +50,10 @@ inline void PrintTo(const DrawnFrame& frame, std::ostream* out) {
        << (frame.depth.empty() ? "without depth" : "with depth");
 }
 
-/// Matches a DrawnFrame. Of one that does not match, the message is that of `plumb diagnose`: the first stage that is
-/// wrong, numbers, pixels; and a page with pictures, in plumbline_pages/TEST/SCENE of the working directory, or in
-/// SCENE.1 after one failure of the test, SCENE.2 after two. Throws std::runtime_error where the frame could not be judged (no such scene, another size, an antialiased scene, no
-/// plumb): then neither the matcher nor Not() of it passes.
+/// Matches a DrawnFrame. The message for a mismatch is that of `plumb diagnose`: the first stage that is wrong, with
+/// numbers and pixels. A page with pictures is written to plumbline_pages/TEST/SCENE in the working directory, to
+/// SCENE.1 after one failure of the test, SCENE.2 after two. Throws std::runtime_error where the frame cannot be judged
+/// (no such scene, another size, an antialiased scene, no plumb): then neither the matcher nor Not() of it passes.
 class SceneMatcher {
  public:
   using is_gtest_matcher = void;

@@ -88,7 +88,7 @@ std::optional<Grid> explained(const std::vector<Edge>& edges, int bits, C::Round
     least = std::min(least, sample), most = std::max(most, sample), sum += sample;
     ++n;
   }
-  // Ties, and the rounding of an edge function, and of corners to a grid that is too fine to be told.
+  // Ties, and the rounding of an edge function, and of corners to a grid that is too fine to be measured.
   if (n == 0 || most - least > 3.5 * edges.front().rise / kLong) return std::nullopt;
   return Grid{bits, rounding, sum / static_cast<double>(n), n, edges.size(), most - least};
 }

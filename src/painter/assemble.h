@@ -48,10 +48,10 @@ class ScalarGeometry {
   std::vector<Attributes> attributes_;
   std::vector<ShadedTriangle> triangles_;
 };
-/// Window triangles that came another way (ScalarGeometry), by primitive: clipped ones, lines, points.
+/// Window triangles, lines and points that ScalarGeometry made, sorted by primitive.
 struct OtherTriangles {
   std::span<const ShadedTriangle> triangles;
-  std::uint32_t first_vertex;  ///< their corners' numbers from there on, three each
+  std::uint32_t first_vertex;  ///< vertex number of triangles[0]'s corner 0; each triangle has three of its own
 };
 
 /// The chunk's triangles, and which tiles they touch.

@@ -77,7 +77,7 @@ template <class R>
   to.template store_color<R>(kept, merged, state.color_mask);
 }
 
-/// The pixels `p` of `covered`, which are stored from `place` on.
+/// Scissor and stages 6 to 11 of the fragments `covered` at the pixels `p`, whose stored values begin at `place`.
 template <class R>
 void paint_fragments(const Draw& draw, const FragmentSetup& s, const std::optional<SurfaceSetup>& surface,
                      const Pixels<R>& p, Mask<R> covered, int place, float color_scale, auto& tile) {

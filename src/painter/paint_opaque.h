@@ -22,8 +22,8 @@ enum class Plain { nothing, one_color, colors };
 template <class R, PaintKernel kKernel, int kSamples>
 class OpaqueRun {
  public:
-  /// `tiles`: one for each sample. `from_last`: triangles are painted from the last to the first; then a fragment as
-  /// near as one that was painted before it comes before it, and one as near as the clear depth is none.
+  /// `tiles`: one for each sample. `from_last`: triangles are painted from the last to the first, so a fragment
+  /// replaces a stored fragment of equal depth (it is earlier in draw order), but never passes at the clear depth.
   OpaqueRun(const Painting& painting, const PaintRun& run, PackedTile* tiles, bool from_last)
       : painting_(painting),
         draw_(painting.draws[run.draw]),
@@ -316,8 +316,8 @@ class OpaqueRun {
     }
   }
 
-  // The same, coloured by the surface. False, and nothing painted, where that shades more often than one triangle after
-  // the other does, or where light has two sides and the triangles' faces differ.
+  // paint_small() with colours of the surface. Returns false and paints nothing where shading triangle by triangle
+  // takes fewer calls, or where light has two sides and the triangles' faces differ.
   bool shade_small() {
     const Int<R> covered = covered_in_boxes(0);
     const Counts counts(covered);

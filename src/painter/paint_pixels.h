@@ -67,8 +67,8 @@ class PixelsOfLanes {
   }
   [[gnu::always_inline]] void set_codes(int i, const Int<R>& codes) { store(codes, color_of_[i]); }
 
-  /// A lane's first `count` pixels. `from_last`: triangles come from the last to the first, so that one as near as what
-  /// is there comes before it; one as near as the clear depth is none.
+  /// Writes a lane's first `count` pixels where they pass the depth test. `from_last`: triangles come from the last to
+  /// the first, so a fragment replaces a stored fragment of equal depth, but never passes at the clear depth.
   [[gnu::always_inline]] void paint(int lane, int count, bool from_last, float cleared, PackedTile& tile) const {
     for (int i = 0; i < count; ++i) {
       const int place = place_of_[i][lane];

@@ -46,7 +46,7 @@ class ShadedPixels {
  private:
   static constexpr int kLanes = Lanes<R>::width;
 
-  // The last ones, `count` of as many as there are lanes.
+  // Shades the last kLanes of the collected pixels and writes the first `count` of these.
   void shade(int count) {
     using I = Int<R>;
     const int x0 = tiles_[0].x0, y0 = tiles_[0].y0;

@@ -145,8 +145,8 @@ bool has_whole_lanes(const Frame& frame, int x0) {
   return kLanes >= kBlock && columns % kLanes == 0 && !frame.depth_code.empty() && frame.stencil.empty();
 }
 
-/// The tile's part of a plane of 32 bits a pixel, values_at(x, y) for the lanes of a row from (x, y) of the tile on.
-/// Past the caches where rows begin at a vector's place: a frame is larger than they are.
+/// Writes the tile's part of a plane of 32-bit pixels; values_at(x, y) gives the lanes of a row from (x, y) of the tile
+/// on. Where every row is aligned to a vector, stores bypass the caches, which are smaller than a frame.
 template <class R>
 void write_lanes(auto& plane, int x0, int y0, auto values_at) {
   constexpr int kLanes = Lanes<R>::width;

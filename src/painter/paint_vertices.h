@@ -10,7 +10,7 @@ namespace plumbline::pipeline {
 
 static_assert(offsetof(PaintVertex, snapped) == 16 && offsetof(PaintVertex, color) == 24 && sizeof(PaintVertex) == 40);
 
-/// One bit a plane that is violated, in the order of view_volume(); finite coordinates' distances are w + x and so on.
+/// Bits of the violated planes, in the order of view_volume(). For finite coordinates, x <= w is clip()'s w - x >= 0.
 template <class R>
 Int<R> outside_planes(const Vec4<R>& p) {
   const auto bit = [](Mask<R> inside, int value) { return select(inside, Int<R>(0), Int<R>(value)); };

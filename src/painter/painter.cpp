@@ -30,7 +30,7 @@ bool goes_in_lanes(const Scene& scene, const Draw& draw) {
          !carries(scene, draw, Varying::back_color) && !carries(scene, draw, Varying::back_secondary);
 }
 
-// Whether triangles are drawn so whose faces are not culled.
+// Whether every face that is not culled is drawn in this mode.
 bool draws_as(const Draw& draw, PolygonMode mode) {
   return (draw.cull == Cull::front || draw.front_mode == mode) && (draw.cull == Cull::back || draw.back_mode == mode);
 }

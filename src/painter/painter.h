@@ -5,7 +5,8 @@
 //   triangles (assemble.h)        culled and put into bins of tiles, in shares ("chunks") of the scene's primitives
 //   tiles (paint_tile.h)          stages 5 to 11, each tile by one thread, triangles in draw order
 //
-// Primitives that are clipped, lines, points and what else is rare go through stages 0 to 4 as the definition has them.
+// Clipped primitives, flat-shaded draws of lines, points or outlines, and draws lit at the vertices from two sides or
+// with a colour material go through stages 0 to 4 one by one, by the definition (scalar_geometry.cpp).
 #pragma once
 
 #include <memory>

@@ -29,7 +29,7 @@ void copy_primitives(const Mesh& from, std::span<const std::uint32_t> primitives
 
 }  // namespace
 
-// All, or what is clipped.
+// Fills of_draw_: all primitives of a draw that does not go in lanes, else those that the view volume may cut.
 void ScalarGeometry::find(const AssemblyWork& draw) {
   of_draw_.clear();
   const auto violates = [&](unsigned bits) { return (bits & draw.planes) != 0; };

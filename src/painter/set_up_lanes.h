@@ -5,11 +5,11 @@
 
 namespace plumbline::pipeline {
 
-/// Edge functions of 32 bits, relative to the tile, negated and divided by 256, which is exact: E's steps are multiples
-/// of 256, and of the rest its floor decides. E(x, y) >= 0 (coverage.h) exactly where at_tile + step_x x + step_y y < 0,
-/// so that the sign bit of all three is that of their "and". Values are clamped to +-2^30: |step| <= 2^22, so that 64
-/// pixels change E by less than 2^29, and a clamped value keeps its sign. Corners cut where w is tiny may be rounded to
-/// far outside of the frame: such edges do not fit.
+/// Edge functions as 32-bit integers, counted from the tile: -1 - floor(E / 256), exact in sign because E's steps are
+/// multiples of 256. E(x, y) >= 0 (coverage.h) exactly where at_tile + step_x x + step_y y < 0, so a pixel is inside
+/// where the "and" of the three is negative. Values are clamped to +-2^30: |step| <= 2^22, so that 64 x 64 pixels
+/// change a value by less than 2^29, and a clamped value keeps its sign. Edges longer than kLongestEdge do not fit:
+/// they come from corners cut at a tiny w, which rounding may move far outside the frame.
 inline constexpr std::int32_t kFarEdge = 1 << 30;  // (kLongestEdge: painting.h)
 
 /// A triangle in its lane. Edges and depths are taken at each of the pixel's samples, which differ but in what is added
@@ -67,8 +67,8 @@ struct LaneTriangles {
   float nearest[kLanes];
   alignas(64) std::int32_t constant_colors[kLanes];  ///< not 0: of one colour
   unsigned fitting;                                  ///< a bit a lane
-  /// In the tile, no fragment's code has to be clamped, and all are nearer than the clear depth; their colours' weights
-  /// are small, with no horizon near, and all corners have the same alpha.
+  /// A bit a lane. plain_depth: in the tile, no depth code needs the clamp, and all are nearer than the clear depth.
+  /// plain_color: in the tile, 1/w is not near 0 and weights are below 1024; all corners have the same alpha.
   unsigned plain_depth, plain_color;
   unsigned in_blocks;  ///< as PerspectiveSetup
   int width, height;   ///< the largest box
@@ -140,7 +140,7 @@ struct AttributeLanes {
   Color<R> value0, delta1, delta2;
   Mask<R> constant;
 };
-/// attribute_setup() of what `member` points to in a corner: four floats. `flat`: the provoking vertex's, of all corners.
+/// attribute_setup() of the four floats that `member` points to in a corner. `flat`: the provoking vertex's, everywhere.
 template <class R>
 [[gnu::always_inline]] inline AttributeLanes<R> attribute_lanes(const CornersOfLanes<R>& corner, bool flat,
                                                                 auto member) {

@@ -9,7 +9,7 @@
 
 namespace plumbline::pipeline {
 
-/// mean(): of lanes without differences, whose weights need not be numbers, by none.
+/// mean() per lane. A lane whose corners are equal gets weights 0, because its own may be NaN.
 template <class R>
 [[gnu::always_inline]] inline Color<R> mean_of_lanes(const AttributeLanes<R>& s, const Weights<R>& k) {
   const Weights<R> known{select(s.constant, R(0), k.k1), select(s.constant, R(0), k.k2)};

@@ -22,7 +22,7 @@ alignas(64) inline constexpr std::int32_t kBlockRows[][16] = {{0, 1, 2, 3, 4, 5,
                                                               {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1},
                                                               {}};
 
-/// Blocks that are looked at at once, one a lane: side by side; or of a narrow box, rows of a few.
+/// Blocks that are tested together, one a lane: one row of blocks, or several shorter rows where the box is narrow.
 template <class R>
 struct BlockGroup {
   static constexpr int kLanes = Lanes<R>::width;
@@ -42,11 +42,11 @@ struct BlockGroup {
   int bits = std::min(kMostBits, 2);
 };
 
-/// Calls block(x, y, lane, covered, whole) for the blocks with pixels inside of all three edges, group by group; x, y:
-/// the block's first pixel, from the tile's; `covered`: for each sample the pixels of each part; `whole`:
-/// std::true_type where, of one sample, those are all pixels. Of each row of blocks, wanted(y) comes first: a bit for
-/// each of its sixteen blocks that matter. Before a group's blocks, ahead(x, y, group, whether any is whole), of its
-/// first block.
+/// Calls block(x, y, lane, covered, whole) for each block with pixels inside all three edges, group by group. (x, y):
+/// the block's first pixel, counted from the tile. `covered`: masks of the block's parts, for each sample. `whole`:
+/// std::true_type where all pixels are covered (only with one sample), else std::false_type. Before a row of blocks,
+/// calls wanted(y), which returns a bit for each of the row's 16 blocks to test. Before the blocks of a group, calls
+/// ahead(x, y, group, whether any block is whole) with the first pixel of the group.
 template <class R, int kSampleCount>
 [[gnu::always_inline]] inline void visit_covered(const LaneSetup<kSampleCount>& s, auto wanted, auto ahead,
                                                  auto block) {

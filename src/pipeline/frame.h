@@ -11,7 +11,8 @@
 
 namespace plumbline::pipeline {
 
-/// Row 0 at the bottom. Of the colour planes, and of the depth planes, that of the format is filled.
+/// Finished frame. Row 0 is the bottom row, in dialect gzrender the top row (scene.h, rows_from_top). Of the colour
+/// planes, and of the depth planes, only the one of the frame's format is filled.
 struct Frame {
   explicit Frame(const FrameFormat& format);
   bool empty() const { return depth_code.empty() && depth_z32f.empty(); }

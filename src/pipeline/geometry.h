@@ -51,8 +51,8 @@ void light_part(const Scene& scene, const Draw& draw, const Mesh& mesh, LitPart 
 Polygon assemble(const DrawInput& input, const glm::uvec3& corners, std::span<const Vertex<float>> vertices,
                  std::span<const Attributes> attributes);
 
-/// Cuts it to -w <= x, y, z <= w (of a draw with depth clamp, x and y alone). One that lies outside loses all corners,
-/// and so does one with a coordinate that is not finite.
+/// Cuts the polygon to -w <= x, y, z <= w; under depth clamp, to x and y alone. A polygon that lies outside, or has a
+/// coordinate that is not finite, loses all corners.
 ///
 /// Triangles: Sutherland-Hodgman (Reentrant polygon clipping, CACM 1974), planes in the order right, left, top, bottom,
 /// near, far, those only that a vertex violates. A cut is taken from the end that is nearer to the plane (a tie: the

@@ -9,8 +9,8 @@
 //   };
 //   const Frame frame = draw_program(Gouraud{...}, triangles, format);
 //
-// Both take the place of stage functions in the definition (render.h): what a program knows besides, its uniforms, are
-// its members. Varyings travel as vertex attributes do, four floats at a time, and are cut and interpolated with them.
+// vertex() makes the input of stage 3 (render.h); fragment() replaces Stages::shade. Uniforms are members of the
+// program. Varyings are stored as vertex attributes, four floats each, and are clipped and interpolated as those are.
 #pragma once
 
 #include <array>

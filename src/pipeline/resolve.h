@@ -13,9 +13,9 @@ namespace plumbline::pipeline {
 /// for scale 0, floats.
 using Resolve = float (*)(std::span<const float> values, std::span<const PixelSample> samples, float scale);
 
-/// Four equal samples are averaged in float, as colours are of which codes are a format (OpenGL 4.5, section 18.3.1,
-/// leaves it to the implementation): ((a + b) + c) + d) / 4, a code being code * (1/scale); rounded to the nearest
-/// code. That is llvmpipe's order, and where four codes have their mean half way between two, the order decides.
+/// Mean of four samples of equal weight, in float: (((a + b) + c) + d) * 0.25, where a code enters as code * (1/scale);
+/// rounded to the nearest code, half to even. OpenGL 4.5, section 18.3.1, leaves the arithmetic open; this order is
+/// llvmpipe's, and decides where the mean lies half way between two codes.
 float mean_of_four(std::span<const float> values, std::span<const PixelSample> samples, float scale);
 /// The weighted mean, in double, rounded once: of codes exact but for that, halves up.
 float weighted_mean(std::span<const float> values, std::span<const PixelSample> samples, float scale);

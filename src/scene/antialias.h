@@ -30,8 +30,8 @@ struct Tap {
 inline constexpr std::array<Tap, 6> kTaps = {
     {{-.52, .38, 128}, {.41, .56, 119}, {.27, .08, 294}, {-.17, -.29, 249}, {.58, -.55, 104}, {-.31, -.71, 106}}};
 
-/// The scenes that are drawn for one, in order; where it is not antialiased, itself. Each has its frame's antialias
-/// `none`, and no path: it stands in no file. Supersampled scissor boxes grow with the frame.
+/// The passes of a scene, in order; of a scene that is not antialiased, the scene itself. The passes of an antialiased
+/// scene have antialias `none` and no path, for no file holds them. Scissor boxes grow with a supersampled frame.
 std::vector<Scene> passes_of(const Scene& scene);
 std::size_t pass_count(const Antialias& antialias);
 /// The i-th of them, into a scene whose memory is kept; and what it alone has.

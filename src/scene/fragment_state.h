@@ -42,7 +42,7 @@ struct StencilFace {
   std::uint8_t write_mask = 0xff;          ///< the bits that an op may change
   bool operator==(const StencilFace&) const = default;
 };
-/// Of triangles that face back, and of all else.
+/// `back`: state of back-facing triangles and their outlines. `front`: state of all other primitives.
 struct Stencil {
   StencilFace front, back;
 };

@@ -1,4 +1,4 @@
-// Textures: what OpenGL would be told of them, level by level.
+// Textures as OpenGL takes them: format, sampler parameters, and the texels of each level.
 #pragma once
 
 #include <string>

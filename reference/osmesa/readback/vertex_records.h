@@ -21,7 +21,7 @@ class VertexProgram {
  private:
   const Gl& gl_;
   Program program_;
-  GLint normals_;  ///< where it is told what becomes of normals (scene.h, Normals)
+  GLint normals_;  ///< location of the uniform that selects the normals' treatment (scene.h, Normals)
 };
 
 /// The vertices' colours; made once per context.

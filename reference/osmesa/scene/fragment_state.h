@@ -1,4 +1,4 @@
-// What GL is told of a draw's fragments: alpha test, stencil test, polygon offset, logic op.
+// GL state of a draw's fragments: alpha test, stencil test, polygon offset, logic op.
 #pragma once
 
 #include "reference/osmesa/gl/gl.h"

@@ -1,4 +1,4 @@
-// A scene's meshes in GL's buffers, each draw's uploaded once, and what GL has to be told to draw them.
+// A scene's meshes in GL's buffers, each draw's uploaded once, and the GL calls that draw them.
 #pragma once
 
 #include <functional>

@@ -14,10 +14,10 @@ namespace plumbline::osmesa {
 
 class Target {
  public:
-  /// Of the frame's size and depth format (z24 for z8, which OpenGL does not have), with a colour format of the
-  /// caller's: rgba8, rgba16 or rgba32f. Throws RendererFailed where
-  /// OpenGL cannot give that, naming its limit. Where the frame is of one of a pixel's samples, four are drawn, and
-  /// what is read is that one; of a multisampled frame the samples are resolved.
+  /// Has the frame's size and depth format, but z24 for z8 (which OpenGL lacks) and for z16 with stencil values.
+  /// `color`: rgba8, rgba16 or rgba32f. Throws RendererFailed, naming OpenGL's limit, where OpenGL cannot give that.
+  /// A pass of one sample (Pass::sample) draws all four samples, and that one is read. The samples of a multisampled
+  /// frame are resolved before they are read.
   Target(const Gl& gl, const FrameFormat& frame, ColorFormat color);
   ~Target();
   Target(const Target&) = delete;

@@ -54,7 +54,7 @@ std::vector<EdgeValue> values_beside(const Scene& scene, const Capture& candidat
   return out;
 }
 
-// What colours of the frame are told apart in.
+// Unit in which colours of the frame are compared.
 std::string code_unit(const FrameFormat& frame) {
   const double scale = color_scale(frame.color);
   return scale > 0 ? fmt::format("1/{:.0f}", scale) : "u";

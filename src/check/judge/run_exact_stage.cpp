@@ -25,7 +25,7 @@ Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records
   return compare_attributes(a, b, factor);
 }
 
-// It is told by its own name, not by that of the colour which it was compared as.
+// The difference bears the varying's own name, not that of the colour as which it was compared.
 Measurement named(Measurement m, Varying v) {
   if (std::string_view(m.worst.place.field) == "color") m.worst.place.field = name_of(v).data();
   return m;

@@ -8,14 +8,14 @@
 
 namespace plumbline::report {
 
-/// What is too small to be told.
+/// Changes that are too small to be reported.
 struct DiffLimits {
   double factor = 1.25;      ///< a largest difference, or a count, has moved if it is that much larger or smaller
   double slower = 1.5;       ///< a scene's time likewise,
   double at_least_s = 0.25;  ///< and by so many seconds
 };
 
-/// One thing that is not as it was.
+/// One difference between two runs.
 struct Change {
   std::string what;      ///< scene, or scene, reference, stage; a tolerance's row
   std::string was, now;  ///< outcome, number or time

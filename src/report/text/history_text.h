@@ -13,7 +13,7 @@ std::string history_text(const Scene& scene, const check::History& history);
 
 /// {"scene", "pixel", "samples": [{pass, pixel, renderers: [{renderer, absent, fragments: [{primitive, draw, triangle,
 /// front, depth, color, ..., drawn, fate, why}], lacks, frame: {color, depth, stencil}, notes, legal}]}], "resolved"}.
-/// What is not told is null. Numbers that JSON cannot hold are the strings "inf", "-inf" and "nan".
+/// Unknown values are null. Numbers that JSON cannot hold are the strings "inf", "-inf" and "nan".
 std::string history_json(const Scene& scene, const check::History& history);
 
 }  // namespace plumbline::report

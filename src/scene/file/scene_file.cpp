@@ -245,7 +245,7 @@ Scene read_scene(const JsonNode& root, const AssetFolders& folders) {
   return scene;
 }
 
-/// x.json, but neither the schema nor a part that scenes include.
+/// Whether a file is a scene: *.json, but not *.schema.json, *.part.json or *.rubric.json.
 bool is_scene(const fs::path& file) {
   const fs::path second = file.stem().extension();
   return file.extension() == ".json" && second != ".schema" && second != ".part" && second != ".rubric";

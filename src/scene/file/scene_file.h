@@ -16,7 +16,7 @@ struct SceneError : std::runtime_error {
 };
 
 struct SceneFileOptions {
-  /// Where mesh files are looked for, after the scene's own folder; by default where the build was told.
+  /// Folders in which mesh, image and included files are looked for, after the scene's own; default: set by the build.
   std::vector<std::filesystem::path> asset_folders = {PLUMBLINE_ASSETS};
 };
 
