@@ -102,7 +102,7 @@ SceneId id_in(const std::filesystem::path& file, const std::string& text) {
   }
 }
 
-// A file of whole pages, but where a killed process left the last ones in the file beside, which SQLite then takes over.
+// Whether the file ends within a page, and no file -wal lies beside it, from which SQLite would restore the last pages.
 bool is_cut(const std::filesystem::path& file) {
   constexpr std::uintmax_t kPage = 4096;
   std::error_code none;

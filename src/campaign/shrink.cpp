@@ -155,7 +155,8 @@ class Shrinker {
     }
   }
 
-  // Each number that is not an index: 0, a whole one, then tenths and hundredths.
+  // Each number with a fraction or exponent, outside `indices` and `frame`: tries 0, then the number rounded to units,
+  // to tenths and to hundredths; the first that shows the finding stays.
   void rounder(const Pointer& place) {
     const Json value = scene_[place];
     if (value.is_structured()) {

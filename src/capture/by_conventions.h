@@ -12,9 +12,9 @@ namespace plumbline {
 
 /// A scene drawn by other conventions than its own. Holds a copy where they alter it; else it refers to `scene`.
 ///
-/// A sample off the pixel's centre is a picture that is moved the other way (Pass::shift). A first vertex that provokes
-/// is each triangle's last, once its corners are turned. Depths that are not cut are clamped (GL_DEPTH_CLAMP). A view
-/// volume of [0,w] in z is the oracles' matter (reference/arithmetic/project.cpp).
+/// `sample`: the picture is shifted by as much the other way (Pass::shift). `provoking_vertex` first: the corners of
+/// each triangle are rotated, so that this vertex is the last. `depth_planes` clamped: GL_DEPTH_CLAMP. `depth_format`:
+/// the frame's. The oracles handle a view volume of [0,w] in z (reference/arithmetic/project.cpp).
 class SceneByConventions {
  public:
   SceneByConventions(const Scene& scene, const Conventions& conventions);

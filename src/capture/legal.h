@@ -102,8 +102,8 @@ struct TexelRange {
 struct Legal {
   Plane<std::uint32_t> certain;   ///< number of certain hits at the pixel; a group counts as one
   Plane<std::uint32_t> possible;  ///< and of all hits: count must lie within [certain, possible]
-  /// Pixels whose sample lies on, or so near to, edges that several triangles share that exactly one of them covers it
-  /// (as many as lie over each other), by whatever tie rule: 1.
+  /// 1 where the sample lies on edges that several triangles share, or so near to them that snapping decides: by any
+  /// tie rule, exactly one of these triangles covers the pixel (one per layer where they overlap).
   Plane<std::uint8_t> shared;
   std::vector<std::uint32_t> first;  ///< pixel y * width + x has answers [first[i], first[i + 1])
   std::vector<LegalAnswer> answers;

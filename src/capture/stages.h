@@ -106,9 +106,9 @@ struct ClipPolygons {
 // 4. Each polygon is divided by w, moved to the window, and becomes a fan of triangles: corners (i-1, i, 0). Positions
 //    are snapped to 1/256 pixel; facing is the sign of the snapped area. Culled triangles and those of zero snapped
 //    area are gone. A line is a degenerate triangle whose last corner is repeated, a point one of three equal corners;
-//    they face the front, and none is culled. Where a polygon is not to be filled (scene.h, PolygonMode), it becomes its
-//    edges, from the one that ends in its first corner on, or its corners; facing, and with it the mode and culling,
-//    goes by its whole area's sign (0: the back), which they keep.
+//    they face the front, and none is culled. A polygon that is not filled (scene.h, PolygonMode) becomes its edges,
+//    beginning with the edge that ends in its first corner, or its corners. The sign of the whole polygon's snapped
+//    area (0: back) decides facing, and with it mode and culling; the edges or corners keep this facing.
 inline constexpr int kSubpixel = 256;
 template <class T>
 struct WindowVertex {

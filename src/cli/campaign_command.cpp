@@ -66,8 +66,8 @@ std::vector<campaign::Generator> generators_of(const std::string& option) {
   return out;
 }
 
-// A scene for each seed and generator, in turn, so that the findings of both come evenly. `parents`: of the round before;
-// a seed changes one of them, a function of the seed. Empty: the first round.
+// A scene for each seed and generator, in turn, so that the findings of both come evenly. `parents`: scenes of the round
+// before, of which a seed picks one and changes it. Empty: the first round.
 std::vector<campaign::SceneId> scenes_of(const Range& range, const std::string& generator,
                                          std::span<const campaign::SceneId> parents) {
   std::vector<campaign::SceneId> out;
@@ -139,7 +139,7 @@ void judge_scenes(std::span<const campaign::SceneId> scenes, const CheckRules& r
     };
   };
   const auto ask = [&](std::size_t i) { return to_bytes(requests[i]); };
-  // Whoever kills a worker once, for instance where the machine's memory is short, means no scene.
+  // A scene's first SIGKILL may be the kernel's, for lack of memory: the scene is judged again, and not blamed.
   std::set<std::size_t> killed;
   const auto ask_again = [&](std::size_t i, const WorkerEnd& end) {
     if (end.signal == SIGKILL && killed.insert(i).second) return to_bytes(requests[i]);
@@ -245,7 +245,7 @@ std::vector<campaign::SceneId> scenes_of(const CampaignOptions& o, const std::st
   return out;
 }
 
-// Files that appear whole, each written in a folder beside: among thousands, write_file() would read them all each time.
+// Files that appear whole, each written in a folder beside: write_file() would look through thousands of them each time.
 void write_scenes(const CampaignOptions& o, const std::string& terms) {
   const std::vector<campaign::SceneId> scenes = scenes_of(o, terms);
   const fs::path folder = o.folder;
@@ -265,7 +265,7 @@ void write_scenes(const CampaignOptions& o, const std::string& terms) {
   }
 }
 
-// A folder has one campaign: also where a process of another has its journal, which then cannot be read.
+// Refuses other terms than terms.txt holds, written if absent: a journal that another process has cannot be read.
 void require_terms(const fs::path& journals, const std::string& terms) {
   const fs::path file = journals / "terms.txt";
   if (!fs::exists(file)) write_file(file, terms + "\n");

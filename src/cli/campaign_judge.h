@@ -21,8 +21,8 @@ class CampaignJudge {
   /// `ended`: the steps that ended workers before. Throws SceneError where the scene needs a file that is not there.
   campaign::Entry judge(const campaign::SceneId& id, EndedSteps ended);
 
-  /// The scene made smaller, as long as it has this signature: by the signature's own reference alone, which is quick, as
-  /// far as that finds it by itself; then by all.
+  /// The scene made smaller, as long as it has this signature: first by the signature's own reference alone, which is
+  /// quick, where that reference finds it by itself; then by all references.
   std::string shrink(const campaign::SceneId& id, const campaign::Signature& signature);
 
  private:
@@ -38,9 +38,10 @@ class CampaignJudge {
 /// Why a scene does not hold, as what bugs are sorted by; none where it holds.
 std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict);
 
-/// Leaves `folder`/STAGE-CAUSE-REFERENCE of each group of findings: found.json, its lowest scene; scene.json, that scene
-/// made smaller; scene.txt, its rows and the command that repeats them; scene/, its page. A folder that has all files, and whose
-/// found.json is that scene, is known, and stays as it is. Returns lines for people of the others. Throws OutputError.
+/// Writes a folder `folder`/STAGE-CAUSE-REFERENCE for each group of findings: found.json, the group's lowest scene;
+/// scene.json, that scene made smaller; scene.txt, its rows and the command that repeats them; scene/, its page. A
+/// folder stays as it is where scene.json and scene.txt are there and found.json is the group's lowest scene. Returns
+/// lines for people about the folders that were written. Throws OutputError.
 std::string leave_findings(const std::filesystem::path& folder, const std::vector<campaign::Group>& groups,
                            const CheckRules& rules);
 

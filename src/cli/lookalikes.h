@@ -26,8 +26,8 @@ struct Lookalikes {
   bool whole = false;     ///< and all of them
 };
 Lookalikes lookalikes(const Scene& scene, const ColorAndDepth& given);
-/// The likely fault of a renderer with this verdict; empty where the faults tell less than half as many pixels as are
-/// wrong at merge: they tell a legal rule of its own, then.
+/// found.likely; empty where fewer pixels differ from ours (found.apart) than half of those that a row finds different
+/// at merge: the fault then resembles a legal rule of the renderer, not what is wrong with it.
 std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
 /// The likely fault of a capture; empty also where the scene is too large for a picture of each fault.
 std::string likely_fault(const Scene& scene, const Capture& left, const check::SceneVerdict& verdict);

@@ -18,9 +18,10 @@ Scene primitive_alone(const Scene& scene, std::uint32_t primitive);
 Scene primitives_by_color(const Scene& scene);
 std::int32_t winner_of(const glm::vec4& color);
 
-/// Adds to a capture the planes of coverage (count, id_sum) and of the winners (id), from pictures that the renderer
-/// draws of such scenes, where the capture has none. The winners only where no alpha test looks at colours. Throws what
-/// the renderer throws, and Unsupported for a scene of more than kMostProbes primitives.
+/// Adds to a capture the planes of coverage (count, id_sum) and of winners (id) that it lacks, from pictures that the
+/// renderer draws of these scenes. Winners only where no draw tests alpha and the frame has no stencil values. Throws
+/// what the renderer throws, and Unsupported for more than kMostProbes primitives, for pictures without planes.color,
+/// and where winners are drawn in colours of no primitive.
 void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture);
 
 }  // namespace plumbline

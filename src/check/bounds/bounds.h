@@ -20,11 +20,11 @@ using math::Roundings;
 /// |M| |p|: what the rounding errors of M p are proportional to.
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
 
-/// The same for a unit normal: |N| |n| / |N n|, in the largest component.
+/// The same for a unit normal N n / |N n|: the length of |N| |n| over the length of N n.
 double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
 
-/// For a renderer that inverts the model-view in float, as Mesa does: |N| |M|^T |N| |n| / |N n|, what an error of the
-/// matrix comes to in its inverse; in the largest component.
+/// For a renderer that inverts the model-view in float, as Mesa does: the length of |N| |M|^T |N| |n|, which an error
+/// of M in proportion to |M| comes to in the normal, over the length of N n.
 double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n);
 
 /// What the triangle's plane of colours comes to at a pixel's centre, perspective-correct, and its slopes per pixel.

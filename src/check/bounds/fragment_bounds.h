@@ -44,10 +44,10 @@ class DrawnAt {
 
 /// Per channel.
 struct FragmentBound {
-  Vec4<double> color{0};    ///< by its own arithmetic; infinite: nothing can be said
-  Vec4<double> along{0};    ///< of a line, what it moves by where it goes by the major axis alone (bounds.h)
-  Vec4<double> apart{0};    ///< what the two sides' vertices differ by, which is another stage's matter
-  std::string_view reason;  ///< why what is beyond that is the reference's fault; empty: it is not
+  Vec4<double> color{0};    ///< the reference's own arithmetic; of a draw that is not plain, all; infinite: no bound
+  Vec4<double> along{0};    ///< plain line: its colour's shift by the major axis (of_fragment: or by another edge)
+  Vec4<double> apart{0};    ///< plain draw: errors of vertex colours, of cuts and of the candidate's interpolation
+  std::string_view reason;  ///< why a larger difference is the reference's fault; empty: it is not
 };
 
 class FragmentBounds {
@@ -74,11 +74,12 @@ class FragmentBounds {
   /// The fragment's triangle, a varying's corners for its colours; none: nothing can be said.
   std::optional<WindowTriangle<double>> as_color(std::size_t i, Varying v) const;
   Vec4<double> varying_error(std::size_t i, Varying v) const;
-  /// Where the primitive is cut: what a renderer's cut may be off by, in proportion to the values at both ends (the
-  /// ledger's opengl.clip). Of a share near 1 of a way of 10^6 that is more than all that comes after.
+  /// Error of the corners that cuts make: opengl.clip of the ledger times the largest value at the primitive's
+  /// vertices; 0 where the primitive is not cut. On an edge whose ends are 10^6 apart it may exceed the errors of all
+  /// later stages.
   Vec4<double> cut_error(std::uint32_t primitive, const std::vector<Vec4<double>>& column) const;
-  /// Difference of the two sides' colours at the primitive's corners, at most: at its vertices, `times` as much, and at
-  /// those that a cut makes.
+  /// Largest difference of the two sides' colours at the primitive's corners: `times` the difference at its vertices,
+  /// and cut_error() of the colours unless the draw is flat.
   Vec4<double> lit_error(std::uint32_t primitive, double times) const;
   /// How far the values of other edges or corners of the fragment's triangle that the pixel may hold (bounds.h,
   /// EdgeValue) are from its own: of the columns' varying, or of the colour.

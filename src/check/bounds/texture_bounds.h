@@ -18,19 +18,19 @@ struct TexelBound {
   TexelRange range;
   Vec4<double> slack{0};  ///< by its texture coordinates' errors and its own arithmetic; infinite: it is open
 };
-/// `st_error`: of its texture coordinates (s, t); 4 u of them more for its texel coordinates, and `arithmetic` of the
-/// texel itself. Within st_error of where another texel is the nearest, it is open; of a coordinate that
-/// has no error (it is 0 everywhere) that is known. Filtered linearly it is open where st_error is half a texel, beyond
-/// which the range knows no slopes.
+/// Bound of a texel. `st_error`: error of the texture coordinates `st`, to which 4 u of |st| are added for the texel
+/// coordinates; `arithmetic`: error of the texel itself. The texel is open (slack infinite) where that sum is not 0 and
+/// reaches range.gap, the distance to where another texel is the nearest, or where it is half a texel or more of a
+/// level that may be filtered linearly: the range holds slopes only within half a texel.
 TexelBound texel_bound(const Texture& texture, const TexelRange& range, Vec2<double> st, Vec2<double> st_error,
                        double arithmetic);
 
-/// What a pixel has of the bands, st_error to either side, along the lines where another texel is the nearest. With w
-/// the error and s the slope in texels, a band of half width w/s pixels; a pixel within one of such a line stands for a
-/// share w/s of it, and where lines are closer than two pixels, for as much as lies between two. Where the coordinate
-/// moves by less than its error (s <= w) there is no such line: the pixel is in the band or it is not. Likewise where
-/// linear filters have no slopes (texel_bound). `plane`: coordinates and slopes by the triangle's corners, not by the
-/// fragment's record, which is what is judged.
+/// Predicted share of a pixel that is open: the bands on both sides of the lines where the nearest texel changes. With
+/// w the coordinate's error and s its slope per pixel, both in texels, a band has a half width of w/s pixels. A pixel
+/// within one pixel of a line counts w/s; where lines are less than two pixels apart (s > 1/2), each pixel counts 2 w.
+/// Where s <= w a band is two pixels wide or more: the pixel counts 1 with its centre in the band, else 0. A pixel
+/// counts 1 where linear filters have no slopes (texel_bound). `plane`: coordinates and slopes computed from the
+/// triangle's corners, because the fragment's record is what is judged.
 struct OpenShare {
   double area = 0;      ///< pixels, [0,1]
   bool centre = false;  ///< whether its centre is in one

@@ -27,7 +27,7 @@ Measurement compare_legal_winner(const Planes& candidate, const Legal& legal) {
 
 namespace {
 
-// A plane of other winners than its own is compared with nothing.
+// Whether the candidate shows no winners, or a plane of them that has the oracle's size; if not, `why` says so.
 bool fits_winners(const Planes& candidate, const Legal& legal, std::string& why) {
   return candidate.id.empty() || same_size(candidate.id, legal.certain, why);
 }

@@ -17,10 +17,10 @@ Measurement compare_coverage(const Planes& candidate, const Planes& reference, c
 /// answers: ambiguous; the reference alone outside: disputed; else different. Stencil values go with them.
 Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal);
 
-/// Depth and colour where the winners are the same; the reference evaluates planes in float from the window's origin
-/// (bounds.h): `factor` u of that magnitude, and for depth one step of the format, for colour what the two sides'
-/// colours of the triangle's vertices differ by, which is light's matter. Along a line it may go by the major axis
-/// (bounds.h): the nearer of the two values counts. Elsewhere as compare_winners.
+/// Depth and colour at the pixels where both sides have the same winner; compare_winners judges the other pixels.
+/// Tolerance: `factor` u of the magnitude of a plane that is evaluated in float from the window's origin (bounds.h),
+/// and one step of the format for depth, FragmentBound::apart (fragment_bounds.h) for colour; 0 where nothing is drawn.
+/// Along a line the reference may interpolate by the major axis (bounds.h): the nearer of the two values counts.
 Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, const Capture& reference, double factor);
 Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, const Capture& reference,
                                   double factor);
@@ -29,12 +29,12 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
 Measurement compare_codes(const Scene& scene, const Capture& candidate, const Capture& reference, double codes,
                           double factor);
 
-/// Where colours are blended or masked, against a reference that does it in its own arithmetic (llvmpipe: in 8 bits):
-/// at most `codes` per fragment drawn at the pixel (twice the former's more per fragment, where a factor reads the
-/// frame), and what `factor` u of all their colours' bounds comes to; for rgba32f that alone, in u. Where it is open
-/// which fragments made the colour, any number is legal. Codes that a logic op makes are equal where all fragments' own
-/// codes, and the clear colour's that it reads, are certain and none was blended; else any is legal: a code's
-/// difference of one may turn every bit.
+/// Frames with blending, colour masks or logic ops, against a reference with arithmetic of its own (llvmpipe: 8 bits).
+/// Tolerance for n fragments drawn at a pixel: n `codes`, or (2^n - 1) `codes` where a blend factor reads the frame,
+/// and what `factor` u of all their colours' bounds comes to; for rgba32f that and the blends' own roundings [u]. Where
+/// it is open which fragments made the colour, any number is legal. Codes that a logic op makes must be equal where the
+/// codes of all fragments, and of the clear colour if the logic op reads it, are certain and nothing is blended; else
+/// any code is legal, because operands one code apart may differ in every bit.
 Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
                             double codes, double factor);
 
@@ -44,10 +44,11 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
                           const Legal& bounds = {}, const Conventions& conventions = {});
 
-/// Against legal answers. Pixels with more than one are counted as ambiguous. Depth and colour are held to the answer
-/// of the pixel's own winner, `factor` times its bound; where that is not legal, it is visibility's matter alone. Where
-/// the candidate shows no winners, each is held to the nearest of all answers. The depth of a pixel that only the clear
-/// value may have is merge's, where there is a colour, too.
+/// Against legal answers; a pixel with several answers counts as ambiguous. The answer that has the pixel's own winner
+/// bounds depth (by `factor` steps of the format) and colour (by `factor` times its bound). Where no answer has that
+/// winner, visibility reports the pixel, and depth and colour need only be finite. Where the candidate shows no
+/// winners, the nearest answer counts. Where only the cleared frame is legal, merge judges the depth if a colour plane
+/// is there.
 Measurement compare_legal_count(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_winner(const Planes& candidate, const Legal& legal);
 Measurement compare_legal_depth(const Scene& scene, const Planes& candidate, const Legal& legal, double factor);

@@ -95,7 +95,7 @@ void open_planes(const Corners& c, std::span<const ClipVertex<double>> polygon, 
       for (std::size_t q = 0; q < c.planes; ++q) planes += on_plane(v, q, tolerance) ? 1 : 0;
       double to_edge = kInfinite;
       for (std::size_t i = 0; i < 3; ++i) to_edge = std::min(to_edge, distance_from_edge(v, c, i));
-      // More than two meet in the eye alone, where a triangle's own plane may run through it.
+      // Three planes meet in a corner of the view volume, its four sides in the eye: a triangle's plane may pass there.
       const bool open_meeting = planes > 2 || (planes > 1 && to_edge <= tolerance / c.scale);
       open[p] |= open_meeting && on_plane(v, p, tolerance);
     }
@@ -132,8 +132,8 @@ void within_rounding(Meter& meter, std::span<const ClipVertex<double>> polygon, 
   }
 }
 
-// A corner made by a cut that coincides with the next, colour and all, says nothing: where cuts meet, their order decides
-// who makes it. `planes`: how many must meet there.
+// Leaves out corners made by a cut that equal the next corner, colour included: where cuts meet, their order decides
+// which of them makes the corner. `planes`: how many must meet there.
 void drop_coincident(std::vector<ClipVertex<double>>& polygon, const Corners& corners, double factor, int planes) {
   const auto meet_at = [&](const ClipVertex<double>& v) {
     int count = 0;

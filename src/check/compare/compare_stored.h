@@ -26,14 +26,16 @@ struct StoredComparison {
 /// values, finite and not negative, of the channels' [0,1] for codes.
 std::vector<StoredComparison> compare_images(const StoredImage& a, const StoredImage& b, double tolerance);
 
-/// One row per array that either holds, in the order of the stages, records in the order in which they are stored;
-/// `tolerance` is for floats (a capture's colours are: one code apart may be a rounding above 1/255), integers are
-/// exact. What one alone holds is `missing`.
+/// One row per array that either capture holds, in the order of visit_capture() (capture_columns.h), after a row
+/// `frame` where the sizes differ. Records are compared in the order in which they are stored. `tolerance` is for
+/// floats (a capture's colours are floats: one code apart may come to a little more than 1/255), integers must be
+/// equal. An array that one capture alone holds is `missing`.
 std::vector<StoredComparison> compare_captures(const Capture& a, const Capture& b, double tolerance);
 
-/// |a - b| times `amplify` (none: such that the largest is white), red, green and blue by the first three channels; any
-/// other, such as alpha, is seen in all three. White where a difference is not finite. Empty where windows differ or no
-/// channels pair.
+/// |a - b| times `amplify` (none: such that the largest finite one is 1), at most 1. Of three pairs of channels or
+/// more, the first three are red, green and blue, and every other one, such as alpha, is seen in all three; of one or
+/// two pairs, each is seen in all three. A difference that is not finite is 1 in its channel. Empty where windows
+/// differ or no channels pair.
 Plane<glm::vec4> amplified_difference(const StoredImage& a, const StoredImage& b, std::optional<double> amplify);
 
 }  // namespace plumbline::check

@@ -23,8 +23,8 @@ struct Corners {
 std::array<double, 6> distances(const Vec4<double>& p);
 bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance);
 
-/// Whether all corners are inside, or all beyond one plane: which is never open, for the sum of two floats has its sign
-/// in float too.
+/// Whether all corners are inside every plane, or all outside one plane. Rounding leaves neither open: w - x of two
+/// floats, rounded to float, keeps its sign.
 bool uncut(const Corners& c);
 
 /// Rest of the triangle where all planes are moved inwards by `by`, by Sutherland and Hodgman in double.

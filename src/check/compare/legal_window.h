@@ -32,8 +32,9 @@ class LegalWindow {
   /// colours of their own. `factor`: of u of the magnitude of p_win, its error (ledger, exact.window).
   LegalWindow(const Scene& scene, const Records<double>& records, double factor, FacingArea area);
 
-  /// Everything that the primitive's polygon may become: a list for each facing that is legal. Empty: there is no such
-  /// polygon, or a corner of it has no window position.
+  /// Lists of records, one of which the primitive's polygon becomes. Filled on both faces: one list, each answer with
+  /// its own legal facings. Else a list for each legal facing, empty where that face is culled. No list: a line, a
+  /// point, no such polygon or no matrices, or a corner without a finite window position.
   std::vector<std::vector<WindowAnswer>> of(std::uint32_t primitive) const;
 
   /// Numbers of the answers that a primitive's records are, in their order; nothing where the records are not legal.
@@ -56,10 +57,10 @@ class LegalWindow {
   DrawIndex draws_;
 };
 
-/// Primitives that are not filled, of open facing, that both sides draw legally and maybe as other faces: in another
-/// polygon mode, culled on one side alone, or, where the face shows, in its colours or stencil operations; or, with a
-/// polygon offset, at other depths of the reference's. In order.
-/// The reference's facing may go by either area; of edges and corners, it need not tell it.
+/// Primitives, ascending, of triangle meshes that are not filled on both faces, whose facing rounding leaves open, and
+/// which both sides draw legally but perhaps as different faces. Such a difference shows in polygon mode or culling, in
+/// colours or stencil operations that depend on the face, or, with a polygon offset, in depth. Facing may follow the
+/// snapped or the unsnapped area; the reference need not hand it out for edges and corners.
 std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<double>& candidate,
                                            const Records<double>& reference);
 

@@ -15,9 +15,9 @@ struct Cause {
   std::string words;      ///< the cause, and what shows it
 };
 
-/// Causes that explain at least 49 in 50 of the records that differ (the rest: ties, and what rounding decides), those
-/// first that leave fewest; of as many, and where the pattern of the differences shows them, in the order of
-/// known_causes.h. One that leaves records which another explains is none.
+/// Likely causes: first those whose pattern the differences show, then, of those that the referee tries, the ones that
+/// leave the fewest differing records, if at most 1 in 50 of them (ties, and what rounding decides). Both parts are in
+/// the order of known_causes.h. Empty without a referee.
 std::vector<Cause> likely_causes(const Evidence& evidence);
 
 }  // namespace plumbline::check

@@ -151,7 +151,7 @@ std::vector<glm::ivec2> worst_pixels(const Scene& scene, const SceneVerdict& ver
   return out;
 }
 
-// Where there are too many fragments, those of a few pixels are not.
+// Judges stages 6 to 9 at worst_pixels() alone, where the scene has too many fragments to judge all of them.
 void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
   const std::vector<glm::ivec2> pixels = worst_pixels(find.scene, pass.verdict);
   if (pixels.empty()) return;

@@ -27,9 +27,10 @@ struct Finding {
 
 struct Diagnosis {
   SceneVerdict verdict;  ///< judge()'s, and the rows of repaired records
-  /// The first stage that is wrong by itself and explains pixels of the picture; else the first that is wrong by
-  /// itself; else the first different stage. Never coverage of a foreign candidate that differs by legal fragments
-  /// alone.
+  /// The first stage that is wrong by itself and explains pixels of the picture. Where none does: the stage of
+  /// first_different(), but the first of `wrong` if that comes later and the former stage holds alone, or if no row is
+  /// `different`. Never coverage of a foreign candidate that differs by legal fragments alone: then the first other of
+  /// `wrong`, or none.
   std::optional<Stage> first;
   std::vector<Stage> wrong;  ///< every stage that is wrong by itself, in order
   /// One for each of `wrong`, those first that explain most pixels; of the first different stage where there is none.

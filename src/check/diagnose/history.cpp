@@ -197,7 +197,7 @@ void tell_fates(const Scene& scene, const Planes& planes, glm::ivec2 pixel, Pixe
   if (history.stencil && held.stencil) note("stencil value", *held.stencil, *history.stencil);
 }
 
-// Of what is there without culling and boxes, what else is not there.
+// Adds the fragments of `all` (drawn without culling and scissor boxes) that `fragments` lacks, as culled or scissored.
 void add_left_out(const Scene& scene, glm::ivec2 pixel, std::vector<PixelFragment> all,
                   std::vector<PixelFragment>& fragments) {
   const std::size_t arrived = fragments.size();

@@ -74,10 +74,10 @@ struct History {
   std::vector<PixelHistory> resolved;  ///< of an antialiased scene: the frame's own colour and depth, no fragments
 };
 
-/// Asks the candidate, and the references as judge() takes them, what they made of the pixel. Rows count as the
-/// scene's dialect counts them, which is from the bottom but in gzrender. Fragments that were culled or lie outside a
-/// scissor box are found by drawing without; those that are then there as well count as such. Throws
-/// std::invalid_argument where the frame has no such pixel, naming its size.
+/// The pixel's history in the candidate and in each reference (as judge() takes them). Rows are counted as in the
+/// scene's dialect: from the bottom, in gzrender from the top. A second drawing, without culling and without scissor
+/// boxes that exclude the pixel, finds further fragments: each of them is Fate::scissor or Fate::culled. Throws
+/// std::invalid_argument, naming the frame's size, where the frame has no such pixel.
 History pixel_history(const Scene& scene, Renderer& candidate, std::span<const Reference> references, glm::ivec2 pixel);
 
 }  // namespace plumbline::check

@@ -13,7 +13,8 @@ namespace plumbline::check {
 
 /// What of a scene is not as its golden has it.
 struct GoldenDifference {
-  /// Why there is nothing to compare: the renderer failed, no golden, one of another scene, a broken file; or empty.
+  /// Why the golden does not count: the renderer failed, there is no golden, a file of it is broken, or the scene has
+  /// changed since (stages, color and depth are compared even so); empty: it counts.
   std::string why;
   Fingerprint golden, drawn;  ///< empty where they are not known
   std::vector<Stage> stages;  ///< whose hashes differ, in order
@@ -38,7 +39,7 @@ struct Vouch {
   std::map<std::string, std::map<std::string, std::string>> references;  ///< as in the manifest
 };
 /// The rule of vouching. `asked`: three references or more, none of them the candidate. They vouch if no comparison is
-/// a failure, every stage is judged, and at each stage a reference agrees of which nothing there is disputed.
+/// a failure, no stage is unjudged (unjudged_stages()), and at each judged stage a row of some reference holds.
 Vouch vouch(const SceneVerdict& verdict, const std::string& candidate, std::span<const std::string> asked);
 
 }  // namespace plumbline::check

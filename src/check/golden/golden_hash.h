@@ -57,9 +57,10 @@ Hash hash_of(std::string_view bytes);
 /// std::runtime_error where a file is there no longer.
 Hash scene_hash(const Scene& scene);
 
-/// One hash per stage, of all that the renderer hands on there, records and planes, name by name (capture_columns.h).
-/// None: it hands on nothing, as does texture where there is none, or resolve of one sample a pixel; or records and
-/// planes do not fit the memory budget (then of planes and vertices alone, which is the same on every machine).
+/// One hash per stage, of the records and planes that the renderer hands on there, name by name (capture_columns.h),
+/// all but matrices.light. None: the stage hands on nothing, such as texture without a textured draw, or resolve of a
+/// scene of one sample a pixel. Where the whole capture exceeds the memory budget, which is the same on every machine,
+/// only planes and the records of stages 0 to 4 are hashed.
 using StageHashes = std::array<std::optional<Hash>, kStageNames.size()>;
 
 /// A scene as it is compared with its golden.

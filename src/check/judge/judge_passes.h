@@ -33,9 +33,10 @@ struct Disputed {
   std::vector<std::set<std::pair<int, int>>> at;
   std::string reason;
 };
-/// Against what another made of its own samples: where those are the candidate's, nothing may differ but what is flushed
-/// to zero; where they are not (which is the passes' matter), the mean of their differences, and a rounding on either
-/// side. What disputed samples alone explain is disputed again.
+/// Resolved colours against those that a reference made of its own samples. Allowance: the weighted mean of the
+/// samples' differences, which the passes judge, and a rounding on either side. Where all samples are equal, codes must
+/// be equal, and floats may differ by what is flushed to zero. A larger difference that disputed samples explain is
+/// disputed.
 Measurement compare_frames(const Scene& scene, const Capture& candidate, const Capture& reference,
                            const Disputed& disputed = {});
 

@@ -28,9 +28,10 @@ struct BothCaptures {
 /// records, stage by stage (Kind::per_stage); a reference of legal answers is an oracle for coverage, depth, visibility
 /// and colour; everything else that a reference shows is compared side by side.
 ///
-/// Where the candidate's planes count more than `most_fragments`, or its fragments do not fit the memory budget, their
-/// records are not asked for; with the first, an oracle's answers are where another winner is seen, and nowhere else.
-/// Throws OverBudget where even then the candidate's capture does not fit; no reference draws the scene.
+/// Records of the candidate's fragments are not captured where its planes count more than `most_fragments` fragments,
+/// or where these records do not fit the memory budget. Legal answers of the whole frame are not asked for in the first
+/// case, nor kept beyond the budget: the referee then gives them at the pixels where a reference has another winner.
+/// Throws OverBudget, before a reference draws, where the candidate's capture does not fit even without fragments.
 SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                           BothCaptures* drawn = nullptr, std::uint64_t most_fragments = ~std::uint64_t{0});
 

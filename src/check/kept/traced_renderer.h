@@ -33,11 +33,12 @@ class TracedRenderer : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override;
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override;
 
-  /// Makes these calls, and says whether each is answered as it was. The first answer that is another is handed out to
-  /// who makes that call next: nothing is drawn twice for it.
+  /// Repeats these calls in order, up to the first whose answer or info() differs: then false. That answer is held for
+  /// the next capture(), and handed out if capture() makes the same call; any other call discards it.
   bool answers_as_before(std::span<const TracedCall> calls);
-  /// The calls since then. None where one cannot be made again: it asked for something else than a capture of the scene
-  /// or of a pass, or it failed.
+  /// All calls of capture(), in order. None where one cannot be repeated: it asked for legal answers, for conventions
+  /// other than the default, or for a scene that is neither the scene nor a pass of it; it failed; or run_stage() was
+  /// called.
   const std::optional<std::vector<TracedCall>>& calls() const { return calls_; }
 
  private:

@@ -110,10 +110,10 @@ struct SceneVerdict {
 /// Whether a row of Kind::per_stage finds nothing wrong with the stage.
 bool holds_alone(const SceneVerdict& verdict, Stage stage);
 
-/// The comparison to be named: the first by stage that is different; of several at one stage, the first listed. Null if
-/// none. Where its stage holds alone, the first stage that is different by the candidate's own records comes before it:
-/// planes of depth, colours and texels are the last winners', so that a wrong test of depths or stencil values, or a
-/// wrong frame, is seen in them, too.
+/// The `different` row of the lowest stage; of several at one stage, the first listed; null if none. Where that stage
+/// holds alone and some row of Kind::per_stage is `different`, the lowest of those rows instead: planes of depth,
+/// texels and colours hold the winners' values, so a wrong depth test, stencil test or frame of a later stage changes
+/// them, too.
 const Comparison* first_different(const SceneVerdict& verdict);
 
 /// Whether a row says that the stage is legal, and none that it is not.
@@ -126,7 +126,8 @@ bool any_judged(std::span<const SceneVerdict> verdicts);
 std::string judged_text(const SceneVerdict& verdict);
 /// Stages that no reference judged, in order; texture and resolve only where some row names them.
 std::vector<Stage> unjudged_stages(const SceneVerdict& verdict);
-/// Those of them that a reference which is missing may have judged: none that is there declined them.
+/// Unjudged stages that a missing reference may have judged: no row of theirs is unsupported or failed. Empty if none
+/// is missing.
 std::vector<Stage> stages_lost_to_missing(const SceneVerdict& verdict);
 
 /// The largest ratio of difference to tolerance that a run saw for each row of the ledger; below 0: row not used.

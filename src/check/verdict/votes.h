@@ -1,4 +1,4 @@
-// Who stands alone is suspect: a reference that two others and exact arithmetic contradict.
+// Votes on a reference: one that exact arithmetic and another reference contradict is at fault.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,12 @@
 
 namespace plumbline::check {
 
-/// One scene's rows: `different` becomes `dispute`, with the evidence as its reason, where a reference is outvoted: of
-/// one stage its row alone differs; exact, from the candidate's own records of the stage before, holds, and so does
-/// another reference that judges the stage. No row of an earlier stage differs either: exact only propagates such an
-/// error, so its agreement is no evidence. (Embree and exact
-/// share the formula of what is legal: of that they are one vote, and the arithmetic on records the other. From texture
-/// on they share that, too, and are one vote in all.)
+/// Settles one scene's rows: a `different` row becomes `dispute`, with the voters in its reason, where its reference is
+/// outvoted. At the row's stage exact, on the candidate's own records (Kind::per_stage), and another reference hold,
+/// and no other reference fails. At an earlier stage no row fails at all: exact only propagates an earlier error, so
+/// its agreement is no evidence. Rows of Kind::per_stage, and rows that exceed only a budget of ambiguity, stay as they
+/// are. Before texture Embree (by the formula of what is legal) and exact (by arithmetic on records) are two votes;
+/// from texture on Embree uses exact's arithmetic, too, and both are one vote.
 void settle_votes(std::vector<Comparison>& rows);
 
 /// Rows of a candidate whose arithmetic is its own (Profile::foreign): a `different` row side by side, whose tolerance

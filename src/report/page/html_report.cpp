@@ -61,7 +61,7 @@ std::string_view outcome_of(const check::SceneVerdict& verdict, bool fails) {
   return name_of(Outcome::unsupported);
 }
 
-// What a judge of records has drawn nothing for, it draws for the reader; empty where it cannot.
+// Planes of the reference's capture; where that holds no colour, the reference draws the scene for the reader.
 Planes planes_of(const Scene& scene, const check::Reference& reference, const Capture& drawn) {
   if (!drawn.planes.color.empty() || reference.renderer == nullptr) return drawn.planes;
   try {

@@ -28,7 +28,7 @@ struct RunDiff {
   std::vector<Change> excused;      ///< differs as expected, and was not expected to
   std::vector<Change> fixed;        ///< failed, or differed as expected, and holds
   std::vector<Change> added, gone;  ///< rows that were not there, and those that nobody had judged and are gone
-  std::vector<Change> moved;        ///< other outcomes, of which none fails
+  std::vector<Change> moved;        ///< other changes of outcome, such as from failed to different
   std::vector<Change> tolerances;   ///< the ledger's factors
   std::vector<Change> differences;  ///< the largest, and how many, of rows with one outcome
   std::vector<Change> times;        ///< of scenes
