@@ -121,8 +121,8 @@ Capture TracedRenderer::capture(const Scene& scene, const Request& request) {
   }
   std::optional<std::vector<TracedCall>> before = std::exchange(calls_, std::nullopt);  // left so where asking throws
   if (!before || pass == passes || !may_be_made_again(request)) return inner_.capture(scene, request);
-  std::optional<Answer> answer = std::exchange(held_, std::nullopt);
-  if (!answer || !same_question(answer->call, {pass, request, {}, {}})) answer = ask(pass, request);
+  const bool is_held = held_ && same_question(held_->call, {pass, request, {}, {}});
+  std::optional<Answer> answer = is_held ? std::exchange(held_, std::nullopt) : ask(pass, request);
   before->push_back(answer->call);
   calls_ = std::move(before);
   if (answer->over_budget) throw OverBudget(*answer->over_budget);

@@ -33,8 +33,8 @@ class TracedRenderer : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override;
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override;
 
-  /// Repeats these calls in order, up to the first whose answer or info() differs: then false. That answer is held for
-  /// the next capture(), and handed out if capture() makes the same call; any other call discards it.
+  /// Repeats these calls in order, up to the first whose answer or info() differs: then false. That answer is kept,
+  /// and capture() hands it out where it is called for the same: nothing is drawn twice.
   bool answers_as_before(std::span<const TracedCall> calls);
   /// All calls of capture(), in order. None where one cannot be repeated: it asked for legal answers, for conventions
   /// other than the default, or for a scene that is neither the scene nor a pass of it; it failed; or run_stage() was

@@ -215,7 +215,12 @@ TEST_F(KeptVerdicts, DrawsNothingTwiceOfWhatChanged) {
   candidate.on_capture = [](Capture& c) { c.version = "next"; };
   drawn = 0;
   EXPECT_GT(judged_by_asking(), 0);
-  EXPECT_EQ(drawn, 1 + static_cast<int>(candidate.info().painters.size()));
+  const int painters = static_cast<int>(candidate.info().painters.size());
+  EXPECT_EQ(drawn, 1 + painters);
+  candidate.on_picture = [](Capture& c) { c.version = "last"; };  // of the first painter on
+  drawn = 0;
+  EXPECT_GT(judged_by_asking(), 0);
+  EXPECT_EQ(drawn, 2 + painters) << "the records, which are as they were, are drawn again: their hash alone was kept";
 }
 
 TEST_F(KeptVerdicts, IsTriedByJudgingAgain) {
