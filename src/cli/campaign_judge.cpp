@@ -36,8 +36,8 @@ std::string without_numbers(const std::string& text) {
   return report::as_utf8(out);
 }
 
-// Of the rows of this stage and outcome, one of per_stage before from_scene before legal; else `row`. So a bug has one
-// signature, not one for each judge.
+// Row that stands for all of its stage and outcome: one of per_stage before from_scene before legal; else `row`. So a
+// bug has one signature, not one for each judge.
 const check::Comparison& strongest(const check::SceneVerdict& verdict, const check::Comparison& row) {
   for (const check::Kind kind : {check::Kind::per_stage, check::Kind::from_scene, check::Kind::legal}) {
     for (const check::Comparison& other : verdict.comparisons) {

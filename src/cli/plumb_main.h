@@ -3,7 +3,7 @@
 
 namespace plumbline::cli {
 
-/// What main() is handed; returns the exit code (commands.h). Errors are written to stderr.
+/// Runs plumb with main()'s arguments; returns the exit code (commands.h). Errors are written to stderr.
 int plumb_main(int argc, char** argv);
 
 }  // namespace plumbline::cli

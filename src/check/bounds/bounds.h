@@ -20,7 +20,7 @@ using math::Roundings;
 /// |M| |p|: what the rounding errors of M p are proportional to.
 Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
 
-/// The same for a unit normal N n / |N n|: the length of |N| |n| over the length of N n.
+/// Magnitude of a unit normal N n / |N n|: the length of |N| |n| over the length of N n.
 double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
 
 /// For a renderer that inverts the model-view in float, as Mesa does: the length of |N| |M|^T |N| |n|, which an error

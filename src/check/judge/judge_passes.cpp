@@ -146,7 +146,7 @@ Measurement compare_frames(const Scene& scene, const Capture& candidate, const C
     for (int c = 0; c < 4; ++c) {
       const double v = a(x, y)[c], w = b(x, y)[c], one = scale > 0 ? 1 / scale : u;
       const double all = apart[c] + by_fault[c], diff = difference(v, w);
-      // Of either side: exact.resolve's 8 u in float; of codes half a code, and 2 u of the code's product with 1/255.
+      // Roundings of either side: exact.resolve's 8 u in float; of codes half a code, and 2 u of a product.
       const double in_float = all == 0 ? kFlushedUnderflow : 16 * (u * largest[c] + kFlushedUnderflow);
       const double rounding = scale == 0 ? in_float : all == 0 ? 0 : one + 4 * u;
       const bool explained = diff <= all + rounding;
