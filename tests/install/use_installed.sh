@@ -1,7 +1,8 @@
 #!/bin/sh
 # Builds and tests the projects beside this file, copied out of the tree, against plumbline as it is installed:
 # use_installed.sh PREFIX FOLDER [renderer]. FOLDER is emptied first. The sample passes, and with its planted bug it
-# fails and names coverage, with the page's path. renderer: plumbline was built without what judges.
+# fails and names coverage, with the page's path. The documents' links lead to files. renderer: plumbline was built
+# without what judges.
 set -eu
 prefix=$1 folder=$2 here=$(cd "$(dirname "$0")" && pwd)
 rm -rf "$folder" && mkdir -p "$folder"
@@ -28,6 +29,14 @@ built library "-DHARNESS=$([ "${3:-}" = renderer ] && echo OFF || echo ON)"
 ctest --test-dir library/build || fail "the libraries' tests"
 [ "${3:-}" != renderer ] || exit 0
 
+cd "$prefix/share/doc/plumbline" # every link of the documents
+find . -name '*.md' | while read -r document; do
+  grep -o ']([^):#]*)' "$document" | sed 's/^](//; s/)$//' | while read -r link; do
+    [ -e "$(dirname "$document")/$link" ] || echo "$document: $link"
+  done
+done >"$folder/broken"
+[ ! -s "$folder/broken" ] || fail "documents link to files that are not installed: $(cat "$folder/broken")"
+cd "$folder"
 "$prefix/bin/plumb" render "my sample/fan.json" -o fan.png && [ -s fan.png ] || fail "plumb writes no image"
 built "my sample"
 ctest --test-dir "my sample/build" || fail "the sample's tests"
