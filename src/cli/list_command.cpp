@@ -54,6 +54,8 @@ void list_renderers() {
     } catch (const RendererFailed& e) {
       fmt::print("{}: built in, and not usable here, install {}: {}\n", name,
                  name == "osmesa" ? "libosmesa6" : "libgl1-mesa-dri", e.what());
+    } catch (const std::runtime_error& e) {  // of temporary files
+      fmt::print("{}: built in, and not usable here: {}\n", name, e.what());
     }
   }
 }

@@ -51,6 +51,16 @@ TEST_F(Cli, egl_is_listed_as_not_usable_where_its_process_fails) {
   EXPECT_NE(run.text.find("\nosmesa ("), std::string::npos) << run.text;
 }
 
+TEST_F(Cli, egl_is_listed_as_not_usable_without_a_temporary_folder) {
+  ::setenv("TMPDIR", "/proc", 1);  // where root makes no folder either
+  const Outcome run = plumb("list renderers");
+  ::unsetenv("TMPDIR");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_NE(run.text.find("\negl: built in, and not usable here: /proc: expected a folder"), std::string::npos)
+      << run.text;
+  EXPECT_NE(run.text.find("\nosmesa ("), std::string::npos) << run.text;
+}
+
 TEST_F(Cli, a_reference_without_a_temporary_folder_is_bad_input) {
   ::setenv("TMPDIR", "/proc", 1);  // where root makes no folder either
   for (const std::string& line : {kScenes + "frame/one_pixel.json --against egl,softpipe",
