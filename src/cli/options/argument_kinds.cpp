@@ -46,7 +46,7 @@ const char* const kProgramHelp =
 void add_conventions(CLI::App& command, std::string& file) {
   text(command, "--conventions", file,
        "What the other renderer declares of itself (plumb learn finds it): what these explain is no difference, and "
-       "those that are mistakes are told once");
+       "mistakes among these are reported once");
 }
 
 CLI::Option* add_program(CLI::App& command, ProgramArgument& program, const std::string& what) {

@@ -42,14 +42,14 @@ const check::SceneVerdict& verdict_of(const SceneRubric& rubric, std::span<const
 }
 
 // The remark with both values and counts: a student does not see the table.
-std::string told(const check::Comparison& c) {
+std::string remark_with_values(const check::Comparison& c) {
   const check::Worst* worst = check::shown(c);
   if (worst == nullptr || c.outcome != check::Outcome::different) return check::remark(c);
   return fmt::format("{}: {:.4g}, expected {:.4g} ({} of {} differ)", check::remark(c), worst->candidate,
                      worst->reference, c.measurement.differing, c.measurement.items);
 }
 
-// What is said of one stage, and whether its points are earned.
+// The remark on one stage, and whether its points are earned.
 std::pair<bool, std::string> stage_grade(const check::SceneVerdict& verdict, Stage stage) {
   const check::Comparison* wrong = nullptr;
   bool judged = false;
@@ -59,7 +59,7 @@ std::pair<bool, std::string> stage_grade(const check::SceneVerdict& verdict, Sta
     const bool differs = c.outcome == check::Outcome::different && !check::is_legal(verdict, stage);
     if (wrong == nullptr && (differs || c.outcome == check::Outcome::failed)) wrong = &c;
   }
-  if (wrong != nullptr) return {false, fmt::format("wrong: {}", told(*wrong))};
+  if (wrong != nullptr) return {false, fmt::format("wrong: {}", remark_with_values(*wrong))};
   return {judged, judged ? "right" : "not judged: the program does not show it"};
 }
 
@@ -92,7 +92,7 @@ SceneGrade grade(const SceneRubric& rubric, const check::SceneVerdict& verdict) 
     const check::Comparison* first = first_wrong(verdict);
     out.text = holds ? "right\n"
                : first != nullptr
-                   ? fmt::format("wrong, from the stage {} on: {}\n", name_of(first->stage), told(*first))
+                   ? fmt::format("wrong, from the stage {} on: {}\n", name_of(first->stage), remark_with_values(*first))
                : !verdict.comparisons.empty() ? fmt::format("not judged: {}\n", verdict.comparisons.front().note)
                                               : "not judged\n";
   }

@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A file's name for what it holds, and the version of that format, which changes where a key is dropped or means
-// another thing (CHANGELOG.md).
+// A file's name for what it holds, and the version of that format, which rises when a key is dropped or changes
+// its meaning (CHANGELOG.md).
 Json head_of(const char* what) { return {{"format", fmt::format("plumbline {}", what)}, {"version", 1}}; }
 
 void write(const std::filesystem::path& file, const Json& json) {

@@ -19,7 +19,7 @@ using check::Comparison;
 using check::Outcome;
 using check::SceneVerdict;
 
-// Two of one name are told apart by their order.
+// The second of a name gets the number 2 after it, and so on.
 template <class Value>
 void insert(std::map<std::string, Value>& map, std::string key, Value value) {
   std::string free = key;

@@ -148,7 +148,7 @@ CheckRun read_run(const std::filesystem::path& path) {
     verdict.failure = text_if_any(node, "failure");
     verdict.repeat = text_if_any(node, "repeat");
   }
-  // Comparisons follow their scenes' order; two scenes of one name are told apart by it.
+  // Comparisons are in the order of their scenes, which distinguishes two scenes of one name.
   std::size_t at = 0;
   for (const JsonNode& node : root["comparisons"].elements(0, kMostRows)) {
     Comparison c = comparison_at(node, run.words);
