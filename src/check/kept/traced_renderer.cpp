@@ -90,13 +90,16 @@ const Scene& TracedRenderer::scene_of(std::uint64_t pass) {
 }
 
 TracedRenderer::Answer TracedRenderer::ask(std::uint64_t pass, const Request& request) {
-  Answer out{{pass, request, {}, {}}, {}, {}};
+  Answer out{{pass, request, {}, {}}, {}, {}, {}};
   try {
     out.capture = inner_.capture(scene_of(pass), request);
     out.call.answer = hash_of_capture(out.capture);
   } catch (const OverBudget& e) {
     out.over_budget = e.what();
     out.call.answer = hash_of(*out.over_budget);
+  } catch (...) {
+    out.failure = std::current_exception();
+    return out;
   }
   out.call.info = hash_of(inner_.info());
   return out;
@@ -105,7 +108,7 @@ TracedRenderer::Answer TracedRenderer::ask(std::uint64_t pass, const Request& re
 bool TracedRenderer::answers_as_before(std::span<const TracedCall> calls) {
   for (const TracedCall& call : calls) {
     Answer answer = ask(call.pass, call.request);
-    if (answer.call.answer == call.answer && answer.call.info == call.info) continue;
+    if (!answer.failure && answer.call.answer == call.answer && answer.call.info == call.info) continue;
     held_ = std::move(answer);
     return false;
   }
@@ -123,6 +126,7 @@ Capture TracedRenderer::capture(const Scene& scene, const Request& request) {
   if (!before || pass == passes || !may_be_made_again(request)) return inner_.capture(scene, request);
   const bool is_held = held_ && same_question(held_->call, {pass, request, {}, {}});
   std::optional<Answer> answer = is_held ? std::exchange(held_, std::nullopt) : ask(pass, request);
+  if (answer->failure) std::rethrow_exception(answer->failure);
   before->push_back(answer->call);
   calls_ = std::move(before);
   if (answer->over_budget) throw OverBudget(*answer->over_budget);

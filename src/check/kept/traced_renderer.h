@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,8 +34,8 @@ class TracedRenderer : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override;
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override;
 
-  /// Repeats these calls in order, up to the first whose answer or info() differs: then false. That answer is kept,
-  /// and capture() hands it out where it is called for the same: nothing is drawn twice.
+  /// Repeats these calls in order, up to the first that fails or whose answer or info() differs: then false. That
+  /// answer is kept, and capture() hands it out, or throws it, where it is called for the same: nothing is drawn twice.
   bool answers_as_before(std::span<const TracedCall> calls);
   /// All calls of capture(), in order. None where one cannot be repeated: it asked for legal answers, for conventions
   /// other than the default, or for a scene that is neither the scene nor a pass of it; it failed; or run_stage() was
@@ -46,6 +47,7 @@ class TracedRenderer : public Renderer {
     TracedCall call;
     Capture capture;
     std::optional<std::string> over_budget;
+    std::exception_ptr failure;  ///< any other exception; `call` then holds no hashes
   };
   Answer ask(std::uint64_t pass, const Request& request);
   const Scene& scene_of(std::uint64_t pass);

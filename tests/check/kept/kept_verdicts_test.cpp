@@ -196,6 +196,21 @@ TEST_F(KeptVerdicts, OfACandidateThatFailsIsNone) {
   EXPECT_TRUE(files().empty());
 }
 
+// The kept calls are repeated outside of judge(), which makes a failure a row.
+TEST_F(KeptVerdicts, FallsByACandidateThatFailsNow) {
+  judged_by_asking();
+  drawn = 0;
+  candidate.before_capture = [this](const Request& r) {
+    ++drawn;
+    if (r.planes == WantedPlanes::all) throw RendererFailed("it crashed");
+  };
+  EXPECT_GT(judged_by_asking(), 0);
+  EXPECT_TRUE(std::ranges::any_of(verdict.comparisons, [](const Comparison& c) {
+    return c.outcome == Outcome::failed && c.note.find("it crashed") != std::string::npos;
+  }));
+  EXPECT_EQ(drawn, 1) << "it is waited for twice";
+}
+
 TEST_F(KeptVerdicts, OfPassesAndOfWhatIsOverBudget) {
   scene.frame.antialias = {Antialias::Kind::multisample, 1};
   judged_by_asking();
