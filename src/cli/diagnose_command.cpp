@@ -176,9 +176,9 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
                                  history_text);
     out += fmt::format("page: {}\n", (std::filesystem::absolute(o.report) / "index.html").lexically_normal().string());
   }
-  return fmt::format(
-      "{}{}", static_cast<int>(holds(diagnosis) && mistaken(candidate->info().conventions).empty() ? kHolds : kDiffers),
-      out);
+  const bool of_conventions_alone = holds(diagnosis) && !mistaken(candidate->info().conventions).empty();
+  if (of_conventions_alone) out += "the stages hold; FAILED by the mistakes in the conventions\n";
+  return fmt::format("{}{}", static_cast<int>(holds(diagnosis) && !of_conventions_alone ? kHolds : kDiffers), out);
 }
 
 // A picture's rows are the file's from its end, whatever the scene's order is.
@@ -211,7 +211,7 @@ int diagnose(const DiagnoseOptions& o) {
     for (const auto& entry : std::filesystem::directory_iterator(o.folder)) inputs.push_back(entry.path());
   }
   require_outputs(outputs, {"--report", o.report}, inputs);
-  if (!o.report.empty()) subject.page.emplace(o.report);
+  if (!o.report.empty()) subject.page.emplace(o.report).remove_earlier();
   WorkerLimits limits = o.limits;
   if (!o.candidate.command.empty()) limits.step += kOwnProcessLimit;  // a program has a time limit of its own
   JudgeRequest request;

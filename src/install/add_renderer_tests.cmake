@@ -59,7 +59,11 @@ function(plumbline_add_renderer_tests target)
       endif()
     endforeach()
     string(REGEX REPLACE "[.]json$" "" name "${name}")
-    add_test(NAME ${target}/${name} COMMAND ${plumb} diagnose ${file} --program "'$<TARGET_FILE:${target}>' ${tests_CALL}"
+    if(TEST ${target}/${name})
+      message(FATAL_ERROR "plumbline_add_renderer_tests: ${file}: expected a scene of another name, found a second test "
+                          "${target}/${name}")
+    endif()
+    add_test(NAME ${target}/${name} COMMAND ${plumb} diagnose ${file} --program "\"$<TARGET_FILE:${target}>\" ${tests_CALL}"
              --report ${CMAKE_CURRENT_BINARY_DIR}/plumbline_pages/${target}/${name} ${tests_OPTIONS})
     if(tests_SKIP_UNSUPPORTED)
       set_tests_properties(${target}/${name} PROPERTIES SKIP_REGULAR_EXPRESSION "^plumb: [^\n]*: not judged: the program does not draw it")

@@ -23,6 +23,7 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -73,7 +74,8 @@ class SceneMatcher {
     }
     if (out != nullptr && code == 1) {
       const auto [ended, with_page] = run(judge + " --report " + quoted(page()));
-      *out << "\n" << (ended == 1 ? with_page : text + with_page);  // no page can be written: the finding, and why
+      *out << "which differs:\n"
+           << (ended == 1 ? with_page : text + with_page);  // no page can be written: the finding, and why
     }
     return code == 0;
   }
@@ -85,7 +87,9 @@ class SceneMatcher {
   struct Folder {
     std::filesystem::path path;
     Folder() {
-      std::string name = (std::filesystem::temp_directory_path() / "plumbline.XXXXXX").string();
+      std::error_code error;
+      std::string name = (std::filesystem::temp_directory_path(error) / "plumbline.XXXXXX").string();
+      if (error) throw std::runtime_error("TMPDIR: expected a folder for temporary files: " + error.message());
       if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
       path = name;
     }

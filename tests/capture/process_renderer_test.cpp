@@ -144,6 +144,10 @@ TEST_F(Process, NamesWhatWentWrong) {
   EXPECT_HAS(failure(shell("echo '{\"format\": \"plumbline capture\"}' > \"$2\"/manifest.json")), "/version");
   EXPECT_HAS(failure(shell("cp '" + good_capture(2, 4).string() + "'/* \"$2\"")),
              "left a capture of 2 x 4 pixels where the scene has 4 x 2");
+  Capture empty;
+  empty.renderer = "inside", empty.version = "42", empty.width = 4, empty.height = 2;
+  write_capture(empty, root_ / "empty");
+  EXPECT_HAS(failure(shell("cp '" + (root_ / "empty").string() + "'/* \"$2\"")), "left a capture that holds no array");
   EXPECT_HAS(failure(make_process_renderer(
                  {.name = "outside", .version = "", .argv = {"/does/not/exist"}, .environment = {}, .shows = {}})),
              "/does/not/exist cannot be started: No such file");

@@ -64,6 +64,7 @@ TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
   const Outcome diagnose = plumb("diagnose " + kSharedEdges + by);
   EXPECT_EQ(diagnose.code, 1) << diagnose.text;
   EXPECT_TRUE(diagnose.says("no convention: one scene drawn twice differs\n")) << diagnose.text;
+  EXPECT_TRUE(diagnose.says("\nthe stages hold; FAILED by the mistakes in the conventions\n")) << diagnose.text;
 }
 
 TEST_F(Cli, conventions_that_are_none_are_refused) {

@@ -65,6 +65,20 @@ TEST_F(Cli, program_that_shows_all_its_records_is_right_at_every_stage) {
   }
 }
 
+// The page of an earlier run would look like this run's.
+TEST_F(Cli, program_that_fails_leaves_no_page_of_an_earlier_run) {
+  const auto diagnosed = [&](const std::string& program) {
+    return plumb("diagnose " + kSharedEdges + " --report " + at("page") + " --program " + program);
+  };
+  EXPECT_EQ(diagnosed(kServer).code, 0);
+  EXPECT_TRUE(fs::exists(at("page/index.html")));
+  const Outcome failed = diagnosed("'false {input} {output}'");
+  EXPECT_NE(failed.code, 0) << failed.text;
+  EXPECT_EQ(fs::exists(at("page/index.html")), failed.says("page: ")) << failed.text;
+  EXPECT_EQ(diagnosed(kServer).code, 0);
+  EXPECT_TRUE(fs::exists(at("page/index.html")));
+}
+
 // What refuses the scene lies in another file of the program than main().
 TEST_F(Cli, program_of_several_files_may_refuse_a_scene_in_any_of_them) {
   const Outcome run =

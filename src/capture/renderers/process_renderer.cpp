@@ -224,6 +224,9 @@ class ProcessRenderer : public Renderer {
     }
     try {
       Capture capture = read_capture(folder);
+      const fs::directory_iterator files(folder);
+      if (std::distance(begin(files), end(files)) == 1)
+        fail("left a capture that holds no array");  // its manifest alone
       if (capture.width != scene.frame.width || capture.height != scene.frame.height) {
         fail(fmt::format("left a capture of {} x {} pixels where the scene has {} x {}", capture.width, capture.height,
                          scene.frame.width, scene.frame.height));

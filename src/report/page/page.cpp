@@ -2,6 +2,8 @@
 
 #include <fstream>
 #include <set>
+#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -31,6 +33,18 @@ std::set<std::filesystem::path> files_of_page(const std::filesystem::path& folde
 PageFolder::PageFolder(const std::filesystem::path& folder) : name_(folder), folder_(folder) {
   require_writable_folder(name_, files_of_page(name_));
   folder_.make_folder();
+}
+
+void PageFolder::remove_earlier() {
+  if (!std::filesystem::is_directory(name_)) return;
+  const std::filesystem::path list = name_ / kList;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(name_)) {
+    if (entry.path() != list) files.push_back(entry.path());
+  }
+  files.push_back(list);  // last: without it, nobody may replace the others
+  std::error_code ignored;
+  for (const auto& file : files) std::filesystem::remove_all(file, ignored);
 }
 
 void PageFolder::write(const std::string& name, std::string_view bytes) {

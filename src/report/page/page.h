@@ -18,6 +18,8 @@ class PageFolder {
  public:
   /// Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not a page's.
   explicit PageFolder(const std::filesystem::path& folder);
+  /// Removes the page that an earlier run left, which would look like this run's where this one leaves none.
+  void remove_earlier();
   void write(const std::string& name, std::string_view bytes);
   /// As a PNG.
   void write_picture(const std::string& name, const Plane<glm::vec4>& plane);
