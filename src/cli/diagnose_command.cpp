@@ -122,10 +122,11 @@ std::string known_faults(const Scene& scene, const Capture& left, const check::D
   constexpr std::size_t kMostPrimitives = 200'000;  // each fault is a picture
   if (left.planes.color.empty() || DrawIndex(scene).primitives() > kMostPrimitives) return "";
   const Lookalikes found = lookalikes(scene, {left.planes.color, left.planes.depth});
+  if (found.blank && !holds(diagnosis)) return "\n" + found.text;
   const std::string likely = likely_of(found, diagnosis.verdict);
   if (likely.empty() || (holds(diagnosis) && !found.whole)) return "";
   const bool is_open = !holds(diagnosis) && diagnosis.wrong.empty();
-  return fmt::format("\npixels unlike ours in colour or depth: {}; known faults that draw such a frame:\n{}{}",
+  return fmt::format("\npixels unlike plumbline's in colour or depth: {}; known faults that draw such a frame:\n{}{}",
                      found.apart, found.text,
                      is_open            ? fmt::format("likely stage: {}\n", likely)
                      : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", likely)
@@ -173,7 +174,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
   if (subject.page) {
     report::write_diagnosis_page(*subject.page, scene, diagnosis, pictured(scene, *candidate, references),
-                                 history_text);
+                                 faults + history_text);
     out += fmt::format("page: {}\n", (std::filesystem::absolute(o.report) / "index.html").lexically_normal().string());
   }
   const bool of_conventions_alone = holds(diagnosis) && !mistaken(candidate->info().conventions).empty();

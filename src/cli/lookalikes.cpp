@@ -129,6 +129,13 @@ Lookalikes ranked(std::vector<Lookalike> all, std::size_t apart) {
   return out;
 }
 
+// Whether every pixel has the clear colour and, where depth is known, the clear depth within a code of 16 bits.
+bool is_blank(const FrameFormat& frame, const ColorAndDepth& given) {
+  const auto drawn_on = [&](const glm::vec4& color) { return colors_apart(frame.clear_color, color, 1.5f); };
+  const auto drawn_at = [&](double z) { return !(std::abs(z - frame.clear_depth) <= 1.0 / 65535); };
+  return std::ranges::none_of(given.color.values(), drawn_on) && std::ranges::none_of(given.depth.values(), drawn_at);
+}
+
 }  // namespace
 
 Lookalikes lookalikes(const Scene& scene, const ColorAndDepth& given) {
@@ -140,6 +147,12 @@ Lookalikes lookalikes(const Scene& scene, const ColorAndDepth& given) {
   const Measure measure = [&](const ColorAndDepth& frame) { return pixels_apart(scene, given, frame, eye); };
   const std::size_t apart = measure(right);
   if (apart == 0) return {};
+  if (is_blank(scene.frame, given)) {
+    Lookalikes out;
+    out.apart = apart, out.codes = coarse ? 1 : 0.5, out.blank = true;
+    out.text = "every pixel has the clear colour: nothing is drawn\n";
+    return out;
+  }
   std::vector<Lookalike> all = of_files(right, measure);
   for (const FaultInfo& fault : fault_infos()) {
     const std::string name(fault.name);

@@ -47,6 +47,18 @@ TEST_F(MatcherOfScenes, keeps_its_finding_where_no_page_can_be_written) {
   EXPECT_NE(said.find("plumbline_pages"), std::string::npos) << said;
 }
 
+// Many faults draw nothing: none of these is the likely one.
+TEST_F(MatcherOfScenes, says_of_an_empty_frame_that_nothing_is_drawn) {
+  constexpr int kWidth = 128, kHeight = 128;
+  DrawnFrame empty{kWidth, kHeight, {}, std::vector<double>(kWidth * kHeight, 1.0)};
+  for (int i = 0; i < kWidth * kHeight; ++i) empty.color.insert(empty.color.end(), {0, 0, 0, 1});
+  std::ostringstream out;
+  EXPECT_FALSE(MatchesScene(kSharedEdges).MatchAndExplain(empty, &out));
+  const std::string said = out.str();
+  EXPECT_NE(said.find("\nevery pixel has the clear colour: nothing is drawn\n"), std::string::npos) << said;
+  EXPECT_EQ(said.find("likely stage"), std::string::npos) << said;
+}
+
 TEST_F(MatcherOfScenes, says_which_size_a_frame_has) {
   const DrawnFrame large{2, 1, {0, 0, 0, 1, 0, 0, 0, 1}, {}};
   try {

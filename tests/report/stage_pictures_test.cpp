@@ -102,7 +102,7 @@ TEST(PositionsDrawing, DrawsOursOnlyWhereItIsElsewhere) {
   EXPECT_NE(drawing.find("class=mine"), std::string::npos);
   EXPECT_EQ(drawing.find("class=mine"), drawing.rfind("class=mine")) << "of one triangle";
   EXPECT_EQ(positions_drawing(scene, mine, moved, 1).find("class=same"), std::string::npos) << "differing ones first";
-  EXPECT_EQ(positions_drawing(scene, {}, {}), "");
+  EXPECT_EQ(positions_drawing(scene, {}, mine), "");
 }
 
 nlohmann::json views_of(const Scene& scene, std::span<const Pictured> pictured, const check::Diagnosis& diagnosis) {
@@ -134,7 +134,7 @@ TEST(DiagnosisPage, BeginsAtTheFirstDifferentStageAndMarksItsPixels) {
   ASSERT_EQ(views.size(), 1u);
   EXPECT_EQ(views[0]["first"], 1);
   const nlohmann::json& view = views[0]["view"];
-  EXPECT_EQ(view["sides"], (nlohmann::json{"ours", "expected"}));
+  EXPECT_EQ(view["sides"], (nlohmann::json{"drawn", "expected"}));
   EXPECT_EQ(view["layers"].size(), 8u);
   ASSERT_EQ(view["marks"].size(), 1u);
   const std::vector<std::uint32_t> marks = unpacked({{"data", view["marks"][0]}, {"bytes", 1}, {"channels", 1}});

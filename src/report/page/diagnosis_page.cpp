@@ -36,7 +36,7 @@ std::string view_json(const Pictured& p, const check::Diagnosis& diagnosis) {
                       p.scene.frame.width,
                       p.scene.frame.height,
                       rows_from_top(p.scene.dialect),
-                      {"ours", "expected"},
+                      {"drawn", "expected"},
                       stage_layers(p.scene, p.mine, p.expected)};
   return fmt::format("{{\"first\": {}, \"view\": {}}}", first_row(diagnosis, rows).dump(),
                      viewer_json(viewed, rows, 1, kBytes));
@@ -46,8 +46,8 @@ std::string drawing(const Pictured& p) {
   const std::string svg = positions_drawing(p.scene, p.mine, p.expected);
   if (svg.empty()) return {};
   return fmt::format(
-      "<h2>positions: {}</h2>\n<p>window triangles, expected in green, ours in red where it is elsewhere; of many, "
-      "5000</p>\n{}",
+      "<h2>positions: {}</h2>\n<p>Window triangles: expected in green, drawn in red where they lie elsewhere. At most "
+      "10,000, those that differ first.</p>\n{}",
       escaped(p.title), svg);
 }
 

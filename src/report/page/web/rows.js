@@ -78,7 +78,7 @@ function rowDetails(row) {
     const worst = worstOf(row);
     if (worst) {
       say('worst at', worst.place);
-      say('ours', sayNumberInFull(worst.candidate));
+      say('drawn', sayNumberInFull(worst.candidate));
       say('the reference', sayNumberInFull(worst.reference));
       say('apart', withUnit(worst.difference, row.unit));
       say('tolerance', `${withUnit(worst.tolerance, row.unit)}${row.ledger ? ` (ledger: ${row.ledger})` : ''}`);

@@ -37,7 +37,7 @@ class Viewer {
     this.zoomText = element('span', {className: 'quiet'});
     zoom.append(this.zoomText);
     this.panes = element('div', {className: 'panes'});
-    this.slider = element('input', {type: 'range', min: 0, max: 100, value: 50, ariaLabel: 'how much is shown of ours',
+    this.slider = element('input', {type: 'range', min: 0, max: 100, value: 50, ariaLabel: 'share of the first picture',
                                     style: 'width: 100%'});
     this.slider.oninput = () => { this.cut = Number(this.slider.value); this.draw(); };
     this.swap = element('button', {type: 'button', title: 'f', onclick: () => this.turn(true)}, 'show the other');
