@@ -55,7 +55,9 @@ int learn(const LearnOptions& o) {
   try {
     learned = learn::learn(*renderer);
   } catch (const Unsupported& e) {
-    throw std::invalid_argument(fmt::format("not learned: the renderer draws no rectangle: {}", e.what()));
+    throw std::invalid_argument(fmt::format(
+        "not learned: expected a rectangle drawn (unlit triangles, depth_func always), found unsupported: {}",
+        e.what()));
   } catch (const RendererFailed& e) {
     fmt::print("failed: {}\n", e.what());
     return kDiffers;
