@@ -12,7 +12,7 @@
 // |z1 - z2|/s from the centre. A pixel whose centre is within r = max(1, w/s) pixels of it stands for a share of the
 // band as large as (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such
 // line; within w of each other, they are ambiguous everywhere, but not where both are clamped to the same end: that is
-// a tie, which the order of drawing settles. The near and far planes are met likewise, w the half interval, by the
+// a tie, which the order of drawing settles, as it does where one triangle is drawn again. The near and far planes are met likewise, w the half interval, by the
 // winner, by whatever would win were it not cut off, and by all that stencil values count, though its depth test never
 // passes. Where a triangle has no plane to rely on, the pixel is
 // ambiguous whatever else is there. Such a line too may run through a row of centres, and again the larger of the area
@@ -204,12 +204,14 @@ struct Surface {
   std::int64_t order;
   DepthFunc func;
   PixelDepth win, view;
+  std::int32_t number = kNoSurface;  ///< Hit::surface
 };
 
 /// The share of the band where the two meet, that this pixel stands for.
 DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
   const DepthFunc later = a.order > b.order ? a.func : b.func;  // compares the two, or does not care
   if (later == DepthFunc::always || later == DepthFunc::never) return {};
+  if (a.number != kNoSurface && a.number == b.number) return {};
   const double step = depth_step(frame.depth, std::clamp(std::max(a.win.z, b.win.z), 0.0, 1.0));
   const double width = a.win.half + b.win.half + step;
   const double apart = std::abs(a.win.z - b.win.z), slope = glm::length(a.win.slope - b.win.slope);
@@ -265,7 +267,7 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
     if (!std::isfinite(h.win.half) || h.hit.alpha_fails) return {1, true};
     const bool clamped = h.hit.z_lo == h.hit.z_hi;  // whatever its rounding
     const PixelDepth win = clamped ? PixelDepth{h.hit.z_lo, 0, glm::dvec2(0)} : h.win;
-    const Surface surface{h.hit.primitive, h.hit.depth_func, win, h.view};
+    const Surface surface{h.hit.primitive, h.hit.depth_func, win, h.view, h.hit.surface};
     if (never) {
       never_drawn.push_back(surface);
     } else if (static_cast<std::int32_t>(h.hit.primitive) == winner) {

@@ -12,6 +12,7 @@
 #include "reference/arithmetic/frame_color.h"
 #include "reference/oracle/ambiguity.h"
 #include "reference/oracle/pixel_hit.h"
+#include "reference/oracle/repeated.h"
 
 namespace plumbline::math {
 
@@ -191,6 +192,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
   legal.first.push_back(0);
 
   ByPixel by_pixel(candidates, legal.certain.size());
+  const Repeated repeated(scene, projected);
   std::vector<PixelHit> hits;
   std::vector<Hit> to_fold;
   std::vector<LegalAnswer> answers;
@@ -205,6 +207,7 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
       for (const std::uint32_t primitive : by_pixel.at(pixel)) {
         if (const auto hit = pixel_hit(scene, projected, primitive, x, y, colors)) hits.push_back(*hit);
       }
+      repeated.set_surfaces(hits);
       const auto groups = static_cast<std::uint32_t>(form_groups(projected, hits, x, y));
       std::uint32_t certain = groups;
       to_fold.clear();

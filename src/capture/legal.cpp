@@ -30,12 +30,21 @@ bool tie_of_clamped(Interval a, Interval b) {
   return (a.lo == 0 || a.lo == 1) && a.lo == a.hi && a.lo == b.lo && a.lo == b.hi;
 }
 
+/// A depth that the frame holds.
+struct Held {
+  Interval z;
+  std::int32_t surface;
+};
+
 /// `hit` against the depth that the frame holds; depths no more than `step` apart may compare either way, so that
-/// "less" and "less or equal" allow the same.
-Test depth_test(DepthFunc func, Interval hit, Interval held, double step) {
-  if (tie_of_clamped(hit, held)) {
-    const Outcomes tie = outcomes(func, hit.lo, hit.lo, held.lo);
-    return {tie.may_pass, tie.may_fail, hit, held, held};
+/// "less" and "less or equal" allow the same. Depths of one surface are equal.
+Test depth_test(const Hit& of, const Held& frame, double step) {
+  const DepthFunc func = of.depth_func;
+  const Interval hit{of.z_lo, of.z_hi}, held = frame.z;
+  const bool is_same = of.surface != kNoSurface && of.surface == frame.surface;
+  if (is_same || tie_of_clamped(hit, held)) {
+    const Outcomes tie = outcomes(func, held.lo, held.lo, held.lo);
+    return {tie.may_pass, tie.may_fail, held, held, held};
   }
   const bool may_be_less = hit.lo <= held.hi + step, may_be_greater = hit.hi >= held.lo - step;
   const Interval hit_if_less{hit.lo, std::min(hit.hi, held.hi + step)};
@@ -63,8 +72,17 @@ LegalAnswer background(const FrameFormat& frame) {
 }
 
 LegalAnswer answer(const Hit& hit, Interval z) {
-  return {static_cast<std::int32_t>(hit.primitive), static_cast<float>(hit.color_bound), z.lo, z.hi, hit.color};
+  return {static_cast<std::int32_t>(hit.primitive),
+          static_cast<float>(hit.color_bound),
+          z.lo,
+          z.hi,
+          hit.color,
+          0,
+          hit.surface};
 }
+
+/// The surface of a depth that is one of two.
+std::int32_t either(std::int32_t a, std::int32_t b) { return a == b ? a : kNoSurface; }
 
 /// In draw order, one for each primitive and stencil value, of whose depths it is the hull.
 void unite(std::vector<LegalAnswer>& all) {
@@ -75,6 +93,7 @@ void unite(std::vector<LegalAnswer>& all) {
     if (kept > 0 && key(all[kept - 1]) == key(l)) {
       all[kept - 1].z_lo = std::min(all[kept - 1].z_lo, l.z_lo);
       all[kept - 1].z_hi = std::max(all[kept - 1].z_hi, l.z_hi);
+      all[kept - 1].surface = either(all[kept - 1].surface, l.surface);
     } else {
       all[kept++] = l;
     }
@@ -103,7 +122,7 @@ std::vector<LegalAnswer> drawn_by_stencil(const Hit& hit, bool certain, const St
       continue;
     }
     const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
-    const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {held.z_lo, held.z_hi}, step);
+    const Test test = depth_test(hit, {{held.z_lo, held.z_hi}, held.surface}, step);
     if (test.may_fail) {  // it stays only by the hit's failing
       LegalAnswer failed = held;
       failed.z_lo = test.failed.lo;
@@ -111,7 +130,9 @@ std::vector<LegalAnswer> drawn_by_stencil(const Hit& hit, bool certain, const St
       put(failed, false, held.stencil);
     }
     if (!test.may_pass) continue;
-    put(answer(hit, hit.depth_mask ? test.passed : test.under), true, held.stencil);
+    LegalAnswer passed = answer(hit, hit.depth_mask ? test.passed : test.under);
+    if (!hit.depth_mask) passed.surface = held.surface;
+    put(passed, true, held.stencil);
   }
   unite(left);
   return left;
@@ -195,8 +216,9 @@ void LegalFold::clear() {
 }
 
 void LegalFold::add(const LegalAnswer& winner) {
-  if (runs_.empty() || runs_.back().z_lo != winner.z_lo || runs_.back().z_hi != winner.z_hi) {
-    runs_.push_back({winners_.size(), winner.z_lo, winner.z_hi});
+  if (runs_.empty() || runs_.back().z_lo != winner.z_lo || runs_.back().z_hi != winner.z_hi ||
+      runs_.back().surface != winner.surface) {
+    runs_.push_back({winners_.size(), winner.z_lo, winner.z_hi, winner.surface});
   }
   winners_.push_back(winner);
 }
@@ -211,15 +233,17 @@ void LegalFold::set(const std::vector<LegalAnswer>& winners) {
 void LegalFold::draw_in_runs(const Hit& hit, bool certain) {
   bool may_win = false;
   Interval won{0, 0};
+  std::int32_t surface = hit.surface;
   const std::uint8_t stencil = winners_.empty() ? 0 : winners_.front().stencil;
   std::size_t kept = 0, kept_runs = 0;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     Run run = runs_[r];
     const std::size_t first = run.first, last = r + 1 < runs_.size() ? runs_[r + 1].first : winners_.size();
     const double step = depth_step(format_, std::max(hit.z_hi, run.z_hi));
-    const Test test = depth_test(hit.depth_func, {hit.z_lo, hit.z_hi}, {run.z_lo, run.z_hi}, step);
+    const Test test = depth_test(hit, {{run.z_lo, run.z_hi}, run.surface}, step);
     if (test.may_pass) {
       const Interval left = hit.depth_mask ? test.passed : test.under;
+      if (!hit.depth_mask) surface = may_win ? either(surface, run.surface) : run.surface;
       won = may_win ? Interval{std::min(won.lo, left.lo), std::max(won.hi, left.hi)} : left;
       may_win = true;
     }
@@ -245,6 +269,7 @@ void LegalFold::draw_in_runs(const Hit& hit, bool certain) {
   if (!may_win) return;
   LegalAnswer winner = answer(hit, won);
   winner.stencil = stencil;
+  winner.surface = surface;
   add(winner);
 }
 

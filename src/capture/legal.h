@@ -20,6 +20,9 @@ namespace plumbline {
 
 inline constexpr std::int32_t kBackground = -1;  ///< in the place of a primitive: the cleared frame shows
 
+/// In the place of a surface: one whose depth equals no other's for certain.
+inline constexpr std::int32_t kNoSurface = -1;
+
 /// One triangle at one pixel.
 struct Hit {
   std::uint32_t primitive = 0;
@@ -36,6 +39,8 @@ struct Hit {
   const StencilFace* stencil = nullptr;
   const StencilFace* or_stencil = nullptr;
   bool twice = false;  ///< two pieces of it may cover the pixel, which matters to stencil values
+  /// Hits of one surface (>= 0) have one depth in every legal renderer, to the bit: the same triangle is drawn again.
+  std::int32_t surface = kNoSurface;
 };
 
 /// One winner that the rules allow, and the stencil value that stands beside it.
@@ -45,6 +50,7 @@ struct LegalAnswer {
   double z_lo = 0, z_hi = 0;  ///< the window z that the frame then holds
   glm::vec4 color{0};
   std::uint8_t stencil = 0;
+  std::int32_t surface = kNoSurface;  ///< whose depth the frame then holds (Hit)
 };
 
 /// The legal winners of one pixel while its hits are drawn, in draw order. Time per hit: the number of different depth
@@ -63,10 +69,11 @@ class LegalFold {
   const std::vector<LegalAnswer>& winners() const { return winners_; }
 
  private:
-  /// Winners of equal depth intervals, one after another: the depth test treats them alike.
+  /// Winners of equal depth intervals and one surface, one after another: the depth test treats them alike.
   struct Run {
     std::size_t first;
     double z_lo, z_hi;
+    std::int32_t surface;
   };
 
   void draw_either_side(const Hit& hit, bool certain);
@@ -83,8 +90,8 @@ class LegalFold {
 
 /// All legal winners of a pixel, in draw order, the background first; one for each stencil value that may go with it.
 /// `hits` in draw order (ascending primitive), groups numbered from 0 on. Depths within
-/// depth_step() (scene.h) of each other may compare either way, but for two that are clamped to the same end. `out` is
-/// emptied first.
+/// depth_step() (scene.h) of each other may compare either way, but for two that are clamped to the same end, and for
+/// those of one surface. `out` is emptied first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
 /// Legal texels of a fragment: its level of detail may be taken for four pixels together, by a logarithm that is linear

@@ -41,14 +41,17 @@ struct Mesh {
 
 struct Translate {
   glm::dvec3 by;
+  bool operator==(const Translate&) const = default;
 };
 /// Counter-clockwise about `axis` (looked at from its tip), which need not be of unit length but not zero.
 struct Rotate {
   double degrees;
   glm::dvec3 axis;
+  bool operator==(const Rotate&) const = default;
 };
 struct Scale {
   glm::dvec3 by;
+  bool operator==(const Scale&) const = default;
 };
 using Transform = std::variant<Translate, Rotate, Scale>;
 

@@ -57,6 +57,51 @@ TEST(FoldHits, NoHitsLeaveTheBackground) {
   EXPECT_DOUBLE_EQ(answers({}, frame)[0].z_lo, 77.0 / 255);  // 76.5, half up
 }
 
+Hit of_surface(Hit h, std::int32_t surface) {
+  h.surface = surface;
+  return h;
+}
+
+// Where depths are equal, the depth function alone decides; else both are legal.
+TEST(FoldHits, DepthsOfOneSurfaceAreEqual) {
+  using F = DepthFunc;
+  for (const auto& [func, again] :
+       {std::pair(F::less, 0), std::pair(F::less_equal, 1), std::pair(F::greater, 0), std::pair(F::greater_equal, 1),
+        std::pair(F::equal, 1), std::pair(F::not_equal, 0), std::pair(F::always, 1), std::pair(F::never, 0)}) {
+    const Hit first = hit(0, 0.4, 0.5, F::always), second = hit(1, 0.4, 0.5, func);
+    EXPECT_EQ(winners({of_surface(first, 0), of_surface(second, 0)}), Ids{again}) << static_cast<int>(func);
+    const bool is_open = func != F::always && func != F::never;
+    EXPECT_EQ(winners({of_surface(first, 0), of_surface(second, 1)}), is_open ? (Ids{0, 1}) : Ids{again});
+    EXPECT_EQ(winners({first, second}), is_open ? (Ids{0, 1}) : Ids{again});
+  }
+}
+
+// What the frame holds is of the surface that wrote it last, not of the one that is seen.
+TEST(FoldHits, AHitWithoutDepthMaskLeavesTheSurface) {
+  const Hit wall = of_surface(hit(0, 0.4, 0.5), 0), again = of_surface(hit(2, 0.4, 0.5), 0);
+  Hit decal = of_surface(hit(1, 0.1, 0.2), 1);
+  decal.depth_mask = false;
+  EXPECT_EQ(winners({wall, decal, again}), Ids{1});
+  EXPECT_EQ(winners({wall, decal, of_surface(hit(2, 0.1, 0.2), 1)}), Ids{2}) << "the decal's depth is not held";
+}
+
+TEST(FoldHits, ASurfaceThatMayBeThereTiesWhereItIs) {
+  const Hit first = of_surface(maybe(hit(0, 0.4, 0.5)), 0), second = of_surface(hit(1, 0.4, 0.5), 0);
+  EXPECT_EQ(winners({first, second}), (Ids{0, 1})) << "the second wins where the first is not";
+  EXPECT_EQ(winners({of_surface(hit(0, 0.4, 0.5), 0), maybe(second)}), Ids{0});
+}
+
+TEST(FoldHits, SurfacesTieUnderAStencilTest) {
+  FrameFormat frame;
+  frame.stencil = StencilFormat::s8;
+  StencilFace face;
+  Hit first = of_surface(hit(0, 0.4, 0.5), 0), second = of_surface(hit(1, 0.4, 0.5), 0);
+  first.stencil = second.stencil = &face;
+  EXPECT_EQ(winners({first, second}, frame), Ids{0});
+  second.surface = 1;
+  EXPECT_EQ(winners({first, second}, frame), (Ids{0, 1}));
+}
+
 TEST(FoldHits, ACertainHitReplacesTheBackground) {
   Hit h = hit(7, 0.4, 0.41);
   h.color = {1, 0.5, 0, 1};

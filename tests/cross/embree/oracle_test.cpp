@@ -125,8 +125,8 @@ std::vector<int> ids(const Legal& legal, int x, int y) {
 }
 using Ids = std::vector<int>;
 
-// Two triangles in one place, both moved beyond depth 0: a tie, which is no ambiguity, and none is predicted. Where no
-// format tells their depths apart it is one, and is.
+// Two triangles in one place, both moved beyond depth 0, or one triangle drawn twice: a tie, which is no ambiguity, and
+// none is predicted. Where the format does not tell the depths of two triangles apart it is one, and is.
 TEST(Prediction, KnowsTiesOfClampedDepths) {
   const auto legal_of = [](float units, double nearer) {
     Scene scene = flat_scene(40, 40);
@@ -138,11 +138,15 @@ TEST(Prediction, KnowsTiesOfClampedDepths) {
     return math::legal_by_boxes(scene, Request{});
   };
   constexpr double kCovered = 585;
-  const Legal tied = legal_of(-1e6f, 0.25), apart = legal_of(0, 0.25), open = legal_of(0, 0.5);
+  const Legal tied = legal_of(-1e6f, 0.25), apart = legal_of(0, 0.25), open = legal_of(0, 0.500001),
+              again = legal_of(0, 0.5);
   EXPECT_LT(ambiguous(tied), 20);
   EXPECT_LT(tied.predicted_ambiguous, 20) << "nor would the budget allow all of them to be open";
   EXPECT_EQ(ids(tied, 12, 12), (Ids{0})) << "the first";
   EXPECT_EQ(ids(apart, 12, 12), (Ids{1})) << "the nearer";
+  EXPECT_LT(ambiguous(again), 20);
+  EXPECT_LT(again.predicted_ambiguous, 20);
+  EXPECT_EQ(ids(again, 12, 12), (Ids{0})) << "the first";
   EXPECT_GE(ambiguous(open), kCovered);
   EXPECT_GE(open.predicted_ambiguous, kCovered);
 }
