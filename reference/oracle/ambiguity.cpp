@@ -11,11 +11,11 @@
 // s the slope of z1 - z2 that is a band of half width w/s along the line where the surfaces meet. That line passes at
 // |z1 - z2|/s from the centre. A pixel whose centre is within r = max(1, w/s) pixels of it stands for a share of the
 // band as large as (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such
-// line; within w of each other, they are ambiguous everywhere, but not where both are clamped to the same end: that is
-// a tie, which the order of drawing settles, as it does where one triangle is drawn again. The near and far planes are met likewise, w the half interval, by the
-// winner, by whatever would win were it not cut off, and by all that stencil values count, though its depth test never
-// passes. Where a triangle has no plane to rely on, the pixel is
-// ambiguous whatever else is there. Such a line too may run through a row of centres, and again the larger of the area
+// line; within w of each other, they are ambiguous everywhere, but not where both are clamped to the same end, nor
+// where one triangle is drawn again: these are ties, which the depth function settles. The near and far planes are met
+// likewise, w the half interval, by the winner, by whatever would win were it not cut off, and by all that stencil
+// values count, though its depth test never passes. Where a triangle has no plane to rely on, the pixel is ambiguous
+// whatever else is there. Such a line too may run through a row of centres, and again the larger of the area
 // and the number of centres in the bands is taken.
 #include "reference/oracle/ambiguity.h"
 

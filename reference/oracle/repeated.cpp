@@ -7,8 +7,8 @@ namespace plumbline::math {
 
 namespace {
 
-/// Whether both draws make one depth of one triangle. What of the state changes more than colours is the same in both:
-/// a renderer may well have another program for each.
+/// Whether both draws give a triangle one depth: by their transforms and depth state, and by the state for which a
+/// renderer may have another program (light, shading, texture, fog).
 bool same_placement(const Draw& a, const Draw& b) {
   return a.transforms == b.transforms && a.depth_range == b.depth_range && a.polygon_offset == b.polygon_offset &&
          a.lit == b.lit && a.shading == b.shading && a.texture.has_value() == b.texture.has_value() &&
@@ -32,7 +32,7 @@ bool Repeated::same(std::uint32_t a, std::uint32_t b) const {
 void Repeated::set_surfaces(std::span<PixelHit> hits) const {
   for (std::size_t i = 1; i < hits.size(); ++i) {
     Hit& hit = hits[i].hit;
-    // Of pieces of a triangle that is cut, each has a plane of its own.
+    // A cut triangle's pieces may have a plane each.
     if (projected_.triangles[hit.primitive].cut || !std::isfinite(hits[i].win.half)) continue;
     for (std::size_t j = i; j-- > 0;) {
       Hit& earlier = hits[j].hit;

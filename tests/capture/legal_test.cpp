@@ -76,7 +76,7 @@ TEST(FoldHits, DepthsOfOneSurfaceAreEqual) {
   }
 }
 
-// What the frame holds is of the surface that wrote it last, not of the one that is seen.
+// The held depth is that of the surface that wrote it last, not of the one that is seen.
 TEST(FoldHits, AHitWithoutDepthMaskLeavesTheSurface) {
   const Hit wall = of_surface(hit(0, 0.4, 0.5), 0), again = of_surface(hit(2, 0.4, 0.5), 0);
   Hit decal = of_surface(hit(1, 0.1, 0.2), 1);
