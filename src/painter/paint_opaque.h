@@ -178,8 +178,7 @@ class OpaqueRun {
       for (int k = kSamples - 1; k < kPlanes; ++k) of_column[k] = Lanes<R>::columns_of_block(x, 0) * plane[k]->x;
       const auto value = [&](int k, int part) {  // value_at(); all depths have the same slopes
         const int slope = k < kSamples ? kSamples - 1 : k;
-        if constexpr (kLanes >= kBlock) return of_row[k][part] + of_column[slope];
-        return of_row[k][part] + Lanes<R>::columns_of_block(x, part * kLanes) * plane[slope]->x;
+        return of_row[k][part] + of_column[slope];
       };
       std::array<Mask<R>, kSamples> kept[kParts<R>];
       Mask<R> some = Lanes<R>::mask_of(0), full[kSamples];
@@ -209,7 +208,6 @@ class OpaqueRun {
       for (int part = 0; part < kParts<R>; ++part) {
         if constexpr (kKernel == PaintKernel::shades) shaded->add(place + part * kLanes, kept[part]);
         if constexpr (!kDepthFirst) {
-          if (kSamples == 1 && kLanes < kBlock && !any(kept[part][0])) continue;
           const auto color = [&]() -> Color<R> {
             if constexpr (!kColors) return one_color;
             const auto weight = [&](int k) -> R {
