@@ -111,6 +111,45 @@ TEST(Readme, HoldsTheFirstSceneAndItsPicture) {
   fs::remove(drawn);
 }
 
+// The kit's first ten minutes: the example is judged right, and the bug that the text plants is found.
+class KitReadme : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    for (const char* name : {"src/kit", "tests/renderers/c", "tests/scenes/coverage"}) {
+      fs::create_directories(folder_ / name);
+      fs::copy(fs::path(PLUMBLINE_SOURCE_DIR) / name, folder_ / name, fs::copy_options::recursive);
+    }
+    fs::create_directory(folder_ / "build");
+    const std::size_t fence = text_.find("```\n", text_.find("## The first ten minutes")) + 4;
+    write(folder_ / "commands", text_.substr(fence, text_.find("```", fence) - fence));
+  }
+  Outcome run_commands() const {
+    const std::string plumb_folder = fs::path(PLUMBLINE_PLUMB).parent_path().string();
+    return shell("cd '" + folder_.string() + "' && PATH='" + plumb_folder + "':$PATH bash -e commands");
+  }
+
+  const std::string text_ = read(PLUMBLINE_SOURCE_DIR "/src/kit/README.md");
+};
+
+TEST_F(KitReadme, ItsExampleIsJudgedRight) {
+  const Outcome right = run_commands();
+  EXPECT_EQ(right.code, 0) << right.text;
+  EXPECT_TRUE(right.says("first different stage: none")) << right.text;
+}
+
+TEST_F(KitReadme, ItsPlantedBugIsFound) {
+  const fs::path file = folder_ / "tests/renderers/c/rasterizer.c";
+  std::string code = read(file);
+  const std::size_t line = code.find("if (e < 0"), planted = text_.find("`if (e") + 1;
+  ASSERT_TRUE(line != std::string::npos && planted != 0);
+  code.replace(line, code.find('\n', line) - line, text_.substr(planted, text_.find('`', planted) - planted));
+  write(file, code);
+  const Outcome wrong = run_commands();
+  EXPECT_EQ(wrong.code, 1) << wrong.text;
+  EXPECT_TRUE(wrong.says("in colour or depth: 72;") && wrong.says("likely stage: coverage")) << wrong.text;
+}
+
 // Scripts that a README names, and files that it links to.
 TEST(Readme, NamesWhatIsThere) {
   const fs::path root = PLUMBLINE_SOURCE_DIR;

@@ -9,6 +9,19 @@
 namespace plumbline {
 namespace {
 
+/// The parser's message without its code and its prefixes: "[json.exception.parse_error.101] parse error at line 1,
+/// column 2: syntax error while parsing value - invalid literal" is "a syntax error at line 1, column 2, in value:
+/// invalid literal".
+std::string plain_text(std::string message) {
+  constexpr std::string_view kReplaced[][2] = {
+      {"parse error at ", "a syntax error at "}, {": syntax error while parsing ", ", in "}, {" - ", ": "}};
+  message.erase(0, message.find("] ") + 2);
+  for (const auto& [from, to] : kReplaced) {
+    if (const std::size_t at = message.find(from); at != message.npos) message.replace(at, from.size(), to);
+  }
+  return message;
+}
+
 /// Builds the tree from the parser's events, so that it knows the place of whatever the parser refuses.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
  public:
@@ -41,9 +54,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool parse_error(std::size_t, const std::string& last, const nlohmann::json::exception& error) override {
     constexpr int kNumberOverflow = 406;
     if (error.id == kNumberOverflow) refuse("a finite number", last);
-    const std::string_view what = error.what();
-    const std::size_t prefix = what.find("] ");
-    refuse("JSON", prefix == what.npos ? what : what.substr(prefix + 2));
+    refuse("JSON", plain_text(error.what()));
   }
 
  private:
