@@ -128,6 +128,7 @@ int check(const CheckOptions& given) {
   std::vector<std::filesystem::path> files = find_scenes(paths);
   const report::Shard shard = take_shard(files, o.shard);
   CheckRules rules{o, today(o), {}, {}, {}, {}};
+  if (faulted_reference(o.fault).empty()) make_candidate(o.fault);  // refuses a name that none has
   std::optional<report::Rubric> rubric;
   if (!o.rubric.empty()) rubric = report::read_rubric(o.rubric);
   if (!o.expect.empty()) rules.expectations = check::read_expectations(o.expect, names_of_rows());

@@ -247,10 +247,13 @@ int diagnose_picture(const DiagnoseOptions& o) {
     throw std::invalid_argument(fmt::format("--depth: expected an .exr file of window z, found {}", o.depth));
   }
   if (!o.depth.empty()) {
-    const Plane<glm::vec4> depth = in_scenes_order(scene, read_image(o.depth));
-    require_size(o.depth, depth, scene);
-    given.depth = Plane<double>(depth.width(), depth.height());
-    std::ranges::transform(depth.values(), given.depth.values().begin(), [](const glm::vec4& z) { return z.r; });
+    const StoredImage depth = read_stored(o.depth);
+    if (depth.channels.size() != 1) {
+      throw std::invalid_argument(
+          fmt::format("--depth: {}: expected one channel of window z, found {}", o.depth, depth.channels.size()));
+    }
+    given.depth = in_scenes_order(scene, depth.channels.front().values);
+    require_size(o.depth, given.depth, scene);
   }
   const Lookalikes found = lookalikes(scene, given);
   fmt::print("{}: {} of {} pixels are more than {}/255{} from ours\n", o.picture, found.apart, given.color.size(),

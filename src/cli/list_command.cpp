@@ -81,6 +81,9 @@ void list_scenes(const std::vector<std::string>& folders, const SceneArguments& 
 int list(const ListOptions& o) {
   if (o.what == "scenes" && o.folders.empty()) throw std::invalid_argument("list scenes: name a folder");
   const bool all = o.what == "all";
+  if (!all && o.what != "scenes" && !o.folders.empty()) {
+    throw std::invalid_argument(fmt::format("list {}: expected no folder, found {}", o.what, o.folders.front()));
+  }
   if (all || o.what == "stages") list_stages();
   if (all || o.what == "renderers") list_renderers();
   if (all || o.what == "faults") list_faults();

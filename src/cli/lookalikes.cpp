@@ -129,11 +129,22 @@ Lookalikes ranked(std::vector<Lookalike> all, std::size_t apart) {
   return out;
 }
 
-// Whether every pixel has the clear colour and, where depth is known, the clear depth within a code of 16 bits.
-bool is_blank(const FrameFormat& frame, const ColorAndDepth& given) {
-  const auto drawn_on = [&](const glm::vec4& color) { return colors_apart(frame.clear_color, color, 1.5f); };
+bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
+  return std::ranges::none_of(plane.values(), [&](const glm::vec4& c) { return colors_apart(color, c, 1.5f); });
+}
+
+// What is to be said of a frame whose pixels all have one colour and, where depth is known, the clear depth within a
+// code of 16 bits; nothing of others, and where ours has one colour, too.
+std::string said_of_blank(const FrameFormat& frame, const ColorAndDepth& given, const ColorAndDepth& right) {
+  const glm::vec4 color = given.color.values().front();
   const auto drawn_at = [&](double z) { return !(std::abs(z - frame.clear_depth) <= 1.0 / 65535); };
-  return std::ranges::none_of(given.color.values(), drawn_on) && std::ranges::none_of(given.depth.values(), drawn_at);
+  if (!has_one_color(given.color, color) || std::ranges::any_of(given.depth.values(), drawn_at)) return "";
+  if (!colors_apart(frame.clear_color, color, 1.5f)) return "every pixel has the clear colour: nothing is drawn\n";
+  if (has_one_color(right.color, right.color.values().front())) return "";
+  return fmt::format(
+      "every pixel has the colour {:.3g}, {:.3g}, {:.3g}, and not the clear colour: nothing of the scene "
+      "is seen\n",
+      color.r, color.g, color.b);
 }
 
 }  // namespace
@@ -147,10 +158,10 @@ Lookalikes lookalikes(const Scene& scene, const ColorAndDepth& given) {
   const Measure measure = [&](const ColorAndDepth& frame) { return pixels_apart(scene, given, frame, eye); };
   const std::size_t apart = measure(right);
   if (apart == 0) return {};
-  if (is_blank(scene.frame, given)) {
+  if (std::string said = said_of_blank(scene.frame, given, right); !said.empty()) {
     Lookalikes out;
     out.apart = apart, out.codes = coarse ? 1 : 0.5, out.blank = true;
-    out.text = "every pixel has the clear colour: nothing is drawn\n";
+    out.text = std::move(said);
     return out;
   }
   std::vector<Lookalike> all = of_files(right, measure);

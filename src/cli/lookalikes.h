@@ -24,7 +24,7 @@ struct Lookalikes {
   std::string text;       ///< lines for people
   std::string likely;     ///< "STAGE (fault NAME)", where the nearest explains nine tenths of them or more; else empty
   bool whole = false;     ///< and all of them
-  bool blank = false;     ///< every pixel has the clear colour, as by many faults: none is named, `text` says it
+  bool blank = false;     ///< all pixels have one colour, as by many faults: none is named, `text` says it
 };
 Lookalikes lookalikes(const Scene& scene, const ColorAndDepth& given);
 /// found.likely; empty where fewer pixels differ from ours (found.apart) than half of those that a row finds different

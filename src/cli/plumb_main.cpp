@@ -5,6 +5,7 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -21,7 +22,7 @@ int plumb_main(int argc, char** argv) {
   try {
     const Parsed parsed = parse(argc, argv);
     const int code = parsed.command ? parsed.command() : parsed.exit;
-    if (std::fflush(stdout) != 0) {
+    if (!std::cout || std::fflush(stdout) != 0) {  // std::cout: of CLI11's texts
       throw std::runtime_error(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
     }
     return code;

@@ -52,6 +52,10 @@ function(plumbline_add_renderer_tests target)
     endif()
     list(APPEND all ${files})
   endforeach()
+  if("${all}" MATCHES "[][]")
+    message(FATAL_ERROR "plumbline_add_renderer_tests: expected names of scenes without brackets, which CMake's lists do not "
+                        "hold, found ${all}")
+  endif()
   list(REMOVE_DUPLICATES all)
   foreach(file ${all})
     cmake_path(GET file FILENAME name)
@@ -66,8 +70,10 @@ function(plumbline_add_renderer_tests target)
       message(FATAL_ERROR "plumbline_add_renderer_tests: ${file}: expected a scene of another name, found a second test "
                           "${target}/${name}")
     endif()
-    add_test(NAME ${target}/${name} COMMAND ${plumb} diagnose ${file} --program "\"$<TARGET_FILE:${target}>\" ${tests_CALL}"
+    # The shell is given the path by a variable, for in its own words no character of the path may stand for another.
+    add_test(NAME ${target}/${name} COMMAND ${plumb} diagnose ${file} --program "\"$PLUMBLINE_PROGRAM\" ${tests_CALL}"
              --report ${CMAKE_CURRENT_BINARY_DIR}/plumbline_pages/${target}/${name} ${tests_OPTIONS})
+    set_tests_properties(${target}/${name} PROPERTIES ENVIRONMENT_MODIFICATION "PLUMBLINE_PROGRAM=set:$<TARGET_FILE:${target}>")
     if(tests_SKIP_UNSUPPORTED)
       set_tests_properties(${target}/${name} PROPERTIES SKIP_REGULAR_EXPRESSION "^plumb: [^\n]*: not judged: the program does not draw it")
     endif()

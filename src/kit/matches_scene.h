@@ -38,9 +38,11 @@ struct DrawnFrame {
   std::vector<double> depth;  ///< [height, width]: window z in [0,1]; empty: not judged
 };
 
-/// The frame of 8-bit colours, `rgba` of [height, width, 4] bytes.
+/// The frame of 8-bit colours, `rgba` of [height, width, 4] bytes; without colours where the size is below 1 x 1, so
+/// that no scene matches.
 inline DrawnFrame frame_of_bytes(int width, int height, const std::uint8_t* rgba) {
   DrawnFrame frame{width, height, {}, {}};
+  if (width < 1 || height < 1) return frame;
   const std::size_t values = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   for (std::size_t i = 0; i < values; ++i) frame.color.push_back(static_cast<float>(rgba[i]) / 255.0F);
   return frame;
@@ -89,7 +91,11 @@ class SceneMatcher {
     Folder() {
       std::error_code error;
       std::string name = (std::filesystem::temp_directory_path(error) / "plumbline.XXXXXX").string();
-      if (error) throw std::runtime_error("TMPDIR: expected a folder for temporary files: " + error.message());
+      if (error) {
+        const char* const named = std::getenv("TMPDIR");
+        throw std::runtime_error(std::string("TMPDIR: expected a folder for temporary files, found \"") +
+                                 (named == nullptr ? "" : named) + "\": " + error.message());
+      }
       if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
       path = name;
     }

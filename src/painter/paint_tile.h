@@ -94,8 +94,8 @@ std::size_t paint_first_runs(const Painting& painting, std::span<const PaintRun>
 }
 
 /// Whether the kernels of the commonest draws are compiled for R. Processors without AVX2 have paint_run() alone, which
-/// draws the same: with SSE4's kernels, models were drawn 1.25 to 1.5 times as fast, and the renderer took a fifth longer
-/// to build.
+/// draws the same. With SSE4's kernels, models were drawn 1.25 to 1.5 times as fast, and the renderer took a fifth
+/// longer to build.
 template <class R>
 inline constexpr bool kHasKernels = Lanes<R>::width > 4;
 

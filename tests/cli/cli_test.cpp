@@ -306,6 +306,18 @@ TEST_F(Cli, list_names_what_there_is) {
   const std::string scenes = plumb("list scenes " + kScenes + "frame").text;
   EXPECT_NE(scenes.find("frame/one_pixel"), std::string::npos);
   EXPECT_NE(scenes.find("77 x 45 x 12 bytes = 41580: GzRender's"), std::string::npos) << scenes;
+  const Outcome superfluous = plumb("list stages extra");
+  EXPECT_EQ(superfluous.code, 2);
+  EXPECT_EQ(superfluous.text, "plumb: list stages: expected no folder, found extra\n");
+}
+
+TEST_F(Cli, check_refuses_a_fault_that_none_is_before_it_prints) {
+  const Outcome run = plumb("check " + kSharedEdges + " --fault coverage.inclusive_edge");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(
+      run.text,
+      "plumb: no fault 'coverage.inclusive_edge' (did you mean \"coverage.inclusive_edges\"?): plumb list faults shows "
+      "all\n");
 }
 
 }  // namespace

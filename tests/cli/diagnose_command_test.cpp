@@ -90,6 +90,19 @@ TEST_F(Cli, diagnose_of_a_picture_names_the_bugs_that_draw_it) {
   EXPECT_TRUE(wrong.says(" 100.0 %            0  window.half_pixel_off ")) << wrong.text;
 }
 
+TEST_F(Cli, diagnose_of_a_picture_of_one_color_names_no_fault) {
+  const auto diagnosed = [&](const glm::vec4& color) {
+    write_image(at("one.png"), Plane<glm::vec4>(112, 96, color));
+    const Outcome run = plumb("diagnose " + kScenes + "texture/globe.json --picture " + at("one.png"));
+    EXPECT_EQ(run.code, 1) << run.text;
+    EXPECT_FALSE(run.says("likely stage")) << run.text;
+    return run;
+  };
+  EXPECT_TRUE(
+      diagnosed(glm::vec4(0)).says("the colour 0, 0, 0, and not the clear colour: nothing of the scene is seen"));
+  EXPECT_TRUE(diagnosed(glm::vec4(1)).says("the colour 1, 1, 1, and not the clear colour"));
+}
+
 TEST_F(Cli, diagnose_of_a_picture_takes_its_depth_too) {
   const std::string drawn =
       "render " + kScenes + "depth/functions.json -o " + at("picture.png") + " --depth " + at("z.exr");
@@ -110,10 +123,10 @@ TEST_F(Cli, diagnose_of_a_picture_names_depths_of_another_convention) {
   ASSERT_EQ(
       plumb("render " + kScenes + "depth/functions.json -o " + at("picture.png") + " --depth " + at("z.exr")).code, 0);
   for (const auto& [name, scale, offset] :
-       {std::tuple("file.depth_of_ndc", 2.0f, -1.0f), {"file.depth_reversed", -1.0f, 1.0f}}) {
-    Plane<glm::vec4> depth = read_image(at("z.exr"));
-    for (glm::vec4& z : depth.values()) z = glm::vec4(scale * z.r + offset);
-    write_image(at("other.exr"), depth);
+       {std::tuple("file.depth_of_ndc", 2.0, -1.0), {"file.depth_reversed", -1.0, 1.0}}) {
+    Plane<double> depth = read_stored(at("z.exr")).channels.front().values;
+    for (double& z : depth.values()) z = scale * z + offset;
+    write_file(at("other.exr"), encode_depth_exr(at("other.exr"), depth));
     const Outcome run = plumb(judged + at("other.exr"));
     EXPECT_EQ(run.code, 1) << run.text;
     EXPECT_TRUE(run.says(fmt::format("likely stage: file (fault {})", name))) << run.text;
@@ -133,6 +146,15 @@ TEST_F(Cli, diagnose_of_a_picture_refuses_what_is_no_picture_of_the_scene) {
   const Outcome other = plumb("diagnose " + kSharedEdges + " --picture " + at("other.png"));
   EXPECT_EQ(other.code, 2) << other.text;
   EXPECT_TRUE(other.says("expected a picture of the scene's 128 x 128 pixels, found one of 112 x 96")) << other.text;
+  ASSERT_EQ(plumb("render " + kSharedEdges + " -o " + at("color.exr")).code, 0);
+  const Outcome depth =
+      plumb("diagnose " + kSharedEdges + " --picture " + at("color.exr") + " --depth " + at("color.exr"));
+  EXPECT_EQ(depth.code, 2) << depth.text;
+  EXPECT_TRUE(depth.says("color.exr: expected one channel of window z, found 4")) << depth.text;
+  write(at("cut.ppm"), "P6\n128 128\n255\n");
+  const Outcome cut = plumb("diagnose " + kSharedEdges + " --picture " + at("cut.ppm"));
+  EXPECT_EQ(cut.code, 2) << cut.text;
+  EXPECT_TRUE(cut.says("cut.ppm: cannot be read: the file ends before its pixels do")) << cut.text;
   write(at("no.png"), "no picture");
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --picture " + at("no.png")).code, 2);
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --picture " + at("other.png") + " --fault depth.truncated").code, 2);

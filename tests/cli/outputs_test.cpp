@@ -179,7 +179,10 @@ TEST_F(Outputs, that_fill_the_disk_leave_nothing_behind) {
     EXPECT_TRUE(run.says("File too large") && run.says(folder_.string())) << run.text;
     EXPECT_TRUE(entries().empty()) << arguments;
   }
-  EXPECT_EQ(plumb("list stages > /dev/full").code, 2) << "standard output is an output as well";
+  for (const char* command : {"list stages", "--version", "--help"}) {
+    EXPECT_EQ(plumb(std::string(command) + " > /dev/full").code, 2)
+        << command << ": standard output is an output as well";
+  }
 }
 
 TEST_F(Outputs, capture_and_report_replace_an_empty_folder_and_their_own) {

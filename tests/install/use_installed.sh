@@ -7,7 +7,8 @@ set -eu
 prefix=$1 folder=$2 here=$(cd "$(dirname "$0")" && pwd)
 rm -rf "$folder" && mkdir -p "$folder"
 cp -r "$here/library" "$folder/library"
-cp -r "$here/sample" "$folder/it's my sample"  # a space and an apostrophe in every path
+sample="it's my \$sample \`id\` {serve}" # in every path, and nothing of it is the shell's or plumb's
+cp -r "$here/sample" "$folder/$sample"
 cd "$folder"
 export CTEST_OUTPUT_ON_FAILURE=1 CMAKE_PREFIX_PATH="$prefix"
 ! command -v ninja >/dev/null || export CMAKE_GENERATOR=Ninja
@@ -37,22 +38,26 @@ find . -name '*.md' | while read -r document; do
 done >"$folder/broken"
 [ ! -s "$folder/broken" ] || fail "documents link to files that are not installed: $(cat "$folder/broken")"
 cd "$folder"
-"$prefix/bin/plumb" render "it's my sample/fan.json" -o fan.png && [ -s fan.png ] || fail "plumb writes no image"
-built "it's my sample"
-ctest --test-dir "it's my sample/build" || fail "the sample's tests"
-built "it's my sample" -DPLANTED_BUG=ON
-ctest --test-dir "it's my sample/build" >"it's my sample"/wrong.txt && fail "the planted bug was not found"
+"$prefix/bin/plumb" render "$sample/fan.json" -o fan.png && [ -s fan.png ] || fail "plumb writes no image"
+built "$sample"
+ctest --test-dir "$sample/build" || fail "the sample's tests"
+mkdir own && cp "$sample/build/my_program" own
+# The suite, too, and by conventions that plumb finds.
+"$prefix/bin/plumb" learn --program "'$PWD/own/my_program' {serve}" -o own.json || fail "the sample's conventions are not learned"
+"$prefix/bin/plumb" check "$prefix/share/plumbline/scenes/coverage" --program "'$PWD/own/my_program' {serve}" --from window || fail "the sample is not right"
+built "$sample" -DPLANTED_BUG=ON
+ctest --test-dir "$sample/build" >"$sample"/wrong.txt && fail "the planted bug was not found"
 for said in "likely stage: coverage" "shows the scene" "page: .*index.html" "3 tests failed out of 3"; do
-  grep -q "$said" "it's my sample"/wrong.txt || {
-    cat "it's my sample"/wrong.txt
+  grep -q "$said" "$sample"/wrong.txt || {
+    cat "$sample"/wrong.txt
     fail "expected '$said' of the planted bug"
   }
 done
-[ "$(grep -c "page: .*index.html" "it's my sample"/wrong.txt)" = 3 ] || fail "expected a page of each test"
-page=$(sed -n 's/.*page: \(.*index.html\)/\1/p' "it's my sample"/wrong.txt | head -1)
+[ "$(grep -c "page: .*index.html" "$sample"/wrong.txt)" = 3 ] || fail "expected a page of each test"
+page=$(sed -n 's/.*page: \(.*index.html\)/\1/p' "$sample"/wrong.txt | head -1)
 [ -f "$page" ] || fail "no page $page"
 # What cannot be judged passes neither way.
-PLUMBLINE_PLUMB=no_such_plumb ctest --test-dir "it's my sample/build" -R Rasterizer >"it's my sample"/unjudged.txt && fail "no plumb, and the test passes"
-grep -q "not judged: no_such_plumb (PLUMBLINE_PLUMB)" "it's my sample"/unjudged.txt || fail "expected the name of the plumb that is not there"
-PLUMBLINE_PLUMB=true ctest --test-dir "it's my sample/build" -R Rasterizer >/dev/null && fail "a plumb that judges nothing, and the test passes"
+PLUMBLINE_PLUMB=no_such_plumb ctest --test-dir "$sample/build" -R Rasterizer >"$sample"/unjudged.txt && fail "no plumb, and the test passes"
+grep -q "not judged: no_such_plumb (PLUMBLINE_PLUMB)" "$sample"/unjudged.txt || fail "expected the name of the plumb that is not there"
+PLUMBLINE_PLUMB=true ctest --test-dir "$sample/build" -R Rasterizer >/dev/null && fail "a plumb that judges nothing, and the test passes"
 echo "installed in $prefix: used"

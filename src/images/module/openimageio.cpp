@@ -61,7 +61,10 @@ class File : public OpenImage {
   bool read(int first, int last, SampleType as, void* to) override {
     return in_->read_image(0, 0, first, last, type_of(as), to);
   }
-  std::string error() const override { return in_->geterror(); }
+  std::string error() const override {
+    const std::string said = in_->geterror();
+    return said.empty() ? "the file ends before its pixels do, or holds others than its header says" : said;
+  }
 
  private:
   std::unique_ptr<OIIO::ImageInput> in_;

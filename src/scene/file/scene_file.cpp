@@ -285,7 +285,8 @@ std::vector<fs::path> find_scenes(std::span<const fs::path> paths) {
         }
       }
     } catch (const fs::filesystem_error& error) {
-      throw SceneError(fmt::format("{}: expected a folder that can be read, found: {}", path.string(), error.what()));
+      throw SceneError(fmt::format("{}: expected a folder that can be read, found: {}", error.path1().string(),
+                                   error.code().message()));
     }
     if (found.empty()) {
       throw SceneError(

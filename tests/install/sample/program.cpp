@@ -8,15 +8,19 @@ namespace {
 void draw_scene(const PlScene* scene, PlCapture* out) {
   pl_choice(scene, "rgba8", "frame.color");
   pl_choice(scene, "z24", "frame.depth");
-  for (int i = 0; i < static_cast<int>(pl_number(scene, "draws")); ++i) {
-    pl_choice(scene, "triangles", "draws.%d.topology", i);
-    pl_choice(scene, "less", "draws.%d.depth_func", i);
-    for (const char* state : {"scissor", "alpha_test", "stencil", "fog", "blend", "logic_op", "texture"})
-      pl_none(scene, "draws.%d.%s", i, state);
-  }
   double clear[4];
   pl_numbers(scene, clear, 4, "frame.clear_color");
-  Image image(out->width, out->height, clear);
+  Image image(out->width, out->height, clear, pl_number(scene, "frame.clear_depth"));
+  for (int i = 0; i < static_cast<int>(pl_number(scene, "draws")); ++i) {
+    pl_choice(scene, "triangles", "draws.%d.topology", i);
+    const bool depth_test = pl_choice(scene, "less|always", "draws.%d.depth_func", i) == 0;
+    if (i > 0 && depth_test != image.depth_test) pl_unsupported("draws of two depth functions");
+    image.depth_test = depth_test;
+    for (const char* state : {"scissor", "alpha_test", "stencil", "fog", "blend", "logic_op", "texture"})
+      pl_none(scene, "draws.%d.%s", i, state);
+    for (const char* offset : {"factor", "units"})
+      if (pl_number(scene, "draws.%d.polygon_offset.%s", i, offset) != 0) pl_unsupported("polygon offset");
+  }
   std::size_t numbers = 0;
   const float* const p_win = pl_floats(scene, &numbers, "window.p_win");
   const float* const inv_w = pl_floats(scene, nullptr, "window.inv_w");

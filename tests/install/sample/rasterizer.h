@@ -1,4 +1,4 @@
-// A small rasterizer: triangles in window space, with depth test less, into floats.
+// A small rasterizer: triangles in window space, with depth test less, or without one, into floats.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,11 @@ struct Corner {
 };
 
 struct Image {
-  Image(int width, int height, const double (&clear)[4]);
+  Image(int width, int height, const double (&clear)[4], double clear_depth = 1);
   int width, height;
   std::vector<float> color;   // rgba, row 0 at the bottom
-  std::vector<double> depth;  // 1 where nothing is drawn
+  std::vector<double> depth;  // of 24 bits
+  bool depth_test = true;
 };
 
 void draw(Image& image, const Corner (&corners)[3]);
