@@ -44,7 +44,7 @@ ctest --test-dir "$sample/build" || fail "the sample's tests"
 mkdir own && cp "$sample/build/my_program" own
 # The suite, too, and by conventions that plumb finds.
 "$prefix/bin/plumb" learn --program "'$PWD/own/my_program' {serve}" -o own.json || fail "the sample's conventions are not learned"
-"$prefix/bin/plumb" check "$prefix/share/plumbline/scenes/coverage" --program "'$PWD/own/my_program' {serve}" --from window || fail "the sample is not right"
+"$prefix/bin/plumb" check "$prefix/share/plumbline/scenes/coverage" "$prefix/share/plumbline/scenes/depth" --program "'$PWD/own/my_program' {serve}" --from window || fail "the sample is not right"
 built "$sample" -DPLANTED_BUG=ON
 ctest --test-dir "$sample/build" >"$sample"/wrong.txt && fail "the planted bug was not found"
 for said in "likely stage: coverage" "shows the scene" "page: .*index.html" "3 tests failed out of 3"; do
