@@ -33,7 +33,7 @@ bool is_wrong(const Comparison& c) { return c.outcome == Outcome::different || c
 using Explain = void (*)(const Evidence&, Finding&);
 
 void in_full(const Evidence& evidence, Finding& finding) {
-  finding.numbers = worst_record(evidence, finding.measurement);
+  finding.numbers = worst_record(evidence, finding.judge, finding.measurement);
   if (finding.judge.kind != Kind::at_worst && !over_budget(evidence.candidate)) {
     finding.explains = pixels_explained(evidence);
   }

@@ -93,7 +93,7 @@ bool was_compared(const Comparison& row) {
 bool is_legal(const SceneVerdict& verdict, Stage stage) {
   bool legal = false;
   for (const Comparison& c : verdict.comparisons) {
-    if (c.stage != stage || !judges_legality(c)) continue;
+    if (c.stage != stage || !judges_legality(c.judge, c.stage)) continue;
     if (is_failure(c.outcome)) return false;
     legal |= holds(c.outcome);
   }

@@ -74,9 +74,9 @@ struct Comparison {
 bool was_compared(const Comparison& row);
 /// Whether the row judges a stage: goldens and pictures repeat the candidate, and have no vote.
 inline bool votes(const Comparison& row) { return row.judge.kind < Kind::golden; }
-/// Whether the row says what is legal, whatever the conventions.
-inline bool judges_legality(const Comparison& row) {
-  return row.judge.kind == Kind::legal || (row.judge.kind == Kind::from_scene && row.stage >= Stage::coverage);
+/// Whether the judge's row of the stage says what is legal, whatever the conventions.
+inline bool judges_legality(const JudgeId& judge, Stage stage) {
+  return judge.kind == Kind::legal || (judge.kind == Kind::from_scene && stage >= Stage::coverage);
 }
 /// Whether the row judges its stage by the records before it alone: an earlier stage's error is not seen in it.
 inline bool judges_alone(const Comparison& row) {

@@ -64,9 +64,10 @@ std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> un
                        first->measurement.items);
     if (!first->note.empty()) out += "; " + first->note;
     if (w.difference > 0) {
-      out += fmt::format("\n  worst: {}: {:.9g}, the reference {:.9g}, {:.4g} {} apart, tolerance {:.4g}",
-                         check::to_string(w.place), w.candidate, w.reference, w.difference, first->measurement.unit,
-                         w.tolerance);
+      const bool legal = check::judges_legality(first->judge, first->stage);
+      out += fmt::format("\n  worst: {}: {:.9g}, {} {:.9g}, {:.4g} {} apart, tolerance {:.4g}",
+                         check::to_string(w.place), w.candidate, legal ? "nearest legal" : "the reference", w.reference,
+                         w.difference, first->measurement.unit, w.tolerance);
     }
     out += '\n';
   }
