@@ -133,6 +133,15 @@ std::string known_faults(const Scene& scene, const Capture& left, const check::D
                                         : "");
 }
 
+// Of a program's frame that is wrong, where no conventions are declared and no known fault draws such a frame.
+std::string hint_of_conventions(const DiagnoseOptions& o, const check::Diagnosis& diagnosis,
+                                const std::string& faults) {
+  if (o.candidate.command.empty() || !o.candidate.conventions.empty() || !faults.empty() || holds(diagnosis)) return "";
+  return "\nno known fault draws such a frame; the renderer's own conventions (grid, tie rule, roundings, corners) "
+         "may:\n"
+         "  plumb learn --program CMD -o FILE, then --conventions FILE\n";
+}
+
 // In a worker: writes the files, and returns the exit code, as one character, and the text.
 std::string diagnose_here(Subject& subject, const Watch& watch) {
   const DiagnoseOptions& o = subject.options;
@@ -163,7 +172,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
                                 report::diagnosis_text(diagnosis)) +
-                    faults;
+                    faults + hint_of_conventions(o, diagnosis, faults);
   std::string history, history_text;
   if (subject.pixel) {
     const check::History known = check::pixel_history(scene, *candidate, references.list, *subject.pixel);

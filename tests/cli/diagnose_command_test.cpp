@@ -79,6 +79,19 @@ TEST_F(Cli, diagnose_runs_a_program) {
   EXPECT_TRUE(failed.says("exited with status 3") && failed.says("no use")) << failed.text;
 }
 
+TEST_F(Cli, diagnose_names_learn_where_no_known_fault_explains_a_programs_frame) {
+  const std::string judged =
+      "diagnose " + kSharedEdges + " --against exact --program '" PLUMBLINE_PLUMB " capture {scene} {output}";
+  const std::string said = "no known fault draws such a frame; the renderer's own conventions";
+  const Outcome strange =
+      plumb(judged + " && dd if=/dev/zero of={output}/planes.color.bin bs=1000 count=20 conv=notrunc'");
+  EXPECT_EQ(strange.code, 1) << strange.text;
+  EXPECT_TRUE(strange.says(said)) << strange.text;
+  const Outcome known = plumb(judged + " --fault window.half_pixel_off'");
+  EXPECT_EQ(known.code, 1) << known.text;
+  EXPECT_FALSE(known.says(said)) << known.text;
+}
+
 TEST_F(Cli, diagnose_of_a_picture_names_the_bugs_that_draw_it) {
   ASSERT_EQ(plumb("render " + kSharedEdges + " -o " + at("right.png")).code, 0);
   const Outcome right = plumb("diagnose " + kSharedEdges + " --picture " + at("right.png"));
