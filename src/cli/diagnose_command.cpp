@@ -133,7 +133,7 @@ std::string known_faults(const Scene& scene, const Capture& left, const check::D
                                         : "");
 }
 
-// Of a program's frame that is wrong, where no conventions are declared and no known fault draws such a frame.
+// Pointer to `plumb learn`: a program's frame is wrong, no conventions are declared, no known fault draws such a frame.
 std::string hint_of_conventions(const DiagnoseOptions& o, const check::Diagnosis& diagnosis,
                                 const std::string& faults) {
   if (o.candidate.command.empty() || !o.candidate.conventions.empty() || !faults.empty() || holds(diagnosis)) return "";

@@ -133,8 +133,8 @@ bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
   return std::ranges::none_of(plane.values(), [&](const glm::vec4& c) { return colors_apart(color, c, 1.5f); });
 }
 
-// What is to be said of a frame whose pixels all have one colour and, where depth is known, the clear depth within a
-// code of 16 bits; nothing of others, and where ours has one colour, too.
+// Line for people about a frame whose pixels all have one colour and, where depth is known, the clear depth within a
+// code of 16 bits. Empty of other frames, and where ours has one colour, too.
 std::string said_of_blank(const FrameFormat& frame, const ColorAndDepth& given, const ColorAndDepth& right) {
   const glm::vec4 color = given.color.values().front();
   const auto drawn_at = [&](double z) { return !(std::abs(z - frame.clear_depth) <= 1.0 / 65535); };

@@ -5,7 +5,7 @@
 
 namespace {
 
-// What the rasterizer does not draw: plumb is told so, and does not judge these scenes.
+// State that the rasterizer does not draw: plumb is told so, and does not judge such scenes.
 void require_drawable(const PlScene* scene) {
   pl_choice(scene, "rgba8", "frame.color");
   pl_choice(scene, "z24", "frame.depth");
