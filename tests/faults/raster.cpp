@@ -153,6 +153,13 @@ float depth_at_corner(const Setup& s, const Pixels<float>& p) {
   return right_depth(s, Pixels<float>{p.x, p.y, p.x_win - 0.5, p.y_win - 0.5});
 }
 
+// z by the weights of attributes.
+float depth_in_perspective(const Setup& s, const Pixels<float>& p) {
+  const pipeline::Weights<float> w = weights_of(s, p);
+  const double z = s.depth.z0 + static_cast<double>(w.k1) * s.depth.dz1 + static_cast<double>(w.k2) * s.depth.dz2;
+  return stored_depth(s.depth, pipeline::clamp01(z));
+}
+
 // 7. Attributes.
 
 using TriangleAttributes = pipeline::AttributeSetup;
@@ -164,6 +171,19 @@ Color<float> of_wrong_corners(const Setup& s, const TriangleAttributes& of, cons
   const auto over_w = [&](double l, std::size_t corner) { return pipeline::to_float(l) * s.perspective.inv_w[corner]; };
   const float q1 = over_w(b.l2, 1), q2 = over_w(b.l1, 2);
   return pipeline::mean<float>(of, pipeline::weights<float>(q1, q2, over_w(b.l0, 0) + q1 + q2));
+}
+
+// Corner i counts as corner i + turn should.
+template <std::size_t turn>
+Color<float> corners_turned(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
+  const Barycentric b = pipeline::barycentric(s.planes, p);
+  const std::array<double, 3> l = {b.l0, b.l1, b.l2};
+  std::array<float, 3> q;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t from = (i + turn) % 3;
+    q[i] = pipeline::to_float(l[from]) * s.perspective.inv_w[from];
+  }
+  return pipeline::mean<float>(of, pipeline::weights<float>(q[1], q[2], q[0] + q[1] + q[2]));
 }
 
 // By w for 1/w.
@@ -221,6 +241,8 @@ constexpr std::array kRaster = {
           put<&Stages::depth, scaled_by_power_of_two>},
     Fault{"depth.at_corner", "depths are those of the pixels' lower left corners", Stage::depth,
           put<&Stages::depth, depth_at_corner>},
+    Fault{"depth.in_perspective", "window z is interpolated with perspective, by 1/w once more", Stage::depth,
+          put<&Stages::depth, depth_in_perspective>},
     Fault{"depth.one_per_triangle", "a triangle has one depth, the mean of its corners'", Stage::depth,
           put<&Stages::depth_setup, one_depth>},
     Fault{"depth.of_centre", "all samples of a pixel have the depth at its centre", Stage::depth,
@@ -241,6 +263,10 @@ constexpr std::array kRaster = {
           put<&Stages::attributes, nearness_reversed>},
     Fault{"attributes.wrong_corners", "two corners have each other's barycentric coordinates", Stage::attributes,
           put<&Stages::attributes, of_wrong_corners>, "ssloy/tinyrenderer#40"},
+    Fault{"attributes.next_corner", "each corner has the attributes of the next", Stage::attributes,
+          put<&Stages::attributes, corners_turned<2>>},
+    Fault{"attributes.corner_before", "each corner has the attributes of the one before it", Stage::attributes,
+          put<&Stages::attributes, corners_turned<1>>},
     Fault{"attributes.clamped", "all that is interpolated is clamped to [0,1]", Stage::attributes,
           put<&Stages::attributes, each_channel<kClamped>>},
     Fault{"attributes.of_8_bits", "all that is interpolated is rounded to 1/255", Stage::attributes,
