@@ -39,6 +39,7 @@ SceneVerdict failing(const std::string& name) {
       name, {scene_row(name, Stage::depth, Outcome::different, 9), scene_row(name, Stage::merge, Outcome::equal)});
   v.failure = "different " + name + ": first different stage: depth\n  repeat: plumb check x\n";
   v.repeat = "plumb check x";
+  v.cause = "window (fault window.y_flipped)";
   return v;
 }
 
@@ -80,6 +81,7 @@ TEST_F(RunFiles, AreReadBackWhole) {
   EXPECT_EQ(back.tolerances.size(), check::ledger().size());
   write_json(at("again.json"), back.verdicts, back.head);
   EXPECT_EQ(read(at("again.json")), read(at("run.json")));
+  EXPECT_NE(read(at("again.json")).find("\"cause\": \"window (fault window.y_flipped)\""), std::string::npos);
   EXPECT_NE(read(at("again.json")).find("pixel 3,4 record 5 depth"), std::string::npos);
   EXPECT_FALSE(all_hold(back.verdicts));
   EXPECT_EQ(seconds(back.verdicts), 1.0);

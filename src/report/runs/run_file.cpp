@@ -140,13 +140,14 @@ CheckRun read_run(const std::filesystem::path& path) {
   for (const JsonNode& node : root["failures"].elements(0, kMostRows)) run.head.failures.push_back(node.text());
   run.head.shard = shard_at(root["shard"]);
   for (const JsonNode& node : root["scenes"].elements(0, kMostRows)) {
-    node.only({"scene", "file", "seconds", "failure", "repeat"});
+    node.only({"scene", "file", "seconds", "failure", "repeat", "cause"});
     SceneVerdict& verdict = run.verdicts.emplace_back();
     verdict.scene = node["scene"].text();
     verdict.path = node["file"].text();
     verdict.seconds = node["seconds"].number(0, kLargest);
     verdict.failure = text_if_any(node, "failure");
     verdict.repeat = text_if_any(node, "repeat");
+    verdict.cause = text_if_any(node, "cause");
   }
   // Comparisons are in the order of their scenes, which distinguishes two scenes of one name.
   std::size_t at = 0;
