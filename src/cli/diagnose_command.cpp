@@ -118,10 +118,11 @@ bool holds(const check::Diagnosis& diagnosis) {
 
 // Known faults that explain the frame that another renderer left, where one explains most of it; of a frame that holds,
 // all of it: what is legal may still be by another rule.
-std::string known_faults(const Scene& scene, const Capture& left, const check::Diagnosis& diagnosis) {
+std::string known_faults(const Scene& scene, const Capture& left, const Conventions& conventions,
+                         const check::Diagnosis& diagnosis) {
   constexpr std::size_t kMostPrimitives = 200'000;  // each fault is a picture
   if (left.planes.color.empty() || DrawIndex(scene).primitives() > kMostPrimitives) return "";
-  const Lookalikes found = lookalikes(scene, {left.planes.color, left.planes.depth});
+  const Lookalikes found = lookalikes(scene, frame_of(left, conventions, diagnosis.verdict));
   if (found.blank && !holds(diagnosis)) return "\n" + found.text;
   const std::string likely = likely_of(found, diagnosis.verdict);
   if (likely.empty() || (holds(diagnosis) && !found.whole)) return "";
@@ -168,7 +169,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   if (outside) {
     const Capture left = candidate->capture(scene, Request{});
     against_itself = convention_lines(candidate->info().conventions) + contradiction_lines(left);
-    faults = known_faults(scene, left, diagnosis);
+    faults = known_faults(scene, left, candidate->info().conventions, diagnosis);
   }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
                                 report::diagnosis_text(diagnosis)) +
@@ -249,7 +250,7 @@ int diagnose(const DiagnoseOptions& o) {
 int diagnose_picture(const DiagnoseOptions& o) {
   const Scene scene = o.scene_arguments.load(o.scene);
   require_budget(scene, plane_bytes(scene), Request{}.memory_budget);
-  ColorAndDepth given;
+  GivenFrame given;
   given.color = in_scenes_order(scene, read_image(o.picture));
   require_size(o.picture, given.color, scene);
   if (!o.depth.empty() && std::filesystem::path(o.depth).extension() != ".exr") {
@@ -266,7 +267,10 @@ int diagnose_picture(const DiagnoseOptions& o) {
   }
   const Lookalikes found = lookalikes(scene, given);
   fmt::print("{}: {} of {} pixels are more than {}/255{} from ours\n", o.picture, found.apart, given.color.size(),
-             found.codes, o.depth.empty() ? "" : ", or a step of depth,");
+             found.codes,
+             o.depth.empty()    ? ""
+             : found.codes == 1 ? ", or a step of depth,"
+                                : ", or a quarter of a step of depth,");
   if (found.apart == 0) return kHolds;
   fmt::print("{}", found.text);
   if (!found.likely.empty()) fmt::print("likely stage: {}\n", found.likely);

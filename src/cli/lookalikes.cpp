@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -10,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/by_conventions.h"
 #include "cli/options/renderers.h"
 #include "scene/draw_index.h"
 
@@ -19,10 +22,19 @@ namespace {
 
 constexpr float kCode = 1.0f / 255;
 
-ColorAndDepth drawn(const Scene& scene, const std::string& fault) {
+// IEC 61966-2-1.
+float encoded(float linear) {
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+void encode(glm::vec4& color) {
+  for (int i = 0; i < 3; ++i) color[i] = encoded(std::clamp(color[i], 0.0f, 1.0f));
+}
+
+ColorAndDepth drawn(const Scene& scene, const Conventions& conventions, const std::string& fault) {
   Request request;
   request.planes = WantedPlanes::picture;
   Planes planes = make_candidate(fault)->capture(scene, request).planes;
+  if (conventions.color_encoding == Conventions::Encoding::srgb) std::ranges::for_each(planes.color.values(), encode);
   return {std::move(planes.color), std::move(planes.depth)};
 }
 
@@ -33,28 +45,55 @@ bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes) {
   return !(off.x <= most && off.y <= most && off.z <= most) || std::isnan(b.x + b.y + b.z);
 }
 
-// Rule of what counts as a difference: depths differ by more than a step of their format, and by what planes in float
-// may.
+// Rule of what counts as a difference: more than so many codes of 8 bits, steps of depth, and what depths in float may
+// be off.
 struct Eye {
-  float codes = 1.5f;
-  bool sees_depth = true;
+  float codes;
+  double steps, float_depth;
 };
-constexpr double kFloatDepth = 0x1p-20;
+constexpr float kUnseen = std::numeric_limits<float>::infinity();
+constexpr Eye kCoarse{1.5f, 1.5, 0x1p-20};
+constexpr Eye kFine[] = {{0.5f, kUnseen, 0}, {kUnseen, 0.25, 0}};  // truncation is no more
 
-std::size_t pixels_apart(const Scene& scene, const ColorAndDepth& given, const ColorAndDepth& other, Eye eye) {
-  const bool by_depth = eye.sees_depth && !given.depth.empty() && given.depth.size() == other.depth.size();
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < given.color.size(); ++i) {
+// By pixel, 1 where the frames differ.
+std::vector<std::uint8_t> apart_at(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other,
+                                   const Eye& eye) {
+  const bool by_depth = !given.depth.empty() && given.depth.size() == other.depth.size();
+  std::vector<std::uint8_t> out(given.color.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
     bool apart = colors_apart(other.color.values()[i], given.color.values()[i], eye.codes);
     if (by_depth && !apart) {
       const double z = other.depth.values()[i];
-      const double most = std::max(1.5 * depth_step(scene.frame.depth, z), kFloatDepth);
+      const double most = std::max(eye.steps * depth_step(format, z), eye.float_depth);
       apart = !(std::abs(given.depth.values()[i] - z) <= most);
     }
-    count += apart;
+    out[i] = apart ? 1 : 0;
   }
-  return count;
+  return out;
 }
+
+// Pixels that differ from a frame; where a legal one differs from ours, none.
+class Pixels {
+ public:
+  Pixels(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours, const Eye& eye)
+      : format_(format), given_(given), eye_(eye), passed_over_(given.color.size()) {
+    if (given.is_legal.size() != given.color.size()) return;
+    passed_over_ = apart_at(format, given, ours, eye);
+    for (std::size_t i = 0; i < passed_over_.size(); ++i) passed_over_[i] &= given.is_legal.values()[i];
+  }
+  std::size_t apart(const ColorAndDepth& frame) const {
+    const std::vector<std::uint8_t> differ = apart_at(format_, given_, frame, eye_);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < differ.size(); ++i) count += differ[i] > passed_over_[i];
+    return count;
+  }
+
+ private:
+  DepthFormat format_;
+  const GivenFrame& given_;
+  Eye eye_;
+  std::vector<std::uint8_t> passed_over_;
+};
 
 template <class Change>
 ColorAndDepth changed(const ColorAndDepth& from, Change change) {
@@ -65,10 +104,6 @@ ColorAndDepth changed(const ColorAndDepth& from, Change change) {
   return out;
 }
 
-float encoded(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 using Measure = std::function<std::size_t(const ColorAndDepth&)>;
 
 // A known mistake, and how many pixels it leaves apart.
@@ -76,6 +111,54 @@ struct Lookalike {
   std::string stage, name, says;
   std::size_t apart;
 };
+
+// The frame moved by whole pixels; what moves in is clear.
+ColorAndDepth moved(const FrameFormat& frame, const ColorAndDepth& right, glm::ivec2 by) {
+  const auto inside = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < right.color.width() && y < right.color.height();
+  };
+  return changed(right, [&](ColorAndDepth& out, int x, int y) {
+    const bool is_inside = inside(x - by.x, y - by.y);
+    out.color(x, y) = is_inside ? right.color(x - by.x, y - by.y) : frame.clear_color;
+    if (!out.depth.empty()) out.depth(x, y) = is_inside ? right.depth(x - by.x, y - by.y) : frame.clear_depth;
+  });
+}
+
+// Mistakes of a pixel in the viewport, by the frame's eight neighbours.
+std::vector<Lookalike> of_neighbours(const FrameFormat& frame, const ColorAndDepth& right, const Measure& measure) {
+  std::vector<Lookalike> out;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      if (x == 0 && y == 0) continue;
+      const std::string says = fmt::format("the picture lies one pixel too far {}{}{}",
+                                           x == 0  ? ""
+                                           : x < 0 ? "left"
+                                                   : "right",
+                                           x != 0 && y != 0 ? " and " : "",
+                                           y == 0  ? ""
+                                           : y < 0 ? "down"
+                                                   : "up");
+      out.push_back({"window", "window.one_pixel_off", says, measure(moved(frame, right, {x, y}))});
+    }
+  }
+  return out;
+}
+
+// The same scene, the depth test turned round, the depth cleared to the other end.
+Scene farthest_kept(const Scene& scene) {
+  Scene out = scene;
+  out.frame.clear_depth = 1 - out.frame.clear_depth;
+  for (Draw& draw : out.draws) {
+    using enum DepthFunc;
+    DepthFunc& f = draw.depth_func;
+    f = f == less            ? greater
+        : f == less_equal    ? greater_equal
+        : f == greater       ? less
+        : f == greater_equal ? less_equal
+                             : f;
+  }
+  return out;
+}
 
 // Mistakes that are made of a right frame on its way into a file.
 std::vector<Lookalike> of_files(const ColorAndDepth& right, const Measure& measure) {
@@ -87,10 +170,7 @@ std::vector<Lookalike> of_files(const ColorAndDepth& right, const Measure& measu
   const auto reversed = [&](ColorAndDepth& out, int x, int y) { from(out, x, y, x, height - 1 - y); };
   const auto mirrored = [&](ColorAndDepth& out, int x, int y) { from(out, x, y, width - 1 - x, y); };
   const auto swapped = [](ColorAndDepth& out, int x, int y) { std::swap(out.color(x, y).r, out.color(x, y).b); };
-  const auto srgb = [](ColorAndDepth& out, int x, int y) {
-    const glm::vec4 c = glm::clamp(out.color(x, y), 0.0f, 1.0f);
-    out.color(x, y) = glm::vec4(encoded(c.r), encoded(c.g), encoded(c.b), 1);
-  };
+  const auto srgb = [](ColorAndDepth& out, int x, int y) { encode(out.color(x, y)); };
   const auto of_ndc = [](ColorAndDepth& out, int x, int y) { out.depth(x, y) = 2 * out.depth(x, y) - 1; };
   const auto farthest_first = [](ColorAndDepth& out, int x, int y) { out.depth(x, y) = 1 - out.depth(x, y); };
   std::vector<Lookalike> out;
@@ -147,32 +227,69 @@ std::string said_of_blank(const FrameFormat& frame, const ColorAndDepth& given, 
       color.r, color.g, color.b);
 }
 
-}  // namespace
-
-Lookalikes lookalikes(const Scene& scene, const ColorAndDepth& given) {
-  const ColorAndDepth right = drawn(scene, "");
-  // Where all is within a code, half a code counts: truncation is no more.
-  Eye eye;
-  const bool coarse = pixels_apart(scene, given, right, eye) > 0;
-  if (!coarse) eye = {0.5f, false};
-  const Measure measure = [&](const ColorAndDepth& frame) { return pixels_apart(scene, given, frame, eye); };
+Lookalikes seen_by(const Eye& eye, const Scene& scene, const GivenFrame& given, const ColorAndDepth& right) {
+  const Pixels pixels(scene.frame.depth, given, right, eye);
+  const Measure measure = [&](const ColorAndDepth& frame) { return pixels.apart(frame); };
   const std::size_t apart = measure(right);
   if (apart == 0) return {};
   if (std::string said = said_of_blank(scene.frame, given, right); !said.empty()) {
     Lookalikes out;
-    out.apart = apart, out.codes = coarse ? 1 : 0.5, out.blank = true;
+    out.apart = apart, out.blank = true;
     out.text = std::move(said);
     return out;
   }
+  const auto left_by = [&](const Scene& drawn_scene, const std::string& fault) {
+    return measure(drawn(drawn_scene, given.conventions, fault));
+  };
   std::vector<Lookalike> all = of_files(right, measure);
+  std::ranges::move(of_neighbours(scene.frame, right, measure), std::back_inserter(all));
+  all.push_back({"visibility", "visibility.farthest_kept",
+                 "the depth test is turned round, and the depth cleared to the other end",
+                 left_by(farthest_kept(scene), "")});
   for (const FaultInfo& fault : fault_infos()) {
     const std::string name(fault.name);
-    all.push_back({std::string(fault.stage), name, std::string(fault.changes), measure(drawn(scene, name))});
+    all.push_back({std::string(fault.stage), name, std::string(fault.changes), left_by(scene, name)});
   }
-  Lookalikes out = ranked(std::move(all), apart);
-  if (!coarse && out.likely.empty()) return {};  // rounded otherwise
-  if (!coarse) out.codes = 0.5;
-  return out;
+  return ranked(std::move(all), apart);
+}
+
+}  // namespace
+
+Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
+  const SceneByConventions seen(scene, given.conventions);
+  const ColorAndDepth right = drawn(*seen, given.conventions, "");
+  if (Lookalikes out = seen_by(kCoarse, *seen, given, right); out.apart > 0) return out;
+  for (const Eye& eye : kFine) {
+    Lookalikes out = seen_by(eye, *seen, given, right);
+    out.codes = 0.5;
+    if (out.blank || !out.likely.empty()) return out;
+  }
+  return {};  // right, or rounded otherwise
+}
+
+namespace {
+
+bool tells_legal_colors(const check::Comparison& row) {
+  return row.stage == Stage::merge && judges_legality(row.judge, row.stage) && was_compared(row);
+}
+
+// 1 where no row that knows what is legal finds a pixel wrong; empty where no pixel is wrong, or not all are told.
+Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict) {
+  if (std::ranges::none_of(verdict.comparisons, tells_legal_colors)) return {};
+  Plane<std::uint8_t> out(planes.color.width(), planes.color.height(), 1);
+  bool any_wrong = false;
+  for (const check::Comparison& row : verdict.comparisons) {
+    if (row.outcome != check::Outcome::different || !judges_legality(row.judge, row.stage)) continue;
+    if (row.measurement.differing_at.size() < row.measurement.differing) return {};
+    for (const glm::ivec2 p : row.measurement.differing_at) out(p.x, p.y) = 0, any_wrong = true;
+  }
+  return any_wrong ? out : Plane<std::uint8_t>();
+}
+
+}  // namespace
+
+GivenFrame frame_of(const Capture& left, const Conventions& conventions, const check::SceneVerdict& verdict) {
+  return {{left.planes.color, left.planes.depth}, conventions, legal_pixels(left.planes, verdict)};
 }
 
 std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict) {
@@ -184,14 +301,15 @@ std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdic
   return 2 * found.apart < wrong ? "" : found.likely;
 }
 
-std::string likely_fault(const Scene& scene, const Capture& left, const check::SceneVerdict& verdict) {
+std::string likely_fault(const Scene& scene, const Capture& left, const Conventions& conventions,
+                         const check::SceneVerdict& verdict) {
   constexpr std::size_t kMostPrimitives = 20'000, kMostPixels = 200'000;  // each fault is a picture
   const Plane<glm::vec4>& color = left.planes.color;
   if (color.empty() || color.size() > kMostPixels || DrawIndex(scene).primitives() > kMostPrimitives ||
       scene.frame.antialias.kind != Antialias::Kind::none || color.width() != scene.frame.width ||
       color.height() != scene.frame.height)
     return "";
-  return likely_of(lookalikes(scene, {color, left.planes.depth}), verdict);
+  return likely_of(lookalikes(scene, frame_of(left, conventions, verdict)), verdict);
 }
 
 }  // namespace plumbline::cli

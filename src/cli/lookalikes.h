@@ -1,9 +1,11 @@
 // Known faults that draw what a renderer drew: the scene is drawn with each of them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "capture/capture.h"
+#include "capture/conventions.h"
 #include "capture/plane.h"
 #include "check/verdict/verdict.h"
 #include "scene/scene.h"
@@ -16,8 +18,16 @@ struct ColorAndDepth {
   Plane<double> depth;
 };
 
+/// A frame, by whose conventions it is drawn, and which of its pixels are legal.
+struct GivenFrame : ColorAndDepth {
+  Conventions conventions;
+  /// 1: the pixel is legal. Where it differs from ours, it counts for no fault, and against none. Empty: not known.
+  Plane<std::uint8_t> is_legal;
+};
+
 /// Known faults whose frame is nearer to the one given than ours is, the nearest first, and how much of what differs
-/// each explains. Where all colours are within a code of 8 bits, half a code counts, if a fault explains that.
+/// each explains. Faults are drawn by the conventions given, as far as SceneByConventions draws by them. Where all is
+/// within a code of 8 bits and a step of depth, a half and a quarter count, if a fault explains that.
 struct Lookalikes {
   std::size_t apart = 0;  ///< pixels that differ from ours: red, green or blue by more than so many codes, or depth
   double codes = 1;       ///< 1, or half of one
@@ -26,11 +36,14 @@ struct Lookalikes {
   bool whole = false;     ///< and all of them
   bool blank = false;     ///< all pixels have one colour, as by many faults: none is named, `text` says it
 };
-Lookalikes lookalikes(const Scene& scene, const ColorAndDepth& given);
+Lookalikes lookalikes(const Scene& scene, const GivenFrame& given);
+/// The frame that a capture holds, as `verdict` judges it.
+GivenFrame frame_of(const Capture& left, const Conventions& conventions, const check::SceneVerdict& verdict);
 /// found.likely; empty where fewer pixels differ from ours (found.apart) than half of those that a row finds different
 /// at merge: the fault then resembles a legal rule of the renderer, not what is wrong with it.
 std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
 /// The likely fault of a capture; empty also where the scene is too large for a picture of each fault.
-std::string likely_fault(const Scene& scene, const Capture& left, const check::SceneVerdict& verdict);
+std::string likely_fault(const Scene& scene, const Capture& left, const Conventions& conventions,
+                         const check::SceneVerdict& verdict);
 
 }  // namespace plumbline::cli

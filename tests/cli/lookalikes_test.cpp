@@ -1,0 +1,165 @@
+// Known faults that draw a frame: by the conventions given, and by the pixels that are not legal.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "capture/by_conventions.h"
+#include "cli/lookalikes.h"
+#include "cli/options/renderers.h"
+#include "scene/file/scene_file.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+Scene scene_of(std::string_view name) {
+  return load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/").append(name), {});
+}
+
+GivenFrame drawn(const Scene& scene, const std::string& fault, const Conventions& conventions = {}) {
+  const SceneByConventions seen(scene, conventions);
+  Request request;
+  request.planes = WantedPlanes::picture;
+  const Planes planes = make_candidate(fault)->capture(*seen, request).planes;
+  return {{planes.color, planes.depth}, conventions, {}};
+}
+
+// Marks a part of the picture, and says that it is legal; `is_legal` is 0 elsewhere.
+void mark(GivenFrame& given, std::size_t pixels) {
+  given.is_legal = Plane<std::uint8_t>(given.color.width(), given.color.height(), 0);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    given.color.values()[i] = glm::vec4(0.3f, 0.6f, 0.9f, 1);
+    given.is_legal.values()[i] = 1;
+  }
+}
+
+TEST(Lookalikes, none_of_the_right_frame) {
+  const Scene scene = scene_of("interpolation/w_ratio.json");
+  const Lookalikes found = lookalikes(scene, drawn(scene, ""));
+  EXPECT_EQ(found.apart, 0u);
+  EXPECT_EQ(found.likely, "");
+}
+
+TEST(Lookalikes, name_the_fault_that_draws_the_frame) {
+  const Scene scene = scene_of("interpolation/w_ratio.json");
+  for (const char* fault : {"attributes.next_corner", "attributes.corner_before", "attributes.wrong_corners",
+                            "attributes.affine", "depth.in_perspective"}) {
+    const Lookalikes found = lookalikes(scene, drawn(scene, fault));
+    EXPECT_TRUE(found.likely.ends_with(std::string("(fault ") + fault + ")")) << fault << "\n" << found.text;
+    EXPECT_TRUE(found.whole) << fault;
+  }
+}
+
+TEST(Lookalikes, a_picture_one_pixel_off_is_so_to_every_side) {
+  const Scene scene = scene_of("coverage/fan.json");
+  const GivenFrame right = drawn(scene, "");
+  for (const auto& [by, says] : {std::pair(glm::ivec2(-1, -1), "one pixel too far left and down"),
+                                 {glm::ivec2(1, 0), "one pixel too far right\n"},
+                                 {glm::ivec2(0, 1), "one pixel too far up\n"}}) {
+    GivenFrame given = right;
+    for (int y = 0; y < given.color.height(); ++y) {
+      for (int x = 0; x < given.color.width(); ++x) {
+        const int from_x = x - by.x, from_y = y - by.y;
+        const bool inside = from_x >= 0 && from_y >= 0 && from_x < given.color.width() && from_y < given.color.height();
+        given.color(x, y) = inside ? right.color(from_x, from_y) : scene.frame.clear_color;
+        given.depth(x, y) = inside ? right.depth(from_x, from_y) : scene.frame.clear_depth;
+      }
+    }
+    const Lookalikes found = lookalikes(scene, given);
+    EXPECT_EQ(found.likely, "window (fault window.one_pixel_off)") << found.text;
+    EXPECT_NE(found.text.find(says), std::string::npos) << found.text;
+  }
+}
+
+TEST(Lookalikes, a_depth_test_turned_round_with_its_clear_depth) {
+  const Scene scene = scene_of("depth/interpenetrating.json");
+  Scene turned = scene;
+  turned.frame.clear_depth = 1 - turned.frame.clear_depth;
+  for (Draw& draw : turned.draws) {
+    ASSERT_EQ(draw.depth_func, DepthFunc::less);
+    draw.depth_func = DepthFunc::greater;
+  }
+  EXPECT_EQ(lookalikes(scene, drawn(turned, "")).likely, "visibility (fault visibility.farthest_kept)");
+}
+
+TEST(Lookalikes, are_drawn_by_the_conventions) {
+  const Scene scene = scene_of("interpolation/w_ratio.json");
+  Conventions at_corner;
+  at_corner.sample = glm::dvec2(0);
+  GivenFrame given = drawn(scene, "attributes.affine", at_corner);
+  EXPECT_TRUE(lookalikes(scene, given).whole);
+  EXPECT_EQ(lookalikes(scene, given).likely, "attributes (fault attributes.affine)");
+  EXPECT_EQ(lookalikes(scene, drawn(scene, "", at_corner)).apart, 0u);
+  given.conventions = {};
+  EXPECT_FALSE(lookalikes(scene, given).whole);
+}
+
+TEST(Lookalikes, are_encoded_by_the_conventions) {
+  const Scene scene = scene_of("interpolation/ramps.json");
+  GivenFrame given = drawn(scene, "attributes.next_corner");
+  EXPECT_EQ(lookalikes(scene, given).likely, "attributes (fault attributes.next_corner)");
+  given.conventions.color_encoding = Conventions::Encoding::srgb;  // which they are not
+  EXPECT_EQ(lookalikes(scene, given).likely, "");
+}
+
+TEST(Lookalikes, what_is_legal_counts_neither_for_nor_against_them) {
+  const Scene scene = scene_of("interpolation/w_ratio.json");
+  GivenFrame given = drawn(scene, "attributes.affine");
+  const std::size_t all = lookalikes(scene, given).apart;
+  mark(given, given.color.size() / 2);
+  const Lookalikes found = lookalikes(scene, given);
+  EXPECT_LT(found.apart, all);
+  EXPECT_EQ(found.likely, "attributes (fault attributes.affine)") << found.text;
+  EXPECT_TRUE(found.whole);
+  given.is_legal = {};
+  EXPECT_EQ(lookalikes(scene, given).likely, "");
+}
+
+TEST(Lookalikes, a_fault_that_changes_what_is_legal_and_ours_counts_less) {
+  const Scene scene = scene_of("interpolation/w_ratio.json");
+  GivenFrame given = drawn(scene, "");
+  given.color(0, 0) = glm::vec4(1) - given.color(0, 0);
+  given.is_legal = Plane<std::uint8_t>(given.color.width(), given.color.height(), 1);
+  given.is_legal(0, 0) = 0;
+  const Lookalikes found = lookalikes(scene, given);
+  EXPECT_EQ(found.apart, 1u);
+  EXPECT_EQ(found.likely, "") << found.text;
+}
+
+TEST(Lookalikes, depths_that_are_truncated_differ_by_less_than_a_step) {
+  const Scene scene = scene_of("interpolation/many_sided.json");
+  const Lookalikes found = lookalikes(scene, drawn(scene, "depth.truncated"));
+  EXPECT_EQ(found.likely, "depth (fault depth.truncated)") << found.text;
+  EXPECT_EQ(found.codes, 0.5);
+}
+
+check::Comparison row(const check::JudgeId& judge, Stage stage, std::vector<glm::ivec2> wrong,
+                      std::uint64_t differing) {
+  check::Measurement m;
+  m.unit = "bound", m.items = 100, m.differing = differing, m.max_difference = m.max_ratio = differing > 0 ? 2 : 0;
+  m.differing_at = std::move(wrong);
+  return check::judged("scene", judge, stage, std::move(m));
+}
+
+TEST(Lookalikes, legal_pixels_are_those_that_no_row_of_legal_answers_finds_wrong) {
+  Capture left;
+  left.planes.color = Plane<glm::vec4>(4, 2, glm::vec4(0));
+  left.planes.depth = Plane<double>(4, 2, 1.0);
+  const check::JudgeId embree("embree", check::Kind::legal), osmesa("osmesa");
+  const auto legal = [&](std::vector<check::Comparison> rows) {
+    return frame_of(left, {}, {"scene", "scene.json", std::move(rows)}).is_legal;
+  };
+  const Plane<std::uint8_t> two = legal({row(embree, Stage::merge, {{1, 0}}, 1), row(embree, Stage::depth, {{2, 1}}, 1),
+                                         row(osmesa, Stage::merge, {{3, 1}}, 1)});
+  ASSERT_EQ(two.size(), 8u);
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(two.values()[static_cast<std::size_t>(i)], i == 1 || i == 6 ? 0 : 1) << i;
+  EXPECT_TRUE(legal({row(embree, Stage::merge, {{1, 0}}, 2)}).empty()) << "not all pixels are told";
+  EXPECT_TRUE(legal({row(osmesa, Stage::merge, {{1, 0}}, 1)}).empty()) << "nobody knows what is legal";
+  EXPECT_TRUE(legal({row(embree, Stage::depth, {{1, 0}}, 1)}).empty()) << "of colours nobody";
+  EXPECT_TRUE(legal({row(embree, Stage::merge, {}, 0)}).empty()) << "nothing is wrong";
+}
+
+}  // namespace
+
+}  // namespace plumbline::cli
