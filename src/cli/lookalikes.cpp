@@ -144,7 +144,7 @@ std::vector<Lookalike> of_neighbours(const FrameFormat& frame, const ColorAndDep
   return out;
 }
 
-// The same scene, the depth test turned round, the depth cleared to the other end.
+// Scene whose depth test is turned round, and whose depth is cleared to the other end.
 Scene farthest_kept(const Scene& scene) {
   Scene out = scene;
   out.frame.clear_depth = 1 - out.frame.clear_depth;
