@@ -4,8 +4,14 @@
 # fails and names coverage, with the page's path. The documents' links lead to files. renderer: plumbline was built
 # without what judges.
 set -eu
-prefix=$1 folder=$2 here=$(cd "$(dirname "$0")" && pwd)
-rm -rf "$folder" && mkdir -p "$folder"
+[ $# -ge 2 ] || {
+  echo "usage: use_installed.sh PREFIX FOLDER [renderer]" >&2
+  exit 2
+}
+here=$(cd "$(dirname "$0")" && pwd)
+prefix=$(cd "$1" && pwd)
+rm -rf "$2" && mkdir -p "$2"
+folder=$(cd "$2" && pwd)
 cp -r "$here/library" "$folder/library"
 sample="it's my \$sample \`id\` {serve}" # in every path, and nothing of it is the shell's or plumb's
 cp -r "$here/sample" "$folder/$sample"
@@ -32,7 +38,7 @@ ctest --test-dir library/build || fail "the libraries' tests"
 
 cd "$prefix/share/doc/plumbline" # every link of the documents
 find . -name '*.md' | while read -r document; do
-  grep -o ']([^):#]*)' "$document" | sed 's/^](//; s/)$//' | while read -r link; do
+  grep -o '][(][^):#][^):]*)' "$document" | sed 's/^](//; s/)$//; s/#.*//' | while read -r link; do
     [ -e "$(dirname "$document")/$link" ] || echo "$document: $link"
   done
 done >"$folder/broken"
@@ -44,7 +50,7 @@ ctest --test-dir "$sample/build" || fail "the sample's tests"
 mkdir own && cp "$sample/build/my_program" own
 # The suite, too, and by conventions that plumb finds.
 "$prefix/bin/plumb" learn --program "'$PWD/own/my_program' {serve}" -o own.json || fail "the sample's conventions are not learned"
-"$prefix/bin/plumb" check "$prefix/share/plumbline/scenes/coverage" "$prefix/share/plumbline/scenes/depth" --program "'$PWD/own/my_program' {serve}" --from window || fail "the sample is not right"
+"$prefix/bin/plumb" check "$prefix/share/plumbline/scenes/coverage" "$prefix/share/plumbline/scenes/depth" --program "'$PWD/own/my_program' {serve}" --conventions own.json --from window || fail "the sample is not right"
 built "$sample" -DPLANTED_BUG=ON
 ctest --test-dir "$sample/build" >"$sample"/wrong.txt && fail "the planted bug was not found"
 for said in "likely stage: coverage" "shows the scene" "page: .*index.html" "3 tests failed out of 3"; do
