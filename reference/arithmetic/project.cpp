@@ -298,10 +298,24 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
 
 }  // namespace
 
-glm::dvec2 float_displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
+namespace {
+
+glm::dvec2 displacement_of(const Projected& scene, const glm::dvec4& size, double roundings, glm::dvec3 d, double w) {
   const glm::dvec2 from_middle = glm::abs(glm::dvec2(d)) + glm::abs(scene.sample);
-  const glm::dvec2 in_clip = (glm::dvec2(t.size) + from_middle * t.size.w) * (t.roundings / w);
+  const glm::dvec2 in_clip = (glm::dvec2(size) + from_middle * size.w) * (roundings / w);
   return kFloatRounding * (in_clip + kWindowRoundings * glm::dvec2(scene.width, scene.height));
+}
+
+}  // namespace
+
+glm::dvec2 float_displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {
+  return displacement_of(scene, t.size, t.roundings, d, w);
+}
+
+glm::dvec2 corner_displacement(const Projected& scene, const Corner& c) {
+  const double w = c.v.z, of_w = kRoundingsUncut * kFloatRounding * c.size.w / w;
+  if (!(w > 0) || !(of_w < 0.5)) return glm::dvec2(std::numeric_limits<double>::infinity());
+  return displacement_of(scene, c.size, kRoundingsUncut, c.v / w, w) / (1 - of_w);  // as set_growth() has it
 }
 
 double displacement(const Projected& scene, const Triangle& t, glm::dvec3 d, double w) {

@@ -14,6 +14,8 @@ Projected project(const Scene& scene, const Conventions& conventions = {});
 /// How far float arithmetic may move the triangle's outline near the window point d, per axis in pixels; `w` is its
 /// w there. (Derived in project.cpp.)
 glm::dvec2 float_displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
+/// How far float arithmetic may move a corner ahead of the eye, per axis in pixels; infinite beside the eye.
+glm::dvec2 corner_displacement(const Projected& scene, const Corner& corner);
 /// The length of float_displacement() in pixels, with what snapping adds: delta.
 double displacement(const Projected& scene, const Triangle& triangle, glm::dvec3 d, double w);
 

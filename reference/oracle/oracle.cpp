@@ -57,11 +57,17 @@ Planes empty_planes(const FrameFormat& frame) {
   return planes;
 }
 
-/// Upper bound of the fragments that the hits make at the pixel. A possible hit of a cut triangle makes up to two:
-/// snapping may turn over a sliver of its fan, which then covers the pixel together with its neighbour in the fan.
+/// Fragments that a hit makes at most. A possible hit of a cut triangle makes up to two: snapping may turn over a
+/// sliver of its fan, which then covers the pixel together with its neighbour in the fan.
+std::uint32_t pieces(const Projected& projected, const PixelHit& h) {
+  return !h.hit.certain && projected.triangles[h.hit.primitive].cut ? 2 : 1;
+}
+
+/// Upper bound of the fragments that the hits make at the pixel.
 ///
 /// A group (groups.cpp) whose triangles are neither cut nor turned over makes as many as its winding number, at least
-/// one. That number is the same everywhere within delta of the pixel, and is counted where no edge runs through.
+/// one. That number is the same everywhere within delta of the pixel, and is counted where no edge runs through. By an
+/// inclusive rule a sample on an edge is in both.
 std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits, std::size_t groups, int x,
                              int y) {
   const auto beside = [&](double delta) { return projected.ray(x, y) + delta * glm::dvec3(0.37, 0.21, 0); };
@@ -73,19 +79,37 @@ std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHi
   std::uint32_t most = 0;
   for (const PixelHit& h : hits) {
     const Triangle& t = projected.triangles[h.hit.primitive];
-    const std::uint32_t pieces = !h.hit.certain && t.cut ? 2 : 1;
     if (h.hit.group < 0) {
-      most += pieces;
+      most += pieces(projected, h);
       continue;
     }
     Group& group = of_group[static_cast<std::size_t>(h.hit.group)];
-    group.known = group.known && !t.cut && !t.thin;
+    group.known = group.known && !t.cut && !t.thin && projected.conventions.tie_rule != Conventions::TieRule::inclusive;
     const glm::dvec3 d = beside(h.delta);
     const auto is_inner = [&](const glm::dvec3& n) { return t.sign * glm::dot(n, d) > 0; };
-    group.members += pieces, group.winding += std::ranges::all_of(t.n, is_inner) ? 1 : 0;
+    group.members += pieces(projected, h), group.winding += std::ranges::all_of(t.n, is_inner) ? 1 : 0;
   }
   for (const Group& group : of_group) most += group.known ? std::max(group.winding, 1u) : group.members;
   return most;
+}
+
+/// Settles coverage at the pixel by the declared tie rule, and sets how many fragments are and may be there.
+void settle_pixel(const Projected& projected, std::vector<PixelHit>& hits, int x, int y, Legal& legal) {
+  using enum Conventions::TieRule;
+  const Conventions::TieRule rule = projected.conventions.tie_rule;
+  const auto groups = static_cast<std::size_t>(form_groups(projected, hits, x, y));
+  const std::uint32_t most = most_fragments(projected, hits, groups, x, y);
+  settle_coverage(rule, hits);
+  std::uint32_t settled_most = 0, certain = 0;
+  std::vector<bool> has(groups, false);
+  for (const PixelHit& h : hits) {
+    settled_most += pieces(projected, h);
+    certain += h.hit.certain ? 1 : 0;
+    if (h.hit.group >= 0) has[static_cast<std::size_t>(h.hit.group)] = true;
+  }
+  legal.certain(x, y) = certain + static_cast<std::uint32_t>(std::ranges::count(has, true));
+  legal.possible(x, y) = std::min(most, settled_most);
+  legal.shared(x, y) = groups > 0 && rule != inclusive && rule != exclusive ? 1 : 0;
 }
 
 const Draw& draw_of(const Scene& scene, const Projected& projected, const Hit& hit) {
@@ -208,16 +232,9 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
         if (const auto hit = pixel_hit(scene, projected, primitive, x, y, colors)) hits.push_back(*hit);
       }
       repeated.set_surfaces(hits);
-      const auto groups = static_cast<std::uint32_t>(form_groups(projected, hits, x, y));
-      std::uint32_t certain = groups;
+      settle_pixel(projected, hits, x, y, legal);
       to_fold.clear();
-      for (const PixelHit& h : hits) {
-        certain += h.hit.certain ? 1 : 0;
-        to_fold.push_back(h.hit);
-      }
-      legal.certain(x, y) = certain;
-      legal.possible(x, y) = most_fragments(projected, hits, groups, x, y);
-      legal.shared(x, y) = groups > 0 ? 1 : 0;
+      for (const PixelHit& h : hits) to_fold.push_back(h.hit);
       fold_hits(to_fold, frame, answers);
       if (colors == Colors::asked) color_answers(scene, projected, hits, x, y, answers);
       legal.answers.insert(legal.answers.end(), answers.begin(), answers.end());

@@ -12,8 +12,8 @@
 namespace plumbline::math {
 
 /// What the oracle says of a frame. In the planes a triangle covers a pixel where the pixel's centre is inside it in
-/// double (on an edge, by TieRule::small_sides_in), no vertex snapped and no coordinate rounded; depth and colour are
-/// rounded to the frame's formats, nothing else.
+/// double (on an edge, by TieRule::small_sides_in), no vertex snapped and no coordinate rounded, but where the declared
+/// grid and tie rule settle coverage (known_coverage.cpp); depth and colour are rounded to the frame's formats.
 struct Oracle {
   Legal legal;
   Planes planes;

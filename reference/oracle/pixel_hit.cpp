@@ -386,7 +386,9 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   out.colored = colors == Colors::now || scene.draws[t.draw].alpha_test.has_value();
   if (out.colored) set_color(scene, projected, t, d, {px, py}, at, moved, out);
   set_tests(scene.draws[t.draw], t, scene.frame, projected.conventions, out);
-  out.inside = at.by_ties && at.inside && t.facing_kept && (scene.depth_clamp || (view.z >= 0 && view.z <= 1));
+  if (!out.hit.certain) out.covers = known_coverage(projected, t, px, py);
+  out.inside = out.covers.value_or(at.by_ties && at.inside && t.facing_kept) &&
+               (scene.depth_clamp || (view.z >= 0 && view.z <= 1));
   return out;
 }
 

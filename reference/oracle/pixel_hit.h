@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -21,14 +22,18 @@ struct PixelDepth {
 
 /// A triangle that certainly or possibly covers a pixel.
 struct PixelHit {
-  Hit hit;              ///< as fold_hits takes it
-  bool inside = false;  ///< in double the pixel is inside (ties by TieRule::small_sides_in), in depth range, not culled
-  bool whole = false;   ///< neither the near nor the far plane may cut it here, and it is not culled
-  PixelDepth view;      ///< between the near plane, 0, and the far, 1; not clamped
-  PixelDepth win;       ///< window z, clamped where the near and far plane do not cut
-  bool drawn = false;   ///< inside, and double's own picture has it pass all tests (oracle.h)
-  double delta = 0;     ///< pixels: how far its outline may be moved here
+  Hit hit;  ///< as fold_hits takes it
+  /// In double the pixel is inside (ties by TieRule::small_sides_in; where it is known, `covers`), in depth range, not
+  /// culled.
+  bool inside = false;
+  bool whole = false;    ///< neither the near nor the far plane may cut it here, and it is not culled
+  PixelDepth view;       ///< between the near plane, 0, and the far, 1; not clamped
+  PixelDepth win;        ///< window z, clamped where the near and far plane do not cut
+  bool drawn = false;    ///< inside, and double's own picture has it pass all tests (oracle.h)
+  double delta = 0;      ///< pixels: how far its outline may be moved here
   bool colored = false;  ///< its colour is known
+  /// Whether every renderer of the declared grid and tie rule covers the pixel with it, or none does; else open.
+  std::optional<bool> covers;
 };
 
 /// Whether a hit's colour is computed with the hit, or where it is asked for (color_hit()): most hits are hidden.
@@ -45,6 +50,11 @@ void color_hit(const Scene& scene, const Projected& projected, int px, int py, P
 /// Outcomes of the alpha test, and stencil state, of a hit whose colour is known.
 void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, const Conventions& conventions,
                PixelHit& out);
+
+/// PixelHit::covers of a triangle that comes near to the pixel.
+std::optional<bool> known_coverage(const Projected& projected, const Triangle& t, int px, int py);
+/// Makes hits whose coverage is known certain, or removes them, and sets the others' groups (form_groups()) by it.
+void settle_coverage(Conventions::TieRule tie_rule, std::vector<PixelHit>& hits);
 
 /// The distance of the window point d from the edge from corner j to corner k of the triangle, as far as the edge is
 /// before the eye; infinite where it is not. `d_nearest` is the point of it nearest to d, `w` the depth there.

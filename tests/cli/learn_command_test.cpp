@@ -1,4 +1,6 @@
 // plumb learn, and what is judged by the conventions that it writes.
+#include <fstream>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_plumb.h"
@@ -23,14 +25,34 @@ TEST_F(Cli, learn_finds_and_writes_a_programs_conventions) {
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json")).code, 0);
 }
 
-TEST_F(Cli, a_mistaken_convention_is_one_finding_and_the_rest_is_judged) {
-  // Our own picture, its rows turned over: declared, nothing else is wrong.
-  ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("capture") + " --fault window.y_flipped").code, 0);
-  auto manifest = nlohmann::json::parse(read(at("capture/manifest.json")));
+// Leaves colour and depth alone in a capture.
+void leave_the_frame(const std::string& path) {
+  std::ifstream in(path);
+  auto manifest = nlohmann::json::parse(in);
   std::erase_if(manifest.at("arrays").get_ref<nlohmann::json::array_t&>(), [](const nlohmann::json& array) {
     return array.at("name") != "planes.color" && array.at("name") != "planes.depth";
   });
-  write(at("capture/manifest.json"), manifest.dump());
+  std::ofstream(path) << manifest;
+}
+
+TEST_F(Cli, a_declared_tie_rule_is_judged_by_the_frame_alone) {
+  const std::string scene = kScenes + "coverage/on_centres.json";
+  ASSERT_EQ(plumb("capture " + scene + " " + at("capture") + " --fault coverage.top_for_bottom").code, 0);
+  leave_the_frame(at("capture/manifest.json"));
+  const std::string by = "diagnose " + scene + " --against exact --capture " + at("capture");
+  EXPECT_EQ(plumb(by).code, 0) << "any tie rule is legal";
+  write(at("c.json"), declared(R"("tie_rule": "left_top")"));
+  EXPECT_EQ(plumb(by + " --conventions " + at("c.json")).code, 0);
+  write(at("c.json"), declared(R"("tie_rule": "left_bottom")"));
+  const Outcome run = plumb(by + " --conventions " + at("c.json"));
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("coverage.top_for_bottom")) << run.text;
+}
+
+TEST_F(Cli, a_mistaken_convention_is_one_finding_and_the_rest_is_judged) {
+  // Our own picture, its rows turned over: declared, nothing else is wrong.
+  ASSERT_EQ(plumb("capture " + kSharedEdges + " " + at("capture") + " --fault window.y_flipped").code, 0);
+  leave_the_frame(at("capture/manifest.json"));
   const std::string by = "diagnose " + kSharedEdges + " --against exact --capture " + at("capture");
   EXPECT_EQ(plumb(by).code, 1);
   write(at("c.json"), declared(R"("rows": "from_top")"));

@@ -130,5 +130,82 @@ TEST(OracleConventions, SharedEdgesAreCoveredOnce) {
   EXPECT_EQ(one.shared(10, 10), 0u);
 }
 
+C declared(C::TieRule rule, int bits = 8) {
+  C out;
+  out.tie_rule = rule;
+  out.subpixel_bits = bits;
+  return out;
+}
+
+const std::vector<std::array<glm::vec3, 3>> kSquare = {
+    {glm::vec3(4.5f, 4.5f, 0.5f), {28.5f, 4.5f, 0.5f}, {28.5f, 28.5f, 0.5f}},
+    {glm::vec3(4.5f, 4.5f, 0.5f), {28.5f, 28.5f, 0.5f}, {4.5f, 28.5f, 0.5f}}};
+
+// A square whose borders run through samples: a declared tie rule says which of them are in, and in which triangle.
+TEST(OracleConventions, ADeclaredTieRuleSettlesSamplesOnEdges) {
+  using enum C::TieRule;
+  const Scene scene = window_scene(kSquare);
+  EXPECT_EQ(open_pixels(legal(scene, {})), 4u * 24) << "by any rule, the border is open";
+  struct Case {
+    C::TieRule rule;
+    std::uint32_t left, right, bottom, top, inner;
+    std::int32_t owner;  // of the diagonal, whose lower triangle is the first
+  };
+  for (const Case& c : {Case{left_bottom, 1, 0, 1, 0, 1, 0}, Case{left_top, 1, 0, 0, 1, 1, 0},
+                        Case{right_bottom, 0, 1, 1, 0, 1, 1}, Case{right_top, 0, 1, 0, 1, 1, 1},
+                        Case{inclusive, 1, 1, 1, 1, 2, 0}, Case{exclusive, 0, 0, 0, 0, 0, kBackground}}) {
+    const Legal by = legal(scene, declared(c.rule));
+    EXPECT_EQ(open_pixels(by), 0u) << name_of(c.rule);
+    EXPECT_EQ(by.certain(4, 16), c.left) << name_of(c.rule);
+    EXPECT_EQ(by.certain(28, 16), c.right) << name_of(c.rule);
+    EXPECT_EQ(by.certain(16, 4), c.bottom) << name_of(c.rule);
+    EXPECT_EQ(by.certain(16, 28), c.top) << name_of(c.rule);
+    EXPECT_EQ(by.certain(16, 16), c.inner) << name_of(c.rule);
+    const std::size_t winners = c.rule == inclusive ? 2 : 1;  // depths of one plane may compare either way
+    ASSERT_EQ(by.at(16, 16).size(), winners) << name_of(c.rule);
+    EXPECT_EQ(by.at(16, 16)[0].primitive, c.owner) << name_of(c.rule);
+  }
+}
+
+// Where the grid is not the renderer's own, or float arithmetic decides to which of its places a corner goes, samples
+// on edges stay open.
+TEST(OracleConventions, ATieRuleSettlesNothingWithoutPlaces) {
+  const Scene scene = window_scene(kSquare);
+  const std::size_t any = open_pixels(legal(scene, {}));
+  C no_grid = declared(C::TieRule::left_bottom, C::kFloat), open_bits = declared(C::TieRule::left_bottom),
+    down = open_bits, off_grid = open_bits;
+  open_bits.open = {"subpixel_bits"};
+  down.subpixel_rounding = C::Rounding::down;
+  EXPECT_EQ(open_pixels(legal(scene, no_grid)), any);
+  EXPECT_EQ(open_pixels(legal(scene, open_bits)), any);
+  EXPECT_GE(open_pixels(legal(scene, down)), any);
+  off_grid.sample = {0.501, 0.5};
+  EXPECT_EQ(open_pixels(legal(scene, off_grid)), open_pixels(legal(scene, [&] {
+              C of_any = off_grid;
+              of_any.tie_rule = C::TieRule::any;
+              return of_any;
+            }())));
+  // Corners in the middle between two places of the grid.
+  std::vector<std::array<glm::vec3, 3>> between = kSquare;
+  for (auto& t : between)
+    for (glm::vec3& p : t) p += glm::vec3(1.0f / 512, 1.0f / 512, 0);
+  EXPECT_GT(open_pixels(legal(window_scene(between), declared(C::TieRule::left_bottom))), 90u);
+  // A coarser grid takes them to places for certain.
+  EXPECT_EQ(open_pixels(legal(window_scene(between), declared(C::TieRule::left_bottom, 4))), 0u);
+}
+
+// The diagonal's neighbours: one has a corner in the middle between two places. What the other leaves is still its.
+TEST(OracleConventions, AnUnknownCornerLeavesSharedEdgesCoveredOnce) {
+  std::vector<std::array<glm::vec3, 3>> half = kSquare;
+  half[1][2].x += 1.0f / 512;
+  const Legal by = legal(window_scene(half), declared(C::TieRule::right_top));  // the diagonal is the second's
+  for (int i = 6; i < 27; ++i) {
+    EXPECT_EQ(by.certain(i, i), 1u) << i;
+    EXPECT_EQ(by.possible(i, i), 1u) << i;
+    ASSERT_EQ(by.at(i, i).size(), 1u) << i;
+    EXPECT_EQ(by.at(i, i)[0].primitive, 1) << i;
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::math

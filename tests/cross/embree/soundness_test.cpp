@@ -76,6 +76,37 @@ TEST_P(Soundness, NoFloatRendererIsOutsideTheLegalAnswers) {
   std::printf("kind %d: %ld pixels, %ld covered, %.3f %% ambiguous\n", GetParam(), out.pixels, out.covered,
               100.0 * static_cast<double>(out.ambiguous) / static_cast<double>(out.pixels));
 }
+// These renderers snap to the nearest 1/256 pixel, and left and lower edges own their samples: by another rule, or a
+// coarser grid, some answers of theirs are illegal.
+TEST_P(Soundness, NorByTheTieRuleThatTheyDeclare) {
+  using enum Conventions::TieRule;
+  Outside own, other, coarser;
+  std::size_t open = 0;
+  for (unsigned seed = 1; seed <= 1 + 10 / one_of(8); ++seed) {
+    const Scene scene = test::random_scene(GetParam(), seed);
+    const auto declared = [&](Conventions::TieRule rule, int bits) {
+      Request request;
+      request.conventions.tie_rule = rule;
+      request.conventions.subpixel_bits = bits;
+      return math::legal_by_boxes(scene, request);
+    };
+    const Legal by_own = declared(left_bottom, 8);
+    for (std::size_t i = 0; i < by_own.certain.size(); ++i)
+      open += by_own.certain.values()[i] != by_own.possible.values()[i] ? 1 : 0;
+    for (const Habits& habits : kHabits) judge(scene, by_own, habits, own);
+    judge(scene, declared(right_top, 8), kHabits[0], other);
+    judge(scene, declared(left_bottom, 4), kHabits[0], coarser);
+  }
+  EXPECT_EQ(own.winners, 0) << own.first;
+  EXPECT_EQ(own.depths, 0) << own.first;
+  EXPECT_EQ(own.colors, 0) << own.first;
+  EXPECT_EQ(own.counts, 0) << own.first;
+  constexpr int kSoup = 0, kOnTheGrid = 7;
+  EXPECT_TRUE(GetParam() != kOnTheGrid || other.counts > 0);
+  EXPECT_TRUE(GetParam() != kSoup || coarser.counts > 0);
+  std::printf("kind %d: %zu of %ld pixels open; illegal by another rule %d, by a coarser grid %d\n", GetParam(), open,
+              own.pixels, other.counts, coarser.counts);
+}
 INSTANTIATE_TEST_SUITE_P(Kinds, Soundness, ::testing::Range(0, test::kSceneKinds));
 
 }  // namespace
