@@ -1,9 +1,10 @@
 // Coverage that declared conventions decide.
 //
-// A renderer that declares its grid and its tie rule leaves coverage open nowhere but where float arithmetic decides to
-// which place of the grid a corner goes. A corner goes to one place in every such renderer where its position in double
-// is farther from the middle between two places than float arithmetic may move it (corner_displacement()). Where all
-// three corners of a triangle do, the sample's edge functions are known, and the tie rule settles those that are 0.
+// A renderer that declares its grid and its tie rule (settles_ties()) leaves coverage open nowhere but where float
+// arithmetic decides to which place of the grid a corner goes. A corner goes to one place in every such renderer where
+// its position in double is farther from the middle between two places than float arithmetic may move it
+// (corner_displacement()). Where all three corners of a triangle do, the sample's edge functions are known, and the tie
+// rule settles those that are 0.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,19 +17,6 @@ namespace plumbline::math {
 namespace {
 
 using C = Conventions;
-
-/// Edge functions of places in 1/1024 pixel within a frame of 2^15 pixels are exact in double: 2 (15 + 10) + 2 bits.
-constexpr int kExactBits = 10;
-
-/// Whether the grid is the renderer's own, and not what is allowed to any. Renderers whose rows are from the top snap
-/// down to what is up here: places are known of the nearest only.
-bool declares_coverage(const C& c) {
-  const auto is_open = [&](const char* name) { return std::ranges::find(c.open, name) != c.open.end(); };
-  if (c.tie_rule == C::TieRule::any || is_open("subpixel_bits") || is_open("subpixel_rounding")) return false;
-  if (c.subpixel_bits < 1 || c.subpixel_bits > kExactBits || c.subpixel_rounding != C::Rounding::nearest) return false;
-  const glm::dvec2 sample = std::ldexp(1.0, c.subpixel_bits) * c.sample;
-  return sample == glm::round(sample);  // else the picture is moved off the grid (SceneByConventions)
-}
 
 /// The place that the corner is snapped to, from the window's lower left corner [steps of the grid]; NaN where it may
 /// be one of several.
@@ -50,9 +38,10 @@ bool owns_ties(C::TieRule rule, glm::dvec2 inward) {
 
 }  // namespace
 
+// Edge functions are exact in double: products of places in 1/1024 pixel or coarser (settles_ties()).
 std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, int px, int py) {
   const C& c = scene.conventions;
-  if (t.flat || t.cut || t.thin || !t.facing_kept || !declares_coverage(c)) return std::nullopt;
+  if (t.flat || t.cut || t.thin || !t.facing_kept || !settles_ties(c)) return std::nullopt;
   const double steps = std::ldexp(1.0, c.subpixel_bits);
   const glm::dvec2 sample = steps * (glm::dvec2(px, py) + 0.5 + scene.sample);
   std::array<glm::dvec2, 3> place;

@@ -29,6 +29,17 @@ double snapped(const Conventions& conventions, double from_centre) {
   return rounded(conventions.subpixel_rounding, from_centre / steps) * steps;
 }
 
+bool settles_ties(const Conventions& c) {
+  // Edge functions in a frame of 2^15 pixels are exact in double: 2 (15 + 10) + 2 bits.
+  constexpr int kFinest = 10;
+  const auto is_open = [&](const char* name) { return std::ranges::find(c.open, name) != c.open.end(); };
+  if (c.tie_rule == Conventions::TieRule::any || is_open("subpixel_bits") || is_open("subpixel_rounding")) return false;
+  if (c.subpixel_bits < 1 || c.subpixel_bits > kFinest || c.subpixel_rounding != Conventions::Rounding::nearest)
+    return false;
+  const glm::dvec2 sample = std::ldexp(1.0, c.subpixel_bits) * c.sample;
+  return sample == glm::round(sample);
+}
+
 std::vector<std::string> mistaken(const Conventions& conventions) {
   const Conventions expected;
   std::vector<std::string> out;

@@ -161,6 +161,11 @@ void each_number_of_bits(Visit visit) {
 inline constexpr ConventionWords kSampleWords{"sample", "the sample's place in its pixel", false};
 inline constexpr ConventionWords kOffsetWords{"offset_unit", "a polygon offset's unit in codes of depth", true};
 
+/// Whether a tie rule and a grid are declared that settle which triangle owns a sample on an edge: of 1/1024 pixel or
+/// coarser, with samples on it, and positions rounded to the nearest place. (Down in a picture whose rows are from the
+/// top is up here: those places are not known.)
+bool settles_ties(const Conventions& conventions);
+
 /// "float", or the number.
 std::string bits_text(int bits);
 /// "0.5, 0.5", to 1/1024 pixel.

@@ -176,6 +176,8 @@ int check(const CheckOptions& given) {
   if (!conventions.open.empty())
     summary += fmt::format("open in {}, and judged as OpenGL's: {}\n", o.candidate.conventions,
                            fmt::join(conventions.open, ", "));
+  if (!o.candidate.command.empty() && !settles_ties(conventions))
+    summary += "not judged: which triangle owns a sample on an edge (no tie rule and grid are declared: plumb learn)\n";
   if (!o.candidate.command.empty() && !can_confine())
     summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());

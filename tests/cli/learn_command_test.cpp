@@ -21,7 +21,12 @@ TEST_F(Cli, learn_finds_and_writes_a_programs_conventions) {
   EXPECT_TRUE(run.says("blending           open           blend")) << run.text;
   EXPECT_NE(read(at("c.json")).find("\"tie_rule\": \"left_bottom\""), std::string::npos);
   EXPECT_TRUE(fs::exists(at("pictures/grid_x.png")));
-  EXPECT_EQ(plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json")).code, 0);
+  const Outcome by = plumb("check " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json"));
+  EXPECT_EQ(by.code, 0) << by.text;
+  EXPECT_FALSE(by.says("owns a sample on an edge")) << by.text;
+  const Outcome undeclared = plumb("check " + kSharedEdges + kLearnedProgram);
+  EXPECT_EQ(undeclared.code, 0) << undeclared.text;
+  EXPECT_TRUE(undeclared.says("not judged: which triangle owns a sample on an edge")) << undeclared.text;
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json")).code, 0);
 }
 
