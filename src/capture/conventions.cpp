@@ -21,6 +21,8 @@ double middle_of(Conventions::Rounding rounding) {
   return rounding == down ? 0.5 : rounding == up ? -0.5 : 0;
 }
 
+double srgb_encoded(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
+
 double snapped(const Conventions& conventions, double from_centre) {
   constexpr int kBits = 8;  // of 1/256
   const int bits = conventions.subpixel_bits;

@@ -22,12 +22,9 @@ namespace {
 
 constexpr float kCode = 1.0f / 255;
 
-// IEC 61966-2-1.
-float encoded(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
 void encode(glm::vec4& color) {
-  for (int i = 0; i < 3; ++i) color[i] = encoded(std::clamp(color[i], 0.0f, 1.0f));
+  for (int i = 0; i < 3; ++i)
+    color[i] = static_cast<float>(srgb_encoded(std::clamp(static_cast<double>(color[i]), 0.0, 1.0)));
 }
 
 ColorAndDepth drawn(const Scene& scene, const Conventions& conventions, const std::string& fault) {

@@ -45,11 +45,6 @@ glm::vec4 between_codes(int i) {
   return {(code + above(0)) / 255, (code + above(1)) / 255, (code + above(2)) / 255, 1};
 }
 
-double encoded(C::Encoding encoding, double v) {
-  if (encoding == C::Encoding::linear) return v;
-  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
-
 // The encoding and rounding that explain most colours, where channel k of those given is left in channel order[k].
 struct Fit {
   std::size_t most = 0;
@@ -65,7 +60,8 @@ Fit fit_of(const Plane<glm::vec4>& color, std::array<int, 3> order) {
       std::size_t fits = 0;
       for (int i = 0; i < kAll; ++i) {
         for (std::size_t k = 0; k < 3; ++k) {
-          const double code = rounded(r, 255 * encoded(e, static_cast<double>(between_codes(i)[static_cast<int>(k)])));
+          const auto v = static_cast<double>(between_codes(i)[static_cast<int>(k)]);
+          const double code = rounded(r, 255 * (e == C::Encoding::srgb ? srgb_encoded(v) : v));
           fits += std::round(255 * static_cast<double>(pixel_of(color, i)[order[k]])) == code ? 1 : 0;
         }
       }

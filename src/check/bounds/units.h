@@ -92,11 +92,9 @@ inline bool is_open(const Legal& legal, const Planes& planes, int x, int y) {
 struct StoredColors {
   const Conventions& conventions;
   double scale;  // the largest code; 0: floats
-  // IEC 61966-2-1.
   double encoded(double v) const {
     if (scale == 0 || conventions.color_encoding == Conventions::Encoding::linear) return v;
-    const double c = std::clamp(v, 0.0, 1.0);
-    return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+    return srgb_encoded(std::clamp(v, 0.0, 1.0));
   }
   double of_channel(double v, int channel) const { return channel < 3 ? encoded(v) : v; }
   double middle(double stored) const {
