@@ -306,7 +306,8 @@ std::string likely_fault(const Scene& scene, const Capture& left, const Conventi
       scene.frame.antialias.kind != Antialias::Kind::none || color.width() != scene.frame.width ||
       color.height() != scene.frame.height)
     return "";
-  return likely_of(lookalikes(scene, frame_of(left, conventions, verdict)), verdict);
+  const Lookalikes found = lookalikes(scene, frame_of(left, conventions, verdict));
+  return found.blank ? "any stage (nothing of the scene is seen)" : likely_of(found, verdict);
 }
 
 }  // namespace plumbline::cli

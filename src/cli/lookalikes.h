@@ -42,7 +42,8 @@ GivenFrame frame_of(const Capture& left, const Conventions& conventions, const c
 /// found.likely; empty where fewer pixels differ from ours (found.apart) than half of those that a row finds different
 /// at merge: the fault then resembles a legal rule of the renderer, not what is wrong with it.
 std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
-/// The likely fault of a capture; empty also where the scene is too large for a picture of each fault.
+/// The likely fault of a capture, or "any stage (nothing of the scene is seen)" where its pixels have one colour; empty
+/// also where the scene is too large for a picture of each fault.
 std::string likely_fault(const Scene& scene, const Capture& left, const Conventions& conventions,
                          const check::SceneVerdict& verdict);
 

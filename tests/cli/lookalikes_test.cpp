@@ -44,11 +44,21 @@ TEST(Lookalikes, none_of_the_right_frame) {
 TEST(Lookalikes, name_the_fault_that_draws_the_frame) {
   const Scene scene = scene_of("interpolation/w_ratio.json");
   for (const char* fault : {"attributes.next_corner", "attributes.corner_before", "attributes.wrong_corners",
-                            "attributes.affine", "depth.in_perspective"}) {
+                            "attributes.first_corners_swapped", "attributes.last_corners_swapped", "attributes.affine",
+                            "depth.in_perspective"}) {
     const Lookalikes found = lookalikes(scene, drawn(scene, fault));
     EXPECT_TRUE(found.likely.ends_with(std::string("(fault ") + fault + ")")) << fault << "\n" << found.text;
     EXPECT_TRUE(found.whole) << fault;
   }
+}
+
+TEST(Lookalikes, an_empty_frame_is_as_by_any_stage) {
+  const Scene scene = scene_of("coverage/fan.json");
+  Capture left;
+  left.planes.color = Plane<glm::vec4>(scene.frame.width, scene.frame.height, scene.frame.clear_color);
+  EXPECT_EQ(likely_fault(scene, left, {}, {}), "any stage (nothing of the scene is seen)");
+  left.planes.color = drawn(scene, "").color;
+  EXPECT_EQ(likely_fault(scene, left, {}, {}), "");
 }
 
 TEST(Lookalikes, a_picture_one_pixel_off_is_so_to_every_side) {

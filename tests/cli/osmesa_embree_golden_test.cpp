@@ -88,7 +88,8 @@ TEST_F(GoldenCommand, update_makes_a_broken_file_anew) {
   const auto before = files();
   const fs::path broken[] = {file("color"), file("depth", "coverage/shared_edges"), file("stages", "depth/on_clear")};
   for (const fs::path& one : broken) write(one, "");
-  EXPECT_EQ(golden("update").code, 1);
+  const Outcome update = golden("update");
+  EXPECT_EQ(update.code, 1) << update.text;
   for (const fs::path& one : broken) {
     EXPECT_TRUE(read(one) == before.at(one.string())) << "the same bytes, on any day: " << one;
   }

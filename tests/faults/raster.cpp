@@ -166,11 +166,15 @@ using TriangleAttributes = pipeline::AttributeSetup;
 
 pipeline::SampleOffsets color_of_sample(glm::ivec2 sample) { return {sample, sample, sample}; }
 
-Color<float> of_wrong_corners(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
-  const Barycentric b = pipeline::barycentric(s.planes, p);
-  const auto over_w = [&](double l, std::size_t corner) { return pipeline::to_float(l) * s.perspective.inv_w[corner]; };
-  const float q1 = over_w(b.l2, 1), q2 = over_w(b.l1, 2);
-  return pipeline::mean<float>(of, pipeline::weights<float>(q1, q2, over_w(b.l0, 0) + q1 + q2));
+// Corners a and b count as each other should. A triangle that is not cut has its second corner first, its first last.
+template <std::size_t a, std::size_t b>
+Color<float> corners_swapped(const Setup& s, const TriangleAttributes& of, const Pixels<float>& p) {
+  const Barycentric at = pipeline::barycentric(s.planes, p);
+  std::array<double, 3> l = {at.l0, at.l1, at.l2};
+  std::swap(l[a], l[b]);
+  std::array<float, 3> q;
+  for (std::size_t i = 0; i < 3; ++i) q[i] = pipeline::to_float(l[i]) * s.perspective.inv_w[i];
+  return pipeline::mean<float>(of, pipeline::weights<float>(q[1], q[2], q[0] + q[1] + q[2]));
 }
 
 // Corner i counts as corner i + turn should.
@@ -262,7 +266,11 @@ constexpr std::array kRaster = {
     Fault{"attributes.nearness_reversed", "corners count by w, not by 1/w", Stage::attributes,
           put<&Stages::attributes, nearness_reversed>},
     Fault{"attributes.wrong_corners", "two corners have each other's barycentric coordinates", Stage::attributes,
-          put<&Stages::attributes, of_wrong_corners>, "ssloy/tinyrenderer#40"},
+          put<&Stages::attributes, corners_swapped<1, 2>>, "ssloy/tinyrenderer#40"},
+    Fault{"attributes.first_corners_swapped", "the first two corners have each other's barycentric coordinates",
+          Stage::attributes, put<&Stages::attributes, corners_swapped<0, 2>>},
+    Fault{"attributes.last_corners_swapped", "the last two corners have each other's barycentric coordinates",
+          Stage::attributes, put<&Stages::attributes, corners_swapped<0, 1>>},
     Fault{"attributes.next_corner", "each corner has the attributes of the next", Stage::attributes,
           put<&Stages::attributes, corners_turned<2>>},
     Fault{"attributes.corner_before", "each corner has the attributes of the one before it", Stage::attributes,
