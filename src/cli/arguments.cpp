@@ -121,8 +121,12 @@ void add(CLI::App& command, LearnOptions& o) {
   CLI::Option* program =
       text(command, "--program", o.candidate.command, std::string("Ask what this command line draws: ") + kProgramHelp);
   text(command, "--with", o.with, fmt::format("Or one of ours: {}", fmt::join(renderer_names(), ", ")))
-      ->capture_default_str()
       ->excludes(program);
+  command
+      .add_option_function<int>(
+          "--time-limit", [&o](int seconds) { o.candidate.time_limit = std::chrono::seconds(seconds); },
+          "Seconds that the program may take to answer (default: 60)")
+      ->check(CLI::Range(1, 1'000'000));
   text(command, "-o,--output", o.output, "Write conventions.json, which check and diagnose take (--conventions)");
   text(command, "--pictures", o.pictures, "Leave the probes' pictures in this folder");
 }

@@ -104,9 +104,9 @@ int export_scene(const ExportOptions& options);
 /// A renderer's conventions: a table, and a file that check and diagnose take (--conventions).
 struct LearnOptions {
   ProgramArgument candidate;  ///< or
-  std::string with = "ours";
-  std::string output;    ///< conventions.json, or empty
-  std::string pictures;  ///< a folder for the probes' pictures, or empty
+  std::string with;           ///< a renderer of ours
+  std::string output;         ///< conventions.json, or empty
+  std::string pictures;       ///< a folder for the probes' pictures, or empty
 };
 /// Ends 1 where a convention is a mistake, or the probes contradict each other.
 int learn(const LearnOptions& options);

@@ -116,6 +116,12 @@ bool holds(const check::Diagnosis& diagnosis) {
                               [](const check::Comparison& c) { return is_failure(c.outcome); });
 }
 
+std::string likely_line(const Lookalikes& found) {
+  return fmt::format(
+      "likely stage: {}\n{}", found.likely,
+      found.or_else.empty() ? "" : fmt::format("  or {}: faults there draw the same frame\n", found.or_else));
+}
+
 // Known faults that explain the frame that another renderer left, where one explains most of it; of a frame that holds,
 // all of it: what is legal may still be by another rule.
 std::string known_faults(const Scene& scene, const Capture& left, const Conventions& conventions,
@@ -129,15 +135,17 @@ std::string known_faults(const Scene& scene, const Capture& left, const Conventi
   const bool is_open = !holds(diagnosis) && diagnosis.wrong.empty();
   return fmt::format("\npixels unlike plumbline's in colour or depth: {}; known faults that draw such a frame:\n{}{}",
                      found.apart, found.text,
-                     is_open            ? fmt::format("likely stage: {}\n", likely)
+                     is_open            ? likely_line(found)
                      : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", likely)
                                         : "");
 }
 
-// Pointer to `plumb learn`: a program's frame is wrong, no conventions are declared, no known fault draws such a frame.
+// Pointer to `plumb learn`: another renderer's frame is wrong, no conventions are declared, no known fault draws such a
+// frame.
 std::string hint_of_conventions(const DiagnoseOptions& o, const check::Diagnosis& diagnosis,
                                 const std::string& faults) {
-  if (o.candidate.command.empty() || !o.candidate.conventions.empty() || !faults.empty() || holds(diagnosis)) return "";
+  const bool is_ours = o.candidate.command.empty() && o.folder.empty();
+  if (is_ours || !o.candidate.conventions.empty() || !faults.empty() || holds(diagnosis)) return "";
   return "\nno known fault draws such a frame; the renderer's own conventions (grid, tie rule, roundings, corners) "
          "may:\n"
          "  plumb learn --program CMD -o FILE, then --conventions FILE\n";
@@ -273,7 +281,7 @@ int diagnose_picture(const DiagnoseOptions& o) {
                                 : ", or a quarter of a step of depth,");
   if (found.apart == 0) return kHolds;
   fmt::print("{}", found.text);
-  if (!found.likely.empty()) fmt::print("likely stage: {}\n", found.likely);
+  if (!found.likely.empty()) fmt::print("{}", likely_line(found));
   return kDiffers;
 }
 

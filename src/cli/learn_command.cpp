@@ -22,6 +22,7 @@ std::unique_ptr<Renderer> asked_renderer(const LearnOptions& o) {
     require_program(o.candidate);
     return make_probed_program(o.candidate);
   }
+  if (o.with.empty()) throw std::invalid_argument("learn: expected --program CMD or --with NAME, found neither");
   std::unique_ptr<Renderer> renderer = make_renderer(o.with);
   if (renderer == nullptr) throw std::invalid_argument(fmt::format("this plumb was built without {}", o.with));
   return renderer;

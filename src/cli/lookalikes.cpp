@@ -121,13 +121,23 @@ ColorAndDepth moved(const FrameFormat& frame, const ColorAndDepth& right, glm::i
   });
 }
 
-// Mistakes of a pixel in the viewport, by the frame's eight neighbours.
-std::vector<Lookalike> of_neighbours(const FrameFormat& frame, const ColorAndDepth& right, const Measure& measure) {
+// Scene whose samples lie half a pixel from the centres: the picture moves as far the other way.
+Scene half_a_pixel_off(const Scene& scene, glm::ivec2 by) {
+  Scene out = scene;
+  out.frame.pass.shift += 0.5 * glm::dvec2(by);
+  return out;
+}
+
+using Draws = std::function<ColorAndDepth(const Scene&)>;
+
+// Mistakes of a pixel in the viewport, or of half a pixel in the sample's place, to the eight sides.
+std::vector<Lookalike> of_neighbours(const Scene& scene, const ColorAndDepth& right, const Draws& draws,
+                                     const Measure& measure) {
   std::vector<Lookalike> out;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       if (x == 0 && y == 0) continue;
-      const std::string says = fmt::format("the picture lies one pixel too far {}{}{}",
+      const std::string side = fmt::format("{}{}{}",
                                            x == 0  ? ""
                                            : x < 0 ? "left"
                                                    : "right",
@@ -135,7 +145,11 @@ std::vector<Lookalike> of_neighbours(const FrameFormat& frame, const ColorAndDep
                                            y == 0  ? ""
                                            : y < 0 ? "down"
                                                    : "up");
-      out.push_back({"window", "window.one_pixel_off", says, measure(moved(frame, right, {x, y}))});
+      out.push_back({"window", "window.one_pixel_off", "the picture lies one pixel too far " + side,
+                     measure(moved(scene.frame, right, {x, y}))});
+      out.push_back({"window", "window.sample_off_centre",
+                     fmt::format("samples are not pixels' centres: the picture lies half a pixel too far {}", side),
+                     measure(draws(half_a_pixel_off(scene, {x, y})))});
     }
   }
   return out;
@@ -201,8 +215,15 @@ Lookalikes ranked(std::vector<Lookalike> all, std::size_t apart) {
     out.text += fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, l.apart, l.name, l.says);
   }
   const Lookalike& nearest = all.front();
-  if (10 * nearest.apart <= apart) out.likely = fmt::format("{} (fault {})", nearest.stage, nearest.name);
   out.whole = nearest.apart == 0;
+  if (10 * nearest.apart > apart) return out;
+  out.likely = fmt::format("{} (fault {})", nearest.stage, nearest.name);
+  std::vector<std::string> others;  // stages of faults that draw the same
+  for (const Lookalike& l : all) {
+    if (l.apart == nearest.apart && l.stage != nearest.stage && std::ranges::count(others, l.stage) == 0)
+      others.push_back(l.stage);
+  }
+  if (!others.empty()) out.or_else = fmt::format("{}", fmt::join(others, ", "));
   return out;
 }
 
@@ -238,8 +259,9 @@ Lookalikes seen_by(const Eye& eye, const Scene& scene, const GivenFrame& given, 
   const auto left_by = [&](const Scene& drawn_scene, const std::string& fault) {
     return measure(drawn(drawn_scene, given.conventions, fault));
   };
+  const Draws draws = [&](const Scene& drawn_scene) { return drawn(drawn_scene, given.conventions, ""); };
   std::vector<Lookalike> all = of_files(right, measure);
-  std::ranges::move(of_neighbours(scene.frame, right, measure), std::back_inserter(all));
+  std::ranges::move(of_neighbours(scene, right, draws, measure), std::back_inserter(all));
   all.push_back({"visibility", "visibility.farthest_kept",
                  "the depth test is turned round, and the depth cleared to the other end",
                  left_by(farthest_kept(scene), "")});

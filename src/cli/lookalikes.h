@@ -33,6 +33,7 @@ struct Lookalikes {
   double codes = 1;       ///< 1, or half of one
   std::string text;       ///< lines for people
   std::string likely;     ///< "STAGE (fault NAME)", where the nearest explains nine tenths of them or more; else empty
+  std::string or_else;    ///< other stages, of which a fault explains as much: the frame does not tell them apart
   bool whole = false;     ///< and all of them
   bool blank = false;     ///< all pixels have one colour, as by many faults: none is named, `text` says it
 };

@@ -137,6 +137,8 @@ TEST_F(Process, NamesWhatWentWrong) {
   EXPECT_HAS(failure(shell("true")), "manifest.json");
   EXPECT_HAS(failure(shell("exit 3")), "exited with status 3");
   EXPECT_HAS(failure(shell("false")), "exited with status 1");
+  EXPECT_HAS(failure(shell("sh -c 'kill -SEGV $$'; exit $?")), "exited with status 139: signal 11");
+  EXPECT_HAS(failure(shell("exit 255")), "exited with status 255");
   EXPECT_HAS(failure(shell("kill -SEGV $$")), "was killed by signal 11 (Segmentation fault)");
   EXPECT_HAS(failure(shell("kill -ABRT $$")), "was killed by signal 6");
   EXPECT_HAS(failure(shell("rmdir \"$2\"")), "left no capture: its folder is gone");

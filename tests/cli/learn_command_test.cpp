@@ -117,6 +117,10 @@ TEST_F(Cli, learn_of_what_draws_nothing_is_refused) {
   EXPECT_TRUE(failed.says("exited with status 3")) << failed.text;
   EXPECT_EQ(plumb("learn --program 'true'").code, 2) << "no {output}";
   EXPECT_EQ(plumb("learn --with nobody").code, 2);
+  EXPECT_EQ(plumb("learn").code, 2) << "of whom";
+  const Outcome slow = plumb("learn --time-limit 1 --program 'sh -c \"sleep 30\" {input} {output}'");
+  EXPECT_EQ(slow.code, 1) << slow.text;
+  EXPECT_TRUE(slow.says("took longer than 1s")) << slow.text;
   EXPECT_EQ(plumb("learn --with ours -o /nowhere/c.json").code, 2);
   const Outcome folder = plumb("learn --with ours --pictures /proc/pictures");
   EXPECT_EQ(folder.code, 2) << folder.text;

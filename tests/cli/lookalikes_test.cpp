@@ -49,7 +49,34 @@ TEST(Lookalikes, name_the_fault_that_draws_the_frame) {
     const Lookalikes found = lookalikes(scene, drawn(scene, fault));
     EXPECT_TRUE(found.likely.ends_with(std::string("(fault ") + fault + ")")) << fault << "\n" << found.text;
     EXPECT_TRUE(found.whole) << fault;
+    EXPECT_EQ(found.or_else, "") << fault;
   }
+}
+
+TEST(Lookalikes, samples_off_the_centre_are_so_to_every_side) {
+  const Scene scene = scene_of("coverage/fan.json");
+  for (const auto& [by, side] :
+       {std::pair(glm::dvec2(0.5, 0.5), "right and up\n"), {glm::dvec2(0, -0.5), "far down\n"}}) {
+    Scene off = scene;
+    off.frame.pass.shift += by;
+    const Lookalikes found = lookalikes(scene, drawn(off, ""));
+    EXPECT_EQ(found.likely, "window (fault window.sample_off_centre)") << found.text;
+    EXPECT_TRUE(found.whole);
+    EXPECT_NE(found.text.find(side), std::string::npos) << found.text;
+  }
+}
+
+// Two faults that exchange red and blue: of a triangle with a red, a green and a blue corner.
+TEST(Lookalikes, of_several_stages_that_draw_one_frame_all_are_named) {
+  Scene scene = scene_of("interpolation/ramps.json");
+  Mesh& mesh = scene.meshes[0];
+  mesh.triangles.resize(1);
+  mesh.colors.assign(mesh.positions.size(), glm::vec4(0, 0, 0, 1));
+  for (int k = 0; k < 3; ++k) mesh.colors[mesh.triangles[0][k]][k] = 1;
+  scene.draws.resize(1);
+  const Lookalikes found = lookalikes(scene, drawn(scene, "attributes.wrong_corners"));
+  EXPECT_TRUE((found.likely + found.or_else).find("attributes") != std::string::npos) << found.likely << found.or_else;
+  EXPECT_NE(found.or_else, "") << found.text;
 }
 
 TEST(Lookalikes, an_empty_frame_is_as_by_any_stage) {

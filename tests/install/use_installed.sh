@@ -8,8 +8,17 @@ set -eu
   echo "usage: use_installed.sh PREFIX FOLDER [renderer]" >&2
   exit 2
 }
+case ${3:-renderer} in renderer) ;; *)
+  echo "use_installed: expected 'renderer' or nothing, found $3" >&2
+  exit 2
+  ;;
+esac
 here=$(cd "$(dirname "$0")" && pwd)
 prefix=$(cd "$1" && pwd)
+if [ -e "$2" ] && [ ! -d "$2/library" ] && [ -n "$(ls -A "$2" 2>/dev/null || echo a file)" ]; then
+  echo "use_installed: $2: expected a new folder, an empty one, or one that this script has made" >&2
+  exit 2
+fi
 rm -rf "$2" && mkdir -p "$2"
 folder=$(cd "$2" && pwd)
 cp -r "$here/library" "$folder/library"
@@ -32,10 +41,6 @@ built() { # PROJECT OPTION...
   }
 }
 
-built library "-DHARNESS=$([ "${3:-}" = renderer ] && echo OFF || echo ON)"
-ctest --test-dir library/build || fail "the libraries' tests"
-[ "${3:-}" != renderer ] || exit 0
-
 cd "$prefix/share/doc/plumbline" # every link of the documents
 find . -name '*.md' | while read -r document; do
   grep -o '][(][^):#][^):]*)' "$document" | sed 's/^](//; s/)$//; s/#.*//' | while read -r link; do
@@ -44,6 +49,9 @@ find . -name '*.md' | while read -r document; do
 done >"$folder/broken"
 [ ! -s "$folder/broken" ] || fail "documents link to files that are not installed: $(cat "$folder/broken")"
 cd "$folder"
+built library "-DHARNESS=$([ "${3:-}" = renderer ] && echo OFF || echo ON)"
+ctest --test-dir library/build || fail "the libraries' tests"
+[ "${3:-}" != renderer ] || exit 0
 "$prefix/bin/plumb" render "$sample/fan.json" -o fan.png && [ -s fan.png ] || fail "plumb writes no image"
 built "$sample"
 ctest --test-dir "$sample/build" || fail "the sample's tests"

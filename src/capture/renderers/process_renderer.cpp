@@ -60,8 +60,13 @@ Ending ending_of(const ProgramEnd& end, std::chrono::milliseconds limit) {
   if (WIFSIGNALED(end.status)) {
     return {fmt::format("was killed by signal {} ({})", WTERMSIG(end.status), ::strsignal(WTERMSIG(end.status)))};
   }
-  if (WEXITSTATUS(end.status) == 0) return {};
-  return {fmt::format("exited with status {}", WEXITSTATUS(end.status)), WEXITSTATUS(end.status)};
+  const int status = WEXITSTATUS(end.status);
+  if (status == 0) return {};
+  // What a shell says of a program that a signal killed (POSIX, Shell Command Language, 2.8.2).
+  const char* signal = status > 128 && status < 128 + NSIG ? ::strsignal(status - 128) : nullptr;
+  if (signal != nullptr)
+    return {fmt::format("exited with status {}: signal {} ({})", status, status - 128, signal), status};
+  return {fmt::format("exited with status {}", status), status};
 }
 
 /// A folder for one run, which other users cannot read.

@@ -62,7 +62,8 @@ class File : public OpenImage {
     return in_->read_image(0, 0, first, last, type_of(as), to);
   }
   std::string error() const override {
-    const std::string said = in_->geterror();
+    std::string said = in_->geterror();
+    said.resize(std::min(said.find('\n'), said.size()));  // what follows says it again
     return said.empty() ? "the file ends before its pixels do, or holds others than its header says" : said;
   }
 
