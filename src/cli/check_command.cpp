@@ -177,7 +177,10 @@ int check(const CheckOptions& given) {
     summary += fmt::format("open in {}, and judged as OpenGL's: {}\n", o.candidate.conventions,
                            fmt::join(conventions.open, ", "));
   if (!o.candidate.command.empty() && !settles_ties(conventions))
-    summary += "not judged: which triangle owns a sample on an edge (no tie rule and grid are declared: plumb learn)\n";
+    summary += fmt::format("not judged: which triangle owns a sample on an edge ({})\n",
+                           conventions.tie_rule == Conventions::TieRule::any
+                               ? "no tie rule is declared: plumb learn"
+                               : "no grid is declared on which corners are snapped to the nearest place");
   if (!o.candidate.command.empty() && !can_confine())
     summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());

@@ -35,21 +35,23 @@ ColorAndDepth drawn(const Scene& scene, const Conventions& conventions, const st
   return {std::move(planes.color), std::move(planes.depth)};
 }
 
-// Red, green or blue differ by more than so many codes of 8 bits.
-bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes) {
-  const glm::vec3 off = glm::abs(glm::clamp(glm::vec3(a), 0.0f, 1.0f) - glm::clamp(glm::vec3(b), 0.0f, 1.0f));
+// Red, green or blue, and alpha if asked, differ by more than so many codes of 8 bits.
+bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes, bool by_alpha = false) {
+  const glm::vec4 off = glm::abs(glm::clamp(a, 0.0f, 1.0f) - glm::clamp(b, 0.0f, 1.0f));
   const float most = codes * kCode;
-  return !(off.x <= most && off.y <= most && off.z <= most) || std::isnan(b.x + b.y + b.z);
+  const bool near = off.x <= most && off.y <= most && off.z <= most && !std::isnan(b.x + b.y + b.z);
+  return !near || (by_alpha && (!(off.w <= most) || std::isnan(b.w)));
 }
 
 // Rule of what counts as a difference: more than so many codes of 8 bits, steps of depth, and what depths in float may
-// be off.
+// be off; alpha, too.
 struct Eye {
   float codes;
   double steps, float_depth;
+  bool by_alpha = false;
 };
 constexpr float kUnseen = std::numeric_limits<float>::infinity();
-constexpr Eye kCoarse{1.5f, 1.5, 0x1p-20};
+constexpr Eye kCoarse{1.5f, 1.5, 0x1p-20}, kCoarseByAlpha{1.5f, 1.5, 0x1p-20, true};
 constexpr Eye kFine[] = {{0.5f, kUnseen, 0}, {kUnseen, 0.25, 0}};  // truncation is no more
 
 // By pixel, 1 where the frames differ.
@@ -58,7 +60,7 @@ std::vector<std::uint8_t> apart_at(DepthFormat format, const ColorAndDepth& give
   const bool by_depth = !given.depth.empty() && given.depth.size() == other.depth.size();
   std::vector<std::uint8_t> out(given.color.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    bool apart = colors_apart(other.color.values()[i], given.color.values()[i], eye.codes);
+    bool apart = colors_apart(other.color.values()[i], given.color.values()[i], eye.codes, eye.by_alpha);
     if (by_depth && !apart) {
       const double z = other.depth.values()[i];
       const double most = std::max(eye.steps * depth_step(format, z), eye.float_depth);
@@ -262,6 +264,12 @@ Lookalikes seen_by(const Eye& eye, const Scene& scene, const GivenFrame& given, 
   const Draws draws = [&](const Scene& drawn_scene) { return drawn(drawn_scene, given.conventions, ""); };
   std::vector<Lookalike> all = of_files(right, measure);
   std::ranges::move(of_neighbours(scene, right, draws, measure), std::back_inserter(all));
+  if (eye.by_alpha) {
+    all.push_back({"merge", "merge.alpha_not_written", "alpha is as it was cleared",
+                   measure(changed(right, [&](ColorAndDepth& out, int x, int y) {
+                     out.color(x, y).a = scene.frame.clear_color.a;
+                   }))});
+  }
   all.push_back({"visibility", "visibility.farthest_kept",
                  "the depth test is turned round, and the depth cleared to the other end",
                  left_by(farthest_kept(scene), "")});
@@ -277,7 +285,16 @@ Lookalikes seen_by(const Eye& eye, const Scene& scene, const GivenFrame& given, 
 Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   const SceneByConventions seen(scene, given.conventions);
   const ColorAndDepth right = drawn(*seen, given.conventions, "");
-  if (Lookalikes out = seen_by(kCoarse, *seen, given, right); out.apart > 0) return out;
+  if (given.has_alpha) {  // of a renderer that writes none, another fault may be told by the other channels
+    Lookalikes by_alpha = seen_by(kCoarseByAlpha, *seen, given, right);
+    if (by_alpha.apart > 0) {
+      if (by_alpha.blank || !by_alpha.likely.empty()) return by_alpha;
+      Lookalikes without = seen_by(kCoarse, *seen, given, right);
+      return without.likely.empty() ? by_alpha : without;
+    }
+  } else if (Lookalikes out = seen_by(kCoarse, *seen, given, right); out.apart > 0) {
+    return out;
+  }
   for (const Eye& eye : kFine) {
     Lookalikes out = seen_by(eye, *seen, given, right);
     out.codes = 0.5;
@@ -308,7 +325,7 @@ Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict
 }  // namespace
 
 GivenFrame frame_of(const Capture& left, const Conventions& conventions, const check::SceneVerdict& verdict) {
-  return {{left.planes.color, left.planes.depth}, conventions, legal_pixels(left.planes, verdict)};
+  return {{left.planes.color, left.planes.depth}, conventions, legal_pixels(left.planes, verdict), true};
 }
 
 std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict) {
@@ -329,7 +346,7 @@ std::string likely_fault(const Scene& scene, const Capture& left, const Conventi
       color.height() != scene.frame.height)
     return "";
   const Lookalikes found = lookalikes(scene, frame_of(left, conventions, verdict));
-  return found.blank ? "any stage (nothing of the scene is seen)" : likely_of(found, verdict);
+  return found.blank ? "nothing of the scene is seen" : likely_of(found, verdict);
 }
 
 }  // namespace plumbline::cli

@@ -23,13 +23,14 @@ struct GivenFrame : ColorAndDepth {
   Conventions conventions;
   /// 1: the pixel is legal. Where it differs from ours, it counts for no fault, and against none. Empty: not known.
   Plane<std::uint8_t> is_legal;
+  bool has_alpha = false;  ///< else nothing is told by alpha
 };
 
 /// Known faults whose frame is nearer to the one given than ours is, the nearest first, and how much of what differs
 /// each explains. Faults are drawn by the conventions given, as far as SceneByConventions draws by them. Where all is
 /// within a code of 8 bits and a step of depth, a half and a quarter count, if a fault explains that.
 struct Lookalikes {
-  std::size_t apart = 0;  ///< pixels that differ from ours: red, green or blue by more than so many codes, or depth
+  std::size_t apart = 0;  ///< pixels that differ from ours: a channel by more than so many codes, or depth
   double codes = 1;       ///< 1, or half of one
   std::string text;       ///< lines for people
   std::string likely;     ///< "STAGE (fault NAME)", where the nearest explains nine tenths of them or more; else empty
@@ -43,8 +44,8 @@ GivenFrame frame_of(const Capture& left, const Conventions& conventions, const c
 /// found.likely; empty where fewer pixels differ from ours (found.apart) than half of those that a row finds different
 /// at merge: the fault then resembles a legal rule of the renderer, not what is wrong with it.
 std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
-/// The likely fault of a capture, or "any stage (nothing of the scene is seen)" where its pixels have one colour; empty
-/// also where the scene is too large for a picture of each fault.
+/// The likely fault of a capture, or "nothing of the scene is seen" where its pixels have one colour; empty also where
+/// the scene is too large for a picture of each fault.
 std::string likely_fault(const Scene& scene, const Capture& left, const Conventions& conventions,
                          const check::SceneVerdict& verdict);
 

@@ -45,7 +45,7 @@ void learn_clipping(Prober& prober) {
     return prober.open(planes, "the view volume is open");
   }
   c.clip_depth = near_to(first, kFrameSize / 2) ? C::ClipDepth::zero_to_w : C::ClipDepth::minus_w_to_w;
-  c.depth_planes = near_cut && far_cut ? C::DepthPlanes::cut : C::DepthPlanes::clamped;
+  c.depth_planes = near_cut || far_cut ? C::DepthPlanes::cut : C::DepthPlanes::clamped;
   if (near_cut != far_cut)
     prober.unexplained(fmt::format("the {} plane cuts, the {} does not", near_cut ? "near" : "far",
                                    near_cut ? "far plane" : "near plane"));

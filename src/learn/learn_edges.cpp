@@ -29,9 +29,11 @@ ProbeCorner corner(int along, double a, double b) {
 // column's left one): of the row, so many samples lie below it that the edge's place is told to rise/1024 pixel.
 struct Edge {
   double offset, rise;  // as given [pixels]
-  int count;            // samples below the edge, of the strip's four rows
+  int count;            // samples on the triangles' side of the edge, of the strip's four rows
 };
-std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vector<double>& offsets) {
+enum class Side { below, above };  // of the edge, on which the triangles lie
+std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vector<double>& offsets,
+                        Side side = Side::below) {
   std::vector<Edge> out;
   for (std::size_t first = 0; first < offsets.size(); first += kStrips) {
     const std::size_t n = std::min<std::size_t>(kStrips, offsets.size() - first);
@@ -40,8 +42,9 @@ std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vecto
     Triangles triangles;
     for (std::size_t i = 0; i < n; ++i) {
       const double low = kStrip * static_cast<double>(i), at = low + 2 + offsets[first + i];
-      for (const auto& t : quad({corner(along, 0, low + 0.25), corner(along, kLong, low + 0.25),
-                                 corner(along, kLong, at + rise), corner(along, 0, at)}))
+      const double to = low + (side == Side::below ? 0.25 : 3.75);
+      for (const auto& t : quad(
+               {corner(along, 0, to), corner(along, kLong, to), corner(along, kLong, at + rise), corner(along, 0, at)}))
         triangles.push_back(t);
     }
     add_triangles(scene, triangles);
@@ -121,6 +124,33 @@ std::optional<Grid> grid_along(Prober& prober, int along) {
   return grid_of(edges(prober, along, rise, offsets), 9, kMostBits, grid->sample < 0.25 ? 1 : 0);
 }
 
+// The sample's place by edges whose triangles lie above them: where those of the others reach beyond their edges, they
+// tell it too low, and these too high.
+double place_from_above(Prober& prober, int along, const Grid& grid) {
+  std::vector<double> offsets;
+  for (int k = 0; k < 64; ++k) offsets.push_back(k / 1024.0);
+  double sum = 0;
+  int n = 0;
+  const int lost_rows = grid.sample > 0.75 ? 1 : 0;  // above the strip's upper edge
+  for (const Edge& edge : edges(prober, along, 1, offsets, Side::above)) {
+    const auto at = snapped(edge.offset, grid.bits, grid.rounding);
+    if (!at) continue;
+    sum += *at + static_cast<double>(edge.count) / kLong + lost_rows - 1;
+    ++n;
+  }
+  return n > 0 ? sum / n : grid.sample;
+}
+
+// How far triangles reach beyond their edges [pixels], and the sample's place, both from either side. Places in halves
+// need no second look.
+double reach_of(Prober& prober, int along, Grid& grid) {
+  if (std::abs(grid.sample - std::round(2 * grid.sample) / 2) < 1.5 / kLong) return 0;
+  const double above = place_from_above(prober, along, grid), reach = (above - grid.sample) / 2;
+  if (std::abs(reach) < 1.75 / kLong) return 0;
+  grid.sample = (grid.sample + above) / 2;
+  return reach;
+}
+
 // The lowest left pixel drawn of a rectangle in which pixel (3, 3) is the lowest left sample.
 glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
   Scene scene = probe_frame("shift", 16, 16);
@@ -139,7 +169,17 @@ glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
 void learn_grid(Prober& prober) {
   const ConventionWords bits = words_of("subpixel_bits"), rounding = words_of("subpixel_rounding");
   std::array<std::optional<Grid>, 2> grids;
-  for (const int along : {0, 1}) grids[static_cast<std::size_t>(along)] = grid_along(prober, along);
+  double reach = 0;
+  for (const int along : {0, 1}) {
+    std::optional<Grid>& grid = grids[static_cast<std::size_t>(along)] = grid_along(prober, along);
+    const double beyond = grid ? reach_of(prober, along, *grid) : 0;
+    if (std::abs(beyond) > std::abs(reach)) reach = beyond;
+  }
+  if (reach != 0) {
+    prober.unexplained(fmt::format("triangles {} up to {:.4f} pixel {} their edges",
+                                   reach > 0 ? "have samples" : "lack samples", std::abs(reach),
+                                   reach > 0 ? "beyond" : "within"));
+  }
   const auto &rows = grids[0], &columns = grids[1];
   if (!rows || !columns) {
     prober.unexplained("edges that are moved in small steps go by no grid");

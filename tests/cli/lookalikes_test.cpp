@@ -53,6 +53,16 @@ TEST(Lookalikes, name_the_fault_that_draws_the_frame) {
   }
 }
 
+TEST(Lookalikes, alpha_that_is_not_written_is_told_where_there_is_one) {
+  const Scene scene = scene_of("interpolation/alpha_of_one_corner.json");
+  GivenFrame given = drawn(scene, "merge.truncated");
+  for (glm::vec4& color : given.color.values()) color.a = scene.frame.clear_color.a;
+  given.has_alpha = true;
+  EXPECT_EQ(lookalikes(scene, given).likely, "merge (fault merge.alpha_not_written)");
+  given.has_alpha = false;
+  EXPECT_EQ(lookalikes(scene, given).likely, "merge (fault merge.truncated)");
+}
+
 TEST(Lookalikes, samples_off_the_centre_are_so_to_every_side) {
   const Scene scene = scene_of("coverage/fan.json");
   for (const auto& [by, side] :
@@ -83,7 +93,7 @@ TEST(Lookalikes, an_empty_frame_is_as_by_any_stage) {
   const Scene scene = scene_of("coverage/fan.json");
   Capture left;
   left.planes.color = Plane<glm::vec4>(scene.frame.width, scene.frame.height, scene.frame.clear_color);
-  EXPECT_EQ(likely_fault(scene, left, {}, {}), "any stage (nothing of the scene is seen)");
+  EXPECT_EQ(likely_fault(scene, left, {}, {}), "nothing of the scene is seen");
   left.planes.color = drawn(scene, "").color;
   EXPECT_EQ(likely_fault(scene, left, {}, {}), "");
 }

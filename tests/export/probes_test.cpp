@@ -99,6 +99,13 @@ TEST(Probes, ColoursAreNumbersAndBack) {
   for (const int primitive : {0, 1, 254, 255, 256, 65534, 65535, 69999}) {
     EXPECT_EQ(winner_of(apart.colors[3 * static_cast<std::size_t>(primitive)]), primitive);
   }
+  // Whatever a frame of codes makes of the colours.
+  const Mesh up = primitives_by_color(scene, Conventions::Rounding::up).meshes[0];
+  for (const std::size_t primitive : {0u, 1u, 254u, 255u, 256u, 65534u, 65535u, 69999u}) {
+    const glm::vec4 color = 255.0f * apart.colors[3 * primitive], of_up = 255.0f * up.colors[3 * primitive];
+    for (const glm::vec4& codes : {glm::floor(color), glm::round(color), glm::ceil(of_up)})
+      EXPECT_EQ(winner_of(codes / 255.0f), static_cast<std::int32_t>(primitive));
+  }
   EXPECT_EQ(winner_of(glm::vec4(0, 0, 0, 1)), -1);
   for (const float v : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(), -1e30f}) {
     EXPECT_EQ(winner_of(glm::vec4(v)), -1);

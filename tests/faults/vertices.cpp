@@ -90,6 +90,11 @@ constexpr auto kViewportOneShort = [](const Scene&, Matrices<float>& m) {
   m.win_scale.y -= 0.5f;
 };
 
+constexpr auto kViewportByWidthLessOne = [](const Scene&, Matrices<float>& m) {
+  m.win_scale.x -= 0.5f, m.win_translate.x -= 0.5f;
+  m.win_scale.y -= 0.5f, m.win_translate.y -= 0.5f;
+};
+
 // The stage under a matrix for normals of its own.
 template <auto change>
 void normals_by_other(const Matrices<float>& matrices, Normals normals, const Mesh& mesh,
@@ -151,6 +156,9 @@ constexpr std::array kVertices = {
     of_matrices<matrices_changed<kViewportOneShort>>(
         "matrices.viewport_one_short",
         "the viewport is a pixel too narrow and too low: its sides are taken for centres"),
+    of_matrices<matrices_changed<kViewportByWidthLessOne>>(
+        "matrices.viewport_by_width_less_one",
+        "the viewport is a pixel less wide and high: its left lower corner is right"),
     of_matrices<matrices_changed<kNormalsByInverse>>("matrices.normals_by_inverse",
                                                      "the normals' matrix is the inverse, not transposed"),
     of_matrices<matrices_of_other<kTransformsReversed>>(

@@ -238,6 +238,39 @@ TEST(Learn, ARefusedProbeLeavesItsConventionsOpen) {
   }
 }
 
+// A tolerance of edge functions moves edges of one side as a sample off the centre would, and those of the other back.
+TEST(Learn, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
+  constexpr double kReach = 2.0 / 256;
+  const auto plain = pipeline::make_pipeline();
+  OfAlteredScenes renderer;
+  renderer.after = [&](const Scene& scene, Capture& c) {
+    if (scene.name != "probe/grid_x" && scene.name != "probe/grid_y") return;
+    for (const glm::dvec2 by : {glm::dvec2(0, 1), {0, -1}, {1, 0}, {-1, 0}}) {
+      Scene moved = scene;
+      moved.frame.pass.shift += kReach * by;
+      const Plane<glm::vec4> color = plain->capture(moved, {}).planes.color;
+      for (std::size_t i = 0; i < color.size(); ++i)
+        c.planes.color.values()[i] = glm::max(c.planes.color.values()[i], color.values()[i]);
+    }
+  };
+  C expected = ours();
+  expected.unexplained = {"triangles have samples up to 0.0078 pixel beyond their edges"};
+  EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(expected));
+}
+
+TEST(Learn, APlaneThatAloneCutsNothingIsAFinding) {
+  OfAlteredScenes renderer;
+  renderer.after = [](const Scene& scene, Capture& c) {
+    if (scene.name != "probe/clipping") return;
+    for (int y = 0; y < c.height; ++y) {
+      for (int x = c.width / 2; x < c.width; ++x) c.planes.color(x, y) = glm::vec4(1);
+    }
+  };
+  C expected = ours();
+  expected.unexplained = {"the near plane cuts, the far plane does not"};
+  EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(expected)) << "the suite expects the cut";
+}
+
 TEST(Learn, ARendererOfOneDepthFormatLeavesNoDepthsOfTheOther) {
   OfAlteredScenes renderer;
   renderer.after = [](const Scene& scene, Capture& c) {

@@ -57,10 +57,12 @@ void add_primitive(const Mesh& from, const glm::uvec3& corners, const glm::vec4&
   to.triangles.push_back({first, first + std::min(1u, count - 1), first + count - 1});
 }
 
-// Number of a primitive as a colour of 8 bits a channel: never the cleared frame's.
-glm::vec4 color_of(std::uint32_t primitive) {
+// Number of a primitive as a colour of 8 bits a channel, never the cleared frame's: a quarter code above, which becomes
+// that code to the nearest and rounded down; below where it is rounded up.
+glm::vec4 color_of(std::uint32_t primitive, Conventions::Rounding rounding) {
   const std::uint32_t code = primitive + 1;
-  return glm::vec4(code & 0xffu, (code >> 8) & 0xffu, (code >> 16) & 0xffu, 255) / 255.0f;
+  const glm::vec3 codes(code & 0xffu, (code >> 8) & 0xffu, (code >> 16) & 0xffu);
+  return {glm::clamp((codes + (rounding == Conventions::Rounding::up ? -0.25f : 0.25f)) / 255.0f, 0.0f, 1.0f), 1};
 }
 
 Plane<glm::vec4> picture_of(const Scene& scene, Renderer& renderer) {
@@ -87,7 +89,7 @@ Scene primitive_alone(const Scene& scene, std::uint32_t primitive) {
   return out;
 }
 
-Scene primitives_by_color(const Scene& scene) {
+Scene primitives_by_color(const Scene& scene, Conventions::Rounding rounding) {
   Scene out = stage_of(scene);
   std::uint32_t primitive = 0;
   for (const Draw& of : scene.draws) {
@@ -97,7 +99,7 @@ Scene primitives_by_color(const Scene& scene) {
     const Mesh& from = scene.meshes[of.mesh];
     Mesh& to = out.meshes.emplace_back();
     to.topology = from.topology;
-    for (const glm::uvec3& corners : from.triangles) add_primitive(from, corners, color_of(primitive++), to);
+    for (const glm::uvec3& corners : from.triangles) add_primitive(from, corners, color_of(primitive++, rounding), to);
   }
   return out;
 }
@@ -133,7 +135,10 @@ void add_probed_planes(const Scene& scene, Renderer& renderer, Capture& capture)
   }
   const bool by_alpha = std::ranges::any_of(scene.draws, [](const Draw& d) { return d.alpha_test.has_value(); });
   if (!planes.id.empty() || by_alpha || scene.frame.stencil != StencilFormat::none) return;
-  const Plane<glm::vec4> picture = picture_of(primitives_by_color(scene), renderer);
+  const Conventions conventions = renderer.info().conventions;
+  if (conventions.color_encoding != Conventions::Encoding::linear)
+    throw Unsupported("colours are encoded: those of primitives tell no winner");
+  const Plane<glm::vec4> picture = picture_of(primitives_by_color(scene, conventions.color_rounding), renderer);
   Plane<std::int32_t> id(capture.width, capture.height);
   std::ranges::transform(picture.values(), id.values().begin(), winner_of);
   const auto is_none = [&](std::int32_t winner) { return winner >= static_cast<std::int32_t>(primitives); };

@@ -119,7 +119,8 @@ std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
   }
   std::string out;
   for (const auto& [cause, count] : by_count(causes)) {
-    out += fmt::format("wrong as by {}: {}, first {}\n", cause, count, first[cause]);
+    const bool is_fault = cause.ends_with(')');
+    out += fmt::format("wrong{} {}: {}, first {}\n", is_fault ? " as by" : ", and", cause, count, first[cause]);
   }
   return unknown == 0 ? out : out + fmt::format("wrong as by no known fault: {}\n", unknown);
 }
