@@ -36,6 +36,13 @@ TEST(Conformance, OfAScene) {
   EXPECT_EQ(conformance_of(verdict("a/b", {kLacking})), Conformance::unable) << "what was not judged never passes";
   EXPECT_EQ(conformance_of(verdict("a/b", {})), Conformance::unable);
   EXPECT_EQ(conformance_of(verdict("a/b", {kCrash, kLacking})), Conformance::failed);
+  Comparison open = row("exact", Kind::from_scene, Stage::merge, Outcome::ambiguous_only);
+  open.measurement.items = open.measurement.ambiguous = 4;
+  EXPECT_EQ(conformance_of(verdict("a/b", {open, kLacking})), Conformance::unable) << "an empty frame is legal, too";
+  EXPECT_EQ(conformance_of(verdict("a/b", {open, kHolds})), Conformance::holds);
+  EXPECT_TRUE(conformance_text(std::vector{verdict("a/b", {open})}).ends_with("several legal answers 1\n"));
+  --open.measurement.ambiguous;
+  EXPECT_EQ(conformance_of(verdict("a/b", {open})), Conformance::holds);
 }
 
 TEST(Conformance, OfASuite) {

@@ -24,11 +24,24 @@ std::vector<std::pair<std::string, std::size_t>> by_count(const Counts& counts) 
 
 std::string group_of(const check::SceneVerdict& verdict) { return verdict.scene.substr(0, verdict.scene.find('/')); }
 
+// Whether every pixel or record that was compared has several legal answers: a program that draws nothing may hold.
+bool is_open(const check::SceneVerdict& verdict) {
+  std::size_t open = 0;
+  for (const check::Comparison& c : verdict.comparisons) {
+    if (!check::votes(c) || !check::was_compared(c)) continue;
+    const check::Measurement& m = c.measurement;
+    if (c.outcome != check::Outcome::ambiguous_only || m.items == 0 || m.ambiguous < m.items) return false;
+    ++open;
+  }
+  return open > 0;
+}
+
 // Why the program does not draw the scene: it says so in a row of its own, the first of an antialiased scene's passes.
 std::string reason_of(const check::SceneVerdict& verdict) {
   const auto& rows = verdict.comparisons;
   const bool by_itself = !rows.empty() && rows.front().judge.reference == kProgram;
-  return by_itself ? rows.front().note : "nothing that it left could be judged";
+  if (by_itself) return rows.front().note;
+  return is_open(verdict) ? "every pixel has several legal answers" : "nothing that it left could be judged";
 }
 
 std::string counted(const std::vector<std::pair<std::string, std::size_t>>& counts) {
@@ -53,7 +66,7 @@ Conformance conformance_of(const check::SceneVerdict& verdict) {
   if (first_wrong(verdict) != nullptr) return Conformance::differs;
   if (any([](const check::Comparison& c) { return c.outcome == check::Outcome::failed; })) return Conformance::failed;
   if (any([](const check::Comparison& c) { return c.outcome == check::Outcome::expected; })) return Conformance::known;
-  if (check::judged_stages(verdict).empty()) return Conformance::unable;
+  if (check::judged_stages(verdict).empty() || is_open(verdict)) return Conformance::unable;
   return check::first_different(verdict) != nullptr ? Conformance::legal : Conformance::holds;
 }
 

@@ -18,7 +18,9 @@ enum class Conformance {
   known,    ///< what is wrong is expected (--expect)
   differs,  ///< a stage is wrong, and no oracle calls it legal
   failed,   ///< the program crashed, hung, or left what cannot be read
-  unable    ///< the program said that it cannot draw the scene, or nothing that it left could be judged
+  /// The program said that it cannot draw the scene, or nothing that it left could be judged, or told from a frame that
+  /// is legal as well.
+  unable
 };
 Conformance conformance_of(const check::SceneVerdict& verdict);
 /// The first stage that is wrong, and that no oracle calls legal; null: none.
