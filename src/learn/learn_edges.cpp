@@ -176,9 +176,8 @@ void learn_grid(Prober& prober) {
     if (std::abs(beyond) > std::abs(reach)) reach = beyond;
   }
   if (reach != 0) {
-    prober.unexplained(fmt::format("triangles {} up to {:.4f} pixel {} their edges",
-                                   reach > 0 ? "have samples" : "lack samples", std::abs(reach),
-                                   reach > 0 ? "beyond" : "within"));
+    prober.unexplained(fmt::format("triangles have too {} samples, as if their edges lay {:.4f} pixel farther {}",
+                                   reach > 0 ? "many" : "few", std::abs(reach), reach > 0 ? "out" : "in"));
   }
   const auto &rows = grids[0], &columns = grids[1];
   if (!rows || !columns) {

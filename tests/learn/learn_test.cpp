@@ -254,7 +254,7 @@ TEST(Learn, TrianglesThatReachBeyondTheirEdgesAreNoSampleOffTheCentre) {
     }
   };
   C expected = ours();
-  expected.unexplained = {"triangles have samples up to 0.0078 pixel beyond their edges"};
+  expected.unexplained = {"triangles have too many samples, as if their edges lay 0.0078 pixel farther out"};
   EXPECT_EQ(conventions_text(learn(renderer).conventions), conventions_text(expected));
 }
 
