@@ -108,7 +108,7 @@ double rounded(Conventions::Rounding rounding, double v);
 /// The middle of the numbers that become a whole number by the rounding, from that number.
 double middle_of(Conventions::Rounding rounding);
 
-/// What sRGB stores of a linear intensity, both in [0,1] (IEC 61966-2-1).
+/// The sRGB encoding of a linear intensity, both in [0,1] (IEC 61966-2-1).
 double srgb_encoded(double linear);
 
 /// A window coordinate, from the first pixel's centre [1/256 pixel], on the grid of the conventions. To the nearest

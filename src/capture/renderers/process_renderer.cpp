@@ -62,7 +62,7 @@ Ending ending_of(const ProgramEnd& end, std::chrono::milliseconds limit) {
   }
   const int status = WEXITSTATUS(end.status);
   if (status == 0) return {};
-  // What a shell says of a program that a signal killed (POSIX, Shell Command Language, 2.8.2).
+  // Status 128 + signal: a shell says so of a program that a signal killed (dash and bash; POSIX asks for above 128).
   const char* signal = status > 128 && status < 128 + NSIG ? ::strsignal(status - 128) : nullptr;
   if (signal != nullptr)
     return {fmt::format("exited with status {}: signal {} ({})", status, status - 128, signal), status};
