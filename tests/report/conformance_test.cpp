@@ -55,6 +55,8 @@ TEST(Conformance, OfASuite) {
             "fog                   0       0       0       0       1       3  \n"
             "all                   1       0       0       1       1       3  depth 1\n"
             "unable: fog 2, nothing that it left could be judged 1\n"
+            "judged by the frame alone, wrong at the stage named or an earlier one: 1 (--each-primitive shows coverage "
+            "and visibility)\n"
             "wrong as by no known fault: 1\n");
   const std::string markdown = conformance_markdown(verdicts);
   EXPECT_NE(markdown.find("| clip | 1 | 0 | 0 | 1 | 0 | 0 | depth 1 |\n"), std::string::npos) << markdown;
@@ -66,6 +68,9 @@ TEST(Conformance, OfASuite) {
       "wrong as by window (fault window.y_flipped): 2, first clip/c\nwrong as by no known fault: 1\n";
   EXPECT_TRUE(conformance_text(verdicts).ends_with(causes)) << conformance_text(verdicts);
   EXPECT_EQ(whole_suite(verdicts).differs, 3u);
+  const Comparison record = row("exact", Kind::per_stage, Stage::window, Outcome::equal);
+  const std::string by_records = conformance_text(std::vector{verdict("clip/e", {record, kIllegal})});
+  EXPECT_EQ(by_records.find("by the frame alone"), std::string::npos) << by_records;
 }
 
 }  // namespace

@@ -56,6 +56,27 @@ TEST_F(Reports, ARowOfWhatWasNotJudgedShowsNoNumbersButTheReason) {
   }
 }
 
+TEST_F(Reports, StagesThatAReferenceDoesNotJudgeForOneReasonAreOneRow) {
+  const auto row = [](Stage stage, const char* note, Outcome outcome = Outcome::unsupported) {
+    Comparison out = not_compared(outcome, note);
+    out.stage = stage;
+    return out;
+  };
+  Comparison judged = compared(Outcome::equal), others = row(Stage::window, "no plane");
+  judged.stage = Stage::depth;
+  others.judge.reference = "another";
+  const std::string rows = table_rows(
+      verdict_of({row(Stage::vertex, "no plane"), row(Stage::clip, "no record"), judged,
+                  row(Stage::window, "no plane\nand more"), others, row(Stage::shade, "no plane", Outcome::failed)}));
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 5) << rows;
+  EXPECT_TRUE(contains(rows, "2 stages   unsupported")) << rows;
+  EXPECT_TRUE(contains(rows, "no plane: vertex, window\n")) << rows;
+  EXPECT_TRUE(contains(rows, "clip       unsupported")) << rows;
+  EXPECT_TRUE(contains(rows, "no record\n")) << rows;
+  EXPECT_TRUE(contains(rows, "shade      failed")) << rows;
+  EXPECT_TRUE(contains(rows, "window     unsupported")) << "the other reference's: " << rows;
+}
+
 TEST_F(Reports, EqualShowsNoPlace) {
   const std::string row = table_rows(verdict_of({compared(Outcome::equal)}));
   EXPECT_FALSE(contains(row, "pixel 12,34"));

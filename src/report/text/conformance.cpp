@@ -117,6 +117,24 @@ std::vector<FeatureTally> with_all(std::span<const check::SceneVerdict> verdicts
   return out;
 }
 
+// Whether the program showed its frame, and no record, where it is wrong.
+bool is_wrong_by_frame(const check::SceneVerdict& verdict) {
+  return conformance_of(verdict) == Conformance::differs &&
+         std::ranges::none_of(verdict.comparisons, [](const check::Comparison& c) {
+           return check::was_compared(c) && c.stage != Stage::depth && c.stage != Stage::merge;
+         });
+}
+
+// What a frame does not tell.
+std::string frame_line(std::span<const check::SceneVerdict> verdicts) {
+  const auto count = std::ranges::count_if(verdicts, is_wrong_by_frame);
+  if (count == 0) return "";
+  return fmt::format(
+      "judged by the frame alone, wrong at the stage named or an earlier one: {} (--each-primitive shows coverage and "
+      "visibility)\n",
+      count);
+}
+
 // One cause of many scenes is one line.
 std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
   Counts causes;
@@ -156,7 +174,7 @@ std::string conformance_text(std::span<const check::SceneVerdict> verdicts) {
     out +=
         fmt::format(kRow, t.feature, t.holds, t.legal, t.known, t.differs, t.failed, t.unable, counted(t.first_wrong));
   }
-  return out + unable_line(verdicts) + cause_lines(verdicts);
+  return out + unable_line(verdicts) + frame_line(verdicts) + cause_lines(verdicts);
 }
 
 std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) {
@@ -167,7 +185,7 @@ std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) 
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(t.feature), t.holds, t.legal, t.known,
                        t.differs, t.failed, t.unable, cell(counted(t.first_wrong)));
   }
-  return out + "\n" + cell(unable_line(verdicts)) + "\n\n" + cell(cause_lines(verdicts)) + "\n";
+  return out + "\n" + cell(unable_line(verdicts)) + "\n\n" + cell(frame_line(verdicts) + cause_lines(verdicts)) + "\n";
 }
 
 }  // namespace plumbline::report

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace plumbline::report {
 
@@ -23,6 +26,21 @@ std::string largest(const Comparison& c) {
   return fmt::format("{:.4g} {} (tolerance {:.4g})", worst->difference, c.measurement.unit, worst->tolerance);
 }
 
+// A row is a line; failure_lines() has all of it.
+std::string first_line(const std::string& note) { return note.substr(0, note.find('\n')); }
+
+// The stages that one reference does not judge for one reason, c's among them.
+std::vector<std::string_view> not_compared_as(const Comparison& c, const SceneVerdict& verdict) {
+  std::vector<std::string_view> out;
+  for (const Comparison& other : verdict.comparisons) {
+    if (check::was_compared(other) || other.outcome != c.outcome || title_of(other.judge) != title_of(c.judge) ||
+        first_line(other.note) != first_line(c.note))
+      continue;
+    out.push_back(name_of(other.stage));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string table_head() {
@@ -37,10 +55,15 @@ std::string table_rows(const SceneVerdict& verdict) {
     if (check::was_compared(c)) {
       out += fmt::format(kRow, c.scene, title_of(c.judge), name_of(c.stage), name_of(c.outcome), m.items, m.differing,
                          m.ambiguous, largest(c), check::remark(c));
-    } else {
-      out += fmt::format(kRow, c.scene, title_of(c.judge), name_of(c.stage), name_of(c.outcome), "-", "-", "-", "-",
-                         c.note.substr(0, c.note.find('\n')));  // a row is a line; failure_lines() has all of it
+      continue;
     }
+    const std::vector<std::string_view> stages = not_compared_as(c, verdict);
+    if (stages.front() != name_of(c.stage)) continue;  // in the first one's row
+    const std::string note = first_line(c.note);
+    const bool alone = stages.size() == 1;
+    out += fmt::format(kRow, c.scene, title_of(c.judge), alone ? stages[0] : fmt::format("{} stages", stages.size()),
+                       name_of(c.outcome), "-", "-", "-", "-",
+                       alone ? note : fmt::format("{}: {}", note, fmt::join(stages, ", ")));
   }
   return out;
 }

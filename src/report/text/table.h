@@ -10,7 +10,7 @@
 namespace plumbline::report {
 
 std::string table_head();
-/// A line per comparison.
+/// A line per comparison, and one for all stages that a reference does not judge for one reason.
 std::string table_rows(const check::SceneVerdict& verdict);
 /// For a scene that failed: the first different stage, its worst item, the stages whose lack of a judge is a failure,
 /// and the command that repeats it; else empty.
