@@ -28,15 +28,14 @@ glm::dvec2 place_of(const Projected& scene, const Corner& corner, double steps) 
   return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Whether a sample on an edge is the triangle's, on the side of `inward`.
+}  // namespace
+
 bool owns_ties(C::TieRule rule, glm::dvec2 inward) {
   using enum C::TieRule;
   if (rule == inclusive || rule == exclusive) return rule == inclusive;
   const bool left = rule == left_bottom || rule == left_top, bottom = rule == left_bottom || rule == right_bottom;
   return inward.x != 0 ? (inward.x > 0) == left : (inward.y > 0) == bottom;
 }
-
-}  // namespace
 
 // Edge functions are exact in double: products of places in 1/1024 pixel or coarser (settles_ties()).
 std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, int px, int py) {

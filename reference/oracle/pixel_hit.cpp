@@ -16,9 +16,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A centre exactly on an edge belongs to the triangle on its right (+x); on a horizontal one, above (+y).
-bool takes_ties(glm::dvec2 inward) { return inward.x > 0 || (inward.x == 0 && inward.y > 0); }
-
 struct Place {
   bool inside = false;    ///< in the closed triangle, in double
   bool by_ties = false;   ///< and by the tie rule
@@ -63,7 +60,8 @@ Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
     const double e = t.sign * glm::dot(t.n[i], d);
     if (!t.flat && e * t.per_pixel[i] < -t.reach) return {false, false, kInfinity, d, 1};
     out.inside &= e >= 0;
-    out.by_ties &= e > 0 || (e == 0 && takes_ties(t.sign * glm::dvec2(t.n[i])));
+    const auto left_bottom = Conventions::TieRule::left_bottom;  // what a float renderer of OpenGL's conventions has
+    out.by_ties &= e > 0 || (e == 0 && owns_ties(left_bottom, t.sign * glm::dvec2(t.n[i])));
     out.border = std::min(out.border, t.per_pixel[i] > 0 ? e * t.per_pixel[i] : kInfinity);
   }
   const double inv_w = glm::dot(t.w_plane, d);

@@ -51,6 +51,8 @@ void color_hit(const Scene& scene, const Projected& projected, int px, int py, P
 void set_tests(const Draw& draw, const Triangle& t, const FrameFormat& frame, const Conventions& conventions,
                PixelHit& out);
 
+/// Whether a sample on a triangle's edge is the triangle's, which lies in the direction `inward` from that edge.
+bool owns_ties(Conventions::TieRule rule, glm::dvec2 inward);
 /// PixelHit::covers of a triangle that comes near to the pixel.
 std::optional<bool> known_coverage(const Projected& projected, const Triangle& t, int px, int py);
 /// Makes hits whose coverage is known certain, or removes them, and sets the others' groups (form_groups()) by it.
