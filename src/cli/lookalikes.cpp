@@ -1,6 +1,7 @@
 #include "cli/lookalikes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -51,8 +52,10 @@ struct Eye {
   bool by_alpha = false;
 };
 constexpr float kUnseen = std::numeric_limits<float>::infinity();
-constexpr Eye kCoarse{1.5f, 1.5, 0x1p-20}, kCoarseByAlpha{1.5f, 1.5, 0x1p-20, true};
-constexpr Eye kFine[] = {{0.5f, kUnseen, 0}, {kUnseen, 0.25, 0}};  // truncation is no more
+enum Look { kCoarseByAlpha, kCoarse, kFineColor, kFineDepth };  // truncation is no more than fine
+constexpr std::array<Eye, 4> kEyes = {
+    {{1.5f, 1.5, 0x1p-20, true}, {1.5f, 1.5, 0x1p-20}, {0.5f, kUnseen, 0}, {kUnseen, 0.25, 0}}};
+using Apart = std::array<std::size_t, kEyes.size()>;  // pixels that differ, by each eye
 
 // By pixel, 1 where the frames differ.
 std::vector<std::uint8_t> apart_at(DepthFormat format, const ColorAndDepth& given, const ColorAndDepth& other,
@@ -71,27 +74,31 @@ std::vector<std::uint8_t> apart_at(DepthFormat format, const ColorAndDepth& give
   return out;
 }
 
-// Pixels that differ from a frame; where a legal one differs from ours, none.
+// Pixels in which frames differ from the one given; where a legal one differs from ours, none.
 class Pixels {
  public:
-  Pixels(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours, const Eye& eye)
-      : format_(format), given_(given), eye_(eye), passed_over_(given.color.size()) {
-    if (given.is_legal.size() != given.color.size()) return;
-    passed_over_ = apart_at(format, given, ours, eye);
-    for (std::size_t i = 0; i < passed_over_.size(); ++i) passed_over_[i] &= given.is_legal.values()[i];
+  Pixels(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours) : format_(format), given_(given) {
+    for (std::size_t look = 0; look < kEyes.size(); ++look) {
+      std::vector<std::uint8_t>& passed_over = passed_over_[look];
+      passed_over.resize(given.color.size());
+      if (given.is_legal.size() != given.color.size()) continue;
+      passed_over = apart_at(format, given, ours, kEyes[look]);
+      for (std::size_t i = 0; i < passed_over.size(); ++i) passed_over[i] &= given.is_legal.values()[i];
+    }
   }
-  std::size_t apart(const ColorAndDepth& frame) const {
-    const std::vector<std::uint8_t> differ = apart_at(format_, given_, frame, eye_);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < differ.size(); ++i) count += differ[i] > passed_over_[i];
-    return count;
+  Apart apart(const ColorAndDepth& frame) const {
+    Apart out{};
+    for (std::size_t look = 0; look < kEyes.size(); ++look) {
+      const std::vector<std::uint8_t> differ = apart_at(format_, given_, frame, kEyes[look]);
+      for (std::size_t i = 0; i < differ.size(); ++i) out[look] += differ[i] > passed_over_[look][i];
+    }
+    return out;
   }
 
  private:
   DepthFormat format_;
   const GivenFrame& given_;
-  Eye eye_;
-  std::vector<std::uint8_t> passed_over_;
+  std::array<std::vector<std::uint8_t>, kEyes.size()> passed_over_;
 };
 
 template <class Change>
@@ -103,12 +110,12 @@ ColorAndDepth changed(const ColorAndDepth& from, Change change) {
   return out;
 }
 
-using Measure = std::function<std::size_t(const ColorAndDepth&)>;
+using Measure = std::function<Apart(const ColorAndDepth&)>;
 
 // A known mistake, and how many pixels it leaves apart.
 struct Lookalike {
   std::string stage, name, says;
-  std::size_t apart;
+  Apart apart;
 };
 
 // The frame moved by whole pixels; what moves in is clear.
@@ -200,12 +207,15 @@ std::vector<Lookalike> of_files(const ColorAndDepth& right, const Measure& measu
   return out;
 }
 
-// Mistakes whose frames are nearer than ours, the nearest first.
-Lookalikes ranked(std::vector<Lookalike> all, std::size_t apart) {
+// Mistakes whose frames one eye sees nearer than ours, the nearest first.
+Lookalikes ranked(std::vector<Lookalike> all, const Apart& ours, Look look) {
+  const std::size_t apart = ours[look];
+  const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   Lookalikes out;
   out.apart = apart;
-  std::erase_if(all, [&](const Lookalike& l) { return l.apart >= apart; });
-  std::ranges::stable_sort(all, {}, &Lookalike::apart);
+  if (look == kFineColor || look == kFineDepth) out.codes = 0.5;
+  std::erase_if(all, [&](const Lookalike& l) { return left(l) >= apart; });
+  std::ranges::stable_sort(all, {}, left);
   if (all.empty()) {
     out.text = "no known fault draws a frame that is nearer\n";
     return out;
@@ -213,16 +223,16 @@ Lookalikes ranked(std::vector<Lookalike> all, std::size_t apart) {
   constexpr std::size_t kShown = 8;
   out.text = "explains  pixels left  fault\n";
   for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown))) {
-    const double explained = 100.0 * static_cast<double>(apart - l.apart) / static_cast<double>(apart);
-    out.text += fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, l.apart, l.name, l.says);
+    const double explained = 100.0 * static_cast<double>(apart - left(l)) / static_cast<double>(apart);
+    out.text += fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left(l), l.name, l.says);
   }
   const Lookalike& nearest = all.front();
-  out.whole = nearest.apart == 0;
-  if (10 * nearest.apart > apart) return out;
+  out.whole = left(nearest) == 0;
+  if (10 * left(nearest) > apart) return out;
   out.likely = fmt::format("{} (fault {})", nearest.stage, nearest.name);
   std::vector<std::string> others;  // stages of faults that draw the same
   for (const Lookalike& l : all) {
-    if (l.apart == nearest.apart && l.stage != nearest.stage && std::ranges::count(others, l.stage) == 0)
+    if (left(l) == left(nearest) && l.stage != nearest.stage && std::ranges::count(others, l.stage) == 0)
       others.push_back(l.stage);
   }
   if (!others.empty()) out.or_else = fmt::format("{}", fmt::join(others, ", "));
@@ -247,24 +257,16 @@ std::string said_of_blank(const FrameFormat& frame, const ColorAndDepth& given, 
       color.r, color.g, color.b);
 }
 
-Lookalikes seen_by(const Eye& eye, const Scene& scene, const GivenFrame& given, const ColorAndDepth& right) {
-  const Pixels pixels(scene.frame.depth, given, right, eye);
-  const Measure measure = [&](const ColorAndDepth& frame) { return pixels.apart(frame); };
-  const std::size_t apart = measure(right);
-  if (apart == 0) return {};
-  if (std::string said = said_of_blank(scene.frame, given, right); !said.empty()) {
-    Lookalikes out;
-    out.apart = apart, out.blank = true;
-    out.text = std::move(said);
-    return out;
-  }
+// All known mistakes.
+std::vector<Lookalike> mistakes(const Scene& scene, const GivenFrame& given, const ColorAndDepth& right,
+                                const Measure& measure) {
   const auto left_by = [&](const Scene& drawn_scene, const std::string& fault) {
     return measure(drawn(drawn_scene, given.conventions, fault));
   };
   const Draws draws = [&](const Scene& drawn_scene) { return drawn(drawn_scene, given.conventions, ""); };
   std::vector<Lookalike> all = of_files(right, measure);
   std::ranges::move(of_neighbours(scene, right, draws, measure), std::back_inserter(all));
-  if (eye.by_alpha) {
+  if (given.has_alpha) {
     all.push_back({"merge", "merge.alpha_not_written", "alpha is as it was cleared",
                    measure(changed(right, [&](ColorAndDepth& out, int x, int y) {
                      out.color(x, y).a = scene.frame.clear_color.a;
@@ -277,7 +279,7 @@ Lookalikes seen_by(const Eye& eye, const Scene& scene, const GivenFrame& given, 
     const std::string name(fault.name);
     all.push_back({std::string(fault.stage), name, std::string(fault.changes), left_by(scene, name)});
   }
-  return ranked(std::move(all), apart);
+  return all;
 }
 
 }  // namespace
@@ -285,22 +287,29 @@ Lookalikes seen_by(const Eye& eye, const Scene& scene, const GivenFrame& given, 
 Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   const SceneByConventions seen(scene, given.conventions);
   const ColorAndDepth right = drawn(*seen, given.conventions, "");
-  if (given.has_alpha) {  // of a renderer that writes none, another fault may be told by the other channels
-    Lookalikes by_alpha = seen_by(kCoarseByAlpha, *seen, given, right);
-    if (by_alpha.apart > 0) {
-      if (by_alpha.blank || !by_alpha.likely.empty()) return by_alpha;
-      Lookalikes without = seen_by(kCoarse, *seen, given, right);
-      return without.likely.empty() ? by_alpha : without;
-    }
-  } else if (Lookalikes out = seen_by(kCoarse, *seen, given, right); out.apart > 0) {
-    return out;
+  const Pixels pixels(seen->frame.depth, given, right);
+  const Measure measure = [&](const ColorAndDepth& frame) { return pixels.apart(frame); };
+  Apart apart = measure(right);
+  if (!given.has_alpha) apart[kCoarseByAlpha] = 0;
+  const auto differs = std::ranges::find_if(apart, [](std::size_t n) { return n > 0; });
+  if (differs == apart.end()) return {};  // right
+  Lookalikes blank;
+  blank.text = said_of_blank(seen->frame, given, right);
+  if (!blank.text.empty()) {
+    blank.apart = *differs, blank.blank = true;
+    return blank;
   }
-  for (const Eye& eye : kFine) {
-    Lookalikes out = seen_by(eye, *seen, given, right);
-    out.codes = 0.5;
-    if (out.blank || !out.likely.empty()) return out;
+  const std::vector<Lookalike> all = mistakes(*seen, given, right, measure);
+  std::vector<Lookalikes> found;
+  for (const Look look : {kCoarseByAlpha, kCoarse, kFineColor, kFineDepth}) {
+    const bool is_fine = look == kFineColor || look == kFineDepth;
+    if (is_fine && !found.empty()) return found.front();  // no cause of what is coarse
+    if (apart[look] == 0) continue;
+    Lookalikes seen_by = ranked(all, apart, look);
+    if (!seen_by.likely.empty()) return seen_by;
+    if (!is_fine) found.push_back(std::move(seen_by));
   }
-  return {};  // right, or rounded otherwise
+  return {};  // rounded otherwise
 }
 
 namespace {
