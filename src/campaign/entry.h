@@ -23,7 +23,7 @@ struct Entry {
   SceneId id;
   std::vector<Signature> found;     ///< why the scene does not hold: one, or none where it does
   std::vector<Signature> disputes;  ///< where a reference is shown to be wrong; sorted, each once
-  bool unable = false;              ///< the candidate drew nothing that could be judged
+  std::string unable{};             ///< why nothing that the candidate drew could be judged; empty: something was
   std::string states{};             ///< that it is of (states/states.h)
   double milliseconds = 0;          ///< that judging took; another in each run
 };

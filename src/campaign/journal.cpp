@@ -14,12 +14,12 @@ namespace plumbline::campaign {
 
 namespace {
 
-constexpr int kVersion = 1;      // of the tables
+constexpr int kVersion = 2;      // of the tables
 constexpr int kId = 0x706c6362;  // "plcb": an SQLite file that is a journal
 
 constexpr const char* kTables =
     "CREATE TABLE terms (text TEXT NOT NULL);"
-    "CREATE TABLE scene (id TEXT PRIMARY KEY, unable INTEGER NOT NULL, states BLOB NOT NULL, milliseconds REAL NOT "
+    "CREATE TABLE scene (id TEXT PRIMARY KEY, unable TEXT NOT NULL, states BLOB NOT NULL, milliseconds REAL NOT "
     "NULL) WITHOUT ROWID;"
     "CREATE TABLE signature (id TEXT NOT NULL, disputed INTEGER NOT NULL, stage TEXT NOT NULL, cause TEXT NOT NULL,"
     "  reference TEXT NOT NULL, PRIMARY KEY (id, disputed, stage, cause, reference)) WITHOUT ROWID;";
@@ -170,7 +170,7 @@ void Journal::add(const Entry& entry) {
   };
   db.run("BEGIN IMMEDIATE;");
   Statement scene(db.handle, "INSERT INTO scene VALUES (?, ?, ?, ?)");
-  done(scene.text(id).number(entry.unable ? 1 : 0).bytes(entry.states).number(entry.milliseconds).step());
+  done(scene.text(id).text(entry.unable).bytes(entry.states).number(entry.milliseconds).step());
   for (const auto* list : {&entry.found, &entry.disputes}) {
     for (const Signature& s : *list) {
       Statement insert(db.handle, "INSERT INTO signature VALUES (?, ?, ?, ?, ?)");
@@ -191,7 +191,7 @@ std::vector<Entry> Journal::entries() const {
     if (code != SQLITE_ROW) database_->fail(code);
     const SceneId id = id_in(database_->file, rows.text_at(0));
     if (out.empty() || out.back().id != id)
-      out.push_back({id, {}, {}, rows.number_at(1) != 0, rows.bytes_at(2), rows.number_at(3)});
+      out.push_back({id, {}, {}, rows.text_at(1), rows.bytes_at(2), rows.number_at(3)});
     const Signature signature{rows.text_at(5), rows.text_at(6), rows.text_at(7)};
     if (rows.is_null(4)) continue;  // a scene without
     if (signature.stage.empty())

@@ -63,6 +63,21 @@ std::string lines_of(std::vector<Group> groups) {
   return out;
 }
 
+std::uint64_t unable_scenes(const Results& results) {
+  std::uint64_t out = 0;
+  for (const auto& [reason, scenes] : results.unable) out += scenes;
+  return out;
+}
+
+// The most frequent first.
+std::string unable_lines(const std::map<std::string, std::uint64_t>& unable) {
+  std::vector<std::pair<std::string, std::uint64_t>> reasons(unable.begin(), unable.end());
+  std::ranges::stable_sort(reasons, std::ranges::greater(), &std::pair<std::string, std::uint64_t>::second);
+  std::string out;
+  for (const auto& [reason, scenes] : reasons) out += fmt::format("{:>7}  {}\n", scenes, reason);
+  return out;
+}
+
 Json json_of_groups(const std::vector<Group>& groups) {
   Json out = Json::array();
   for (const Group& g : groups) {
@@ -104,8 +119,7 @@ Results merged(const std::vector<std::vector<Entry>>& journals) {
   Groups found, disputes;
   for (const auto& [id, entry] : all) {
     ++out.judged[id.generator];
-    out.unable += entry->unable && entry->found.empty() ? 1 : 0;
-    out.held += !entry->unable && entry->found.empty() ? 1 : 0;
+    if (entry->found.empty()) ++(entry->unable.empty() ? out.held : out.unable[entry->unable]);
     out.milliseconds += entry->milliseconds;
     add(found, entry->found, id);
     add(disputes, entry->disputes, id);
@@ -127,7 +141,8 @@ std::string text_of(const Results& results) {
   for (const auto& [generator, count] : results.judged)
     out += fmt::format("{} scenes: {}\n", name_of(generator), count);
   out += fmt::format("hold: {}\n", results.held);
-  if (results.unable > 0) out += fmt::format("nothing could be judged: {}\n", results.unable);
+  if (!results.unable.empty())
+    out += fmt::format("nothing could be judged: {}\n{}", unable_scenes(results), unable_lines(results.unable));
   out += states_text(results);
   if (!results.found.empty())
     out += fmt::format("findings: scenes, signature, first scenes\n{}", lines_of(results.found));
@@ -145,7 +160,8 @@ std::string json_of(const Results& results, const std::string& terms) {
   out["judged"] = Json::object();
   for (const auto& [generator, count] : results.judged) out["judged"][std::string(name_of(generator))] = count;
   out["held"] = results.held;
-  out["unable"] = results.unable;
+  out["unable"] = unable_scenes(results);
+  out["unable_because"] = results.unable;
   out["found"] = json_of_groups(results.found);
   out["disputes"] = json_of_groups(results.disputes);
   out["states"] = {{"reached", results.reached.states()},

@@ -20,10 +20,11 @@ struct Group {
 inline constexpr std::size_t kMostFirst = 3;
 
 struct Results {
-  std::map<Generator, std::uint64_t> judged;  ///< scenes
-  std::uint64_t held = 0, unable = 0;         ///< scenes; unable: nothing of them could be judged
-  std::vector<Group> found, disputes;         ///< by signature
-  std::vector<SceneId> conflicts;             ///< scenes that two journals judge differently
+  std::map<Generator, std::uint64_t> judged;    ///< scenes
+  std::uint64_t held = 0;                       ///< scenes
+  std::map<std::string, std::uint64_t> unable;  ///< scenes of which nothing could be judged, by the reason
+  std::vector<Group> found, disputes;           ///< by signature
+  std::vector<SceneId> conflicts;               ///< scenes that two journals judge differently
   Reached reached;
   /// By round (the number of its scenes' seeds): scenes that reached a pair of states first, in the order of rounds, and
   /// of names within a round.

@@ -328,6 +328,9 @@ int campaign(const CampaignOptions& o) {
   const fs::path folder = o.folder, journals = folder / "journal";
   if (o.write) {
     write_scenes(o, terms);
+    const std::vector<std::string>& assets = rules.options.scene_arguments.assets;
+    if (o.generator != name_of(campaign::Generator::hard) && !assets.empty())
+      say(fmt::format("note: images that ordinary scenes name are found by --assets {}", fmt::join(assets, " ")));
     return kHolds;
   }
   if (!o.seeds.empty()) judge_range(o, rules, journals, terms);

@@ -12,6 +12,7 @@
 #include "campaign/shrink.h"
 #include "campaign/states/states.h"
 #include "cli/options/renderers.h"
+#include "report/text/conformance.h"
 #include "report/text/safe_text.h"
 #include "scene/file/scene_file.h"
 
@@ -90,7 +91,9 @@ campaign::Entry CampaignJudge::judge(const campaign::SceneId& id, EndedSteps end
   const auto start = std::chrono::steady_clock::now();
   check::BothCaptures drawn;
   const check::SceneVerdict verdict = all_.judge(scene, std::move(ended), &drawn).verdict;
-  campaign::Entry out{id, {}, {}, check::judged_stages(verdict).empty(), {}, 0};
+  campaign::Entry out{id, {}, {}};
+  if (report::conformance_of(verdict) == report::Conformance::unable)
+    out.unable = without_numbers(report::unable_reason(verdict));
   out.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   out.states = campaign::states_of(scene, drawn.candidate);
   std::filesystem::remove(file);

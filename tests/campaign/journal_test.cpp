@@ -16,7 +16,7 @@ namespace plumbline::campaign {
 namespace {
 
 Entry entry(std::uint64_t seed) {
-  Entry out{{Generator::hard, {seed}}, {}, {}, seed % 5 == 0, std::string("\0\x81", 2), 1.5};
+  Entry out{{Generator::hard, {seed}}, {}, {}, seed % 5 == 0 ? "fog" : "", std::string("\0\x81", 2), 1.5};
   if (seed % 2 == 0) out.found = {{"shade", "different color", "exact, per stage"}};
   if (seed % 3 == 0) out.disputes = {{"merge", "Mesa's fog", "osmesa"}, {"shade", "it's \"so\"", "osmesa"}};
   return out;
@@ -146,8 +146,8 @@ TEST_F(Journals, OfAnotherKindAreRefused) {
   expect_refused("found another database");
   std::filesystem::remove(file_);
   make();
-  run_sql("PRAGMA user_version = 2;");
-  expect_refused("expected a journal of version 1, found 2");
+  run_sql("PRAGMA user_version = 3;");
+  expect_refused("expected a journal of version 2, found 3");
   std::filesystem::remove(file_);
   std::filesystem::create_directory(file_);
   expect_refused("unable to open");

@@ -11,7 +11,7 @@ namespace {
 const Signature kShade{"shade", "different color", "exact, per stage"}, kClip{"clip", "different p_clip", "osmesa"};
 
 Entry entry(Generator generator, std::uint64_t seed, std::vector<Signature> found = {}) {
-  return {{generator, {seed}}, std::move(found), {}, false, "", static_cast<double>(seed)};
+  return {{generator, {seed}}, std::move(found), {}, "", "", static_cast<double>(seed)};
 }
 std::vector<Entry> some() {
   std::vector<Entry> out;
@@ -22,7 +22,7 @@ std::vector<Entry> some() {
   out.push_back(entry(Generator::ordinary, 5));
   out.back().disputes = {{"merge", "Mesa's fog", "osmesa"}};
   out.push_back(entry(Generator::ordinary, 6));
-  out.back().unable = true;
+  out.back().unable = "fog";
   return out;
 }
 
@@ -31,7 +31,7 @@ TEST(CampaignResults, AreCountedBySignature) {
   EXPECT_EQ(r.scenes(), 12u);
   EXPECT_EQ(r.judged.at(Generator::hard), 9u);
   EXPECT_EQ(r.held, 6u);
-  EXPECT_EQ(r.unable, 1u);
+  EXPECT_EQ(r.unable, (std::map<std::string, std::uint64_t>{{"fog", 1}}));
   ASSERT_EQ(r.found.size(), 2u);
   EXPECT_EQ(r.found[0].signature, kClip);
   EXPECT_EQ(r.found[1].signature, kShade);
@@ -58,7 +58,7 @@ TEST(CampaignResults, AreTheSameInAnyOrderAndAnyParts) {
 TEST(CampaignResults, TwoVerdictsOfOneSceneAreAConflict) {
   std::vector<Entry> other = some();
   other[1].found = {kClip};
-  other[2].unable = true;
+  other[2].unable = "fog";
   other[1].states = "\x07";
   EXPECT_EQ(json_of(merged({some(), other}), ""), json_of(merged({other, some()}), ""));
   for (const Results& r : {merged({some(), other}), merged({other, some()})}) {
@@ -66,6 +66,23 @@ TEST(CampaignResults, TwoVerdictsOfOneSceneAreAConflict) {
     EXPECT_EQ(r.scenes(), 10u);
     EXPECT_NE(text_of(r).find("judged differently by two journals: hard/2, hard/3"), std::string::npos) << text_of(r);
   }
+}
+
+TEST(CampaignResults, SayWhyNothingCouldBeJudged) {
+  std::vector<Entry> all;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    all.push_back(entry(Generator::hard, seed));
+    all.back().unable = seed == 1 ? "" : seed == 2 ? "fog" : "textures";
+  }
+  all.push_back(entry(Generator::hard, 7, {kClip}));
+  all.back().unable = "a crash";  // which is a finding
+  const Results r = merged({all});
+  EXPECT_EQ(r.held, 1u);
+  EXPECT_NE(text_of(r).find("nothing could be judged: 5\n      4  textures\n      1  fog\n"), std::string::npos)
+      << text_of(r);
+  const std::string json = json_of(r, "");
+  EXPECT_NE(json.find("\"unable\": 5"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"textures\": 4"), std::string::npos) << json;
 }
 
 TEST(CampaignResults, AreToldTheMostFrequentFirst) {

@@ -77,6 +77,7 @@ TEST_F(Campaign, WritesScenesFiles) {
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_EQ(entries(), (std::set<std::string>{"c", "c/hard", "c/hard/3.json", "c/hard/4.json", "c/ordinary",
                                               "c/ordinary/3.json", "c/ordinary/4.json"}));
+  EXPECT_TRUE(run.says("note: images that ordinary scenes name are found by --assets ")) << run.text;
   const Outcome check = plumb(fmt::format("check {} --no-cache{}", at("c"), kAssets));
   EXPECT_EQ(check.code, 0) << check.text;
   EXPECT_EQ(campaign("c", "--write").code, 2);
@@ -180,7 +181,7 @@ TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
   const Outcome run =
       campaign("c", fmt::format("--seeds 1..4 --program '{} {{input}} {{output}}'", PLUMBLINE_C_RENDERER));
   EXPECT_EQ(run.code, 2) << run.text;
-  EXPECT_TRUE(run.says("hold: 0\nnothing could be judged: 8\n")) << run.text;
+  EXPECT_TRUE(run.says("hold: 0\nnothing could be judged: 8\n      ")) << run.text;
 }
 
 // A round's scenes are a function of the results of the rounds before, whoever judged them.

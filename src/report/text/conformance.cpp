@@ -36,14 +36,6 @@ bool is_open(const check::SceneVerdict& verdict) {
   return open > 0;
 }
 
-// Why the program does not draw the scene: it says so in a row of its own, the first of an antialiased scene's passes.
-std::string reason_of(const check::SceneVerdict& verdict) {
-  const auto& rows = verdict.comparisons;
-  const bool by_itself = !rows.empty() && rows.front().judge.reference == kProgram;
-  if (by_itself) return rows.front().note;
-  return is_open(verdict) ? "every pixel has several legal answers" : "nothing that it left could be judged";
-}
-
 std::string counted(const std::vector<std::pair<std::string, std::size_t>>& counts) {
   std::vector<std::string> words;
   for (const auto& [word, count] : counts) words.push_back(fmt::format("{} {}", word, count));
@@ -51,6 +43,14 @@ std::string counted(const std::vector<std::pair<std::string, std::size_t>>& coun
 }
 
 }  // namespace
+
+// A program's reason stands in a row of its own, the first of an antialiased scene's passes.
+std::string unable_reason(const check::SceneVerdict& verdict) {
+  const auto& rows = verdict.comparisons;
+  const bool by_itself = !rows.empty() && rows.front().judge.reference == kProgram;
+  if (by_itself) return rows.front().note;
+  return is_open(verdict) ? "every pixel has several legal answers" : "nothing that it left could be judged";
+}
 
 const check::Comparison* first_wrong(const check::SceneVerdict& verdict) {
   const check::Comparison* first = nullptr;
@@ -159,7 +159,7 @@ std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
 std::string unable_line(std::span<const check::SceneVerdict> verdicts) {
   Counts reasons;
   for (const check::SceneVerdict& verdict : verdicts) {
-    if (conformance_of(verdict) == Conformance::unable) ++reasons[reason_of(verdict)];
+    if (conformance_of(verdict) == Conformance::unable) ++reasons[unable_reason(verdict)];
   }
   return reasons.empty() ? "" : fmt::format("unable: {}\n", counted(by_count(reasons)));
 }

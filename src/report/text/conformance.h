@@ -23,6 +23,8 @@ enum class Conformance {
   unable
 };
 Conformance conformance_of(const check::SceneVerdict& verdict);
+/// Why a scene is unable, in the program's words where it has said why.
+std::string unable_reason(const check::SceneVerdict& verdict);
 /// The first stage that is wrong, and that no oracle calls legal; null: none.
 const check::Comparison* first_wrong(const check::SceneVerdict& verdict);
 
