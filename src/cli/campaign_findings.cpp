@@ -112,7 +112,7 @@ std::string leave_findings(const fs::path& folder, const std::vector<campaign::G
   judge_in_workers(scenes, with_pages, words, [&](const JudgedScene& judged) {
     leave_rows(folder.string(), judged.verdict, judged.failure);
     out += judged.failure;
-    if (!judged.verdict.cause.empty()) out += fmt::format("  likely: {}\n", judged.verdict.cause);
+    for (const std::string& cause : judged.verdict.causes) out += fmt::format("  likely: {}\n", cause);
   });
   return out;
 }

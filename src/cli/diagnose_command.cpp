@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "capture/by_conventions.h"
 #include "capture/contradictions.h"
@@ -117,9 +118,9 @@ bool holds(const check::Diagnosis& diagnosis) {
 }
 
 std::string likely_line(const Lookalikes& found) {
-  return fmt::format(
-      "likely stage: {}\n{}", found.likely,
-      found.or_else.empty() ? "" : fmt::format("  or {}: faults there draw the same frame\n", found.or_else));
+  const std::string ties =
+      found.ties.empty() ? "" : fmt::format("  or {}: the frame is the same\n", fmt::join(found.ties, ", "));
+  return fmt::format("likely stage: {}\n{}", found.likely, ties);
 }
 
 // Known faults that explain the frame that another renderer left, where one explains most of it; of a frame that holds,
@@ -130,13 +131,13 @@ std::string known_faults(const Scene& scene, const Capture& left, const Conventi
   if (left.planes.color.empty() || DrawIndex(scene).primitives() > kMostPrimitives) return "";
   const Lookalikes found = lookalikes(scene, frame_of(left, conventions, diagnosis.verdict));
   if (found.blank && !holds(diagnosis)) return "\n" + found.text;
-  const std::string likely = likely_of(found, diagnosis.verdict);
+  const std::vector<std::string> likely = likely_of(found, diagnosis.verdict);
   if (likely.empty() || (holds(diagnosis) && !found.whole)) return "";
   const bool is_open = !holds(diagnosis) && diagnosis.wrong.empty();
   return fmt::format("\npixels unlike plumbline's in colour or depth: {}; known faults that draw such a frame:\n{}{}",
                      found.apart, found.text,
                      is_open            ? likely_line(found)
-                     : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", likely)
+                     : holds(diagnosis) ? fmt::format("legal, and drawn as by {}\n", fmt::join(likely, " or "))
                                         : "");
 }
 

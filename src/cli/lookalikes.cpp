@@ -229,13 +229,13 @@ Lookalikes ranked(std::vector<Lookalike> all, const Apart& ours, Look look) {
   const Lookalike& nearest = all.front();
   out.whole = left(nearest) == 0;
   if (10 * left(nearest) > apart) return out;
-  out.likely = fmt::format("{} (fault {})", nearest.stage, nearest.name);
-  std::vector<std::string> others;  // stages of faults that draw the same
+  const auto text_of = [](const Lookalike& l) { return fmt::format("{} (fault {})", l.stage, l.name); };
+  out.likely = text_of(nearest);
   for (const Lookalike& l : all) {
-    if (left(l) == left(nearest) && l.stage != nearest.stage && std::ranges::count(others, l.stage) == 0)
-      others.push_back(l.stage);
+    const std::string text = text_of(l);
+    if (left(l) == left(nearest) && text != out.likely && std::ranges::count(out.ties, text) == 0)
+      out.ties.push_back(text);
   }
-  if (!others.empty()) out.or_else = fmt::format("{}", fmt::join(others, ", "));
   return out;
 }
 
@@ -337,25 +337,29 @@ GivenFrame frame_of(const Capture& left, const Conventions& conventions, const c
   return {{left.planes.color, left.planes.depth}, conventions, legal_pixels(left.planes, verdict), true};
 }
 
-std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict) {
+std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict) {
   std::uint64_t wrong = 0;
   for (const check::Comparison& c : verdict.comparisons) {
     if (c.stage == Stage::merge && c.outcome == check::Outcome::different)
       wrong = std::max(wrong, c.measurement.differing);
   }
-  return 2 * found.apart < wrong ? "" : found.likely;
+  if (found.likely.empty() || 2 * found.apart < wrong) return {};
+  std::vector<std::string> out = {found.likely};
+  out.insert(out.end(), found.ties.begin(), found.ties.end());
+  return out;
 }
 
-std::string likely_fault(const Scene& scene, const Capture& left, const Conventions& conventions,
-                         const check::SceneVerdict& verdict) {
+std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const Conventions& conventions,
+                                       const check::SceneVerdict& verdict) {
   constexpr std::size_t kMostPrimitives = 20'000, kMostPixels = 200'000;  // each fault is a picture
   const Plane<glm::vec4>& color = left.planes.color;
   if (color.empty() || color.size() > kMostPixels || DrawIndex(scene).primitives() > kMostPrimitives ||
       scene.frame.antialias.kind != Antialias::Kind::none || color.width() != scene.frame.width ||
       color.height() != scene.frame.height)
-    return "";
+    return {};
   const Lookalikes found = lookalikes(scene, frame_of(left, conventions, verdict));
-  return found.blank ? "nothing of the scene is seen" : likely_of(found, verdict);
+  if (found.blank) return {"nothing of the scene is seen"};
+  return likely_of(found, verdict);
 }
 
 }  // namespace plumbline::cli

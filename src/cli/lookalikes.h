@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "capture/capture.h"
 #include "capture/conventions.h"
@@ -34,19 +35,19 @@ struct Lookalikes {
   double codes = 1;       ///< 1, or half of one
   std::string text;       ///< lines for people
   std::string likely;     ///< "STAGE (fault NAME)", where the nearest explains nine tenths of them or more; else empty
-  std::string or_else;    ///< other stages, of which a fault explains as much: the frame does not tell them apart
-  bool whole = false;     ///< and all of them
-  bool blank = false;     ///< all pixels have one colour, as by many faults: none is named, `text` says it
+  std::vector<std::string> ties;  ///< others that explain as much: the frame does not tell them apart
+  bool whole = false;             ///< and all of them
+  bool blank = false;             ///< all pixels have one colour, as by many faults: none is named, `text` says it
 };
 Lookalikes lookalikes(const Scene& scene, const GivenFrame& given);
 /// The frame that a capture holds, as `verdict` judges it.
 GivenFrame frame_of(const Capture& left, const Conventions& conventions, const check::SceneVerdict& verdict);
-/// found.likely; empty where fewer pixels differ from ours (found.apart) than half of those that a row finds different
+/// found.likely and found.ties; empty where fewer pixels differ from ours (found.apart) than half of those that a row finds different
 /// at merge: the fault then resembles a legal rule of the renderer, not what is wrong with it.
-std::string likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
-/// The likely fault of a capture, or "nothing of the scene is seen" where its pixels have one colour; empty also where
-/// the scene is too large for a picture of each fault.
-std::string likely_fault(const Scene& scene, const Capture& left, const Conventions& conventions,
-                         const check::SceneVerdict& verdict);
+std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
+/// The likely faults of a capture, which it does not tell apart, or "nothing of the scene is seen" where its pixels have
+/// one colour; empty also where the scene is too large for a picture of each fault.
+std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const Conventions& conventions,
+                                       const check::SceneVerdict& verdict);
 
 }  // namespace plumbline::cli

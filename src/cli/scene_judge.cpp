@@ -39,7 +39,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothC
                     : check::judge(scene, *candidate_, asked.list, wanted, ~std::uint64_t{0}, asked.arbiters);
   check::SceneVerdict& verdict = out.verdict;
   if (outside && report::conformance_of(verdict) == report::Conformance::differs) {
-    verdict.cause = likely_fault(scene, drawn.candidate, candidate_->info().conventions, verdict);
+    verdict.causes = likely_faults(scene, drawn.candidate, candidate_->info().conventions, verdict);
   }
   if (rules_->goldens)
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),

@@ -62,12 +62,18 @@ TEST(Conformance, OfASuite) {
   EXPECT_NE(markdown.find("| clip | 1 | 0 | 0 | 1 | 0 | 0 | depth 1 |\n"), std::string::npos) << markdown;
   for (const char* scene : {"clip/c", "clip/d"}) {
     verdicts.push_back(verdict(scene, {kIllegal}));
-    verdicts.back().cause = "window (fault window.y_flipped)";
+    verdicts.back().causes = {"window (fault window.y_flipped)"};
   }
   const std::string causes =
       "wrong as by window (fault window.y_flipped): 2, first clip/c\nwrong as by no known fault: 1\n";
   EXPECT_TRUE(conformance_text(verdicts).ends_with(causes)) << conformance_text(verdicts);
   EXPECT_EQ(whole_suite(verdicts).differs, 3u);
+  SceneVerdict tied = verdict("clip/f", {kIllegal});
+  tied.causes = {"clip (fault clip.of_one_scene)", "window (fault window.y_flipped)"};
+  verdicts.insert(verdicts.begin(), tied);
+  EXPECT_NE(conformance_text(verdicts).find("wrong as by window (fault window.y_flipped): 3, first clip/f\n"),
+            std::string::npos)
+      << "of causes that a frame does not tell apart that of the most scenes: " << conformance_text(verdicts);
   const Comparison record = row("exact", Kind::per_stage, Stage::window, Outcome::equal);
   const std::string by_records = conformance_text(std::vector{verdict("clip/e", {record, kIllegal})});
   EXPECT_EQ(by_records.find("by the frame alone"), std::string::npos) << by_records;

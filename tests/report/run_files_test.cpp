@@ -39,7 +39,7 @@ SceneVerdict failing(const std::string& name) {
       name, {scene_row(name, Stage::depth, Outcome::different, 9), scene_row(name, Stage::merge, Outcome::equal)});
   v.failure = "different " + name + ": first different stage: depth\n  repeat: plumb check x\n";
   v.repeat = "plumb check x";
-  v.cause = "window (fault window.y_flipped)";
+  v.causes = {"window (fault window.y_flipped)", "camera (fault not.written)"};
   return v;
 }
 

@@ -104,7 +104,8 @@ struct SceneVerdict {
   double seconds = 0;
   std::string failure{};  ///< lines: why it does not hold; empty: it does
   std::string repeat{};   ///< the command that repeats the failure
-  std::string cause{};    ///< "STAGE (fault NAME)": a known fault that draws what another renderer drew; or empty
+  /// "STAGE (fault NAME)": known faults that draw what another renderer drew, and which its frame does not tell apart.
+  std::vector<std::string> causes{};
 };
 
 /// Whether a row of Kind::per_stage finds nothing wrong with the stage.

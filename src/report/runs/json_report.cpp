@@ -44,7 +44,7 @@ void write_json(const std::filesystem::path& file, std::span<const check::SceneV
   for (const check::SceneVerdict& verdict : verdicts) {
     Json scene{{"scene", verdict.scene}, {"file", verdict.path}, {"seconds", verdict.seconds}};
     if (!verdict.failure.empty()) scene["failure"] = verdict.failure, scene["repeat"] = verdict.repeat;
-    if (!verdict.cause.empty()) scene["cause"] = verdict.cause;
+    if (!verdict.causes.empty()) scene["cause"] = verdict.causes.front();
     out["scenes"].push_back(std::move(scene));
     for (const check::Comparison& c : verdict.comparisons) out["comparisons"].push_back(comparison_json(c));
   }

@@ -147,7 +147,7 @@ CheckRun read_run(const std::filesystem::path& path) {
     verdict.seconds = node["seconds"].number(0, kLargest);
     verdict.failure = text_if_any(node, "failure");
     verdict.repeat = text_if_any(node, "repeat");
-    verdict.cause = text_if_any(node, "cause");
+    if (const std::string cause = text_if_any(node, "cause"); !cause.empty()) verdict.causes = {cause};
   }
   // Comparisons are in the order of their scenes, which distinguishes two scenes of one name.
   std::size_t at = 0;

@@ -135,17 +135,29 @@ std::string frame_line(std::span<const check::SceneVerdict> verdicts) {
       count);
 }
 
+// Of causes that a scene's frame does not tell apart that of the most scenes. Empty: none is known.
+std::string likeliest(const check::SceneVerdict& verdict, const Counts& scenes) {
+  const auto of = [&](const std::string& cause) { return scenes.at(cause); };
+  const auto most = std::ranges::max_element(verdict.causes, {}, of);  // of as many the first
+  return most == verdict.causes.end() ? "" : *most;
+}
+
 // One cause of many scenes is one line.
 std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
-  Counts causes;
+  Counts possible, causes;
+  for (const check::SceneVerdict& verdict : verdicts) {
+    if (conformance_of(verdict) != Conformance::differs) continue;
+    for (const std::string& cause : verdict.causes) ++possible[cause];
+  }
   std::map<std::string, std::string> first;
   std::size_t unknown = 0;
   for (const check::SceneVerdict& verdict : verdicts) {
     if (conformance_of(verdict) != Conformance::differs) continue;
-    if (verdict.cause.empty()) {
+    const std::string cause = likeliest(verdict, possible);
+    if (cause.empty()) {
       ++unknown;
-    } else if (++causes[verdict.cause] == 1) {
-      first[verdict.cause] = verdict.scene;
+    } else if (++causes[cause] == 1) {
+      first[cause] = verdict.scene;
     }
   }
   std::string out;
