@@ -53,8 +53,9 @@ struct Capture {
   std::vector<Plane<glm::vec4>> samples;
   /// Columns that a capture folder leaves out, for they follow from others: "window.front" (complete_records.h).
   std::set<std::string> derived;
-  bool depth_in_float = false;  ///< planes.depth was read from floats: its codes are the nearest ones
-  Legal legal;                  ///< an oracle's answer: what may be at each pixel
+  std::set<std::string> without_records;  ///< groups whose arrays a capture folder holds, of no record each: "window"
+  bool depth_in_float = false;            ///< planes.depth was read from floats: its codes are the nearest ones
+  Legal legal;                            ///< an oracle's answer: what may be at each pixel
 };
 
 }  // namespace plumbline

@@ -53,7 +53,7 @@ const Part kParts[] = {
     {"matrices", [](const Capture& w, Capture& p) { p.records.matrices = w.records.matrices; }, 0,
      "1 of 13 stages judged\n"},
     {"vertices", [](const Capture& w, Capture& p) { p.records.vertices = w.records.vertices; }, 2,
-     "vertex: matrices: its capture does not hold it"},
+     "vertex: matrices: the capture does not hold it"},
     {"matrices and vertices",
      [](const Capture& w, Capture& p) {
        p.records.matrices = w.records.matrices, p.records.vertices = w.records.vertices;
@@ -65,11 +65,11 @@ const Part kParts[] = {
        p.records.vertices[0].p_clip.x += 0.01;
      },
      1, "wrong by itself: vertex"},
-    {"lit", [](const Capture& w, Capture& p) { p.records.lit = w.records.lit; }, 2, "light: matrices: its capture"},
+    {"lit", [](const Capture& w, Capture& p) { p.records.lit = w.records.lit; }, 2, "light: matrices: the capture"},
     {"polygons", [](const Capture& w, Capture& p) { p.records.polygons = w.records.polygons; }, 2,
-     "clip: vertex: its capture"},
+     "clip: vertex: the capture"},
     {"window", [](const Capture& w, Capture& p) { p.records.triangles = w.records.triangles; }, 2,
-     "window: matrices: its capture"},
+     "window: matrices: the capture"},
     {"fragments without triangles", [](const Capture& w, Capture& p) { p.records.covered = w.records.covered; }, 0,
      "1 of 13 stages judged\n"},
     {"window and fragments",
@@ -98,6 +98,27 @@ const Part kParts[] = {
        for (double& z : p.records.depth) z += 0.01;
      },
      1, "first different stage: depth (against exact, per stage)\nwrong by itself: vertex, depth, merge\n"},
+    {"no triangle of the polygons",
+     [](const Capture& w, Capture& p) {
+       p = w;
+       p.records.triangles.clear(), p.records.covered.clear(), p.records.depth.clear();
+       p.records.attributes.clear(), p.records.shaded.clear(), p.records.drawn.clear();
+       p.without_records = {"window", "coverage", "depth", "attributes", "shade", "visibility"};
+       p.planes = {};
+     },
+     1, "wrong by itself: window\n"},
+    {"no polygon of the triangles",
+     [](const Capture& w, Capture& p) {
+       p.records.matrices = w.records.matrices, p.records.vertices = w.records.vertices, p.records.lit = w.records.lit;
+       p.without_records = {"clip", "clip.polygon"};
+     },
+     1, "wrong by itself: clip\n"},
+    {"no fragment of the triangles",
+     [](const Capture& w, Capture& p) { p.records.triangles = w.records.triangles, p.without_records = {"coverage"}; },
+     1, "wrong by itself: coverage\n"},
+    {"no vertex",
+     [](const Capture& w, Capture& p) { p.records.matrices = w.records.matrices, p.without_records = {"vertex"}; }, 2,
+     "vertices, as the scene has, found 0"},
     {"everything", [](const Capture& w, Capture& p) { p = w; }, 0, "11 of 13 stages judged\n"}};
 
 class IncompleteCaptures : public Cli {};

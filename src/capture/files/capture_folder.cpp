@@ -28,11 +28,12 @@ constexpr int kLargestFrame = 16384;
 
 class Writer {
  public:
-  explicit Writer(ArrayFolder& folder) : folder_(folder) {}
+  Writer(ArrayFolder& folder, const Capture& capture) : folder_(folder), capture_(capture) {}
 
   template <class Record>
   void group(Handed group, const auto& columns, const std::vector<Record>& records) {
-    if (!records.empty()) columns.each([&](const auto& c) { column(group.name, records, c); });
+    if (records.empty() && !capture_.without_records.contains(std::string(group.name))) return;
+    columns.each([&](const auto& c) { column(group.name, records, c); });
   }
 
   template <class T>
@@ -51,6 +52,7 @@ class Writer {
   }
 
   ArrayFolder& folder_;
+  const Capture& capture_;
 };
 
 // ---- reading
@@ -91,6 +93,7 @@ class Reader {
                                      fmt::join(lacking, ", ")));
     }
     records.resize(*count);
+    if (*count == 0) capture_.without_records.insert(std::string(group.name));
     capture_.derived.insert(derived.begin(), derived.end());
     columns.each([&](const auto& column) { read(fmt::format("{}.{}", group.name, column.name), records, column); });
   }
@@ -333,7 +336,7 @@ void write_capture(const Capture& capture, const fs::path& folder) {
   AtomicPath atomic(folder);
   atomic.make_folder();
   ArrayFolder arrays(atomic);
-  visit_capture(Writer(arrays), capture);
+  visit_capture(Writer(arrays, capture), capture);
   arrays.finish({{"format", kFormat},
                  {"version", kVersion},
                  {"renderer", capture.renderer},

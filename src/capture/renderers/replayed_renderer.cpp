@@ -13,6 +13,11 @@ namespace plumbline {
 
 namespace {
 
+// Whether the capture holds the group's arrays, be they of no record: such a stage is judged.
+bool holds(const Capture& c, const char* group, const auto& records) {
+  return !records.empty() || c.without_records.contains(group);
+}
+
 // Parts of a stage that a capture holds.
 struct Held {
   bool records, planes;
@@ -24,15 +29,16 @@ Held held(const Capture& c, const Scene& scene, Stage stage) {
     case Stage::matrices: return {!r.matrices.empty(), false};
     case Stage::vertex: return {!r.vertices.empty(), false};
     case Stage::light: return {!r.lit.empty(), false};
-    case Stage::clip: return {!r.polygons.polygons.empty(), false};
-    case Stage::window: return {!r.triangles.empty(), false};
-    case Stage::coverage: return {!r.covered.empty() && !r.triangles.empty(), !p.count.empty()};
-    case Stage::depth: return {!r.depth.empty(), !p.depth.empty()};
-    case Stage::attributes: return {!r.attributes.empty(), !p.shaded.empty()};
-    case Stage::texture: return {!r.texels.empty(), !p.texel.empty() && !p.id.empty()};
-    case Stage::shade: return {!r.shaded.empty(), !p.shaded.empty()};
+    case Stage::clip: return {holds(c, "clip.polygon", r.polygons.polygons), false};
+    case Stage::window: return {holds(c, "window", r.triangles), false};
+    case Stage::coverage: return {holds(c, "coverage", r.covered) && holds(c, "window", r.triangles), !p.count.empty()};
+    case Stage::depth: return {holds(c, "depth", r.depth), !p.depth.empty()};
+    case Stage::attributes: return {holds(c, "attributes", r.attributes), !p.shaded.empty()};
+    case Stage::texture: return {holds(c, "texture", r.texels), !p.texel.empty() && !p.id.empty()};
+    case Stage::shade: return {holds(c, "shade", r.shaded), !p.shaded.empty()};
     case Stage::visibility:
-      return {!r.drawn.empty(), !p.id.empty() && p.stencil.empty() == (scene.frame.stencil == StencilFormat::none)};
+      return {holds(c, "visibility", r.drawn),
+              !p.id.empty() && p.stencil.empty() == (scene.frame.stencil == StencilFormat::none)};
     case Stage::merge: return {false, !p.color.empty()};
     case Stage::resolve: break;
   }
@@ -42,8 +48,8 @@ Held held(const Capture& c, const Scene& scene, Stage stage) {
 // Planes of coverage and visibility that records of fragments come to, where the capture has none.
 void add_planes_of_records(Capture& c) {
   const std::vector<Covered>& covered = c.records.covered;
-  if (covered.empty()) return;
-  const bool known = !c.records.triangles.empty();  // which primitives the fragments are of
+  if (!holds(c, "coverage", covered)) return;
+  const bool known = holds(c, "window", c.records.triangles);  // which primitives the fragments are of
   const bool counts = c.planes.count.empty(), sums = known && c.planes.id_sum.empty();
   const bool winners = known && c.planes.id.empty() && c.records.drawn.size() == covered.size();
   if (counts) c.planes.count = Plane<std::uint32_t>(c.width, c.height);
@@ -71,7 +77,7 @@ class ReplayedRenderer : public Renderer {
       const Held here = held(capture_, scene, static_cast<Stage>(i));
       info_.stages[i].shows = here.records || here.planes;
       info_.stages[i].planes_alone = !here.records;
-      if (!info_.stages[i].shows) info_.stages[i].reason = "its capture does not hold it";
+      if (!info_.stages[i].shows) info_.stages[i].reason = "the capture does not hold it";
     }
     Ability& winners = info_[Stage::visibility];
     if (!contradicted.empty() && !winners.shows)
@@ -98,13 +104,14 @@ std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& s
           fmt::format("a capture of the scene's {} x {} pixels", scene.frame.width, scene.frame.height),
           fmt::format("one of {} x {}", capture.width, capture.height));
   const DrawIndex draws(scene);
-  const auto fits = [&](const char* what, std::size_t is, std::size_t expected) {
-    require(is == 0 || is == expected, fmt::format("{} {}, as the scene has", expected, what), std::to_string(is));
+  const auto fits = [&](const char* what, const char* group, std::size_t is, std::size_t expected) {
+    const bool lacks = is == 0 && !capture.without_records.contains(group);
+    require(lacks || is == expected, fmt::format("{} {}, as the scene has", expected, what), std::to_string(is));
   };
-  fits("draws' matrices", capture.records.matrices.size(), scene.draws.size());
-  fits("lights", capture.records.lights.size(), scene.lights.size());
-  fits("vertices", capture.records.vertices.size(), draws.vertices());
-  fits("lit vertices", capture.records.lit.size(), draws.vertices());
+  fits("draws' matrices", "matrices", capture.records.matrices.size(), scene.draws.size());
+  fits("lights", "matrices.light", capture.records.lights.size(), scene.lights.size());
+  fits("vertices", "vertex", capture.records.vertices.size(), draws.vertices());
+  fits("lit vertices", "light", capture.records.lit.size(), draws.vertices());
   const std::size_t primitives = draws.primitives();
   for (const ClipPolygon& p : capture.records.polygons.polygons)
     require(p.primitive < primitives, fmt::format("primitives of the scene's {}", primitives),

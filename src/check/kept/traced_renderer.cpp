@@ -44,7 +44,10 @@ Hash hash_of_capture(const Capture& capture) {
   hasher.add_text(capture.renderer);
   hasher.add_text(capture.version);
   hasher.add_value(glm::ivec3(capture.width, capture.height, capture.depth_in_float ? 1 : 0));
-  for (const std::string& name : capture.derived) hasher.add_text(name);
+  for (const auto* names : {&capture.derived, &capture.without_records}) {
+    hasher.add_value(glm::ivec1(static_cast<int>(names->size())));
+    for (const std::string& name : *names) hasher.add_text(name);
+  }
   CaptureHasher all(hasher);
   visit_capture(all, capture);
   for (const Plane<glm::vec4>& samples : capture.samples) all.plane({Stage::resolve, "samples"}, samples);
