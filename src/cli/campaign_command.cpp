@@ -346,9 +346,12 @@ int campaign(const CampaignOptions& o) {
   }
   const std::string findings = leave_findings(folder / "findings", results.found, rules);
   write_file(folder / "results.json", json_of(results, terms));
-  fmt::print("{}{}judging: {:.1f} ms a scene\n", findings, text_of(results),
+  std::vector<std::string> mistakes = mistaken(conventions_of(rules.options.candidate.conventions));
+  for (std::string& line : mistakes) line += '\n';
+  fmt::print("{}{}{}{}judging: {:.1f} ms a scene\n", findings, text_of(results), fmt::join(mistakes, ""),
+             convention_notes(rules.options.candidate),
              results.milliseconds / static_cast<double>(std::max<std::uint64_t>(results.scenes(), 1)));
-  return results.found.empty() && results.conflicts.empty() ? kHolds : kDiffers;
+  return results.found.empty() && results.conflicts.empty() && mistakes.empty() ? kHolds : kDiffers;
 }
 
 }  // namespace plumbline::cli

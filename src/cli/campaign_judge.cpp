@@ -48,9 +48,16 @@ const check::Comparison& strongest(const check::SceneVerdict& verdict, const che
   return row;
 }
 
-std::string cause_of(const check::Comparison& row) {
+// `command`: that the text names before it says how it ended; empty: none.
+std::string without_command(std::string text, const std::string& command) {
+  const std::size_t at = command.empty() ? text.npos : text.find(command + " ");
+  return at == text.npos ? text : text.erase(at, command.size() + 1);
+}
+
+std::string cause_of(const check::Comparison& row, const std::string& command) {
   std::string out(check::name_of(row.outcome));
-  if (row.outcome != check::Outcome::different) return row.note.empty() ? out : out + ": " + without_numbers(row.note);
+  if (row.outcome != check::Outcome::different)
+    return row.note.empty() ? out : out + ": " + without_numbers(without_command(row.note, command));
   if (!row.measurement.mismatch.empty()) return out + " (nothing fits)";
   const std::string field = without_component(row.measurement.worst.place.field);
   return field.empty() ? out : out + " " + field;
@@ -58,7 +65,7 @@ std::string cause_of(const check::Comparison& row) {
 
 }  // namespace
 
-std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict) {
+std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict, const std::string& command) {
   if (verdict.failure.empty()) return std::nullopt;
   const check::Comparison* row = check::first_different(verdict);
   if (row != nullptr) row = &strongest(verdict, *row);
@@ -72,7 +79,7 @@ std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdi
     }
     row = &*first;
   }
-  return campaign::Signature{std::string(name_of(row->stage)), cause_of(*row), check::title_of(row->judge)};
+  return campaign::Signature{std::string(name_of(row->stage)), cause_of(*row, command), check::title_of(row->judge)};
 }
 
 CampaignJudge::CampaignJudge(const CheckRules& rules, Progress& progress, std::filesystem::path scratch)
@@ -95,9 +102,10 @@ campaign::Entry CampaignJudge::judge(const campaign::SceneId& id, EndedSteps end
   if (report::conformance_of(verdict) == report::Conformance::unable)
     out.unable = without_numbers(report::unable_reason(verdict));
   out.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  out.states = campaign::states_of(scene, drawn.candidate);
+  if (out.unable.empty()) out.states = campaign::states_of(scene, drawn.candidate);
   std::filesystem::remove(file);
-  if (auto signature = cli::signature_of(verdict)) out.found.push_back(std::move(*signature));
+  if (auto signature = cli::signature_of(verdict, rules_->options.candidate.command))
+    out.found.push_back(std::move(*signature));
   for (const check::Comparison& row : verdict.comparisons) {
     if (row.outcome != check::Outcome::dispute) continue;
     out.disputes.push_back({std::string(name_of(row.stage)), row.measurement.reason, check::title_of(row.judge)});
@@ -110,7 +118,7 @@ campaign::Entry CampaignJudge::judge(const campaign::SceneId& id, EndedSteps end
 std::optional<campaign::Signature> CampaignJudge::signature_of(SceneJudge& judge, const std::string& text) {
   try {
     const Scene scene = rules_->options.scene_arguments.load_silently(write("shrink/scene", text));
-    return cli::signature_of(judge.judge(scene, {}).verdict);
+    return cli::signature_of(judge.judge(scene, {}).verdict, rules_->options.candidate.command);
   } catch (const SceneError&) {
     return std::nullopt;  // no scene is left
   }

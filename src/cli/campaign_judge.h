@@ -35,8 +35,9 @@ class CampaignJudge {
   SceneJudge all_;
 };
 
-/// Why a scene does not hold, as what bugs are sorted by; none where it holds.
-std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict);
+/// Why a scene does not hold, as what bugs are sorted by; none where it holds. `command`: of a program, which is no part
+/// of it.
+std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict, const std::string& command = {});
 
 /// Writes a folder `folder`/STAGE-CAUSE-REFERENCE for each group of findings: found.json, the group's lowest scene;
 /// scene.json, that scene made smaller; scene.txt, its rows and the command that repeats them; scene/, its page. A

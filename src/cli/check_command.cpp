@@ -169,18 +169,10 @@ int check(const CheckOptions& given) {
   if (rules.kept) rules.kept->store.trim(kMostKept);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (is_whole(o, verdicts)) head.failures = check::of_no_scene(rules.expectations, verdicts);
-  const Conventions conventions = conventions_of(o.candidate.conventions);
-  for (const std::string& line : mistaken(conventions)) head.failures.push_back(line);
+  for (const std::string& line : mistaken(conventions_of(o.candidate.conventions))) head.failures.push_back(line);
   const bool holds = report::all_hold(verdicts) && head.failures.empty();
   std::string summary = not_asked_line(o);
-  if (!conventions.open.empty())
-    summary += fmt::format("open in {}, and judged as OpenGL's: {}\n", o.candidate.conventions,
-                           fmt::join(conventions.open, ", "));
-  if (!o.candidate.command.empty() && !settles_ties(conventions))
-    summary += fmt::format("not judged: which triangle owns a sample on an edge ({})\n",
-                           conventions.tie_rule == Conventions::TieRule::any
-                               ? "no tie rule is declared: plumb learn"
-                               : "no grid is declared on which corners are snapped to the nearest place");
+  summary += convention_notes(o.candidate);
   if (!o.candidate.command.empty() && !can_confine())
     summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());

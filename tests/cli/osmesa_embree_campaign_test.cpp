@@ -182,6 +182,31 @@ TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
       campaign("c", fmt::format("--seeds 1..4 --program '{} {{input}} {{output}}'", PLUMBLINE_C_RENDERER));
   EXPECT_EQ(run.code, 2) << run.text;
   EXPECT_TRUE(run.says("hold: 0\nnothing could be judged: 8\n      ")) << run.text;
+  EXPECT_TRUE(run.says("states: 0 of ")) << "of scenes that were not drawn: " << run.text;
+}
+
+TEST_F(Campaign, OfAProgramNamesMistakesAmongItsConventions) {
+  write(folder_ / "c.json", R"({"format": "plumbline conventions", "version": 1, "rows": "from_top"})");
+  const std::string program = fmt::format(" --against exact --program '{} {{serve}}'", PLUMBLINE_C_RENDERER);
+  const Outcome declared =
+      campaign("declared", "--seeds 11..40 --generator ordinary --conventions " + at("c.json") + program);
+  EXPECT_EQ(declared.code, 1) << declared.text;
+  EXPECT_TRUE(declared.says("rows: from_top, expected from_bottom")) << declared.text;
+  const Outcome plain = campaign("plain", "--seeds 11..40 --generator ordinary" + program);
+  EXPECT_EQ(plain.code, 0) << plain.text;
+  EXPECT_TRUE(plain.says("not judged: which triangle owns a sample on an edge (no tie rule")) << plain.text;
+}
+
+// Two that end otherwise are two findings, however long the command line is.
+TEST_F(Campaign, OfAProgramTellsFailuresApartAndNotCommands) {
+  const std::string word(150, 'x');
+  const Outcome run = campaign("c", "--seeds 1..12 --generator hard --against exact --program '" + word +
+                                        "= sh -c \"grep -q stencil \\$1 && kill -6 \\$\\$; kill -11 \\$\\$\" "
+                                        "sh {scene} {output}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  for (const char* how : {"Aborted", "Segmentation fault"}) {
+    EXPECT_TRUE(run.says(fmt::format("merge, failed: program: exited with status #: signal # ({})", how))) << run.text;
+  }
 }
 
 // A round's scenes are a function of the results of the rounds before, whoever judged them.

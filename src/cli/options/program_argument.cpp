@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "capture/files/conventions_file.h"
 #include "capture/renderers/probes.h"
@@ -164,6 +165,21 @@ std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program) {
 }
 
 Conventions conventions_of(const std::string& file) { return file.empty() ? undeclared() : read_conventions(file); }
+
+std::string convention_notes(const ProgramArgument& program) {
+  if (program.command.empty()) return "";
+  const Conventions conventions = conventions_of(program.conventions);
+  std::string out;
+  if (!conventions.open.empty())
+    out +=
+        fmt::format("open in {}, and judged as OpenGL's: {}\n", program.conventions, fmt::join(conventions.open, ", "));
+  if (!settles_ties(conventions))
+    out += fmt::format("not judged: which triangle owns a sample on an edge ({})\n",
+                       conventions.tie_rule == Conventions::TieRule::any
+                           ? "no tie rule is declared: plumb learn"
+                           : "no grid is declared on which corners are snapped to the nearest place");
+  return out;
+}
 
 std::string command_of_submission(const std::string& command, const std::filesystem::path& folder) {
   std::string line = command;

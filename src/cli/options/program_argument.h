@@ -36,6 +36,10 @@ std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program);
 /// The conventions that the file declares; without one, undeclared(). Throws JsonError.
 Conventions conventions_of(const std::string& file);
 
+/// Lines for people: what the program's conventions leave open, and is judged as OpenGL's or not at all. Empty: nothing,
+/// or there is no program.
+std::string convention_notes(const ProgramArgument& program);
+
 /// The command line, for the submission in this folder, quoted for a shell. Throws std::invalid_argument where
 /// {submission} does not stand in it.
 std::string command_of_submission(const std::string& command, const std::filesystem::path& folder);
