@@ -91,8 +91,11 @@ std::string stage_table(const check::SceneVerdict& verdict, std::optional<Stage>
 
 std::string diagnosis_text(const check::Diagnosis& diagnosis) {
   std::string out = stage_table(diagnosis.verdict, diagnosis.first);
+  const bool none_alone = std::ranges::none_of(diagnosis.verdict.comparisons, [](const Comparison& c) {
+    return check::judges_alone(c) && check::was_compared(c);
+  });
   out += fmt::format("\nfirst different stage: {}\nwrong by itself: {}\n", first_line(diagnosis),
-                     stage_names(diagnosis.wrong));
+                     none_alone ? "not judged" : stage_names(diagnosis.wrong));
   out += check::judged_text(diagnosis.verdict);
   if (std::ranges::any_of(diagnosis.verdict.comparisons,
                           [](const Comparison& c) { return c.note == check::kOverBudget; }))

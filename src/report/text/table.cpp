@@ -63,7 +63,7 @@ std::string table_rows(const SceneVerdict& verdict) {
     const bool alone = stages.size() == 1;
     out += fmt::format(kRow, c.scene, title_of(c.judge), alone ? stages[0] : fmt::format("{} stages", stages.size()),
                        name_of(c.outcome), "-", "-", "-", "-",
-                       alone ? note : fmt::format("{}: {}", note, fmt::join(stages, ", ")));
+                       alone ? note : fmt::format("{} ({})", fmt::join(stages, ", "), note));
   }
   return out;
 }
