@@ -1,6 +1,7 @@
 // A run that a signal ends: nothing is lost, and nothing is left behind.
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
@@ -66,15 +67,18 @@ class KilledRuns : public Cli {
     return out;
   }
 
-  // Runs it whole once, then kills it at moments spread over that time. `holds`: whether what it writes is whole.
+  // Runs it whole twice, then kills it at moments spread over that time. `holds`: whether what it writes is whole.
   void kill_at_all_moments(const std::string& arguments, const std::function<bool()>& holds) {
     const char* said = std::getenv("PLUMBLINE_KILLS");
     const int kills = said != nullptr ? std::atoi(said) : 3;
-    const auto start = Clock::now();
-    const int whole = end_of(begin(arguments));
-    ASSERT_TRUE(WIFEXITED(whole) && WEXITSTATUS(whole) < 2) << whole;
-    const auto duration = Clock::now() - start;
-    ASSERT_TRUE(holds());
+    auto duration = Clock::duration::max();  // of the shorter run: the first may find no shaders compiled
+    for (int i = 0; i < 2; ++i) {
+      const auto start = Clock::now();
+      const int whole = end_of(begin(arguments));
+      ASSERT_TRUE(WIFEXITED(whole) && WEXITSTATUS(whole) < 2) << whole;
+      duration = std::min<Clock::duration>(duration, Clock::now() - start);
+      ASSERT_TRUE(holds());
+    }
     std::mt19937 random(7);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGKILL}) {
       int killed = 0;
