@@ -125,7 +125,7 @@ bool is_wrong_by_frame(const check::SceneVerdict& verdict) {
          });
 }
 
-// What a frame does not tell.
+// Line on scenes of which the frame alone was judged and is wrong: an earlier stage may be. Empty: none.
 std::string frame_line(std::span<const check::SceneVerdict> verdicts) {
   const auto count = std::ranges::count_if(verdicts, is_wrong_by_frame);
   if (count == 0) return "";
@@ -135,7 +135,7 @@ std::string frame_line(std::span<const check::SceneVerdict> verdicts) {
       count);
 }
 
-// Of causes that a scene's frame does not tell apart that of the most scenes. Empty: none is known.
+// The cause of the most scenes, of those that one scene's frame does not tell apart. Empty: none is known.
 std::string likeliest(const check::SceneVerdict& verdict, const Counts& scenes) {
   const auto of = [&](const std::string& cause) { return scenes.at(cause); };
   const auto most = std::ranges::max_element(verdict.causes, {}, of);  // of as many the first

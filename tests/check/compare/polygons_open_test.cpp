@@ -32,6 +32,16 @@ TEST_F(OpenPolygons, AVertexInTheEyeOpensNoPlane) {
   })));
 }
 
+TEST_F(OpenPolygons, ACornerFartherThanRoundingFromAPlaneLeavesNothingOpen) {
+  const double off = (kFactor + 2) * kU;
+  set({{{-0.5, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, -1 - off, 1}}});
+  ASSERT_EQ(records.polygons.polygons[0].count, 4u);
+  for (const std::uint32_t i : cuts(0)) EXPECT_TRUE(fails(compare([&](auto& r) { erase_vertex(r, 0, i); }))) << i;
+  set({{{-0.5, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, -1 + off, 1}}});
+  ASSERT_EQ(records.polygons.polygons[0].count, 3u);
+  EXPECT_TRUE(fails(compare([](auto& r) { repeat_vertex(r, 0, 2); })));
+}
+
 TEST_F(OpenPolygons, ACornerThatIsOpenCannotBeLost) {
   set({{{-0.5, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, -1, 1}}});  // the last corner lies on the near plane
   ASSERT_EQ(records.polygons.polygons[0].count, 3u);

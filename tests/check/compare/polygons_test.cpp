@@ -310,16 +310,6 @@ TEST_F(Polygons, ACornerOnAPlaneLeavesTheNumberOfVerticesOpen) {
   }
 }
 
-TEST_F(Polygons, ACornerFartherThanRoundingFromAPlaneLeavesNothingOpen) {
-  const double off = (kFactor + 2) * kU;
-  set({{{-0.5, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, -1 - off, 1}}});
-  ASSERT_EQ(records.polygons.polygons[0].count, 4u);
-  for (const std::uint32_t i : cuts(0)) EXPECT_TRUE(fails(compare([&](auto& r) { erase_vertex(r, 0, i); }))) << i;
-  set({{{-0.5, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, -1 + off, 1}}});
-  ASSERT_EQ(records.polygons.polygons[0].count, 3u);
-  EXPECT_TRUE(fails(compare([](auto& r) { repeat_vertex(r, 0, 2); })));
-}
-
 TEST_F(Polygons, AnEdgeThroughTheMeetingOfTwoPlanesLeavesTheNumberOpen) {
   // Through (1, 1): cut by the right plane there, and by the top one in the same place, or not again. What is cut off
   // elsewhere is not open.
