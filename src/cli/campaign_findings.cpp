@@ -1,4 +1,5 @@
 // Findings: a folder for each (campaign_judge.h).
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -94,6 +95,13 @@ void leave_smallest(const std::vector<Finding>& findings, const CheckRules& rule
   Workers(worker_count(rules.options, findings.size()), rules.options.limits, make).run({order, ask, took, ask_again});
 }
 
+// Line for people about a finding that is none when its scene is judged again.
+std::string not_repeated(const Scene& scene, const campaign::Signature& found) {
+  return fmt::format(
+      "not repeated {}: {}; judged again, nothing is wrong: it came of scenes drawn before, or of chance\n", scene.path,
+      to_string(found));
+}
+
 }  // namespace
 
 std::string leave_findings(const fs::path& folder, const std::vector<campaign::Group>& groups,
@@ -110,8 +118,11 @@ std::string leave_findings(const fs::path& folder, const std::vector<campaign::G
   std::set<std::string> words;
   std::string out;
   judge_in_workers(scenes, with_pages, words, [&](const JudgedScene& judged) {
-    leave_rows(folder.string(), judged.verdict, judged.failure);
-    out += judged.failure;
+    const auto of = std::ranges::find(scenes, judged.verdict.path, &Scene::path);
+    const campaign::Signature& signature = findings[static_cast<std::size_t>(of - scenes.begin())].group->signature;
+    const std::string lines = judged.failure.empty() ? not_repeated(*of, signature) : judged.failure;
+    leave_rows(folder.string(), judged.verdict, lines);
+    out += lines;
     for (const std::string& cause : judged.verdict.causes) out += fmt::format("  likely: {}\n", cause);
   });
   return out;

@@ -1,6 +1,7 @@
 #include "cli/scene_judge.h"
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 
 #include "check/golden/golden.h"
@@ -12,6 +13,31 @@
 #include "report/text/conformance.h"
 
 namespace plumbline::cli {
+
+namespace {
+
+template <class T>
+bool have_same_bits(const Plane<T>& a, const Plane<T>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0);
+}
+
+// Whether the program, started for this scene alone, leaves the frame that it left before. A server may draw by what it
+// has drawn before, any program by memory that it has not set.
+bool is_drawn_alike(ProgramArgument program, const Scene& scene, const Planes& left) {
+  if (scene.frame.antialias.kind != Antialias::Kind::none) return true;  // its passes are drawn, not the scene
+  program.probes = false;
+  try {
+    const Planes again = make_program(program)->capture(scene, Request{}).planes;
+    return have_same_bits(left.color, again.color) && have_same_bits(left.depth, again.depth);
+  } catch (const RendererFailed&) {
+    return false;
+  } catch (const Unsupported&) {
+    return false;
+  }
+}
+
+}  // namespace
 
 SceneJudge::SceneJudge(const CheckRules& rules, Progress& progress)
     : rules_(&rules), progress_(&progress), kept_(rules.kept) {}
@@ -39,7 +65,10 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothC
                     : check::judge(scene, *candidate_, asked.list, wanted, ~std::uint64_t{0}, asked.arbiters);
   check::SceneVerdict& verdict = out.verdict;
   if (outside && report::conformance_of(verdict) == report::Conformance::differs) {
-    verdict.causes = likely_faults(scene, drawn.candidate, candidate_->info().conventions, verdict);
+    verdict.causes =
+        is_drawn_alike(o.candidate, scene, drawn.candidate.planes)
+            ? likely_faults(scene, drawn.candidate, candidate_->info().conventions, verdict)
+            : std::vector<std::string>{"drawn otherwise by the program when it is started for this scene alone"};
   }
   if (rules_->goldens)
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),

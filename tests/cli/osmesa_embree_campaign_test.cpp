@@ -12,21 +12,13 @@
 
 #include <fmt/format.h>
 
-#include "tests/cli/run_plumb.h"
+#include "tests/cli/campaign.h"
 
 namespace plumbline {
 namespace {
 
 const std::string kAssets = " --assets " PLUMBLINE_SOURCE_DIR "/tests/scenes/texture";
 const std::string kTruncates = " --fault depth.truncated";
-
-class Campaign : public Cli {
- protected:
-  Outcome campaign(const std::string& folder, const std::string& options) const {
-    return shell(fmt::format("{} campaign {} {}", PLUMBLINE_PLUMB, at(folder), options));
-  }
-  std::string results(const std::string& folder) const { return read(folder_ / folder / "results.json"); }
-};
 
 TEST_F(Campaign, OfOursHolds) {
   const Outcome run = campaign("c", "--seeds 1..6");
@@ -177,38 +169,6 @@ TEST_F(Campaign, NamesAFileThatAnOrdinarySceneLacks) {
   EXPECT_TRUE(run.says("no file \"")) << run.text;
 }
 
-TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
-  const Outcome run =
-      campaign("c", fmt::format("--seeds 1..4 --program '{} {{input}} {{output}}'", PLUMBLINE_C_RENDERER));
-  EXPECT_EQ(run.code, 2) << run.text;
-  EXPECT_TRUE(run.says("hold: 0\nnothing could be judged: 8\n      ")) << run.text;
-  EXPECT_TRUE(run.says("states: 0 of ")) << "of scenes that were not drawn: " << run.text;
-}
-
-TEST_F(Campaign, OfAProgramNamesMistakesAmongItsConventions) {
-  write(folder_ / "c.json", R"({"format": "plumbline conventions", "version": 1, "rows": "from_top"})");
-  const std::string program = fmt::format(" --against exact --program '{} {{serve}}'", PLUMBLINE_C_RENDERER);
-  const Outcome declared =
-      campaign("declared", "--seeds 11..40 --generator ordinary --conventions " + at("c.json") + program);
-  EXPECT_EQ(declared.code, 1) << declared.text;
-  EXPECT_TRUE(declared.says("rows: from_top, expected from_bottom")) << declared.text;
-  const Outcome plain = campaign("plain", "--seeds 11..40 --generator ordinary" + program);
-  EXPECT_EQ(plain.code, 0) << plain.text;
-  EXPECT_TRUE(plain.says("not judged: which triangle owns a sample on an edge (no tie rule")) << plain.text;
-}
-
-// Two that end otherwise are two findings, however long the command line is.
-TEST_F(Campaign, OfAProgramTellsFailuresApartAndNotCommands) {
-  const std::string word(150, 'x');
-  const Outcome run = campaign("c", "--seeds 1..12 --generator hard --against exact --program '" + word +
-                                        "= sh -c \"grep -q stencil \\$1 && kill -6 \\$\\$; kill -11 \\$\\$\" "
-                                        "sh {scene} {output}'");
-  EXPECT_EQ(run.code, 1) << run.text;
-  for (const char* how : {"Aborted", "Segmentation fault"}) {
-    EXPECT_TRUE(run.says(fmt::format("merge, failed: program: exited with status #: signal # ({})", how))) << run.text;
-  }
-}
-
 // A round's scenes are a function of the results of the rounds before, whoever judged them.
 TEST_F(Campaign, NamesTheFileOfABadRound) {
   ASSERT_EQ(campaign("c", "--seeds 1..2 --generator hard --against exact").code, 0);
@@ -220,13 +180,6 @@ TEST_F(Campaign, NamesTheFileOfABadRound) {
   write(folder_ / "c/rounds/1.txt", "");
   const Outcome none = campaign("c", "--seeds 1..2 --generator hard --against exact --round 2");
   EXPECT_TRUE(none.says("rounds/1.txt: expected scenes, found none")) << none.text;
-}
-
-TEST_F(Campaign, GivesAProgramTheTimeLimit) {
-  const Outcome run =
-      campaign("c", "--seeds 1..1 --generator hard --judge-only --time-limit 1 --program 'sleep 100; {serve}'");
-  EXPECT_EQ(run.code, 0) << run.text;
-  EXPECT_TRUE(run.says("took longer than #s and was killed")) << run.text;
 }
 
 // The process that does the work of the others, once there are three: supervisor, program, worker.
@@ -293,14 +246,6 @@ TEST_F(Campaign, IsNotToldWhileAPartOfItRuns) {
   EXPECT_FALSE(fs::exists(folder_ / "d/results.json"));
 }
 
-TEST_F(Campaign, OfAProgramWhoseWordsAreNoUtf8IsTold) {
-  write(folder_ / "mine.sh", "printf 'grob \\351\\nund mehr\\n' >&2; exit 3\n");
-  const Outcome run =
-      campaign("c", "--seeds 1..1 --generator hard --program 'sh " + at("mine.sh") + " {input} {output}'");
-  EXPECT_EQ(run.code, 1) << run.text;
-  EXPECT_TRUE(results("c").starts_with("{")) << run.text;
-}
-
 TEST_F(Campaign, ProvesItsOutputsBeforeTheWork) {
   for (const char* name : {"results.json", "findings"}) {
     const std::string folder = std::string("of_") + name;
@@ -311,17 +256,6 @@ TEST_F(Campaign, ProvesItsOutputsBeforeTheWork) {
     EXPECT_TRUE(run.says(std::string(name) + ": cannot be written")) << run.text;
     EXPECT_FALSE(fs::exists(folder_ / folder / "journal/hard-1-1.journal"));
   }
-}
-
-// A program that is mended is another one.
-TEST_F(Campaign, OfAProgramThatWasChangedIsRefused) {
-  write(folder_ / "mine.sh", "exit 3\n");
-  const std::string options = "--seeds 1..1 --generator hard --judge-only --program 'sh " + at("mine.sh") + " {serve}'";
-  ASSERT_EQ(campaign("c", options).code, 0);
-  write(folder_ / "mine.sh", "exit 4\n");
-  const Outcome run = campaign("c", options);
-  EXPECT_EQ(run.code, 2) << run.text;
-  EXPECT_TRUE(run.says("expected a journal of this campaign")) << run.text;
 }
 
 TEST_F(Campaign, GoesInRounds) {

@@ -160,6 +160,28 @@ TEST_F(Cli, program_that_is_wrong_is_told_by_which_known_faults) {
       "'" PLUMBLINE_PLUMB " capture {scene} {output}/all --fault merge.blue_first && mv {output}/all/* {output}'");
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("wrong as by file (fault file.bgr): 2, first camera/transform_chain")) << run.text;
+  EXPECT_FALSE(run.says("drawn otherwise")) << run.text;
+}
+
+// A server that draws its first scene again and again: by itself, each scene is right.
+TEST_F(Cli, program_that_keeps_a_state_is_told_so) {
+  write(folder_ / "mine",
+        "#!/bin/sh\n"
+        "kept=$TMPDIR/kept\n"
+        "while IFS=\"$(printf '\\t')\" read -r in out; do\n" PLUMBLINE_C_RENDERER
+        " \"$in\" \"$out\" || exit\n"
+        "  if [ -d \"$kept\" ]; then cp \"$kept\"/* \"$out\"; else cp -r \"$out\" \"$kept\"; fi\n"
+        "  echo ok\n"
+        "done\n");
+  fs::permissions(folder_ / "mine", fs::perms::owner_all);
+  const std::string two = kSharedEdges + " " + kScenes + "interpolation/w_ratio.json --against exact --jobs 1";
+  const Outcome run = plumb("check " + two + " --program '" + at("mine") + " {serve}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_EQ(tally(run, "coverage").right, 1) << run.text;
+  EXPECT_TRUE(
+      run.says("wrong, and drawn otherwise by the program when it is started for this scene alone: 1, first "
+               "interpolation/w_ratio"))
+      << run.text;
 }
 
 TEST_F(Cli, program_that_draws_no_scene_ends_2) {

@@ -1,0 +1,87 @@
+// plumb campaign of another renderer.
+#include <fmt/format.h>
+
+#include "tests/cli/campaign.h"
+
+namespace plumbline {
+namespace {
+
+TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
+  const Outcome run =
+      campaign("c", fmt::format("--seeds 1..4 --program '{} {{input}} {{output}}'", PLUMBLINE_C_RENDERER));
+  EXPECT_EQ(run.code, 2) << run.text;
+  EXPECT_TRUE(run.says("hold: 0\nnothing could be judged: 8\n      ")) << run.text;
+  EXPECT_TRUE(run.says("states: 0 of ")) << "of scenes that were not drawn: " << run.text;
+}
+
+TEST_F(Campaign, OfAProgramNamesMistakesAmongItsConventions) {
+  write(folder_ / "c.json", R"({"format": "plumbline conventions", "version": 1, "rows": "from_top"})");
+  const std::string program = fmt::format(" --against exact --program '{} {{serve}}'", PLUMBLINE_C_RENDERER);
+  const Outcome declared =
+      campaign("declared", "--seeds 11..40 --generator ordinary --conventions " + at("c.json") + program);
+  EXPECT_EQ(declared.code, 1) << declared.text;
+  EXPECT_TRUE(declared.says("rows: from_top, expected from_bottom")) << declared.text;
+  const Outcome plain = campaign("plain", "--seeds 11..40 --generator ordinary" + program);
+  EXPECT_EQ(plain.code, 0) << plain.text;
+  EXPECT_TRUE(plain.says("not judged: which triangle owns a sample on an edge (no tie rule")) << plain.text;
+}
+
+// Two that end otherwise are two findings, however long the command line is.
+TEST_F(Campaign, OfAProgramTellsFailuresApartAndNotCommands) {
+  const std::string word(150, 'x');
+  const Outcome run = campaign("c", "--seeds 1..12 --generator hard --against exact --program '" + word +
+                                        "= sh -c \"grep -q stencil \\$1 && kill -6 \\$\\$; kill -11 \\$\\$\" "
+                                        "sh {scene} {output}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  for (const char* how : {"Aborted", "Segmentation fault"}) {
+    EXPECT_TRUE(run.says(fmt::format("merge, failed: program: exited with status #: signal # ({})", how))) << run.text;
+  }
+}
+
+TEST_F(Campaign, GivesAProgramTheTimeLimit) {
+  const Outcome run =
+      campaign("c", "--seeds 1..1 --generator hard --judge-only --time-limit 1 --program 'sleep 100; {serve}'");
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("took longer than #s and was killed")) << run.text;
+}
+
+TEST_F(Campaign, OfAProgramWhoseWordsAreNoUtf8IsTold) {
+  write(folder_ / "mine.sh", "printf 'grob \\351\\nund mehr\\n' >&2; exit 3\n");
+  const Outcome run =
+      campaign("c", "--seeds 1..1 --generator hard --program 'sh " + at("mine.sh") + " {input} {output}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(results("c").starts_with("{")) << run.text;
+}
+
+// A program that is mended is another one.
+TEST_F(Campaign, OfAProgramThatWasChangedIsRefused) {
+  write(folder_ / "mine.sh", "exit 3\n");
+  const std::string options = "--seeds 1..1 --generator hard --judge-only --program 'sh " + at("mine.sh") + " {serve}'";
+  ASSERT_EQ(campaign("c", options).code, 0);
+  write(folder_ / "mine.sh", "exit 4\n");
+  const Outcome run = campaign("c", options);
+  EXPECT_EQ(run.code, 2) << run.text;
+  EXPECT_TRUE(run.says("expected a journal of this campaign")) << run.text;
+}
+
+// A server that fails from its second scene on: by itself, each scene is drawn.
+TEST_F(Campaign, OfAProgramTellsWhatDoesNotRepeat) {
+  write(folder_ / "mine",
+        "#!/bin/sh\n"
+        "while IFS=\"$(printf '\\t')\" read -r in out; do\n"
+        "  if [ -n \"$tired\" ]; then echo failed tired; continue; fi\n"
+        "  tired=yes\n"
+        "  " PLUMBLINE_C_RENDERER
+        " \"$in\" \"$out\" 2>/dev/null && echo ok || echo unsupported\n"
+        "done\n");
+  fs::permissions(folder_ / "mine", fs::perms::owner_all);
+  const std::string options = "--seeds 11..14 --generator ordinary --jobs 1 --against exact";
+  const Outcome run = campaign("c", options + " --program '" + at("mine") + " {serve}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("not repeated " + at("c/findings/merge-failed-program-failed-tired-program/scene.json") +
+                       ": merge, failed: program: failed: tired (against program); judged again, nothing is wrong"))
+      << run.text;
+}
+
+}  // namespace
+}  // namespace plumbline
