@@ -349,7 +349,7 @@ int campaign(const CampaignOptions& o) {
   std::vector<std::string> mistakes = mistaken(conventions_of(rules.options.candidate.conventions));
   for (std::string& line : mistakes) line += '\n';
   fmt::print("{}{}{}{}judging: {:.1f} ms a scene\n", findings, text_of(results), fmt::join(mistakes, ""),
-             convention_notes(rules.options.candidate),
+             rules.options.candidate.command.empty() ? "" : convention_notes(rules.options.candidate.conventions),
              results.milliseconds / static_cast<double>(std::max<std::uint64_t>(results.scenes(), 1)));
   return results.found.empty() && results.conflicts.empty() && mistakes.empty() ? kHolds : kDiffers;
 }

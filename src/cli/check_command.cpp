@@ -172,13 +172,12 @@ int check(const CheckOptions& given) {
   for (const std::string& line : mistaken(conventions_of(o.candidate.conventions))) head.failures.push_back(line);
   const bool holds = report::all_hold(verdicts) && head.failures.empty();
   std::string summary = not_asked_line(o);
-  summary += convention_notes(o.candidate);
-  if (!o.candidate.command.empty() && !can_confine())
-    summary += "not refused by this kernel: what the program writes elsewhere\n";
+  const bool outside = !o.candidate.command.empty();
+  if (outside) summary += convention_notes(o.candidate.conventions);
+  if (outside && !can_confine()) summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());
   summary += report::summary(verdicts, holds, seconds);
   const std::string of_run = lines_of(head.failures);
-  const bool outside = !o.candidate.command.empty();
   fmt::print("\n{}{}{}{}", failures, of_run,
              outside ? report::conformance_text(verdicts) : report::group_lines(verdicts), summary);
   if (!o.json.empty()) report::write_json(o.json, verdicts, head);

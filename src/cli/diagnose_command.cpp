@@ -174,15 +174,16 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
                                             outside ? "the arrays of a stage" : "a stage",
                                             check::judged_text(diagnosis.verdict)));
   }
-  std::string against_itself, faults;
+  std::string against_itself, open, faults;
   if (outside) {
+    open = convention_notes(o.candidate.conventions);
     const Capture left = candidate->capture(scene, Request{});
     against_itself = convention_lines(candidate->info().conventions) + contradiction_lines(left);
     faults = known_faults(scene, left, candidate->info().conventions, diagnosis);
   }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
                                 report::diagnosis_text(diagnosis)) +
-                    faults + hint_of_conventions(o, diagnosis, faults);
+                    open + faults + hint_of_conventions(o, diagnosis, faults);
   std::string history, history_text;
   if (subject.pixel) {
     const check::History known = check::pixel_history(scene, *candidate, references.list, *subject.pixel);
@@ -193,7 +194,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
   if (subject.page) {
     report::write_diagnosis_page(*subject.page, scene, diagnosis, pictured(scene, *candidate, references),
-                                 faults + history_text);
+                                 open + faults + history_text);
     out += fmt::format("page: {}\n", (std::filesystem::absolute(o.report) / "index.html").lexically_normal().string());
   }
   const bool of_conventions_alone = holds(diagnosis) && !mistaken(candidate->info().conventions).empty();

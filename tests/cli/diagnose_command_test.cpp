@@ -68,7 +68,12 @@ TEST_F(Cli, diagnose_refuses_a_folder_that_is_not_of_the_scene) {
 
 TEST_F(Cli, diagnose_runs_a_program) {
   const std::string program = "'" PLUMBLINE_PLUMB " capture {scene} {output}";
-  EXPECT_EQ(plumb("diagnose " + kSharedEdges + " --against exact --program " + program + "'").code, 0);
+  const Outcome right = plumb("diagnose " + kSharedEdges + " --against exact --program " + program + "'");
+  EXPECT_EQ(right.code, 0);
+  EXPECT_TRUE(
+      right.says("not judged: which triangle owns a sample on an edge (no tie rule is declared: plumb learn)\n"))
+      << right.text;
+  EXPECT_FALSE(plumb("diagnose " + kSharedEdges + " --against exact").says("owns a sample"));
   const Outcome bad =
       plumb("diagnose " + kSharedEdges + " --against exact --program " + program + " --fault depth.truncated'");
   EXPECT_EQ(bad.code, 1) << bad.text;

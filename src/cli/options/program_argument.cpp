@@ -166,13 +166,11 @@ std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program) {
 
 Conventions conventions_of(const std::string& file) { return file.empty() ? undeclared() : read_conventions(file); }
 
-std::string convention_notes(const ProgramArgument& program) {
-  if (program.command.empty()) return "";
-  const Conventions conventions = conventions_of(program.conventions);
+std::string convention_notes(const std::string& file) {
+  const Conventions conventions = conventions_of(file);
   std::string out;
   if (!conventions.open.empty())
-    out +=
-        fmt::format("open in {}, and judged as OpenGL's: {}\n", program.conventions, fmt::join(conventions.open, ", "));
+    out += fmt::format("open in {}, and judged as OpenGL's: {}\n", file, fmt::join(conventions.open, ", "));
   if (!settles_ties(conventions))
     out += fmt::format("not judged: which triangle owns a sample on an edge ({})\n",
                        conventions.tie_rule == Conventions::TieRule::any

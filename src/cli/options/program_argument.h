@@ -36,9 +36,9 @@ std::unique_ptr<Renderer> make_probed_program(const ProgramArgument& program);
 /// The conventions that the file declares; without one, undeclared(). Throws JsonError.
 Conventions conventions_of(const std::string& file);
 
-/// Lines for people: what the program's conventions leave open, and is judged as OpenGL's or not at all. Empty: nothing,
-/// or there is no program.
-std::string convention_notes(const ProgramArgument& program);
+/// Lines for people: what the conventions of the file leave open, and is judged as OpenGL's or not at all. No file: of a
+/// renderer that declares none. Throws JsonError.
+std::string convention_notes(const std::string& file);
 
 /// The command line, for the submission in this folder, quoted for a shell. Throws std::invalid_argument where
 /// {submission} does not stand in it.
