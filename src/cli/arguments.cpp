@@ -279,6 +279,16 @@ CLI::App& innermost(CLI::App& app) {
   return *at;
 }
 
+// "report merge: ", the command whose arguments are read; empty: none was named.
+std::string command_before(CLI::App& app) {
+  std::string path;
+  for (const CLI::App* at = &innermost(app); at != &app; at = at->get_parent())
+    path = at->get_display_name() + " " + path;
+  if (path.empty()) return "";
+  path.back() = ':';
+  return path + " ";
+}
+
 // Message about a surplus word of a command line, with the name that was probably meant.
 std::string unexpected(CLI::App& app, const std::string& word) {
   const CLI::App& command = innermost(app);
@@ -292,10 +302,7 @@ std::string unexpected(CLI::App& app, const std::string& word) {
   }
   const std::string hint =
       did_you_mean(word.substr(0, word.find('=')), std::vector<std::string_view>(names.begin(), names.end()));
-  std::string path;  // "report merge: ", of what stands before the word
-  for (const CLI::App* at = &command; at != &app; at = at->get_parent()) path = at->get_display_name() + " " + path;
-  if (!path.empty()) path.back() = ':';
-  const std::string where = path.empty() ? "" : path + " ";
+  const std::string where = command_before(app);
   if (is_command) return fmt::format("{}expected a command: {}; found {}{}", where, fmt::join(names, ", "), word, hint);
   return fmt::format("{}unexpected {} {}{}", where, is_option ? "option" : "argument", word, hint);
 }
@@ -366,8 +373,11 @@ Parsed parse(int argc, char** argv) {
     if (is_misspelt && !extras.empty()) {
       say(unexpected(app, extras.front()));
       out.exit = kBadInput;
+    } else if (e.get_exit_code() == 0) {
+      out.exit = app.exit(e);  // prints --help, --version
     } else {
-      out.exit = app.exit(e) == 0 ? kHolds : kBadInput;
+      say(fmt::format("{}{} (--help shows all arguments)", command_before(app), e.what()));
+      out.exit = kBadInput;
     }
   }
   return out;

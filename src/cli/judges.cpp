@@ -128,7 +128,8 @@ std::string terms_of(const CheckOptions& o) {
   if (!o.candidate.from.empty()) out += ", from " + o.candidate.from;
   if (o.candidate.probes) out += ", each primitive";
   if (!o.candidate.conventions.empty())
-    out += ", conventions " + conventions_text(conventions_of(o.candidate.conventions));
+    out += fmt::format(", conventions ({})",
+                       to_string(check::hash_of(conventions_text(conventions_of(o.candidate.conventions)))));
   const CheckOptions usual;
   if (o.limits.step != usual.limits.step || o.limits.memory != usual.limits.memory ||
       o.candidate.time_limit != usual.candidate.time_limit) {

@@ -16,12 +16,13 @@ TEST_F(Cli, help_and_version_end_0_and_bad_usage_2) {
   EXPECT_EQ(plumb("chekc").code, 2);
   EXPECT_NE(plumb("chekc").text.find("chekc"), std::string::npos);
   EXPECT_EQ(plumb("check").code, 2);
+  EXPECT_TRUE(plumb("check").says("plumb: check: scenes is required (--help shows all arguments)\n"));
   EXPECT_EQ(plumb("check " + kScenes + "cull --against mesa").code, 2);
   EXPECT_EQ(plumb("check " + kScenes + "cull --no-such-flag").code, 2);
   for (const char* jobs : {"0", "257", "-1", "1.5", "2x", "two", "''"}) {
     const Outcome run = plumb("check " + kScenes + "cull --jobs " + jobs);
     EXPECT_EQ(run.code, 2) << jobs;
-    EXPECT_TRUE(run.says("--jobs: Value ") && run.says(" not in range ") && run.says("256")) << run.text;
+    EXPECT_TRUE(run.says("plumb: check: --jobs: Value ") && run.says(" not in range ") && run.says("256")) << run.text;
   }
 }
 
