@@ -317,7 +317,8 @@ std::vector<std::string> with_suite_images(std::vector<std::string> assets) {
 }  // namespace
 
 int campaign(const CampaignOptions& o) {
-  CheckRules rules{o.judging, std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()), {}, {}, {}, {}};
+  CheckRules rules{o.judging, std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now())};
+  rules.names_causes = false;  // but of findings, once each (leave_findings)
   rules.options.cache.clear();
   rules.options.against = without_repeats(rules.options.against);
   rules.options.scene_arguments.assets = with_suite_images(o.judging.scene_arguments.assets);

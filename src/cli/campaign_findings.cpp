@@ -113,7 +113,7 @@ std::string leave_findings(const fs::path& folder, const std::vector<campaign::G
   for (const Finding& finding : findings) {
     scenes.push_back(rules.options.scene_arguments.load(finding.folder / "scene.json"));
   }
-  CheckRules with_pages{rules.options, rules.today, {}, {}, {}, {}};
+  CheckRules with_pages{rules.options, rules.today};
   with_pages.options.failures = folder.string();
   std::set<std::string> words;
   std::string out;

@@ -133,7 +133,8 @@ std::string CampaignJudge::shrink(const campaign::SceneId& id, const campaign::S
   const std::string text = campaign::scene_text(id),
                     reference = signature.reference.substr(0, signature.reference.find(','));
   if (hangs(signature) || std::ranges::count(known_reference_names(), reference) == 0) return smaller(all_, text);
-  CheckRules of_one{rules_->options, rules_->today, {}, {}, {}, {}};
+  CheckRules of_one{rules_->options, rules_->today};
+  of_one.names_causes = false;
   of_one.options.against = {reference};
   SceneJudge its_own(of_one, *progress_);
   const std::string by_one = smaller(its_own, text);

@@ -127,7 +127,7 @@ int check(const CheckOptions& given) {
   const std::vector<std::filesystem::path> paths(o.scenes.begin(), o.scenes.end());
   std::vector<std::filesystem::path> files = find_scenes(paths);
   const report::Shard shard = take_shard(files, o.shard);
-  CheckRules rules{o, today(o), {}, {}, {}, {}};
+  CheckRules rules{o, today(o)};
   if (faulted_reference(o.fault).empty()) make_candidate(o.fault);  // refuses a name that none has
   std::optional<report::Rubric> rubric;
   if (!o.rubric.empty()) rubric = report::read_rubric(o.rubric);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "check/golden/golden.h"
 #include "check/judge/judge.h"
@@ -22,19 +25,35 @@ bool have_same_bits(const Plane<T>& a, const Plane<T>& b) {
          (a.empty() || std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0);
 }
 
-// Whether the program, started for this scene alone, leaves the frame that it left before. A server may draw by what it
-// has drawn before, any program by memory that it has not set.
-bool is_drawn_alike(ProgramArgument program, const Scene& scene, const Planes& left) {
-  if (scene.frame.antialias.kind != Antialias::Kind::none) return true;  // its passes are drawn, not the scene
+// The frame that the program draws when it is started for this scene alone; none: it fails, refuses the scene, or is
+// slow.
+std::optional<Planes> drawn_alone(ProgramArgument program, const Scene& scene) {
   program.probes = false;
+  program.time_limit = std::min(program.time_limit, std::chrono::seconds(10));
   try {
-    const Planes again = make_program(program)->capture(scene, Request{}).planes;
-    return have_same_bits(left.color, again.color) && have_same_bits(left.depth, again.depth);
+    return make_program(program)->capture(scene, Request{}).planes;
   } catch (const RendererFailed&) {
-    return false;
+    return std::nullopt;
   } catch (const Unsupported&) {
-    return false;
+    return std::nullopt;
   }
+}
+
+// Why a program's scene is wrong, or failed: what it drew before, or memory that it has not set; else known faults.
+std::vector<std::string> causes_of(const ProgramArgument& program, const Scene& scene, const Capture& left,
+                                   const Conventions& conventions, const check::SceneVerdict& verdict) {
+  const report::Conformance ended = report::conformance_of(verdict);
+  const bool is_wrong = ended == report::Conformance::differs, is_failed = ended == report::Conformance::failed;
+  const bool has_passes = scene.frame.antialias.kind != Antialias::Kind::none;  // which are drawn, not the scene
+  if (has_passes || !(is_wrong || is_failed)) return {};
+  const std::optional<Planes> alone = drawn_alone(program, scene);
+  if (alone && is_failed && left.planes.color.empty())
+    return {"drawn by the program when it is started for this scene alone"};
+  if (is_failed) return {};
+  const bool is_alike =
+      !alone || (have_same_bits(left.planes.color, alone->color) && have_same_bits(left.planes.depth, alone->depth));
+  if (is_alike) return likely_faults(scene, left, conventions, verdict);
+  return {"drawn otherwise by the program when it is started for this scene alone"};
 }
 
 }  // namespace
@@ -64,12 +83,8 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothC
                     ? check::judge_or_recall(scene, *candidate_, asked.list, *kept_, wanted, asked.arbiters)
                     : check::judge(scene, *candidate_, asked.list, wanted, ~std::uint64_t{0}, asked.arbiters);
   check::SceneVerdict& verdict = out.verdict;
-  if (outside && report::conformance_of(verdict) == report::Conformance::differs) {
-    verdict.causes =
-        is_drawn_alike(o.candidate, scene, drawn.candidate.planes)
-            ? likely_faults(scene, drawn.candidate, candidate_->info().conventions, verdict)
-            : std::vector<std::string>{"drawn otherwise by the program when it is started for this scene alone"};
-  }
+  if (outside && rules_->names_causes)
+    verdict.causes = causes_of(o.candidate, scene, drawn.candidate, candidate_->info().conventions, verdict);
   if (rules_->goldens)
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),
                       std::back_inserter(verdict.comparisons));

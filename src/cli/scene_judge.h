@@ -25,10 +25,11 @@ namespace plumbline::cli {
 struct CheckRules {
   CheckOptions options;
   std::chrono::sys_days today;
-  std::vector<check::Expectation> expectations;
-  std::optional<check::GoldenSet> goldens;
-  std::optional<report::HtmlReport> page;   ///< wanted, or not
-  std::optional<check::KeptVerdicts> kept;  ///< verdicts of earlier runs may stand
+  std::vector<check::Expectation> expectations{};
+  std::optional<check::GoldenSet> goldens{};
+  std::optional<report::HtmlReport> page{};   ///< wanted, or not
+  std::optional<check::KeptVerdicts> kept{};  ///< verdicts of earlier runs may stand
+  bool names_causes = true;                   ///< of a program's wrong scenes: it, and each known fault, draws them
 };
 
 /// What comes of a scene. Its planes are gone.

@@ -100,7 +100,7 @@ int check_submissions(const CheckRules& given, std::span<const Scene> scenes,
   fmt::print("{:<24} {:>10} {:>6} {:>6} {:>6} {:>6} {:>6}  {}\n", "submission", "points", "right", "legal", "wrong",
              "failed", "unable", "first wrong stage");
   for (const fs::path& folder : folders) {
-    CheckRules rules{o, given.today, given.expectations, {}, {}, {}};
+    CheckRules rules{o, given.today, given.expectations};
     rules.options.candidate.command = command_of_submission(o.candidate.command, folder);
     std::set<std::string> words;
     std::vector<check::SceneVerdict> verdicts;

@@ -163,7 +163,7 @@ TEST_F(Cli, program_that_is_wrong_is_told_by_which_known_faults) {
   EXPECT_FALSE(run.says("drawn otherwise")) << run.text;
 }
 
-// A server that draws its first scene again and again: by itself, each scene is right.
+// A server that draws its first scene again and again, then one that ends after it: by itself, each scene is right.
 TEST_F(Cli, program_that_keeps_a_state_is_told_so) {
   write(folder_ / "mine",
         "#!/bin/sh\n"
@@ -182,6 +182,15 @@ TEST_F(Cli, program_that_keeps_a_state_is_told_so) {
       run.says("wrong, and drawn otherwise by the program when it is started for this scene alone: 1, first "
                "interpolation/w_ratio"))
       << run.text;
+  write(folder_ / "mine",
+        "#!/bin/sh\n"
+        "IFS=\"$(printf '\\t')\" read -r in out\n" PLUMBLINE_C_RENDERER " \"$in\" \"$out\" && echo ok\n");
+  const Outcome one = plumb("check " + two + " --program '" + at("mine") + " {serve}'");
+  EXPECT_EQ(one.code, 1) << one.text;
+  EXPECT_TRUE(
+      one.says("failed, and drawn by the program when it is started for this scene alone: 1, first "
+               "interpolation/w_ratio"))
+      << one.text;
 }
 
 TEST_F(Cli, program_that_draws_no_scene_ends_2) {

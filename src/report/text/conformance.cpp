@@ -146,25 +146,25 @@ std::string likeliest(const check::SceneVerdict& verdict, const Counts& scenes) 
 std::string cause_lines(std::span<const check::SceneVerdict> verdicts) {
   Counts possible, causes;
   for (const check::SceneVerdict& verdict : verdicts) {
-    if (conformance_of(verdict) != Conformance::differs) continue;
     for (const std::string& cause : verdict.causes) ++possible[cause];
   }
   std::map<std::string, std::string> first;
   std::size_t unknown = 0;
   for (const check::SceneVerdict& verdict : verdicts) {
-    if (conformance_of(verdict) != Conformance::differs) continue;
+    const Conformance ended = conformance_of(verdict);
+    if (ended != Conformance::differs && ended != Conformance::failed) continue;
     const std::string cause = likeliest(verdict, possible);
     if (cause.empty()) {
-      ++unknown;
-    } else if (++causes[cause] == 1) {
-      first[cause] = verdict.scene;
+      unknown += ended == Conformance::differs ? 1 : 0;
+      continue;
     }
+    const bool is_fault = cause.ends_with(')');
+    const char* how = ended == Conformance::failed ? "failed, and" : is_fault ? "wrong as by" : "wrong, and";
+    const std::string line = fmt::format("{} {}", how, cause);
+    if (++causes[line] == 1) first[line] = verdict.scene;
   }
   std::string out;
-  for (const auto& [cause, count] : by_count(causes)) {
-    const bool is_fault = cause.ends_with(')');
-    out += fmt::format("wrong{} {}: {}, first {}\n", is_fault ? " as by" : ", and", cause, count, first[cause]);
-  }
+  for (const auto& [line, count] : by_count(causes)) out += fmt::format("{}: {}, first {}\n", line, count, first[line]);
   return unknown == 0 ? out : out + fmt::format("wrong as by no known fault: {}\n", unknown);
 }
 
