@@ -52,7 +52,8 @@ struct Eye {
   bool by_alpha = false;
 };
 constexpr float kUnseen = std::numeric_limits<float>::infinity();
-enum Look { kCoarseByAlpha, kCoarse, kFineColor, kFineDepth };  // truncation is no more than fine
+enum Look { kCoarseByAlpha, kCoarse, kFineColor, kFineDepth };
+constexpr bool is_fine(Look look) { return look >= kFineColor; }  // truncation is no more
 constexpr std::array<Eye, 4> kEyes = {
     {{1.5f, 1.5, 0x1p-20, true}, {1.5f, 1.5, 0x1p-20}, {0.5f, kUnseen, 0}, {kUnseen, 0.25, 0}}};
 using Apart = std::array<std::size_t, kEyes.size()>;  // pixels that differ, by each eye
@@ -213,7 +214,7 @@ Lookalikes ranked(std::vector<Lookalike> all, const Apart& ours, Look look) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   Lookalikes out;
   out.apart = apart;
-  if (look == kFineColor || look == kFineDepth) out.codes = 0.5;
+  if (is_fine(look)) out.codes = 0.5;
   std::erase_if(all, [&](const Lookalike& l) { return left(l) >= apart; });
   std::ranges::stable_sort(all, {}, left);
   if (all.empty()) {
@@ -302,12 +303,11 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   const std::vector<Lookalike> all = mistakes(*seen, given, right, measure);
   std::vector<Lookalikes> found;
   for (const Look look : {kCoarseByAlpha, kCoarse, kFineColor, kFineDepth}) {
-    const bool is_fine = look == kFineColor || look == kFineDepth;
-    if (is_fine && !found.empty()) return found.front();  // no cause of what is coarse
+    if (is_fine(look) && !found.empty()) return found.front();  // no cause of what is coarse
     if (apart[look] == 0) continue;
     Lookalikes seen_by = ranked(all, apart, look);
     if (!seen_by.likely.empty()) return seen_by;
-    if (!is_fine) found.push_back(std::move(seen_by));
+    if (!is_fine(look)) found.push_back(std::move(seen_by));
   }
   return {};  // rounded otherwise
 }
