@@ -74,4 +74,21 @@ page=$(sed -n 's/.*page: \(.*index.html\)/\1/p' "$sample"/wrong.txt | head -1)
 PLUMBLINE_PLUMB=no_such_plumb ctest --test-dir "$sample/build" -R Rasterizer >"$sample"/unjudged.txt && fail "no plumb, and the test passes"
 grep -q "not judged: no_such_plumb (PLUMBLINE_PLUMB)" "$sample"/unjudged.txt || fail "expected the name of the plumb that is not there"
 PLUMBLINE_PLUMB=true ctest --test-dir "$sample/build" -R Rasterizer >/dev/null && fail "a plumb that judges nothing, and the test passes"
+cp -r "$here/refused" refused && mkdir one two
+for copy in refused/fan.json 'refused/fan[1].json' one/fan.json two/fan.json; do cp "$sample/fan.json" "$copy"; done
+refused() { # WORDS MESSAGE
+  cmake -S refused -B refused/build "-DWORDS=$1" >refused/log 2>&1 && fail "taken: plumbline_add_renderer_tests($1)"
+  tr -s '\n ' ' ' <refused/log | grep -qF "plumbline_add_renderer_tests: $2" || { # CMake breaks lines
+    cat refused/log
+    fail "expected '$2' of plumbline_add_renderer_tests($1)"
+  }
+}
+refused 'none;SCENES;fan.json' 'none: expected a program that add_executable() made, found no target'
+refused 'no_program;SCENES;fan.json' 'no_program: expected a program that add_executable() made, found INTERFACE_LIBRARY'
+refused 'my_program;SCENE;fan.json' 'expected SCENES, CALL, OPTIONS or SKIP_UNSUPPORTED, found SCENE;fan.json'
+refused 'my_program;SCENES' 'SCENES: expected a value, found none'
+refused 'my_program' 'expected SCENES and at least one scene'
+refused 'my_program;SCENES;none.json' 'none.json: expected a scene (.json) or a folder that holds some, in'
+refused 'my_program;SCENES;fan[1].json' 'expected names of scenes without brackets'
+refused "my_program;SCENES;$folder/one/fan.json;$folder/two/fan.json" "$folder/two/fan.json: expected a scene of another name"
 echo "installed in $prefix: used"
