@@ -107,6 +107,19 @@ void check_winners(const Capture& c, Lines& out) {
          "are background (-1) and differ in planes.color from the first such pixel", "planes.color", out);
 }
 
+// Lines and points have triangles, too.
+void check_window(const Capture& c, Lines& out) {
+  if (!c.without_records.contains("window")) return;
+  const auto drawn = [&](const char* array, std::ptrdiff_t pixels) {
+    if (pixels > 0) out.push_back(fmt::format("window.*: no triangle, and {} shows {} drawn pixels", array, pixels));
+  };
+  const Planes& p = c.planes;
+  drawn("planes.id", std::ranges::count_if(p.id.values(), [](std::int32_t id) { return id != kBackground; }));
+  drawn("planes.count", std::ranges::count_if(p.count.values(), [](std::uint32_t n) { return n > 0; }));
+  const auto differs = [&](const glm::vec4& color) { return color != p.color.values().front(); };
+  drawn("planes.color", std::ranges::count_if(p.color.values(), differs));
+}
+
 void check_coverage(const Capture& c, Lines& out) {
   const std::vector<Covered>& covered = c.records.covered;
   if (covered.empty() || c.planes.count.empty()) return;
@@ -148,15 +161,17 @@ void check_matrices(const Capture& c, Lines& out) {
 
 }  // namespace
 
-std::vector<std::string> contradictions_of_winners(const Capture& capture) {
+std::vector<std::string> contradictions_of(const Capture& capture, Stage stage) {
   Lines out;
-  check_winners(capture, out);
+  if (stage == Stage::window) check_window(capture, out);
+  if (stage == Stage::visibility) check_winners(capture, out);
   return out;
 }
 
 std::vector<std::string> contradictions(const Capture& capture) {
   Lines out;
   check_matrices(capture, out);
+  check_window(capture, out);
   check_coverage(capture, out);
   check_winners(capture, out);
   check_depth(capture, out);

@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "capture/capture.h"
+#include "capture/stages.h"
 
 namespace plumbline {
 
 /// Lines for people, each with the array, the numbers, and what they probably are: depths still in [-1,1], codes where
-/// numbers in [0,1] belong, rows upside down, transposed matrices, winners where nothing was drawn. Empty: none found.
+/// numbers in [0,1] belong, rows upside down, transposed matrices, winners where nothing was drawn, a picture without
+/// triangles. Empty: none found.
 std::vector<std::string> contradictions(const Capture& capture);
-/// Contradictions of planes.id with planes.color and planes.count alone.
-std::vector<std::string> contradictions_of_winners(const Capture& capture);
+/// Contradictions of what it holds of this stage, window or visibility, with planes.color and planes.count.
+std::vector<std::string> contradictions_of(const Capture& capture, Stage stage);
 
 }  // namespace plumbline

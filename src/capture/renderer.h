@@ -62,6 +62,7 @@ struct Ability {
   std::string reason;         ///< why not, where neither
   bool planes_alone = false;  ///< what it shows are planes, without records
   bool given = false;         ///< it does not show it: its capture holds the records that it was given
+  bool contradicted = false;  ///< other arrays contradict what it shows of it, by `reason`: outcome `failed`
 };
 
 struct RendererInfo {

@@ -79,6 +79,20 @@ TEST_F(Contradictions, RowsUpsideDown) {
   EXPECT_HAS(after([](Capture& c) { c.planes.count(0, 0) += 1; }), "coverage.y: 1 pixels have another number");
 }
 
+TEST_F(Contradictions, APictureWithoutTriangles) {
+  Capture c;
+  c.without_records = {"window"};
+  c.planes.color = Plane<glm::vec4>(4, 2, glm::vec4(0, 0, 0, 1));
+  c.planes.id = Plane<std::int32_t>(4, 2, kBackground);
+  EXPECT_TRUE(contradictions(c).empty());
+  c.planes.color(3, 1) = glm::vec4(1);
+  EXPECT_EQ(contradictions_of(c, Stage::window),
+            std::vector<std::string>{"window.*: no triangle, and planes.color shows 1 drawn pixels"});
+  c.planes.id(3, 1) = 0;
+  EXPECT_EQ(contradictions_of(c, Stage::window).size(), 2u);
+  EXPECT_TRUE(contradictions_of(c, Stage::visibility).empty());
+}
+
 TEST_F(Contradictions, TransposedMatrices) {
   EXPECT_HAS(after([](Capture& c) {
                for (auto& m : c.records.matrices) m.projection = glm::transpose(m.projection);

@@ -1,5 +1,6 @@
 #include "capture/renderers/replayed_renderer.h"
 
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
@@ -7,6 +8,7 @@
 
 #include "capture/complete_records.h"
 #include "capture/contradictions.h"
+#include "capture/legal.h"
 #include "scene/draw_index.h"
 
 namespace plumbline {
@@ -67,8 +69,8 @@ void add_planes_of_records(Capture& c) {
 class ReplayedRenderer : public Renderer {
  public:
   ReplayedRenderer(Capture capture, const Scene& scene, const Conventions& conventions) : capture_(std::move(capture)) {
-    const std::vector<std::string> contradicted = contradictions_of_winners(capture_);
-    if (!contradicted.empty()) capture_.planes.id = {};
+    const std::vector<std::string> of_winners = contradictions_of(capture_, Stage::visibility);
+    if (!of_winners.empty()) capture_.planes.id = {};
     add_planes_of_records(capture_);
     info_.name = capture_.renderer;
     info_.version = capture_.version;
@@ -79,14 +81,19 @@ class ReplayedRenderer : public Renderer {
       info_.stages[i].planes_alone = !here.records;
       if (!info_.stages[i].shows) info_.stages[i].reason = "the capture does not hold it";
     }
-    Ability& winners = info_[Stage::visibility];
-    if (!contradicted.empty() && !winners.shows)
-      winners.reason = "the capture contradicts itself: " + contradicted.front();
+    contradict(Stage::visibility, of_winners);
+    contradict(Stage::window, contradictions_of(capture_, Stage::window));
   }
   RendererInfo info() const override { return info_; }
   Capture capture(const Scene&, const Request&) override { return capture_; }
 
  private:
+  void contradict(Stage stage, const std::vector<std::string>& lines) {
+    if (lines.empty()) return;
+    info_[stage].contradicted = true;
+    info_[stage].reason = "the capture contradicts itself: " + lines.front();
+  }
+
   Capture capture_;
   RendererInfo info_;
 };
@@ -112,16 +119,25 @@ std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& s
   fits("lights", "matrices.light", capture.records.lights.size(), scene.lights.size());
   fits("vertices", "vertex", capture.records.vertices.size(), draws.vertices());
   fits("lit vertices", "light", capture.records.lit.size(), draws.vertices());
-  const std::size_t primitives = draws.primitives();
-  for (const ClipPolygon& p : capture.records.polygons.polygons)
-    require(p.primitive < primitives, fmt::format("primitives of the scene's {}", primitives),
-            std::to_string(p.primitive));
-  for (const WindowTriangle<double>& t : capture.records.triangles)
-    require(t.primitive < primitives, fmt::format("primitives of the scene's {}", primitives),
-            std::to_string(t.primitive));
-  for (const std::int32_t id : capture.planes.id.values())
-    require(id < static_cast<std::int64_t>(primitives), fmt::format("winners of the scene's {} primitives", primitives),
-            std::to_string(id));
+  const auto primitives = static_cast<std::int64_t>(draws.primitives());
+  const auto require_primitive = [&](std::int64_t primitive, std::int64_t least, const auto& place) {
+    if (primitive >= least && primitive < primitives) return;
+    throw std::invalid_argument(fmt::format("{}: {}: expected {} to {}, the scene's last primitive, found {}", from,
+                                            place(), least, primitives - 1, primitive));
+  };
+  const auto& polygons = capture.records.polygons.polygons;
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+    require_primitive(polygons[i].primitive, 0, [&] { return fmt::format("clip.polygon.primitive: element {}", i); });
+  const auto& triangles = capture.records.triangles;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    require_primitive(triangles[i].primitive, 0, [&] { return fmt::format("window.primitive: element {}", i); });
+  const Plane<std::int32_t>& id = capture.planes.id;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    require_primitive(id.values()[i], kBackground, [&] {
+      const auto width = static_cast<std::size_t>(id.width());
+      return fmt::format("planes.id: pixel {}, {}", i % width, i / width);
+    });
+  }
   try {
     complete_records(scene, capture, conventions);
   } catch (const std::invalid_argument& error) {

@@ -47,7 +47,9 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     if (stage == Stage::resolve || (stage == Stage::texture && !textured(c.scene))) continue;
-    if (!candidate[stage].shows) {
+    if (candidate[stage].contradicted) {
+      c.skip(name, stage, Outcome::failed, candidate[stage].reason);
+    } else if (!candidate[stage].shows) {
       c.skip(name, stage, Outcome::unsupported, candidate[stage].reason);
     } else if (info.legal && of_oracle.has(stage) && theirs.legal.empty()) {
       c.skip(name, stage, Outcome::unsupported,

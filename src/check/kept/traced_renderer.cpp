@@ -77,7 +77,7 @@ Hash hash_of(const RendererInfo& info) {
   hasher.add_text(info.name);
   hasher.add_text(info.version);
   for (const Ability& a : info.stages) {
-    hasher.add_value(std::array{a.shows, a.runs, a.planes_alone, a.given});
+    hasher.add_value(std::array{a.shows, a.runs, a.planes_alone, a.given, a.contradicted});
     hasher.add_text(a.reason);
   }
   hasher.add_value(std::array{static_cast<int>(info.profile), info.legal ? 1 : 0});

@@ -106,9 +106,9 @@ class Program : public Renderer {
     everything.records = StageSet::all();
     Capture left = capture_of(scene, everything);
     if (program_.probes) probe(scene, left);
-    const std::unique_ptr<Renderer> replayed =
-        make_replayed_renderer(std::move(left), scene, "--program", process_->info().conventions);
+    const std::unique_ptr<Renderer> replayed = replayed_of(std::move(left), scene);
     info_ = replayed->info();
+    if (program_.probes) info_[Stage::visibility].contradicted = false;  // plumb's own pictures tell the winners
     for (std::size_t i = 0; i < given(program_.from); ++i) {
       info_.stages[i] = {false, false, fmt::format("given: --from {}", program_.from), false, true};
     }
@@ -121,6 +121,14 @@ class Program : public Renderer {
     try {
       return process_->capture(scene, request);
     } catch (const OverBudget& error) {
+      throw RendererFailed(error.what());
+    }
+  }
+
+  std::unique_ptr<Renderer> replayed_of(Capture left, const Scene& scene) const {
+    try {
+      return make_replayed_renderer(std::move(left), scene, "program", process_->info().conventions);
+    } catch (const std::invalid_argument& error) {
       throw RendererFailed(error.what());
     }
   }

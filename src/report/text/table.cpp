@@ -71,11 +71,19 @@ std::string table_rows(const SceneVerdict& verdict) {
 std::string failure_lines(const SceneVerdict& verdict, std::span<const Stage> unjudged,
                           const std::string& repeat_command) {
   std::string out;
-  for (const Comparison& c : verdict.comparisons) {
-    if (c.outcome == Outcome::failed || c.outcome == Outcome::missing) {
-      out +=
-          fmt::format("{} {}: {}, {}: {}\n", name_of(c.outcome), c.scene, title_of(c.judge), name_of(c.stage), c.note);
+  const auto& rows = verdict.comparisons;
+  for (auto c = rows.begin(); c != rows.end(); ++c) {
+    if (c->outcome != Outcome::failed && c->outcome != Outcome::missing) continue;
+    const auto is_same = [&](const Comparison& other) {
+      return other.outcome == c->outcome && other.stage == c->stage && other.note == c->note;
+    };
+    if (std::any_of(rows.begin(), c, is_same)) continue;  // in the first one's line
+    std::vector<std::string> judges;
+    for (const Comparison& same : rows) {
+      if (is_same(same)) judges.push_back(title_of(same.judge));
     }
+    out += fmt::format("{} {}: {}, {}: {}\n", name_of(c->outcome), c->scene, fmt::join(judges, "; "), name_of(c->stage),
+                       c->note);
   }
   for (Stage stage : unjudged) {
     out += fmt::format("unjudged {}: no reference judged {}\n", verdict.scene, name_of(stage));
