@@ -38,12 +38,36 @@ SceneByConventions::SceneByConventions(const Scene& scene, const Conventions& c)
   out.frame.pass.shift += 0.5 - c.sample;
   if (c.depth_planes == C::DepthPlanes::clamped) out.depth_clamp = true;
   if (c.provoking_vertex == C::Provoking::first) turn_corners(out);
-  if (c.depth_format == C::Depth::z16) out.frame.depth = DepthFormat::z16;
-  if (c.depth_format == C::Depth::z24) out.frame.depth = DepthFormat::z24;
-  if (c.depth_format == C::Depth::z32f) out.frame.depth = DepthFormat::z32f;
+  out.frame.depth = depth_format_of(scene.frame, c);
 }
 
+DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& c) {
+  switch (c.depth_format) {
+    case C::Depth::as_asked: break;
+    case C::Depth::z16: return DepthFormat::z16;
+    case C::Depth::z24: return DepthFormat::z24;
+    case C::Depth::z32f: return DepthFormat::z32f;
+  }
+  return frame.depth;
+}
+
+namespace {
+
+// Window positions by which a pixel is sampled at its centre.
+void move_to_centres(const glm::dvec2& sample, std::vector<WindowTriangle<double>>& triangles) {
+  const glm::dvec2 by = 0.5 - sample;
+  for (WindowTriangle<double>& triangle : triangles) {
+    for (WindowVertex<double>& v : triangle.v) {
+      v.p_win.x += by.x, v.p_win.y += by.y;
+      v.snapped += glm::ivec2(glm::round(by * static_cast<double>(kSubpixel)));
+    }
+  }
+}
+
+}  // namespace
+
 void to_dialect(const Conventions& c, Capture& capture) {
+  move_to_centres(c.sample, capture.records.triangles);
   for (double& z : capture.planes.depth.values()) z = to_window(c.depth_range, z);
   for (double& z : capture.records.depth) z = to_window(c.depth_range, z);
   if (c.rows == C::Rows::from_bottom) return;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/by_conventions.h"
 #include "scene/draw_index.h"
 
 namespace plumbline {
@@ -180,9 +181,11 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   sort_triangles(r);
   sort_fragments(r);
   capture.derived.clear();
-  const double codes = depth_scale(scene.frame.depth);
+  const DepthFormat format = depth_format_of(scene.frame, conventions);
+  const double codes = depth_scale(format);
   for (double& z : capture.planes.depth.values()) {
     if (capture.depth_in_float && codes > 0) z = std::nearbyint(z * codes) / codes;
+    if (format == DepthFormat::z32f) z = static_cast<float>(z);  // a buffer of doubles holds the float, and more
   }
   capture.depth_in_float = false;
 }

@@ -157,6 +157,22 @@ TEST(CompleteRecords, take_a_depth_in_float_for_the_nearest_code) {
   EXPECT_EQ(capture.planes.depth.values(), was.planes.depth.values());
 }
 
+// A renderer's buffer may hold doubles: what it declares is as fine.
+TEST(CompleteRecords, take_depths_for_those_of_the_declared_format) {
+  const Scene scene = load_scene(kScenes + "coverage/shared_edges.json", {});
+  Conventions conventions;
+  const auto stored = [&](Conventions::Depth format, double z, bool in_float) {
+    conventions.depth_format = format;
+    Capture capture = whole_capture(scene);
+    capture.planes.depth(0, 0) = z, capture.depth_in_float = in_float;
+    complete_records(scene, capture, conventions);
+    return capture.planes.depth(0, 0);
+  };
+  EXPECT_EQ(stored(Conventions::Depth::z32f, 0.1, false), static_cast<double>(0.1f));
+  EXPECT_EQ(stored(Conventions::Depth::as_asked, 0.1, false), 0.1);
+  EXPECT_EQ(stored(Conventions::Depth::z16, static_cast<double>(0.1f), true), 6554.0 / 65535);
+}
+
 void expect_refused(const Scene& scene, Capture capture, const std::string& says) {
   try {
     complete_records(scene, capture);

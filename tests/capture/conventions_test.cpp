@@ -118,6 +118,22 @@ TEST(Conventions, ACaptureBecomesTheDialects) {
   EXPECT_EQ(capture.records.covered[0].y, 2);
 }
 
+// A renderer that samples a pixel at its corner hands out its own window positions.
+TEST(Conventions, WindowPositionsAreMovedToCentres) {
+  Capture capture;
+  capture.records.triangles.resize(1);
+  capture.records.triangles[0].v[2].p_win = {3, 4, 0.25};
+  capture.records.triangles[0].v[2].snapped = {5, 6};
+  C c;
+  Capture same = capture;
+  to_dialect(c, same);
+  EXPECT_EQ(same.records.triangles[0].v[2].p_win, Vec3<double>(3, 4, 0.25));
+  c.sample = {0, 1};
+  to_dialect(c, capture);
+  EXPECT_EQ(capture.records.triangles[0].v[2].p_win, Vec3<double>(3.5, 3.5, 0.25));
+  EXPECT_EQ(capture.records.triangles[0].v[2].snapped, glm::ivec2(5 + 128, 6 - 128));
+}
+
 TEST(Conventions, ASceneIsAlteredOnlyWhereItMustBe) {
   Scene scene;
   scene.meshes.emplace_back().triangles = {{0, 1, 2}};

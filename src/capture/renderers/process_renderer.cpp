@@ -236,9 +236,9 @@ class ProcessRenderer : public Renderer {
         fail(fmt::format("left a capture of {} x {} pixels where the scene has {} x {}", capture.width, capture.height,
                          scene.frame.width, scene.frame.height));
       }
+      if (spec_.give && request.records.has(Stage::coverage)) spec_.give(scene, capture);
       to_dialect(spec_.conventions, capture);
       if (spec_.raw_depth) capture.depth_in_float = false;
-      if (spec_.give && request.records.has(Stage::coverage)) spec_.give(scene, capture);
       complete_records(scene, capture, spec_.conventions);
       visit_capture(KeepOnly{request.records}, capture);
       capture.renderer = spec_.name;

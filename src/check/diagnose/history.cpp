@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "capture/by_conventions.h"
 #include "capture/fragment_outcomes.h"
 #include "check/judge/scene_case.h"
 #include "scene/antialias.h"
@@ -294,7 +295,11 @@ void account(const Reference& r, std::size_t pixels, auto ask, auto put) {
   }
 }
 
-std::vector<PixelHistory> histories(const Scene& pass, const Reference& r, const std::vector<glm::ivec2>& pixels) {
+// `conventions`: by which the reference draws the pass; the candidate draws it as it is.
+std::vector<PixelHistory> histories(const Scene& given, const Reference& r, const Conventions& conventions,
+                                    const std::vector<glm::ivec2>& pixels) {
+  const SceneByConventions seen(given, conventions);
+  const Scene& pass = *seen;
   std::vector<PixelHistory> out(pixels.size());
   const auto ask = [&] {
     const RendererInfo info = r.renderer->info();
@@ -304,6 +309,7 @@ std::vector<PixelHistory> histories(const Scene& pass, const Reference& r, const
     if (info[Stage::coverage].runs) request.records.add(Stage::window);  // it has such triangles
     request.pixels = pixels;
     request.legal = info.legal;
+    request.conventions = conventions;
     const Capture drawn = r.renderer->capture(pass, request);
     std::optional<Capture> all;
     request.legal = false;
@@ -355,7 +361,8 @@ History pixel_history(const Scene& scene, Renderer& candidate, std::span<const R
       for (const SampleHistory& s : out.samples) {
         if (s.pass == pass) pixels.push_back(s.pixel);
       }
-      std::vector<PixelHistory> of_pass = histories(passes[pass], r, pixels);
+      const Conventions by = r.renderer == &candidate ? Conventions() : candidate.info().conventions;
+      std::vector<PixelHistory> of_pass = histories(passes[pass], r, by, pixels);
       auto next = of_pass.begin();
       for (SampleHistory& s : out.samples) {
         if (s.pass == pass) s.renderers.push_back(std::move(*next++));
