@@ -45,6 +45,25 @@ TEST(Conformance, OfAScene) {
   EXPECT_EQ(conformance_of(verdict("a/b", {open})), Conformance::holds);
 }
 
+TEST(Conformance, TheFirstWrongStageIsTheOneThatIsWrongByItself) {
+  const Comparison unseen = row("exact", Kind::from_scene, Stage::visibility, Outcome::different);
+  const auto alone = [](Stage stage) { return row("exact", Kind::per_stage, stage, Outcome::different); };
+  const auto first = [](std::vector<Comparison> rows) { return first_wrong(verdict("a/b", std::move(rows)))->stage; };
+  EXPECT_EQ(first({kLegal, unseen}), Stage::visibility);
+  EXPECT_EQ(first({kLegal, unseen, alone(Stage::depth)}), Stage::depth) << "its depths are not seen";
+  const Comparison legal = row("exact", Kind::from_scene, Stage::coverage, Outcome::ambiguous_only);
+  EXPECT_EQ(first({legal, unseen, alone(Stage::coverage)}), Stage::visibility) << "by another tie rule, perhaps";
+  EXPECT_EQ(first_wrong(verdict("a/b", {kLegal, alone(Stage::depth)})), nullptr) << "nothing illegal comes of it";
+}
+
+TEST(Conformance, OnlyWhatWasComparedIsRight) {
+  const SceneVerdict of = verdict("a/b", {kHolds, kIllegal, kLegal, kLacking});
+  EXPECT_TRUE(is_right(of, Stage::merge));
+  EXPECT_FALSE(is_right(of, Stage::depth)) << "one row finds it wrong";
+  EXPECT_FALSE(is_right(of, Stage::clip)) << "nobody judged it";
+  EXPECT_FALSE(is_right(verdict("a/b", {kLegal}), Stage::depth)) << "what is open is not known";
+}
+
 TEST(Conformance, OfASuite) {
   std::vector<SceneVerdict> verdicts = {verdict("clip/a", {kHolds}), verdict("clip/b", {kIllegal}),
                                         verdict("fog/a", {kUnable}), verdict("fog/b", {kLacking}),

@@ -58,7 +58,20 @@ const check::Comparison* first_wrong(const check::SceneVerdict& verdict) {
     const bool wrong = c.outcome == check::Outcome::different && !check::is_legal(verdict, c.stage);
     if (wrong && (first == nullptr || c.stage < first->stage)) first = &c;
   }
-  return first;
+  const check::Comparison* by_itself = check::first_different(verdict);
+  const bool is_cause = first != nullptr && by_itself->judge.kind == check::Kind::per_stage &&
+                        by_itself->stage != Stage::coverage;  // exact's tie rule need not be the program's
+  return is_cause ? by_itself : first;
+}
+
+bool is_right(const check::SceneVerdict& verdict, Stage stage) {
+  bool holds = false;
+  for (const check::Comparison& row : verdict.comparisons) {
+    if (row.stage != stage || !check::votes(row)) continue;
+    if (check::is_failure(row.outcome)) return false;
+    holds = holds || row.outcome == check::Outcome::equal || row.outcome == check::Outcome::within;
+  }
+  return holds;
 }
 
 Conformance conformance_of(const check::SceneVerdict& verdict) {

@@ -25,8 +25,12 @@ enum class Conformance {
 Conformance conformance_of(const check::SceneVerdict& verdict);
 /// Why a scene is unable, in the program's words where it has said why.
 std::string unable_reason(const check::SceneVerdict& verdict);
-/// The first stage that is wrong, and that no oracle calls legal; null: none.
+/// The first stage that is wrong, and that no oracle calls legal; where there is one, but check::first_different() names
+/// a stage that is wrong by itself, that stage. Null: none.
 const check::Comparison* first_wrong(const check::SceneVerdict& verdict);
+
+/// Whether a row finds the stage equal or within its tolerance, and none finds it wrong.
+bool is_right(const check::SceneVerdict& verdict, Stage stage);
 
 /// Scenes of one feature: a folder of the suite.
 struct FeatureTally {
