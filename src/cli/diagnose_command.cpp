@@ -98,11 +98,15 @@ struct Subject {
   std::optional<report::PageFolder> page;
 };
 
-// Lines of the capture's contradictions; empty: none.
-std::string contradiction_lines(const Capture& capture) {
+// Lines of the capture's contradictions, with those of what the renderer has taken out of it; empty: none.
+std::string contradiction_lines(const Capture& capture, const RendererInfo& renderer) {
   std::string out;
   for (const std::string& line : contradictions(capture)) out += fmt::format("  {}\n", line);
-  return out.empty() ? out : "the capture contradicts itself:\n" + out + "\n";
+  out = out.empty() ? out : "the capture contradicts itself:\n" + out;
+  for (const Stage stage : {Stage::window, Stage::visibility}) {
+    if (renderer[stage].contradicted) out += fmt::format("{} FAILED: {}\n", name_of(stage), renderer[stage].reason);
+  }
+  return out.empty() ? out : out + "\n";
 }
 
 // Lines of declared conventions that are mistakes; the stages are judged as if they were none.
@@ -125,11 +129,11 @@ std::string likely_line(const Lookalikes& found) {
 
 // Known faults that explain the frame that another renderer left, where one explains most of it; of a frame that holds,
 // all of it: what is legal may still be by another rule.
-std::string known_faults(const Scene& scene, const Capture& left, const Conventions& conventions,
+std::string known_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
                          const check::Diagnosis& diagnosis) {
   constexpr std::size_t kMostPrimitives = 200'000;  // each fault is a picture
   if (left.planes.color.empty() || DrawIndex(scene).primitives() > kMostPrimitives) return "";
-  const Lookalikes found = lookalikes(scene, frame_of(left, conventions, diagnosis.verdict));
+  const Lookalikes found = lookalikes(scene, frame_of(left, renderer, diagnosis.verdict));
   if (found.blank && !holds(diagnosis)) return "\n" + found.text;
   const std::vector<std::string> likely = likely_of(found, diagnosis.verdict);
   if (likely.empty() || (holds(diagnosis) && !found.whole)) return "";
@@ -178,8 +182,8 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   if (outside) {
     open = convention_notes(o.candidate.conventions);
     const Capture left = candidate->capture(scene, Request{});
-    against_itself = convention_lines(candidate->info().conventions) + contradiction_lines(left);
-    faults = known_faults(scene, left, candidate->info().conventions, diagnosis);
+    against_itself = convention_lines(candidate->info().conventions) + contradiction_lines(left, candidate->info());
+    faults = known_faults(scene, left, candidate->info(), diagnosis);
   }
   std::string out = fmt::format("{}: {}\n\n{}{}", scene.path, candidate->info().name, against_itself,
                                 report::diagnosis_text(diagnosis)) +
@@ -187,7 +191,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   std::string history, history_text;
   if (subject.pixel) {
     const check::History known = check::pixel_history(scene, *candidate, references.list, *subject.pixel);
-    history_text = report::history_text(scene, known);
+    history_text = report::history_text(*SceneByConventions(scene, candidate->info().conventions), known);
     out += "\n" + history_text;
     history = report::history_json(scene, known);
   }

@@ -1,13 +1,18 @@
 // plumb learn: a renderer's conventions, from its pictures and depths.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/atomic_path.h"
 #include "capture/files/conventions_file.h"
 #include "capture/files/image_file.h"
+#include "capture/same_bits.h"
 #include "cli/commands.h"
 #include "cli/options/outputs.h"
 #include "cli/options/program_argument.h"
@@ -26,6 +31,44 @@ std::unique_ptr<Renderer> asked_renderer(const LearnOptions& o) {
   std::unique_ptr<Renderer> renderer = make_renderer(o.with);
   if (renderer == nullptr) throw std::invalid_argument(fmt::format("this plumb was built without {}", o.with));
   return renderer;
+}
+
+// A renderer, and the probes that it has drawn.
+class Remembering : public Renderer {
+ public:
+  explicit Remembering(std::unique_ptr<Renderer> inner) : inner_(std::move(inner)) {}
+  RendererInfo info() const override { return inner_->info(); }
+  Capture capture(const Scene& scene, const Request& request) override {
+    Capture out = inner_->capture(scene, request);
+    drawn_.emplace_back(scene, out.planes);
+    return out;
+  }
+  const std::vector<std::pair<Scene, Planes>>& drawn() const { return drawn_; }
+
+ private:
+  std::unique_ptr<Renderer> inner_;
+  std::vector<std::pair<Scene, Planes>> drawn_;
+};
+
+// A finding: probes that a server draws otherwise when it is started for each. Empty: none, or it is no server.
+std::string kept_state(const ProgramArgument& program, const std::vector<std::pair<Scene, Planes>>& drawn) {
+  if (program.command.find("{serve}") == std::string::npos) return "";
+  const auto is_other = [&](const std::pair<Scene, Planes>& probe) {
+    try {
+      const Planes alone = make_probed_program(program)->capture(probe.first, Request{}).planes;
+      return !have_same_bits(alone.color, probe.second.color) || !have_same_bits(alone.depth, probe.second.depth);
+    } catch (const RendererFailed&) {
+      return true;
+    } catch (const Unsupported&) {
+      return true;
+    }
+  };
+  const auto others = std::ranges::count_if(drawn, is_other);
+  if (others == 0) return "";
+  return fmt::format(
+      "{} of {} probes are drawn otherwise when the program is started for each alone: it keeps a state (is the frame "
+      "cleared, and its depths?), or does not set its memory",
+      others, drawn.size());
 }
 
 // Before the work, as it may be refused.
@@ -50,11 +93,11 @@ int learn(const LearnOptions& o) {
   const Output outputs[] = {{"--output", o.output}};
   require_outputs(outputs, {}, {});
   require_folder({"--pictures", o.pictures});
-  const std::unique_ptr<Renderer> renderer = asked_renderer(o);
+  Remembering renderer(asked_renderer(o));
   make_folder(o.pictures);
   learn::Learned learned;
   try {
-    learned = learn::learn(*renderer);
+    learned = learn::learn(renderer);
   } catch (const Unsupported& e) {
     throw std::invalid_argument(fmt::format(
         "not learned: expected a rectangle drawn (unlit triangles, depth_func always), found unsupported: {}",
@@ -63,6 +106,8 @@ int learn(const LearnOptions& o) {
     fmt::print("failed: {}\n", e.what());
     return kDiffers;
   }
+  if (std::string state = kept_state(o.candidate, renderer.drawn()); !state.empty())
+    learned.conventions.unexplained.push_back(std::move(state));
   fmt::print("{}", learn::learned_text(learned));
   if (!o.output.empty()) write_file(o.output, conventions_text(learned.conventions));
   if (!o.pictures.empty()) write_pictures(o.pictures, learned);

@@ -15,6 +15,7 @@
 
 #include "capture/by_conventions.h"
 #include "cli/options/renderers.h"
+#include "report/text/conformance.h"
 #include "scene/draw_index.h"
 
 namespace plumbline::cli {
@@ -28,10 +29,11 @@ void encode(glm::vec4& color) {
     color[i] = static_cast<float>(srgb_encoded(std::clamp(static_cast<double>(color[i]), 0.0, 1.0)));
 }
 
-ColorAndDepth drawn(const Scene& scene, const Conventions& conventions, const std::string& fault) {
+ColorAndDepth drawn(const Scene& scene, const Conventions& conventions, const std::string& fault,
+                    Sides sides = Sides::cut) {
   Request request;
   request.planes = WantedPlanes::picture;
-  Planes planes = make_candidate(fault)->capture(scene, request).planes;
+  Planes planes = make_candidate(fault, sides)->capture(scene, request).planes;
   if (conventions.color_encoding == Conventions::Encoding::srgb) std::ranges::for_each(planes.color.values(), encode);
   return {std::move(planes.color), std::move(planes.depth)};
 }
@@ -258,11 +260,32 @@ std::string said_of_blank(const FrameFormat& frame, const ColorAndDepth& given, 
       color.r, color.g, color.b);
 }
 
-// All known mistakes.
+// Whether the fault is what the conventions declare.
+bool is_declared(const std::string_view fault, const Conventions& conventions) {
+  constexpr auto kDown = Conventions::Rounding::down;
+  return (fault == "merge.truncated" && conventions.color_rounding == kDown) ||
+         (fault == "depth.truncated" && conventions.depth_rounding == kDown);
+}
+
+// All known mistakes, but of stages that are right.
 std::vector<Lookalike> mistakes(const Scene& scene, const GivenFrame& given, const ColorAndDepth& right,
                                 const Measure& measure) {
+  const auto corners = [&](Sides sides) {
+    const Request clipped{{Stage::clip}, false, {}, {}, Request().memory_budget, WantedPlanes::none};
+    return make_candidate("", sides)->capture(scene, clipped).records.polygons.vertices.size();
+  };
+  const bool sides_cut = corners(Sides::cut) != corners(Sides::kept);
+  // Pixels that the fault leaves: in a renderer that cuts polygons at the frame's sides, or in one that does not.
   const auto left_by = [&](const Scene& drawn_scene, const std::string& fault) {
-    return measure(drawn(drawn_scene, given.conventions, fault));
+    Apart out = measure(drawn(drawn_scene, given.conventions, fault));
+    if (!sides_cut) return out;
+    const Apart kept = measure(drawn(drawn_scene, given.conventions, fault, Sides::kept));
+    std::ranges::transform(out, kept, out.begin(), [](std::size_t a, std::size_t b) { return std::min(a, b); });
+    return out;
+  };
+  const auto is_right = [&](std::string_view stage) {
+    const auto at = std::ranges::find(kStageNames, stage);  // "file" is none
+    return at != kStageNames.end() && given.right.has(static_cast<Stage>(at - kStageNames.begin()));
   };
   const Draws draws = [&](const Scene& drawn_scene) { return drawn(drawn_scene, given.conventions, ""); };
   std::vector<Lookalike> all = of_files(right, measure);
@@ -276,8 +299,10 @@ std::vector<Lookalike> mistakes(const Scene& scene, const GivenFrame& given, con
   all.push_back({"visibility", "visibility.farthest_kept",
                  "the depth test is turned round, and the depth cleared to the other end",
                  left_by(farthest_kept(scene), "")});
+  std::erase_if(all, [&](const Lookalike& l) { return is_right(l.stage); });
   for (const FaultInfo& fault : fault_infos()) {
     const std::string name(fault.name);
+    if (is_right(fault.stage) || is_declared(name, given.conventions)) continue;
     all.push_back({std::string(fault.stage), name, std::string(fault.changes), left_by(scene, name)});
   }
   return all;
@@ -333,8 +358,14 @@ Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict
 
 }  // namespace
 
-GivenFrame frame_of(const Capture& left, const Conventions& conventions, const check::SceneVerdict& verdict) {
-  return {{left.planes.color, left.planes.depth}, conventions, legal_pixels(left.planes, verdict), true};
+GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict) {
+  GivenFrame out{{left.planes.color, left.planes.depth}, renderer.conventions, legal_pixels(left.planes, verdict)};
+  out.has_alpha = true;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Stage::merge); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (renderer[stage].given || report::is_right(verdict, stage)) out.right.add(stage);
+  }
+  return out;
 }
 
 std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict) {
@@ -349,7 +380,7 @@ std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVe
   return out;
 }
 
-std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const Conventions& conventions,
+std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
                                        const check::SceneVerdict& verdict) {
   constexpr std::size_t kMostPrimitives = 20'000, kMostPixels = 200'000;  // each fault is a picture
   const Plane<glm::vec4>& color = left.planes.color;
@@ -357,7 +388,7 @@ std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, 
       scene.frame.antialias.kind != Antialias::Kind::none || color.width() != scene.frame.width ||
       color.height() != scene.frame.height)
     return {};
-  const Lookalikes found = lookalikes(scene, frame_of(left, conventions, verdict));
+  const Lookalikes found = lookalikes(scene, frame_of(left, renderer, verdict));
   if (found.blank) return {"nothing of the scene is seen"};
   return likely_of(found, verdict);
 }

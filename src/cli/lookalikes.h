@@ -8,6 +8,7 @@
 #include "capture/capture.h"
 #include "capture/conventions.h"
 #include "capture/plane.h"
+#include "capture/renderer.h"
 #include "check/verdict/verdict.h"
 #include "scene/scene.h"
 
@@ -25,6 +26,7 @@ struct GivenFrame : ColorAndDepth {
   /// 1: the pixel is legal. Where it differs from ours, it counts for no fault, and against none. Empty: not known.
   Plane<std::uint8_t> is_legal;
   bool has_alpha = false;  ///< else nothing is told by alpha
+  StageSet right{};        ///< stages that are judged right, or given: their faults are no causes
 };
 
 /// Known faults whose frame is nearer to the one given than ours is, the nearest first, and how much of what differs
@@ -40,14 +42,14 @@ struct Lookalikes {
   bool blank = false;             ///< all pixels have one colour, as by many faults: none is named, `text` says it
 };
 Lookalikes lookalikes(const Scene& scene, const GivenFrame& given);
-/// The frame that a capture holds, as `verdict` judges it.
-GivenFrame frame_of(const Capture& left, const Conventions& conventions, const check::SceneVerdict& verdict);
+/// The frame that a capture of `renderer` holds, as `verdict` judges it.
+GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict);
 /// found.likely and found.ties; empty where fewer pixels differ from ours (found.apart) than half of those that a row finds different
 /// at merge: the fault then resembles a legal rule of the renderer, not what is wrong with it.
 std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
 /// The likely faults of a capture, which it does not tell apart, or "nothing of the scene is seen" where its pixels have
 /// one colour; empty also where the scene is too large for a picture of each fault.
-std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const Conventions& conventions,
+std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
                                        const check::SceneVerdict& verdict);
 
 }  // namespace plumbline::cli

@@ -1,12 +1,14 @@
 #include "cli/scene_judge.h"
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "capture/same_bits.h"
 #include "check/golden/golden.h"
 #include "check/judge/judge.h"
 #include "cli/check_failures.h"
@@ -18,12 +20,6 @@
 namespace plumbline::cli {
 
 namespace {
-
-template <class T>
-bool have_same_bits(const Plane<T>& a, const Plane<T>& b) {
-  return a.size() == b.size() &&
-         (a.empty() || std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0);
-}
 
 // The frame that the program draws when it is started for this scene alone; none: it fails, refuses the scene, or is
 // slow.
@@ -41,7 +37,7 @@ std::optional<Planes> drawn_alone(ProgramArgument program, const Scene& scene) {
 
 // Why a program's scene is wrong, or failed: what it drew before, or memory that it has not set; else known faults.
 std::vector<std::string> causes_of(const ProgramArgument& program, const Scene& scene, const Capture& left,
-                                   const Conventions& conventions, const check::SceneVerdict& verdict) {
+                                   const RendererInfo& renderer, const check::SceneVerdict& verdict) {
   const report::Conformance ended = report::conformance_of(verdict);
   const bool is_wrong = ended == report::Conformance::differs, is_failed = ended == report::Conformance::failed;
   const bool has_passes = scene.frame.antialias.kind != Antialias::Kind::none;  // which are drawn, not the scene
@@ -52,7 +48,7 @@ std::vector<std::string> causes_of(const ProgramArgument& program, const Scene& 
   if (is_failed) return {};
   const bool is_alike =
       !alone || (have_same_bits(left.planes.color, alone->color) && have_same_bits(left.planes.depth, alone->depth));
-  if (is_alike) return likely_faults(scene, left, conventions, verdict);
+  if (is_alike) return likely_faults(scene, left, renderer, verdict);
   return {"drawn otherwise by the program when it is started for this scene alone"};
 }
 
@@ -84,11 +80,13 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothC
                     : check::judge(scene, *candidate_, asked.list, wanted, ~std::uint64_t{0}, asked.arbiters);
   check::SceneVerdict& verdict = out.verdict;
   if (outside && rules_->names_causes)
-    verdict.causes = causes_of(o.candidate, scene, drawn.candidate, candidate_->info().conventions, verdict);
+    verdict.causes = causes_of(o.candidate, scene, drawn.candidate, candidate_->info(), verdict);
   if (rules_->goldens)
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),
                       std::back_inserter(verdict.comparisons));
   out.settled = settle_and_explain(verdict, o, rules_->expectations, rules_->today);
+  if (!verdict.causes.empty() && verdict.causes.front().starts_with("drawn "))
+    verdict.failure += fmt::format("  {}: the command may not repeat it\n", verdict.causes.front());
   out.failure = verdict.failure;
   if (!verdict.failure.empty() && !o.failures.empty()) {
     out.failure += leave_report(o.failures, scene, verdict, *candidate_, references_.list);

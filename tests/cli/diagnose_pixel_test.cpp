@@ -18,6 +18,20 @@ TEST_F(Cli, a_pixels_history_follows_the_diagnosis) {
   EXPECT_NE(json.find("\"fate\": \"winner\""), std::string::npos);
 }
 
+// Corners half a pixel off are right in a renderer that samples pixels at their corners.
+TEST_F(Cli, a_pixels_history_is_by_the_conventions) {
+  const std::string by = "diagnose " + kSharedEdges +
+                         " --against exact --pixel 98,5 --program '" PLUMBLINE_PLUMB
+                         " capture {scene} {output} --fault window.half_pixel_off'";
+  const Outcome none = plumb(by);
+  EXPECT_TRUE(none.says("exact: legal here: primitive 24,")) << none.text;
+  EXPECT_TRUE(none.says(" = code ")) << none.text;
+  write(at("c.json"), R"({"format": "plumbline conventions", "version": 1, "sample": [0, 0], "depth_format": "z32f"})");
+  const Outcome declared = plumb(by + " --conventions " + at("c.json"));
+  EXPECT_TRUE(declared.says("exact: legal here: primitive 23,")) << declared.text;
+  EXPECT_FALSE(declared.says(" = code ")) << declared.text;
+}
+
 TEST_F(Cli, without_it_there_is_none) {
   const Outcome run = plumb("diagnose " + kWindows + " --against exact --json " + at("out.json"));
   EXPECT_FALSE(run.says("\npixel ")) << run.text;

@@ -30,6 +30,26 @@ TEST_F(Cli, learn_finds_and_writes_a_programs_conventions) {
   EXPECT_EQ(plumb("diagnose " + kSharedEdges + kLearnedProgram + " --conventions " + at("c.json")).code, 0);
 }
 
+// A server that draws nothing new after its eighth probe.
+TEST_F(Cli, learn_finds_that_a_server_keeps_a_state) {
+  write(at("mine"),
+        "#!/bin/sh\n"
+        "kept=$TMPDIR/kept; n=0\n"
+        "while IFS=\"$(printf '\\t')\" read -r in out; do\n" PLUMBLINE_C_RENDERER
+        " \"$in\" \"$out\" 2>/dev/null || { echo unsupported; continue; }\n"
+        "  n=$((n + 1)); color=planes.color.bin\n"
+        "  [ $n != 8 ] || cp -r \"$out\" \"$kept\"\n"
+        "  if [ $n -gt 8 ] && [ $(wc -c <\"$out/$color\") = $(wc -c <\"$kept/$color\") ]; then cp \"$kept/$color\" "
+        "\"$out\"; fi\n"
+        "  echo ok\n"
+        "done\n");
+  fs::permissions(at("mine"), fs::perms::owner_all);
+  const Outcome run = plumb("learn --program '" + at("mine") + " {serve}'");
+  EXPECT_EQ(run.code, 1) << run.text;
+  EXPECT_TRUE(run.says("probes are drawn otherwise when the program is started for each alone")) << run.text;
+  EXPECT_FALSE(plumb("learn" + kLearnedProgram).says("drawn otherwise"));
+}
+
 // Leaves colour and depth alone in a capture.
 void leave_the_frame(const std::string& path) {
   std::ifstream in(path);
@@ -52,6 +72,21 @@ TEST_F(Cli, a_declared_tie_rule_is_judged_by_the_frame_alone) {
   const Outcome run = plumb(by + " --conventions " + at("c.json"));
   EXPECT_EQ(run.code, 1) << run.text;
   EXPECT_TRUE(run.says("coverage.top_for_bottom")) << run.text;
+}
+
+// By its records too, whose coverage exact makes by the dialect's rule.
+TEST_F(Cli, a_declared_tie_rule_is_no_difference_of_the_records) {
+  const std::string scene = kScenes + "coverage/on_centres.json";
+  ASSERT_EQ(plumb("capture " + scene + " " + at("capture") + " --fault coverage.top_for_bottom").code, 0);
+  const std::string by = "diagnose " + scene + " --against exact --capture " + at("capture") + " --conventions ";
+  write(at("c.json"), declared(R"("tie_rule": "left_top")"));
+  const Outcome right = plumb(by + at("c.json"));
+  EXPECT_EQ(right.code, 0) << right.text;
+  EXPECT_TRUE(right.says("wrong by itself: none\n")) << right.text;
+  write(at("other.json"), declared(R"("tie_rule": "left_bottom")"));
+  const Outcome other = plumb(by + at("other.json"));
+  EXPECT_EQ(other.code, 1) << other.text;
+  EXPECT_TRUE(other.says("wrong by itself: coverage")) << other.text;
 }
 
 TEST_F(Cli, a_mistaken_convention_is_one_finding_and_the_rest_is_judged) {

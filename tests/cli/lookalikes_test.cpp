@@ -18,11 +18,12 @@ Scene scene_of(std::string_view name) {
   return load_scene(std::string(PLUMBLINE_SOURCE_DIR "/tests/scenes/").append(name), {});
 }
 
-GivenFrame drawn(const Scene& scene, const std::string& fault, const Conventions& conventions = {}) {
+GivenFrame drawn(const Scene& scene, const std::string& fault, const Conventions& conventions = {},
+                 Sides sides = Sides::cut) {
   const SceneByConventions seen(scene, conventions);
   Request request;
   request.planes = WantedPlanes::picture;
-  const Planes planes = make_candidate(fault)->capture(*seen, request).planes;
+  const Planes planes = make_candidate(fault, sides)->capture(*seen, request).planes;
   return {{planes.color, planes.depth}, conventions, {}};
 }
 
@@ -33,6 +34,14 @@ void mark(GivenFrame& given, std::size_t pixels) {
     given.color.values()[i] = glm::vec4(0.3f, 0.6f, 0.9f, 1);
     given.is_legal.values()[i] = 1;
   }
+}
+
+check::Comparison row(const check::JudgeId& judge, Stage stage, std::vector<glm::ivec2> wrong,
+                      std::uint64_t differing) {
+  check::Measurement m;
+  m.unit = "bound", m.items = 100, m.differing = differing, m.max_difference = m.max_ratio = differing > 0 ? 2 : 0;
+  m.differing_at = std::move(wrong);
+  return check::judged("scene", judge, stage, std::move(m));
 }
 
 TEST(Lookalikes, none_of_the_right_frame) {
@@ -145,6 +154,49 @@ TEST(Lookalikes, are_drawn_by_the_conventions) {
   EXPECT_FALSE(lookalikes(scene, given).whole);
 }
 
+// Attributes that are not in perspective are others where a polygon is cut.
+TEST(Lookalikes, of_renderers_that_leave_the_sides_to_the_raster) {
+  const Scene scene = scene_of("clip/crowd.json");
+  const GivenFrame kept = drawn(scene, "attributes.affine", {}, Sides::kept);
+  EXPECT_NE(kept.color.values(), drawn(scene, "attributes.affine").color.values()) << "else nothing is tested";
+  const Lookalikes found = lookalikes(scene, kept);
+  EXPECT_EQ(found.likely, "attributes (fault attributes.affine)") << found.text;
+  EXPECT_TRUE(found.whole) << found.text;
+}
+
+TEST(Lookalikes, of_stages_that_are_right_or_of_declared_roundings_are_none) {
+  const Scene scene = scene_of("interpolation/w_ratio.json");
+  GivenFrame affine = drawn(scene, "attributes.affine");
+  affine.right = {Stage::attributes};
+  EXPECT_EQ(lookalikes(scene, affine).text.find("attributes."), std::string::npos) << lookalikes(scene, affine).text;
+  Conventions down;
+  down.color_rounding = down.depth_rounding = Conventions::Rounding::down;
+  const std::pair<const char*, const char*> kTruncated[] = {{"merge.truncated", "interpolation/ramps.json"},
+                                                            {"depth.truncated", "interpolation/many_sided.json"}};
+  for (const auto& [fault, name] : kTruncated) {
+    const Scene of = scene_of(name);
+    const Lookalikes undeclared = lookalikes(of, drawn(of, fault));
+    EXPECT_TRUE(undeclared.likely.ends_with(std::string("(fault ") + fault + ")")) << undeclared.text;
+    const Lookalikes declared = lookalikes(of, drawn(of, fault, down));
+    EXPECT_EQ(declared.text.find(fault), std::string::npos) << declared.text;
+  }
+}
+
+TEST(Lookalikes, right_stages_are_those_that_a_row_finds_right_and_none_wrong) {
+  const check::JudgeId exact("exact", check::Kind::per_stage), embree("embree", check::Kind::legal);
+  Capture left;
+  left.planes.color = Plane<glm::vec4>(4, 2, glm::vec4(0));
+  RendererInfo renderer;
+  renderer[Stage::matrices].given = true;
+  std::vector<check::Comparison> rows = {row(exact, Stage::window, {}, 0), row(exact, Stage::coverage, {}, 0),
+                                         row(embree, Stage::coverage, {{1, 0}}, 1), row(exact, Stage::merge, {}, 0)};
+  const StageSet right = frame_of(left, renderer, {"scene", "scene.json", std::move(rows)}).right;
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    EXPECT_EQ(right.has(stage), stage == Stage::matrices || stage == Stage::window) << name_of(stage);
+  }
+}
+
 TEST(Lookalikes, are_encoded_by_the_conventions) {
   const Scene scene = scene_of("interpolation/ramps.json");
   GivenFrame given = drawn(scene, "attributes.next_corner");
@@ -182,14 +234,6 @@ TEST(Lookalikes, depths_that_are_truncated_differ_by_less_than_a_step) {
   const Lookalikes found = lookalikes(scene, drawn(scene, "depth.truncated"));
   EXPECT_EQ(found.likely, "depth (fault depth.truncated)") << found.text;
   EXPECT_EQ(found.codes, 0.5);
-}
-
-check::Comparison row(const check::JudgeId& judge, Stage stage, std::vector<glm::ivec2> wrong,
-                      std::uint64_t differing) {
-  check::Measurement m;
-  m.unit = "bound", m.items = 100, m.differing = differing, m.max_difference = m.max_ratio = differing > 0 ? 2 : 0;
-  m.differing_at = std::move(wrong);
-  return check::judged("scene", judge, stage, std::move(m));
 }
 
 TEST(Lookalikes, legal_pixels_are_those_that_no_row_of_legal_answers_finds_wrong) {

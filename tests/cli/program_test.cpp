@@ -232,6 +232,21 @@ TEST_F(Cli, program_that_leaves_too_much_fails_at_its_scene_alone) {
   EXPECT_EQ(tally(run, "coverage").right, 1);
 }
 
+TEST_F(Cli, program_whose_capture_contradicts_itself_fails) {
+  const std::string judged = kSharedEdges + " --against exact --program '" PLUMBLINE_PLUMB " capture {scene} {output}",
+                    id = "{output}/planes.id.bin";
+  for (const char* command : {"check ", "diagnose "}) {
+    const Outcome none = plumb(std::string(command) + judged + " && tr \"\\000-\\377\" \"\\377\" <" + id +
+                               " >{output}/id" + " && mv {output}/id " + id + "'");
+    EXPECT_EQ(none.code, 1) << none.text;
+    EXPECT_TRUE(none.says("the capture contradicts itself: planes.id: ")) << none.text;
+    const Outcome beyond =
+        plumb(std::string(command) + judged + " && printf AAAA | dd of=" + id + " bs=4 seek=5 conv=notrunc'");
+    EXPECT_EQ(beyond.code, 1) << beyond.text;
+    EXPECT_TRUE(beyond.says("program: planes.id: pixel 5, 0: expected -1 to ")) << beyond.text;
+  }
+}
+
 TEST_F(Cli, program_that_cannot_draw_a_scene_is_not_diagnosed) {
   const Outcome run = plumb("diagnose " + kScenes + "fog/backwards.json --program " + kMine);
   EXPECT_EQ(run.code, 2) << run.text;

@@ -12,5 +12,8 @@ namespace plumbline::faults {
 std::span<const Fault> of_stages();
 /// Those, and the notes' (notes.h).
 std::vector<Fault> all();
+/// No fault: polygons are cut at eight times the view volume's width and height, and the frame's sides are left to the
+/// raster.
+void keep_sides(pipeline::Stages& stages);
 
 }  // namespace plumbline::faults

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
+#include "faults/faults.h"
 #include "faults/lists.h"
 #include "faults/variants.h"
 #include "pipeline/geometry.h"
@@ -34,6 +36,18 @@ constexpr auto kNearAtZero = [] {
   const auto p = pipeline::view_volume();
   return std::array<Vec4<float>, 6>{p[0], p[1], p[2], p[3], Vec4<float>(0, 0, 1, 0), p[5]};
 };
+
+void cut_far_off(const DrawInput& input, Polygon& polygon) {
+  constexpr float kTimes = 8;
+  const auto near_and_far = pipeline::view_volume().subspan<4>();
+  const std::array<Vec4<float>, 6> planes = {Vec4<float>(-1, 0, 0, kTimes),
+                                             Vec4<float>(1, 0, 0, kTimes),
+                                             Vec4<float>(0, -1, 0, kTimes),
+                                             Vec4<float>(0, 1, 0, kTimes),
+                                             near_and_far[0],
+                                             near_and_far[1]};
+  pipeline::clip_at(std::span(planes).first(input.depth_clamp ? 4 : 6), polygon);
+}
 
 // The stage with other positions.
 template <auto change>
@@ -223,5 +237,7 @@ constexpr std::array kPolygons = {
 }  // namespace
 
 std::span<const Fault> of_polygons() { return kPolygons; }
+
+void keep_sides(pipeline::Stages& stages) { put<&Stages::clip, cut_far_off>(stages); }
 
 }  // namespace plumbline::faults

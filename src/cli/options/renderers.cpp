@@ -171,13 +171,18 @@ std::vector<FaultInfo> fault_infos() {
   return out;
 }
 
-std::unique_ptr<Renderer> make_candidate(const std::string& fault) {
-  if (fault.empty()) return pipeline::make_pipeline();
-  for (const faults::Fault& f : faults::all()) {
-    if (f.name == fault) return pipeline::make_pipeline(f.stages());
-  }
-  for (const faults::Fault& f : faults::endings()) {
-    if (f.name == fault) return pipeline::make_pipeline(f.stages());
+std::unique_ptr<Renderer> make_candidate(const std::string& fault, Sides sides) {
+  if (fault.empty() && sides == Sides::cut) return pipeline::make_pipeline();
+  pipeline::Stages stages = pipeline::production_stages();
+  if (sides == Sides::kept) faults::keep_sides(stages);
+  if (fault.empty()) return pipeline::make_pipeline(stages);
+  std::vector<faults::Fault> all = faults::all();
+  const auto endings = faults::endings();
+  all.insert(all.end(), endings.begin(), endings.end());
+  for (const faults::Fault& f : all) {
+    if (f.name != fault) continue;
+    f.apply(stages);
+    return pipeline::make_pipeline(stages);
   }
   std::vector<std::string_view> names;
   for (const faults::Fault& f : faults::all()) names.push_back(f.name);

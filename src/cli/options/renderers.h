@@ -43,7 +43,9 @@ struct FaultInfo {
 std::vector<FaultInfo> fault_infos();
 /// The reference that the fault is of (faults/endings.h); empty: it is none of a reference.
 std::string faulted_reference(const std::string& fault);
+/// Whether polygons are cut at the frame's sides, or these are left to the raster (faults.h).
+enum class Sides { cut, kept };
 /// Our pipeline; with the named fault unless the name is empty. Throws std::invalid_argument if it is unknown.
-std::unique_ptr<Renderer> make_candidate(const std::string& fault);
+std::unique_ptr<Renderer> make_candidate(const std::string& fault, Sides sides = Sides::cut);
 
 }  // namespace plumbline::cli
