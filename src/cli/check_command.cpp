@@ -177,6 +177,7 @@ int check(const CheckOptions& given) {
   if (outside && !can_confine()) summary += "not refused by this kernel: what the program writes elsewhere\n";
   if (!o.expect.empty()) summary += settled_line(settled, rules.expectations.size());
   summary += report::summary(verdicts, holds, seconds);
+  if (!holds && report::all_hold(verdicts)) summary += "the scenes hold: FAILED by conventions or expectations alone\n";
   const std::string of_run = lines_of(head.failures);
   fmt::print("\n{}{}{}{}", failures, of_run,
              outside ? report::conformance_text(verdicts) : report::group_lines(verdicts), summary);

@@ -27,15 +27,21 @@ void learn_clipping(Prober& prober) {
   add_triangles(
       scene,
       quad({{{{0, 0, -0.5}}, {{kFrameSize, 0, 1.5}}, {{kFrameSize, kFrameSize, 1.5}}, {{0, kFrameSize, -0.5}}}}));
-  const Plane<glm::vec4> color = prober.draw(scene).color;
+  const Planes left = prober.draw(scene);
+  const Plane<glm::vec4>& color = left.color;
   int first = kFrameSize, last = -1;
   for (int x = 0; x < kFrameSize; ++x) {
     if (color(x, kFrameSize / 2).r <= 0.5f) continue;
     first = std::min(first, x), last = std::max(last, x);
   }
   const auto near_to = [](int column, int expected) { return std::abs(column - expected) <= 1; };
-  const std::string evidence = fmt::format("depths from -0.5 to 1.5 are drawn from {:.2f} to {:.2f}",
-                                           -0.5 + 2.0 * first / kFrameSize, -0.5 + 2.0 * (last + 1) / kFrameSize);
+  std::string evidence = "of depths from -0.5 to 1.5 none is drawn";
+  if (first <= last)
+    evidence = fmt::format("of depths from -0.5 to 1.5, those from {:.2f} to {:.2f} are drawn",
+                           -0.5 + 2.0 * first / kFrameSize, -0.5 + 2.0 * (last + 1) / kFrameSize);
+  if (first <= last && !left.depth.empty())
+    evidence += fmt::format(", and left as {:.2f} to {:.2f}", left.depth(first, kFrameSize / 2),
+                            left.depth(last, kFrameSize / 2));
   C& c = prober.learned.conventions;
   const bool near_cut = near_to(first, kFrameSize / 4) || near_to(first, kFrameSize / 2),
              far_cut = near_to(last, 3 * kFrameSize / 4 - 1);

@@ -176,10 +176,12 @@ void learn_rows(Prober& prober) {
     prober.unexplained("a white rectangle in a quarter of a black picture: every pixel has one colour or is NaN");
   const std::size_t most = *std::ranges::max_element(in_quarter),
                     all = std::accumulate(in_quarter.begin(), in_quarter.end(), std::size_t{0});
-  const std::string evidence = fmt::format(
-      "a rectangle of 64 pixels in the lower left quarter: of {} white pixels {} are there, {} in the lower "
-      "right, {} in the upper left, {} in the upper right",
-      all, in_quarter[0], in_quarter[1], in_quarter[2], in_quarter[3]);
+  const std::string evidence =
+      all == 0 ? "a rectangle of 64 pixels in the lower left quarter: no pixel is white"
+               : fmt::format(
+                     "a rectangle of 64 pixels in the lower left quarter: of {} white pixels {} are there, {} in "
+                     "the lower right, {} in the upper left, {} in the upper right",
+                     all, in_quarter[0], in_quarter[1], in_quarter[2], in_quarter[3]);
   if (most < 32 || 2 * most <= all) return prober.fits_none(words, evidence);
   if (most == in_quarter[1] || most == in_quarter[3])
     prober.unexplained("columns are counted from the right: " + evidence);

@@ -198,15 +198,15 @@ void learn_grid(Prober& prober) {
     prober.unexplained(fmt::format("window positions go by no grid: the best one explains {}", evidence));
   C& c = prober.learned.conventions;
   const auto placed = [](double at) {
-    return std::abs(at - std::round(2 * at) / 2) < 1.5 / kLong ? std::round(2 * at) / 2 : at;
+    return (std::abs(at - std::round(2 * at) / 2) < 1.5 / kLong ? std::round(2 * at) / 2 : at) + 0.0;  // -0 is 0
   };
   const glm::dvec2 sample = {placed(columns->sample), placed(rows->sample)};
   const bool in_pixel = glm::clamp(sample, 0.0, 1.0) == sample;
   const glm::dvec2 shift = rows->bits == 0 || rows->bits == 1 ? glm::dvec2(0) : lowest_left(prober, sample) - 3.0;
   if (!in_pixel || shift != glm::dvec2(0)) {
-    prober.unexplained(
-        fmt::format("a sample lies outside its pixel: at {}, and the picture is shifted by {:.0f}, {:.0f}",
-                    sample_text(sample), shift.x + 0.0, shift.y + 0.0));
+    prober.unexplained(fmt::format("{}: the sample is at {}, and the picture is shifted by {:.0f}, {:.0f} pixels",
+                                   in_pixel ? "the picture is shifted" : "a sample lies outside its pixel",
+                                   sample_text(sample), shift.x + 0.0, shift.y + 0.0));
     for (const ConventionWords& words : {kSampleWords, bits, rounding}) prober.open(words, "the picture is shifted");
     return;
   }

@@ -122,6 +122,7 @@ TEST_F(Cli, what_learn_left_unexplained_is_a_finding_of_check_and_diagnose) {
   const Outcome check = plumb("check " + kScenes + "cull" + by);
   EXPECT_EQ(check.code, 1) << check.text;
   EXPECT_TRUE(check.says("no convention: one scene drawn twice differs\n")) << check.text;
+  EXPECT_TRUE(check.says("the scenes hold: FAILED by conventions or expectations alone\n")) << check.text;
   EXPECT_TRUE(check.says("open in " + at("c.json") + ", and judged as OpenGL's: blending\n")) << check.text;
   const Outcome diagnose = plumb("diagnose " + kSharedEdges + by);
   EXPECT_EQ(diagnose.code, 1) << diagnose.text;
