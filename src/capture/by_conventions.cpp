@@ -59,7 +59,8 @@ void move_to_centres(const glm::dvec2& sample, std::vector<WindowTriangle<double
   for (WindowTriangle<double>& triangle : triangles) {
     for (WindowVertex<double>& v : triangle.v) {
       v.p_win.x += by.x, v.p_win.y += by.y;
-      v.snapped += glm::ivec2(glm::round(by * static_cast<double>(kSubpixel)));
+      const glm::dvec2 moved = glm::dvec2(v.snapped) + glm::round(by * static_cast<double>(kSubpixel));
+      v.snapped = glm::clamp(moved, -0x1p31, 0x1p31 - 1);
     }
   }
 }

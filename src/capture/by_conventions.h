@@ -32,7 +32,8 @@ class SceneByConventions {
 DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& conventions);
 
 /// Turns the rows of planes and fragments over where they are counted from the top, and maps depths to [0,1], the near
-/// plane's being 0. Window positions are moved as far as `sample` is from the pixel's centre. Colours stay: their codes are judged as they are rounded.
+/// plane's being 0. Window positions are moved as far as `sample` is from the pixel's centre. Colours stay: their codes
+/// are judged as they are rounded.
 void to_dialect(const Conventions& conventions, Capture& capture);
 
 }  // namespace plumbline

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -185,7 +186,9 @@ void complete_records(const Scene& scene, Capture& capture, const Conventions& c
   const double codes = depth_scale(format);
   for (double& z : capture.planes.depth.values()) {
     if (capture.depth_in_float && codes > 0) z = std::nearbyint(z * codes) / codes;
-    if (format == DepthFormat::z32f) z = static_cast<float>(z);  // a buffer of doubles holds the float, and more
+    // A buffer of doubles holds the float, and more.
+    if (format == DepthFormat::z32f && std::abs(z) <= static_cast<double>(std::numeric_limits<float>::max()))
+      z = static_cast<double>(static_cast<float>(z));
   }
   capture.depth_in_float = false;
 }

@@ -16,6 +16,7 @@
 #include "cli/campaign_judge.h"
 #include "cli/check_failures.h"
 #include "cli/judge_in_workers.h"
+#include "report/text/conformance.h"
 
 namespace plumbline::cli {
 
@@ -96,10 +97,10 @@ void leave_smallest(const std::vector<Finding>& findings, const CheckRules& rule
 }
 
 // Line for people about a finding that is none when its scene is judged again.
-std::string not_repeated(const Scene& scene, const campaign::Signature& found) {
-  return fmt::format(
-      "not repeated {}: {}; judged again, nothing is wrong: it came of scenes drawn before, or of chance\n", scene.path,
-      to_string(found));
+std::string not_repeated(const check::SceneVerdict& verdict, const campaign::Signature& found) {
+  const bool is_unable = report::conformance_of(verdict) == report::Conformance::unable;
+  return fmt::format("not repeated {}: {}; judged again, {}: it came of scenes drawn before, or of chance\n",
+                     verdict.path, to_string(found), is_unable ? "nothing can be judged" : "nothing is wrong");
 }
 
 }  // namespace
@@ -118,11 +119,15 @@ std::string leave_findings(const fs::path& folder, const std::vector<campaign::G
   std::set<std::string> words;
   std::string out;
   judge_in_workers(scenes, with_pages, words, [&](const JudgedScene& judged) {
-    const auto of = std::ranges::find(scenes, judged.verdict.path, &Scene::path);
-    const campaign::Signature& signature = findings[static_cast<std::size_t>(of - scenes.begin())].group->signature;
-    const std::string lines = judged.failure.empty() ? not_repeated(*of, signature) : judged.failure;
-    leave_rows(folder.string(), judged.verdict, lines);
-    out += lines;
+    if (judged.failure.empty()) {
+      const auto of = std::ranges::find(scenes, judged.verdict.path, &Scene::path) - scenes.begin();
+      const std::string line = not_repeated(judged.verdict, findings.at(static_cast<std::size_t>(of)).group->signature);
+      leave_rows(folder.string(), judged.verdict, line, "not repeated");
+      out += line;
+      return;
+    }
+    leave_rows(folder.string(), judged.verdict, judged.failure);
+    out += judged.failure;
     for (const std::string& cause : judged.verdict.causes) out += fmt::format("  likely: {}\n", cause);
   });
   return out;

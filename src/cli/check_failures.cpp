@@ -115,12 +115,15 @@ std::string leave_report(const std::string& folder, const Scene& scene, const ch
   return out;
 }
 
-void leave_rows(const std::string& folder, const check::SceneVerdict& verdict, const std::string& failure) {
+void leave_rows(const std::string& folder, const check::SceneVerdict& verdict, const std::string& failure,
+                std::string_view word) {
   const std::filesystem::path file = std::filesystem::path(folder) / (report::file_name(verdict.scene) + ".txt");
   std::error_code none;  // what cannot be written says so below
   std::filesystem::create_directories(file.parent_path(), none);
   write_file(file, fmt::format("{}{}\n{}{}\n", report::table_head(), report::table_rows(verdict), failure,
-                               verdict.failure.empty() ? "holds" : "FAILED"));
+                               !word.empty()             ? word
+                               : verdict.failure.empty() ? "holds"
+                                                         : "FAILED"));
 }
 
 }  // namespace plumbline::cli

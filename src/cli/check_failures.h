@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/renderer.h"
@@ -26,7 +27,9 @@ std::string settled_line(const std::vector<check::Settled>& settled, std::size_t
 std::string leave_report(const std::string& folder, const Scene& scene, const check::SceneVerdict& verdict,
                          Renderer& candidate, std::span<const check::Reference> references);
 
-/// `folder`/<scene>.txt: the scene's table, the failure's lines, and "holds" or "FAILED". Throws OutputError.
-void leave_rows(const std::string& folder, const check::SceneVerdict& verdict, const std::string& failure);
+/// `folder`/<scene>.txt: the scene's table, the failure's lines, and `word`; where that is empty, "holds" or "FAILED".
+/// Throws OutputError.
+void leave_rows(const std::string& folder, const check::SceneVerdict& verdict, const std::string& failure,
+                std::string_view word = {});
 
 }  // namespace plumbline::cli

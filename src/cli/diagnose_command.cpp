@@ -191,9 +191,10 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   std::string history, history_text;
   if (subject.pixel) {
     const check::History known = check::pixel_history(scene, *candidate, references.list, *subject.pixel);
-    history_text = report::history_text(*SceneByConventions(scene, candidate->info().conventions), known);
+    const SceneByConventions seen(scene, candidate->info().conventions);
+    history_text = report::history_text(*seen, known);
     out += "\n" + history_text;
-    history = report::history_json(scene, known);
+    history = report::history_json(*seen, known);
   }
   if (!o.json.empty()) report::write_json(o.json, diagnosis, versions_of(*candidate, references), history);
   if (subject.page) {

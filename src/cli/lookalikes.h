@@ -44,11 +44,11 @@ struct Lookalikes {
 Lookalikes lookalikes(const Scene& scene, const GivenFrame& given);
 /// The frame that a capture of `renderer` holds, as `verdict` judges it.
 GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict);
-/// found.likely and found.ties; empty where fewer pixels differ from ours (found.apart) than half of those that a row finds different
-/// at merge: the fault then resembles a legal rule of the renderer, not what is wrong with it.
+/// found.likely and found.ties; empty where fewer pixels differ from ours (found.apart) than half of those that a row
+/// finds different at merge: the fault then resembles a legal rule of the renderer, not what is wrong with it.
 std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
-/// The likely faults of a capture, which it does not tell apart, or "nothing of the scene is seen" where its pixels have
-/// one colour; empty also where the scene is too large for a picture of each fault.
+/// The likely faults of a capture, which it does not tell apart, or "nothing of the scene is seen" where its pixels
+/// have one colour; empty also where the scene is too large for a picture of each fault.
 std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
                                        const check::SceneVerdict& verdict);
 

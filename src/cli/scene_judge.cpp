@@ -43,8 +43,8 @@ std::vector<std::string> causes_of(const ProgramArgument& program, const Scene& 
   const bool has_passes = scene.frame.antialias.kind != Antialias::Kind::none;  // which are drawn, not the scene
   if (has_passes || !(is_wrong || is_failed)) return {};
   const std::optional<Planes> alone = drawn_alone(program, scene);
-  if (alone && is_failed && left.planes.color.empty())
-    return {"drawn by the program when it is started for this scene alone"};
+  const bool left_nothing = verdict.comparisons.front().judge.reference == renderer.name;
+  if (alone && is_failed && left_nothing) return {"drawn by the program when it is started for this scene alone"};
   if (is_failed) return {};
   const bool is_alike =
       !alone || (have_same_bits(left.planes.color, alone->color) && have_same_bits(left.planes.depth, alone->depth));
@@ -85,7 +85,7 @@ JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothC
     std::ranges::move(check::golden_rows(scene, *candidate_, *rules_->goldens),
                       std::back_inserter(verdict.comparisons));
   out.settled = settle_and_explain(verdict, o, rules_->expectations, rules_->today);
-  if (!verdict.causes.empty() && verdict.causes.front().starts_with("drawn "))
+  if (!verdict.failure.empty() && !verdict.causes.empty() && verdict.causes.front().starts_with("drawn "))
     verdict.failure += fmt::format("  {}: the command may not repeat it\n", verdict.causes.front());
   out.failure = verdict.failure;
   if (!verdict.failure.empty() && !o.failures.empty()) {

@@ -169,6 +169,12 @@ TEST(Lookalikes, of_stages_that_are_right_or_of_declared_roundings_are_none) {
   GivenFrame affine = drawn(scene, "attributes.affine");
   affine.right = {Stage::attributes};
   EXPECT_EQ(lookalikes(scene, affine).text.find("attributes."), std::string::npos) << lookalikes(scene, affine).text;
+  // The viewport is a number of stage matrices, which the window stage applies.
+  GivenFrame shrunk = drawn(scene, "matrices.viewport_one_short");
+  shrunk.right = {Stage::matrices};
+  EXPECT_EQ(lookalikes(scene, shrunk).likely, "matrices (fault matrices.viewport_one_short)");
+  shrunk.right = {Stage::matrices, Stage::window};
+  EXPECT_EQ(lookalikes(scene, shrunk).text.find("matrices."), std::string::npos);
   Conventions down;
   down.color_rounding = down.depth_rounding = Conventions::Rounding::down;
   const std::pair<const char*, const char*> kTruncated[] = {{"merge.truncated", "interpolation/ramps.json"},

@@ -78,9 +78,11 @@ TEST_F(Campaign, OfAProgramTellsWhatDoesNotRepeat) {
   const std::string options = "--seeds 11..14 --generator ordinary --jobs 1 --against exact";
   const Outcome run = campaign("c", options + " --program '" + at("mine") + " {serve}'");
   EXPECT_EQ(run.code, 1) << run.text;
-  EXPECT_TRUE(run.says("not repeated " + at("c/findings/merge-failed-program-failed-tired-program/scene.json") +
-                       ": merge, failed: program: failed: tired (against program); judged again, nothing is wrong"))
+  EXPECT_TRUE(
+      run.says("not repeated " + at("c/findings/merge-failed-program-failed-tired-program/scene.json") +
+               ": merge, failed: program: failed: tired (against program); judged again, nothing can be judged"))
       << run.text;
+  EXPECT_TRUE(read(at("c/findings/merge-failed-program-failed-tired-program/scene.txt")).ends_with("\nnot repeated\n"));
 }
 
 }  // namespace

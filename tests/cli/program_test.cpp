@@ -240,6 +240,9 @@ TEST_F(Cli, program_whose_capture_contradicts_itself_fails) {
                                " >{output}/id" + " && mv {output}/id " + id + "'");
     EXPECT_EQ(none.code, 1) << none.text;
     EXPECT_TRUE(none.says("the capture contradicts itself: planes.id: ")) << none.text;
+    const Outcome probed = plumb(std::string(command) + judged + " && tr \"\\000-\\377\" \"\\377\" <" + id +
+                                 " >{output}/id" + " && mv {output}/id " + id + "' --each-primitive");
+    EXPECT_EQ(probed.code, 1) << "its own winners are not probed: " << probed.text;
     const Outcome beyond =
         plumb(std::string(command) + judged + " && printf AAAA | dd of=" + id + " bs=4 seek=5 conv=notrunc'");
     EXPECT_EQ(beyond.code, 1) << beyond.text;

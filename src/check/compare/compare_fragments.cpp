@@ -1,3 +1,4 @@
+#include <cmath>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -47,6 +48,38 @@ Measurement each_fragment(const char* what, const std::string& unit, const Recor
 
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference) {
   return covered_but(candidate, reference, [](const Covered&) { return false; });
+}
+
+bool are_sums_of(const Records<double>& records, const Planes& planes) {
+  if (records.covered.empty() || planes.count.empty()) return false;
+  Plane<std::uint32_t> count(planes.count.width(), planes.count.height());
+  Plane<std::uint64_t> sums(planes.count.width(), planes.count.height());
+  for (const Covered& c : records.covered) {
+    ++count(c.x, c.y);
+    sums(c.x, c.y) += id_weight(records.triangles[c.triangle].primitive);
+  }
+  return count.values() == planes.count.values() && (planes.id_sum.empty() || sums.values() == planes.id_sum.values());
+}
+
+Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
+                                      const Conventions& conventions) {
+  // Each side moves a corner by half a step of its grid in x and in y, at most; rounded down or up, by a whole step.
+  const int bits = conventions.subpixel_bits;
+  const double step = bits == Conventions::kFloat ? 1.0 / kSubpixel : std::exp2(-bits),
+               own = conventions.subpixel_rounding == Conventions::Rounding::nearest ? step : 2 * step,
+               most = std::sqrt(2.0) / 2 * (own + 1.0 / kSubpixel);  // [pixel]
+  const auto on_an_edge = [&](const Covered& c) {
+    const WindowTriangle<double>& triangle = candidate.triangles[c.triangle];
+    const glm::dvec2 p(c.x + 0.5, c.y + 0.5);
+    for (std::size_t i = 0; triangle.corners == 3 && i < 3; ++i) {
+      const glm::dvec2 a(triangle.v[i].p_win), along = glm::dvec2(triangle.v[(i + 1) % 3].p_win) - a, to = p - a;
+      const double length = glm::length(along), beside = std::abs(along.x * to.y - along.y * to.x) / length,
+                   before = glm::dot(along, to) / length;
+      if (beside <= most && before >= -most && before <= length + most) return true;
+    }
+    return false;
+  };
+  return covered_but(candidate, reference, on_an_edge);
 }
 
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal) {

@@ -25,12 +25,12 @@ Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records
   return compare_attributes(a, b, factor);
 }
 
-// Whether the candidate declares a tie rule, and no number of fragments is illegal by it: `exact` makes the stage of
-// corners on its own grid, by the dialect's rule.
-bool covers_by_own_rule(const Case& c) {
-  if (!c.foreign || c.conventions.tie_rule == Conventions::TieRule::any || c.legal.empty()) return false;
-  const Measurement count = compare_legal_count(c.candidate.planes, c.legal);
-  return count.mismatch.empty() && count.differing == 0;
+// Whether the candidate declares another tie rule or grid than those by which exact makes coverage of its triangles.
+bool covers_otherwise(const Case& c) {
+  const Conventions& d = c.conventions;
+  const bool is_dialects = d.tie_rule == Conventions::TieRule::left_bottom && d.subpixel_bits == 8 &&
+                           d.subpixel_rounding == Conventions::Rounding::nearest;
+  return c.foreign && d.tie_rule != Conventions::TieRule::any && !is_dialects;
 }
 
 // The difference bears the varying's own name, not that of the colour as which it was compared.
@@ -71,9 +71,9 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
     case Stage::window:
       return add([&](double f) { return varyings(compare_window(c.scene, mine, theirs, f, c.conventions)); });
     case Stage::coverage: {
+      if (covers_otherwise(c) && are_sums_of(c.candidate.records, c.candidate.planes))
+        return c.add(name, stage, compare_covered_but_edges(c.candidate.records, theirs, c.conventions));
       Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
-      if (planes.differing > 0 && covers_by_own_rule(c))
-        return c.skip(name, stage, Outcome::unsupported, "legal by the declared tie rule, which is not exact's own");
       if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
       return c.add(name, stage, worse(std::move(planes), compare_open_covered(c.candidate, theirs, c.open_coverage())));
     }

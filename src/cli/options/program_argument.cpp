@@ -105,10 +105,12 @@ class Program : public Renderer {
     Request everything;
     everything.records = StageSet::all();
     Capture left = capture_of(scene, everything);
+    const bool has_winners = !left.planes.id.empty();
     if (program_.probes) probe(scene, left);
+    const bool are_probed = !has_winners && !left.planes.id.empty();
     const std::unique_ptr<Renderer> replayed = replayed_of(std::move(left), scene);
     info_ = replayed->info();
-    if (program_.probes) info_[Stage::visibility].contradicted = false;  // plumb's own pictures tell the winners
+    if (are_probed) info_[Stage::visibility].contradicted = false;  // the program has not said who they are
     for (std::size_t i = 0; i < given(program_.from); ++i) {
       info_.stages[i] = {false, false, fmt::format("given: --from {}", program_.from), false, true};
     }

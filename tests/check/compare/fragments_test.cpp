@@ -44,6 +44,46 @@ TEST_F(Fragments, CoveredEqualOnesPass) {
   EXPECT_EQ(run(compare_covered, kUnchanged).items, 6u);
 }
 
+TEST_F(Fragments, CoveredOnAnEdgeIsOpenToADeclaredTieRule) {
+  for (WindowTriangle<double>& t : records.triangles) {
+    for (auto& v : t.v) v.p_win.x += 0.5, v.p_win.y += 0.5;  // the third side runs through (7, 3)'s centre
+  }
+  const auto with = [&](std::uint16_t x, std::uint16_t y) {
+    Records<double> out = records;
+    out.covered.push_back({1, x, y});
+    return out;
+  };
+  const Conventions conventions;
+  for (const bool extra : {true, false}) {
+    const auto compare = [&](const Records<double>& other) {
+      return extra ? compare_covered_but_edges(other, records, conventions)
+                   : compare_covered_but_edges(records, other, conventions);
+    };
+    EXPECT_EQ(compare(with(7, 3)).differing, 0u);
+    EXPECT_EQ(compare(with(7, 3)).ambiguous, 1u);
+    EXPECT_TRUE(fails(compare(with(4, 4)))) << "within";
+    EXPECT_TRUE(fails(compare(with(8, 3)))) << "outside";
+    EXPECT_TRUE(fails(compare(with(1, 9)))) << "on the side's line, beyond its end";
+  }
+}
+
+TEST_F(Fragments, SumsOfPlanesAreThoseOfTheRecords) {
+  Planes planes;
+  EXPECT_FALSE(are_sums_of(records, planes));
+  planes.count = Plane<std::uint32_t>(8, 8), planes.id_sum = Plane<std::uint64_t>(8, 8);
+  for (const Covered& c : records.covered) {
+    ++planes.count(c.x, c.y);
+    planes.id_sum(c.x, c.y) += id_weight(records.triangles[c.triangle].primitive);
+  }
+  EXPECT_TRUE(are_sums_of(records, planes));
+  planes.id_sum(2, 2) += 1;
+  EXPECT_FALSE(are_sums_of(records, planes)) << "of other primitives";
+  planes.id_sum = {};
+  EXPECT_TRUE(are_sums_of(records, planes));
+  planes.count(7, 7) = 1;
+  EXPECT_FALSE(are_sums_of(records, planes));
+}
+
 TEST_F(Fragments, CoveredOnePixelLackingOrMoreFails) {
   for (std::size_t i = 0; i < 6; ++i) {
     const Change erase = [&](auto& r) { r.covered.erase(r.covered.begin() + static_cast<std::ptrdiff_t>(i)); };
