@@ -64,14 +64,15 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
 
 /// The same fragments.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
-/// Likewise; a fragment more or less is ambiguous where its pixel's centre lies on an edge of the candidate's triangle, or
-/// so near that the declared grid or 1/256 pixel may move it there. For a candidate of another tie rule than the dialect's.
+/// Likewise, for a candidate of another tie rule than the dialect's: a fragment more or less is ambiguous where its
+/// pixel's centre lies on an edge of the candidate's triangle, or so near that the declared grid, or that of 1/256
+/// pixel, may move the edge there. A candidate without a grid is allowed 1/256 pixel.
 Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
                                       const Conventions& conventions);
 /// Whether planes.count, and id_sum where there is one, are the sums of the records' fragments.
 bool are_sums_of(const Records<double>& records, const Planes& planes);
-/// The same fragments; a fragment more or less is ambiguous where `legal` leaves open how many there are (compare_planes.h), as
-/// long as others differ.
+/// compare_covered(); a fragment more or less is ambiguous where `legal` leaves open how many there are
+/// (compare_planes.h), as long as others differ.
 Measurement compare_open_covered(const Capture& candidate, const Records<double>& reference, const Legal& legal);
 /// In steps of the depth format; rounded to it as the candidate's conventions say.
 Measurement compare_depth(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
