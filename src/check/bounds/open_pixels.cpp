@@ -116,6 +116,27 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) 
   return open;
 }
 
+Plane<std::uint8_t> open_by_double(const FrameFormat& frame, const Records<double>& r) {
+  Plane<std::uint8_t> open(frame.width, frame.height, 0);
+  if (frame.depth != DepthFormat::z32f || r.depth.size() != r.covered.size()) return open;
+  const DrawnAt fragments = DrawnAt::covered(frame, r);
+  std::vector<double> depths;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      depths.assign(1, frame.clear_depth);
+      fragments.each(x, y, [&](std::size_t i) {
+        if (!std::isnan(r.depth[i])) depths.push_back(r.depth[i]);
+      });
+      std::ranges::sort(depths);
+      const auto share_a_float = [](double a, double b) {
+        return a != b && static_cast<float>(a) == static_cast<float>(b);
+      };
+      open(x, y) = std::ranges::adjacent_find(depths, share_a_float) == depths.end() ? 0 : 1;
+    }
+  }
+  return open;
+}
+
 LegalWinners::LegalWinners(const Scene& scene, const Records<double>& records)
     : scene_(scene),
       records_(records),
@@ -238,6 +259,15 @@ std::uint64_t copy_open_pixels(const Plane<std::uint8_t>& open, const Planes& ca
   settle_plane(reference.color, candidate.color, open);
   settle_plane(reference.depth, candidate.depth, open);
   return static_cast<std::uint64_t>(std::ranges::count(open.values(), std::uint8_t{1}));
+}
+
+void copy_open_drawn(const Plane<std::uint8_t>& open, const Records<double>& candidate, Records<double>& reference) {
+  const std::size_t fragments = candidate.covered.size();
+  if (candidate.drawn.size() != fragments || reference.drawn.size() != fragments) return;
+  for (std::size_t i = 0; i < fragments; ++i) {
+    const Covered& c = candidate.covered[i];
+    if (c.x < open.width() && c.y < open.height() && open(c.x, c.y) != 0) reference.drawn[i] = candidate.drawn[i];
+  }
 }
 
 std::uint64_t copy_pixels_open_by_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,

@@ -29,6 +29,11 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
 /// fragment hides it. Needs the candidate's records of stages 4, 5, 6 and 10; without them nothing is open.
 Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate);
 
+/// 1 where two depths of the candidate's fragments, or of a fragment and the cleared frame, are different doubles and
+/// one float: a renderer that tests depths in double and leaves floats (z32f) may order them, or find them equal. Needs
+/// the candidate's records of stages 5 and 6; without them nothing is open.
+Plane<std::uint8_t> open_by_double(const FrameFormat& frame, const Records<double>& records);
+
 /// Legal winners of a pixel, each with its stencil value, where each fragment's depth is off by up to the bounds of
 /// compare_depth_planes and of a line's major axis (bounds.h). Computed from the candidate's fragments, depths and
 /// alphas (records of stages 4, 5, 6 and 9); the candidate's own visibility is not used.
@@ -59,6 +64,9 @@ BesideTurned beside_turned(const Scene& scene, const Capture& candidate, const C
 
 /// Copies the candidate's planes but count and id_sum into the reference's where `open` is 1; returns how many pixels.
 std::uint64_t copy_open_pixels(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference);
+
+/// Copies of the candidate's fragments where `open` is 1 whether they are drawn.
+void copy_open_drawn(const Plane<std::uint8_t>& open, const Records<double>& candidate, Records<double>& reference);
 
 /// copy_open_pixels() where open_by_alpha() finds a pixel open against an OpenGL reference, which tests alpha in codes
 /// of an rgba8 frame, but in float of any other frame and where colours before merge are drawn (stages attributes and

@@ -368,15 +368,19 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
   const bool codes = scale > 0;
   const double unit = codes ? 0.5 / scale + 4 * u : u;
   const StoredColors stored{conventions, scale};
+  const bool shows_winners = candidate.id.size() == candidate.color.size();
+  const auto is_cleared = [&](int x, int y) { return shows_winners && candidate.id(x, y) == kBackground; };
   return compare_planes(candidate.color, exact.color, codes ? "half code" : "u", [&](Meter& meter, int x, int y) {
-    const std::int64_t id = candidate.id.size() == candidate.color.size() ? candidate.id(x, y) : -1;
+    const std::int64_t id = shows_winners ? candidate.id(x, y) : -1;
     const glm::vec4 &low = bounds.color_lo.empty() ? exact.color(x, y) : bounds.color_lo(x, y),
                     &high = bounds.color_hi.empty() ? exact.color(x, y) : bounds.color_hi(x, y);
     for (int c = 0; c < 4; ++c) {
       const double v = candidate.color(x, y)[c];
       const double least = stored.of_channel(low[c], c), most = stored.of_channel(high[c], c);
-      meter.value(outside(stored.middle(v), least, most) / unit, codes ? factor : 0, {x, y, id, "color", true}, v,
-                  least);
+      double off = outside(stored.middle(v), least, most);
+      // The clear colour may be rounded, and encoded, otherwise than fragments are.
+      if (is_cleared(x, y)) off = std::min(off, outside(v, low[c], high[c]));
+      meter.value(off / unit, codes ? factor : 0, {x, y, id, "color", true}, v, least);
     }
     for (int c = 0; codes && c < 4; ++c) {
       const double v = scale * static_cast<double>(candidate.color(x, y)[c]),

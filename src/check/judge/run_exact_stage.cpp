@@ -1,6 +1,7 @@
 #include <string_view>
 
 #include "capture/seen_as.h"
+#include "check/bounds/open_pixels.h"
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
@@ -49,6 +50,27 @@ Measurement with_varyings(const Case& c, Stage stage, Measurement color, const R
   return color;
 }
 
+// Winners and fragments drawn, but for pixels where a stranger's depth buffer may be of double (open_by_double): the
+// oracle judges those by legal winners.
+void compare_visible(Case& c, const Capture& made, const JudgeId& name) {
+  const auto compare = [&](const Capture& theirs) {
+    return worse(compare_winners(c.candidate.planes, theirs.planes, Legal{}),
+                 compare_drawn(c.candidate.records, theirs.records));
+  };
+  Measurement m = compare(made);
+  if (c.foreign && m.differing > 0) {
+    const Plane<std::uint8_t> open = open_by_double(c.scene.frame, c.candidate.records);
+    Capture settled;
+    settled.planes = made.planes;
+    settled.records.drawn = made.records.drawn;
+    const std::uint64_t pixels = copy_open_pixels(open, c.candidate.planes, settled.planes);
+    copy_open_drawn(open, c.candidate.records, settled.records);
+    m = compare(settled);
+    m.ambiguous += pixels;
+  }
+  c.add(name, Stage::visibility, std::move(m));
+}
+
 }  // namespace
 
 void run_exact_stage(Case& c, Renderer& referee, Stage stage, const JudgeId& name) {
@@ -83,9 +105,7 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
     case Stage::shade:
       if (is_plain(c.scene)) return c.add(name, stage, compare_shaded(c.scene, mine, theirs, 0));
       return add([&](double f) { return compare_shaded(c.scene, mine, theirs, f); });
-    case Stage::visibility:
-      return c.add(name, stage,
-                   worse(compare_winners(c.candidate.planes, made.planes, Legal{}), compare_drawn(mine, theirs)));
+    case Stage::visibility: return compare_visible(c, made, name);
     case Stage::merge: {
       const auto compare = [&](double f) {
         return compare_merge(c.scene, c.candidate.planes, made.planes, f, made.legal, c.conventions);

@@ -1,0 +1,51 @@
+// The frame's clear colour, which a renderer may round and encode otherwise than its fragments' colours.
+#include "tests/check/compare/planes.h"
+
+namespace plumbline::check {
+namespace {
+
+// A frame cleared to 100.6 codes of red, as exact has it; a renderer's pixels at the code.
+struct ClearedFrame : PlanePairs {
+  Measurement merged(glm::ivec2 pixel, int red, const Conventions& conventions) const {
+    Capture mine = capture, exacts = capture;
+    exacts.planes.color(pixel.x, pixel.y).r = 100.6f / 255;
+    mine.planes.color(pixel.x, pixel.y).r = code(red);
+    return compare_merge(scene, mine.planes, exacts.planes, 1, {}, conventions);
+  }
+  static Conventions down() {
+    Conventions out;
+    out.color_rounding = Conventions::Rounding::down;
+    return out;
+  }
+  static constexpr glm::ivec2 kCleared{0, 0}, kDrawn{3, 1};
+};
+
+TEST_F(ClearedFrame, ItsCodeIsTheNearestOrThatOfFragments) {
+  for (const auto& [red, holds] : {std::pair(99, false), std::pair(100, true), std::pair(101, true), {102, false}})
+    EXPECT_EQ(passes(merged(kCleared, red, down())), holds) << red;
+  for (const auto& [red, holds] : {std::pair(100, true), std::pair(101, false)})
+    EXPECT_EQ(passes(merged(kDrawn, red, down())), holds) << red;
+}
+
+TEST_F(ClearedFrame, OfARendererThatRoundsToTheNearestItsCodeIsTheNearest) {
+  for (const auto& [red, holds] : {std::pair(100, false), std::pair(101, true), std::pair(102, false)})
+    EXPECT_EQ(passes(merged(kCleared, red, {})), holds) << red;
+}
+
+TEST_F(ClearedFrame, ItMayBeLinearWhereFragmentsAreEncoded) {
+  Conventions srgb;
+  srgb.color_encoding = Conventions::Encoding::srgb;
+  for (const glm::ivec2 p : {kDrawn, glm::ivec2(2, 2)}) capture.planes.color(p.x, p.y) = {0, 0, 0, 1};  // encoded, too
+  const auto encoded = static_cast<int>(std::lround(255 * srgb_encoded(static_cast<double>(100.6f / 255))));
+  for (const auto& [red, holds] : {std::pair(encoded, true), std::pair(101, true), std::pair(120, false)})
+    EXPECT_EQ(passes(merged(kCleared, red, srgb)), holds) << red;
+  EXPECT_FALSE(passes(merged(kDrawn, 101, srgb)));
+}
+
+TEST_F(ClearedFrame, WhereNoWinnersAreShownEachPixelMayBeAFragments) {
+  capture.planes.id = {};
+  EXPECT_FALSE(passes(merged(kCleared, 101, down())));
+}
+
+}  // namespace
+}  // namespace plumbline::check
