@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <vector>
 
 #include "faults/lists.h"
@@ -45,6 +46,12 @@ PixelList at_corner(const Triangle& t, const PixelBounds& box) {
 PixelList box_one_short(const Triangle& t, const PixelBounds& box) {
   const PixelBounds b = pipeline::pixel_bounds(t);
   return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0, b.y0, b.x1 - 1, b.y1 - 1}, box);
+}
+
+// Of corners in pixels, det < 1, which is twice the area (ssloy/tinyrenderer, 87bc715, our_gl.cpp).
+PixelList small_dropped(const Triangle& t, const PixelBounds& box) {
+  const bool is_small = std::abs(snapped_area(t)) < std::int64_t{kSubpixel} * kSubpixel;
+  return is_small ? PixelList{} : pipeline::covered_pixels(t, box);
 }
 
 PixelBounds scissor_with_its_far_sides(const Scissor& box, const PixelBounds& frame) {
@@ -127,6 +134,11 @@ constexpr auto kTowardsTheEye = [](pipeline::DepthState& s) { s.offset = {-s.off
 constexpr auto kClampedToFormat = [](pipeline::DepthState& s) {
   s.low = 0;
   s.high = 1;
+};
+
+constexpr auto kNotClamped = [](pipeline::DepthState& s) {
+  s.low = -256;
+  s.high = 256;
 };
 
 // Of all corners the mean: what painters sort by.
@@ -227,6 +239,8 @@ constexpr std::array kRaster = {
           put<&Stages::coverage, triangles_by<at_corner>>, "hrydgard/ppsspp#9681"},
     Fault{"coverage.box_one_short", "the bounding box lacks its last column and row", Stage::coverage,
           put<&Stages::coverage, triangles_by<box_one_short>>},
+    Fault{"coverage.small_dropped", "triangles of less than half a pixel's area are dropped: det < 1", Stage::coverage,
+          put<&Stages::coverage, triangles_by<small_dropped>>},
     Fault{"coverage.scissor_inclusive", "the scissor box has one column and one row too many", Stage::coverage,
           put<&Stages::scissor, scissor_with_its_far_sides>},
     Fault{"coverage.line_end_drawn", "a line's last pixel is drawn too: lines that meet paint it twice",
@@ -253,6 +267,8 @@ constexpr std::array kRaster = {
           put<&Stages::sample_offsets, depth_of_centre>},
     Fault{"depth.clamped_to_format", "depths beyond the draw's range are clamped to [0,1]", Stage::depth,
           put<&Stages::depth_setup, depth_under<kClampedToFormat>>},
+    Fault{"depth.not_clamped", "depths beyond the draw's range are left as they are", Stage::depth,
+          put<&Stages::depth_setup, depth_under<kNotClamped>>},
     Fault{"depth.offset_without_slope", "a polygon offset is of its units alone", Stage::depth,
           put<&Stages::depth_setup, depth_under<kNoSlope>>},
     Fault{"depth.offset_slope_of_one", "a polygon offset takes its factor for units", Stage::depth,

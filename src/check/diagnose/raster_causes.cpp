@@ -65,6 +65,16 @@ bool box_one_short(const Evidence& e) {
   return inner > 0;  // or it may be the tie rule
 }
 
+// Whether the triangles that differ have less than half a pixel's area, and cover nothing.
+bool small_dropped(const Evidence& e) {
+  const std::vector<CoverageDifference> all = coverage_differences(e);
+  return !all.empty() && std::ranges::all_of(all, [&](const CoverageDifference& d) {
+    const WindowTriangle<double>& t = e.candidate.records.triangles.at(d.triangle);
+    const glm::dvec2 a(t.v[0].p_win), b = glm::dvec2(t.v[1].p_win) - a, c = glm::dvec2(t.v[2].p_win) - a;
+    return t.corners == 3 && d.both.empty() && d.extra.empty() && std::abs(b.x * c.y - b.y * c.x) < 1;
+  });
+}
+
 void upside_down_fragments(const Scene& scene, const Capture& in, Capture& made) {
   for (Covered& c : made.records.covered) c.y = static_cast<std::uint16_t>(scene.frame.height - 1 - c.y);
   std::ranges::sort(made.records.covered, {}, [](const Covered& c) { return std::tuple(c.triangle, c.y, c.x); });
@@ -123,6 +133,8 @@ constexpr std::array kRasterCauses = {
          all_on_edges<Kind::both>),
     seen(S::coverage, "coverage.box_one_short", "triangles lack their last column or row: the box is one short",
          box_one_short),
+    seen(S::coverage, "coverage.small_dropped",
+         "triangles of less than half a pixel's area cover nothing: they are dropped (det < 1)", small_dropped),
     given<sampled_off_by<kSubpixel / 2, kSubpixel / 2>>(
         S::coverage, "coverage.half_pixel_more", "pixels are sampled half a pixel off: at their lower left corners"),
     given<sampled_off_by<-kSubpixel / 2, -kSubpixel / 2>>(

@@ -58,6 +58,7 @@ constexpr Proof kProofs[] = {
     {"coverage.inclusive_edges", "antialias/samples_ties", "coverage.inclusive_edges"},
     {"coverage.scissor_inclusive", "scissor/rows_from_top", "coverage.scissor_inclusive"},
     {"notes.000.strict_edges", "alpha_test/functions_rgba12", "coverage.strict_edges"},
+    {"coverage.small_dropped", "coverage/dots", "coverage.small_dropped"},
     {"coverage.top_for_bottom", "antialias/samples_ties", "coverage.wrong_corner"},
     {"depth.of_centre", "antialias/samples_cut", "depth.of_centre"},
     {"depth.offset_sign", "polygon_offset/clamped", "depth.offset_negated"},
