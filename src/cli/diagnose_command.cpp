@@ -16,7 +16,7 @@
 #include "check/diagnose/diagnose.h"
 #include "check/diagnose/history.h"
 #include "cli/commands.h"
-#include "cli/lookalikes.h"
+#include "cli/likely/lookalikes.h"
 #include "cli/options/outputs.h"
 #include "cli/options/pixel_argument.h"
 #include "cli/options/program_argument.h"
@@ -124,7 +124,7 @@ bool holds(const check::Diagnosis& diagnosis) {
 std::string likely_line(const Lookalikes& found) {
   const std::string ties =
       found.ties.empty() ? "" : fmt::format("  or {}: the frame is the same\n", fmt::join(found.ties, ", "));
-  return fmt::format("likely stage: {}\n{}", found.likely, ties);
+  return fmt::format("likely stage{}: {}\n{}", found.together ? "s" : "", found.likely, ties);
 }
 
 // Known faults that explain the frame that another renderer left, where one explains most of it; of a frame that holds,
@@ -136,7 +136,7 @@ std::string known_faults(const Scene& scene, const Capture& left, const Renderer
   const Lookalikes found = lookalikes(scene, frame_of(left, renderer, diagnosis.verdict));
   if (found.blank && !holds(diagnosis)) return "\n" + found.text;
   const std::vector<std::string> likely = likely_of(found, diagnosis.verdict);
-  if (likely.empty() || (holds(diagnosis) && !found.whole)) return "";
+  if (likely.empty() || (holds(diagnosis) && (!found.whole || found.together))) return "";
   const bool is_open = !holds(diagnosis) && diagnosis.wrong.empty();
   return fmt::format("\npixels unlike plumbline's in colour or depth: {}; known faults that draw such a frame:\n{}{}",
                      found.apart, found.text,

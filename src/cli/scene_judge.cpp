@@ -12,7 +12,7 @@
 #include "check/golden/golden.h"
 #include "check/judge/judge.h"
 #include "cli/check_failures.h"
-#include "cli/lookalikes.h"
+#include "cli/likely/lookalikes.h"
 #include "cli/options/program_argument.h"
 #include "cli/options/renderers.h"
 #include "report/text/conformance.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "capture/by_conventions.h"
-#include "cli/lookalikes.h"
+#include "cli/likely/lookalikes.h"
 #include "cli/options/renderers.h"
 #include "scene/file/scene_file.h"
 
@@ -84,6 +84,31 @@ TEST(Lookalikes, samples_off_the_centre_are_so_to_every_side) {
     EXPECT_TRUE(found.whole);
     EXPECT_NE(found.text.find(side), std::string::npos) << found.text;
   }
+}
+
+// Either alone leaves more than a tenth of the pixels.
+TEST(Lookalikes, of_two_faults_at_once_both_are_named_in_the_stages_order) {
+  const Scene scene = scene_of("coverage/fan.json");
+  const std::vector<std::string> faults = {"depth.one_per_triangle", "coverage.last_row_lost"};
+  Request request;
+  request.planes = WantedPlanes::picture;
+  const Planes planes = make_candidate(faults)->capture(scene, request).planes;
+  const Lookalikes found = lookalikes(scene, {{planes.color, planes.depth}, {}, {}});
+  EXPECT_TRUE(found.together) << found.text;
+  EXPECT_EQ(found.likely, "coverage (fault coverage.last_row_lost) and depth (fault depth.one_per_triangle)")
+      << found.text;
+  EXPECT_TRUE(found.whole) << found.text;
+  EXPECT_FALSE(lookalikes(scene, drawn(scene, "coverage.last_row_lost")).together);
+}
+
+TEST(Lookalikes, what_no_two_faults_draw_is_not_named) {
+  const Scene scene = scene_of("coverage/six_orders.json");
+  GivenFrame given = drawn(scene, "attributes.affine");
+  mark(given, given.color.size() / 2);
+  given.is_legal = {};
+  const Lookalikes found = lookalikes(scene, given);
+  EXPECT_FALSE(found.together) << found.text;
+  EXPECT_EQ(found.likely, "");
 }
 
 // Two faults that exchange red and blue: of a triangle with a red, a green and a blue corner.

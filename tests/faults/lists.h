@@ -7,11 +7,12 @@
 
 namespace plumbline::faults {
 
-std::span<const Fault> of_vertices();  ///< stages 0 and 1
-std::span<const Fault> of_light();     ///< the light equation, at the vertices (stage 2) and per fragment (stage 9)
-std::span<const Fault> of_polygons();  ///< stages 3 and 4
-std::span<const Fault> of_raster();    ///< stages 5 to 7
-std::span<const Fault> of_textures();  ///< stages 8 and 9
-std::span<const Fault> of_merge();     ///< stages 10 to 12
+std::span<const Fault> of_vertices();     ///< stages 0 and 1
+std::span<const Fault> of_light();        ///< the light equation, at the vertices (stage 2) and per fragment (stage 9)
+std::span<const Fault> of_polygons();     ///< stages 3 and 4
+std::span<const Fault> of_raster();       ///< stages 5 to 7
+std::span<const Fault> of_textures();     ///< stages 8 and 9
+std::span<const Fault> of_merge();        ///< stages 10 to 12
+std::span<const Fault> of_barycentric();  ///< stage 4, of what is interpolated between corners
 
 }  // namespace plumbline::faults

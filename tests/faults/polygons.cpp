@@ -156,6 +156,25 @@ constexpr auto kWholeRows = [](const pipeline::WindowVertex& v) {
 };
 constexpr auto kHalfAPixelOff = [](const pipeline::WindowVertex& v) { return v.snapped + kSubpixel / 2; };
 
+// Corners in whole pixels, plus a half where `centre` says so, for all that is interpolated as well.
+template <bool centre>
+void in_whole_pixels(const DrawInput& input, const Polygon& polygon, Triangles& out) {
+  Triangles made;
+  pipeline::to_window(input, polygon, made);
+  constexpr float kPart = centre ? 0.5f : 0;
+  for (ShadedTriangle& t : made) {
+    for (pipeline::WindowVertex& v : t.v) {
+      const glm::vec2 p = glm::floor(glm::vec2(v.p_win) - kPart) + kPart;
+      v.p_win.x = p.x, v.p_win.y = p.y;
+      v.snapped = glm::ivec2((p - 0.5f) * static_cast<float>(kSubpixel));
+    }
+    const std::int64_t area = pipeline::snapped_area(t);
+    if (t.corners == 3 && area == 0) continue;
+    if (t.corners == 3) t.front = area > 0;
+    out.push_back(t);
+  }
+}
+
 void z_not_divided(const DrawInput& input, const Polygon& polygon, Triangles& out) {
   Polygon wrong = polygon;
   for (ClipVertex& v : wrong.corners) v.p_clip.z *= v.p_clip.w;
@@ -225,6 +244,8 @@ constexpr std::array kPolygons = {
                                              "window positions are truncated to 1/256 pixel, not rounded"),
     of_window<snapped_otherwise<kWholeRows>>(
         "window.whole_rows", "corners' y are rounded to whole pixels, their x are not", "gonetz/GLideN64#1731"),
+    of_window<in_whole_pixels<false>>("window.whole_pixels", "corners are truncated to whole pixels"),
+    of_window<in_whole_pixels<true>>("window.whole_centres", "corners are moved down to pixels' centres"),
     of_window<snapped_otherwise<kHalfAPixelOff>>("window.half_pixel_off",
                                                  "corners lie half a pixel too far right and up"),
     of_window<facing_turned>("window.facing_turned", "triangles whose corners are clockwise are front faces"),

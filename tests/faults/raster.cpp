@@ -43,9 +43,10 @@ PixelList at_corner(const Triangle& t, const PixelBounds& box) {
   return pipeline::covered_pixels(pipeline::as_seen_from(t, glm::ivec2(-kSubpixel / 2)), box);
 }
 
-PixelList box_one_short(const Triangle& t, const PixelBounds& box) {
+template <int columns, int rows>
+PixelList box_short_by(const Triangle& t, const PixelBounds& box) {
   const PixelBounds b = pipeline::pixel_bounds(t);
-  return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0, b.y0, b.x1 - 1, b.y1 - 1}, box);
+  return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0, b.y0, b.x1 - columns, b.y1 - rows}, box);
 }
 
 // Of corners in pixels, det < 1, which is twice the area (ssloy/tinyrenderer, 87bc715, our_gl.cpp).
@@ -149,6 +150,14 @@ pipeline::DepthSetup one_depth(const Triangle& triangle, const pipeline::DepthSt
   return s;
 }
 
+// Of the first corner.
+pipeline::DepthSetup depth_of_first(const Triangle& triangle, const pipeline::DepthState& state) {
+  pipeline::DepthSetup s = pipeline::depth_setup(triangle, state);
+  s.z0 += s.dz2;
+  s.dz1 = s.dz2 = 0;
+  return s;
+}
+
 float truncated_depth(const Setup& setup, const Pixels<float>& p) {
   const double z = window_z(setup, p), scale = setup.depth.scale;
   return scale == 0.0 ? static_cast<float>(z) : static_cast<float>(static_cast<std::int64_t>(z * scale));
@@ -238,7 +247,11 @@ constexpr std::array kRaster = {
     Fault{"coverage.at_corner", "pixels are covered where their lower left corners are", Stage::coverage,
           put<&Stages::coverage, triangles_by<at_corner>>, "hrydgard/ppsspp#9681"},
     Fault{"coverage.box_one_short", "the bounding box lacks its last column and row", Stage::coverage,
-          put<&Stages::coverage, triangles_by<box_one_short>>},
+          put<&Stages::coverage, triangles_by<box_short_by<1, 1>>>},
+    Fault{"coverage.last_column_lost", "the bounding box lacks its last column", Stage::coverage,
+          put<&Stages::coverage, triangles_by<box_short_by<1, 0>>>},
+    Fault{"coverage.last_row_lost", "the bounding box lacks its last row", Stage::coverage,
+          put<&Stages::coverage, triangles_by<box_short_by<0, 1>>>},
     Fault{"coverage.small_dropped", "triangles of less than half a pixel's area are dropped: det < 1", Stage::coverage,
           put<&Stages::coverage, triangles_by<small_dropped>>},
     Fault{"coverage.scissor_inclusive", "the scissor box has one column and one row too many", Stage::coverage,
@@ -263,6 +276,8 @@ constexpr std::array kRaster = {
           put<&Stages::depth, depth_in_perspective>},
     Fault{"depth.one_per_triangle", "a triangle has one depth, the mean of its corners'", Stage::depth,
           put<&Stages::depth_setup, one_depth>},
+    Fault{"depth.of_first_corner", "a triangle has one depth, its first corner's", Stage::depth,
+          put<&Stages::depth_setup, depth_of_first>},
     Fault{"depth.of_centre", "all samples of a pixel have the depth at its centre", Stage::depth,
           put<&Stages::sample_offsets, depth_of_centre>},
     Fault{"depth.clamped_to_format", "depths beyond the draw's range are clamped to [0,1]", Stage::depth,

@@ -171,23 +171,33 @@ std::vector<FaultInfo> fault_infos() {
   return out;
 }
 
-std::unique_ptr<Renderer> make_candidate(const std::string& fault, Sides sides) {
-  if (fault.empty() && sides == Sides::cut) return pipeline::make_pipeline();
-  pipeline::Stages stages = pipeline::production_stages();
-  if (sides == Sides::kept) faults::keep_sides(stages);
-  if (fault.empty()) return pipeline::make_pipeline(stages);
+namespace {
+
+faults::Fault fault_of(const std::string& name) {
   std::vector<faults::Fault> all = faults::all();
   const auto endings = faults::endings();
   all.insert(all.end(), endings.begin(), endings.end());
-  for (const faults::Fault& f : all) {
-    if (f.name != fault) continue;
-    f.apply(stages);
-    return pipeline::make_pipeline(stages);
-  }
+  const auto found = std::ranges::find(all, name, &faults::Fault::name);
+  if (found != all.end()) return *found;
   std::vector<std::string_view> names;
   for (const faults::Fault& f : faults::all()) names.push_back(f.name);
   throw std::invalid_argument(
-      fmt::format("no fault '{}'{}: plumb list faults shows all", fault, did_you_mean(fault, names)));
+      fmt::format("no fault '{}'{}: plumb list faults shows all", name, did_you_mean(name, names)));
+}
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_candidate(const std::string& fault, Sides sides) {
+  if (fault.empty()) return make_candidate(std::span<const std::string>(), sides);
+  return make_candidate(std::span(&fault, 1), sides);
+}
+
+std::unique_ptr<Renderer> make_candidate(std::span<const std::string> faults, Sides sides) {
+  if (faults.empty() && sides == Sides::cut) return pipeline::make_pipeline();
+  pipeline::Stages stages = pipeline::production_stages();
+  if (sides == Sides::kept) faults::keep_sides(stages);
+  for (const std::string& name : faults) fault_of(name).apply(stages);
+  return pipeline::make_pipeline(stages);
 }
 
 }  // namespace plumbline::cli

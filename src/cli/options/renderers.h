@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,5 +48,7 @@ std::string faulted_reference(const std::string& fault);
 enum class Sides { cut, kept };
 /// Our pipeline; with the named fault unless the name is empty. Throws std::invalid_argument if it is unknown.
 std::unique_ptr<Renderer> make_candidate(const std::string& fault, Sides sides = Sides::cut);
+/// With all of these faults; of two that replace one function, the later one's stays.
+std::unique_ptr<Renderer> make_candidate(std::span<const std::string> faults, Sides sides = Sides::cut);
 
 }  // namespace plumbline::cli

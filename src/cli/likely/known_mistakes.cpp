@@ -1,0 +1,165 @@
+#include "cli/likely/known_mistakes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace plumbline::cli {
+
+namespace {
+
+void encode(glm::vec4& color) {
+  for (int i = 0; i < 3; ++i)
+    color[i] = static_cast<float>(srgb_encoded(std::clamp(static_cast<double>(color[i]), 0.0, 1.0)));
+}
+
+// visit(color, depth) of each pixel; depth is null where the frame has none.
+template <class Visit>
+auto of_pixels(Visit visit) {
+  return [visit](ColorAndDepth& frame) {
+    for (std::size_t i = 0; i < frame.color.size(); ++i)
+      visit(frame.color.values()[i], frame.depth.empty() ? nullptr : &frame.depth.values()[i]);
+  };
+}
+
+// Frame whose pixel (x, y) is pixel from(x, y) of the right one, and clear where that is none.
+template <class From>
+auto rearranged(glm::vec4 clear_color, double clear_depth, From from) {
+  return [=](ColorAndDepth& frame) {
+    const ColorAndDepth right = frame;
+    const int width = frame.color.width(), height = frame.color.height();
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const glm::ivec2 p = from(x, y, width, height);
+        const bool is_inside = p.x >= 0 && p.y >= 0 && p.x < width && p.y < height;
+        frame.color(x, y) = is_inside ? right.color(p.x, p.y) : clear_color;
+        if (!frame.depth.empty()) frame.depth(x, y) = is_inside ? right.depth(p.x, p.y) : clear_depth;
+      }
+    }
+  };
+}
+
+std::string side_of(int x, int y) {
+  const std::string_view across = x == 0 ? "" : x < 0 ? "left" : "right", up = y == 0 ? "" : y < 0 ? "down" : "up";
+  return fmt::format("{}{}{}", across, x != 0 && y != 0 ? " and " : "", up);
+}
+
+// Mistakes of a pixel in the viewport, or of half a pixel in the sample's place, to the eight sides.
+void add_neighbours(const FrameFormat& frame, std::vector<Mistake>& out) {
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      if (dx == 0 && dy == 0) continue;
+      const auto moved = [=](int x, int y, int, int) { return glm::ivec2(x - dx, y - dy); };
+      out.push_back({.stage = "window",
+                     .name = "window.one_pixel_off",
+                     .says = "the picture lies one pixel too far " + side_of(dx, dy),
+                     .of_frame = rearranged(frame.clear_color, frame.clear_depth, moved)});
+      out.push_back(
+          {.stage = "window",
+           .name = "window.sample_off_centre",
+           .says = "samples are not pixels' centres: the picture lies half a pixel too far " + side_of(dx, dy),
+           .of_scene = [=](Scene& s) { s.frame.pass.shift += 0.5 * glm::dvec2(dx, dy); }});
+    }
+  }
+}
+
+// Turns the depth test round, and clears depth to the other end.
+void keep_farthest(Scene& scene) {
+  scene.frame.clear_depth = 1 - scene.frame.clear_depth;
+  for (Draw& draw : scene.draws) {
+    using enum DepthFunc;
+    DepthFunc& f = draw.depth_func;
+    f = f == less            ? greater
+        : f == less_equal    ? greater_equal
+        : f == greater       ? less
+        : f == greater_equal ? less_equal
+                             : f;
+  }
+}
+
+// Mistakes that are made of a right frame on its way into a file.
+void add_files(std::vector<Mistake>& out) {
+  const auto add = [&](const char* name, const char* says, std::function<void(ColorAndDepth&)> change) {
+    out.push_back({.stage = "file", .name = name, .says = says, .of_frame = std::move(change)});
+  };
+  const auto change_depth = [](auto change) {
+    return of_pixels([change](glm::vec4&, double* z) {
+      if (z != nullptr) *z = change(*z);
+    });
+  };
+  add("file.rows_reversed", "the rows are written from the other end",
+      rearranged({}, 0, [](int x, int y, int, int height) { return glm::ivec2(x, height - 1 - y); }));
+  add("file.mirrored", "the columns are written from the other end",
+      rearranged({}, 0, [](int x, int y, int width, int) { return glm::ivec2(width - 1 - x, y); }));
+  add("file.bgr", "red and blue are swapped",
+      of_pixels([](glm::vec4& color, double*) { std::swap(color.r, color.b); }));
+  add("file.srgb", "colours are encoded as sRGB once more",
+      of_pixels([](glm::vec4& color, double*) { encode(color); }));
+  add("file.depth_of_ndc", "depths are in [-1, 1], those of normalized device coordinates",
+      change_depth([](double z) { return 2 * z - 1; }));
+  add("file.depth_reversed", "depths are 1 at the near plane and 0 at the far one",
+      change_depth([](double z) { return 1 - z; }));
+}
+
+// Whether the fault is what the conventions declare.
+bool is_declared(const std::string_view fault, const Conventions& conventions) {
+  constexpr auto kDown = Conventions::Rounding::down;
+  return (fault == "merge.truncated" && conventions.color_rounding == kDown) ||
+         (fault == "depth.truncated" && conventions.depth_rounding == kDown);
+}
+
+bool is_right(const GivenFrame& given, const Mistake& m) {
+  const bool is_of_window = m.name.starts_with("matrices.viewport") || m.name == "matrices.depth_range_not_mapped";
+  const auto at = std::ranges::find(kStageNames, is_of_window ? "window" : std::string_view(m.stage));
+  return at != kStageNames.end() && given.right.has(static_cast<Stage>(at - kStageNames.begin()));
+}
+
+}  // namespace
+
+std::vector<Mistake> known_mistakes(const Scene& scene, const GivenFrame& given) {
+  std::vector<Mistake> out;
+  add_files(out);
+  add_neighbours(scene.frame, out);
+  if (given.has_alpha) {
+    const float cleared = scene.frame.clear_color.a;
+    out.push_back({.stage = "merge",
+                   .name = "merge.alpha_not_written",
+                   .says = "alpha is as it was cleared",
+                   .of_frame = of_pixels([cleared](glm::vec4& color, double*) { color.a = cleared; })});
+  }
+  out.push_back({.stage = "visibility",
+                 .name = "visibility.farthest_kept",
+                 .says = "the depth test is turned round, and the depth cleared to the other end",
+                 .of_scene = keep_farthest});
+  for (const FaultInfo& fault : fault_infos()) {
+    if (is_declared(fault.name, given.conventions)) continue;
+    const std::string name(fault.name);
+    out.push_back({.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .fault = name});
+  }
+  std::erase_if(out, [&](const Mistake& m) { return is_right(given, m); });
+  return out;
+}
+
+ColorAndDepth draw_with(std::span<const Mistake* const> mistakes, const Scene& scene, const Conventions& conventions,
+                        Sides sides) {
+  Scene changed = scene;
+  std::vector<std::string> faults;
+  for (const Mistake* m : mistakes) {
+    if (m->of_scene) m->of_scene(changed);
+    if (!m->fault.empty()) faults.push_back(m->fault);
+  }
+  Request request;
+  request.planes = WantedPlanes::picture;
+  Planes planes = make_candidate(faults, sides)->capture(changed, request).planes;
+  if (conventions.color_encoding == Conventions::Encoding::srgb) std::ranges::for_each(planes.color.values(), encode);
+  ColorAndDepth out{std::move(planes.color), std::move(planes.depth)};
+  for (const Mistake* m : mistakes) {
+    if (m->of_frame) m->of_frame(out);
+  }
+  return out;
+}
+
+}  // namespace plumbline::cli

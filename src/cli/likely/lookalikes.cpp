@@ -1,0 +1,246 @@
+#include "cli/likely/lookalikes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "capture/by_conventions.h"
+#include "cli/likely/known_mistakes.h"
+#include "report/text/conformance.h"
+#include "scene/draw_index.h"
+
+namespace plumbline::cli {
+
+namespace {
+
+using Mistakes = std::vector<const Mistake*>;
+
+// Mistakes made together, and how many pixels they leave apart.
+struct Lookalike {
+  Mistakes mistakes;
+  Apart apart;
+};
+
+// Draws with mistakes. Of a scene that the frame's sides cut, the nearer frame counts of a renderer that cuts polygons
+// there, and of one that leaves the sides to the raster.
+class Trial {
+ public:
+  Trial(const Scene& scene, const GivenFrame& given, const ColorAndDepth& ours)
+      : scene_(scene), conventions_(given.conventions), apart_(scene.frame.depth, given, ours) {
+    right_.emplace(Sides::cut, ours);
+    if (cuts(Sides::cut) != cuts(Sides::kept))
+      right_.emplace(Sides::kept, draw_with({}, scene, conventions_, Sides::kept));
+  }
+  Apart apart(const ColorAndDepth& frame) const { return apart_.from(frame); }
+  Lookalike made(Mistakes mistakes) const {
+    Lookalike out{std::move(mistakes), {}};
+    for (const auto& [sides, right] : right_) {
+      const Apart left = apart_.from(frame_with(out.mistakes, sides, right));
+      const auto nearer = [&](std::size_t a, std::size_t b) { return sides == Sides::cut ? b : std::min(a, b); };
+      std::ranges::transform(out.apart, left, out.apart.begin(), nearer);
+    }
+    return out;
+  }
+
+ private:
+  std::ptrdiff_t cuts(Sides sides) const {
+    const Request clipped{{Stage::clip}, false, {}, {}, Request().memory_budget, WantedPlanes::none};
+    const Capture drawn = make_candidate("", sides)->capture(scene_, clipped);
+    return std::ranges::count(drawn.records.polygons.vertices, true, &ClipVertex<double>::cut);
+  }
+  ColorAndDepth frame_with(const Mistakes& mistakes, Sides sides, const ColorAndDepth& right) const {
+    const auto draws_anew = [](const Mistake* m) { return m->of_scene || !m->fault.empty(); };
+    if (std::ranges::any_of(mistakes, draws_anew)) return draw_with(mistakes, scene_, conventions_, sides);
+    ColorAndDepth out = right;
+    for (const Mistake* m : mistakes) m->of_frame(out);
+    return out;
+  }
+  const Scene& scene_;
+  const Conventions& conventions_;
+  FramesApart apart_;
+  std::map<Sides, ColorAndDepth> right_;  // frames without a mistake
+};
+
+// "STAGE (fault NAME)", of several in the stages' order.
+std::string text_of(Mistakes mistakes) {
+  const auto stage = [](const Mistake* m) { return std::ranges::find(kStageNames, m->stage); };
+  std::ranges::stable_sort(mistakes, {}, stage);
+  std::vector<std::string> out;
+  for (const Mistake* m : mistakes) out.push_back(fmt::format("{} (fault {})", m->stage, m->name));
+  return fmt::format("{}", fmt::join(out, " and "));
+}
+
+std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
+  const double explained = 100.0 * static_cast<double>(apart - left) / static_cast<double>(apart);
+  std::string names, says;
+  for (const Mistake* m : l.mistakes) names += (names.empty() ? "" : " and ") + m->name;
+  if (l.mistakes.size() == 1) says = l.mistakes.front()->says;
+  return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
+}
+
+// Fills in the cause that explains nine tenths, and those that leave as many pixels, if there is one. `all`: the nearest
+// first.
+void name_nearest(const std::vector<Lookalike>& all, Look look, Lookalikes& out) {
+  const auto left = [&](const Lookalike& l) { return l.apart[look]; };
+  const Lookalike& nearest = all.front();
+  out.whole = left(nearest) == 0;
+  if (10 * left(nearest) > out.apart) return;
+  out.likely = text_of(nearest.mistakes);
+  for (const Lookalike& l : all) {
+    const std::string text = text_of(l.mistakes);
+    if (left(l) == left(nearest) && text != out.likely && std::ranges::count(out.ties, text) == 0)
+      out.ties.push_back(text);
+  }
+}
+
+// Mistakes whose frames one look sees nearer than ours, the nearest first; and what is said of them.
+Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look) {
+  const auto left = [&](const Lookalike& l) { return l.apart[look]; };
+  Lookalikes out;
+  out.apart = ours[look];
+  if (is_fine(look)) out.codes = 0.5;
+  std::erase_if(all, [&](const Lookalike& l) { return left(l) >= out.apart; });
+  std::ranges::stable_sort(all, {}, left);
+  if (all.empty()) {
+    out.text = "no known fault draws a frame that is nearer\n";
+    return out;
+  }
+  constexpr std::size_t kShown = 8;
+  out.text = "explains  pixels left  fault\n";
+  for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown)))
+    out.text += line_of(l, left(l), out.apart);
+  name_nearest(all, look, out);
+  return out;
+}
+
+// Two mistakes at once, where the nearest alone explains a third or more, and none nine tenths.
+void seek_together(const Trial& trial, const std::vector<Mistake>& known, const Lookalike& nearest, Look look,
+                   Lookalikes& out) {
+  const auto left = [&](const Lookalike& l) { return l.apart[look]; };
+  if (3 * left(nearest) > 2 * out.apart) return;
+  std::vector<Lookalike> pairs;
+  for (const Mistake& m : known) {
+    if (&m != nearest.mistakes.front()) pairs.push_back(trial.made({nearest.mistakes.front(), &m}));
+  }
+  std::ranges::stable_sort(pairs, {}, left);
+  if (pairs.empty()) return;
+  name_nearest(pairs, look, out);
+  out.together = !out.likely.empty();
+  if (out.together) out.text += line_of(pairs.front(), left(pairs.front()), out.apart);
+}
+
+bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
+  return std::ranges::none_of(plane.values(), [&](const glm::vec4& c) { return colors_apart(color, c, 1.5f); });
+}
+
+// Line for people about a frame whose pixels all have one colour and, where depth is known, the clear depth within a
+// code of 16 bits. Empty of other frames, and where ours has one colour, too.
+std::string said_of_blank(const FrameFormat& frame, const ColorAndDepth& given, const ColorAndDepth& right) {
+  const glm::vec4 color = given.color.values().front();
+  const auto drawn_at = [&](double z) { return !(std::abs(z - frame.clear_depth) <= 1.0 / 65535); };
+  if (!has_one_color(given.color, color) || std::ranges::any_of(given.depth.values(), drawn_at)) return "";
+  if (!colors_apart(frame.clear_color, color, 1.5f)) return "every pixel has the clear colour: nothing is drawn\n";
+  if (has_one_color(right.color, right.color.values().front())) return "";
+  return fmt::format(
+      "every pixel has the colour {:.3g}, {:.3g}, {:.3g}, and not the clear colour: nothing of the scene "
+      "is seen\n",
+      color.r, color.g, color.b);
+}
+
+}  // namespace
+
+Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
+  const SceneByConventions seen(scene, given.conventions);
+  const ColorAndDepth right = draw_with({}, *seen, given.conventions);
+  const Trial trial(*seen, given, right);
+  Apart apart = trial.apart(right);
+  if (!given.has_alpha) apart[kCoarseByAlpha] = 0;
+  const auto differs = std::ranges::find_if(apart, [](std::size_t n) { return n > 0; });
+  if (differs == apart.end()) return {};  // right
+  Lookalikes blank;
+  blank.text = said_of_blank(seen->frame, given, right);
+  if (!blank.text.empty()) {
+    blank.apart = *differs, blank.blank = true;
+    return blank;
+  }
+  const std::vector<Mistake> known = known_mistakes(*seen, given);
+  std::vector<Lookalike> all;
+  for (const Mistake& m : known) all.push_back(trial.made({&m}));
+  std::vector<Lookalikes> found;
+  for (const Look look : {kCoarseByAlpha, kCoarse, kFineColor, kFineDepth}) {
+    if (is_fine(look) && !found.empty()) return found.front();  // no cause of what is coarse
+    if (apart[look] == 0) continue;
+    std::vector<Lookalike> nearest = all;
+    Lookalikes seen_by = ranked(nearest, apart, look);
+    if (look == kCoarse && seen_by.likely.empty() && !nearest.empty())
+      seek_together(trial, known, nearest.front(), look, seen_by);
+    if (!seen_by.likely.empty()) return seen_by;
+    if (!is_fine(look)) found.push_back(std::move(seen_by));
+  }
+  return {};  // rounded otherwise
+}
+
+namespace {
+
+bool tells_legal_colors(const check::Comparison& row) {
+  return row.stage == Stage::merge && judges_legality(row.judge, row.stage) && was_compared(row);
+}
+
+// 1 where no row that knows what is legal finds a pixel wrong; empty where no pixel is wrong, or not all are told.
+Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict) {
+  if (std::ranges::none_of(verdict.comparisons, tells_legal_colors)) return {};
+  Plane<std::uint8_t> out(planes.color.width(), planes.color.height(), 1);
+  bool any_wrong = false;
+  for (const check::Comparison& row : verdict.comparisons) {
+    if (row.outcome != check::Outcome::different || !judges_legality(row.judge, row.stage)) continue;
+    if (row.measurement.differing_at.size() < row.measurement.differing) return {};
+    for (const glm::ivec2 p : row.measurement.differing_at) out(p.x, p.y) = 0, any_wrong = true;
+  }
+  return any_wrong ? out : Plane<std::uint8_t>();
+}
+
+}  // namespace
+
+GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict) {
+  GivenFrame out{{left.planes.color, left.planes.depth}, renderer.conventions, legal_pixels(left.planes, verdict)};
+  out.has_alpha = true;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Stage::merge); ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (renderer[stage].given || report::is_right(verdict, stage)) out.right.add(stage);
+  }
+  return out;
+}
+
+std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict) {
+  std::uint64_t wrong = 0;
+  for (const check::Comparison& c : verdict.comparisons) {
+    if (c.stage == Stage::merge && c.outcome == check::Outcome::different)
+      wrong = std::max(wrong, c.measurement.differing);
+  }
+  if (found.likely.empty() || 2 * found.apart < wrong) return {};
+  std::vector<std::string> out = {found.likely};
+  out.insert(out.end(), found.ties.begin(), found.ties.end());
+  return out;
+}
+
+std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
+                                       const check::SceneVerdict& verdict) {
+  constexpr std::size_t kMostPrimitives = 20'000, kMostPixels = 200'000;  // each fault is a picture
+  const Plane<glm::vec4>& color = left.planes.color;
+  if (color.empty() || color.size() > kMostPixels || DrawIndex(scene).primitives() > kMostPrimitives ||
+      scene.frame.antialias.kind != Antialias::Kind::none || color.width() != scene.frame.width ||
+      color.height() != scene.frame.height)
+    return {};
+  const Lookalikes found = lookalikes(scene, frame_of(left, renderer, verdict));
+  if (found.blank) return {"nothing of the scene is seen"};
+  return likely_of(found, verdict);
+}
+
+}  // namespace plumbline::cli
