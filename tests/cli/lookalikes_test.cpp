@@ -213,6 +213,19 @@ TEST(Lookalikes, of_stages_that_are_right_or_of_declared_roundings_are_none) {
   }
 }
 
+// Faults of two stages that draw one frame where depths are constant.
+TEST(Lookalikes, of_a_stage_that_is_wrong_by_itself_come_first) {
+  const Scene scene = scene_of("interpolation/ramps.json");
+  GivenFrame given = drawn(scene, "window.next_values");
+  EXPECT_EQ(lookalikes(scene, given).likely, "attributes (fault attributes.next_corner)");
+  given.wrong = {Stage::window};
+  EXPECT_EQ(lookalikes(scene, given).likely, "window (fault window.next_values)");
+  given.wrong = {Stage::depth};
+  EXPECT_EQ(lookalikes(scene, given).likely, "attributes (fault attributes.next_corner)") << "no such fault of depths";
+  given.wrong = {Stage::coverage};
+  EXPECT_EQ(lookalikes(scene, given).likely, "") << "nor of coverage, which is wrong";
+}
+
 TEST(Lookalikes, right_stages_are_those_that_a_row_finds_right_and_none_wrong) {
   const check::JudgeId exact("exact", check::Kind::per_stage), embree("embree", check::Kind::legal);
   Capture left;
@@ -221,10 +234,12 @@ TEST(Lookalikes, right_stages_are_those_that_a_row_finds_right_and_none_wrong) {
   renderer[Stage::matrices].given = true;
   std::vector<check::Comparison> rows = {row(exact, Stage::window, {}, 0), row(exact, Stage::coverage, {}, 0),
                                          row(embree, Stage::coverage, {{1, 0}}, 1), row(exact, Stage::merge, {}, 0)};
-  const StageSet right = frame_of(left, renderer, {"scene", "scene.json", std::move(rows)}).right;
+  rows.push_back(row(exact, Stage::depth, {{1, 0}}, 1));
+  const GivenFrame given = frame_of(left, renderer, {"scene", "scene.json", std::move(rows)});
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
-    EXPECT_EQ(right.has(stage), stage == Stage::matrices || stage == Stage::window) << name_of(stage);
+    EXPECT_EQ(given.right.has(stage), stage == Stage::matrices || stage == Stage::window) << name_of(stage);
+    EXPECT_EQ(given.wrong.has(stage), stage == Stage::depth) << name_of(stage);
   }
 }
 

@@ -54,6 +54,15 @@ TEST(Conformance, TheFirstWrongStageIsTheOneThatIsWrongByItself) {
   const Comparison legal = row("exact", Kind::from_scene, Stage::coverage, Outcome::ambiguous_only);
   EXPECT_EQ(first({legal, unseen, alone(Stage::coverage)}), Stage::visibility) << "by another tie rule, perhaps";
   EXPECT_EQ(first_wrong(verdict("a/b", {kLegal, alone(Stage::depth)})), nullptr) << "nothing illegal comes of it";
+  const Comparison unlike = row("exact", Kind::from_scene, Stage::merge, Outcome::different);
+  for (const Stage stage : {Stage::attributes, Stage::texture, Stage::shade}) {
+    const Comparison illegal = row("embree", Kind::legal, stage, Outcome::different);
+    EXPECT_EQ(first_wrong(verdict("a/b", {alone(stage), kHolds})), nullptr) << "nor of its colours";
+    EXPECT_EQ(first({alone(stage), unlike}), stage);
+    EXPECT_EQ(first({alone(stage), illegal, kHolds}), stage);
+    EXPECT_EQ(first({alone(stage)}), stage) << "nobody judged the frame";
+  }
+  EXPECT_EQ(first({alone(Stage::clip), kHolds}), Stage::clip);
 }
 
 TEST(Conformance, OnlyWhatWasComparedIsRight) {
@@ -62,6 +71,16 @@ TEST(Conformance, OnlyWhatWasComparedIsRight) {
   EXPECT_FALSE(is_right(of, Stage::depth)) << "one row finds it wrong";
   EXPECT_FALSE(is_right(of, Stage::clip)) << "nobody judged it";
   EXPECT_FALSE(is_right(verdict("a/b", {kLegal}), Stage::depth)) << "what is open is not known";
+}
+
+TEST(Conformance, ColourOrDepthThatNobodyJudgedIsSaid) {
+  const Comparison depth = row("exact", Kind::from_scene, Stage::depth, Outcome::within);
+  const std::string none = "right or legal, and not judged";
+  EXPECT_EQ(conformance_text(std::vector{verdict("a/b", {kHolds, depth})}).find(none), std::string::npos);
+  EXPECT_TRUE(conformance_text(std::vector{verdict("a/b", {depth}), verdict("a/c", {depth}), verdict("a/d", {kHolds})})
+                  .ends_with(none + ": colour 2, depth 1\n"));
+  EXPECT_NE(conformance_markdown(std::vector{verdict("a/b", {depth})}).find(none + ": colour 1"), std::string::npos);
+  EXPECT_EQ(conformance_text(std::vector{verdict("a/b", {kIllegal})}).find(none), std::string::npos) << "it is wrong";
 }
 
 TEST(Conformance, OfASuite) {
@@ -74,6 +93,7 @@ TEST(Conformance, OfASuite) {
             "fog                   0       0       0       0       1       3  \n"
             "all                   1       0       0       1       1       3  depth 1\n"
             "unable: fog 2, nothing that it left could be judged 1\n"
+            "right or legal, and not judged: depth 1\n"
             "judged by the frame alone, wrong at the stage named or an earlier one: 1 (--each-primitive shows coverage "
             "and visibility)\n"
             "wrong as by no known fault: 1\n");

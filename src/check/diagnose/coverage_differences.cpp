@@ -31,9 +31,14 @@ std::vector<CoverageDifference> coverage_differences(const Evidence& e) {
   return out;
 }
 
-std::optional<CoverageDifference> worst_triangle(const Evidence& e) {
-  const std::vector<CoverageDifference> all = coverage_differences(e);
+std::optional<CoverageDifference> worst_triangle(const Evidence& e, const Place& worst) {
+  std::vector<CoverageDifference> all = coverage_differences(e);
   if (all.empty()) return std::nullopt;
+  const glm::ivec2 pixel(worst.x, worst.y);
+  const auto is_there = [&](const CoverageDifference& d) {
+    return std::ranges::count(d.missing, pixel) + std::ranges::count(d.extra, pixel) > 0;
+  };
+  if (std::ranges::any_of(all, is_there)) std::erase_if(all, [&](const auto& d) { return !is_there(d); });
   return *std::ranges::max_element(all, {}, [](const auto& d) { return d.missing.size() + d.extra.size(); });
 }
 

@@ -18,8 +18,9 @@ struct CoverageDifference {
 /// Of each triangle whose pixels differ, in order.
 std::vector<CoverageDifference> coverage_differences(const Evidence& evidence);
 
-/// The one of them with the most missing and extra pixels, the first of several.
-std::optional<CoverageDifference> worst_triangle(const Evidence& evidence);
+/// The one of them with the most missing and extra pixels, the first of several; of those where `worst` is one of these
+/// pixels, if there are such. (Beside it a tie rule may leave larger ones, which are legal.)
+std::optional<CoverageDifference> worst_triangle(const Evidence& evidence, const Place& worst);
 
 /// `#` both, `?` missing, `!` extra, rows from the last to the first, at most 64 x 32 about what differs; above it a
 /// line that says where the lower left character is.

@@ -40,7 +40,8 @@ void in_full(const Evidence& evidence, Finding& finding) {
   for (const Cause& cause : likely_causes(evidence)) finding.causes.push_back(cause.words);
   if (finding.stage != Stage::coverage || over_budget(evidence.candidate) || over_budget(evidence.expected))
     return;  // of a side without records of fragments, all would be missing
-  if (const auto worst = worst_triangle(evidence)) finding.picture = coverage_picture(*worst);
+  if (const auto worst = worst_triangle(evidence, finding.measurement.worst.place))
+    finding.picture = coverage_picture(*worst);
 }
 void in_brief(const Evidence&, Finding&) {}
 

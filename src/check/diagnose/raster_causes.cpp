@@ -65,14 +65,21 @@ bool box_one_short(const Evidence& e) {
   return inner > 0;  // or it may be the tie rule
 }
 
-// Whether the triangles that differ have less than half a pixel's area, and cover nothing.
+// Whether triangles of less than half a pixel's area cover nothing, and others differ only on edges.
 bool small_dropped(const Evidence& e) {
-  const std::vector<CoverageDifference> all = coverage_differences(e);
-  return !all.empty() && std::ranges::all_of(all, [&](const CoverageDifference& d) {
+  std::size_t dropped = 0;
+  for (const CoverageDifference& d : coverage_differences(e)) {
     const WindowTriangle<double>& t = e.candidate.records.triangles.at(d.triangle);
     const glm::dvec2 a(t.v[0].p_win), b = glm::dvec2(t.v[1].p_win) - a, c = glm::dvec2(t.v[2].p_win) - a;
-    return t.corners == 3 && d.both.empty() && d.extra.empty() && std::abs(b.x * c.y - b.y * c.x) < 1;
-  });
+    const bool is_small = t.corners == 3 && std::abs(b.x * c.y - b.y * c.x) < 1;
+    const auto is_tie = [&](glm::ivec2 p) { return on_an_edge(t, p, sample_place(e.scene.frame)); };
+    if (is_small && d.both.empty() && d.extra.empty()) {
+      ++dropped;
+    } else if (!std::ranges::all_of(d.missing, is_tie) || !std::ranges::all_of(d.extra, is_tie)) {
+      return false;
+    }
+  }
+  return dropped > 0;
 }
 
 void upside_down_fragments(const Scene& scene, const Capture& in, Capture& made) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "capture/seen_as.h"
@@ -71,11 +73,64 @@ void compare_visible(Case& c, const Capture& made, const JudgeId& name) {
   c.add(name, Stage::visibility, std::move(m));
 }
 
+// Exact's planes, but that a clear depth half way between two codes may be either of a stranger's.
+Planes with_either_clear_depth(const Case& c, const Planes& made) {
+  Planes out = made;
+  const Planes& mine = c.candidate.planes;
+  const double scale = depth_scale(c.scene.frame.depth), code = c.scene.frame.clear_depth * scale;
+  const bool is_half = scale > 0 && std::abs(code - std::floor(code) - 0.5) < 0x1p-20;
+  if (!c.foreign || !is_half || mine.id.size() != out.depth.size() || mine.depth.size() != out.depth.size()) return out;
+  for (std::size_t i = 0; i < out.depth.size(); ++i) {
+    const double z = mine.depth.values()[i];
+    const bool is_either = z == std::floor(code) / scale || z == std::ceil(code) / scale;
+    if (mine.id.values()[i] == kBackground && is_either) out.depth.values()[i] = z;
+  }
+  return out;
+}
+
+// Of corners in pixels, twice the area.
+template <class Place>
+double area_of(const WindowTriangle<double>& t, Place place) {
+  const glm::dvec2 a = place(t.v[0]), b = place(t.v[1]) - a, c = place(t.v[2]) - a;
+  return b.x * c.y - b.y * c.x;
+}
+constexpr auto kAsItLies = [](const WindowVertex<double>& v) { return glm::dvec2(v.p_win); };
+constexpr auto kSnapped = [](const WindowVertex<double>& v) { return glm::dvec2(v.snapped); };
+
+bool is_turned_over(const WindowTriangle<double>& t) {
+  const double lies = area_of(t, kAsItLies);
+  return t.corners == 3 && lies != 0 && (lies > 0) != (area_of(t, kSnapped) > 0);
+}
+
+// Whether the candidate declares that it snaps no corner, and has triangles that snapping turns over: exact interpolates
+// between their snapped corners (reference/exact/barycentric.h), and the candidate between its own.
+bool interpolates_turned(const Case& c, Stage stage) {
+  const bool snaps_nothing = c.foreign && c.conventions.subpixel_bits == Conventions::kFloat;
+  return snaps_nothing && (stage == Stage::depth || stage == Stage::attributes) &&
+         std::ranges::any_of(c.candidate.records.triangles, is_turned_over);
+}
+
+// The capture with snapped corners that face as the candidate's do: in 2^-28 of the triangle's size. Exact asks of them
+// nothing but the facing.
+Capture facing_as_it_lies(const Capture& in) {
+  Capture out = in;
+  for (WindowTriangle<double>& t : out.records.triangles) {
+    if (!is_turned_over(t)) continue;
+    const glm::dvec2 first(t.v[0].p_win);
+    double size = 0;
+    for (const WindowVertex<double>& v : t.v) size = std::max(size, glm::length(glm::dvec2(v.p_win) - first));
+    for (WindowVertex<double>& v : t.v) v.snapped = glm::round((glm::dvec2(v.p_win) - first) * (0x1p28 / size));
+  }
+  return out;
+}
+
 }  // namespace
 
 void run_exact_stage(Case& c, Renderer& referee, Stage stage, const JudgeId& name) {
   if (stage >= Stage::depth && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
-  compare_stage(c, referee.run_stage(c.scene, stage, c.candidate), stage, name);
+  const bool turned = interpolates_turned(c, stage);
+  compare_stage(c, referee.run_stage(c.scene, stage, turned ? facing_as_it_lies(c.candidate) : c.candidate), stage,
+                name);
 }
 
 void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& name) {
@@ -107,8 +162,9 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
       return add([&](double f) { return compare_shaded(c.scene, mine, theirs, f); });
     case Stage::visibility: return compare_visible(c, made, name);
     case Stage::merge: {
+      const Planes expected = with_either_clear_depth(c, made.planes);
       const auto compare = [&](double f) {
-        return compare_merge(c.scene, c.candidate.planes, made.planes, f, made.legal, c.conventions);
+        return compare_merge(c.scene, c.candidate.planes, expected, f, made.legal, c.conventions);
       };
       if (c.scene.frame.color == ColorFormat::rgba32f) return c.add(name, stage, compare(1));
       return add(compare, "codes");

@@ -91,13 +91,14 @@ bool was_compared(const Comparison& row) {
 }
 
 bool is_legal(const SceneVerdict& verdict, Stage stage) {
-  bool legal = false;
+  bool legal = false, judged = false;
   for (const Comparison& c : verdict.comparisons) {
     if (c.stage != stage || !judges_legality(c.judge, c.stage)) continue;
     if (is_failure(c.outcome)) return false;
-    legal |= holds(c.outcome);
+    legal |= holds(c.outcome), judged |= was_compared(c);
   }
-  return legal;
+  const bool makes_colors = stage == Stage::attributes || stage == Stage::texture || stage == Stage::shade;
+  return legal || (makes_colors && !judged && is_legal(verdict, Stage::merge));
 }
 
 bool holds_alone(const SceneVerdict& verdict, Stage stage) {

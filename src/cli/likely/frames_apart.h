@@ -26,6 +26,7 @@ struct GivenFrame : ColorAndDepth {
   Plane<std::uint8_t> is_legal;
   bool has_alpha = false;  ///< else nothing is told by alpha
   StageSet right{};        ///< stages that are judged right, or given: their faults are no causes
+  StageSet wrong{};        ///< stages that are wrong of what they were given: their faults are named before others
 };
 
 /// What counts as a difference: coarse, more than a code of 8 bits and a step of depth, with alpha or without; fine,

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -68,6 +69,11 @@ class Trial {
   std::map<Sides, ColorAndDepth> right_;  // frames without a mistake
 };
 
+bool is_among(const StageSet& stages, std::string_view name) {
+  const auto at = std::ranges::find(kStageNames, name);  // "file" is none
+  return at != kStageNames.end() && stages.has(static_cast<Stage>(at - kStageNames.begin()));
+}
+
 // "STAGE (fault NAME)", of several in the stages' order.
 std::string text_of(Mistakes mistakes) {
   const auto stage = [](const Mistake* m) { return std::ranges::find(kStageNames, m->stage); };
@@ -85,23 +91,33 @@ std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
   return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
 }
 
-// Fills in the cause that explains nine tenths, and those that leave as many pixels, if there is one. `all`: the nearest
-// first.
-void name_nearest(const std::vector<Lookalike>& all, Look look, Lookalikes& out) {
+// Fills in the cause that explains nine tenths, and those that leave as many pixels, if there is one; of a stage that is
+// wrong by itself, if there is one. `all`: the nearest first. Returns the one named, or null.
+const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
-  const Lookalike& nearest = all.front();
+  const auto explains = [&](const Lookalike& l) { return 10 * left(l) <= out.apart; };
+  const auto is_of_wrong = [&](const Lookalike& l) {
+    return std::ranges::any_of(l.mistakes, [&](const Mistake* m) { return is_among(wrong, m->stage); });
+  };
+  // Coverage, of the renderer's own triangles, is a matter of no rounding: no fault of another stage makes it wrong.
+  const bool by_wrong = wrong.has(Stage::coverage) ||
+                        std::ranges::any_of(all, [&](const Lookalike& l) { return explains(l) && is_of_wrong(l); });
+  const auto counts = [&](const Lookalike& l) { return !by_wrong || is_of_wrong(l); };
+  const auto found = std::ranges::find_if(all, counts);
+  if (found == all.end() || !explains(*found)) return nullptr;
+  const Lookalike& nearest = *found;
   out.whole = left(nearest) == 0;
-  if (10 * left(nearest) > out.apart) return;
   out.likely = text_of(nearest.mistakes);
   for (const Lookalike& l : all) {
     const std::string text = text_of(l.mistakes);
-    if (left(l) == left(nearest) && text != out.likely && std::ranges::count(out.ties, text) == 0)
+    if (left(l) == left(nearest) && counts(l) && text != out.likely && std::ranges::count(out.ties, text) == 0)
       out.ties.push_back(text);
   }
+  return &nearest;
 }
 
 // Mistakes whose frames one look sees nearer than ours, the nearest first; and what is said of them.
-Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look) {
+Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, const StageSet& wrong) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   Lookalikes out;
   out.apart = ours[look];
@@ -116,24 +132,26 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look) {
   out.text = "explains  pixels left  fault\n";
   for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown)))
     out.text += line_of(l, left(l), out.apart);
-  name_nearest(all, look, out);
+  name_nearest(all, look, wrong, out);
   return out;
 }
 
-// Two mistakes at once, where the nearest alone explains a third or more, and none nine tenths.
-void seek_together(const Trial& trial, const std::vector<Mistake>& known, const Lookalike& nearest, Look look,
-                   Lookalikes& out) {
+// Two mistakes at once, where the nearest alone explains a third or more. Both count: together they leave fewer pixels
+// than either of them. `alone`: each mistake that is known.
+void seek_together(const Trial& trial, const std::vector<Lookalike>& alone, const Lookalike& nearest, Look look,
+                   const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   if (3 * left(nearest) > 2 * out.apart) return;
   std::vector<Lookalike> pairs;
-  for (const Mistake& m : known) {
-    if (&m != nearest.mistakes.front()) pairs.push_back(trial.made({nearest.mistakes.front(), &m}));
+  for (const Lookalike& other : alone) {
+    Lookalike pair = trial.made({nearest.mistakes.front(), other.mistakes.front()});
+    if (left(pair) < std::min(left(nearest), left(other))) pairs.push_back(std::move(pair));
   }
-  std::ranges::stable_sort(pairs, {}, left);
   if (pairs.empty()) return;
-  name_nearest(pairs, look, out);
-  out.together = !out.likely.empty();
-  if (out.together) out.text += line_of(pairs.front(), left(pairs.front()), out.apart);
+  std::ranges::stable_sort(pairs, {}, left);
+  const Lookalike* named = name_nearest(pairs, look, wrong, out);
+  out.together = named != nullptr;
+  if (named != nullptr) out.text += line_of(*named, left(*named), out.apart);
 }
 
 bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
@@ -178,9 +196,9 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
     if (is_fine(look) && !found.empty()) return found.front();  // no cause of what is coarse
     if (apart[look] == 0) continue;
     std::vector<Lookalike> nearest = all;
-    Lookalikes seen_by = ranked(nearest, apart, look);
+    Lookalikes seen_by = ranked(nearest, apart, look, given.wrong);
     if (look == kCoarse && seen_by.likely.empty() && !nearest.empty())
-      seek_together(trial, known, nearest.front(), look, seen_by);
+      seek_together(trial, all, nearest.front(), look, given.wrong, seen_by);
     if (!seen_by.likely.empty()) return seen_by;
     if (!is_fine(look)) found.push_back(std::move(seen_by));
   }
@@ -214,6 +232,9 @@ GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const che
   for (std::size_t i = 0; i < static_cast<std::size_t>(Stage::merge); ++i) {
     const auto stage = static_cast<Stage>(i);
     if (renderer[stage].given || report::is_right(verdict, stage)) out.right.add(stage);
+  }
+  for (const check::Comparison& row : verdict.comparisons) {
+    if (row.judge.kind == check::Kind::per_stage && row.outcome == check::Outcome::different) out.wrong.add(row.stage);
   }
   return out;
 }

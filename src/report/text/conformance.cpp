@@ -148,6 +148,23 @@ std::string frame_line(std::span<const check::SceneVerdict> verdicts) {
       count);
 }
 
+// Line on what nobody judged of scenes that are right or legal. Empty: colour and depth were judged in all of them.
+std::string not_judged_line(std::span<const check::SceneVerdict> verdicts) {
+  Counts scenes;
+  for (const check::SceneVerdict& verdict : verdicts) {
+    const Conformance ended = conformance_of(verdict);
+    if (ended != Conformance::holds && ended != Conformance::legal) continue;
+    const auto judged = [&](std::initializer_list<Stage> stages) {
+      return std::ranges::any_of(verdict.comparisons, [&](const check::Comparison& c) {
+        return check::was_compared(c) && std::ranges::find(stages, c.stage) != stages.end();
+      });
+    };
+    if (!judged({Stage::merge, Stage::resolve})) ++scenes["colour"];
+    if (!judged({Stage::depth})) ++scenes["depth"];
+  }
+  return scenes.empty() ? "" : fmt::format("right or legal, and not judged: {}\n", counted(by_count(scenes)));
+}
+
 // The cause of the most scenes, of those that one scene's frame does not tell apart. Empty: none is known.
 std::string likeliest(const check::SceneVerdict& verdict, const Counts& scenes) {
   const auto of = [&](const std::string& cause) { return scenes.at(cause); };
@@ -199,7 +216,7 @@ std::string conformance_text(std::span<const check::SceneVerdict> verdicts) {
     out +=
         fmt::format(kRow, t.feature, t.holds, t.legal, t.known, t.differs, t.failed, t.unable, counted(t.first_wrong));
   }
-  return out + unable_line(verdicts) + frame_line(verdicts) + cause_lines(verdicts);
+  return out + unable_line(verdicts) + not_judged_line(verdicts) + frame_line(verdicts) + cause_lines(verdicts);
 }
 
 std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) {
@@ -210,7 +227,8 @@ std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) 
     out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(t.feature), t.holds, t.legal, t.known,
                        t.differs, t.failed, t.unable, cell(counted(t.first_wrong)));
   }
-  return out + "\n" + cell(unable_line(verdicts)) + "\n\n" + cell(frame_line(verdicts) + cause_lines(verdicts)) + "\n";
+  return out + "\n" + cell(unable_line(verdicts) + not_judged_line(verdicts)) + "\n\n" +
+         cell(frame_line(verdicts) + cause_lines(verdicts)) + "\n";
 }
 
 }  // namespace plumbline::report

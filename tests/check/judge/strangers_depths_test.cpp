@@ -1,4 +1,5 @@
-// Renderers of others that keep depths of double in a frame that asks for float.
+// Renderers of others that keep depths of double in a frame that asks for float, interpolate between corners that they do
+// not snap, or round a clear depth otherwise.
 #include <memory>
 #include <vector>
 
@@ -85,6 +86,66 @@ TEST_F(DepthInDouble, TheDepthOfTheClearedFrameCountsToo) {
   EXPECT_EQ(row().outcome, Outcome::ambiguous_only);
   candidate.records.depth[2] = kNaN;
   EXPECT_EQ(row().outcome, Outcome::different);
+}
+
+// Corners on a grid of 1/256 pixel turn this triangle over; at pixel (39, 43) its plane has depth 0.3758316779.
+TEST(TurnedOver, ARendererThatSnapsNothingInterpolatesBetweenItsOwnCorners) {
+  Scene scene;
+  scene.name = "test/turned_over";
+  scene.frame.width = scene.frame.height = 64;
+  scene.meshes.push_back(make_triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}));
+  scene.draws.emplace_back();
+  Capture candidate;
+  candidate.width = candidate.height = 64;
+  const glm::vec3 first(33.7331543f, 44.4609375f, 0.888888896f), second(7.79931641f, 48.7861328f, 0.055555582f),
+      third(41.5056152f, 43.1657715f, 0.222222239f);
+  candidate.records.triangles = {triangle_of({glm::dvec3(first), glm::dvec3(second), glm::dvec3(third)})};
+  candidate.records.covered = {{.triangle = 0, .x = 39, .y = 43}};
+  const auto outcome = [&](double z, bool foreign, int bits) {
+    candidate.records.depth = {std::round(z * 16777215) / 16777215};
+    const Legal none;
+    const auto exact = exact::make_exact();
+    std::vector<Comparison> out;
+    Case c{scene, candidate, none, exact.get(), out};
+    c.foreign = foreign;
+    c.conventions.subpixel_bits = bits;
+    run_exact_stage(c, *exact, Stage::depth, "exact");
+    return out.at(0).outcome;
+  };
+  EXPECT_NE(outcome(0.3758316779, true, Conventions::kFloat), Outcome::different);
+  EXPECT_EQ(outcome(0.3758318, true, Conventions::kFloat), Outcome::different) << "two steps off";
+  EXPECT_EQ(outcome(0.3758316779, true, 8), Outcome::different);
+  EXPECT_EQ(outcome(0.3758316779, false, Conventions::kFloat), Outcome::different);
+}
+
+// 0.3 of a depth of 24 bits is 5033164.5 codes.
+TEST(ClearDepth, HalfWayBetweenTwoCodesMayBeEitherOfAStrangers) {
+  Scene scene;
+  scene.name = "test/clear_depth";
+  scene.frame.width = scene.frame.height = 4;
+  scene.frame.clear_depth = 0.3;
+  const auto exact = exact::make_exact();
+  Capture candidate = exact->capture(scene, {StageSet::all(), false, {}, {}});
+  const auto outcome = [&](double code, bool foreign) {
+    candidate.planes.depth.values()[5] = code / 16777215;
+    const Legal none;
+    std::vector<Comparison> out;
+    Case c{scene, candidate, none, exact.get(), out};
+    c.foreign = foreign;
+    run_exact_stage(c, *exact, Stage::merge, "exact");
+    return out.at(0).outcome;
+  };
+  for (const bool foreign : {false, true}) {
+    EXPECT_EQ(outcome(5033163, foreign), Outcome::different);
+    EXPECT_NE(outcome(5033164, foreign), Outcome::different);
+    EXPECT_EQ(outcome(5033165, foreign) == Outcome::different, !foreign);
+    EXPECT_EQ(outcome(5033166, foreign), Outcome::different);
+    EXPECT_EQ(outcome(5033164.5, foreign), Outcome::different) << "no code";
+    EXPECT_EQ(outcome(kNaN, foreign), Outcome::different);
+  }
+  scene.frame.clear_depth = 0.30000001;
+  candidate = exact->capture(scene, {StageSet::all(), false, {}, {}});
+  EXPECT_EQ(outcome(5033164, true), Outcome::different);
 }
 
 }  // namespace
