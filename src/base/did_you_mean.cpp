@@ -32,6 +32,11 @@ std::size_t distance(std::string_view a, std::string_view b) {
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> names) {
   constexpr std::size_t kLongest = 40;
   if (word.size() > kLongest || names.empty()) return "";
+  constexpr std::size_t kFewest = 4;  // letters that a name begins with
+  const auto begins = [&](std::string_view name) { return name.starts_with(word); };
+  const auto longer = std::ranges::find_if(names, begins);
+  if (word.size() >= kFewest && std::ranges::count_if(names, begins) == 1)
+    return fmt::format(" (did you mean \"{}\"?)", *longer);
   const auto nearest = std::min_element(names.begin(), names.end(), [&](std::string_view a, std::string_view b) {
     return distance(word, a) < distance(word, b);
   });

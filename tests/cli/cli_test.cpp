@@ -36,6 +36,7 @@ TEST_F(Cli, a_misspelt_command_or_option_says_what_was_meant) {
   says("golden updat", "found updat (did you mean \"update\"?)");
   says("check " + kSharedEdges + " --reprot page", "unexpected option --reprot (did you mean \"--report\"?)");
   says("report merge --json x", "plumb: report merge: unexpected option --json");
+  says("check " + kSharedEdges + " --prog ./mine", "unexpected option --prog (did you mean \"--program\"?)");
   says("check " + kSharedEdges + " --fault window.y_fliped", "(did you mean \"window.y_flipped\"?)");
   says("check " + kSharedEdges + " --report " + at("q") + " --failures " + at("q/r"), "lies in the folder of --report");
   says("xyzzy", "expected a command: render, check, campaign, diagnose");

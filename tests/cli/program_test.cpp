@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/options/scene_arguments.h"
 #include "tests/cli/run_plumb.h"
 
 namespace plumbline {
@@ -266,6 +267,19 @@ TEST_F(Cli, program_wants_a_scene_and_a_folder) {
                    "found ./mine"))
           << run.text;
     }
+  }
+}
+
+TEST_F(Cli, program_takes_placeholders_without_quotes_after_a_program) {
+  const std::pair<const char*, const char*> kRefused[] = {
+      {"./mine '{input}' {output}", "expected {input} without quotes, found '{input}'"},
+      {"./mine {input} \"{output}\"", "expected {output} without quotes, found \"{output}\""},
+      {"{serve}", "expected a program before {serve}, found {serve}"},
+      {" {scene} {output}", "expected a program before {scene}, found  {scene} {output}"}};
+  for (const auto& [command, says] : kRefused) {
+    const Outcome run = plumb("check " + kSharedEdges + " --program " + cli::shell_word(command));
+    EXPECT_EQ(run.code, 2) << command << run.text;
+    EXPECT_TRUE(run.says(std::string("--program: ") + says)) << run.text;
   }
 }
 

@@ -62,8 +62,8 @@ class Reader {
   Reader(const fs::path& folder, Capture& capture)
       : folder_(folder), manifest_(folder / "manifest.json"), capture_(capture) {
     const JsonNode root = manifest_.root();
+    require(root["format"], kFormat);  // first: an export is told by it
     root.only({"format", "version", "renderer", "renderer_version", "width", "height", "byte_order", "arrays"});
-    require(root["format"], kFormat);
     root["version"].integer(kVersion, kVersion);
     require(root["byte_order"], "little");
     capture.renderer = root["renderer"].text();

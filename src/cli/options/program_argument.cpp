@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -60,8 +61,24 @@ void give(const std::string& from, const Scene& scene, Capture& left) {
   }
 }
 
+// A placeholder brings its own quotes, and is no program.
+void require_placeholders(const std::string& command) {
+  for (const std::string_view word : {"{input}", "{output}", "{scene}", "{serve}"}) {
+    for (const char quote : {'\'', '"'}) {
+      const std::string quoted = fmt::format("{0}{1}{0}", quote, word);
+      if (command.find(quoted) == command.npos) continue;
+      throw std::invalid_argument(fmt::format("--program: expected {} without quotes, found {}", word, quoted));
+    }
+    if (std::string_view(command)
+            .substr(std::min(command.find_first_not_of(" \t\n"), command.size()))
+            .starts_with(word))
+      throw std::invalid_argument(fmt::format("--program: expected a program before {}, found {}", word, command));
+  }
+}
+
 ProcessSpec spec_of(const ProgramArgument& program) {
   const std::string& command = program.command;
+  require_placeholders(command);
   ProcessSpec spec;
   spec.conventions = conventions_of(program.conventions);
   if (!program.from.empty()) {
