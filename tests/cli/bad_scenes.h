@@ -151,7 +151,7 @@ inline const std::vector<BadScene> kBadScenes = {
     {draw(R"("stencil": {"reference": 256})"), R"(at "/draws/0/stencil/reference": expected an integer from 0 to 255, found 256)"},
     {draw(R"("stencil": {"pass": "incr"})"), R"(at "/draws/0/stencil/pass": expected one of keep, zero, replace, increment, increment_wrap, decrement, decrement_wrap, invert, found "incr" (did you mean "invert"?))"},
     {draw(R"("stencil": {"back": {"back": {}}})"), R"(at "/draws/0/stencil/back/back": expected a key among func, reference, mask, fail, depth_fail, pass, write_mask, found the unknown key "back" (did you mean "mask"?))"},
-    {draw(R"("logic_op": "equiv")"), R"(at "/draws/0/logic_op": expected one of clear, and, and_reverse, copy, and_inverted, noop, xor, or, nor, equivalent, invert, or_reverse, copy_inverted, or_inverted, nand, set, found "equiv")"},
+    {draw(R"("logic_op": "equiv")"), R"(at "/draws/0/logic_op": expected one of clear, and, and_reverse, copy, and_inverted, noop, xor, or, nor, equivalent, invert, or_reverse, copy_inverted, or_inverted, nand, set, found "equiv" (did you mean "equivalent"?))"},
     {top(R"("frame": {"stencil": 8})"), R"(at "/frame/stencil": expected one of none, s8, found 8)"},
     {top(R"("frame": {"clear_stencil": -1})"), R"(at "/frame/clear_stencil": expected an integer from 0 to 255, found -1)"},
     {draw(R"("fog": {"exponential": {}})"), R"(at "/draws/0/fog/exponential": expected a key among linear, exp, exp2, found the unknown key "exponential")"},

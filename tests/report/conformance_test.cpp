@@ -61,6 +61,11 @@ TEST(Conformance, TheFirstWrongStageIsTheOneThatIsWrongByItself) {
     EXPECT_EQ(first({alone(stage), unlike}), stage);
     EXPECT_EQ(first({alone(stage), illegal, kHolds}), stage);
     EXPECT_EQ(first({alone(stage)}), stage) << "nobody judged the frame";
+    Comparison by_more = alone(stage);
+    by_more.measurement.max_difference = 4096;
+    EXPECT_EQ(first_wrong(verdict("a/b", {by_more, kHolds})), nullptr);
+    by_more.measurement.max_difference = 4097;
+    EXPECT_EQ(first({by_more, kHolds}), stage) << "more than stepping in float";
   }
   EXPECT_EQ(first({alone(Stage::clip), kHolds}), Stage::clip);
 }

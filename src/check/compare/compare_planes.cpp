@@ -369,7 +369,11 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
   const double unit = codes ? 0.5 / scale + 4 * u : u;
   const StoredColors stored{conventions, scale};
   const bool shows_winners = candidate.id.size() == candidate.color.size();
-  const auto is_cleared = [&](int x, int y) { return shows_winners && candidate.id(x, y) == kBackground; };
+  std::optional<glm::vec4> cleared;  // to what the first such pixel is
+  const auto is_cleared = [&](int x, int y) {
+    if (!shows_winners || candidate.id(x, y) != kBackground) return false;
+    return candidate.color(x, y) == (cleared ? *cleared : cleared.emplace(candidate.color(x, y)));
+  };
   return compare_planes(candidate.color, exact.color, codes ? "half code" : "u", [&](Meter& meter, int x, int y) {
     const std::int64_t id = shows_winners ? candidate.id(x, y) : -1;
     const glm::vec4 &low = bounds.color_lo.empty() ? exact.color(x, y) : bounds.color_lo(x, y),
@@ -378,7 +382,7 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
       const double v = candidate.color(x, y)[c];
       const double least = stored.of_channel(low[c], c), most = stored.of_channel(high[c], c);
       double off = outside(stored.middle(v), least, most);
-      // The clear colour may be rounded, and encoded, otherwise than fragments are.
+      // The clear colour, one for all pixels, may be rounded, and encoded, otherwise than fragments are.
       if (is_cleared(x, y)) off = std::min(off, outside(v, low[c], high[c]));
       meter.value(off / unit, codes ? factor : 0, {x, y, id, "color", true}, v, least);
     }

@@ -51,8 +51,10 @@ bool all_on_edges(const Evidence& e) {
 bool box_one_short(const Evidence& e) {
   const std::vector<CoverageDifference> all = coverage_differences(e);
   std::size_t inner = 0;
+  bool has_other_pixels = false;  // else triangles are lost, not their last pixels
   for (const CoverageDifference& d : all) {
     if (!d.extra.empty()) return false;
+    has_other_pixels = has_other_pixels || !d.both.empty();
     glm::ivec2 last(0);
     for (const auto* pixels : {&d.both, &d.missing}) {
       for (const glm::ivec2 p : *pixels) last = glm::max(last, p);
@@ -62,18 +64,31 @@ bool box_one_short(const Evidence& e) {
       return !on_an_edge(e.candidate.records.triangles.at(d.triangle), p, sample_place(e.scene.frame));
     });
   }
-  return inner > 0;  // or it may be the tie rule
+  return inner > 0 && has_other_pixels;  // or it may be the tie rule
 }
 
-// Whether triangles of less than half a pixel's area cover nothing, and others differ only on edges.
+// By its corners as they lie, or as they are snapped.
+bool is_small(const WindowTriangle<double>& t) {
+  const auto twice_area = [&](auto place) {
+    const glm::dvec2 a = place(t.v[0]), b = place(t.v[1]) - a, c = place(t.v[2]) - a;
+    return std::abs(b.x * c.y - b.y * c.x);
+  };
+  return t.corners == 3 && (twice_area([](const auto& v) { return glm::dvec2(v.p_win); }) < 1 ||
+                            twice_area([](const auto& v) { return glm::dvec2(v.snapped); }) < kSubpixel * kSubpixel);
+}
+
+// Whether triangles of less than half a pixel's area cover nothing, none of them, and others differ only on edges.
 bool small_dropped(const Evidence& e) {
+  const std::vector<WindowTriangle<double>>& triangles = e.candidate.records.triangles;
+  const auto is_of_small = [&](const Covered& c) {
+    return c.triangle < triangles.size() && is_small(triangles[c.triangle]);
+  };
+  if (std::ranges::any_of(e.candidate.records.covered, is_of_small)) return false;
   std::size_t dropped = 0;
   for (const CoverageDifference& d : coverage_differences(e)) {
-    const WindowTriangle<double>& t = e.candidate.records.triangles.at(d.triangle);
-    const glm::dvec2 a(t.v[0].p_win), b = glm::dvec2(t.v[1].p_win) - a, c = glm::dvec2(t.v[2].p_win) - a;
-    const bool is_small = t.corners == 3 && std::abs(b.x * c.y - b.y * c.x) < 1;
+    const WindowTriangle<double>& t = triangles.at(d.triangle);
     const auto is_tie = [&](glm::ivec2 p) { return on_an_edge(t, p, sample_place(e.scene.frame)); };
-    if (is_small && d.both.empty() && d.extra.empty()) {
+    if (is_small(t) && d.both.empty() && d.extra.empty()) {
       ++dropped;
     } else if (!std::ranges::all_of(d.missing, is_tie) || !std::ranges::all_of(d.extra, is_tie)) {
       return false;

@@ -4,6 +4,7 @@
 
 #include "capture/seen_as.h"
 #include "check/bounds/open_pixels.h"
+#include "check/bounds/units.h"
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
@@ -52,8 +53,19 @@ Measurement with_varyings(const Case& c, Stage stage, Measurement color, const R
   return color;
 }
 
-// Winners and fragments drawn, but for pixels where a stranger's depth buffer may be of double (open_by_double): the
-// oracle judges those by legal winners.
+// Leaves those pixels open whose winner the oracle calls legal.
+void keep_legal(const Case& c, Plane<std::uint8_t>& open) {
+  const Planes& mine = c.candidate.planes;
+  const bool known = mine.id.size() == open.size() && c.legal.certain.size() == open.size() && !c.legal.empty();
+  for (int y = 0; y < open.height(); ++y) {
+    for (int x = 0; x < open.width(); ++x) {
+      if (open(x, y) != 0) open(x, y) = known && find(c.legal, mine, x, y) != nullptr ? 1 : 0;
+    }
+  }
+}
+
+// Winners and fragments drawn, but for pixels where a stranger's depth buffer may be of double (open_by_double), and
+// whose winner the oracle calls legal.
 void compare_visible(Case& c, const Capture& made, const JudgeId& name) {
   const auto compare = [&](const Capture& theirs) {
     return worse(compare_winners(c.candidate.planes, theirs.planes, Legal{}),
@@ -61,7 +73,8 @@ void compare_visible(Case& c, const Capture& made, const JudgeId& name) {
   };
   Measurement m = compare(made);
   if (c.foreign && m.differing > 0) {
-    const Plane<std::uint8_t> open = open_by_double(c.scene.frame, c.candidate.records);
+    Plane<std::uint8_t> open = open_by_double(c.scene.frame, c.candidate.records);
+    keep_legal(c, open);
     Capture settled;
     settled.planes = made.planes;
     settled.records.drawn = made.records.drawn;
@@ -79,11 +92,15 @@ Planes with_either_clear_depth(const Case& c, const Planes& made) {
   const Planes& mine = c.candidate.planes;
   const double scale = depth_scale(c.scene.frame.depth), code = c.scene.frame.clear_depth * scale;
   const bool is_half = scale > 0 && std::abs(code - std::floor(code) - 0.5) < 0x1p-20;
-  if (!c.foreign || !is_half || mine.id.size() != out.depth.size() || mine.depth.size() != out.depth.size()) return out;
-  for (std::size_t i = 0; i < out.depth.size(); ++i) {
-    const double z = mine.depth.values()[i];
-    const bool is_either = z == std::floor(code) / scale || z == std::ceil(code) / scale;
-    if (mine.id.values()[i] == kBackground && is_either) out.depth.values()[i] = z;
+  const bool fits = mine.id.size() == out.depth.size() && mine.depth.size() == out.depth.size();
+  if (!c.foreign || !is_half || !fits) return out;
+  const auto& winners = mine.id.values();
+  const auto first = std::ranges::find(winners, kBackground);
+  if (first == winners.end()) return out;
+  const double z = mine.depth.values()[static_cast<std::size_t>(first - winners.begin())];  // all are cleared to one
+  if (z != std::floor(code) / scale && z != std::ceil(code) / scale) return out;
+  for (std::size_t i = 0; i < winners.size(); ++i) {
+    if (winners[i] == kBackground) out.depth.values()[i] = z;
   }
   return out;
 }
@@ -99,27 +116,24 @@ constexpr auto kSnapped = [](const WindowVertex<double>& v) { return glm::dvec2(
 
 bool is_turned_over(const WindowTriangle<double>& t) {
   const double lies = area_of(t, kAsItLies);
-  return t.corners == 3 && lies != 0 && (lies > 0) != (area_of(t, kSnapped) > 0);
+  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0) != (area_of(t, kSnapped) > 0);
 }
 
-// Whether the candidate declares that it snaps no corner, and has triangles that snapping turns over: exact interpolates
-// between their snapped corners (reference/exact/barycentric.h), and the candidate between its own.
+// Whether the candidate declares that it snaps no corner, and has triangles that snapping turns over. Exact
+// interpolates between the snapped corners of these (reference/exact/barycentric.h), the candidate between its own.
 bool interpolates_turned(const Case& c, Stage stage) {
   const bool snaps_nothing = c.foreign && c.conventions.subpixel_bits == Conventions::kFloat;
-  return snaps_nothing && (stage == Stage::depth || stage == Stage::attributes) &&
+  return snaps_nothing && (stage == Stage::depth || stage == Stage::attributes || stage == Stage::texture) &&
          std::ranges::any_of(c.candidate.records.triangles, is_turned_over);
 }
 
-// The capture with snapped corners that face as the candidate's do: in 2^-28 of the triangle's size. Exact asks of them
-// nothing but the facing.
+// The capture with snapped corners that face as the candidate's do. Exact asks of them nothing but the facing.
 Capture facing_as_it_lies(const Capture& in) {
   Capture out = in;
   for (WindowTriangle<double>& t : out.records.triangles) {
     if (!is_turned_over(t)) continue;
-    const glm::dvec2 first(t.v[0].p_win);
-    double size = 0;
-    for (const WindowVertex<double>& v : t.v) size = std::max(size, glm::length(glm::dvec2(v.p_win) - first));
-    for (WindowVertex<double>& v : t.v) v.snapped = glm::round((glm::dvec2(v.p_win) - first) * (0x1p28 / size));
+    const int up = area_of(t, kAsItLies) > 0 ? kSubpixel : -kSubpixel;
+    t.v[0].snapped = {0, 0}, t.v[1].snapped = {kSubpixel, 0}, t.v[2].snapped = {0, up};
   }
   return out;
 }

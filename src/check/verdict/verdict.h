@@ -117,8 +117,8 @@ bool holds_alone(const SceneVerdict& verdict, Stage stage);
 /// them, too.
 const Comparison* first_different(const SceneVerdict& verdict);
 
-/// Whether a row says that the stage is legal, and none that it is not. Attributes, texture and shade, where no such row
-/// judges them, are legal if merge is: nothing illegal comes of them.
+/// Whether a row says that the stage is legal, and none that it is not. Where no such row judges attributes, texture or
+/// shade, and they differ by no more than stepping in float makes, they are legal if merge is.
 bool is_legal(const SceneVerdict& verdict, Stage stage);
 /// Stages that a reference judged.
 std::vector<Stage> judged_stages(const SceneVerdict& verdict);

@@ -70,7 +70,7 @@ class Trial {
 };
 
 bool is_among(const StageSet& stages, std::string_view name) {
-  const auto at = std::ranges::find(kStageNames, name);  // "file" is none
+  const auto at = std::ranges::find(kStageNames, name == "file" ? "merge" : name);  // a frame is merge's
   return at != kStageNames.end() && stages.has(static_cast<Stage>(at - kStageNames.begin()));
 }
 
@@ -86,13 +86,15 @@ std::string text_of(Mistakes mistakes) {
 std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
   const double explained = 100.0 * static_cast<double>(apart - left) / static_cast<double>(apart);
   std::string names, says;
-  for (const Mistake* m : l.mistakes) names += (names.empty() ? "" : " and ") + m->name;
-  if (l.mistakes.size() == 1) says = l.mistakes.front()->says;
+  for (const Mistake* m : l.mistakes) {
+    names += (names.empty() ? "" : " and ") + m->name;
+    says += (says.empty() ? "" : "; ") + m->says;
+  }
   return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
 }
 
-// Fills in the cause that explains nine tenths, and those that leave as many pixels, if there is one; of a stage that is
-// wrong by itself, if there is one. `all`: the nearest first. Returns the one named, or null.
+// Fills in the cause that explains nine tenths, and those that leave as many pixels, if there is one; of a stage that
+// is wrong by itself, if there is one. `all`: the nearest first. Returns the one named, or null.
 const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   const auto explains = [&](const Lookalike& l) { return 10 * left(l) <= out.apart; };
@@ -130,8 +132,10 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, con
   }
   constexpr std::size_t kShown = 8;
   out.text = "explains  pixels left  fault\n";
-  for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown)))
-    out.text += line_of(l, left(l), out.apart);
+  const bool is_whole = left(all.front()) == 0;  // what is farther then says nothing
+  for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown))) {
+    if (!is_whole || left(l) == 0) out.text += line_of(l, left(l), out.apart);
+  }
   name_nearest(all, look, wrong, out);
   return out;
 }
@@ -144,6 +148,7 @@ void seek_together(const Trial& trial, const std::vector<Lookalike>& alone, cons
   if (3 * left(nearest) > 2 * out.apart) return;
   std::vector<Lookalike> pairs;
   for (const Lookalike& other : alone) {
+    if (other.mistakes.front()->name == nearest.mistakes.front()->name) continue;
     Lookalike pair = trial.made({nearest.mistakes.front(), other.mistakes.front()});
     if (left(pair) < std::min(left(nearest), left(other))) pairs.push_back(std::move(pair));
   }

@@ -15,8 +15,8 @@ namespace plumbline::cli {
 
 /// Known faults whose frame is nearer to the one given than ours is, the nearest first, and how much of what differs
 /// each explains. Faults are drawn by the conventions given, as far as SceneByConventions draws by them. Where all is
-/// within a code of 8 bits and a step of depth, a half and a quarter count, if a fault explains that. Where none explains
-/// nine tenths of them, and the nearest a third or more, each other fault is drawn together with it.
+/// within a code of 8 bits and a step of depth, a half and a quarter count, if a fault explains that. Where none
+/// explains nine tenths of them, and the nearest a third or more, each other fault is drawn together with it.
 struct Lookalikes {
   std::size_t apart = 0;  ///< pixels that differ from ours: a channel by more than so many codes, or depth
   double codes = 1;       ///< 1, or half of one

@@ -156,7 +156,7 @@ std::string not_judged_line(std::span<const check::SceneVerdict> verdicts) {
     if (ended != Conformance::holds && ended != Conformance::legal) continue;
     const auto judged = [&](std::initializer_list<Stage> stages) {
       return std::ranges::any_of(verdict.comparisons, [&](const check::Comparison& c) {
-        return check::was_compared(c) && std::ranges::find(stages, c.stage) != stages.end();
+        return check::votes(c) && check::was_compared(c) && std::ranges::find(stages, c.stage) != stages.end();
       });
     };
     if (!judged({Stage::merge, Stage::resolve})) ++scenes["colour"];

@@ -1,4 +1,6 @@
 // The frame's clear colour, which a renderer may round and encode otherwise than its fragments' colours.
+#include <optional>
+
 #include "tests/check/compare/planes.h"
 
 namespace plumbline::check {
@@ -8,8 +10,17 @@ namespace {
 struct ClearedFrame : PlanePairs {
   Measurement merged(glm::ivec2 pixel, int red, const Conventions& conventions) const {
     Capture mine = capture, exacts = capture;
+    if (pixel == kCleared) {
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          if (mine.planes.id.empty() ? glm::ivec2(x, y) != pixel : mine.planes.id(x, y) != kBackground) continue;
+          exacts.planes.color(x, y).r = 100.6f / 255, mine.planes.color(x, y).r = code(red);
+        }
+      }
+    }
     exacts.planes.color(pixel.x, pixel.y).r = 100.6f / 255;
     mine.planes.color(pixel.x, pixel.y).r = code(red);
+    if (other_at) mine.planes.color(6, 3).r = code(*other_at);
     return compare_merge(scene, mine.planes, exacts.planes, 1, {}, conventions);
   }
   static Conventions down() {
@@ -18,6 +29,7 @@ struct ClearedFrame : PlanePairs {
     return out;
   }
   static constexpr glm::ivec2 kCleared{0, 0}, kDrawn{3, 1};
+  std::optional<int> other_at;  // red of the last pixel
 };
 
 TEST_F(ClearedFrame, ItsCodeIsTheNearestOrThatOfFragments) {
@@ -25,6 +37,14 @@ TEST_F(ClearedFrame, ItsCodeIsTheNearestOrThatOfFragments) {
     EXPECT_EQ(passes(merged(kCleared, red, down())), holds) << red;
   for (const auto& [red, holds] : {std::pair(100, true), std::pair(101, false)})
     EXPECT_EQ(passes(merged(kDrawn, red, down())), holds) << red;
+}
+
+TEST_F(ClearedFrame, AllPixelsAreClearedToOneColour) {
+  other_at = 100;  // that of fragments
+  EXPECT_TRUE(passes(merged(kCleared, 101, down())));
+  other_at = 101;
+  EXPECT_FALSE(passes(merged(kCleared, 100, down())));
+  EXPECT_TRUE(passes(merged(kCleared, 101, down())));
 }
 
 TEST_F(ClearedFrame, OfARendererThatRoundsToTheNearestItsCodeIsTheNearest) {

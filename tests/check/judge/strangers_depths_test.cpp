@@ -1,5 +1,6 @@
-// Renderers of others that keep depths of double in a frame that asks for float, interpolate between corners that they do
-// not snap, or round a clear depth otherwise.
+// Renderers of others that keep depths of double in a frame that asks for float, interpolate between corners that they
+// do not snap, or round a clear depth otherwise.
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -29,6 +30,17 @@ struct DepthInDouble : testing::Test {
     }
     r.depth.assign(2 * kPixels, 0.75);
     r.drawn.resize(2 * kPixels);
+    allow({0, 1});
+  }
+  // The oracle's winners, at each pixel.
+  void allow(const std::vector<std::int32_t>& winners) {
+    legal = {};
+    legal.certain = legal.possible = Plane<std::uint32_t>(4, 4, 2);
+    legal.first = {0};
+    for (std::size_t i = 0; i < kPixels; ++i) {
+      for (const std::int32_t id : winners) legal.answers.push_back({id, 0, 0, 1, {}});
+      legal.first.push_back(static_cast<std::uint32_t>(legal.answers.size()));
+    }
   }
   // Tests the depths in double by "less", and judges what is drawn.
   Comparison row(bool foreign = true) {
@@ -38,9 +50,8 @@ struct DepthInDouble : testing::Test {
       candidate.records.drawn[kPixels + i].drawn = nearer != (i == wrong);
       candidate.planes.id.values()[i] = candidate.records.drawn[kPixels + i].drawn ? 1 : 0;
     }
-    const Legal none;
     std::vector<Comparison> out;
-    Case c{scene, candidate, none, exact.get(), out};
+    Case c{scene, candidate, legal, exact.get(), out};
     c.foreign = foreign;
     run_exact_stage(c, *exact, Stage::visibility, "exact");
     return out.at(0);
@@ -48,6 +59,7 @@ struct DepthInDouble : testing::Test {
 
   Scene scene;
   Capture candidate;
+  Legal legal;
   std::size_t wrong = kPixels;  // number of a pixel whose test comes out wrong
   std::unique_ptr<Renderer> exact = exact::make_exact();
 };
@@ -70,6 +82,14 @@ TEST_F(DepthInDouble, ATestThatIsWrongElsewhereIsFound) {
   EXPECT_EQ(equal_depths.measurement.worst.place.x, 3);
   candidate.records.depth[3] = float_above(0.75);
   EXPECT_EQ(row().measurement.differing, 1u) << "two floats";
+}
+
+TEST_F(DepthInDouble, AWinnerThatTheOracleDoesNotAllowIsFound) {
+  candidate.records.depth[0] = above(0.75);
+  allow({0});
+  EXPECT_EQ(row().outcome, Outcome::different) << "it shows the second";
+  legal = {};
+  EXPECT_EQ(row().outcome, Outcome::different) << "no oracle says";
 }
 
 TEST_F(DepthInDouble, NoOtherRendererAndNoOtherFormatIsExcused) {
@@ -136,9 +156,13 @@ TEST(ClearDepth, HalfWayBetweenTwoCodesMayBeEitherOfAStrangers) {
     return out.at(0).outcome;
   };
   for (const bool foreign : {false, true}) {
+    EXPECT_EQ(outcome(5033165, foreign), Outcome::different) << "other pixels are cleared to 5033164";
+    std::ranges::fill(candidate.planes.depth.values(), 5033165.0 / 16777215);
+    EXPECT_EQ(outcome(5033165, foreign) == Outcome::different, !foreign);
+    EXPECT_EQ(outcome(5033164, foreign), Outcome::different) << "one pixel is cleared otherwise";
+    std::ranges::fill(candidate.planes.depth.values(), 5033164.0 / 16777215);
     EXPECT_EQ(outcome(5033163, foreign), Outcome::different);
     EXPECT_NE(outcome(5033164, foreign), Outcome::different);
-    EXPECT_EQ(outcome(5033165, foreign) == Outcome::different, !foreign);
     EXPECT_EQ(outcome(5033166, foreign), Outcome::different);
     EXPECT_EQ(outcome(5033164.5, foreign), Outcome::different) << "no code";
     EXPECT_EQ(outcome(kNaN, foreign), Outcome::different);
