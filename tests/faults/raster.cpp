@@ -49,7 +49,7 @@ PixelList box_short_by(const Triangle& t, const PixelBounds& box) {
   return pipeline::covered_pixels(pipeline::edges_of(t), {b.x0, b.y0, b.x1 - columns, b.y1 - rows}, box);
 }
 
-// Of corners in pixels, det < 1, which is twice the area (ssloy/tinyrenderer, 87bc715, our_gl.cpp).
+// The stage without triangles of det < 1, twice the area in pixels (ssloy/tinyrenderer, 87bc715, our_gl.cpp).
 PixelList small_dropped(const Triangle& t, const PixelBounds& box) {
   const bool is_small = std::abs(snapped_area(t)) < std::int64_t{kSubpixel} * kSubpixel;
   return is_small ? PixelList{} : pipeline::covered_pixels(t, box);
@@ -150,7 +150,7 @@ pipeline::DepthSetup one_depth(const Triangle& triangle, const pipeline::DepthSt
   return s;
 }
 
-// Of the first corner.
+// The first corner's depth, all over the triangle.
 pipeline::DepthSetup depth_of_first(const Triangle& triangle, const pipeline::DepthState& state) {
   pipeline::DepthSetup s = pipeline::depth_setup(triangle, state);
   s.z0 += s.dz2;

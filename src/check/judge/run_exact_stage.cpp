@@ -105,7 +105,7 @@ Planes with_either_clear_depth(const Case& c, const Planes& made) {
   return out;
 }
 
-// Of corners in pixels, twice the area.
+// Twice the signed area between the corners' places.
 template <class Place>
 double area_of(const WindowTriangle<double>& t, Place place) {
   const glm::dvec2 a = place(t.v[0]), b = place(t.v[1]) - a, c = place(t.v[2]) - a;

@@ -13,7 +13,7 @@
 
 namespace plumbline::cli {
 
-/// What a renderer left of a frame: rows in the scene's order. Depth, window z, may be empty.
+/// Frame that a renderer left: rows in the scene's order. Depth, window z, may be empty.
 struct ColorAndDepth {
   Plane<glm::vec4> color;
   Plane<double> depth;
@@ -29,8 +29,8 @@ struct GivenFrame : ColorAndDepth {
   StageSet wrong{};        ///< stages that are wrong of what they were given: their faults are named before others
 };
 
-/// What counts as a difference: coarse, more than a code of 8 bits and a step of depth, with alpha or without; fine,
-/// half a code, or a quarter of a step, which only truncation makes.
+/// Rule of what counts as a difference: coarse, more than a code of 8 bits and a step of depth, with alpha or without;
+/// fine, half a code, or a quarter of a step, which only truncation makes.
 enum Look { kCoarseByAlpha, kCoarse, kFineColor, kFineDepth };
 constexpr std::size_t kLooks = 4;
 constexpr bool is_fine(Look look) { return look >= kFineColor; }
