@@ -111,13 +111,14 @@ bool is_declared(const std::string_view fault, const Conventions& conventions) {
          (fault == "depth.truncated" && conventions.depth_rounding == kDown);
 }
 
-bool is_right(const GivenFrame& given, const Mistake& m) {
-  const bool is_of_window = m.name.starts_with("matrices.viewport") || m.name == "matrices.depth_range_not_mapped";
-  const auto at = std::ranges::find(kStageNames, is_of_window ? "window" : std::string_view(m.stage));
-  return at != kStageNames.end() && given.right.has(static_cast<Stage>(at - kStageNames.begin()));
-}
-
 }  // namespace
+
+bool is_of(const StageSet& stages, const Mistake& m) {
+  const bool is_of_window = m.name.starts_with("matrices.viewport") || m.name == "matrices.depth_range_not_mapped";
+  const std::string_view stage = is_of_window ? "window" : m.stage == "file" ? "merge" : std::string_view(m.stage);
+  const auto at = std::ranges::find(kStageNames, stage);
+  return at != kStageNames.end() && stages.has(static_cast<Stage>(at - kStageNames.begin()));
+}
 
 std::vector<Mistake> known_mistakes(const Scene& scene, const GivenFrame& given) {
   std::vector<Mistake> out;
@@ -139,7 +140,7 @@ std::vector<Mistake> known_mistakes(const Scene& scene, const GivenFrame& given)
     const std::string name(fault.name);
     out.push_back({.stage = std::string(fault.stage), .name = name, .says = std::string(fault.changes), .fault = name});
   }
-  std::erase_if(out, [&](const Mistake& m) { return is_right(given, m); });
+  std::erase_if(out, [&](const Mistake& m) { return is_of(given.right, m); });
   return out;
 }
 

@@ -19,6 +19,9 @@ struct Mistake {
   std::function<void(ColorAndDepth&)> of_frame = {};
 };
 
+/// Whether the mistake is of one of these stages: one of the viewport is of `window`, one of a file of `merge`.
+bool is_of(const StageSet& stages, const Mistake& mistake);
+
 /// All that are known, less those of stages that are right (GivenFrame::right) and those that the conventions declare.
 std::vector<Mistake> known_mistakes(const Scene& scene, const GivenFrame& given);
 

@@ -44,7 +44,8 @@ class Trial {
     Lookalike out{std::move(mistakes), {}};
     for (const auto& [sides, right] : right_) {
       const Apart left = apart_.from(frame_with(out.mistakes, sides, right));
-      const auto nearer = [&](std::size_t a, std::size_t b) { return sides == Sides::cut ? b : std::min(a, b); };
+      const bool is_first = sides == Sides::cut;
+      const auto nearer = [=](std::size_t a, std::size_t b) { return is_first ? b : std::min(a, b); };
       std::ranges::transform(out.apart, left, out.apart.begin(), nearer);
     }
     return out;
@@ -68,11 +69,6 @@ class Trial {
   FramesApart apart_;
   std::map<Sides, ColorAndDepth> right_;  // frames without a mistake
 };
-
-bool is_among(const StageSet& stages, std::string_view name) {
-  const auto at = std::ranges::find(kStageNames, name == "file" ? "merge" : name);  // a frame is merge's
-  return at != kStageNames.end() && stages.has(static_cast<Stage>(at - kStageNames.begin()));
-}
 
 // "STAGE (fault NAME)", of several in the stages' order.
 std::string text_of(Mistakes mistakes) {
@@ -99,7 +95,7 @@ const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, cons
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   const auto explains = [&](const Lookalike& l) { return 10 * left(l) <= out.apart; };
   const auto is_of_wrong = [&](const Lookalike& l) {
-    return std::ranges::any_of(l.mistakes, [&](const Mistake* m) { return is_among(wrong, m->stage); });
+    return std::ranges::any_of(l.mistakes, [&](const Mistake* m) { return is_of(wrong, *m); });
   };
   // Coverage, of the renderer's own triangles, is a matter of no rounding: no fault of another stage makes it wrong.
   const bool by_wrong = wrong.has(Stage::coverage) ||
@@ -196,6 +192,8 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   const std::vector<Mistake> known = known_mistakes(*seen, given);
   std::vector<Lookalike> all;
   for (const Mistake& m : known) all.push_back(trial.made({&m}));
+  const Apart without = trial.made({}).apart;
+  std::erase_if(all, [&](const Lookalike& l) { return l.apart == without; });  // of what the scene has not
   std::vector<Lookalikes> found;
   for (const Look look : {kCoarseByAlpha, kCoarse, kFineColor, kFineDepth}) {
     if (is_fine(look) && !found.empty()) return found.front();  // no cause of what is coarse
