@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "check/compare/window_area.h"
 #include "check/diagnose/coverage_differences.h"
 #include "check/diagnose/known_causes.h"
 #include "scene/antialias.h"
@@ -69,12 +70,8 @@ bool box_one_short(const Evidence& e) {
 
 // By its corners as they lie, or as they are snapped.
 bool is_small(const WindowTriangle<double>& t) {
-  const auto twice_area = [&](auto place) {
-    const glm::dvec2 a = place(t.v[0]), b = place(t.v[1]) - a, c = place(t.v[2]) - a;
-    return std::abs(b.x * c.y - b.y * c.x);
-  };
-  return t.corners == 3 && (twice_area([](const auto& v) { return glm::dvec2(v.p_win); }) < 1 ||
-                            twice_area([](const auto& v) { return glm::dvec2(v.snapped); }) < kSubpixel * kSubpixel);
+  return t.corners == 3 &&
+         (std::abs(twice_area(t, kAsItLies)) < 1 || std::abs(twice_area(t, kSnapped)) < kSubpixel * kSubpixel);
 }
 
 // Whether triangles of less than half a pixel's area cover nothing, none of them, and others differ only on edges.

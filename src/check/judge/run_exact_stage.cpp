@@ -8,6 +8,7 @@
 #include "check/compare/compare_planes.h"
 #include "check/compare/compare_records.h"
 #include "check/compare/compare_texels.h"
+#include "check/compare/window_area.h"
 #include "check/judge/scene_case.h"
 
 namespace plumbline::check {
@@ -105,18 +106,9 @@ Planes with_either_clear_depth(const Case& c, const Planes& made) {
   return out;
 }
 
-// Twice the signed area between the corners' places.
-template <class Place>
-double area_of(const WindowTriangle<double>& t, Place place) {
-  const glm::dvec2 a = place(t.v[0]), b = place(t.v[1]) - a, c = place(t.v[2]) - a;
-  return b.x * c.y - b.y * c.x;
-}
-constexpr auto kAsItLies = [](const WindowVertex<double>& v) { return glm::dvec2(v.p_win); };
-constexpr auto kSnapped = [](const WindowVertex<double>& v) { return glm::dvec2(v.snapped); };
-
 bool is_turned_over(const WindowTriangle<double>& t) {
-  const double lies = area_of(t, kAsItLies);
-  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0) != (area_of(t, kSnapped) > 0);
+  const double lies = twice_area(t, kAsItLies);
+  return t.corners == 3 && std::isfinite(lies) && lies != 0 && (lies > 0) != (twice_area(t, kSnapped) > 0);
 }
 
 // Whether the candidate declares that it snaps no corner, and has triangles that snapping turns over. Exact
@@ -132,7 +124,7 @@ Capture facing_as_it_lies(const Capture& in) {
   Capture out = in;
   for (WindowTriangle<double>& t : out.records.triangles) {
     if (!is_turned_over(t)) continue;
-    const int up = area_of(t, kAsItLies) > 0 ? kSubpixel : -kSubpixel;
+    const int up = twice_area(t, kAsItLies) > 0 ? kSubpixel : -kSubpixel;
     t.v[0].snapped = {0, 0}, t.v[1].snapped = {kSubpixel, 0}, t.v[2].snapped = {0, up};
   }
   return out;

@@ -1,0 +1,21 @@
+// Area of a triangle in window space, by its corners as they lie or as they are snapped.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "capture/stages.h"
+
+namespace plumbline::check {
+
+inline constexpr auto kAsItLies = [](const WindowVertex<double>& v) { return glm::dvec2(v.p_win); };
+inline constexpr auto kSnapped = [](const WindowVertex<double>& v) { return glm::dvec2(v.snapped); };
+
+/// Twice the signed area between the corners' places: [pixels^2] by kAsItLies, [1/256 pixel]^2 by kSnapped; positive
+/// where y turns x to the left.
+template <class Place>
+double twice_area(const WindowTriangle<double>& t, Place place) {
+  const glm::dvec2 a = place(t.v[0]), b = place(t.v[1]) - a, c = place(t.v[2]) - a;
+  return b.x * c.y - b.y * c.x;
+}
+
+}  // namespace plumbline::check
