@@ -59,6 +59,9 @@ mkdir own && cp "$sample/build/my_program" own
 # The suite, too, and by conventions that plumb finds.
 "$prefix/bin/plumb" learn --program "'$PWD/own/my_program' {serve}" -o own.json || fail "the sample's conventions are not learned"
 "$prefix/bin/plumb" check "$prefix/share/plumbline/scenes/coverage" "$prefix/share/plumbline/scenes/depth" --program "'$PWD/own/my_program' {serve}" --conventions own.json --from window || fail "the sample is not right"
+homework=$prefix/share/plumbline/homework/gl
+"$prefix/bin/plumb" check "$homework" --program "'$PWD/own/my_program' {serve}" --conventions own.json --grade "$homework.rubric.json" --grades grades.json || [ $? = 1 ] || fail "the homework is not graded"
+[ -s grades.json ] || fail "plumb writes no grades"
 built "$sample" -DPLANTED_BUG=ON
 ctest --test-dir "$sample/build" >"$sample"/wrong.txt && fail "the planted bug was not found"
 for said in "likely stage: coverage" "shows the scene" "page: .*index.html" "3 tests failed out of 3"; do
