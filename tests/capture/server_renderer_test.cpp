@@ -88,6 +88,7 @@ TEST_F(Server, IsStartedAgainWhereItEndedHungOrSpokeNonsense) {
        {std::pair("echo the end >&2; exit 3", "exited with status 3\nthe end of its stderr:\nthe end"),
         std::pair("kill -SEGV $$", "was killed by signal 11"),
         std::pair("sleep 60", "took longer than 2s and was killed"),
+        std::pair("cp \"$good\"/* \"$out\"; sleep 60", "killed: it left a capture, and no line of answer on stdout"),
         std::pair("echo hello", "answered \"hello\", expected ok, unsupported REASON or"),
         std::pair("exit 0", "ended without an answer"), std::pair("echo ok", "left no capture that can be read")}) {
     const fs::path mark = root_ / "mark";

@@ -203,7 +203,9 @@ class ProcessRenderer : public Renderer {
   void ask_server(const fs::path& input, const fs::path& output) {
     const std::optional<std::string> answer = server_->ask(input.string() + '\t' + output.string());
     if (!answer) {
-      const Ending ending = ending_of(server_->end(), spec_.timeout);
+      Ending ending = ending_of(server_->end(), spec_.timeout);
+      if (server_->end().hung && fs::exists(output / "manifest.json"))
+        ending.words += ": it left a capture, and no line of answer on stdout (flush stdout after each)";
       server_.reset();
       take(ending);
       fail("ended without an answer");
