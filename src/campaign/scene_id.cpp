@@ -11,7 +11,10 @@
 
 namespace plumbline::campaign {
 
-std::string_view name_of(Generator generator) { return generator == Generator::ordinary ? "ordinary" : "hard"; }
+std::string_view name_of(Generator generator) {
+  constexpr std::string_view kNames[] = {"ordinary", "hard", "plain"};
+  return kNames[static_cast<std::size_t>(generator)];
+}
 
 std::string to_string(const SceneId& id) {
   return fmt::format("{}/{}", name_of(id.generator), fmt::join(id.seeds, "."));
@@ -36,9 +39,12 @@ SceneId scene_id_of(std::string_view text) {
 std::string scene_text(const SceneId& id) {
   const std::string seeds = fmt::format("{}", fmt::join(id.seeds, "."));
   const Choices choices(id.seeds);
-  return id.generator == Generator::ordinary
-             ? ordinary::ordinary_scene(choices, fmt::format("Ordinary scene {}.", seeds))
-             : hard::hard_scene(choices, fmt::format("Hard scene {}.", seeds));
+  switch (id.generator) {
+    case Generator::ordinary: return ordinary::ordinary_scene(choices, fmt::format("Ordinary scene {}.", seeds));
+    case Generator::hard: break;
+    case Generator::plain: return hard::plain_scene(choices, fmt::format("Plain scene {}.", seeds));
+  }
+  return hard::hard_scene(choices, fmt::format("Hard scene {}.", seeds));
 }
 
 }  // namespace plumbline::campaign

@@ -9,9 +9,10 @@
 
 namespace plumbline::campaign {
 
-/// Who writes a scene. Two that share nothing: what one never draws, the other may.
-enum class Generator { ordinary, hard };
-inline constexpr Generator kGenerators[] = {Generator::ordinary, Generator::hard};
+/// Who writes a scene. `ordinary` and `hard` share nothing: what one never draws, the other may. `plain` has
+/// the geometry of `hard`, for a renderer that draws opaque triangles alone.
+enum class Generator { ordinary, hard, plain };
+inline constexpr Generator kGenerators[] = {Generator::ordinary, Generator::hard, Generator::plain};
 std::string_view name_of(Generator generator);
 
 /// A scene: its generator and its seeds. One seed is a scene by itself; each further one changes a few of its choices.

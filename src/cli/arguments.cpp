@@ -96,8 +96,11 @@ void add(CLI::App& command, CampaignOptions& o) {
   text(command, "--seeds", o.seeds,
        "FIRST..LAST: judge a scene for each, but those that a journal holds; without it, "
        "report what the journals hold");
-  command.add_option("--generator", o.generator, "ordinary, hard or both: who writes the scenes")
-      ->check(CLI::IsMember({"ordinary", "hard", "both"}))
+  command
+      .add_option("--generator", o.generator,
+                  "ordinary, hard or both, or plain: who writes the scenes; "
+                  "plain ones are opaque triangles alone, for a renderer that draws no more")
+      ->check(CLI::IsMember({"ordinary", "hard", "both", "plain"}))
       ->capture_default_str();
   command
       .add_option("--round", o.round,

@@ -61,7 +61,8 @@ Range range_of(const std::string& text) {
 std::vector<campaign::Generator> generators_of(const std::string& option) {
   std::vector<campaign::Generator> out;
   for (const campaign::Generator of : campaign::kGenerators) {
-    if (option == "both" || option == name_of(of)) out.push_back(of);
+    const bool is_of_both = option == "both" && of != campaign::Generator::plain;
+    if (is_of_both || option == name_of(of)) out.push_back(of);
   }
   return out;
 }
@@ -330,7 +331,8 @@ int campaign(const CampaignOptions& o) {
   if (o.write) {
     write_scenes(o, terms);
     const std::vector<std::string>& assets = rules.options.scene_arguments.assets;
-    if (o.generator != name_of(campaign::Generator::hard) && !assets.empty())
+    const bool writes_ordinary = o.generator == "both" || o.generator == name_of(campaign::Generator::ordinary);
+    if (writes_ordinary && !assets.empty())
       say(fmt::format("note: images that ordinary scenes name are found by --assets {}", fmt::join(assets, " ")));
     return kHolds;
   }

@@ -48,7 +48,7 @@ int check(const CheckOptions& options);
 struct CampaignOptions {
   std::string folder;
   std::string seeds;               ///< FIRST..LAST, of each generator; empty: report what the journals hold
-  std::string generator = "both";  ///< or ordinary, hard
+  std::string generator = "both";  ///< or ordinary, hard, plain
   std::size_t round = 1;           ///< from 2 on, scenes are changed that reached something new in the round before
   bool judge_only = false;         ///< findings are neither shrunk nor reported
   bool write = false;              ///< the scenes' files, and nothing else

@@ -12,6 +12,17 @@ TEST_F(Campaign, OfAProgramCountsWhatItDoesNotDraw) {
   EXPECT_EQ(run.code, 2) << run.text;
   EXPECT_TRUE(run.says("hold: 0\nnothing could be judged: 8\n      ")) << run.text;
   EXPECT_TRUE(run.says("states: 0 of ")) << "of scenes that were not drawn: " << run.text;
+  EXPECT_TRUE(run.says("most scenes ask for more than is drawn; --generator plain ")) << run.text;
+}
+
+// The C renderer draws opaque triangles by OpenGL's rules, and no texture, fog or line.
+TEST_F(Campaign, OfAProgramThatDrawsTrianglesAloneHasScenesForIt) {
+  const std::string program = fmt::format(" --program '{} {{serve}}'", PLUMBLINE_C_RENDERER);
+  const Outcome run = campaign("c", "--seeds 1..20 --generator plain --against exact,embree" + program);
+  EXPECT_EQ(run.code, 0) << run.text;
+  EXPECT_TRUE(run.says("plain scenes: 20\nhold: 18\nnothing could be judged: 2\n      2  every pixel has "))
+      << run.text;
+  EXPECT_FALSE(run.says("--generator plain ")) << run.text;
 }
 
 TEST_F(Campaign, OfAProgramNamesMistakesAmongItsConventions) {

@@ -75,7 +75,8 @@ struct HardMesh {
   bool made = false;  ///< by a generator, about the origin, of about unit size
 };
 HardMesh mesh(Builder& b);
-std::string place_made(Builder& b);  ///< transforms that bring what is made into view
+HardMesh triangles_mesh(Builder& b);  ///< no lines, no points
+std::string place_made(Builder& b);   ///< transforms that bring what is made into view
 
 // Surfaces and light (surfaces.cpp).
 std::vector<double> rgb(Builder& b);

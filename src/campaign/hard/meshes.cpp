@@ -129,6 +129,14 @@ HardMesh mesh(Builder& b) {
   }
 }
 
+HardMesh triangles_mesh(Builder& b) {
+  switch (b.choose.count(0, 7)) {
+    case 0: return made(b);
+    case 1: return quad(b);
+    default: return written_out(b);
+  }
+}
+
 std::string place_made(Builder& b) {
   Choices& c = b.choose;
   const double d = std::clamp(distance(b), -1.0, 30.0), x = c.number(0, 1), y = c.number(0, 1);

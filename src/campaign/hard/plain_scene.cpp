@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "campaign/hard/builder.h"
+#include "campaign/hard/hard_scene.h"
+
+namespace plumbline::hard {
+namespace {
+
+Object plain_frame(Builder& b) {
+  Object out;
+  out.put("width", b.view.width).put("height", b.view.height);
+  const std::string_view depth = b.choose.word({"z24", "z24", "z16", "z32f"});
+  if (depth != "z24") out.put_word("depth", depth);
+  if (b.choose.chance(60)) out.put_numbers("clear_color", rgba(b));
+  return out;
+}
+
+Object plain_draw(Builder& b) {
+  const HardMesh of = triangles_mesh(b);
+  Object out("mesh", of.text);
+  if (of.made) out.put("transforms", place_made(b));
+  if (b.choose.chance(70)) out.put("material", Object("diffuse", json_numbers(rgba(b))));
+  out.put("lit", "false");
+  if (b.choose.chance(20)) out.put_word("cull", b.choose.word({"back", "back", "front"}));
+  return out;
+}
+
+}  // namespace
+
+std::string plain_scene(campaign::Choices choices, const std::string& description) {
+  Builder b(std::move(choices));
+  choose_view(b);
+  const Object onto = projection(b);
+  std::vector<std::string> draws;
+  const int count = static_cast<int>(b.choose.of({1, 1, 2, 2, 3, 4}));
+  for (int i = 0; i < count; ++i) draws.push_back("    " + plain_draw(b).text());
+
+  std::vector<std::string> lines;
+  const auto line = [&](std::string_view key, const std::string& value) {
+    lines.push_back(fmt::format("  {}: {}", json_string(key), value));
+  };
+  line("description", json_string(description));
+  line("frame", plain_frame(b).text());
+  line("camera", camera(b).text());
+  line("projection", onto.text());
+  line("draws", fmt::format("[\n{}\n  ]", fmt::join(draws, ",\n")));
+  return fmt::format("{{\n{}\n}}\n", fmt::join(lines, ",\n"));
+}
+
+}  // namespace plumbline::hard
