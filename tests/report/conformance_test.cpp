@@ -88,6 +88,23 @@ TEST(Conformance, ColourOrDepthThatNobodyJudgedIsSaid) {
   EXPECT_EQ(conformance_text(std::vector{verdict("a/b", {kIllegal})}).find(none), std::string::npos) << "it is wrong";
 }
 
+TEST(Conformance, StagesThatAreWrongBesideTheFirstAreCounted) {
+  const auto alone = [](Stage stage, Outcome outcome = Outcome::different) {
+    return row("exact", Kind::per_stage, stage, outcome);
+  };
+  const std::string line = "wrong by itself beside the first wrong stage";
+  const SceneVerdict two = verdict("a/b", {kIllegal, alone(Stage::depth), alone(Stage::shade)});
+  EXPECT_NE(conformance_text(std::vector{two, two}).find(line + ": shade 2\n"), std::string::npos);
+  EXPECT_NE(conformance_markdown(std::vector{two}).find(line + ": shade 1"), std::string::npos);
+  for (const Comparison& other :
+       {alone(Stage::shade, Outcome::within), row("embree", Kind::legal, Stage::merge, Outcome::different)}) {
+    const std::string one = conformance_text(std::vector{verdict("a/b", {kIllegal, alone(Stage::depth), other})});
+    EXPECT_EQ(one.find(line), std::string::npos) << "a later frame is wrong of it: " << one;
+  }
+  const SceneVerdict legal = verdict("a/b", {kIllegal, alone(Stage::depth), alone(Stage::shade), kHolds});
+  EXPECT_EQ(conformance_text(std::vector{legal}).find(line), std::string::npos) << "its frame is legal";
+}
+
 TEST(Conformance, OfASuite) {
   std::vector<SceneVerdict> verdicts = {verdict("clip/a", {kHolds}), verdict("clip/b", {kIllegal}),
                                         verdict("fog/a", {kUnable}), verdict("fog/b", {kLacking}),

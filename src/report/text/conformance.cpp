@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -148,6 +149,23 @@ std::string frame_line(std::span<const check::SceneVerdict> verdicts) {
       count);
 }
 
+// Line on stages that are wrong by themselves, beside each scene's first wrong one. Empty: none.
+std::string further_line(std::span<const check::SceneVerdict> verdicts) {
+  Counts scenes;
+  for (const check::SceneVerdict& verdict : verdicts) {
+    const check::Comparison* first = first_wrong(verdict);
+    if (first == nullptr) continue;
+    std::set<Stage> further;
+    for (const check::Comparison& c : verdict.comparisons) {
+      const bool is_wrong = c.outcome == check::Outcome::different && check::judges_alone(c);
+      if (is_wrong && c.stage != first->stage && !check::is_legal(verdict, c.stage)) further.insert(c.stage);
+    }
+    for (const Stage stage : further) ++scenes[std::string(name_of(stage))];
+  }
+  return scenes.empty() ? ""
+                        : fmt::format("wrong by itself beside the first wrong stage: {}\n", counted(by_count(scenes)));
+}
+
 // Line on what nobody judged of scenes that are right or legal. Empty: colour and depth were judged in all of them.
 std::string not_judged_line(std::span<const check::SceneVerdict> verdicts) {
   Counts scenes;
@@ -216,7 +234,8 @@ std::string conformance_text(std::span<const check::SceneVerdict> verdicts) {
     out +=
         fmt::format(kRow, t.feature, t.holds, t.legal, t.known, t.differs, t.failed, t.unable, counted(t.first_wrong));
   }
-  return out + unable_line(verdicts) + not_judged_line(verdicts) + frame_line(verdicts) + cause_lines(verdicts);
+  return out + unable_line(verdicts) + not_judged_line(verdicts) + further_line(verdicts) + frame_line(verdicts) +
+         cause_lines(verdicts);
 }
 
 std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) {
@@ -228,7 +247,7 @@ std::string conformance_markdown(std::span<const check::SceneVerdict> verdicts) 
                        t.differs, t.failed, t.unable, cell(counted(t.first_wrong)));
   }
   return out + "\n" + cell(unable_line(verdicts) + not_judged_line(verdicts)) + "\n\n" +
-         cell(frame_line(verdicts) + cause_lines(verdicts)) + "\n";
+         cell(further_line(verdicts) + frame_line(verdicts) + cause_lines(verdicts)) + "\n";
 }
 
 }  // namespace plumbline::report
