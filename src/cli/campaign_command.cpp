@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
@@ -176,6 +177,16 @@ std::vector<fs::path> journals_in(const fs::path& folder) {
 // Another process may read a journal, which takes a moment.
 constexpr std::chrono::seconds kReading{10};
 
+// The journal, which another process may have for a moment, or for long: then a note says what is waited for.
+campaign::Journal opened(const fs::path& file, const std::string& terms) {
+  try {
+    return campaign::Journal(file, terms, std::chrono::milliseconds(500));
+  } catch (const campaign::JournalInUse&) {
+    say(fmt::format("note: {}: in use by another process: waiting {} for it", file.string(), kReading));
+  }
+  return campaign::Journal(file, terms, kReading);
+}
+
 // Entries of the folder's journals but `mine`; a journal that another process has is left out, with a note. Without
 // `mine`, all journals: throws JournalInUse.
 std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, const std::string& terms,
@@ -201,7 +212,7 @@ std::vector<std::vector<campaign::Entry>> entries_in(const fs::path& folder, con
 std::string lines_of_kept(std::size_t round, const fs::path& folder, const std::string& terms) {
   std::vector<std::vector<campaign::Entry>> journals;
   for (const fs::path& file : journals_in(folder)) {
-    journals.push_back(campaign::Journal(file, terms, kReading).entries());
+    journals.push_back(opened(file, terms).entries());
     std::erase_if(journals.back(), [&](const campaign::Entry& e) { return e.id.seeds.size() > round; });
   }
   campaign::Results results = campaign::merged(journals);
@@ -296,7 +307,7 @@ void judge_range(const CampaignOptions& o, const CheckRules& rules, const fs::pa
   const fs::path file = journals / journal_name(o, range);
   const auto of_others = entries_in(journals, terms, file);  // a journal of other terms is refused before there is ours
   require_terms(journals, terms);
-  campaign::Journal journal(file, terms, kReading);
+  campaign::Journal journal = opened(file, terms);
   std::set<campaign::SceneId> judged = journal.judged();
   for (const auto& of_other : of_others) {
     for (const campaign::Entry& entry : of_other) judged.insert(entry.id);

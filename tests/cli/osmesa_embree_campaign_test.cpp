@@ -239,6 +239,12 @@ TEST_F(Campaign, IsNotToldWhileAPartOfItRuns) {
     const Outcome other = campaign(folder, "--seeds 5..5 --generator hard --against exact --judge-only");
     EXPECT_EQ(other.code, 2) << other.text;
     EXPECT_TRUE(other.says("expected a journal of this campaign")) << other.text;
+    if (folder == std::string("d")) {  // ten seconds
+      const Outcome twin = campaign(folder, "--seeds 9..9 --judge-only " + hangs);
+      EXPECT_EQ(twin.code, 2) << twin.text;
+      EXPECT_TRUE(twin.says("note: " + journal.string() + ": in use by another process: waiting 10s for it"))
+          << twin.text;
+    }
     ::kill(part, SIGKILL);
     ::waitpid(part, nullptr, 0);
   }
