@@ -18,8 +18,8 @@ struct OutputError : std::runtime_error {
   OutputError(const std::filesystem::path& path, std::string_view reason);
 };
 
-/// Where a write to `path` arrives: absolute, every link followed, the last one even where it points to nothing yet.
-/// Throws OutputError, as all below do.
+/// Absolute path that a write to `path` reaches, with every link followed, a dangling last one too. Throws OutputError,
+/// as all functions below do.
 std::filesystem::path resolved(const std::filesystem::path& path);
 
 /// A file or folder under a hidden name beside the target; commit() renames it to the target. Without a commit,
@@ -32,11 +32,11 @@ class AtomicPath {
   AtomicPath(const AtomicPath&) = delete;
   AtomicPath& operator=(const AtomicPath&) = delete;
 
-  /// Makes it a file of these bytes.
+  /// Writes the bytes to a hidden file.
   void write(std::string_view bytes);
-  /// Makes it a folder, and the folders above it.
+  /// Makes a hidden folder, and the folders above the target.
   void make_folder();
-  /// Makes a file in the folder that it is, and the folders between.
+  /// After make_folder(): writes a file in the hidden folder, and makes the folders between.
   void write_inside(const std::filesystem::path& name, std::string_view bytes);
   /// A file replaces a regular file that may be written, never a folder or a device; a folder replaces a folder, even
   /// one that is not empty.
@@ -59,16 +59,18 @@ class AtomicPath {
   bool is_folder_ = false;
 };
 
-/// Tries, before any work, whether a file could be written there, and leaves nothing behind.
+/// Throws unless the file can be written; leaves nothing behind. To be called before the work.
 void require_writable_file(const std::filesystem::path& file);
-/// The same of a folder, which may hold no file but those named, relative to it: nobody else's work is replaced.
+/// Throws unless the folder can be replaced; leaves nothing behind. The folder may hold no files but `may_hold`,
+/// relative to the folder: nobody else's work is replaced.
 void require_writable_folder(const std::filesystem::path& folder, const std::set<std::filesystem::path>& may_hold);
 
 struct OutputFile {
   std::filesystem::path path;
   std::string_view bytes;
 };
-/// All of the files are written before the first of them appears: all appear or, on failure, none.
+/// Writes all files before the first of them appears: where a write fails, none appears. A rename that fails leaves the
+/// files renamed before.
 void write_files(std::span<const OutputFile> files);
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 

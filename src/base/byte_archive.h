@@ -20,7 +20,7 @@ namespace plumbline {
 
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
-/// A struct of numbers without pointers. That it has none is for the caller to see to.
+/// A type that can be copied as bytes. The caller makes sure that it holds no pointers.
 template <class T>
 concept Copyable = std::is_trivially_copyable_v<T>;
 
@@ -35,7 +35,7 @@ class ByteWriter {
     (*this)(size);
     bytes_ += text;
   }
-  /// An array at once.
+  /// The elements' number, then all elements in one block.
   template <Copyable T>
   void block(std::vector<T>& items) {
     count(items);
@@ -63,10 +63,10 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Throws std::runtime_error where the bytes end too early. Of other bytes than a writer's it reads anything.
+/// Throws std::runtime_error where the bytes end too early. Bytes that no ByteWriter wrote are read without a check.
 class ByteReader {
  public:
-  /// `words`: owns the texts that values only refer to.
+  /// `words` owns the texts that word() reads; null where no value has one.
   ByteReader(std::string_view bytes, std::set<std::string>* words) : bytes_(bytes), words_(words) {}
   template <Plain T>
   void operator()(T& value) {

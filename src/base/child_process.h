@@ -16,13 +16,14 @@ struct ChildFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Answer of the program, which may take `seconds`. It is looked for where the libraries of this one are (DT_RPATH),
-/// and its main() is answer_parent(). What it writes to stderr is lost. Throws ChildFailed; std::runtime_error where
-/// there is no such program or no process for it, and where its work throws an exception, with the exception's words.
+/// Runs a program whose main() calls answer_parent(), and returns the answer; kills the program after `seconds`.
+/// `program` is a name in the folders where this program's libraries are looked for (DT_RPATH). The program's stderr is
+/// lost. Throws ChildFailed; std::runtime_error where there is no such program or no process, and with the exception's
+/// words where the program's work throws.
 std::string answer_of_child(const std::string& program, const std::vector<std::string>& arguments, unsigned seconds);
 
-/// Does the work, which may take 4 GiB of memory beyond what the program has, and writes its result to stdout, for
-/// answer_of_child(). Ends the program.
+/// Does the work, limited to 4 GiB of address space beyond the program's own, writes the result to stdout for
+/// answer_of_child(), and ends the program.
 [[noreturn]] void answer_parent(const std::function<std::string()>& work);
 
 }  // namespace plumbline

@@ -41,8 +41,8 @@ void open_as(int descriptor, const char* path, int flags) {
   if (file != descriptor) ::close(file);
 }
 
-// This process' limit of its address space becomes one of what is written to. A program may reserve more addresses than
-// it uses, as browsers and virtual machines do.
+// Turns this process' limit of address space (RLIMIT_AS) into one of data (RLIMIT_DATA). A program may reserve more
+// addresses than it uses, as browsers and virtual machines do.
 void limit_data() {
   rlimit memory{};
   if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return;
@@ -54,7 +54,7 @@ void limit_data() {
   ::setrlimit(RLIMIT_AS, &memory);
 }
 
-/// Becomes the program. Returns errno where there is none.
+/// Becomes the program (exec). Returns errno where that fails.
 int become(const ProgramCall& call, char** argv, char** environment, char** writable, pid_t guardian) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -82,7 +82,7 @@ timespec until(Clock::time_point deadline) {
   return {static_cast<time_t>(seconds.count()), static_cast<long>(std::chrono::nanoseconds(left - seconds).count())};
 }
 
-/// Waits for the program's end, its time's, or SIGTERM: our parent's.
+/// Waits for the program's end, the deadline, or a signal (SIGTERM: the parent has ended). `hung` after the last two.
 ProgramEnd wait_for(pid_t program, Clock::time_point deadline, const sigset_t& waited) {
   ProgramEnd end;
   while (true) {
@@ -101,7 +101,8 @@ ProgramEnd wait_for(pid_t program, Clock::time_point deadline, const sigset_t& w
   }
 }
 
-/// A process of its own between us and the program, to which all the program's orphans come.
+/// The guardian: a process between plumb and the program. It is the program's child subreaper, so that orphans become
+/// its children; it kills all of them at the end.
 [[noreturn]] void guard(const ProgramCall& call, char** argv, char** environment, char** writable, pid_t parent,
                         int answer) {
   const Clock::time_point deadline = Clock::now() + call.time_limit;

@@ -42,8 +42,8 @@ class ServerProgram {
   ServerProgram(const ServerProgram&) = delete;
   ServerProgram& operator=(const ServerProgram&) = delete;
 
-  /// A line's answer, a line; none: the program has ended, took longer, or had spoken before, and was killed: end() says
-  /// how.
+  /// Sends a line and returns the program's answer, a line without its end. None where the program ended, took longer
+  /// than the time limit, answered beyond 64 KiB, or wrote before it was asked: it is killed then, and end() says why.
   std::optional<std::string> ask(const std::string& line);
   /// After an ask() without an answer.
   const ProgramEnd& end() const { return end_; }
@@ -54,7 +54,7 @@ class ServerProgram {
 
   std::chrono::milliseconds time_limit_;
   int conversation_ = -1, ending_ = -1, guardian_ = -1;
-  std::string heard_;  ///< of the next answer
+  std::string heard_;  ///< bytes of the next answer, received so far
   ProgramEnd end_;
 };
 

@@ -8,11 +8,11 @@
 
 namespace plumbline {
 
-/// The folder for temporary files: $TMPDIR; without it /dev/shm, whose files lie in memory, if 2 GiB are free there;
-/// else /tmp. A disk's file system takes time over many small files: ext4 looks for an inode that was not freed in the
-/// last 5 s. Throws std::runtime_error, which names $TMPDIR, where that is no folder.
+/// The folder for temporary files: the first that is set of $TMPDIR, $TMP, $TEMP, $TEMPDIR; else /dev/shm, if that is a
+/// tmpfs with 2 GiB free; else /tmp. (Many small files are slow on disk: ext4 looks for an inode that was not freed in
+/// the last 5 s.) Throws std::runtime_error, which names $TMPDIR, where the variable names no folder.
 std::filesystem::path temporary_files();
-/// Makes a folder there, and removes it. Throws std::runtime_error, which names the folder, where that fails.
+/// Throws std::runtime_error, which names the folder, unless a folder can be made in temporary_files().
 void require_temporary_files();
 
 /// A new file, or a new folder, of a hidden name, which its destructor removes with all that is in it. Where the
@@ -21,14 +21,14 @@ void require_temporary_files();
 class TemporaryPath {
  public:
   enum class Kind { file, folder, private_folder };  ///< modes 0666 and 0777 less the umask; 0700
-  /// `prefix` begins the name; a process' number and a time follow. Throws std::system_error.
+  /// `prefix` begins the name; a thread's number and a time follow. Throws std::system_error.
   TemporaryPath(const std::filesystem::path& folder, std::string_view prefix, Kind kind);
   ~TemporaryPath();
   TemporaryPath(const TemporaryPath&) = delete;
   TemporaryPath& operator=(const TemporaryPath&) = delete;
 
   const std::filesystem::path& path() const { return held_.path; }
-  /// A descriptor of the file, to write by, or of the folder. While it is open, it holds a lock that says so.
+  /// Descriptor of the file, open for writing, or of the folder. It holds the lock (flock) of a path in use.
   int descriptor() const { return held_.descriptor; }
 
  private:

@@ -21,7 +21,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Begins a step, any number but kBetween, which may take so long.
+  /// Begins a step, any number but kBetween; end() begins the time between two steps. Each may take `limit`.
   void begin(std::uint32_t step, std::chrono::milliseconds limit);
   void end(std::chrono::milliseconds limit) { begin(kBetween, limit); }
   std::uint32_t step() const;
@@ -46,11 +46,11 @@ struct WorkerEnd {
   int signal = 0;   ///< that killed it, before its step's limit; 0: none
 };
 
-/// Requests 0 to n - 1, in the order in which they begin, and what becomes of them.
+/// Requests 0 to n - 1: the order in which they begin (a permutation), their bytes, and the receiver of the answers.
 struct WorkerJobs {
   std::span<const std::size_t> order;
   std::function<std::string(std::size_t)> request;
-  std::function<void(std::size_t, std::string answer)> take;            ///< by number, from 0 on
+  std::function<void(std::size_t, std::string answer)> take;            ///< called in order of numbers, from 0 on
   std::function<std::string(std::size_t, const WorkerEnd&)> ask_again;  ///< the request for the next worker
 };
 

@@ -53,7 +53,7 @@ DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& c) {
 
 namespace {
 
-// Window positions by which a pixel is sampled at its centre.
+// Moves window positions so that pixels are sampled at their centres.
 void move_to_centres(const glm::dvec2& sample, std::vector<WindowTriangle<double>>& triangles) {
   const glm::dvec2 by = 0.5 - sample;
   for (WindowTriangle<double>& triangle : triangles) {

@@ -1,5 +1,5 @@
-// Declared conventions, applied: the scene that OpenGL's rules would have to be given so that they draw what the
-// renderer draws, and the renderer's capture as OpenGL would have left it.
+// Applies a renderer's conventions: alters the scene so that OpenGL's rules draw it as the renderer does, and maps the
+// renderer's capture to OpenGL's conventions.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,12 @@
 
 namespace plumbline {
 
-/// A scene drawn by other conventions than its own. Holds a copy where they alter it; else it refers to `scene`.
+/// The scene that OpenGL's rules draw as the renderer draws `scene`. Holds a copy where the conventions alter the
+/// scene; else refers to `scene`, which must outlive it.
 ///
-/// `sample`: the picture is shifted by as much the other way (Pass::shift). `provoking_vertex` first: the corners of
-/// each triangle are rotated, so that this vertex is the last. `depth_planes` clamped: GL_DEPTH_CLAMP. `depth_format`:
-/// the frame's. The oracles handle a view volume of [0,w] in z (reference/arithmetic/project.cpp).
+/// `sample`: the picture is shifted by 1/2 - sample [pixels] (Pass::shift). `provoking_vertex` first: the corners of
+/// each triangle are rotated, so that the first becomes the last. `depth_planes` clamped: GL_DEPTH_CLAMP.
+/// `depth_format`: the frame's. The oracles handle a view volume of [0,w] in z (reference/arithmetic/project.cpp).
 class SceneByConventions {
  public:
   SceneByConventions(const Scene& scene, const Conventions& conventions);
@@ -28,12 +29,12 @@ class SceneByConventions {
   std::optional<Scene> altered_;
 };
 
-/// The depth buffer's format.
+/// The depth buffer's format: the convention's, or the frame's where that is as_asked.
 DepthFormat depth_format_of(const FrameFormat& frame, const Conventions& conventions);
 
-/// Turns the rows of planes and fragments over where they are counted from the top, and maps depths to [0,1], the near
-/// plane's being 0. Window positions are moved as far as `sample` is from the pixel's centre. Colours stay: their codes
-/// are judged as they are rounded.
+/// Maps a renderer's capture to OpenGL's conventions: reverses the rows of planes and fragments where `rows` is
+/// from_top; maps planes.depth and records.depth to [0,1], near plane at 0; moves window positions by 1/2 - sample
+/// [pixels]. Colours stay: their codes are judged by the rounding that the conventions declare.
 void to_dialect(const Conventions& conventions, Capture& capture);
 
 }  // namespace plumbline

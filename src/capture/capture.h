@@ -43,19 +43,19 @@ constexpr std::uint64_t id_weight(std::uint32_t primitive) {
 
 struct Capture {
   std::string renderer;  ///< its name
-  std::string version;   ///< and what it was made by
+  std::string version;   ///< the renderer's (RendererInfo)
   int width = 0;
   int height = 0;
   Records<double> records;
   Planes planes;
-  /// Of an antialiased scene: each pass' frame colours. Its records, and the other planes, are those of the passes
-  /// alone.
+  /// Frame colours of each pass of an antialiased scene. The capture of such a scene holds no records, and of planes
+  /// only color and depth: the passes' own captures hold the rest.
   std::vector<Plane<glm::vec4>> samples;
   /// Columns that a capture folder leaves out, for they follow from others: "window.front" (complete_records.h).
   std::set<std::string> derived;
-  std::set<std::string> without_records;  ///< groups whose arrays a capture folder holds, of no record each: "window"
-  bool depth_in_float = false;            ///< planes.depth was read from floats: its codes are the nearest ones
-  Legal legal;                            ///< an oracle's answer: what may be at each pixel
+  std::set<std::string> without_records;  ///< groups whose arrays a folder holds with 0 records, such as "window"
+  bool depth_in_float = false;            ///< planes.depth was read from f32: complete_records() finds the codes
+  Legal legal;                            ///< an oracle's legal answers for each pixel
 };
 
 }  // namespace plumbline

@@ -7,19 +7,19 @@
 
 namespace plumbline {
 
-/// Sorts polygons and window triangles by primitive, those of one primitive as they are, and fragments by triangle, row
-/// and column. Order of drawing shows in the frame, and is judged there.
+/// Sorts polygons and window triangles by primitive (stable), and fragments by triangle, row and column. The drawing
+/// order is judged by the frame.
 ///
-/// Fills the columns of `capture.derived`, which is empty then: vertex.n_eye by the capture's matrices and the mesh;
-/// clip.cut by whether the corner's place is, in float, that of one of its primitive's vertices; window.snapped by
-/// p_win and the conventions, window.front by the snapped area, window.corners and window.width by the mesh and the
+/// Fills the columns named in `capture.derived`, and clears that set: vertex.n_eye from the capture's matrices and the
+/// mesh; clip.cut: false where p_clip equals, in float, that of one of the primitive's vertices; window.snapped from
+/// p_win and the conventions, window.front from the snapped area, window.corners and window.width from the mesh and the
 /// draw.
 ///
-/// Where planes.depth was read from floats, its values become those of the nearest codes.
+/// Rounds planes.depth to the nearest codes where it was read from floats, and to float where the format is z32f.
 ///
 /// Throws std::invalid_argument, naming the column and the record: of a primitive that the scene does not have, of
-/// n_eye without matrices, of cut without vertices, of a p_win that cannot be snapped, of a position beyond 2^22 pixels or
-/// a width beyond 64, of front and corners where a draw's polygons are not filled.
+/// n_eye without matrices, of cut without vertices, of a p_win that cannot be snapped, of a position beyond 2^22 pixels
+/// or a width beyond 64, of front and corners where a draw's polygons are not filled.
 void complete_records(const Scene& scene, Capture& capture, const Conventions& conventions = {});
 
 }  // namespace plumbline

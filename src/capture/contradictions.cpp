@@ -58,7 +58,7 @@ void check_color(const Capture& c, Lines& out) {
   if (color.not_finite > 0 || (color.whole && color.high > 1)) check_range("planes.color", color, out);
 }
 
-// Pixels at which the two planes contradict each other, as they are and with the first one's rows turned over.
+// Number of pixels at which two planes contradict each other: as they are, and with the first plane's rows reversed.
 struct Apart {
   std::size_t as_is = 0, flipped = 0;
 };
@@ -138,7 +138,7 @@ double relative(const Vec4<double>& got, const Vec4<double>& expected) {
   return apart / std::max(size, 1e-30);
 }
 
-// Clip space follows from eye space, by one of the projections.
+// Each p_clip must be some draw's projection * p_eye: records do not say which draw a vertex is of.
 void check_matrices(const Capture& c, Lines& out) {
   constexpr double kApart = 1e-3;  // far beyond float's rounding, unless everything cancels
   const Records<double>& r = c.records;

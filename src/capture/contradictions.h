@@ -13,7 +13,8 @@ namespace plumbline {
 /// numbers in [0,1] belong, rows upside down, transposed matrices, winners where nothing was drawn, a picture without
 /// triangles. Empty: none found.
 std::vector<std::string> contradictions(const Capture& capture);
-/// Contradictions of what it holds of this stage, window or visibility, with planes.color and planes.count.
+/// Contradictions of one stage. window: no triangle, but pixels drawn in planes.id, planes.count or planes.color.
+/// visibility: planes.id against planes.count and planes.color. Other stages: none.
 std::vector<std::string> contradictions_of(const Capture& capture, Stage stage);
 
 }  // namespace plumbline

@@ -32,7 +32,7 @@ struct Conventions {
   enum class Magnified { up_to_half, up_to_zero };
   enum class HalfWay { down, either };
 
-  /// Place in a pixel at which it is covered, and its attributes are [pixels from its lower left corner].
+  /// Sample position of coverage, depth and attributes [pixels from the pixel's lower left corner].
   glm::dvec2 sample{0.5};
   /// r of a polygon offset, which OpenGL leaves open (2.1, 3.5.5), in depths of 24 and of 16 bits [codes].
   glm::dvec2 offset_unit{2};
@@ -59,7 +59,7 @@ struct Conventions {
   Magnified magnified = Magnified::up_to_half;
   HalfWay half_way_level = HalfWay::down;
 
-  /// Names of those that plumb learn could not tell, which stand at OpenGL's.
+  /// Names of the conventions that plumb learn could not find; their values are OpenGL's.
   std::vector<std::string> open;
   /// Findings of plumb learn that no convention explains, a sentence each; mistakes, too (mistaken()).
   std::vector<std::string> unexplained;
@@ -105,14 +105,14 @@ inline constexpr std::array<Name, 2> kNamesOf<Conventions::HalfWay> = {"down", "
 
 /// The whole number that the rounding makes of v.
 double rounded(Conventions::Rounding rounding, double v);
-/// The middle of the numbers that become a whole number by the rounding, from that number.
+/// Middle of the interval that the rounding maps to 0: 0 (nearest), 1/2 (down) or -1/2 (up).
 double middle_of(Conventions::Rounding rounding);
 
 /// The sRGB encoding of a linear intensity, both in [0,1] (IEC 61966-2-1).
 double srgb_encoded(double linear);
 
-/// A window coordinate, from the first pixel's centre [1/256 pixel], on the grid of the conventions. To the nearest
-/// where positions are not snapped, or to a grid finer than 1/256.
+/// A window coordinate, counted from the first pixel's centre [1/256 pixel], snapped to the grid of the conventions;
+/// rounded to the nearest whole number where that grid is finer than 1/256 pixel, or there is none.
 double snapped(const Conventions& conventions, double from_centre);
 
 /// A convention for people.
@@ -164,9 +164,9 @@ void each_number_of_bits(Visit visit) {
 inline constexpr ConventionWords kSampleWords{"sample", "the sample's place in its pixel", false};
 inline constexpr ConventionWords kOffsetWords{"offset_unit", "a polygon offset's unit in codes of depth", true};
 
-/// Whether a tie rule and a grid are declared that settle which triangle owns a sample on an edge: of 1/1024 pixel or
-/// coarser, with samples on it, and positions rounded to the nearest place. (Down in a picture whose rows are from the
-/// top is up here: those places are not known.)
+/// Whether the declared tie rule and grid settle which triangle owns a sample on an edge: a grid of 1/2 to 1/1024 pixel
+/// on which the sample lies, and positions rounded to the nearest place. (Roundings down and up do not settle it: they
+/// swap in a picture whose rows count from the top.)
 bool settles_ties(const Conventions& conventions);
 
 /// "float", or the number.
@@ -178,8 +178,8 @@ std::string sample_text(const glm::dvec2& sample);
 /// picture's rows)"; then what no convention explains: "no convention: one scene drawn twice differs".
 std::vector<std::string> mistaken(const Conventions& conventions);
 
-/// Conventions of a renderer that declares none: OpenGL's, where the 2.1 specification leaves it open in every legal
-/// way: the alpha test in either arithmetic (4.1.4), levels of detail approximated (3.8.8).
+/// Conventions of a renderer that declares none: OpenGL's defaults, but the alpha test may use either arithmetic (2.1
+/// specification, 4.1.4), and levels of detail may be approximated (3.8.8).
 Conventions undeclared();
 
 }  // namespace plumbline

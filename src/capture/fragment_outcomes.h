@@ -17,13 +17,13 @@ Outcomes outcomes(CompareFunc func, double lo, double hi, double reference);
 /// float.
 double depth_in_format(DepthFormat format, double z_win);
 
-/// Of the alpha test in a frame of that format (OpenGL 2.1 spec 4.1.4, 4.5 compatibility 17.3.4): where it has codes,
-/// the reference and the fragment's alpha are compared as codes, each the nearest, half to even.
+/// Outcomes of the alpha test for an alpha in [lo, hi] (OpenGL 2.1 spec 4.1.4, 4.5 compatibility 17.3.4): where the
+/// frame's format has codes, the nearest codes of alpha and reference are compared, half to even.
 Outcomes alpha_outcomes(const AlphaTest& test, ColorFormat format, double lo, double hi);
 
 /// OpenGL 2.1 spec 4.1.5.
 bool stencil_passes(const StencilFace& face, std::uint8_t held);
-/// What is held after the stencil and the depth test.
+/// Stencil value after the stencil and depth tests. `held`: the value before; `nearer`: the depth test passes.
 std::uint8_t stencil_after(const StencilFace& face, bool nearer, std::uint8_t held);
 
 }  // namespace plumbline

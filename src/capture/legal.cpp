@@ -20,9 +20,9 @@ struct Interval {
 /// What a depth test may come to, over all depths that the intervals allow.
 struct Test {
   bool may_pass, may_fail;
-  Interval passed;  ///< the hit's depths under which it passes
-  Interval failed;  ///< the held depths under which the hit fails
-  Interval under;   ///< the held depths under which it passes
+  Interval passed;  ///< depths of the hit with which it may pass
+  Interval failed;  ///< held depths with which the hit may fail
+  Interval under;   ///< held depths with which the hit may pass
 };
 
 /// Depths that are clamped to one end are one number in every arithmetic and format: a tie, which is not open.
@@ -84,7 +84,7 @@ LegalAnswer answer(const Hit& hit, Interval z) {
 /// The surface of a depth that is one of two.
 std::int32_t either(std::int32_t a, std::int32_t b) { return a == b ? a : kNoSurface; }
 
-/// In draw order, one for each primitive and stencil value, of whose depths it is the hull.
+/// Sorts by draw order, and merges answers of equal primitive and stencil value: their depth interval is the hull.
 void unite(std::vector<LegalAnswer>& all) {
   const auto key = [](const LegalAnswer& l) { return std::pair(l.primitive, l.stencil); };
   std::ranges::stable_sort(all, {}, key);
@@ -123,7 +123,7 @@ std::vector<LegalAnswer> drawn_by_stencil(const Hit& hit, bool certain, const St
     }
     const double step = depth_step(format, std::max(hit.z_hi, held.z_hi));
     const Test test = depth_test(hit, {{held.z_lo, held.z_hi}, held.surface}, step);
-    if (test.may_fail) {  // it stays only by the hit's failing
+    if (test.may_fail) {  // `held` stays only where the hit fails
       LegalAnswer failed = held;
       failed.z_lo = test.failed.lo;
       failed.z_hi = test.failed.hi;
@@ -152,8 +152,8 @@ std::vector<Group> groups_of(std::span<const Hit> hits) {
   return groups;
 }
 
-/// Folds where it is open which hit of each group is the certain one: from a group's first hit to its last, a branch
-/// for each. Groups that overlap multiply their branches; beyond kMostBranches the hits of a group are merely possible.
+/// Folds hits of groups: from a group's first hit to its last, one branch per hit of the group, in which that hit is
+/// certain. Overlapping groups multiply their branches; beyond kMostBranches the hits of a group are merely possible.
 class BranchedFold {
  public:
   explicit BranchedFold(const FrameFormat& frame) : branches_{{{}, LegalFold(frame)}} {}
@@ -250,7 +250,7 @@ void LegalFold::draw_in_runs(const Hit& hit, bool certain) {
     if (certain && !test.may_fail) continue;
     const bool narrower = certain && (test.failed.lo != run.z_lo || test.failed.hi != run.z_hi);
     run.first = kept;
-    if (certain) {  // they stay only by the hit's failing
+    if (certain) {  // the run's winners stay only where the hit fails
       run.z_lo = test.failed.lo;
       run.z_hi = test.failed.hi;
     }

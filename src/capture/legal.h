@@ -32,13 +32,13 @@ struct Hit {
   double z_lo = 0;       ///< window z, clamped to [0,1]: the depths that a legal renderer may give it
   double z_hi = 0;
   glm::dvec4 color{0};     ///< its colour at the pixel's centre
-  double color_bound = 0;  ///< and how far, per channel, float arithmetic from the scene on may be from that
+  double color_bound = 0;  ///< bound on the error of `color` in float arithmetic from the scene on, per channel
   bool depth_mask = true;  ///< whether its depth is written where it is drawn
-  bool alpha_passes = true, alpha_fails = false;  ///< what the alpha test may come to
+  bool alpha_passes = true, alpha_fails = false;  ///< outcomes that the alpha test may have
   /// Stencil state of the face that the hit shows; `or_stencil`: of the other face where facing is open. Null: no test.
   const StencilFace* stencil = nullptr;
   const StencilFace* or_stencil = nullptr;
-  bool twice = false;  ///< two pieces of it may cover the pixel, which matters to stencil values
+  bool twice = false;  ///< two pieces of the triangle may cover the pixel: its stencil operation may run twice
   /// Hits of one surface (>= 0) have one depth in every legal renderer, to the bit: the same triangle is drawn again.
   std::int32_t surface = kNoSurface;
 };
@@ -61,11 +61,11 @@ class LegalFold {
   explicit LegalFold(const FrameFormat& frame);
   /// The cleared frame again. Memory is kept.
   void clear();
-  /// Draws a hit that counts as certain only if `certain`.
+  /// Draws a hit; `certain` stands in for hit.certain.
   void draw(const Hit& hit, bool certain);
-  /// Goes on from these winners.
+  /// Replaces the winners.
   void set(const std::vector<LegalAnswer>& winners);
-  /// In draw order, the background first; one for each stencil value that may go with it.
+  /// In draw order, the background first; one entry per winner and stencil value.
   const std::vector<LegalAnswer>& winners() const { return winners_; }
 
  private:
@@ -88,10 +88,10 @@ class LegalFold {
   bool one_stencil_ = true;  ///< all winners stand beside one stencil value
 };
 
-/// All legal winners of a pixel, in draw order, the background first; one for each stencil value that may go with it.
-/// `hits` in draw order (ascending primitive), groups numbered from 0 on. Depths within
-/// depth_step() (scene.h) of each other may compare either way, but for two that are clamped to the same end, and for
-/// those of one surface. `out` is emptied first.
+/// All legal winners of a pixel, in draw order, the background first; one entry per winner and stencil value.
+/// `hits` in draw order (ascending primitive), groups numbered from 0 on. Depths within depth_step() (scene.h) of each
+/// other may compare either way, but for two that are clamped to the same end, and for those of one surface. `out` is
+/// emptied first.
 void fold_hits(std::span<const Hit> hits, const FrameFormat& frame, std::vector<LegalAnswer>& out);
 
 /// Legal texels of a fragment: its level of detail may be taken for four pixels together, by a logarithm that is linear
@@ -118,7 +118,7 @@ struct Legal {
   /// where it is open which fragments made it.
   Plane<glm::vec4> color_lo, color_hi;
   std::vector<TexelRange> texels;  ///< of the fragments that were asked about, beside their covered
-  double predicted_ambiguous = 0;  ///< pixels, from the visible edges' length and the snapping bound
+  double predicted_ambiguous = 0;  ///< expected number of pixels that edges (snapping bound) or depths leave open
 
   bool empty() const { return first.empty(); }
   std::span<const LegalAnswer> at(int x, int y) const {

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-/// Memory from a cache line's first byte on.
+/// Allocates memory aligned to a cache line.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
@@ -24,7 +24,7 @@ struct CacheLineAllocator {
   bool operator==(const CacheLineAllocator& /*other*/) const { return true; }
 };
 
-/// width x height values, stored row by row, row 0 first, without padding, from a cache line's first byte on.
+/// width x height values, stored row by row, row 0 first, without padding, aligned to a cache line.
 template <class T>
 class Plane {
  public:
@@ -60,8 +60,8 @@ class Plane {
   Values values_;
 };
 
-/// The plane with its first row last. Files of pictures want row 0 at the bottom here; some dialects count from the
-/// top.
+/// The plane with its rows in reverse order: image files are written from planes whose row 0 is the bottom, and some
+/// dialects count from the top.
 template <class T>
 Plane<T> upside_down(const Plane<T>& plane) {
   Plane<T> out(plane.width(), plane.height());

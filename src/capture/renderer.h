@@ -60,9 +60,9 @@ struct Ability {
   bool shows = false;         ///< capture() hands the stage's records or planes out
   bool runs = false;          ///< run_stage() serves the stage
   std::string reason;         ///< why not, where neither
-  bool planes_alone = false;  ///< what it shows are planes, without records
-  bool given = false;         ///< it does not show it: its capture holds the records that it was given
-  bool contradicted = false;  ///< other arrays contradict what it shows of it, by `reason`: outcome `failed`
+  bool planes_alone = false;  ///< the capture holds planes of the stage, and no records
+  bool given = false;         ///< not shown: the capture's records are those that the renderer was given (--from)
+  bool contradicted = false;  ///< other arrays contradict the stage's arrays (`reason`): outcome `failed`
 };
 
 struct RendererInfo {
@@ -117,7 +117,7 @@ class Renderer {
 /// Throws std::invalid_argument where the samples are not those of the scene's passes, in number and size.
 void require_samples(const Scene& scene, const std::vector<Plane<glm::vec4>>& samples);
 
-/// The bytes that planes of the scene's size take, and what their colours are made of, for checks against the budget.
+/// Memory of a capture's planes and of the bounds and samples that make their colours [bytes], for require_budget().
 std::size_t plane_bytes(const Scene& scene);
 /// Throws OverBudget, naming the scene, what it would take and the budget.
 void require_budget(const Scene& scene, std::size_t bytes, std::size_t budget);

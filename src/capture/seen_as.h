@@ -1,12 +1,13 @@
-// A varying in the colour's place, for whatever does with it what it does with the colour.
+// A varying in the place of the colour, so that code for the colour serves varyings, too.
 #pragma once
 
 #include "capture/stages.h"
 
 namespace plumbline {
 
-/// The records with the varying as the colour of vertices, cut polygons, window triangles and fragments, as far as its
-/// columns are there and fit. Depth, shaded and drawn are left out.
+/// The records with the varying as the colour of vertices, clipped polygons, window triangles and fragments; polygons
+/// and triangles are left out where the varying's columns have another size, as are lights, depth, texels, shaded and
+/// drawn.
 Records<double> seen_as(const Records<double>& records, Varying varying);
 
 }  // namespace plumbline

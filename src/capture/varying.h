@@ -16,8 +16,8 @@ struct Draw;
 
 enum class Varying : std::uint8_t {
   secondary,       ///< rgb: the specular part, where it is kept apart; a is 0
-  back_color,      ///< what the color is on back faces; to the window stage
-  back_secondary,  ///< likewise; to the window stage
+  back_color,      ///< colour of back faces; ends at the window stage
+  back_secondary,  ///< secondary of back faces; ends at the window stage
   texture,         ///< s, t, 0, 1
   normal,          ///< n_eye, 0
   position         ///< p_eye, w not 1 where the matrices say so
@@ -32,20 +32,20 @@ constexpr std::string_view name_of(Varying v) { return kVaryingNames[static_cast
 
 /// Whether it is a colour that lighting makes: flat shading takes the provoking vertex' for every corner.
 constexpr bool is_lit(Varying v) { return v <= Varying::back_secondary; }
-/// Whether it ends at the window stage, where each face gets its side's.
+/// Whether the varying is of back faces. It ends at the window stage, which chooses each triangle's colours by facing.
 constexpr bool is_back(Varying v) { return v == Varying::back_color || v == Varying::back_secondary; }
 
 constexpr bool is_secondary(Varying v) { return v == Varying::secondary || v == Varying::back_secondary; }
 
 /// Whether the draw uses the varying. Where another draw of the scene does, this draw's entries of the columns are 0.
 bool carries(const Scene& scene, const Draw& draw, Varying v);
-/// Those that any draw carries, in their order.
+/// Varyings that any draw of the scene carries, in the enum's order.
 std::vector<Varying> carried(const Scene& scene);
-/// The same, into memory that is kept.
+/// The same, into `out`, whose memory is reused.
 void carried(const Scene& scene, std::vector<Varying>& out);
 /// Whether a fragment's colour is the interpolated one as it is.
 bool is_plain(const Scene& scene, const Draw& draw);
-/// Whether all draws' are.
+/// Whether is_plain() holds for all draws.
 bool is_plain(const Scene& scene);
 
 /// One varying's columns, beside the records of the stages (stages.h); empty where no draw carries it.
@@ -54,8 +54,8 @@ struct VaryingColumns {
   using Four = glm::vec<4, T>;
   std::vector<Four> vertices;                  ///< beside vertices
   std::vector<Four> clipped;                   ///< beside polygons.vertices
-  std::vector<std::array<Four, 3>> triangles;  ///< beside triangles, per corner; none of back faces' own
-  std::vector<Four> fragments;                 ///< beside covered; likewise
+  std::vector<std::array<Four, 3>> triangles;  ///< beside triangles, per corner; empty where is_back()
+  std::vector<Four> fragments;                 ///< beside covered; empty where is_back()
 };
 template <class T>
 class Varyings {

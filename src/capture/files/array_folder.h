@@ -34,7 +34,7 @@ Shape plane_shape(int width, int height) {
 /// A folder of arrays, in a folder that is being written (atomic_path.h).
 class ArrayFolder {
  public:
-  /// `inside`: where in it; empty: it is that folder.
+  /// `inside`: the arrays' folder, relative to `folder`; empty: `folder` itself.
   explicit ArrayFolder(AtomicPath& folder, std::filesystem::path inside = {});
   /// Writes `name`.bin: elements of this type, the last index running fastest. Throws OutputError.
   void add(std::string_view name, std::string_view dtype, const Shape& shape, std::string_view bytes);

@@ -115,7 +115,7 @@ using ColumnType = std::remove_cvref_t<decltype(std::declval<C>().at(std::declva
 template <class C>
 inline constexpr std::size_t kPerRecord = std::max<std::size_t>(std::remove_cvref_t<C>::kCorners, 1);
 
-/// A column's values, one after the other: the records (a vector, or a span) without their gaps.
+/// A column's bytes, packed: the values of all records (a vector or a span), without the other members between them.
 template <class Records, class C>
 std::vector<char> packed(const Records& records, const C& column) {
   using Record = typename Records::value_type;
@@ -149,8 +149,8 @@ struct Handed {
   std::string_view name;
 };
 
-/// Calls visit.group(handed, columns, records...) and visit.plane(handed, plane...) for all that a capture folder holds,
-/// with the vectors and planes of each of the captures. An array's name is "group.column", or the plane's.
+/// Calls visit.group(handed, columns, records...) and visit.plane(handed, plane...) for all that a capture folder
+/// holds, with the vectors and planes of each of the captures. An array's name is "group.column", or the plane's.
 template <class Visitor, class... Captures>
 void visit_capture(Visitor&& visit, Captures&... captures) {
   const auto group = [&](Stage stage, std::string_view name, auto records_of, auto... columns) {

@@ -29,7 +29,7 @@ using Bytes = std::string;
 /// is lost.
 Bytes encode_png(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                  ColorFormat format = ColorFormat::rgba8);
-/// .tga: 8-bit RGBA; of an rgba12 or rgba16 frame none.
+/// .tga: 8-bit RGBA; throws for an rgba12 or rgba16 frame.
 Bytes encode_tga(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                  ColorFormat format = ColorFormat::rgba8);
 /// .ppm: binary, the codes themselves of red, green and blue, of at most 255, 4095 or 65535. No alpha.
@@ -42,15 +42,16 @@ Bytes encode_depth_exr(const std::filesystem::path& file, const Plane<double>& p
 /// .exr, one channel "Z": the codes of the depth format as numbers, which 32-bit float holds without loss up to 24
 /// bits; of z32f window z itself. (Window z of 24 bits, a quotient, would be rounded.)
 Bytes encode_depth_codes(const std::filesystem::path& file, const Plane<double>& plane, DepthFormat format);
-/// One of them, by the ending; `format`: of the frame that the plane is of.
+/// Encodes by the file name's ending, one of the four. `format`: the frame's colour format.
 Bytes encode_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane,
                    ColorFormat format = ColorFormat::rgba8);
 
-/// Throw what encode_image and encode_depth_exr would of the name, before there is a plane.
+/// Check a file name before there is a plane: throw what encode_image and encode_depth_exr would throw for it.
 void require_image_name(const std::filesystem::path& file, ColorFormat format = ColorFormat::rgba8);
 void require_depth_name(const std::filesystem::path& file);
 
-/// Encodes and writes; the file appears whole or not at all. Throws OutputError (atomic_path.h) as well.
+/// Writes the plane as encode_image() of an rgba8 frame does; the file appears whole or not at all. Throws OutputError
+/// (atomic_path.h) as well.
 void write_image(const std::filesystem::path& file, const Plane<glm::vec4>& plane);
 
 /// An image as it is stored: no alpha multiplied or divided, no colour converted, no tag obeyed.
@@ -72,15 +73,16 @@ struct StoredImage {
 /// deep pixels, volumes.
 StoredImage read_stored(const std::filesystem::path& file);
 
-/// Frames from such images, bit for bit as the frame holds them: of one that encode_image wrote, of encode_depth_codes.
-/// Throw ImageError, naming `file`, where the image is not of their channels and numbers.
+/// Inverses, bit for bit, of encode_image (4 channels: not .ppm) and of encode_depth_codes. `file`: for messages. Throw
+/// ImageError where the image has other channels, or another type of number.
 Plane<glm::vec4> frame_color(const std::filesystem::path& file, const StoredImage& image, ColorFormat format);
 Plane<double> frame_depth(const std::filesystem::path& file, const StoredImage& image, DepthFormat format);
 
-/// The same of 1 to 4 channels, in float. One channel comes as red, green and blue, a missing alpha as 1.
+/// Reads an image of 1 to 4 channels as RGBA, codes scaled to [0,1]. Of 1 or 2 channels the first is red, green and
+/// blue, and the second alpha; a missing alpha is 1. Throws ImageError.
 Plane<glm::vec4> read_image(const std::filesystem::path& file);
 
-/// Of OpenImageIO, which reads and writes them.
+/// Version of OpenImageIO, which reads and writes image files.
 std::string image_library_version();
 
 }  // namespace plumbline

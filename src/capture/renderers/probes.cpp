@@ -14,7 +14,7 @@ namespace {
 
 constexpr glm::vec4 kBlack(0, 0, 0, 1);
 
-// A draw's place and facing, and nothing that looks at colours.
+// The draw's geometry, culling, depth and stencil state; its own colours, and no test or blending of colours.
 Draw plain(const Draw& of) {
   Draw draw = of;
   draw.material = Material{};
@@ -57,8 +57,8 @@ void add_primitive(const Mesh& from, const glm::uvec3& corners, const glm::vec4&
   to.triangles.push_back({first, first + std::min(1u, count - 1), first + count - 1});
 }
 
-// Number of a primitive as a colour of 8 bits a channel, never the cleared frame's: a quarter code above, which becomes
-// that code to the nearest and rounded down; below where it is rounded up.
+// Number of a primitive, plus 1 (0 is the cleared frame), as 8-bit codes of red, green and blue. A quarter code is
+// added, so that rounding to nearest and down gives the code back; where the renderer rounds up, it is subtracted.
 glm::vec4 color_of(std::uint32_t primitive, Conventions::Rounding rounding) {
   const std::uint32_t code = primitive + 1;
   const glm::vec3 codes(code & 0xffu, (code >> 8) & 0xffu, (code >> 16) & 0xffu);

@@ -1,4 +1,4 @@
-// A capture that is there already, as a renderer: of a program that has run, or a folder that was written.
+// Renderer that replays a capture: of a program that has run, or of a capture folder.
 #pragma once
 
 #include <memory>
@@ -8,11 +8,13 @@
 
 namespace plumbline {
 
-/// A renderer of this one scene, which shows what the capture holds, whatever is asked of it. Throws
-/// std::invalid_argument, naming `from`, where the capture is not of the scene's size or its records are not of the
-/// scene's draws and vertices in number, and for an antialiased scene, whose passes no capture holds.
+/// A renderer of this one scene: capture() returns the whole capture, whatever is requested. Throws
+/// std::invalid_argument, naming `from`, where the capture has another size, other numbers of draws, lights or
+/// vertices, or a primitive that the scene does not have; where complete_records() throws; and for an antialiased
+/// scene, whose passes no capture holds.
 ///
-/// Winners that contradict the picture (contradictions.h) are not shown: that is the capture's fault, no test's.
+/// A planes.id that contradicts planes.count or planes.color (contradictions.h) is dropped, and visibility is marked
+/// `contradicted`: a mistake of the export, not of the depth test.
 std::unique_ptr<Renderer> make_replayed_renderer(Capture capture, const Scene& scene, const std::string& from,
                                                  const Conventions& conventions = undeclared());
 

@@ -1,5 +1,5 @@
-// A renderer in a worker process (base/workers.h): what it is asked is a step that the worker's parent can see, and a
-// step that has ended a worker before is not asked again.
+// A renderer in a worker process (base/workers.h). Each call is a step, which the worker's parent can see; a step that
+// has ended a worker before throws instead of running again.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@
 
 namespace plumbline {
 
-/// How the worker ended, by the step that it was at.
+/// Steps that have ended workers: by step, how the worker ended.
 using EndedSteps = std::map<std::uint32_t, std::string>;
 
 /// State that all renderers of one worker share.
@@ -30,9 +30,9 @@ struct Watch {
 std::unique_ptr<Renderer> make_watched(const std::string& name, const std::function<std::unique_ptr<Renderer>()>& make,
                                        std::uint32_t number, const Watch& watch);
 
-/// The inner renderer, number `number` of its worker. Each call is a step: drawing watched, drawing a picture alone,
-/// and each stage run alone. capture() and run_stage() throw RendererFailed with the words of `ended` where their step
-/// stands there, and where memory is lacking. Null stays null.
+/// The inner renderer, number `number` of its worker. Steps: a capture() of a picture alone (WantedPlanes::picture and
+/// no records), any other capture(), and run_stage() of each stage. A step throws RendererFailed where watch.ended
+/// holds it, with the words there, and where memory is lacking. Null stays null.
 std::unique_ptr<Renderer> make_watched(std::unique_ptr<Renderer> inner, std::uint32_t number, const Watch& watch);
 
 }  // namespace plumbline
