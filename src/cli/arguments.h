@@ -5,7 +5,8 @@
 
 namespace plumbline::cli {
 
-/// The command that the arguments name, ready to run. None: `exit` says how the program ends, all has been said.
+/// The command that the arguments name, ready to run. Empty after --help or a usage error, which parse() has printed:
+/// the program ends with `exit`.
 struct Parsed {
   std::function<int()> command;
   int exit = 0;

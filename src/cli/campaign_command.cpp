@@ -68,8 +68,8 @@ std::vector<campaign::Generator> generators_of(const std::string& option) {
   return out;
 }
 
-// A scene for each seed and generator, in turn, so that the findings of both come evenly. `parents`: scenes of the round
-// before, of which a seed picks one and changes it. Empty: the first round.
+// A scene for each seed and generator, in turn, so that the findings of both come evenly. `parents`: scenes of the
+// round before, of which a seed picks one and changes it. Empty: the first round.
 std::vector<campaign::SceneId> scenes_of(const Range& range, const std::string& generator,
                                          std::span<const campaign::SceneId> parents) {
   std::vector<campaign::SceneId> out;
@@ -88,7 +88,7 @@ std::vector<campaign::SceneId> scenes_of(const Range& range, const std::string& 
   return out;
 }
 
-// How far it has come: a line that is written over on a terminal, elsewhere one a minute.
+// Progress on stderr: a line that is written over on a terminal, elsewhere one a minute. New signatures go to stdout.
 class ProgressLine {
  public:
   explicit ProgressLine(std::size_t scenes) : scenes_(scenes) {}
@@ -174,7 +174,7 @@ std::vector<fs::path> journals_in(const fs::path& folder) {
   return out;
 }
 
-// Another process may read a journal, which takes a moment.
+// How long to wait for a journal that another process holds: it may only be reading.
 constexpr std::chrono::seconds kReading{10};
 
 // The journal, which another process may have for a moment, or for long: then a note says what is waited for.
@@ -257,7 +257,8 @@ std::vector<campaign::SceneId> scenes_of(const CampaignOptions& o, const std::st
   return out;
 }
 
-// Files that appear whole, each written in a folder beside: write_file() would look through thousands of them each time.
+// Each file is written in a temporary folder and renamed, so that it appears whole: write_file() would scan the folder,
+// with its thousands of files, for each.
 void write_scenes(const CampaignOptions& o, const std::string& terms) {
   const std::vector<campaign::SceneId> scenes = scenes_of(o, terms);
   const fs::path folder = o.folder;
@@ -277,7 +278,8 @@ void write_scenes(const CampaignOptions& o, const std::string& terms) {
   }
 }
 
-// Refuses other terms than terms.txt holds, written if absent: a journal that another process has cannot be read.
+// Writes terms.txt if absent; refuses other terms than it holds. (Journals have terms, too, but one that another
+// process holds cannot be read.)
 void require_terms(const fs::path& journals, const std::string& terms) {
   const fs::path file = journals / "terms.txt";
   if (!fs::exists(file)) write_file(file, terms + "\n");

@@ -54,7 +54,7 @@ bool has_bytes(const fs::path& file) {
   return !none && size > 0;
 }
 
-// Those that are not known, each with a folder of its own name.
+// Findings whose folder is missing, incomplete, or of another scene than the group's lowest.
 std::vector<Finding> unknown(const fs::path& folder, const std::vector<campaign::Group>& groups) {
   std::set<std::string> names;
   std::vector<Finding> out;
@@ -69,7 +69,8 @@ std::vector<Finding> unknown(const fs::path& folder, const std::vector<campaign:
   return out;
 }
 
-// found.json and scene.json of each. A worker that ends while it makes a scene smaller leaves it as it was found.
+// Writes found.json and scene.json of each finding. Where a worker ends while it shrinks a scene, scene.json is the
+// scene as it was found.
 void leave_smallest(const std::vector<Finding>& findings, const CheckRules& rules) {
   constexpr std::string_view kAsFound = "as found";
   std::vector<std::size_t> order(findings.size());
@@ -96,7 +97,7 @@ void leave_smallest(const std::vector<Finding>& findings, const CheckRules& rule
   Workers(worker_count(rules.options, findings.size()), rules.options.limits, make).run({order, ask, took, ask_again});
 }
 
-// Line for people about a finding that is none when its scene is judged again.
+// Line for people about a finding whose scene holds, or cannot be judged, when judged again.
 std::string not_repeated(const check::SceneVerdict& verdict, const campaign::Signature& found) {
   const bool is_unable = report::conformance_of(verdict) == report::Conformance::unable;
   return fmt::format("not repeated {}: {}; judged again, {}: it came of scenes drawn before, or of chance\n",

@@ -20,16 +20,16 @@ namespace plumbline::cli {
 
 namespace {
 
-// Each scene may take until the time limit.
+// Whether the finding is a time-out: each trial may take the whole time limit.
 bool hangs(const campaign::Signature& signature) { return signature.cause.find("took longer") != std::string::npos; }
 
-// "p_clip.x" and "p_clip.y" are one bug's.
+// Field without its component: "p_clip.x" and "p_clip.y" count as one bug.
 std::string without_component(std::string_view field) {
   const std::size_t dot = field.rfind('.');
   return std::string(dot != field.npos && dot + 2 == field.size() ? field.substr(0, dot) : field);
 }
 
-// Without what differs from scene to scene: the pass, numbers, and all after the first 100 letters of the rest.
+// The text's first 100 letters without what varies from scene to scene: the pass is removed, numbers become "#".
 std::string without_numbers(const std::string& text) {
   static const std::regex pass("^pass [0-9]+: "), number("0x[0-9a-fA-F]+|[0-9]+");
   std::string out = std::regex_replace(std::regex_replace(text, pass, ""), number, "#").substr(0, 100);
@@ -48,7 +48,7 @@ const check::Comparison& strongest(const check::SceneVerdict& verdict, const che
   return row;
 }
 
-// `command`: that the text names before it says how it ended; empty: none.
+// Removes the program's command line from a failure's text, "COMMAND took longer than ...". `command` may be empty.
 std::string without_command(std::string text, const std::string& command) {
   const std::size_t at = command.empty() ? text.npos : text.find(command + " ");
   return at == text.npos ? text : text.erase(at, command.size() + 1);

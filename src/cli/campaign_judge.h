@@ -21,8 +21,8 @@ class CampaignJudge {
   /// `ended`: the steps that ended workers before. Throws SceneError where the scene needs a file that is not there.
   campaign::Entry judge(const campaign::SceneId& id, EndedSteps ended);
 
-  /// The scene made smaller, as long as it has this signature: first by the signature's own reference alone, which is
-  /// quick, where that reference finds it by itself; then by all references.
+  /// The text of a smaller scene with the same signature. Shrinks first by the signature's own reference alone, which
+  /// is quick, where that reference yields the signature by itself; then by all references.
   std::string shrink(const campaign::SceneId& id, const campaign::Signature& signature);
 
  private:
@@ -35,8 +35,8 @@ class CampaignJudge {
   SceneJudge all_;
 };
 
-/// Why a scene does not hold, as what bugs are sorted by; none where it holds. `command`: of a program, which is no part
-/// of it.
+/// Signature of the scene's failure; none where the scene holds. `command`: the program's command line, which is
+/// removed from the signature's cause.
 std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict, const std::string& command = {});
 
 /// Writes a folder `folder`/STAGE-CAUSE-REFERENCE for each group of findings: found.json, the group's lowest scene;

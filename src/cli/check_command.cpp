@@ -46,8 +46,8 @@ std::chrono::sys_days today(const CheckOptions& o) {
   return std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
 }
 
-// The whole suite was asked: a folder of several groups, no shard of it. Then each expectation must be of a scene in
-// it.
+// Whether a whole suite is judged, a folder of several groups and no shard of it: then each expectation must be of a
+// scene that was judged.
 bool is_whole(const CheckOptions& o, std::span<const check::SceneVerdict> verdicts) {
   std::set<std::string> groups;
   for (const check::SceneVerdict& v : verdicts) groups.insert(v.scene.substr(0, v.scene.find('/')));
@@ -87,7 +87,7 @@ std::string lines_of(std::span<const std::string> lines) {
   return lines.empty() ? "" : fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
-// What the table does not hold because nobody asked, if any.
+// Line of the default references that --against leaves out or this build lacks; empty: none.
 std::string not_asked_line(const CheckOptions& o) {
   std::vector<std::string> names = reference_names();
   std::erase_if(names, [&](const std::string& name) { return std::ranges::count(o.against, name) > 0; });

@@ -1,4 +1,4 @@
-// What plumb check says of a scene that does not hold, and what it leaves of it.
+// Messages and files of plumb check about a scene that does not hold.
 #pragma once
 
 #include <string>
@@ -13,17 +13,17 @@
 
 namespace plumbline::cli {
 
-/// Settles the verdict's expectations, and says in it why it does not hold, if so, and the command that repeats it.
-/// Returns what became of the expectations.
+/// Settles the expectations of the verdict's scene, and returns them. Where the scene does not hold, fills
+/// verdict.failure, lines that say why, and verdict.repeat, the command that judges it again.
 std::vector<check::Settled> settle_and_explain(check::SceneVerdict& verdict, const CheckOptions& options,
                                                const std::vector<check::Expectation>& expectations,
                                                std::chrono::sys_days today);
 
-/// How many expectations came to what.
+/// Line with the number of expectations by fate. `expectations`: the number of all that were read.
 std::string settled_line(const std::vector<check::Settled>& settled, std::size_t expectations);
 
-/// The scene once more, as a page with pictures in `folder`/<scene>; under ctest its pictures are named so that CTest
-/// attaches them to the test. Returns what to print. Throws OutputError.
+/// Judges the scene once more and writes a page with pictures into `folder`/<scene>. Returns lines to print; under
+/// ctest they name the pictures as CTest attaches them to the test. Throws OutputError.
 std::string leave_report(const std::string& folder, const Scene& scene, const check::SceneVerdict& verdict,
                          Renderer& candidate, std::span<const check::Reference> references);
 

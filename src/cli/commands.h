@@ -13,8 +13,8 @@
 
 namespace plumbline::cli {
 
-/// Exit codes of every subcommand; bad input and bad usage throw, which main() turns into 2. What will be written is
-/// known to be writable before any work.
+/// Exit codes of every subcommand; bad input and bad usage throw, which main() turns into 2. Outputs are proven
+/// writable before the work.
 enum Exit { kHolds = 0, kDiffers = 1, kBadInput = 2 };
 
 /// The most scenes that are judged at a time.
@@ -62,7 +62,7 @@ struct DiagnoseOptions {
   std::string scene;
   std::vector<std::string> against = default_references();
   std::string json, report;    ///< or empty
-  std::string picture, depth;  ///< of another renderer, which is all that it left, or empty
+  std::string picture, depth;  ///< image files of a renderer that left nothing else, or empty
   std::string fault;           ///< or empty
   std::string folder;          ///< a capture of another renderer, or empty
   ProgramArgument candidate;   ///< another renderer
@@ -88,7 +88,7 @@ int render(const RenderOptions& options);
 /// What a renderer hands out at every stage, to a folder.
 struct CaptureOptions {
   std::string scene, folder;
-  std::string check;  ///< a capture's folder, in their place: what it says against itself
+  std::string check;  ///< a capture folder to check for contradictions, instead of `scene` and `folder`; or empty
   std::string with = "ours", fault;
   SceneArguments scene_arguments;
 };
@@ -103,8 +103,8 @@ int export_scene(const ExportOptions& options);
 
 /// A renderer's conventions: a table, and a file that check and diagnose take (--conventions).
 struct LearnOptions {
-  ProgramArgument candidate;  ///< or
-  std::string with;           ///< a renderer of ours
+  ProgramArgument candidate;  ///< a program; or, with an empty command,
+  std::string with;           ///< one of renderer_names()
   std::string output;         ///< conventions.json, or empty
   std::string pictures;       ///< a folder for the probes' pictures, or empty
 };
@@ -122,7 +122,7 @@ struct CompareOptions {
 };
 int compare(const CompareOptions& options);
 
-/// Scenes against their goldens, and goldens anew.
+/// Scenes compared with their goldens, and goldens updated.
 struct GoldenOptions {
   std::vector<std::string> scenes;                        ///< files, and folders of them; none: the whole suite
   std::string suite = "tests/scenes", golden = "golden";  ///< folders
@@ -138,7 +138,7 @@ int golden_check(const GoldenOptions& options);
 /// run that blesses is no run that passes.
 int golden_update(const GoldenOptions& options);
 
-/// What there is.
+/// Names that other commands take: stages, renderers, faults, scenes.
 struct ListOptions {
   std::string what = "all";
   std::vector<std::string> folders;  ///< of scenes
@@ -156,9 +156,9 @@ int report_diff(const DiffOptions& options);
 struct MergeOptions {
   std::vector<std::string> runs;
   std::string output, junit, markdown, ledger;  ///< or empty
-  std::string suite;                            ///< a folder: each of its scenes is to be there, or empty;
-  std::vector<std::string> without;             ///< but these, by name
-  std::string expect;  ///< the known differences that the runs were told: each of a scene that is there; or empty
+  std::string suite;                            ///< a folder whose scenes must all be in the runs, or empty
+  std::vector<std::string> without;             ///< scenes of the suite that need not be in the runs, by name
+  std::string expect;  ///< known differences (--expect): each of a scene that is in the runs or in `without`; or empty
 };
 int report_merge(const MergeOptions& options);
 

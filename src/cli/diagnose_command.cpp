@@ -127,8 +127,8 @@ std::string likely_line(const Lookalikes& found) {
   return fmt::format("likely stage{}: {}\n{}", found.together ? "s" : "", found.likely, ties);
 }
 
-// Known faults that explain the frame that another renderer left, where one explains most of it; of a frame that holds,
-// all of it: what is legal may still be by another rule.
+// Text about the known faults that explain another renderer's frame, if one explains most differing pixels. Of a frame
+// that holds, only a single fault that explains all of them is told: a legal frame may follow another rule.
 std::string known_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
                          const check::Diagnosis& diagnosis) {
   constexpr std::size_t kMostPrimitives = 200'000;  // each fault is a picture
@@ -207,7 +207,7 @@ std::string diagnose_here(Subject& subject, const Watch& watch) {
   return fmt::format("{}{}", static_cast<int>(holds(diagnosis) && !of_conventions_alone ? kHolds : kDiffers), out);
 }
 
-// A picture's rows are the file's from its end, whatever the scene's order is.
+// The plane of an image file, whose row 0 is the bottom one, in the scene's order of rows.
 template <class T>
 Plane<T> in_scenes_order(const Scene& scene, Plane<T> plane) {
   return rows_from_top(scene.dialect) ? upside_down(plane) : plane;

@@ -33,8 +33,8 @@ std::string group_of(const std::string& scene) { return scene.substr(0, scene.fi
 struct Suite {
   std::vector<Scene> scenes;
   std::vector<fs::path> files;
-  bool whole = false;            // only then a golden without a scene is known:
-  std::set<std::string> groups;  // of these, where the suite is a group; empty: of any
+  bool whole = false;            // no scenes were named: goldens without a scene are orphans
+  std::set<std::string> groups;  // groups whose goldens may be orphans, where --suite is a group; empty: all
 };
 
 Suite load(const GoldenOptions& o) {
@@ -140,7 +140,7 @@ int golden_check(const GoldenOptions& o) {
 
 namespace {
 
-// What an update of one scene comes to.
+// A golden's difference, and whether the references vouch for the new picture.
 struct Asked {
   check::GoldenDifference difference;
   check::Vouch vouch;
@@ -173,7 +173,7 @@ void print(const Scene& scene, const std::string& says, const Asked& asked) {
 
 namespace {
 
-// A folder that is there while this lives, and stays if anything comes into it.
+// Makes a folder; the destructor removes it if it was new and is still empty.
 class UsedFolder {
  public:
   explicit UsedFolder(fs::path folder) : folder_(std::move(folder)), is_new_(fs::create_directories(folder_)) {}

@@ -43,7 +43,7 @@ std::string loaded_libraries() {
 std::string processor() {
   std::string out;
   std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line) && !line.empty();) {  // the first of them
+  for (std::string line; std::getline(in, line) && !line.empty();) {  // the first processor's lines
     if (line.starts_with("model name") || line.starts_with("flags") || line.starts_with("Features")) out += line + "\n";
   }
   return out;

@@ -1,4 +1,5 @@
-// The judges of a run: what verdicts follow from beside scenes and candidates' answers.
+// Fingerprints of a run: everything beside the scenes that may change a verdict. Kept verdicts and a campaign's
+// journals are of one fingerprint.
 #pragma once
 
 #include <string>
@@ -7,16 +8,19 @@
 
 namespace plumbline::cli {
 
-/// SHA-256 of the libraries and files of this program that judge, as they were built: all but those that draw for the
-/// candidate alone (src/kernels, pipeline, painter, renderers). Of nothing else: src/cli/CMakeLists.txt.
+/// SHA-256 of the libraries that judge and of the sources in src/cli, made by the build (src/cli/CMakeLists.txt). Left
+/// out are libraries that draw for the candidate alone (src/kernels, pipeline, painter, renderers), and those of
+/// src/campaign.
 extern const char* const kJudgesPrint;
 
-/// Another text wherever verdicts may be others: kJudgesPrint; the libraries that are loaded, by size and time; the
-/// processor, for which Mesa compiles its shaders; Mesa's and Embree's settings in the environment; the run's options.
+/// Fingerprint of the judges of plumb check: kJudgesPrint; the libraries that are loaded, by size and time; the
+/// processor, for which Mesa compiles its shaders; Mesa's and Embree's settings in the environment; --against, --fault,
+/// --program, --from, --each-primitive.
 std::string judges_of(const CheckOptions& options);
 
-/// Another text wherever verdicts of a campaign may be others, but the scene: this program's file, candidate and the
-/// files that its command line names, those of the folders of --assets, references, limits.
+/// Fingerprint of a campaign, for people to read, too: version and hash of this program; fault, or program with the
+/// files that its command line names; --from, --each-primitive, conventions; limits; files in the folders of --assets;
+/// references.
 std::string terms_of(const CheckOptions& options);
 
 }  // namespace plumbline::cli

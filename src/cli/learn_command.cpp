@@ -51,8 +51,8 @@ class Remembering : public Renderer {
   std::vector<std::pair<Scene, Planes>> drawn_;
 };
 
-// A finding: probes that a server draws otherwise when it is started for each, as far as 10 s reach. Empty: none, or it
-// is no server.
+// Finding about probes that a server draws otherwise when started for each alone; compares for 10 s at most. Empty: no
+// difference, or the program is no server.
 std::string kept_state(ProgramArgument program, const std::vector<std::pair<Scene, Planes>>& drawn) {
   constexpr std::chrono::seconds kMost{10};
   const auto until = std::chrono::steady_clock::now() + kMost;

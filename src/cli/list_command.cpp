@@ -26,7 +26,8 @@ std::string how_to_build(const std::string& name) {
   return fmt::format("not built in: install {}, and build plumbline anew", what);
 }
 
-// A renderer in a process of its own is made without that process: it draws a frame of one pixel. Throws RendererFailed.
+// Draws a frame of one pixel: a renderer in a process of its own starts that process only when it draws. Throws
+// RendererFailed.
 void try_out(Renderer& renderer) {
   const TemporaryPath file(temporary_files(), "plumb-list-", TemporaryPath::Kind::file);
   std::ofstream(file.path()) << R"({"description": "A point.", "frame": {"width": 1, "height": 1},

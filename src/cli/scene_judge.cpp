@@ -35,7 +35,8 @@ std::optional<Planes> drawn_alone(ProgramArgument program, const Scene& scene) {
   }
 }
 
-// Why a program's scene is wrong, or failed: what it drew before, or memory that it has not set; else known faults.
+// Likely causes of a program's wrong or failed scene: state or unset memory, where the program draws the scene
+// otherwise when started for it alone; else known faults.
 std::vector<std::string> causes_of(const ProgramArgument& program, const Scene& scene, const Capture& left,
                                    const RendererInfo& renderer, const check::SceneVerdict& verdict) {
   const report::Conformance ended = report::conformance_of(verdict);
@@ -60,7 +61,7 @@ SceneJudge::SceneJudge(const CheckRules& rules, Progress& progress)
 JudgedScene SceneJudge::judge(const Scene& scene, EndedSteps ended, check::BothCaptures* to_hand_out) {
   const CheckOptions& o = rules_->options;
   ended_ = std::move(ended);
-  if (!candidate_) {  // here, since what is made may have ended a worker before
+  if (!candidate_) {  // not in the constructor: making a renderer is a step that may be in ended_
     const Watch watch{progress_, &ended_, o.limits.step};
     Watch of_candidate = watch;
     const bool outside = !o.candidate.command.empty();

@@ -1,4 +1,4 @@
-// One scene of plumb check: judged, settled, and what is left of it.
+// Judges one scene for plumb check, settles its expectations, and writes its page.
 #pragma once
 
 #include <chrono>
@@ -21,22 +21,22 @@
 
 namespace plumbline::cli {
 
-/// What all scenes of a run are judged by: several threads read it.
+/// Rules of a run, the same for all its scenes; worker processes have copies.
 struct CheckRules {
   CheckOptions options;
   std::chrono::sys_days today;
   std::vector<check::Expectation> expectations{};
   std::optional<check::GoldenSet> goldens{};
-  std::optional<report::HtmlReport> page{};   ///< wanted, or not
-  std::optional<check::KeptVerdicts> kept{};  ///< verdicts of earlier runs may stand
-  bool names_causes = true;                   ///< of a program's wrong scenes: it, and each known fault, draws them
+  std::optional<report::HtmlReport> page{};   ///< the page of --report, or none
+  std::optional<check::KeptVerdicts> kept{};  ///< verdicts of earlier runs (--cache), or none
+  bool names_causes = true;                   ///< a program's wrong scenes are drawn with each known fault
 };
 
-/// What comes of a scene. Its planes are gone.
+/// Result of judging a scene, without its planes.
 struct JudgedScene {
   check::SceneVerdict verdict;
   std::vector<check::Settled> settled;
-  std::string failure;  ///< lines: why it does not hold, and the page of it that was left
+  std::string failure;  ///< lines: why the scene does not hold, and where its page is; empty: it holds
   std::optional<report::HtmlReport::Drawing> drawing;
   std::map<std::string, std::string> versions;  ///< by renderer
 };
@@ -49,8 +49,8 @@ class SceneJudge {
   SceneJudge(const CheckRules& rules, Progress& progress);
   SceneJudge(const SceneJudge&) = delete;
   SceneJudge& operator=(const SceneJudge&) = delete;
-  /// `ended`: the steps that ended workers before. `drawn`: what both sides drew, if wanted. Leaves a page of a scene that does not hold, if asked. Throws
-  /// OutputError.
+  /// `ended`: the steps that ended workers before. `drawn`: receives what both sides drew, if not null. Writes the page
+  /// of a scene that does not hold, if --failures is given. Throws OutputError.
   JudgedScene judge(const Scene& scene, EndedSteps ended, check::BothCaptures* drawn = nullptr);
 
  private:

@@ -18,9 +18,9 @@ struct JudgeRequest {
 std::string to_bytes(JudgeRequest request);
 JudgeRequest request_of(std::string_view bytes);
 
-/// Without the pixels that differ (Measurement::differing_at, disputed_at): what is shown of them is drawn by then.
+/// Leaves out the pixels that differ (Measurement::differing_at, disputed_at): pages are drawn before, by the worker.
 std::string to_bytes(JudgedScene scene, const CheckRules& rules);
-/// The places of what is worst refer to `words`.
+/// Inverse of to_bytes(). `words` receives the texts that the verdict points to (Place::field), and must outlive it.
 JudgedScene judged_scene_of(std::string_view bytes, const CheckRules& rules, std::set<std::string>& words);
 
 }  // namespace plumbline::cli

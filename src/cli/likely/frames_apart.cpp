@@ -8,8 +8,8 @@ namespace plumbline::cli {
 
 namespace {
 
-// Rule of what counts as a difference: more than so many codes of 8 bits, steps of depth, and what depths in float may
-// be off; alpha, too.
+// Thresholds of a Look: colour [codes of 8 bits]; depth [steps of the depth format], but at least float_depth [window
+// z], the error of depths in float; whether alpha counts.
 struct Eye {
   float codes;
   double steps, float_depth;

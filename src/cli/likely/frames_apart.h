@@ -19,28 +19,29 @@ struct ColorAndDepth {
   Plane<double> depth;
 };
 
-/// A frame, by whose conventions it is drawn, and which of its pixels are legal.
+/// A frame to be explained, the conventions that it is drawn by, and what is known about it.
 struct GivenFrame : ColorAndDepth {
   Conventions conventions;
-  /// 1: the pixel is legal. Where it differs from ours, it counts for no fault, and against none. Empty: not known.
+  /// 1: the pixel is legal; where it differs from ours, it counts neither for a fault nor against one. Empty: not
+  /// known.
   Plane<std::uint8_t> is_legal;
-  bool has_alpha = false;  ///< else nothing is told by alpha
+  bool has_alpha = false;  ///< alpha is known; else it is not compared
   StageSet right{};        ///< stages that are judged right, or given: their faults are no causes
-  StageSet wrong{};        ///< stages that are wrong of what they were given: their faults are named before others
+  StageSet wrong{};        ///< stages that are wrong on their own input: their faults are named before others
 };
 
-/// Rule of what counts as a difference: coarse, more than a code of 8 bits and a step of depth, with alpha or without;
-/// fine, half a code, or a quarter of a step, which only truncation makes.
+/// Threshold of a difference. Coarse: beyond 1.5 codes of 8 bits or 1.5 steps of depth, with alpha or without. Fine:
+/// beyond half a code, or a quarter of a step, which only truncation makes.
 enum Look { kCoarseByAlpha, kCoarse, kFineColor, kFineDepth };
 constexpr std::size_t kLooks = 4;
 constexpr bool is_fine(Look look) { return look >= kFineColor; }
-/// Pixels that differ, by each look.
+/// Number of pixels that differ, by Look.
 using Apart = std::array<std::size_t, kLooks>;
 
-/// Red, green or blue differ by more than so many codes of 8 bits, or b's are no numbers; alpha, too, if asked.
+/// Whether r, g or b (a, too, if asked), clamped to [0,1], differ by more than `codes` [1/255], or are NaN in b.
 bool colors_apart(const glm::vec4& a, const glm::vec4& b, float codes, bool by_alpha = false);
 
-/// Pixels in which frames differ from the one given; where a legal one differs from `ours`, none.
+/// Counts the pixels in which a frame differs from the given one, except those that are legal and differ from `ours`.
 class FramesApart {
  public:
   FramesApart(DepthFormat format, const GivenFrame& given, const ColorAndDepth& ours);

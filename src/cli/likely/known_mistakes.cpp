@@ -25,7 +25,7 @@ auto of_pixels(Visit visit) {
   };
 }
 
-// Frame whose pixel (x, y) is pixel from(x, y) of the right one, and clear where that is none.
+// Frame whose pixel (x, y) is pixel from(x, y) of the right frame, cleared where from(x, y) lies outside.
 template <class From>
 auto rearranged(glm::vec4 clear_color, double clear_depth, From from) {
   return [=](ColorAndDepth& frame) {
@@ -47,7 +47,7 @@ std::string side_of(int x, int y) {
   return fmt::format("{}{}{}", across, x != 0 && y != 0 ? " and " : "", up);
 }
 
-// Mistakes of a pixel in the viewport, or of half a pixel in the sample's place, to the eight sides.
+// Viewports one pixel off, and samples half a pixel off, in eight directions.
 void add_neighbours(const FrameFormat& frame, std::vector<Mistake>& out) {
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {

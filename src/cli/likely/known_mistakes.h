@@ -1,4 +1,4 @@
-// Mistakes that a frame may show: the known faults, and those of a viewport, of a depth test, of a file.
+// Mistakes that a frame may show: the known faults, and mistakes of a viewport, of a depth test, of writing the file.
 #pragma once
 
 #include <functional>

@@ -23,14 +23,14 @@ namespace {
 
 using Mistakes = std::vector<const Mistake*>;
 
-// Mistakes made together, and how many pixels they leave apart.
+// Mistakes made together, and the pixels in which their frame still differs from the given one.
 struct Lookalike {
   Mistakes mistakes;
   Apart apart;
 };
 
-// Draws with mistakes. Of a scene that the frame's sides cut, the nearer frame counts of a renderer that cuts polygons
-// there, and of one that leaves the sides to the raster.
+// Draws the scene with mistakes, and counts the pixels that differ. Where the frame's sides cut polygons, the scene is
+// drawn with these cuts and with a guard band (Sides); the nearer frame counts.
 class Trial {
  public:
   Trial(const Scene& scene, const GivenFrame& given, const ColorAndDepth& ours)
@@ -89,15 +89,16 @@ std::string line_of(const Lookalike& l, std::size_t left, std::size_t apart) {
   return fmt::format("{:>6.1f} % {:>12}  {:<36} {}\n", explained, left, names, says);
 }
 
-// Fills in the cause that explains nine tenths, and those that leave as many pixels, if there is one; of a stage that
-// is wrong by itself, if there is one. `all`: the nearest first. Returns the one named, or null.
+// Fills in `likely`, `ties` and `whole`, if a mistake explains nine tenths of the pixels. Where coverage is wrong on
+// its own input, or a mistake of a wrong stage explains as much, only mistakes of wrong stages count. `all`: the
+// nearest first. Returns the mistake named, or null.
 const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   const auto explains = [&](const Lookalike& l) { return 10 * left(l) <= out.apart; };
   const auto is_of_wrong = [&](const Lookalike& l) {
     return std::ranges::any_of(l.mistakes, [&](const Mistake* m) { return is_of(wrong, *m); });
   };
-  // Coverage, of the renderer's own triangles, is a matter of no rounding: no fault of another stage makes it wrong.
+  // Coverage of given triangles needs no rounding: where it is wrong, only a mistake of coverage itself explains it.
   const bool by_wrong = wrong.has(Stage::coverage) ||
                         std::ranges::any_of(all, [&](const Lookalike& l) { return explains(l) && is_of_wrong(l); });
   const auto counts = [&](const Lookalike& l) { return !by_wrong || is_of_wrong(l); };
@@ -114,7 +115,8 @@ const Lookalike* name_nearest(const std::vector<Lookalike>& all, Look look, cons
   return &nearest;
 }
 
-// Mistakes whose frames one look sees nearer than ours, the nearest first; and what is said of them.
+// Ranks the mistakes whose frames are nearer than ours by this look, the nearest first, and writes their table. Removes
+// the others from `all`.
 Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, const StageSet& wrong) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
   Lookalikes out;
@@ -128,7 +130,7 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, con
   }
   constexpr std::size_t kShown = 8;
   out.text = "explains  pixels left  fault\n";
-  const bool is_whole = left(all.front()) == 0;  // what is farther then says nothing
+  const bool is_whole = left(all.front()) == 0;  // then mistakes that leave pixels are not shown
   for (const Lookalike& l : std::span(all).first(std::min(all.size(), kShown))) {
     if (!is_whole || left(l) == 0) out.text += line_of(l, left(l), out.apart);
   }
@@ -136,8 +138,8 @@ Lookalikes ranked(std::vector<Lookalike>& all, const Apart& ours, Look look, con
   return out;
 }
 
-// Two mistakes at once, where the nearest alone explains a third or more. Both count: together they leave fewer pixels
-// than either of them. `alone`: each mistake that is known.
+// Tries the nearest mistake together with each other one, where the nearest alone explains a third or more. A pair
+// counts only if it leaves fewer pixels than either mistake alone. `alone`: all known mistakes.
 void seek_together(const Trial& trial, const std::vector<Lookalike>& alone, const Lookalike& nearest, Look look,
                    const StageSet& wrong, Lookalikes& out) {
   const auto left = [&](const Lookalike& l) { return l.apart[look]; };
@@ -159,8 +161,9 @@ bool has_one_color(const Plane<glm::vec4>& plane, const glm::vec4& color) {
   return std::ranges::none_of(plane.values(), [&](const glm::vec4& c) { return colors_apart(color, c, 1.5f); });
 }
 
-// Line for people about a frame whose pixels all have one colour and, where depth is known, the clear depth within a
-// code of 16 bits. Empty of other frames, and where ours has one colour, too.
+// Line for people about a blank frame: one colour in all pixels and, where depth is known, the clear depth within a
+// code of 16 bits. Empty for other frames, and for a colour that is not the clear colour where our frame has one
+// colour, too.
 std::string said_of_blank(const FrameFormat& frame, const ColorAndDepth& given, const ColorAndDepth& right) {
   const glm::vec4 color = given.color.values().front();
   const auto drawn_at = [&](double z) { return !(std::abs(z - frame.clear_depth) <= 1.0 / 65535); };
@@ -182,7 +185,7 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   Apart apart = trial.apart(right);
   if (!given.has_alpha) apart[kCoarseByAlpha] = 0;
   const auto differs = std::ranges::find_if(apart, [](std::size_t n) { return n > 0; });
-  if (differs == apart.end()) return {};  // right
+  if (differs == apart.end()) return {};  // no pixel differs
   Lookalikes blank;
   blank.text = said_of_blank(seen->frame, given, right);
   if (!blank.text.empty()) {
@@ -193,10 +196,10 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
   std::vector<Lookalike> all;
   for (const Mistake& m : known) all.push_back(trial.made({&m}));
   const Apart without = trial.made({}).apart;
-  std::erase_if(all, [&](const Lookalike& l) { return l.apart == without; });  // of what the scene has not
+  std::erase_if(all, [&](const Lookalike& l) { return l.apart == without; });  // without effect on this scene
   std::vector<Lookalikes> found;
   for (const Look look : {kCoarseByAlpha, kCoarse, kFineColor, kFineDepth}) {
-    if (is_fine(look) && !found.empty()) return found.front();  // no cause of what is coarse
+    if (is_fine(look) && !found.empty()) return found.front();  // coarse differences have no fine cause
     if (apart[look] == 0) continue;
     std::vector<Lookalike> nearest = all;
     Lookalikes seen_by = ranked(nearest, apart, look, given.wrong);
@@ -205,7 +208,7 @@ Lookalikes lookalikes(const Scene& scene, const GivenFrame& given) {
     if (!seen_by.likely.empty()) return seen_by;
     if (!is_fine(look)) found.push_back(std::move(seen_by));
   }
-  return {};  // rounded otherwise
+  return {};  // fine differences that no fault explains: other roundings
 }
 
 namespace {
@@ -214,7 +217,8 @@ bool tells_legal_colors(const check::Comparison& row) {
   return row.stage == Stage::merge && judges_legality(row.judge, row.stage) && was_compared(row);
 }
 
-// 1 where no row that knows what is legal finds a pixel wrong; empty where no pixel is wrong, or not all are told.
+// 1 where no row that judges legality finds the pixel wrong. Empty where no such row judged colours, none finds a pixel
+// wrong, or one does not list all of its pixels.
 Plane<std::uint8_t> legal_pixels(const Planes& planes, const check::SceneVerdict& verdict) {
   if (std::ranges::none_of(verdict.comparisons, tells_legal_colors)) return {};
   Plane<std::uint8_t> out(planes.color.width(), planes.color.height(), 1);

@@ -13,28 +13,28 @@
 
 namespace plumbline::cli {
 
-/// Known faults whose frame is nearer to the one given than ours is, the nearest first, and how much of what differs
-/// each explains. Faults are drawn by the conventions given, as far as SceneByConventions draws by them. Where all is
-/// within a code of 8 bits and a step of depth, a half and a quarter count, if a fault explains that. Where none
-/// explains nine tenths of them, and the nearest a third or more, each other fault is drawn together with it.
+/// Known faults whose frames are nearer to the given frame than ours is. Faults are drawn by the given conventions, as
+/// far as SceneByConventions applies them. A fault explains `apart` less the pixels that differ from the fault's
+/// frame. Where no single fault explains nine tenths of them, but the nearest a third, pairs of it with each other
+/// fault are drawn. Fine differences (Look) count only where there are no coarse ones, and a fault explains them.
 struct Lookalikes {
-  std::size_t apart = 0;  ///< pixels that differ from ours: a channel by more than so many codes, or depth
-  double codes = 1;       ///< 1, or half of one
-  std::string text;       ///< lines for people
-  std::string likely;     ///< "STAGE (fault NAME)", where the nearest explains nine tenths of them or more; else empty
+  std::size_t apart = 0;  ///< pixels that differ from ours by the look that counts
+  double codes = 1;       ///< 1 (coarse) or 1/2 (fine) code of 8 bits, for people
+  std::string text;       ///< lines for people, the nearest fault first
+  std::string likely;     ///< "STAGE (fault NAME)": the nearest, if it explains nine tenths of `apart`; else empty
   bool together = false;  ///< `likely` and `ties` are of two faults each, "STAGE (fault NAME) and STAGE (fault NAME)"
-  std::vector<std::string> ties;  ///< others that explain as much: the frame does not tell them apart
-  bool whole = false;             ///< and all of them
-  bool blank = false;             ///< all pixels have one colour, as by many faults: none is named, `text` says it
+  std::vector<std::string> ties;  ///< other faults that explain as many pixels
+  bool whole = false;             ///< `likely` explains all pixels
+  bool blank = false;             ///< all pixels have one colour, as by many faults: none is named, `text` says so
 };
 Lookalikes lookalikes(const Scene& scene, const GivenFrame& given);
 /// The frame that a capture of `renderer` holds, as `verdict` judges it.
 GivenFrame frame_of(const Capture& left, const RendererInfo& renderer, const check::SceneVerdict& verdict);
-/// found.likely and found.ties; empty where fewer pixels differ from ours (found.apart) than half of those that a row
-/// finds different at merge: the fault then resembles a legal rule of the renderer, not what is wrong with it.
+/// found.likely and found.ties. Empty where found.apart is less than half of the pixels that a row finds different at
+/// merge: the fault then resembles a legal rule of the renderer, not its mistake.
 std::vector<std::string> likely_of(const Lookalikes& found, const check::SceneVerdict& verdict);
-/// The likely faults of a capture, which it does not tell apart, or "nothing of the scene is seen" where its pixels
-/// have one colour; empty also where the scene is too large for a picture of each fault.
+/// likely_of() the capture's frame, or "nothing of the scene is seen" where all its pixels have one colour. Empty also
+/// for an antialiased scene, and for one of more than 20,000 primitives or 200,000 pixels: each fault is a picture.
 std::vector<std::string> likely_faults(const Scene& scene, const Capture& left, const RendererInfo& renderer,
                                        const check::SceneVerdict& verdict);
 

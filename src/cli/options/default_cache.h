@@ -1,4 +1,4 @@
-// The folder for what later runs may use.
+// The folder of --cache.
 #pragma once
 
 #include <string>

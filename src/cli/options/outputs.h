@@ -1,4 +1,4 @@
-// What a run will write, proven writable before the work.
+// Checks before the work that a run's outputs can be written.
 #pragma once
 
 #include <filesystem>

@@ -24,7 +24,7 @@ namespace plumbline::cli {
 
 namespace {
 
-// Replaces each `what` in the text. Whether there was one.
+// Replaces each `what` in the text; returns whether there was one.
 bool replace(std::string& text, std::string_view what, std::string_view by) {
   bool found = false;
   for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += by.size(), found = true)
@@ -32,7 +32,7 @@ bool replace(std::string& text, std::string_view what, std::string_view by) {
   return found;
 }
 
-// How many stages are given to a program that begins there.
+// Number of stages that are given to a program with --from: those before clip, or up to window.
 std::size_t given(const std::string& from) {
   return from.empty() ? 0 : static_cast<std::size_t>(from == "clip" ? Stage::clip : Stage::coverage);
 }
@@ -61,7 +61,7 @@ void give(const std::string& from, const Scene& scene, Capture& left) {
   }
 }
 
-// A placeholder brings its own quotes, and is no program.
+// Throws where a placeholder is quoted (it is quoted when replaced) or stands where the program should.
 void require_placeholders(const std::string& command) {
   for (const std::string_view word : {"{input}", "{output}", "{scene}", "{serve}"}) {
     for (const char quote : {'\'', '"'}) {

@@ -23,7 +23,7 @@ References make_references(const std::vector<std::string>& names, const std::vec
   std::uint32_t number = 0;
   const auto add = [&](const std::string& name, std::vector<check::Reference>& to) {
     Watch own = watch;
-    if (in_own_process(name)) own.limit += kOwnProcessLimit;  // which ends it before
+    if (in_own_process(name)) own.limit += kOwnProcessLimit;  // the process' own limit ends it first
     const auto make = [&] { return make_reference(name, assets, fault); };
     out.owned.push_back(make_watched(name, make, ++number, own));
     to.push_back({name, out.owned.back().get()});

@@ -44,7 +44,7 @@ constexpr bool kEmbree = false;
 // The OpenGL reference of this process.
 constexpr const char* kOpenGl = kEgl && !kOsmesa ? "egl" : "osmesa";
 
-// What this program hands out as `name` in a process of its own.
+// Renderer `name` in a process of its own: plumb capture --with NAME.
 class OwnProcess final : public Renderer {
  public:
   OwnProcess(RendererInfo info, const std::vector<std::string>& assets) : info_(std::move(info)) {

@@ -24,13 +24,13 @@ const std::vector<std::string>& known_reference_names();
 /// These, `ours` and `definition`.
 const std::vector<std::string>& renderer_names();
 
-/// Within this process, which holds one of Mesa's libraries and drivers. Null if the renderer is known but not built
-/// in. Throws std::invalid_argument, naming those there are, if unknown.
+/// Makes a renderer in this process, which can hold only one of Mesa's libraries and drivers. Null if the renderer is
+/// known but not built in. Throws std::invalid_argument, naming the known ones, if the name is unknown.
 std::unique_ptr<Renderer> make_renderer(const std::string& name);
 
 /// How long a renderer in a process of its own may take.
 inline constexpr std::chrono::minutes kOwnProcessLimit{10};  // softpipe takes its time
-/// Whether it would be a second Mesa in this process.
+/// Whether the renderer would be a second Mesa in this process.
 bool in_own_process(const std::string& name);
 /// A reference of a run with several: as make_renderer(), but a second Mesa (in_own_process) is a child process of this
 /// program, which is given `assets`. With the named fault, if that is one of this reference (faults/endings.h).
@@ -44,7 +44,8 @@ struct FaultInfo {
 std::vector<FaultInfo> fault_infos();
 /// The reference that the fault is of (faults/endings.h); empty: it is none of a reference.
 std::string faulted_reference(const std::string& fault);
-/// Whether polygons are cut at the frame's sides, or these are left to the raster (faults.h).
+/// Whether polygons are cut at the frame's sides, or at a guard band eight times as wide and high (faults.h,
+/// keep_sides).
 enum class Sides { cut, kept };
 /// Our pipeline; with the named fault unless the name is empty. Throws std::invalid_argument if it is unknown.
 std::unique_ptr<Renderer> make_candidate(const std::string& fault, Sides sides = Sides::cut);

@@ -41,7 +41,7 @@ std::vector<Scene> SceneArguments::load(std::span<const std::filesystem::path> f
   std::atomic<std::size_t> next{0};
   std::atomic<bool> any_bad{false};
   const auto work = [&] {
-    while (!any_bad) {  // what was taken is read, so that all before a bad one are
+    while (!any_bad) {  // a file once taken is read: all files before the first bad one are
       const std::size_t i = next++;
       if (i >= files.size()) return;
       try {

@@ -17,11 +17,11 @@ struct SceneArguments {
   Scene load(const std::filesystem::path& file) const;
   /// A scene as load() reads it, without its notes for people.
   Scene load_silently(const std::filesystem::path& file) const;
-  /// All of them, several at a time, each accepted by `require`, which throws else. Throws what the first bad one in
-  /// order does. No thread is left: the caller may fork.
+  /// Loads all files, several at a time. Calls require(scene) for each, which throws to refuse it. Throws the exception
+  /// of the first bad file in order. All threads have ended when it returns: the caller may fork.
   std::vector<Scene> load(std::span<const std::filesystem::path> files,
                           const std::function<void(const Scene&)>& require) const;
-  /// As they were given, for a command that repeats a run.
+  /// " --assets FOLDER" for each, quoted for a shell: for a command that repeats a run.
   std::string repeated() const;
 };
 
