@@ -11,8 +11,8 @@ namespace plumbline::campaign {
 
 /// A bug's signature: scenes of one signature are one finding.
 struct Signature {
-  std::string stage;  ///< the first different one, by name
-  std::string cause;  ///< the outcome and the field of its worst record: "different color"; of a dispute, its reason
+  std::string stage;  ///< name of the first different stage
+  std::string cause;  ///< the row's outcome and its worst record's field, "different color"; of a dispute, the reason
   std::string reference;  ///< the judge's name for people
   auto operator<=>(const Signature&) const = default;
 };
@@ -24,8 +24,8 @@ struct Entry {
   std::vector<Signature> found;     ///< why the scene does not hold: one, or none where it does
   std::vector<Signature> disputes;  ///< where a reference is shown to be wrong; sorted, each once
   std::string unable{};             ///< why nothing that the candidate drew could be judged; empty: something was
-  std::string states{};             ///< that it is of (states/states.h)
-  double milliseconds = 0;          ///< that judging took; another in each run
+  std::string states{};             ///< StateBits of the scene (states/states.h)
+  double milliseconds = 0;          ///< time of judging; differs from run to run
 };
 /// Whether two entries are of one scene, verdict and states, in whatever time.
 inline bool same_verdict(const Entry& a, const Entry& b) {

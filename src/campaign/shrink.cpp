@@ -46,7 +46,7 @@ class Shrinker {
     return true;
   }
 
-  // Items of lists that stand beside each other taken away: the half, then the quarters, down to each. One item stays.
+  // Removes items of parallel lists: a half, then quarters, down to single items. One item stays.
   void fewer_items(const std::vector<Pointer>& lists) {
     const Pointer& list = lists.front();
     for (std::size_t run = scene_[list].size() / 2; run > 0; run /= 2) {
@@ -73,7 +73,7 @@ class Shrinker {
     }
   }
 
-  // Each member away; of one that must stay, its own members. The frame's sides have their own step.
+  // Removes each member, or, where it must stay, its own members. The frame's size has a step of its own.
   void fewer_members(const Pointer& place) {
     const Json value = scene_[place];
     if (value.is_array()) {
@@ -141,7 +141,7 @@ class Shrinker {
     }
     try_instead(std::move(next));
   }
-  // A generator's counts: the half of each, as long as it shows the finding.
+  // Halves each count of a mesh generator, as long as the scene shows the finding.
   void smaller_counts(const Pointer& mesh) {
     const Json members = scene_[mesh];
     for (const auto& [key, value] : members.items()) {

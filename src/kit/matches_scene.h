@@ -69,7 +69,7 @@ class SceneMatcher {
     const std::string judge = quoted(plumb()) + " diagnose " + quoted(scene_) + " --capture " + quoted(capture);
     auto [code, text] = run(judge);
     for (std::size_t at = 0; (at = text.find(capture.string(), at)) != text.npos;)
-      text.replace(at, capture.string().size(), "the frame");  // whose folder goes
+      text.replace(at, capture.string().size(), "the frame");  // its folder is removed
     if ((code != 0 && code != 1) || text.find(" stages judged\n") == std::string::npos) {
       throw std::runtime_error("MatchesScene(" + scene_.string() + ") was not judged: " + plumb() +
                                " (PLUMBLINE_PLUMB), exit code " + std::to_string(code) + ": " + text);
@@ -85,7 +85,7 @@ class SceneMatcher {
   void DescribeNegationTo(std::ostream* out) const { *out << "does not show the scene " << scene_.string(); }
 
  private:
-  // A folder of its own, which goes when it does.
+  // Temporary folder; the destructor removes it.
   struct Folder {
     std::filesystem::path path;
     Folder() {

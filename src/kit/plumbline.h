@@ -37,7 +37,7 @@
 
 enum { PL_VERSION = 1, PL_UNSUPPORTED_STATUS = 77, PL_PATH = 256 };
 
-/* One for the whole program, whatever number of its files includes this one. */
+/* One for the whole program, however many files include this one (gcc, clang, C++17); elsewhere one per file. */
 typedef struct {
   jmp_buf to; /* of a server in C; in C++ an exception takes its place */
   int serving, jumps;
@@ -284,7 +284,7 @@ static int pl_has(const PlScene* scene, const char* format, ...) {
   return value != NULL && !value->is_null;
 }
 
-/* A number; of true 1, of false 0; of an array how many elements it has. */
+/* A number; true: 1, false: 0; an array or object: how many elements it has; a text or null: 0. */
 static double pl_number(const PlScene* scene, const char* format, ...) PL_PRINTF(2, 3);
 static double pl_number(const PlScene* scene, const char* format, ...) {
   PL_FORMATTED(path, format);
@@ -307,7 +307,7 @@ static int pl_is(const PlScene* scene, const char* word, const char* format, ...
   return strcmp(pl_text(scene, "%s", path), word) == 0;
 }
 
-/* Which of these words the text there is, "none|back|front": from 0 on. Another one: the scene is unsupported. */
+/* Index from 0 of the text among words such as "none|back|front". Calls pl_unsupported() for any other text. */
 static int pl_choice(const PlScene* scene, const char* words, const char* format, ...) PL_PRINTF(3, 4);
 static int pl_choice(const PlScene* scene, const char* words, const char* format, ...) {
   const char *text, *last;
@@ -326,7 +326,7 @@ static int pl_choice(const PlScene* scene, const char* words, const char* format
   return i;
 }
 
-/* The scene is unsupported where the value is there and not null: a draw's fog, say. */
+/* Calls pl_unsupported() where the value is there and not null: for a draw's fog, say. */
 static void pl_none(const PlScene* scene, const char* format, ...) PL_PRINTF(2, 3);
 static void pl_none(const PlScene* scene, const char* format, ...) {
   const char* last;
@@ -419,7 +419,7 @@ static void pl_array(PlCapture* capture, const char* name, const char* dtype, co
     pl_fail("%s: cannot be written", path);
 }
 
-/* Records: one value, or `components` of them, for each. */
+/* Writes an array of `count` records, each of `components` values. */
 static void pl_records(PlCapture* capture, const char* name, const char* dtype, const void* values, size_t count,
                        size_t components) PL_UNUSED;
 static void pl_records(PlCapture* capture, const char* name, const char* dtype, const void* values, size_t count,
@@ -498,7 +498,7 @@ static void pl_answer(int to, const char* what, const char* reason) {
 #endif
 }
 
-/* Draws one scene of a server: whether it can. */
+/* Draws one scene of a server; 0 where pl_unsupported() was called. */
 static int pl_serve(const char* input, const char* output, const char* renderer, PlDraw draw) {
   static PlScene* open;
   static FILE* manifest;

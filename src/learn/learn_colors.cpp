@@ -25,7 +25,7 @@ auto tile(int i, const glm::vec4& color) {
   const glm::dvec2 low(4.0 * (i % kInRow), 4.0 * (i / kInRow));
   return rectangle(low, low + 4.0, 0.5, color);
 }
-// A pixel of it that lies in one of its two triangles alone.
+// The colour of rectangle i, at a pixel inside one of its two triangles.
 const glm::vec4& pixel_of(const Plane<glm::vec4>& color, int i) {
   return color(4 * (i % kInRow) + 1, 4 * (i / kInRow) + 2);
 }
@@ -121,8 +121,8 @@ void learn_alpha_test(Prober& prober) {
                fmt::format("128.2 / 255 {} 127.8 / 255", passes ? "passes as greater than" : "is equal to"));
 }
 
-// Two sources, of some alpha each, over a colour: of a renderer that blends numbers and rounds each result once, the
-// frame holds a code between them.
+// Blends two layers over a colour. A renderer that blends in float and rounds each result once is within one rounding
+// of the exact blend over the codes that the first layer left.
 void learn_blending(Prober& prober) {
   const ConventionWords words = words_of("blending");
   const auto code_under = [](int i) { return (i * 37) % 255; };

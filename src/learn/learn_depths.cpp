@@ -19,8 +19,8 @@ using C = Conventions;
 
 constexpr int kDepthsInRow = 16;
 
-// Rectangles of 4 x 4 pixels, each at one depth. Of a view volume of [0,w], which begins where OpenGL's has its middle,
-// depths lie between 1/2 and 1 of OpenGL's.
+// Rectangles of 4 x 4 pixels, each at one depth. For a view volume of [0,w] in z, the far half of OpenGL's, depths are
+// mapped to [1/2, 1].
 Scene at_depths(const Prober& prober, const std::string& name, const std::vector<double>& depths) {
   const bool from_zero = prober.learned.conventions.clip_depth == C::ClipDepth::zero_to_w;
   Scene scene = probe_frame(name, 4 * kDepthsInRow, 4 * kDepthsInRow);
@@ -34,7 +34,7 @@ Scene at_depths(const Prober& prober, const std::string& name, const std::vector
   return scene;
 }
 
-// The depth of a pixel of each that lies in one of its two triangles alone; none: the renderer leaves no depths.
+// Depth of each rectangle, at a pixel inside one of its two triangles; none: the renderer leaves no depths.
 std::optional<std::vector<double>> depths_of(Prober& prober, const std::string& name, const std::vector<double>& depths,
                                              DepthFormat format = DepthFormat::z24) {
   Scene scene = at_depths(prober, name, depths);
@@ -47,7 +47,7 @@ std::optional<std::vector<double>> depths_of(Prober& prober, const std::string& 
   return out;
 }
 
-// Number of depths within 1e-4 of what the range makes of those given.
+// Number of depths `left` within 1e-4 of the `given` ones mapped to the range.
 std::size_t fitting(C::DepthRange range, const std::vector<double>& given, const std::vector<double>& left) {
   std::size_t out = 0;
   for (std::size_t i = 0; i < given.size(); ++i) {
@@ -70,8 +70,8 @@ std::vector<double> given_depths() {
   return out;
 }
 
-// Codes of n bits: how many depths are codes, within what a float loses; how many are less than a code from what was
-// given; and how many are the code of each rounding.
+// Depths as codes of n bits, counted: those that are codes, up to float's rounding; those less than a code from the
+// given depth; those that each rounding makes of the given depth.
 struct Codes {
   std::size_t codes = 0, near = 0;
   std::array<std::size_t, kRoundings.size()> fits{};
@@ -91,7 +91,7 @@ Codes codes_of(double bits, const std::vector<double>& given, const std::vector<
 
 bool nearly_all(std::size_t n, std::size_t of) { return n * 50 >= of * 49; }
 
-// By the codes of n depths.
+// Finds depth_rounding from the codes of n depths.
 void learn_rounding(Prober& prober, const Codes& codes, std::size_t n) {
   const ConventionWords words = words_of("depth_rounding");
   const std::string evidence = fmt::format("{} of {} depths", codes.most(), n);
@@ -101,8 +101,8 @@ void learn_rounding(Prober& prober, const Codes& codes, std::size_t n) {
   prober.found(words, name_of(c.depth_rounding), evidence);
 }
 
-// Format and rounding of a renderer that leaves codes of 24 bits where they are asked for, by a frame of 16 bits: there,
-// arithmetic in float tells the nearest code from the upper one.
+// Depth format and rounding of a renderer that leaves 24-bit codes where a 24-bit frame asks for them. A 16-bit frame
+// tells them: with 24 bits, float arithmetic cannot tell the nearest code from the one above.
 void learn_16_bits(Prober& prober, const std::vector<double>& given, Codes codes) {
   C& c = prober.learned.conventions;
   const std::size_t n = given.size();

@@ -25,13 +25,13 @@ ProbeCorner corner(int along, double a, double b) {
   return {along == 0 ? glm::dvec3(a, b, 0.5) : glm::dvec3(b, a, 0.5), glm::vec4(1), {}};
 }
 
-// An edge that rises by `rise` pixels over 1,024, and starts `offset` above a row's lower border (`along` 0; else a
-// column's left one): of the row, so many samples lie below it that the edge's place is told to rise/1024 pixel.
+// A nearly horizontal edge (`along` 0; else nearly vertical): it starts `offset` above the lower border of its strip's
+// third row and rises by `rise` over 1,024 pixels. The number of samples below it tells its place to rise/1024 pixel.
 struct Edge {
   double offset, rise;  // as given [pixels]
-  int count;            // samples on the triangles' side of the edge, of the strip's four rows
+  int count;            // samples of the strip's four rows that the triangles cover
 };
-enum class Side { below, above };  // of the edge, on which the triangles lie
+enum class Side { below, above };  // the triangles' side of the edge
 std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vector<double>& offsets,
                         Side side = Side::below) {
   std::vector<Edge> out;
@@ -63,7 +63,7 @@ std::vector<Edge> edges(Prober& prober, int along, double rise, const std::vecto
   return out;
 }
 
-// Offsets snapped to a grid; nothing where two places are as near.
+// The offset snapped to a grid; none where it is half way between two places, and rounded to the nearest.
 std::optional<double> snapped(double offset, int bits, C::Rounding rounding) {
   if (bits == C::kFloat) return offset;
   const double place = std::ldexp(offset, bits);
@@ -71,7 +71,8 @@ std::optional<double> snapped(double offset, int bits, C::Rounding rounding) {
   return std::ldexp(rounded(rounding, place), -bits);
 }
 
-// A grid explains the edges where the sample's place comes out the same from all of them.
+// A grid, and the sample's place in its pixel that the edges give by this grid. The grid explains the edges if all give
+// nearly the same place.
 struct Grid {
   int bits = C::kFloat;
   C::Rounding rounding = C::Rounding::nearest;
@@ -79,7 +80,7 @@ struct Grid {
   std::size_t probes = 0, all = 0;
   double scatter = 0;  // of the sample's place [pixels]
 };
-// `lost_rows`: of the strip, whose samples lie below its lower edge, at 1/4.
+// `lost_rows`: 1 where the samples of the strip's lowest row lie below the triangles' lower side, at 1/4 of the row.
 std::optional<Grid> explained(const std::vector<Edge>& edges, int bits, C::Rounding rounding, int lost_rows) {
   double least = std::numeric_limits<double>::infinity(), most = -least, sum = 0;
   std::size_t n = 0;
@@ -87,16 +88,16 @@ std::optional<Grid> explained(const std::vector<Edge>& edges, int bits, C::Round
     const auto at = snapped(edge.offset, bits, rounding);
     if (!at) continue;
     double sample = *at + edge.rise * (3 - lost_rows - static_cast<double>(edge.count) / kLong);
-    if (edge.rise == 1 && sample > 0.999) --sample;  // a row is lost
+    if (edge.rise == 1 && sample > 0.999) --sample;  // lost_rows was not known to be 1
     least = std::min(least, sample), most = std::max(most, sample), sum += sample;
     ++n;
   }
-  // Ties, and the rounding of an edge function, and of corners to a grid that is too fine to be measured.
+  // Scatter of ties, of an edge function's rounding, and of corners on a grid that is too fine to be measured.
   if (n == 0 || most - least > 3.5 * edges.front().rise / kLong) return std::nullopt;
   return Grid{bits, rounding, sum / static_cast<double>(n), n, edges.size(), most - least};
 }
 
-// The grid by which it scatters least; of as good ones the finest.
+// The grid by which the sample's place scatters least; the finest of equally good ones.
 std::optional<Grid> grid_of(const std::vector<Edge>& edges, int least_bits, int most_bits, int lost_rows) {
   std::optional<Grid> best = explained(edges, C::kFloat, C::Rounding::nearest, lost_rows);
   for (int bits = most_bits; bits >= least_bits; --bits) {
@@ -108,8 +109,8 @@ std::optional<Grid> grid_of(const std::vector<Edge>& edges, int least_bits, int 
   return best;
 }
 
-// By edges that are moved by 1/1024 pixel, some on the grids' places and some off; where those tell no grid of 8 bits
-// or fewer, by 1/16384, about the sample.
+// Finds the grid from edges moved in steps of 1/1024 pixel, on the grids' places and off them; where that is none of 8
+// bits or fewer, from edges near the sample, moved in steps of 1/16384 pixel.
 constexpr int kMostBits = 12;
 std::optional<Grid> grid_along(Prober& prober, int along) {
   std::vector<double> offsets;
@@ -124,8 +125,8 @@ std::optional<Grid> grid_along(Prober& prober, int along) {
   return grid_of(edges(prober, along, rise, offsets), 9, kMostBits, grid->sample < 0.25 ? 1 : 0);
 }
 
-// The sample's place by edges whose triangles lie above them: where those of the others reach beyond their edges, they
-// tell it too low, and these too high.
+// The sample's place from edges with their triangles above. If triangles reach beyond their edges, it comes out too
+// high here, and too low from edges with their triangles below.
 double place_from_above(Prober& prober, int along, const Grid& grid) {
   std::vector<double> offsets;
   for (int k = 0; k < 64; ++k) offsets.push_back(k / 1024.0);
@@ -141,8 +142,8 @@ double place_from_above(Prober& prober, int along, const Grid& grid) {
   return n > 0 ? sum / n : grid.sample;
 }
 
-// How far triangles reach beyond their edges [pixels], and the sample's place, both from either side. Places in halves
-// need no second look.
+// Returns how far triangles reach beyond their edges [pixels], and corrects grid.sample: half the difference, and the
+// mean, of its places from both sides. A place at a multiple of 1/2 is taken as it is.
 double reach_of(Prober& prober, int along, Grid& grid) {
   if (std::abs(grid.sample - std::round(2 * grid.sample) / 2) < 1.5 / kLong) return 0;
   const double above = place_from_above(prober, along, grid), reach = (above - grid.sample) / 2;
@@ -151,7 +152,7 @@ double reach_of(Prober& prober, int along, Grid& grid) {
   return reach;
 }
 
-// The lowest left pixel drawn of a rectangle in which pixel (3, 3) is the lowest left sample.
+// The lowest left pixel drawn of a rectangle whose lowest left sample is that of pixel (3, 3).
 glm::dvec2 lowest_left(Prober& prober, glm::dvec2 sample) {
   Scene scene = probe_frame("shift", 16, 16);
   add_triangles(scene, rectangle(sample + 2.75, sample + 9.75, 0.5, glm::vec4(1)));
@@ -228,7 +229,7 @@ Plane<glm::vec4> alone(Prober& prober, const std::string& name, int size, const 
   return prober.draw(scene).color;
 }
 
-// Samples on inner edges of a fan: in how many of its triangles they are.
+// Number of samples on the inner edges of a fan that no triangle, one, or several cover.
 struct Shared {
   std::size_t none = 0, one = 0, more = 0;
 };

@@ -30,7 +30,7 @@ Scene textured_frame(const std::string& name, Texture texture, float most) {
   return scene;
 }
 
-// One level of grey codes, and those below it all of the number's own grey: 40 codes more each.
+// Level 0 has the grey codes of code(x, y); each level n above 0 is one grey, of 40 n codes.
 Texture texture_of(int size, auto code) {
   Texture out;
   out.format = TextureFormat::rgb;
@@ -174,7 +174,8 @@ void learn_levels(Prober& prober) {
   prober.found(words_of("level_of_detail"), name_of(c.level_of_detail), evidence);
 }
 
-// Texels of 0 and 255 by turns, at a level of detail of 1/4: mixed where it is magnified, and by a linear filter.
+// Texels of 0 and 255 by turns, at a level of detail of 1/4: the linear filter of magnification mixes them, the nearest
+// filter of minification does not.
 void learn_magnification(Prober& prober) {
   const ConventionWords words = words_of("magnified");
   const float most = std::exp2(0.25f);

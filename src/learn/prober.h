@@ -41,11 +41,11 @@ class Prober {
   /// colour is left.
   Planes draw(const Scene& scene);
 
-  /// A row of what was found.
+  /// Adds a row: the convention's value was found.
   void found(const ConventionWords& words, std::string_view value, std::string evidence);
-  /// A row of what the renderer does not show.
+  /// Adds a row "open": the renderer does not show the convention.
   void open(const ConventionWords& words, std::string why);
-  /// A row of what it shows and none of the convention's values explains: a finding.
+  /// Adds a row "none fits", and a finding: no value of the convention explains what the renderer shows.
   void fits_none(const ConventionWords& words, const std::string& evidence);
   bool is_open(std::string_view name) const;
   /// A finding that is of no one convention.

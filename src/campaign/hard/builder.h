@@ -21,7 +21,7 @@ using campaign::Object;
 
 using Point = std::array<double, 3>;
 
-/// Where a point of the frame, at a distance from the eye, lies in the world.
+/// Camera of a hard scene: maps points of the frame, at a distance from the eye, to the world.
 struct View {
   Point eye{0, 0, 5}, center{}, up{0, 1, 0};
   Point right{1, 0, 0}, upward{0, 1, 0}, forward{0, 0, -1};  ///< axes of the eye, of unit length

@@ -17,11 +17,11 @@ class Reached {
   std::size_t states() const;
   /// Unordered pairs of different states.
   std::size_t pairs() const;
-  /// States that no scene was of, by number.
+  /// Numbers of the states that no scene has reached.
   std::vector<std::size_t> never() const;
 
  private:
-  std::vector<std::vector<bool>> together_;  ///< by state, by state up to it
+  std::vector<std::vector<bool>> together_;  ///< [a][b], b <= a: a scene had states a and b
 };
 
 }  // namespace plumbline::campaign

@@ -12,7 +12,7 @@
 
 namespace plumbline::campaign {
 
-/// States by number: a bit of the text for each.
+/// A set of states: bit i % 8 of byte i / 8 is state i.
 using StateBits = std::string;
 inline bool has_state(std::string_view bits, std::size_t state) {
   return state / 8 < bits.size() && ((static_cast<unsigned char>(bits[state / 8]) >> (state % 8)) & 1u) != 0;
@@ -21,7 +21,7 @@ inline bool has_state(std::string_view bits, std::size_t state) {
 /// Names of all states, by number: "depth_func less", "clip: a vertex behind the eye".
 const std::vector<std::string>& state_names();
 
-/// The states that a scene is of. `drawn`: its capture; of a stage that it does not hold, no outcome is known.
+/// The states of a scene. `drawn`: its capture; outcomes of stages that it does not hold are left out.
 StateBits states_of(const Scene& scene, const Capture& drawn);
 
 }  // namespace plumbline::campaign
