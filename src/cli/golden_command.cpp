@@ -1,7 +1,6 @@
 // plumb golden: what we draw against what was blessed, and blessing.
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <optional>
 #include <set>
 
@@ -10,6 +9,7 @@
 
 #include "base/atomic_path.h"
 #include "capture/files/image_file.h"
+#include "capture/same_bits.h"
 #include "check/diagnose/diagnose.h"
 #include "check/golden/golden.h"
 #include "cli/commands.h"
@@ -82,12 +82,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-template <class T>
-bool same_bits(const Plane<T>& a, const Plane<T>& b) {
-  return a.width() == b.width() && a.height() == b.height() &&
-         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
-}
-
 }  // namespace
 
 int golden_check(const GoldenOptions& o) {
@@ -155,7 +149,7 @@ Asked ask(const Scene& scene, Renderer& candidate, const References& references,
   check::Vouch vouch = check::vouch(verdict, ours, reference_names());
   if (!fault.empty()) vouch.refusals.push_back(fmt::format("drawn with the fault {}: never blessed", fault));
   const Planes& judged = drawn.candidate.planes;
-  if (!same_bits(judged.color, difference.drawn.color) || !same_bits(judged.depth, difference.drawn.depth)) {
+  if (!have_same_bits(judged.color, difference.drawn.color) || !have_same_bits(judged.depth, difference.drawn.depth)) {
     vouch.refusals.push_back(fmt::format("{} drew another picture when it was judged", ours));
   }
   return {std::move(difference), std::move(vouch)};

@@ -4,47 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "capture/by_conventions.h"
-
 namespace plumbline::learn {
-
-Planes Prober::draw(const Scene& scene) {
-  Capture left = renderer_.capture(scene, Request{});
-  if (left.planes.color.empty()) throw Unsupported("it leaves no planes.color");
-  to_dialect(learned.conventions, left);
-  if (std::ranges::find(learned.pictures, scene.name, &ProbePicture::name) == learned.pictures.end())
-    learned.pictures.push_back({scene.name, left.planes.color});
-  return std::move(left.planes);
-}
-
-void Prober::found(const ConventionWords& words, std::string_view value, std::string evidence) {
-  learned.rows.push_back({std::string(words.name), std::string(value), std::move(evidence)});
-}
-
-void Prober::open(const ConventionWords& words, std::string why) {
-  learned.rows.push_back({std::string(words.name), "open", std::move(why)});
-  learned.conventions.open.emplace_back(words.name);
-}
-
-bool Prober::is_open(std::string_view name) const {
-  return std::ranges::find(learned.conventions.open, name) != learned.conventions.open.end();
-}
-
-void Prober::fits_none(const ConventionWords& words, const std::string& evidence) {
-  open(words, evidence);
-  learned.rows.back().value = "none fits";
-  unexplained(fmt::format("{}: {}", words.name, evidence));
-}
-
-ConventionWords words_of(std::string_view name) {
-  ConventionWords out = name == kOffsetWords.name ? kOffsetWords : kSampleWords;
-  const auto take = [&](const ConventionWords& words, auto) {
-    if (words.name == name) out = words;
-  };
-  each_choice(take);
-  each_number_of_bits(take);
-  return out;
-}
 
 namespace {
 

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "capture/same_bits.h"
 #include "learn/probe_scene.h"
 #include "learn/prober.h"
 
@@ -79,10 +79,6 @@ Fit best_fit(const Plane<glm::vec4>& color) {
   return best;
 }
 
-bool same_bits(const Plane<glm::vec4>& a, const Plane<glm::vec4>& b) {
-  return a.size() == b.size() && std::memcmp(a.row(0), b.row(0), a.size() * sizeof(glm::vec4)) == 0;
-}
-
 }  // namespace
 
 void learn_colors(Prober& prober) {
@@ -90,7 +86,7 @@ void learn_colors(Prober& prober) {
   Scene scene = probe_frame("colours", 4 * kInRow, 4 * kInRow);
   add_tiles(scene, between_codes);
   const Plane<glm::vec4> color = prober.draw(scene).color;
-  if (!same_bits(prober.draw(scene).color, color)) prober.unexplained("one scene drawn twice differs");
+  if (!have_same_bits(prober.draw(scene).color, color)) prober.unexplained("one scene drawn twice differs");
   const Fit fit = best_fit(color);
   const std::string evidence = fmt::format("{} of {} colours", fit.most, kColors);
   if (!fit.explains()) {
