@@ -23,27 +23,27 @@ Vec4<double> magnitude(const Mat4<double>& m, const Vec4<double>& p);
 /// Magnitude of a unit normal N n / |N n|: the length of |N| |n| over the length of N n.
 double normal_magnitude(const Mat3<double>& n_matrix, const Vec3<double>& n);
 
-/// For a renderer that inverts the model-view in float, as Mesa does: the length of |N| |M|^T |N| |n|, which an error
-/// of M in proportion to |M| comes to in the normal, over the length of N n.
+/// For a renderer that inverts the model-view M in float, as Mesa does: length of |N| |M|^T |N| |n| over the length of
+/// N n. An error e |M| of M moves the unit normal by e times that.
 double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<double>& n_matrix, const Vec3<double>& n);
 
-/// What the triangle's plane of colours comes to at a pixel's centre, perspective-correct, and its slopes per pixel.
+/// The triangle's perspective-correct colour at a pixel's centre, extrapolated outside it, and its slopes [1/pixel].
 struct PlaneValue {
   Vec4<double> value, d_dx, d_dy;
 };
 PlaneValue color_of_plane(const WindowTriangle<double>& triangle, int x, int y);
 
-/// Rounding error of these slopes where they are evaluated in double, per channel and pixel: 2^-51 of the terms of
+/// Rounding error of color_of_plane()'s slopes in double, per channel [1/pixel]: 2^-51 of the terms of
 /// c/w, of 1/w and of their slopes, evaluated from an anchor a tile away. Far behind a corner beside the eye, c/w and
 /// 1/w are small differences of large ones.
 Vec4<double> slope_rounding(const WindowTriangle<double>& triangle, int x, int y);
 
-/// How a plane's value at a pixel centre depends on the triangle: depth, and the colour's four channels.
+/// Error bounds of a plane's value at a pixel centre: of depth, and of the colour's four channels.
 struct PlaneBounds {
-  double depth;        ///< in window z, times u
-  Vec4<double> color;  ///< times u
-  /// Of a line, what its depth and colour move by where they go by the place along the major axis alone, as llvmpipe's
-  /// do, and not by the centre's projection onto the line (OpenGL 2.1, equation 3.5).
+  double depth;        ///< [u of window z]
+  Vec4<double> color;  ///< [u]
+  /// Line: value interpolated by the position on the major axis, as by llvmpipe, less the value at the centre's
+  /// projection onto the line (OpenGL 2.1, equation 3.5); signed [window z; colour].
   double along_depth = 0;
   Vec4<double> along_color{0};
 };
@@ -57,9 +57,8 @@ DepthLimits depth_limits(const DrawIndex& draws, std::int32_t primitive);
 /// For a renderer that evaluates a = a0 + da/dx x + da/dy y in float from the window's origin, as llvmpipe does:
 /// |a|max + |da/dx| (x + x0) + |da/dy| (y + y0), x0, y0 the triangle's farthest corner, and the gradients' own error,
 /// by the inverse of the area, times the distance from the corners; for colour the same of c/w and of 1/w, joined by
-/// the division: (E(c/w) + |c| E(1/w)) w. Of a line the larger of both formulas' (PlaneBounds): where 1/w differs much
-/// between its ends, the second errs by another |c/w| over another 1/w. Every result may be flushed to zero
-/// besides, a gradient before it is multiplied.
+/// the division: (E(c/w) + |c| E(1/w)) w. Line: the larger bound of both interpolations (PlaneBounds), which differ
+/// where 1/w differs much between the ends. Flushing of gradients and results to zero is included.
 PlaneBounds bounds_from_origin(const WindowTriangle<double>& triangle, int x, int y, const DepthLimits& limits = {});
 /// The largest over a primitive's triangles, at least 1.
 PlaneBounds primitive_bounds(const Records<double>& records, std::int32_t primitive, int x, int y,
@@ -90,9 +89,8 @@ class OffsetErrors {
   bool any_;  // whether any draw has an offset
 };
 
-/// What a pixel may hold where edges of a triangle that is not filled meet, of any of those that pass it by no more
-/// than their width and two pixels: by projection, and by the place along the major axis. Empty where there is one such
-/// edge or none.
+/// Values that a pixel may hold where edges of an unfilled triangle meet: two per edge no farther from the centre than
+/// its width plus two pixels, by projection and by the position on the major axis. Empty for fewer than two such edges.
 struct EdgeValue {
   double depth;
   Vec4<double> color;
@@ -100,8 +98,8 @@ struct EdgeValue {
 std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges, int x, int y,
                                    const DepthLimits& limits = {});
 
-/// Corners of one triangle, drawn as points over each other, that a pixel may hold: those whose depths are no more than
-/// `tie` and their errors apart, so that either may hide the other. Empty where no two tie.
+/// Corners of one triangle, drawn as points, that cover the pixel and may hide each other: their depths are within
+/// `tie` [window z] and both rounding errors. Empty where no two tie.
 std::vector<EdgeValue> tied_corners(std::span<const WindowTriangle<double>> corners, int x, int y, double tie);
 
 /// Rounding error of a triangle's depth in double [window z]. The plane is evaluated at an anchor at most a tile (64

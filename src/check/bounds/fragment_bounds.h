@@ -1,5 +1,5 @@
-// What a renderer that evaluates planes in float from the window's origin, as llvmpipe does, may make of a fragment's
-// final colour.
+// Error bounds of a fragment's final colour, for a renderer that evaluates planes in float from the window's origin, as
+// llvmpipe does.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@
 
 namespace plumbline::check {
 
-/// The candidate's fragments that are drawn, by pixel.
+/// Fragments by pixel: by default those that are drawn.
 class DrawnAt {
  public:
   DrawnAt(const FrameFormat& frame, const Records<double>& records);
-  /// Hidden ones too.
+  /// All covered fragments, those that are not drawn too.
   static DrawnAt covered(const FrameFormat& frame, const Records<double>& records);
   /// Calls visit(number of the fragment) for each of them at (x, y), in draw order.
   template <class Visit>
@@ -42,11 +42,11 @@ class DrawnAt {
   std::vector<std::size_t> fragments_;
 };
 
-/// Per channel.
+/// Bounds of the difference between both sides' colours, per channel. Only plain draws have `along` and `apart`.
 struct FragmentBound {
-  Vec4<double> color{0};    ///< the reference's own arithmetic; of a draw that is not plain, all; infinite: no bound
-  Vec4<double> along{0};    ///< plain line: its colour's shift by the major axis (of_fragment: or by another edge)
-  Vec4<double> apart{0};    ///< plain draw: errors of vertex colours, of cuts and of the candidate's interpolation
+  Vec4<double> color{0};    ///< error of the reference's arithmetic (not plain: all errors); infinite: no bound
+  Vec4<double> along{0};    ///< line: PlaneBounds::along_color (of_fragment: or the distance to another edge's colour)
+  Vec4<double> apart{0};    ///< errors of vertex colours, of cuts and of the candidate's interpolation
   std::string_view reason;  ///< why a larger difference is the reference's fault; empty: it is not
 };
 
@@ -55,15 +55,16 @@ class FragmentBounds {
   /// `factor`: of u of the planes' magnitudes (bounds.h, bounds_from_origin).
   FragmentBounds(const Scene& scene, const Capture& candidate, const Capture& reference, double factor);
 
-  /// Of the candidate's fragment number `i`.
+  /// Bound of the candidate's fragment number `i`.
   FragmentBound of_fragment(std::size_t i) const;
-  /// The primitive's, one of the scene.
+  /// Draw of the primitive, which the scene must have.
   const Draw& draw_of(std::uint32_t primitive) const { return *draws_.draw(primitive); }
-  /// Of a fragment's texel; the draw has a texture, and the candidate's legal answers its texels.
+  /// Bound of a fragment's texel; infinite where the candidate's capture has no legal texels. The draw has a texture.
   TexelBound texel(std::size_t i) const;
   /// How much of the fragment's pixel is open, by the triangle's planes (texture_bounds.h).
   OpenShare open_texels(std::size_t i) const;
-  /// Of the winner at a pixel: the largest over the primitive's triangles, or the last fragment drawn.
+  /// Bound of the winner at a pixel. Plain draw: the largest over the primitive's triangles. Else: of the primitive's
+  /// last fragment drawn there, infinite without one.
   FragmentBound of_winner(std::int32_t primitive, int x, int y) const;
 
  private:
@@ -71,7 +72,7 @@ class FragmentBounds {
   Vec4<double> largest_of(std::uint32_t primitive, const std::vector<Vec4<double>>& column, bool flat_applies) const;
   bool reaches_behind_eye(std::uint32_t primitive) const;
   FragmentBound surface(std::size_t i) const;
-  /// The fragment's triangle, a varying's corners for its colours; none: nothing can be said.
+  /// The fragment's triangle with a varying in place of its colours; none: the varying is not recorded.
   std::optional<WindowTriangle<double>> as_color(std::size_t i, Varying v) const;
   Vec4<double> varying_error(std::size_t i, Varying v) const;
   /// Error of the corners that cuts make: opengl.clip of the ledger times the largest value at the primitive's
@@ -81,8 +82,8 @@ class FragmentBounds {
   /// Largest difference of the two sides' colours at the primitive's corners: `times` the difference at its vertices,
   /// and cut_error() of the colours unless the draw is flat.
   Vec4<double> lit_error(std::uint32_t primitive, double times) const;
-  /// How far the values of other edges or corners of the fragment's triangle that the pixel may hold (bounds.h,
-  /// EdgeValue) are from its own: of the columns' varying, or of the colour.
+  /// Largest distance of the fragment's value from those of its triangle's other edges or corners that the pixel may
+  /// hold (bounds.h, EdgeValue). `columns`: a varying's; null: the colour.
   Vec4<double> by_other_edges(std::size_t i, const VaryingColumns<double>* columns) const;
 
   const Scene& scene_;

@@ -1,5 +1,5 @@
-// Pixels at which a reference's alpha or depth test may keep or drop another fragment than the candidate's: there its
-// planes may show something else, and both be right.
+// Open pixels: those at which the alpha or depth test of a reference may legally decide otherwise than the candidate's,
+// so that the planes may differ.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
 Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate);
 
 /// 1 where two depths of the candidate's fragments, or of a fragment and the cleared frame, are different doubles and
-/// one float: a renderer that tests depths in double and leaves floats (z32f) may order them, or find them equal. Needs
-/// the candidate's records of stages 5 and 6; without them nothing is open.
+/// one float: a renderer that tests depths in double and stores floats may order them, or find them equal. Needs the
+/// candidate's records of stages 4 to 6; without them, or in another format than z32f, nothing is open.
 Plane<std::uint8_t> open_by_double(const FrameFormat& frame, const Records<double>& records);
 
 /// Legal winners of a pixel, each with its stencil value, where each fragment's depth is off by up to the bounds of
@@ -55,7 +55,7 @@ class LegalWinners {
 /// (legal_window.h, turned_outlines); `open` is 1 where they cover a pixel on either side. `referee` computes what they
 /// cover, except the reference's lines, for which the reference's own records count.
 struct BesideTurned {
-  /// Planes count and id_sum without them; all records of window, theirs with `corners` 0, and all of coverage.
+  /// Planes count and id_sum without `turned`; all records of window (`turned` with `corners` 0) and of coverage.
   Capture candidate, reference;
   Plane<std::uint8_t> open;
 };
@@ -65,12 +65,12 @@ BesideTurned beside_turned(const Scene& scene, const Capture& candidate, const C
 /// Copies the candidate's planes but count and id_sum into the reference's where `open` is 1; returns how many pixels.
 std::uint64_t copy_open_pixels(const Plane<std::uint8_t>& open, const Planes& candidate, Planes& reference);
 
-/// Copies of the candidate's fragments where `open` is 1 whether they are drawn.
+/// Copies `drawn` of the candidate's fragments into the reference's where `open` is 1.
 void copy_open_drawn(const Plane<std::uint8_t>& open, const Records<double>& candidate, Records<double>& reference);
 
-/// copy_open_pixels() where open_by_alpha() finds a pixel open against an OpenGL reference, which tests alpha in codes
-/// of an rgba8 frame, but in float of any other frame and where colours before merge are drawn (stages attributes and
-/// shade). Returns the number of open pixels.
+/// copy_open_pixels() where open_by_alpha() finds a pixel open against an OpenGL reference. That tests alpha in codes
+/// for the frame of rgba8; in float for other formats and for the frames of stages attributes and shade. Returns the
+/// number of open pixels.
 std::uint64_t copy_pixels_open_by_alpha(const Scene& scene, const Capture& candidate, Stage stage, double factor,
                                         Capture& reference);
 

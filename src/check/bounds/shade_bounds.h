@@ -1,4 +1,4 @@
-// Stage 9's error, from its attributes' and its own arithmetic.
+// Error bound of stage 9 (shade): errors of its inputs, and its own roundings.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace plumbline::check {
 
-/// A fragment's attributes, or how far each may be off.
+/// Inputs of stage 9 for one fragment, or the error of each.
 struct FragmentFours {
   Vec4<double> color{0};
   std::array<Vec4<double>, kVaryings> varyings{};
@@ -19,12 +19,12 @@ struct FragmentFours {
   Vec4<double>& operator[](Varying v) { return varyings[static_cast<std::size_t>(v)]; }
   const Vec4<double>& operator[](Varying v) const { return varyings[static_cast<std::size_t>(v)]; }
 };
-/// Columns of fragment number `i`: a span into the records.
+/// Inputs of fragment number `i`; 0 where the records lack a column. `lights` points into the records.
 FragmentFours fours_of(const Records<double>& records, std::size_t i);
 
-/// Per channel: what attributes off by `errors` and, in float, the `roundings` of each step come to.
-/// Light per fragment: light_bounds.h, 4 u for one, of a normal brought to unit length; infinite where a light may come
-/// or go. Texture environment: texture_bounds.h. The sum of colours: their errors, and 1 u. Fog: |df| |C -
+/// Error of the shaded colour, per channel: of inputs off by `errors`, and of each step's `roundings` in float.
+/// Light per fragment: light_bounds.h, 4 u of its magnitude per rounding; infinite where a light may come or go, or
+/// the normal may vanish. Texture environment: texture_bounds.h. Sum of colours: both errors, and 1 u. Fog: |df| |C -
 /// C_fog| + f |dC|; df = density f |dz| (exp), 2 density^2 c f |dz| (exp2), |dz| / |end - start| (linear), and f's own:
 /// its argument's rounding, which the exponential makes absolute, and its underflow.
 Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFours& attributes,

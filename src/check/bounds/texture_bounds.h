@@ -16,7 +16,7 @@ double largest_texel(const Texture& texture);
 /// How far from the range of legal texels another renderer's may be.
 struct TexelBound {
   TexelRange range;
-  Vec4<double> slack{0};  ///< by its texture coordinates' errors and its own arithmetic; infinite: it is open
+  Vec4<double> slack{0};  ///< from errors of the texture coordinates and of filtering; infinite: any texel is legal
 };
 /// Bound of a texel. `st_error`: error of the texture coordinates `st`, to which 4 u of |st| are added for the texel
 /// coordinates; `arithmetic`: error of the texel itself. The texel is open (slack infinite) where that sum is not 0 and
@@ -39,8 +39,8 @@ OpenShare open_share(const Texture& texture, const TexelRange& range, const Plan
 
 /// Why another texel than the legal ones is Mesa's fault, or empty. Linear magnification gives way to the nearest
 /// texels of mipmaps at a lambda of 1/2 (OpenGL 2.1 spec 3.8.9, c), in Mesa at 0. A lambda of d + 1/2 takes level d
-/// (equation 3.25), in Mesa the even one of d and d + 1 (measured: 1.5 and 3.5 go up, 2.5 down); it occurs at the
-/// limits of lambda.
+/// (equation 3.25), in Mesa the even one of d and d + 1 (measured: 1.5 and 3.5 go up, 2.5 down); looked for where
+/// min_lod or max_lod is such a lambda.
 std::string_view mesas_other_level(const Texture& texture, const TexelRange& range);
 
 /// The colour that fragment colour `f` and texel `s` become, and its error, where theirs are f_error and s_error:

@@ -1,4 +1,4 @@
-// What the comparators and their bounds share; included by their .cpp files alone.
+// Helpers of comparators and bounds: roundings, units, lookups of legal answers; included by .cpp files alone.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,13 @@ namespace plumbline::check {
 
 inline constexpr double u = kFloatRounding;
 
-// The nearest float. Volatile: GCC 12 takes a vector's way to float and back for nothing, and leaves it out (-O2, two
-// lanes at a time).
+// The nearest float. Volatile: vectorising two conversions to float and back, GCC 12 -O2 leaves them out.
 inline double to_float(double value) {
   const volatile auto rounded = static_cast<float>(value);
   return static_cast<double>(rounded);
 }
 
-// Compares each of n records by visit(meter, i); none if their numbers differ.
+// Compares records one by one by visit(meter, i); a mismatch where the two sides' counts differ.
 template <class Visit>
 Measurement each(const char* what, const std::string& unit, std::size_t candidate, std::size_t reference, Visit visit) {
   if (candidate != reference) {
@@ -62,7 +61,7 @@ inline const LegalAnswer* find(std::span<const LegalAnswer> answers, std::int32_
   return it == answers.end() ? nullptr : &*it;
 }
 
-// Of the planes' winner and the stencil value beside it.
+// The legal answer of the planes' winner and its stencil value; null: there is none.
 inline const LegalAnswer* find(const Legal& legal, const Planes& planes, int x, int y) {
   const std::int32_t id = planes.id(x, y);
   if (planes.stencil.empty()) return find(legal.at(x, y), id);
@@ -87,8 +86,8 @@ inline bool is_open(const Legal& legal, const Planes& planes, int x, int y) {
   return low != high && low <= count && count <= high;
 }
 
-// Colours of a frame by a renderer's conventions: what it stores of a colour before rounding, and the middle of the
-// colours that it may have rounded to a code.
+// Encoding of colours by a renderer's conventions: a colour as stored before rounding (of_channel), and the middle of
+// the colours that round to a stored code (middle).
 struct StoredColors {
   const Conventions& conventions;
   double scale;  // the largest code; 0: floats

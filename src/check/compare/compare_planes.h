@@ -13,8 +13,8 @@ namespace plumbline::check {
 /// ambiguous; if open pixels alone differ, they count as different.
 Measurement compare_coverage(const Planes& candidate, const Planes& reference, const Legal& legal = {});
 
-/// Winners against winners. Where they differ, `legal` decides (empty: nothing is ambiguous): both among the legal
-/// answers: ambiguous; the reference alone outside: disputed; else different. Stencil values go with them.
+/// Winners and their stencil values. Where they differ: ambiguous if both sides' are among the legal answers, disputed
+/// if the candidate's alone are, else different. `legal` empty: different.
 Measurement compare_winners(const Planes& candidate, const Planes& reference, const Legal& legal);
 
 /// Depth and colour at the pixels where both sides have the same winner; compare_winners judges the other pixels.
@@ -38,9 +38,9 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
 Measurement compare_blended(const Scene& scene, const Capture& candidate, const Capture& reference, const Legal& legal,
                             double codes, double factor);
 
-/// The candidate's planes against the colours that exact made of its own fragments: where it has codes, in half codes,
-/// against unrounded colours; rgba32f and depth: equal. `bounds`: of colours that rounding on the way may have moved.
-/// Codes are rounded, and stand for colours, as `conventions` say.
+/// The candidate's planes against what exact makes of the candidate's fragments: codes within `factor` half codes of
+/// the unrounded colour; rgba32f and depth equal. `bounds`: intervals of colours that roundings before merge may move,
+/// or empty. `conventions`: the candidate's rounding to codes, and encoding.
 Measurement compare_merge(const Scene& scene, const Planes& candidate, const Planes& exact, double factor,
                           const Legal& bounds = {}, const Conventions& conventions = {});
 

@@ -26,18 +26,20 @@ Measurement compare_matrices(const Records<double>& candidate, const Records<dou
 Measurement compare_lights(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor);
 
-/// In what a renderer inverts the model-view for its normals.
+/// Precision in which a reference inverts the model-view for its normals.
 enum class Inversion { in_double, in_float };
-/// p_eye, p_clip: `positions` u of their magnitudes; n_eye: `normals` u of theirs, by how the reference inverts.
+/// p_eye, p_clip: `positions` u of their magnitudes; if 0, what the two sides' matrices differ by is allowed. n_eye:
+/// `normals` u of the magnitude for `inversion`.
 Measurement compare_vertices(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                              double positions, double normals, Inversion inversion = Inversion::in_double);
-/// How a reference's float arithmetic ends at both ends of its range.
+/// Underflow and overflow of a reference's float arithmetic.
 struct FloatRange {
   double underflow = kGradualUnderflow;
-  /// Why a channel whose power overflows (light_bounds.h) is its fault; empty: it is not.
+  /// Why a channel whose power overflows (light_bounds.h) is the reference's fault; empty: it is not.
   std::string_view overflow = {};
 };
-/// Colours; what the two sides' normals differ by is the vertices' matter.
+/// Lit colours: `factor` u of light_bounds.h's magnitude, and what the two sides' normals cause, which stage vertex
+/// judges. Colours of unlit draws: equal but for underflow.
 Measurement compare_lit(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                         double factor, LitPart part = {}, const FloatRange& range = {});
 
@@ -64,9 +66,9 @@ Measurement compare_window_equal(const Records<double>& candidate, const Records
 
 /// The same fragments.
 Measurement compare_covered(const Records<double>& candidate, const Records<double>& reference);
-/// Likewise, for a candidate of another tie rule than the dialect's: a fragment more or less is ambiguous where its
-/// pixel's centre lies on an edge of the candidate's triangle, or so near that the declared grid, or that of 1/256
-/// pixel, may move the edge there. A candidate without a grid is allowed 1/256 pixel.
+/// Likewise, for a candidate of another tie rule or grid than the dialect's: a fragment more or less is ambiguous where
+/// its pixel's centre is no farther from an edge of the candidate's triangle than snapping to the declared grid and to
+/// 1/256 pixel together may move the edge. A candidate without a grid counts as one of 1/256 pixel.
 Measurement compare_covered_but_edges(const Records<double>& candidate, const Records<double>& reference,
                                       const Conventions& conventions);
 /// Whether planes.count, and id_sum where there is one, are the sums of the records' fragments.
@@ -81,7 +83,7 @@ Measurement compare_attributes(const Records<double>& candidate, const Records<d
 /// Of plain draws bit for bit (as floats); of others `factor` u of each step's magnitude (shade_bounds.h).
 Measurement compare_shaded(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor);
-/// The varying at the vertices, bit for bit (as floats): what is carried is copied.
+/// A varying that is not lit, at the vertices, bit for bit (as floats): stage light only copies it.
 Measurement compare_carried(Varying varying, const Records<double>& candidate, const Records<double>& reference);
 /// The same fragments are drawn; nothing to compare where the candidate does not say which.
 Measurement compare_drawn(const Records<double>& candidate, const Records<double>& reference);

@@ -14,16 +14,16 @@ namespace plumbline::check {
 /// A channel of two images, or an array of two captures. Numbers are compared as numbers: -0 is 0, an infinity equals
 /// itself alone, NaN equals nothing: not even NaN, for two pictures that are broken in one place are not proven equal.
 struct StoredComparison {
-  std::string what;  ///< the channel's name, the array's (capture_columns.h), or what else is apart
+  std::string what;  ///< name of the channel, of the array (capture_columns.h), or of what else differs
   Outcome outcome = Outcome::equal;
   Measurement measurement;
-  double codes = 0;  ///< both are codes, of that many steps (2^n - 1); 0: floats, or unlike
+  double codes = 0;  ///< largest code (2^n - 1) if both sides hold n-bit codes; 0: floats, or different formats
   std::string note;
 };
 
-/// One row per channel, paired by name (one-channel images: whatever the names), after one of whole pixels; and one for
-/// each thing that is apart otherwise: windows (then nothing else), channels that one image lacks. `tolerance`: in
-/// values, finite and not negative, of the channels' [0,1] for codes.
+/// Where sizes or windows differ, that row alone. Else a row `channels` if an image lacks one of the other's, a row
+/// `pixels` if several channels pair, and a row for each pair of channels: by name, of one-channel images whatever the
+/// names. `tolerance`: finite, at least 0, in values; codes are values in [0,1].
 std::vector<StoredComparison> compare_images(const StoredImage& a, const StoredImage& b, double tolerance);
 
 /// One row per array that either capture holds, in the order of visit_capture() (capture_columns.h), after a row

@@ -10,14 +10,14 @@
 namespace plumbline::check {
 
 /// The candidate's texels against exact's at the candidate's own texture coordinates and levels of detail: `factor` u
-/// of the texture's largest component, at least 1. And the levels of detail themselves: `factor` u of |lambda|, at
-/// least 1, those below -16 alike, for which no texture has enough texels.
+/// of the largest component of all textures, at least 1. Levels of detail lambda: `factor` u of |lambda|, at least 1,
+/// and their rounding in double; all below -16, which no texture is large enough for, count as -16.
 Measurement compare_texels(const Scene& scene, const Records<double>& candidate, const Records<double>& reference,
                            double factor);
 
 /// The winners' texels where the winners are the same, in u: within the candidate's legal.texels and FragmentBounds'
-/// slack. Where it is open which texel is the nearest, any is legal; how many such pixels there may be is predicted,
-/// and twice as many, with three standard deviations, are different. `note`: both numbers.
+/// slack. Where it is open which texel is the nearest, any is legal. Of such pixels p are predicted; more than
+/// 2 p + 6 sqrt(2 p + 1) are different. `note`: both numbers.
 Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, const Capture& reference, double factor,
                                  std::string& note);
 

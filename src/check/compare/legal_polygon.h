@@ -1,5 +1,5 @@
-// Legal outcomes of stage 3 for one primitive, by its corners (records of the stages before): what rounding leaves of
-// it lies between the triangle cut by planes moved inwards and by planes moved outwards.
+// Legal outcomes of stage 3 (clip) for one primitive, from its corners (records of earlier stages): any polygon between
+// the primitive cut by clip planes moved inwards and cut by planes moved outwards, both by the rounding error.
 #pragma once
 
 #include <array>
@@ -11,34 +11,34 @@
 
 namespace plumbline::check {
 
-/// A primitive as it is cut; a line's last corner stands twice.
+/// A primitive before clipping; a line's last corner stands twice.
 struct Corners {
   std::array<Vec4<double>, 3> p_clip, color;
   double scale;        ///< the largest coordinate
   double color_scale;  ///< the largest channel, at least 1: varyings are of any size
-  std::size_t planes;  ///< that cut: the sides alone where depth is clamped
+  std::size_t planes;  ///< clip planes in use: 6; where depth is clamped the 4 sides
 };
 
 /// Signed distances, in units of w, to right, left, top, bottom, near, far.
 std::array<double, 6> distances(const Vec4<double>& p);
 bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance);
 
-/// Whether all corners are inside every plane, or all outside one plane. Rounding leaves neither open: w - x of two
-/// floats, rounded to float, keeps its sign.
+/// Whether no plane need be cut by: all corners inside every plane, or all outside one plane. Rounding leaves neither
+/// open: the difference w - x of two floats, rounded to float, keeps its sign.
 bool uncut(const Corners& c);
 
-/// Rest of the triangle where all planes are moved inwards by `by`, by Sutherland and Hodgman in double.
+/// The triangle clipped by planes moved inwards by `by` (negative: outwards) [w], by Sutherland-Hodgman in double.
 std::vector<ClipVertex<double>> clipped(const Corners& c, double by);
 
-/// Whether a polygon reaches no farther than rounding into the inside of one of the first `planes`: it may be there or
-/// not.
+/// Whether rounding decides if anything is left of a polygon: all vertices are at most `tolerance` inside one of the
+/// first `planes` clip planes. False for an empty polygon.
 bool may_vanish(std::span<const ClipVertex<double>> polygon, std::size_t planes, double tolerance);
 
 /// Whether rounding decides if end `i` of a line is cut off, and `v` is what the line may end in: the corner itself, or
 /// a place on a plane that the corner lies on.
 bool may_end_in(const ClipVertex<double>& v, const Corners& c, std::size_t i, double tolerance);
 
-/// From a point in clip space to a convex polygon; infinite where that has no vertices.
+/// Distance in clip space of a point from a convex polygon; infinite for a polygon without vertices.
 double distance_to_polygon(const Vec4<double>& p, std::span<const ClipVertex<double>> polygon);
 
 }  // namespace plumbline::check

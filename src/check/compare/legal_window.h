@@ -1,5 +1,5 @@
-// Legal outcomes of stage 4 for one polygon, where rounding and snapping decide its facing. From the records of the
-// stages before: a window record that is wrong excuses nothing.
+// Legal outcomes of stage 4 (window) for one polygon, where rounding and snapping decide its facing. Computed from the
+// records of earlier stages, so that a wrong window record excuses nothing.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct WindowAnswer {
   WindowTriangle<double> record;           ///< in double, with the colours of a front face
   std::array<Vec4<double>, 3> back_color;  ///< the corners' colours on a back face
   bool front = false, back = false;        ///< facings with which it may be there
-  bool absent = false;                     ///< may be lacking: of no snapped area, or culled
+  bool absent = false;                     ///< may be missing: no snapped area, or culled
 };
 
 /// Area that decides the facing of a polygon that is not filled: the snapped one (stages.h), or, for renderers that
@@ -37,8 +37,8 @@ class LegalWindow {
   /// point, no such polygon or no matrices, or a corner without a finite window position.
   std::vector<std::vector<WindowAnswer>> of(std::uint32_t primitive) const;
 
-  /// Numbers of the answers that a primitive's records are, in their order; nothing where the records are not legal.
-  /// Positions within their error; colours are not looked at.
+  /// For each record of `run`, the number of its answer, ascending; none where `run` is not legal: a record without an
+  /// answer, or an answer missing that is not `absent`. Positions and 1/w within their error; colours are not compared.
   std::optional<std::vector<std::size_t>> match(std::span<const WindowTriangle<double>> run,
                                                 const std::vector<WindowAnswer>& answers) const;
 
@@ -60,7 +60,7 @@ class LegalWindow {
 /// Primitives, ascending, of triangle meshes that are not filled on both faces, whose facing rounding leaves open, and
 /// which both sides draw legally but perhaps as different faces. Such a difference shows in polygon mode or culling, in
 /// colours or stencil operations that depend on the face, or, with a polygon offset, in depth. Facing may follow the
-/// snapped or the unsnapped area; the reference need not hand it out for edges and corners.
+/// snapped or the unsnapped area; edges and corners of the reference need no facing.
 std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<double>& candidate,
                                            const Records<double>& reference);
 

@@ -1,4 +1,4 @@
-// Area of a triangle in window space, by its corners as they lie or as they are snapped.
+// Area of a triangle in window space, of its unsnapped or its snapped corners.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,4 @@
-// Which pixels two sides' triangles cover, where they differ.
+// Triangles that cover different pixels on the candidate's and on the expected side.
 #pragma once
 
 #include <optional>
@@ -9,21 +9,22 @@
 
 namespace plumbline::check {
 
-/// One triangle's pixels on both sides.
+/// One triangle's pixels: on both sides, missing from the candidate's, extra in the candidate's.
 struct CoverageDifference {
   std::uint32_t triangle = 0;
   std::vector<glm::ivec2> both, missing, extra;
 };
 
-/// Of each triangle whose pixels differ, in order.
+/// One for each triangle whose pixels differ, in ascending order.
 std::vector<CoverageDifference> coverage_differences(const Evidence& evidence);
 
-/// The one of them with the most missing and extra pixels, the first of several; of those where `worst` is one of these
-/// pixels, if there are such. (Beside it a tie rule may leave larger ones, which are legal.)
+/// The triangle with the most missing and extra pixels, the first of several; among those for which the pixel `worst`
+/// is missing or extra, if any (a tie rule may leave larger differences elsewhere, which are legal). None: no triangle
+/// differs.
 std::optional<CoverageDifference> worst_triangle(const Evidence& evidence, const Place& worst);
 
-/// `#` both, `?` missing, `!` extra, rows from the last to the first, at most 64 x 32 about what differs; above it a
-/// line that says where the lower left character is.
+/// Text picture, highest y first: `#` both, `?` missing, `!` extra, `.` neither. At most 64 x 32 pixels about the first
+/// that differs; the line above it names the lower left pixel.
 std::string coverage_picture(const CoverageDifference& triangle);
 
 }  // namespace plumbline::check

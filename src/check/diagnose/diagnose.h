@@ -37,25 +37,26 @@ struct Diagnosis {
   std::vector<Finding> findings;
 };
 
-// Rows that diagnose() adds to judge()'s. Kind::repaired: of the stages after the first one that is wrong by itself,
-// where the candidate runs stages. Each stage is run on the candidate's own records of the stages before it, but on
-// exact's, rounded to float, in place of those of a stage that is wrong, and compared with exact's: it shows what a
-// fault before it hides. Kind::at_worst: of a scene of more fragments than are looked at one by one, stages 6 to 9 of
-// the fragments about the worst pixels of the planes, captured once more.
+// Rows that diagnose() adds to judge()'s.
+// Kind::repaired: stages after the first one that is wrong by itself, where the candidate runs stages. The candidate
+// runs each stage on its own records, in which exact's, rounded to the formats, replace those of wrong stages; exact
+// judges the result. Finds errors that an earlier error masks.
+// Kind::at_worst: where fragments are more than are looked at one by one, stages 6 to 9 of the fragments at the 5 x 5
+// pixels about each row's worst pixel, captured once more.
 
 /// The fragments that a diagnosis looks at one by one, an antialiased scene's passes together: some seconds' work.
 inline constexpr std::uint64_t kMostFragments = std::uint64_t{1} << 20;
 
-/// As judge(), and what it comes to. A stage is wrong by itself where exact, from the candidate's own records of the
-/// stages before it (matrices: from the scene), or from repaired ones, is `different` or `failed`. Of an antialiased
-/// scene: the passes together, and `resolve`.
+/// Judges the scene and diagnoses the verdict. A stage is wrong by itself where exact's row from the candidate's own
+/// records of earlier stages (matrices: from the scene), or from repaired ones, is `different` or `failed`. Of an
+/// antialiased scene: the passes together, and `resolve`.
 Diagnosis diagnose(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                    std::uint64_t most_fragments = kMostFragments);
 /// The same stages; findings say who and by how much, without numbers, causes and pictures. For many runs.
 Diagnosis diagnose_in_brief(const Scene& scene, Renderer& candidate, std::span<const Reference> references);
 
-/// What all stages up to merge should hand on: each as `referee` makes it of its own records before it, rounded to
-/// the formats. Throws Unsupported where it does not run a stage, and OverBudget.
+/// The right output of all stages up to merge: each as `referee` makes it of its own earlier records, rounded to the
+/// formats. Throws Unsupported where the referee does not run a stage, and OverBudget.
 Capture expected_capture(const Scene& scene, Renderer& referee);
 
 }  // namespace plumbline::check

@@ -7,9 +7,9 @@
 
 namespace plumbline::check {
 
-/// Number of pixels of which colour or depth differs between two frames that the referee makes of the stages after the
-/// evidence's: of the candidate's records of the stage, and of the expected ones. Colours differ by more than 1/255,
-/// depths by more than a step: rounding noise explains no pixel. 0 where a stage's records do not fit the next.
+/// Number of pixels whose colour or depth differs between two frames that the referee completes: one from the
+/// candidate's records up to the evidence's stage, one with the expected records of that stage. Differences of at most
+/// 1/255 in colour and one step in depth do not count. 0 without a referee, or where it fails.
 std::size_t pixels_explained(const Evidence& evidence);
 
 }  // namespace plumbline::check

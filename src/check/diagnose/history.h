@@ -29,12 +29,12 @@ enum class Fate {
 };
 std::string_view name_of(Fate fate);
 
-/// One renderer's numbers; what it does not hand out is empty.
+/// One fragment at the pixel, by one renderer's numbers; empty where the renderer hands out none.
 struct PixelFragment {
   std::uint32_t primitive = 0;
   std::size_t draw = 0;
   std::optional<std::uint32_t> triangle;  ///< its place among the renderer's window triangles
-  bool front = true;                      ///< or of a line or point
+  bool front = true;                      ///< facing; true of lines and points
   std::optional<double> depth;            ///< window z; not rounded to the frame's format by renderers that compute so
   std::optional<glm::dvec4> color;        ///< interpolated
   std::vector<std::pair<Varying, glm::dvec4>> varyings;
@@ -44,7 +44,7 @@ struct PixelFragment {
   std::optional<bool> drawn;  ///< as the renderer says
   Fate fate = Fate::discarded;
   std::string why;                           ///< with the numbers: of tests in codes where the frame has codes
-  std::optional<double> held_depth;          ///< what it met, in the frame's format; culled, outside the box: nothing
+  std::optional<double> held_depth;          ///< frame's depth before it, in the format; culled, scissored: none
   std::optional<std::uint8_t> held_stencil;  ///< likewise, in frames that have stencil values
 };
 
@@ -57,11 +57,11 @@ struct PixelHistory {
   std::optional<glm::vec4> color;            ///< the frame's
   std::optional<double> depth;
   std::optional<std::uint8_t> stencil;
-  std::vector<std::string> notes;  ///< where its own numbers do not agree
+  std::vector<std::string> notes;  ///< contradictions among the renderer's own numbers
   std::vector<LegalAnswer> legal;  ///< an oracle's, of the pixel
 };
 
-/// The pixel in one pass, or that of several samples in one (antialias.h).
+/// One sample of the pixel: a pixel of one pass (antialias.h).
 struct SampleHistory {
   std::size_t pass = 0;
   glm::ivec2 pixel{0};  ///< of the pass' frame

@@ -1,4 +1,5 @@
-// Known causes of wrong stages, as what each does to a stage (causes.h).
+// Known causes of wrong stages, each as a change of the stage's input or output, or as a pattern of differences
+// (causes.h).
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 
 namespace plumbline::check {
 
-/// One cause. Of its functions, those that are not null act.
+/// One cause. At least one of its functions is not null.
 struct KnownCause {
   Stage stage;
   std::string_view name;   ///< stage.cause
@@ -33,8 +34,8 @@ void change_all(std::vector<T>& items, auto change) {
   for (T& item : items) change(item);
 }
 
-/// Calls change(x) for every x of the scene, the type of change's parameter: the scene itself, or its draws, their
-/// rotations or materials, lights, samplers.
+/// Calls change(x) for every x in the scene of the type that `change` takes: Scene, Draw, Light, Sampler, Material or
+/// Rotate.
 template <class Change>
 void change_scene(Scene& scene, Change change) {
   if constexpr (std::is_invocable_v<Change, Scene&>) change(scene);
@@ -56,7 +57,7 @@ void change_scene(Scene& scene, Change change) {
   }
 }
 
-/// Likewise of a capture, or of its records of one type.
+/// Likewise for the capture itself, or all its records of one type.
 template <class Change>
 void change_records(const Scene& scene, Capture& capture, Change change) {
   Records<double>& r = capture.records;
@@ -96,18 +97,18 @@ constexpr KnownCause seen(Stage stage, std::string_view name, std::string_view w
   return {stage, name, words, nullptr, nullptr, shows};
 }
 
-/// Stages 0 to 4, 5 to 7, and 8 to 12; by stage.
+/// Causes of stages 0 to 4, 5 to 7 and 8 to 12, ordered by stage.
 std::span<const KnownCause> geometry_causes();
 std::span<const KnownCause> raster_causes();
 std::span<const KnownCause> fragment_causes();
-/// All of them.
+/// Causes of all stages.
 std::vector<KnownCause> all_causes();
 
-/// Output of the stage with the cause in it (one with `before` or `after`), as real numbers.
+/// The referee's output of the stage with the cause in it, unrounded. The cause has `before` or `after`.
 Capture made_with(const KnownCause& cause, const Scene& scene, const Capture& in, Renderer& renderer);
 
-/// Codes beside the real numbers that they stand for: whether they are those below, not the nearest. (Of a number that
-/// is a whole code but for rounding, either.)
+/// Detects truncation of real numbers `expected` to codes. shows(): some codes are below the nearest one, and at most
+/// 1/50 as many are neither the next code down nor, within 1e-3 of a whole code, either neighbour.
 class Truncation {
  public:
   void add(double code, double expected) {
@@ -127,7 +128,8 @@ void swap_red_and_blue(std::vector<T>& records) {
   for (T& r : records) std::swap(r.color.r, r.color.b);
 }
 
-/// Whether pixel's centre, or what lies `place` (1/256 pixel) from it, is exactly on one of the snapped edges.
+/// Whether the sample at `place` [1/256 pixel] from the pixel's centre lies exactly on the line through two of the
+/// triangle's snapped corners, even beyond them.
 bool on_an_edge(const WindowTriangle<double>& triangle, glm::ivec2 pixel, glm::ivec2 place);
 
 }  // namespace plumbline::check

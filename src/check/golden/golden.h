@@ -1,4 +1,4 @@
-// A scene against its golden, and what it takes to become one.
+// A scene against its golden, and the rule by which references vouch for a new one.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace plumbline::check {
 
-/// What of a scene is not as its golden has it.
+/// Differences between a scene as drawn and its golden.
 struct GoldenDifference {
   /// Why the golden does not count: the renderer failed, there is no golden, a file of it is broken, or the scene has
   /// changed since (stages, color and depth are compared even so); empty: it counts.
@@ -21,7 +21,7 @@ struct GoldenDifference {
   Measurement color, depth;   ///< pixels that differ in a bit, the differences in steps of the format
   bool any() const { return !why.empty() || !stages.empty() || color.differing > 0 || depth.differing > 0; }
 };
-/// Draws the scene.
+/// Draws the scene with `candidate` and compares it with its golden.
 GoldenDifference compare_golden(const Scene& scene, Renderer& candidate, const GoldenSet& goldens);
 
 /// For a person: the first stage that differs, the pixels, the worst one. Lines.

@@ -66,7 +66,7 @@ using StageHashes = std::array<std::optional<Hash>, kStageNames.size()>;
 /// A scene as it is compared with its golden.
 struct Fingerprint {
   StageHashes stages;      ///< of an antialiased scene: of its passes, one after the other, and `resolve` of the frame
-  Plane<glm::vec4> color;  ///< of the frame, drawn as it ships: not what is watched when the stages are hashed
+  Plane<glm::vec4> color;  ///< of the frame, drawn once more without records
   Plane<double> depth;
 };
 /// Throws what Renderer::capture does.

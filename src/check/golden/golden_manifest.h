@@ -10,8 +10,8 @@
 //      "references": {"osmesa": {"equal": "matrices vertex ...", "within": "..."}, "exact, from scene": ...},
 //      "vouched": ["osmesa", "embree", "exact"], "disputed": ["osmesa, lines: 3 of 96: why"], "seal": hash}}}
 //
-// A scene is a line, so that two people's updates of two scenes merge. Its seal is the hash of the line without it:
-// what a hand has changed is told from what a run has written.
+// Each scene is one line, so that two people's updates of two scenes merge. The seal is the hash of the line without
+// the seal: it reveals changes by hand.
 #pragma once
 
 #include <cstdint>
@@ -39,13 +39,13 @@ struct GoldenFile {
 
 struct Golden {
   Hash scene;                               ///< scene_hash()
-  std::string producer;                     ///< whose picture it is
+  std::string producer;                     ///< renderer that drew it, and its version
   std::string versions;                     ///< of everything at the time: key of GoldenManifest::versions
   std::map<std::string, GoldenFile> files;  ///< "color", "depth", "stages"
-  /// By a row's title and its outcome there, the stages, in order, with spaces between.
+  /// [title of a row][outcome]: names of the stages, in order, separated by spaces.
   std::map<std::string, std::map<std::string, std::string>> references;
-  std::vector<std::string> vouched;   ///< references that agree and whose fault nothing is
-  std::vector<std::string> disputed;  ///< what is, and why
+  std::vector<std::string> vouched;   ///< references that agree (golden.h, Vouch::by)
+  std::vector<std::string> disputed;  ///< rows in which a reference is at fault, and why
 };
 
 struct GoldenManifest {

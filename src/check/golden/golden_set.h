@@ -1,11 +1,10 @@
 // The goldens on disk: a manifest, and for each scene a picture, its depths and its stages' hashes.
 //
-// The manifest alone says what the set is, and its renaming is the moment in which an update happens: the files that it
-// names bear their own hash in their names, so new ones lie beside old ones until then, and those that it names no
-// longer are removed afterwards. Whenever an update is killed, the manifest there is the old or the new one, and all
-// that it names is there, bit for bit. What lies there beside it is a leftover, which nobody reads and the next update
-// removes. (Names that stay, and a folder exchanged for another, would need renameat2's RENAME_EXCHANGE, which file
-// systems of containers refuse.)
+// An update is atomic. The manifest names the files of the set, and file names contain their content's hash: new files
+// are written beside the old ones, then the manifest is replaced by a rename, then files that it names no longer are
+// removed. If an update is killed, the manifest is the old or the new one, and all files that it names are there. Other
+// files are leftovers, which are never read and which the next update removes. (Fixed names, and an exchange of
+// folders, would need renameat2's RENAME_EXCHANGE, which file systems of containers refuse.)
 #pragma once
 
 #include <filesystem>
@@ -40,14 +39,14 @@ class GoldenSet {
   /// the manifest says, to the bit, or not of the frame's formats.
   Fingerprint load(const std::string& scene, const FrameFormat& frame) const;
 
-  /// Relative to the folder: what a run that was killed left, and what nobody here has written.
+  /// Files that the manifest does not name, relative to the folder: by their names leftovers of a killed run, or not.
   struct Strays {
     std::vector<std::string> leftovers, others;
   };
   Strays strays() const;
 
-  /// Makes the set that of `next`, in one moment; `files` are those that are new, by their names there. Throws
-  /// OutputError (atomic_path.h), and then the set is as it was.
+  /// Replaces the set by that of `next`, atomically. `files`: bytes of the new files, by their names in `next`. Throws
+  /// OutputError (atomic_path.h); the set is then unchanged.
   void write(GoldenManifest next, const std::map<std::string, std::string>& files);
   /// Removes leftovers, and nothing else.
   void remove_leftovers() const;
@@ -58,7 +57,7 @@ class GoldenSet {
   GoldenManifest manifest_;
 };
 
-/// The golden of what was drawn, and the bytes of its files by their names; without who vouched. Throws ImageError.
+/// Scene hash and files of a golden of `drawn`; adds the files' bytes to `files`, by name. Throws ImageError.
 Golden make_golden(const Scene& scene, const Fingerprint& drawn, std::map<std::string, std::string>& files);
 
 }  // namespace plumbline::check

@@ -1,4 +1,4 @@
-// A candidate that fails while it draws: the stage at which.
+// The stage at which a candidate fails while it draws.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@ namespace plumbline::check {
 
 struct FailingStage {
   Stage stage;
-  std::string how;
+  std::string how;  ///< the exception's message
 };
-/// The first stage on which the candidate fails alone, each run on what `referee` makes of the stages before it. None:
-/// it runs no stages, the referee does not get so far, or no stage fails alone.
+/// The first stage that throws when the candidate runs it alone, on what `referee` makes of the stages before, rounded
+/// to the formats. None: the candidate runs no stages, the referee fails before, or no stage fails alone.
 std::optional<FailingStage> failing_stage(const Scene& scene, Renderer& candidate, Renderer& referee);
 
 }  // namespace plumbline::check

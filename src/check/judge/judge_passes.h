@@ -1,4 +1,4 @@
-// An antialiased scene: each pass is judged as a scene of its own, then what is made of them.
+// An antialiased scene: each pass is judged as a scene of its own, then the resolved frame.
 #pragma once
 
 #include <set>
@@ -22,21 +22,21 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
                             std::span<const Plane<glm::vec4>> colors, Renderer& candidate,
                             std::span<const Reference> references, BothCaptures* drawn = nullptr);
 
-/// Resolved colours, code by code, in proportion to what `factor` times the bound of rounding allows (ledger,
-/// exact.resolve): against the mean that exact made of the candidate's own samples, not rounded.
+/// Resolved colours against exact's unrounded mean of the candidate's own samples, within `factor` bounds of rounding
+/// (ledger, exact.resolve); in frames of codes each channel must be a code.
 Measurement compare_resolved(const Scene& scene, const Capture& candidate, const Capture& exact, double factor);
 /// The samples of a frame, bit for bit, against the candidate's colours of the passes, each drawn as a scene of its
 /// own.
 Measurement compare_samples(const Scene& scene, const Capture& candidate, std::span<const Plane<glm::vec4>> colors);
-/// By pass, the pixels where another's samples are its own fault; and the fault.
+/// Pixels of each pass at which a reference's samples are disputed, (x, y) of the pass; and the reference's fault.
 struct Disputed {
   std::vector<std::set<std::pair<int, int>>> at;
   std::string reason;
 };
 /// Resolved colours against those that a reference made of its own samples. Allowance: the weighted mean of the
-/// samples' differences, which the passes judge, and a rounding on either side. Where all samples are equal, codes must
-/// be equal, and floats may differ by what is flushed to zero. A larger difference that disputed samples explain is
-/// disputed.
+/// undisputed samples' differences, which the passes judge, and roundings of both sides. Where all samples are equal,
+/// codes must be equal, and floats may differ by what is flushed to zero. A larger difference is disputed if the
+/// disputed samples' differences explain it.
 Measurement compare_frames(const Scene& scene, const Capture& candidate, const Capture& reference,
                            const Disputed& disputed = {});
 

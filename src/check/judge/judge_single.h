@@ -35,7 +35,8 @@ struct BothCaptures {
 SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<const Reference> references,
                           BothCaptures* drawn = nullptr, std::uint64_t most_fragments = ~std::uint64_t{0});
 
-/// The frame as the candidate ships it against the one that was watched: row `picture`, of the last stage.
+/// Each painter's frame, drawn without records, bit for bit against `watched`, the frame drawn with records: one row
+/// `picture` of the last stage, of the first painter that differs.
 Comparison judge_picture(const Scene& scene, Renderer& candidate, const Capture& watched);
 
 /// Stages as a referee makes them of the candidate's own records.

@@ -28,10 +28,10 @@ struct Case {
   Renderer* referee;   // runs stages, or null
   std::vector<Comparison>& out;
   Profile profile = Profile::exact;  // of the reference
-  bool foreign = false;              // the candidate is none of ours: what is legal is no difference
+  bool foreign = false;              // the candidate is Profile::foreign: legal coverage is no difference
   Conventions conventions = {};      // of the candidate
-  // Items that the stage at hand leaves out: pixels open by the alpha test or by a turned outline; in coverage, turned
-  // primitives.
+  // Ambiguous items that the current stage's comparison leaves out: pixels open by the alpha test or by a turned
+  // outline; in coverage, turned primitives.
   std::uint64_t open = 0;
 
   void add(const JudgeId& judge, Stage stage, Measurement m, const Tolerance* row = nullptr, std::string note = "") {
@@ -43,7 +43,7 @@ struct Case {
     static const Legal none;
     return foreign ? legal : none;
   }
-  // The row of stage `of` once more, for another stage that the same plane shows.
+  // Repeats the judge's row of stage `of` for another stage that the same plane shows.
   void repeat(const JudgeId& judge, Stage of, Stage stage) {
     const auto same = [&](const Comparison& c) { return c.judge == judge && c.stage == of; };
     const auto row = std::find_if(out.begin(), out.end(), same);
@@ -57,7 +57,7 @@ struct Case {
   }
 };
 
-/// Whether fragments were drawn and none are recorded: beyond the budget, or of a capture of planes alone.
+/// Whether the count plane has fragments and the records none: beyond the budget, or a capture of planes alone.
 inline bool over_budget(const Capture& c) {
   const auto& count = c.planes.count.values();
   return c.records.covered.empty() && std::any_of(count.begin(), count.end(), [](std::uint32_t n) { return n != 0; });

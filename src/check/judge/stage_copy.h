@@ -7,7 +7,7 @@
 
 namespace plumbline::check {
 
-/// Replaces what `to` holds of the stage (records, and planes of the stage itself) by what `from` holds of it.
+/// Replaces the stage's records and planes in `to` by those in `from`.
 void copy_stage(Stage stage, const Capture& from, Capture& to);
 
 /// Rounds what the capture holds of the stage: depths and colours to the frame's codes where it has codes, all else to

@@ -18,15 +18,15 @@ namespace plumbline::check {
 /// One call of Renderer::capture(), which handed out a capture or threw OverBudget.
 struct TracedCall {
   static constexpr std::uint64_t kWhole = ~std::uint64_t{0};
-  std::uint64_t pass = kWhole;  ///< that was drawn (passes_of()); kWhole: the scene
-  Request request;              ///< without legal answers, and of no other's conventions
+  std::uint64_t pass = kWhole;  ///< index of the pass drawn (passes_of()); kWhole: the scene
+  Request request;              ///< without legal answers, by default conventions
   Hash answer;                  ///< of everything in the capture, or of OverBudget's words
   Hash info;                    ///< of what info() said then
 };
 
 Hash hash_of(const RendererInfo& info);
 
-/// The inner renderer, which it does not own, with a list of its calls.
+/// The renderer `inner`, not owned, with a list of the calls for `scene`.
 class TracedRenderer : public Renderer {
  public:
   TracedRenderer(const Scene& scene, Renderer& inner) : scene_(scene), inner_(inner) {}
@@ -34,8 +34,9 @@ class TracedRenderer : public Renderer {
   Capture capture(const Scene& scene, const Request& request) override;
   Capture run_stage(const Scene& scene, Stage stage, const Capture& in) override;
 
-  /// Repeats these calls in order, up to the first that fails or whose answer or info() differs: then false. That
-  /// answer is kept, and capture() hands it out, or throws it, where it is called for the same: nothing is drawn twice.
+  /// Repeats these calls in order, up to the first that fails or whose answer or info() differs: then false. That one
+  /// answer is held for the next capture() of the same request, which hands it out or throws it without drawing again;
+  /// answers before it are drawn anew.
   bool answers_as_before(std::span<const TracedCall> calls);
   /// All calls of capture(), in order. None where one cannot be repeated: it asked for legal answers, for conventions
   /// other than the default, or for a scene that is neither the scene nor a pass of it; it failed; or run_stage() was

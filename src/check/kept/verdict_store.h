@@ -12,7 +12,7 @@
 namespace plumbline::check {
 
 /// A folder of files, each with the hash of its own bytes. A file appears whole or not at all; one that is cut off or
-/// damaged is none. What cannot be written is not kept: nothing fails by it.
+/// damaged is none. Errors of writing are ignored: the bytes are then not kept.
 class VerdictStore {
  public:
   explicit VerdictStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -20,7 +20,7 @@ class VerdictStore {
   std::optional<std::string> find(const Hash& key) const;
   void keep(const Hash& key, std::string_view bytes) const;
   void forget(const Hash& key) const;
-  /// Removes the files that were not found for the longest time until all take at most so many bytes.
+  /// Removes least recently found files until the rest takes at most `most_bytes`.
   void trim(std::uint64_t most_bytes) const;
 
  private:

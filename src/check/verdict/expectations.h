@@ -37,7 +37,7 @@ enum class Settlement {
   not_asked,  ///< its scene or its reference was not
   occurred,   ///< its row is now `expected`, and says why
   expired,    ///< it occurred after its last day: the row stays a failure
-  passed,     ///< the row came to something else: a failure, too
+  passed,     ///< the row has another outcome than expected: a failure, too
   unmatched   ///< scene and reference were asked, and there is no such row: a failure
 };
 struct Settled {
@@ -50,7 +50,7 @@ struct Settled {
 std::vector<Settled> settle_expectations(std::span<const Expectation> expectations, std::span<const std::string> asked,
                                          std::chrono::sys_days today, SceneVerdict& verdict);
 
-/// Of a whole suite: a line for each expectation whose scene is none of it.
+/// A line for each expectation whose scene is not among the verdicts, those of a whole suite.
 std::vector<std::string> of_no_scene(std::span<const Expectation> expectations, std::span<const SceneVerdict> verdicts);
 
 }  // namespace plumbline::check

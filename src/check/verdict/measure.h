@@ -1,4 +1,4 @@
-// Measurements: what a comparator returns. It measures; the verdict decides.
+// Measurements, the results of comparators. A comparator measures; the verdict decides.
 #pragma once
 
 #include <algorithm>
@@ -42,12 +42,12 @@ struct Measurement {
   std::uint64_t ambiguous = 0;  ///< items for which more than one answer is legal
   std::uint64_t disputed = 0;   ///< items where the reference, not the candidate, is outside the legal answers
   double max_difference = 0;    ///< [unit], disputed values left out; infinite: NaN, a wrong size, a missing record
-  double max_ratio = 0;         ///< largest share of a tolerance that was used, likewise; above 1 something differs
+  double max_ratio = 0;         ///< largest (difference - allowance) / tolerance, likewise; above 1 an item differs
   Worst worst;
-  Worst dispute;                        ///< of what is disputed, the largest difference
-  std::string reason;                   ///< and what the reference's fault is there
-  std::vector<glm::ivec2> disputed_at;  ///< the pixels, where items are pixels
-  /// The pixels of items that differ, where they have one; the first 2^16.
+  Worst dispute;                        ///< the disputed value with the largest difference
+  std::string reason;                   ///< the reference's fault at `dispute`
+  std::vector<glm::ivec2> disputed_at;  ///< pixels of disputed items, where items have one
+  /// Pixels of items that differ, where items have one; the first 2^16.
   std::vector<glm::ivec2> differing_at;
   std::string mismatch;  ///< why nothing could be compared item by item (sizes differ), or empty
   /// Items by difference: [0] none, [i] in [2^(i-13), 2^(i-12)) units, the ends open; [19]: not finite.
@@ -65,12 +65,13 @@ class Meter {
  public:
   explicit Meter(std::string unit) { m_.unit = std::move(unit); }
 
-  /// One value of an item: `diff` and `tolerance` in the meter's unit. A NaN diff counts as infinite, a tolerance
-  /// that is not finite as 0. `allowance`: of another row, granted before this tolerance is touched.
+  /// One value of an item. `diff`, `tolerance`, `allowance` [the meter's unit]: differs where diff > allowance +
+  /// tolerance; the allowance is another ledger row's and does not count in max_ratio. A NaN `diff` is infinite. Where
+  /// the sum is not finite, or the tolerance negative, both are 0.
   void value(double diff, double tolerance, const Place& place, double candidate, double reference,
              double allowance = 0);
-  /// Marks later differences of the current item beyond their tolerance as disputed, the reference's fault, with the
-  /// reason; NaN excepted. An empty reason: no more.
+  /// Later values of the current item beyond their tolerance are disputed, the reference's fault, for the reason `why`;
+  /// infinite differences, such as NaN, stay the candidate's. Empty: ends that.
   void suspect(std::string_view why) { why_ = why; }
   void ambiguous() { item_ambiguous_ = true; }
   /// Ends an item that has got its values.
@@ -96,7 +97,7 @@ inline Measurement worse(Measurement a, Measurement b) {
 /// A measurement that says that nothing fits: every item differs.
 Measurement mismatch(std::string unit, std::string why, std::uint64_t items);
 
-/// Whether two planes are of one size, and there; if not, says so in `why`.
+/// Whether two planes have one size and are not both empty; if not, `why` says so.
 template <class A, class B>
 bool same_size(const Plane<A>& a, const Plane<B>& b, std::string& why) {
   if (a.empty() && b.empty()) {

@@ -42,8 +42,8 @@ enum class Kind {
   per_stage,     ///< by the stage as the referee makes it of the candidate's own records
   at_worst,      ///< per_stage, of the fragments about the worst pixels alone (diagnose.h)
   repaired,      ///< per_stage, of records whose wrong stages are replaced by the referee's (diagnose.h)
-  golden,        ///< by the scene's golden (golden.h), which was drawn before and judges nothing
-  picture        ///< the frame as it ships, of each painter, by the frame that was watched: judges nothing
+  golden,        ///< against the scene's golden (golden.h), hashes and a frame of an earlier run: no vote
+  picture        ///< each painter's frame, drawn without records, against the frame drawn with records: no vote
 };
 inline constexpr std::array<std::string_view, 8> kKindNames = {"side_by_side", "legal",    "from_scene", "per_stage",
                                                                "at_worst",     "repaired", "golden",     "picture"};
@@ -70,11 +70,11 @@ struct Comparison {
   std::string note;        ///< why unsupported, missing, failed; what is ambiguous
 };
 
-/// Whether the row compared anything: not where it is unsupported, missing or failed, or was before it was expected.
+/// Whether the row compared anything: false if unsupported, missing or failed, also where that was expected.
 bool was_compared(const Comparison& row);
 /// Whether the row judges a stage: goldens and pictures repeat the candidate, and have no vote.
 inline bool votes(const Comparison& row) { return row.judge.kind < Kind::golden; }
-/// Whether the judge's row of the stage says what is legal, whatever the conventions.
+/// Whether the judge holds the stage to an oracle's legal answers, not to one renderer's numbers.
 inline bool judges_legality(const JudgeId& judge, Stage stage) {
   return judge.kind == Kind::legal || (judge.kind == Kind::from_scene && stage >= Stage::coverage);
 }
@@ -85,14 +85,15 @@ inline bool judges_alone(const Comparison& row) {
          (kind == Kind::from_scene && row.stage == Stage::matrices);
 }
 
-/// The outcome that a measurement comes to.
+/// The row of a measurement: `different`, `dispute`, `ambiguous_only`, `within` or `equal`, the first that applies. Its
+/// `mismatch` replaces `note`.
 Comparison judged(std::string scene, JudgeId judge, Stage stage, Measurement measurement,
                   const Tolerance* tolerance = nullptr, std::string note = "");
-/// Makes what differs in the row the reference's fault, and says why.
+/// Turns the row into a dispute: its differing items become disputed, for the reason `why`.
 void to_dispute(Comparison& comparison, std::string why);
 /// What a row shows: of a dispute its largest difference, else the worst of all; null where nothing differs.
 const Worst* shown(const Comparison& comparison);
-/// Where that is, what is disputed and why, and the note.
+/// Text of a row: the place of shown(); of a dispute both values, the count and the reason; the note.
 std::string remark(const Comparison& comparison);
 Comparison not_judged(std::string scene, JudgeId judge, Stage stage, Outcome outcome, std::string note);
 

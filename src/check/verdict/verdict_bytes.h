@@ -1,5 +1,5 @@
-// The fields of a verdict, for a byte archive (base/byte_archive.h). Left out are the pixels that differ
-// (Measurement::differing_at, disputed_at): what is shown of them is drawn by then.
+// The fields of a verdict, for a byte archive (base/byte_archive.h), without the pixels that differ
+// (Measurement::differing_at, disputed_at): these are read only while a scene is judged and its page is drawn.
 #pragma once
 
 #include "base/byte_archive.h"

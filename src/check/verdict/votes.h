@@ -17,7 +17,7 @@ void settle_votes(std::vector<Comparison>& rows);
 
 /// Rows of a candidate whose arithmetic is its own (Profile::foreign): a `different` row side by side, whose tolerance
 /// is that of one float recipe on both sides, becomes `unsupported` where exact judges the same stage and the stage
-/// holds. What the stage was handed is judged in the rows of the stages before.
+/// holds. Rows of earlier stages judge the stage's input.
 void leave_recipes_to_exact(std::vector<Comparison>& rows);
 
 }  // namespace plumbline::check
