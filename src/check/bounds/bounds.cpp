@@ -10,8 +10,8 @@ namespace plumbline::check {
 
 namespace {
 
-// A triangle's barycentric planes through its unsnapped corners (stages.h, 6), or the snapped where those fail; a
-// line's by projection onto it.
+// Barycentric weights at a point, and their slopes [1/pixel]. Triangle: of the unsnapped corners (stages.h, 6); of the
+// snapped ones where the unsnapped area contradicts the facing. Line: by projection.
 struct Barycentrics {
   Vec3<double> value, d_dx, d_dy;
 };
@@ -90,7 +90,7 @@ double inverted_normal_magnitude(const Mat4<double>& model_view, const Mat3<doub
 
 namespace {
 
-// What cancels in a gradient.
+// Cancellation in the gradients of a triangle's planes; u share longest: a gradient's relative error.
 struct Cancelled {
   Vec2<double> e1;
   double longest, area, share;
@@ -108,7 +108,7 @@ Cancelled cancelled_in(const WindowTriangle<double>& t) {
   return {e1, longest, area, (longest + farthest) / area};
 }
 
-// The error of the gradient of a plane of these values at the corners, `steepest` its size: times u.
+// Error of the gradient of a plane with the corner values f0, f1, f2 [u]; `steepest`: its larger component.
 double gradient_bound(const WindowTriangle<double>& t, double f0, double f1, double f2, double steepest) {
   const Cancelled c = cancelled_in(t);
   const double range = std::max(std::abs(f1 - f0), std::abs(f2 - f0));
@@ -119,7 +119,7 @@ double gradient_bound(const WindowTriangle<double>& t, double f0, double f1, dou
 
 namespace {
 
-// By these barycentrics at the pixel.
+// bounds_from_origin() by the barycentrics `b`.
 PlaneBounds bounds_by(const WindowTriangle<double>& t, const Barycentrics& b, int x, int y) {
   constexpr double kFlushed = kFlushedUnderflow / kFloatRounding;
   const Cancelled cancelled = cancelled_in(t);
@@ -214,7 +214,7 @@ PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, i
     out.color = glm::max(out.color, b.color);
     const double distance = distance_from_line(t, x + 0.5, y + 0.5);
     if (distance >= nearest) continue;
-    nearest = distance;  // of a triangle's edges, the one that the pixel is of
+    nearest = distance;  // of an unfilled triangle, the edge nearest the pixel
     out.along_depth = b.along_depth;
     out.along_color = b.along_color;
   }

@@ -39,8 +39,8 @@ std::vector<Vec4<double>> normals_apart(const Records<double>& a, const Records<
   return out;
 }
 
-// Per vertex, how far a reference's fog coordinate may be from the z_eye that it hands out: both are that row of M p, of
-// four products and three sums each in an order of its own.
+// Per vertex, bound of a reference's fog coordinate against the z_eye that it hands out: both are the z row of M p, but
+// the order of its four products and three sums may differ.
 std::vector<Vec4<double>> fog_apart(const Scene& scene, const Records<double>& r) {
   std::vector<Vec4<double>> out(r.vertices.size(), Vec4<double>(0));
   const DrawIndex draws(scene);
@@ -77,16 +77,16 @@ std::vector<Vec4<double>> granted(const Scene& scene, const Records<double>& r, 
   return out;
 }
 
-// By how much what the corners are apart is enlarged at a pixel's centre: 1 inside the triangle, and the sum of its
-// weights' absolute values where a sample of it is inside and the centre is not.
+// Factor by which a pixel's centre enlarges errors of the corners: the sum of its barycentric weights' absolute values,
+// 1 inside the triangle.
 double enlarged(WindowTriangle<double> t, int x, int y) {
   for (int k = 0; k < 3; ++k) t.v[static_cast<std::size_t>(k)].color = {k == 0, k == 1, k == 2, 0};
   const Vec4<double> weights = glm::abs(color_of_plane(t, x, y).value);
   return std::max(1.0, weights.x + weights.y + weights.z);
 }
 
-// Error of the candidate's own mean of the corners (the ledger's exact.attributes): beside the eye, where a
-// corner is far away, more than all that a plane from the origin errs by.
+// Error of the candidate's interpolation (ledger, exact.attributes): beside the eye, where a corner is far away, it may
+// exceed the error of a plane evaluated from the origin.
 Vec4<double> mean_error(const WindowTriangle<double>& t, int x, int y) {
   return tolerance(Profile::exact, Stage::attributes).factor * u * bounds_of_mean(t, x, y);
 }
@@ -97,7 +97,7 @@ std::vector<Vec4<double>> lit_colors(const Records<double>& r) {
   return out;
 }
 
-// An empty one is 0.
+// Element by element; a column that is shorter counts as 0.
 std::vector<Vec4<double>> larger(std::vector<Vec4<double>> a, const std::vector<Vec4<double>>& b) {
   a.resize(std::max(a.size(), b.size()), Vec4<double>(0));
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) a[i] = glm::max(a[i], b[i]);

@@ -65,8 +65,8 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
 
 namespace {
 
-// How far a reference's depth of a fragment, before it is rounded to the frame's format, may be from the candidate's,
-// which has been: half a step. Where edges of one triangle meet, the reference may hold any of their values.
+// Bound of a reference's unrounded depth of a fragment against the candidate's depth, which is rounded to the frame's
+// format (half a step) [window z]. Where edges of one triangle meet, the reference may hold any of their values.
 double depth_error(const Records<double>& r, const OffsetErrors& offsets, std::size_t fragment,
                    const DepthLimits& limits, DepthFormat format) {
   const Covered& c = r.covered[fragment];
@@ -187,7 +187,7 @@ class Removal {
   void add(const Covered& c, std::uint32_t primitive) {
     if (c.x >= open_.width() || c.y >= open_.height() || out_.planes.count.size() != open_.size()) return;
     open_(c.x, c.y) = 1;
-    out_.planes.count(c.x, c.y) -= 1;  // modulo 2^32, as the sum is modulo 2^64: what was never there shows
+    out_.planes.count(c.x, c.y) -= 1;  // wraps: removing what was never counted shows
     out_.planes.id_sum(c.x, c.y) -= id_weight(primitive);
   }
   // With the triangles of the primitives `turned` marked as of no corners.
@@ -203,7 +203,7 @@ class Removal {
   Capture out_;
 };
 
-// The triangles that are wanted, as a referee is asked about them.
+// A capture of the `wanted` triangles alone: input of the referee's stage coverage.
 template <class Wanted>
 Capture triangles_alone(const Capture& from, const Wanted& wanted) {
   Capture out;

@@ -43,7 +43,7 @@ Vec4<double> light_error(const Scene& scene, const Draw& draw, LitPart part, con
   return Vec4<double>(bounds.inherited + 4 * roundings.count * u * bounds.magnitude, d_color + u);
 }
 
-// Of the face that errs more; `specular`: of the part that is kept apart.
+// The larger of both faces' errors. `specular`: of the separate specular colour.
 Vec4<double> light_error(const Scene& scene, const Draw& draw, bool specular, const FragmentFours& attributes,
                          const FragmentFours& errors, const Roundings& roundings) {
   Vec4<double> largest = light_error(scene, draw, {false, specular}, attributes, errors, roundings);
@@ -65,7 +65,7 @@ Vec4<double> shade_error(const Scene& scene, const Draw& draw, const FragmentFou
       return environ_error(format, *draw.texture, before, error, attributes.texel, errors.texel, roundings);
     };
     const Environed e = after(per_fragment ? Vec4<double>(0) : color);
-    // What the light comes to is not known here: errors are largest at one end or the other.
+    // The lit colour is unknown here: the error is largest at 0 or at 1.
     error = per_fragment ? glm::max(e.error, after(Vec4<double>(1)).error) : e.error;
     color = e.color;
   }

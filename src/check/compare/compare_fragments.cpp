@@ -34,7 +34,7 @@ Measurement covered_but(const Records<double>& candidate, const Records<double>&
   return meter.done();
 }
 
-// each(), of records that lie beside the candidate's fragments.
+// each(), for records of which the candidate has one per fragment.
 template <class Visit>
 Measurement each_fragment(const char* what, const std::string& unit, const Records<double>& candidate, std::size_t own,
                           std::size_t reference, Visit visit) {

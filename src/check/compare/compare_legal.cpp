@@ -33,13 +33,13 @@ bool fits_winners(const Planes& candidate, const Legal& legal, std::string& why)
 }
 std::int32_t winner_at(const Planes& planes, int x, int y) { return planes.id.empty() ? kBackground : planes.id(x, y); }
 
-// Answers of a pixel at which nothing was drawn, and nothing had to be.
+// Whether these answers allow nothing but the cleared frame.
 bool is_cleared(std::span<const LegalAnswer> answers) {
   return !answers.empty() &&
          std::ranges::all_of(answers, [](const LegalAnswer& a) { return a.primitive == kBackground; });
 }
 
-// The depth that the frame was cleared to is no stage's but merge's, where the frame's colour is there, too.
+// The clear depth where only that is legal: merge judges it, and stage depth only for candidates without colour.
 void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate, const Legal& legal, int x, int y) {
   std::string why;
   if (candidate.depth.empty() || legal.first.empty() || !same_size(candidate.depth, legal.certain, why)) return;
@@ -51,7 +51,7 @@ void meter_clear_depth(Meter& meter, const Scene& scene, const Planes& candidate
               {x, y, -1, "cleared z"}, z, cleared.z_lo);
 }
 
-// `half_code`: what rounding to the frame's format adds to the oracle's bound. `at_pixel` measures what else there is.
+// `half_code`: added to the oracle's bound for rounding to the frame's format. `at_pixel(meter, x, y)`: more values.
 template <class AtPixel>
 Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& candidate, const Legal& legal,
                                 double half_code, const StoredColors& stored, double factor, const AtPixel& at_pixel) {
@@ -80,7 +80,7 @@ Measurement compare_legal_color(const Plane<glm::vec4>& color, const Planes& can
       return std::max({apart(a, 0), apart(a, 1), apart(a, 2), apart(a, 3)});
     };
     const auto answers = held_to(legal, candidate, x, y);
-    if (answers.empty()) {  // visibility's matter, but for what is no number
+    if (answers.empty()) {  // visibility judges the winner; here any finite colour holds
       for (int i = 0; i < 4; ++i) {
         meter.value(std::isfinite(c[i]) ? 0 : kInfinite, 0, {x, y, winner_at(candidate, x, y), "color"}, c[i], 0);
       }

@@ -52,7 +52,7 @@ Rest without(const LinesOfPixels& lines, const Planes& planes) {
     const std::uint32_t primitive = key.first;
     for (const glm::ivec2 p : line.pixels) {
       if (p.x >= rest.count.width() || p.y >= rest.count.height()) continue;
-      rest.count(p.x, p.y) -= 1;  // modulo 2^32, as the sum is modulo 2^64: what was never there shows
+      rest.count(p.x, p.y) -= 1;  // wraps: removing what was never counted shows
       rest.id_sum(p.x, p.y) -= id_weight(primitive);
     }
   }
@@ -61,7 +61,8 @@ Rest without(const LinesOfPixels& lines, const Planes& planes) {
 
 int distance(glm::ivec2 a, glm::ivec2 b) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)); }
 
-// How far a pixel lies from the one of `pixels` that corresponds to it; of none, from those that the line ends in.
+// Distance of a pixel from the one of `pixels` in its column, else from the nearest; without `pixels`, from the line's
+// end points.
 int deviation(glm::ivec2 pixel, const std::vector<glm::ivec2>& pixels, const WindowTriangle<double>& line, int major) {
   std::vector<glm::ivec2> ends;
   if (pixels.empty()) ends = {glm::ivec2(glm::floor(line.v[0].p_win)), glm::ivec2(glm::floor(line.v[1].p_win))};

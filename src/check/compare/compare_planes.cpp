@@ -24,8 +24,8 @@ void add_color(Meter& meter, const glm::vec4& a, const Vec4<double>& b, const Ve
   }
 }
 
-// Pixel by pixel what visit(meter, x, y, winner) gives of a plane (&Planes::color) where both sides' winners are the
-// same: where they are not, it is visibility's matter.
+// Compares a plane (such as &Planes::color) by visit(meter, x, y, winner) where both sides have the same winner;
+// visibility judges the other pixels.
 Measurement where_winners_agree(const Planes& a, const Planes& b, auto plane, const std::string& unit, auto visit) {
   std::string why;
   if (!same_size(a.id, b.id, why) || !same_size(a.id, a.*plane, why)) return mismatch(unit, why, a.id.size());
@@ -60,8 +60,8 @@ std::string code_unit(const FrameFormat& frame) {
   return scale > 0 ? fmt::format("1/{:.0f}", scale) : "u";
 }
 
-// Whether the two sides say that other fragments cover a pixel (lines' may lie beside each other): coverage's matter.
-// Primitive 0 weighs nothing in the sums: the count tells it.
+// Whether different fragments cover a pixel on the two sides, as of lines by other rules; coverage judges that. The
+// count is compared, too, because primitive 0 has weight 0 in the sum.
 class OthersCover {
  public:
   OthersCover(const Planes& a, const Planes& b) : a_(a), b_(b) {
@@ -131,10 +131,9 @@ Measurement compare_winners(const Planes& candidate, const Planes& reference, co
 
 namespace {
 
-// Where a winner leaves depths in place (depth_mask): how far another renderer's depth may be from the one that a
-// fragment beneath it left. That fragment's own edges and formulas count, and, where a depth test is open
-// (open_pixels.h), those of fragments that either may have hidden: where a stencil test follows, of all, for what it
-// lets through depends on which were drawn before.
+// Depths that another renderer may hold beneath a winner that writes none (depth_mask off): the values and bounds of
+// the fragment that left the candidate's depth, and, where a depth test is open (open_pixels.h), those of fragments
+// that tie with it. With a stencil test at the pixel all fragments count: which ones it keeps depends on those before.
 class DepthsBeneath {
  public:
   DepthsBeneath(const Scene& scene, const Capture& candidate, const DrawIndex& draws)
@@ -146,7 +145,7 @@ class DepthsBeneath {
     known_ = records_.drawn.size() == records_.covered.size() && records_.depth.size() == records_.covered.size();
     if (known_ && !records_.covered.empty()) open_ = open_by_depth(scene, candidate);
   }
-  // visit(how far from z, bound times u), where a fragment left z.
+  // visit(depth - z, bound [u]) for each such depth, where a fragment left z.
   template <class Visit>
   void each(int x, int y, double z, double factor, Visit visit) const {
     if (!known_) return;
@@ -333,8 +332,8 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
       certain = certain && (!merge.blend || merge.logic_op) && i < r.shaded.size() &&
                 codes_of(r.shaded[i].color - sum, scale) == codes_of(r.shaded[i].color + sum, scale);
     });
-    // A fragment's error comes in as its colour, as the factor that it makes of itself, and of what is there. That is 1
-    // at most, or in float one more for each fragment.
+    // A fragment's error enters as source colour, as a factor of that, and as a factor of the frame's colour, which is
+    // at most 1, or in float the number of fragments.
     const double layers = reads ? std::exp2(fragments) - 1 : fragments, held = scale > 0 ? 1 : std::max(1, fragments);
     bound *= (2 + held) * (reads ? std::exp2(fragments - 1) : 1);
     combined = combined && scale > 0;
@@ -369,7 +368,7 @@ Measurement compare_merge(const Scene& scene, const Planes& candidate, const Pla
   const double unit = codes ? 0.5 / scale + 4 * u : u;
   const StoredColors stored{conventions, scale};
   const bool shows_winners = candidate.id.size() == candidate.color.size();
-  std::optional<glm::vec4> cleared;  // to what the first such pixel is
+  std::optional<glm::vec4> cleared;  // colour of the first background pixel
   const auto is_cleared = [&](int x, int y) {
     if (!shows_winners || candidate.id(x, y) != kBackground) return false;
     return candidate.color(x, y) == (cleared ? *cleared : cleared.emplace(candidate.color(x, y)));

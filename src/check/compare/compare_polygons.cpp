@@ -152,7 +152,7 @@ void drop_coincident(std::vector<ClipVertex<double>>& polygon, const Corners& co
   }
 }
 
-// How many corners `mine` is turned on from `theirs`, of as many: the turn by which they lie nearest.
+// Cyclic shift of `mine` that brings its corners nearest to those of `theirs`, which has as many.
 std::size_t turn_of(std::span<const ClipVertex<double>> mine, std::span<const ClipVertex<double>> theirs,
                     const Corners& corners) {
   std::size_t best = 0;
@@ -181,7 +181,7 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   if (loosely) {
     for (const auto& polygon : {all_mine, all_theirs}) open_planes(corners, polygon, factor * unit, open);
     within_rounding(meter, all_mine, corners, factor, at);
-    // All that no rounding cuts off is there: edges are off by `factor` u in each of four coordinates.
+    // What rounding cannot cut off must be there; an edge may be off by `factor` u in each of four coordinates.
     for (const ClipVertex<double>& v : clipped(corners, factor * unit)) {
       meter.value(distance_to_polygon(v.p_clip, all_mine) / unit, 2 * factor, at("cut off"), 0, 0);
     }
@@ -202,7 +202,7 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
     // vertices, where there are as many, is held to its counterpart's planes and edge.
     if (fewer_mine.size() == fewer_theirs.size()) mine.swap(fewer_mine), theirs.swap(fewer_theirs);
   }
-  // Where cuts are open, so is which corners they make: each side is in the other, which was seen above.
+  // Where cuts are open, so are the corners that they make; the checks above have held `mine` to its limits.
   if (mine.size() != theirs.size() && std::ranges::find(open, true) != open.end()) return meter.ambiguous();
   if (mine.size() != theirs.size()) {
     meter.value(kInfinite, 0, at("vertices"), a.count, b.count);
@@ -238,7 +238,7 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
       meter.value(off / unit, factor, at(on ? "off its plane" : "outside a plane"), d[p], d_ref[p]);
     }
     if (planes > 1) continue;
-    // One plane cut it out of an edge: the one that its counterpart lies on.
+    // The vertex lies where one plane cuts an edge: the edge nearest to its counterpart.
     std::size_t edge = 0;
     for (std::size_t i_edge : {1u, 2u}) {
       if (distance_from_edge(w, corners, i_edge) < distance_from_edge(w, corners, edge)) edge = i_edge;

@@ -120,7 +120,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
     }
   });
   if (open == 0) return m;
-  // A level of detail is that of four pixels: they are open together, and such counts scatter twice as far.
+  // Four pixels share a level of detail and are open together, so the count's standard deviation is doubled.
   const double predicted = std::max(area, centres), most = 2 * predicted + 6 * std::sqrt(2 * predicted + 1);
   note = fmt::format("{} open, {:.1f} predicted", open, predicted);
   if (static_cast<double>(open) > most) {

@@ -62,8 +62,8 @@ class RunComparison {
     }
   }
 
-  // Where both are legal, and not alike: each record against the reference's of the same answer, where it has that,
-  // else against the answer. False: one of them is not legal.
+  // If both runs are legal: compares each of the candidate's records with the reference's record of the same answer, if
+  // there is one, else with the answer itself. False: a run is not legal.
   bool as_legal(Run mine, Run theirs, std::size_t first) {
     const auto lists = legal_.of((mine.empty() ? theirs : mine).front().primitive);
     const auto list_of = [&](Run run) {

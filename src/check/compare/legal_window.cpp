@@ -18,7 +18,7 @@ struct Corner {
   Vec3<double> error;
 };
 
-// Where a corner may lie: a middle, and how far from it.
+// Box in which a corner may lie: its centre and half its size.
 struct Spot {
   Vec2<double> middle, reach;
 };
@@ -37,7 +37,7 @@ Spot snapped_spot(const Corner& c) {
 
 Spot unsnapped_spot(const Corner& c) { return {Vec2<double>(c.vertex.p_win), Vec2<double>(c.error)}; }
 
-// Twice the signed area.
+// Interval of twice the signed area.
 struct Area {
   double least, most;
 };
@@ -238,8 +238,8 @@ std::vector<std::uint32_t> turned_outlines(const Scene& scene, const Records<dou
     const auto is_legal = [&](std::span<const WindowTriangle<double>> run) {
       return std::ranges::any_of(answers, [&](const auto& list) { return legal.match(run, list).has_value(); });
     };
-    // The reference hands out no facing of edges and corners, and may face each triangle of the fan by itself: of what
-    // rounding decides about, it may draw a part of either face.
+    // The reference hands out no facing of edges and corners, and may decide it for each triangle of the fan: where
+    // rounding decides, it may draw parts of both faces.
     const auto may_be_drawn = [&](const WindowTriangle<double>& t) {
       return std::ranges::any_of(answers, [&](const std::vector<WindowAnswer>& list) {
         return std::ranges::any_of(list, [&](const WindowAnswer& answer) {

@@ -29,7 +29,7 @@ Renderer* referee_of(std::span<const Reference> references) {
 
 bool is_wrong(const Comparison& c) { return c.outcome == Outcome::different || c.outcome == Outcome::failed; }
 
-// What a finding says beyond who judged and by how much.
+// Fills in a finding beyond judge and measurement.
 using Explain = void (*)(const Evidence&, Finding&);
 
 void in_full(const Evidence& evidence, Finding& finding) {
@@ -65,7 +65,7 @@ Capture run_or_nothing(const Scene& scene, Renderer& renderer, Stage stage, cons
   }
 }
 
-// Who finds, and how it is said.
+// Makes findings of wrong rows, with exact's output as the expected one.
 struct Finder {
   const Scene& scene;
   Renderer& referee;
@@ -83,7 +83,7 @@ struct Finder {
   }
 };
 
-// From the first wrong stage on, each stage on records that are right.
+// Adds the rows and findings of Kind::repaired. `known`: stages known to be wrong, not empty.
 void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<Stage>& known) {
   const Scene& scene = find.scene;
   Renderer& referee = find.referee;
@@ -91,7 +91,7 @@ void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<
   const RendererInfo info = candidate.info(), referee_info = referee.info();
   const bool fragments_are_here = !over_budget(in);
   for (auto i = static_cast<std::size_t>(*known.begin()); i <= static_cast<std::size_t>(Stage::merge); ++i) {
-    copy_stage(static_cast<Stage>(i), {}, in);  // what was made of wrong records fits right ones no longer
+    copy_stage(static_cast<Stage>(i), {}, in);  // made of wrong records
   }
   for (auto i = static_cast<std::size_t>(*known.begin()); i <= static_cast<std::size_t>(Stage::merge); ++i) {
     const auto stage = static_cast<Stage>(i);
@@ -117,7 +117,7 @@ void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<
       pass.verdict.comparisons.push_back(std::move(rows.back()));
     }
     if (!wrong) continue;
-    copy_stage(stage, {}, in);  // exact takes levels of detail from texels that are there
+    copy_stage(stage, {}, in);  // else exact would take over the levels of detail of wrong texels
     copy_stage(stage, referee.run_stage(scene, stage, in), in);
     round_to_formats(scene, stage, in);
   }

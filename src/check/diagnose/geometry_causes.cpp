@@ -14,7 +14,7 @@ namespace {
 
 double aspect(const Scene& scene) { return static_cast<double>(scene.frame.width) / scene.frame.height; }
 
-// Along x and y, the size less one over the size.
+// Scale (size - 1) / size of the frame along x and y; 1 along z.
 glm::dvec3 one_less(const Scene& scene) {
   const glm::dvec3 size(scene.frame.width, scene.frame.height, 1);
   return {(size.x - 1) / size.x, (size.y - 1) / size.y, 1};
@@ -48,7 +48,7 @@ bool outside(const ClipVertex<double>& v, std::size_t plane) {
   return distance(v.p_clip, plane) < -1e-5 * (std::abs(v.p_clip.w) + std::abs(v.p_clip[static_cast<int>(plane / 2)]));
 }
 
-// Whether polygons reach out of that plane, which they should not, and of no other.
+// Whether the candidate's polygons reach beyond `plane`, the expected ones do not, and no other plane is crossed.
 template <std::size_t plane>
 bool not_cut(const Evidence& e) {
   bool any = false;
@@ -62,8 +62,7 @@ bool not_cut(const Evidence& e) {
                                      [](const ClipVertex<double>& v) { return outside(v, plane); });
 }
 
-// visit(mine, theirs) of each primitive that has polygons on either side, null where there is none; whether it was true
-// of all.
+// Whether visit(mine, theirs) is true of each primitive with a polygon on either side; null on the side without.
 bool each_polygon(const Evidence& e, auto visit) {
   using Run = std::span<const ClipPolygon>;
   bool all = true;
@@ -106,7 +105,7 @@ bool one_vertex_lost(const Evidence& e) {
   return any && all;
 }
 
-// At cuts a corner's colour, where it should be one between.
+// Whether cut vertices have a corner's colour, not an interpolated one.
 bool not_interpolated_at_cuts(const Evidence& e) {
   const std::vector<Lit<double>>& corners = e.candidate.records.lit;
   const auto copied = [&](const ClipVertex<double>& v) {
@@ -144,7 +143,7 @@ bool all_snapped_by(const Evidence& e, Round rounded) {
   return any;
 }
 
-// The light of normals turned over is what a clamp leaves out: without it, each N.L counts on both sides.
+// Without the clamp, a negative N.L subtracts the diffuse light of the negated normal.
 bool lit_without_clamp(const Evidence& e) {
   Scene diffuse = e.scene, ambient = e.scene;
   change_all(diffuse.lights, [](Light& l) { l.specular = glm::vec3(0); });

@@ -19,7 +19,7 @@ namespace {
 
 bool holds(const Draw& draw, glm::ivec2 p) { return !draw.scissor || draw.scissor->holds(p.x, p.y); }
 
-// The scene with nothing culled, and no box that leaves one of the pixels out.
+// The scene without culling, and without scissor boxes that exclude one of the pixels.
 Scene without_culling(Scene scene, std::span<const glm::ivec2> pixels) {
   for (Draw& draw : scene.draws) {
     draw.cull = Cull::none;
@@ -67,7 +67,7 @@ std::vector<PixelFragment> fragments_at(const Scene& scene, const Records<double
   return out;
 }
 
-// A test that a fragment meets, and the comparison that it is.
+// A test of a fragment, with its comparison as text.
 struct Test {
   Fate fate;
   bool passes;
@@ -225,7 +225,7 @@ void add_left_out(const Scene& scene, glm::ivec2 pixel, std::vector<PixelFragmen
   std::ranges::stable_sort(fragments, {}, &PixelFragment::primitive);
 }
 
-// What it does not tell, and why: as it declares, or else `why`.
+// Fills `lacks`: fields that the renderer does not hand out, with the reason from `info`, or else `why`.
 void name_lacks(const Scene& scene, const RendererInfo& info, PixelHistory& history) {
   const auto lack = [&](const char* field, Stage stage, std::string_view why, auto has) {
     const auto of = [&](const PixelFragment& f) { return has(f); };
@@ -275,7 +275,7 @@ PixelHistory history_of(const Scene& scene, const RendererInfo& info, const Capt
   return out;
 }
 
-// The renderer's account of each of the pixels, by `ask`; or why there is none.
+// Calls ask(); where the renderer is missing or fails, puts a PixelHistory with the reason at each of the pixels.
 void account(const Reference& r, std::size_t pixels, auto ask, auto put) {
   std::string absent = "missing: not built in";
   try {

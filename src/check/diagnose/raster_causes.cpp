@@ -68,13 +68,13 @@ bool box_one_short(const Evidence& e) {
   return inner > 0 && has_other_pixels;  // or it may be the tie rule
 }
 
-// By its corners as they lie, or as they are snapped.
+// Whether the area of a triangle, unsnapped or snapped, is below half a pixel.
 bool is_small(const WindowTriangle<double>& t) {
   return t.corners == 3 &&
          (std::abs(twice_area(t, kAsItLies)) < 1 || std::abs(twice_area(t, kSnapped)) < kSubpixel * kSubpixel);
 }
 
-// Whether triangles of less than half a pixel's area cover nothing, none of them, and others differ only on edges.
+// Whether no triangle of less than half a pixel's area covers anything, and others differ only on edges.
 bool small_dropped(const Evidence& e) {
   const std::vector<WindowTriangle<double>>& triangles = e.candidate.records.triangles;
   const auto is_of_small = [&](const Covered& c) {
@@ -106,7 +106,7 @@ void upside_down_fragments(const Scene& scene, const Capture& in, Capture& made)
   }
 }
 
-// z at the eye's straight lines, 1/w for its weights: what interpolates colours does so with depths as well.
+// Whether depths are interpolated with perspective: stage attributes run on colours that hold the corners' depths.
 bool depth_in_perspective(const Evidence& e) {
   const auto has_offset = [](const Draw& d) { return d.polygon_offset != PolygonOffset{}; };
   if (std::ranges::any_of(e.scene.draws, has_offset)) return false;  // colours have none
@@ -117,7 +117,7 @@ bool depth_in_perspective(const Evidence& e) {
   const double step = depth_scale(e.scene.frame.depth) == 0 ? 0x1p-22 : 1 / depth_scale(e.scene.frame.depth);
   if (made.size() != mine.size() || theirs.size() != mine.size()) return false;
   std::size_t differ = 0, explained = 0;
-  bool matters = false;  // where all 1/w are alike, perspective changes nothing
+  bool matters = false;  // where all 1/w are equal, perspective changes nothing
   for (std::size_t i = 0; i < mine.size(); ++i) {
     if (std::abs(mine[i] - theirs[i]) <= step) continue;
     const double bent = std::clamp(made[i].color.x, 0.0, 1.0);

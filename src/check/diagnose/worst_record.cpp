@@ -45,7 +45,7 @@ std::string depth_text(const FrameFormat& frame, double z) {
   return scale == 0 ? text(z) : fmt::format("{:.9g} (code {:.9g})", z, z * scale);
 }
 
-// Columns of the candidate's record `mine` of a stage: as what came in, or beside the expected record `theirs`.
+// Prints the columns of the candidate's record `mine` of a stage: alone, as input, or beside the expected `theirs`.
 struct ColumnPrinter {
   Stage stage;
   std::size_t mine;

@@ -43,7 +43,7 @@ Hash read_hash(const JsonNode& node) {
   return *hash;
 }
 
-// It leads into the folder of goldens, not out of it.
+// Whether the name is a path inside the folder of goldens.
 bool may_have_golden(const std::string& name) {
   const fs::path path = name;
   return !name.empty() && path.is_relative() && path.lexically_normal().string() == name && *path.begin() != ".." &&

@@ -50,7 +50,7 @@ std::string bytes_of(const fs::path& file) {
   return bytes.str();
 }
 
-// A set begins in a folder of nothing: what is there else is somebody's, or a set that has lost its manifest.
+// A new set needs an empty folder: other files are somebody's, or of a set that has lost its manifest.
 void require_empty(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
@@ -150,7 +150,7 @@ GoldenSet::Strays GoldenSet::strays() const {
 void GoldenSet::write(GoldenManifest next, const std::map<std::string, std::string>& files) {
   const std::string text = manifest_text(next);
   const EndsLater whole;
-  // A new set is one of nothing before it is one of files: should this be killed, they are known for its leftovers.
+  // A new set gets an empty manifest first, so that files of a killed update are leftovers, not somebody's.
   if (!fs::exists(folder_ / kManifest)) write_file(folder_ / kManifest, manifest_text({}));
   for (const auto& [name, bytes] : files) {
     std::error_code failed;  // the file's own writing says why

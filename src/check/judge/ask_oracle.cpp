@@ -11,8 +11,6 @@ namespace plumbline::check {
 
 namespace {
 
-// The budget of ambiguity: a pixel is open where a snapping bound of an edge reaches its centre, which is predicted
-// from the edges' length. Twice the prediction, and a scatter of three standard deviations of such a count.
 std::string ambiguity_note(const Legal& legal, std::uint64_t ambiguous) {
   return fmt::format("{} ambiguous, {:.1f} predicted", ambiguous, legal.predicted_ambiguous);
 }
@@ -48,6 +46,8 @@ void ask_oracle(Case& c, const Legal& legal, Stage stage, const JudgeId& name) {
     case Stage::shade: return add([&](double f) { return compare_legal_shaded(planes, legal, f); }, Stage::attributes);
     case Stage::visibility: {
       Measurement m = compare_legal_winner(planes, legal);
+      // Pixels are open where the snapping bound of an edge reaches their centre; the edges' length predicts how many.
+      // Budget: twice the prediction and three standard deviations.
       const double budget = 2 * legal.predicted_ambiguous;
       const double scatter = 3 * std::sqrt(budget + 1);
       std::string note = ambiguity_note(legal, m.ambiguous);

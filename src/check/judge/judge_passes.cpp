@@ -93,7 +93,7 @@ std::vector<Comparison> joined(std::span<const SceneVerdict> passes) {
   return out;
 }
 
-// What the passes' rows say is this reference's fault.
+// Disputed pixels of this reference, from the passes' rows.
 Disputed disputed_by(const std::string& reference, std::span<const SceneVerdict> passes) {
   Disputed out{std::vector<std::set<std::pair<int, int>>>(passes.size()), ""};
   for (std::size_t pass = 0; pass < passes.size(); ++pass) {
@@ -196,7 +196,7 @@ SceneVerdict judge_resolved(const Scene& scene, std::span<const SceneVerdict> pa
     mine = candidate.capture(scene, Request{});
     require_samples(scene, mine->samples);
   } catch (const OverBudget&) {
-    throw;  // nobody else draws what is too large to be judged
+    throw;  // no reference draws a scene too large to judge
   } catch (const Unsupported& e) {
     skip(candidate.info().name, Outcome::unsupported, e.what());
   } catch (const std::exception& e) {

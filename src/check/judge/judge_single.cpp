@@ -104,7 +104,7 @@ bool more_than(std::uint64_t most_fragments, const Capture& capture) {
   return std::accumulate(count.begin(), count.end(), std::uint64_t{0}) > most_fragments;
 }
 
-// Everything; where the fragments are too many, or do not fit the budget, everything but them.
+// All records and planes; without records of fragments where these are too many or do not fit the memory budget.
 Capture capture_all(const Scene& scene, Renderer& renderer, std::uint64_t most_fragments) {
   try {
     if (most_fragments != ~std::uint64_t{0}) {
@@ -117,8 +117,8 @@ Capture capture_all(const Scene& scene, Renderer& renderer, std::uint64_t most_f
   }
 }
 
-// What the judgement wants of a reference: an oracle's answers, if they fit the budget, and no planes beside them where
-// it runs stages; records of the vertices; of the fragments, those of lines.
+// A reference's capture: geometry records; coverage records where lines are drawn; planes, except of a referee and of
+// an oracle that is not asked for legal answers; legal answers, where they are asked for and fit the budget.
 Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal, const Conventions& conventions) {
   const RendererInfo info = renderer.info();
   Request request{kGeometry, legal && info.legal, {}, {}};
@@ -133,7 +133,7 @@ Capture capture_reference(const Scene& scene, Renderer& renderer, bool legal, co
   }
 }
 
-// Where the frame's answers are too many: those of the pixels that show another winner.
+// Legal answers at the pixels where a reference has another winner than the candidate; empty where the oracle fails.
 Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const Capture> theirs, Renderer& oracle,
                         const Conventions& conventions) {
   Request request{{}, true, {}, {}};
@@ -157,7 +157,8 @@ Legal legal_where_apart(const Scene& scene, const Capture& mine, std::span<const
   }
 }
 
-// The row of a candidate that draws nothing; `shown` is left what its stages before that one show alone.
+// Row `failed`, at the failing stage, of a candidate whose capture failed. `shown` keeps the stages before that one and
+// before coverage; none if the failing stage is unknown.
 Comparison candidate_failed(const Scene& scene, Renderer& candidate, Renderer* referee, const std::string& how,
                             RendererInfo& shown) {
   const auto at = referee == nullptr ? std::nullopt : failing_stage(scene, candidate, *referee);
@@ -169,7 +170,8 @@ Comparison candidate_failed(const Scene& scene, Renderer& candidate, Renderer* r
   return not_judged(scene.name, shown.name, stage, Outcome::failed, at ? at->how : how);
 }
 
-// Stages that say what the others' rows leave open. A referee that fails shows that under its own name.
+// Texture and visibility by the referee: other rows need legal texels, and which fragments are drawn. Where the referee
+// fails, its own row says so.
 MadeStages make_stages(const Scene& scene, const Capture& candidate, Renderer& referee) {
   MadeStages made;
   for (const Stage stage : {Stage::texture, Stage::visibility}) {
@@ -182,8 +184,8 @@ MadeStages make_stages(const Scene& scene, const Capture& candidate, Renderer& r
   return made;
 }
 
-// Marks the candidate's fragments as drawn by the referee's tests of its earlier records, as long as it lives: a
-// fragment that the candidate draws wrongly leaves nothing open.
+// While alive, replaces the candidate's `drawn` by the referee's tests of the candidate's earlier records, so that a
+// wrongly drawn fragment leaves nothing open.
 class DrawnAsMade {
  public:
   DrawnAsMade(Capture& candidate, MadeStages& made) : candidate_(candidate), visibility_(made.find(Stage::visibility)) {
@@ -292,7 +294,7 @@ SceneVerdict judge_single(const Scene& scene, Renderer& candidate, std::span<con
   try {
     mine = capture_all(scene, candidate, most_fragments);
   } catch (const OverBudget&) {
-    throw;  // nobody else draws what is too large to be judged
+    throw;  // no reference draws a scene too large to judge
   } catch (const Unsupported& e) {
     nothing(candidate.info().name, Outcome::unsupported, e.what());
     return verdict;

@@ -15,7 +15,7 @@ namespace plumbline::check {
 
 namespace {
 
-// The stage of a varying, which is compared as the colour is.
+// Compares a varying in the stage's comparator, in place of the colour.
 Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records<double>& theirs) {
   const Scene& scene = c.scene;
   const Records<double>& mine = c.candidate.records;
@@ -30,7 +30,7 @@ Measurement compare_varying(const Case& c, Stage stage, Varying v, const Records
   return compare_attributes(a, b, factor);
 }
 
-// Whether the candidate declares another tie rule or grid than those by which exact makes coverage of its triangles.
+// Whether a foreign candidate declares a tie rule, and that or its grid is another than exact's.
 bool covers_otherwise(const Case& c) {
   const Conventions& d = c.conventions;
   const bool is_dialects = d.tie_rule == Conventions::TieRule::left_bottom && d.subpixel_bits == 8 &&
@@ -38,13 +38,13 @@ bool covers_otherwise(const Case& c) {
   return c.foreign && d.tie_rule != Conventions::TieRule::any && !is_dialects;
 }
 
-// The difference bears the varying's own name, not that of the colour as which it was compared.
+// Names the field after the varying, which was compared as a colour.
 Measurement named(Measurement m, Varying v) {
   if (std::string_view(m.worst.place.field) == "color") m.worst.place.field = name_of(v).data();
   return m;
 }
 
-// That of the colour, or of a varying that tells more.
+// The worst of the measurements of the colour and of all varyings.
 Measurement with_varyings(const Case& c, Stage stage, Measurement color, const Records<double>& theirs) {
   const bool to_fragments = stage > Stage::clip;
   for (const Varying v : carried(c.scene)) {
@@ -65,8 +65,8 @@ void keep_legal(const Case& c, Plane<std::uint8_t>& open) {
   }
 }
 
-// Winners and fragments drawn, but for pixels where a stranger's depth buffer may be of double (open_by_double), and
-// whose winner the oracle calls legal.
+// Winners and fragments drawn. Of a foreign candidate, pixels are ambiguous where its depth buffer may be of double
+// (open_by_double) and the oracle calls the winner legal.
 void compare_visible(Case& c, const Capture& made, const JudgeId& name) {
   const auto compare = [&](const Capture& theirs) {
     return worse(compare_winners(c.candidate.planes, theirs.planes, Legal{}),
@@ -87,7 +87,8 @@ void compare_visible(Case& c, const Capture& made, const JudgeId& name) {
   c.add(name, Stage::visibility, std::move(m));
 }
 
-// Exact's planes, but that a clear depth half way between two codes may be either of a stranger's.
+// Exact's planes; where the scene's clear depth is half way between two codes, with the one that a foreign candidate
+// took.
 Planes with_either_clear_depth(const Case& c, const Planes& made) {
   Planes out = made;
   const Planes& mine = c.candidate.planes;
@@ -119,7 +120,7 @@ bool interpolates_turned(const Case& c, Stage stage) {
          std::ranges::any_of(c.candidate.records.triangles, is_turned_over);
 }
 
-// The capture with snapped corners that face as the candidate's do. Exact asks of them nothing but the facing.
+// The capture with snapped corners that face as the unsnapped ones; exact reads nothing but the facing from them.
 Capture facing_as_it_lies(const Capture& in) {
   Capture out = in;
   for (WindowTriangle<double>& t : out.records.triangles) {

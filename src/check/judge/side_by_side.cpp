@@ -45,7 +45,7 @@ bool has_depth_format(const FrameFormat& frame) {
   return frame.depth != DepthFormat::z8 && !(stencil && frame.depth == DepthFormat::z16);
 }
 
-// Whether its depths are codes of the scene's format, if that is one that OpenGL lacks.
+// Whether the reference's depths are codes of the scene's format. True for formats that OpenGL has.
 bool draws_depth_codes(const Scene& scene, const Capture& theirs) {
   if (has_depth_format(scene.frame)) return true;
   return std::ranges::all_of(theirs.planes.depth.values(), [&](double z) {
@@ -161,9 +161,9 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
   }
 }
 
-// Where snapping decides which face an outline is of, the two sides may draw different things (legal_window.h): they
-// are taken out of coverage; the planes after it are open where they lie. Exact judges them by the candidate's records.
-// False: there are none, or nobody says what they cover.
+// Compares the stage beside turned outlines (legal_window.h), which the two sides may draw as different faces: coverage
+// leaves them out, later planes are open where they lie. The rows of exact per stage judge them. False: nothing was
+// compared, because the stage is an earlier one, there are none, or what they cover is unknown.
 bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const bool lines_untold = draws(c.scene, Topology::lines) && over_budget(c.candidate);
   if (stage < Stage::coverage || c.referee == nullptr || lines_untold) return false;
@@ -188,7 +188,7 @@ bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const Ju
 void side_by_side(Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
   const std::size_t before = c.out.size();
   if (!compare_beside_turned(c, theirs, stage, name)) compare_shown(c, theirs, stage, name);
-  // The depths that are left may be codes (the clear depth's, say) where those of other fragments were none.
+  // The frame's depths may all be codes, such as the clear depth's, where depths tested before were not.
   const bool by_depth = stage == Stage::visibility || stage == Stage::merge;
   if (!by_depth || has_depth_format(c.scene.frame) || c.out.size() == before) return;
   const Outcome outcome = c.out.back().outcome;

@@ -12,8 +12,8 @@ namespace {
 
 bool fails(const Comparison& row) { return row.outcome == Outcome::different || row.outcome == Outcome::failed; }
 
-// Who speaks with the row. From texture on Embree's texels, light, fog, formats and blending are those of exact's
-// records (reference/arithmetic), so that the two are one voice.
+// The independent voter behind a row. From texture on Embree shares exact's arithmetic of texels, light, fog, formats
+// and blending (reference/arithmetic): one vote.
 std::string voice(const Comparison& row) {
   const std::string& name = row.judge.reference;
   return row.stage >= Stage::texture && name == "embree" ? "exact" : name;
@@ -37,13 +37,13 @@ std::set<std::string> outvoted_by(const Comparison& row, const std::vector<Compa
 }  // namespace
 
 void settle_votes(std::vector<Comparison>& rows) {
-  std::vector<Comparison*> by_stage;  // what is settled at one stage stands in no later one's way
+  std::vector<Comparison*> by_stage;  // a row disputed here no longer fails in later stages' votes
   for (Comparison& row : rows) by_stage.push_back(&row);
   std::ranges::stable_sort(by_stage, {}, &Comparison::stage);
   for (Comparison* each : by_stage) {
     Comparison& row = *each;
     if (!votes(row) || row.outcome != Outcome::different || row.judge.kind == Kind::per_stage) continue;
-    if (row.measurement.max_ratio <= 1) continue;  // its budget of ambiguity alone: no number that others contradict
+    if (row.measurement.max_ratio <= 1) continue;  // only the budget of ambiguity is exceeded: no value to contradict
     const std::set<std::string> against = outvoted_by(row, rows);
     if (against.empty()) continue;
     to_dispute(row, fmt::format("outvoted: ours is right by {}, and by exact's arithmetic on its own records",
