@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// One scene may take more than each of hundreds: some 512 x 512 pixels of noise in every picture.
+// Budget of one scene: some 512 x 512 pixels of noise in every picture.
 constexpr std::size_t kBytes = std::size_t{16} << 20;
 
 // The row that a view begins at: of the first different stage, exact's from the candidate's own records before others.

@@ -12,7 +12,7 @@
 
 namespace plumbline::report {
 
-/// What a page shows pictures of: a scene's frame, or one of its passes.
+/// Captures that a page shows pictures of: a scene's frame, or one of its passes.
 struct Pictured {
   std::string title;
   Scene scene;

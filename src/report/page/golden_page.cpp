@@ -20,7 +20,7 @@ Plane<glm::vec4> grey(const Plane<double>& depth) {
   return out;
 }
 
-// Where two differ, at least a quarter white: a last bit is seen.
+// Differing pixels are at least a quarter white, so that a difference in the last bit is visible.
 Plane<glm::vec4> difference_of(const Plane<glm::vec4>& a, const Plane<glm::vec4>& b) {
   if (a.width() != b.width() || a.height() != b.height()) return {};
   Plane<glm::vec4> out(a.width(), a.height(), glm::vec4(0, 0, 0, 1));

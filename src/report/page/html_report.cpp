@@ -23,8 +23,7 @@ constexpr std::size_t kBytesOfPage = 4'930'000, kBytesOfScene = 46'000, kBytesOf
 
 std::string text_of(const Json& json) { return in_script(json.dump(-1, ' ', false, Json::error_handler_t::replace)); }
 
-// At most 96 pixels a side, each the mean of those that it stands for; opaque, for what is behind the page is none of
-// the frame's.
+// The plane reduced to at most 96 pixels a side by means; opaque, so that the page's background does not show.
 Plane<glm::vec4> thumbnail(const Plane<glm::vec4>& plane) {
   constexpr int kSide = 96;
   const int side = std::max(plane.width(), plane.height());
@@ -49,7 +48,7 @@ Plane<glm::vec4> thumbnail(const Plane<glm::vec4>& plane) {
   return out;
 }
 
-// The worst of its rows; `fails` where the run does, and for no row.
+// The worst outcome of the scene's rows; "fails" if the scene fails and none of its rows does.
 std::string_view outcome_of(const check::SceneVerdict& verdict, bool fails) {
   using check::Outcome;
   constexpr Outcome kWorstFirst[] = {Outcome::failed,  Outcome::missing,        Outcome::different, Outcome::expected,

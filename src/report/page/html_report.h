@@ -15,29 +15,28 @@
 
 namespace plumbline::report {
 
-/// A folder (page.h) with index.html and, of each scene, a small picture <group>/<scene>.png and what it is shown from,
-/// <group>/<scene>.js (viewer_data.h), a name that is taken getting a number. 5 MB, where up to a hundred scenes fail
-/// or are disputed: each may take its share, but 46 kB at least; of those that hold, as many as fit have all their
-/// pictures, the others that of the frame's colour. Scenes are added one by one, so that their captures need not be
-/// kept.
+/// A folder (page.h) with index.html and, for each scene, a thumbnail <group>/<scene>.png and the viewer's data
+/// <group>/<scene>.js (viewer_data.h); a name that is taken gets a number. At most 5 MB, if up to a hundred scenes fail
+/// or are disputed: a scene may take its share, and 46 kB at least. Of scenes that hold, as many as fit have all their
+/// pictures, the others only the frame's colour. Scenes are added one by one, so that their captures need not be kept.
 class HtmlReport {
  public:
   /// For so many scenes. Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not
   /// ours.
   explicit HtmlReport(const std::filesystem::path& folder, std::size_t scenes = 1);
-  /// What the page holds of a scene, but for its name there. Several threads may draw at a time.
+  /// The page's data of one scene, except its file name. Several threads may call draw() at a time.
   struct Drawing {
     std::string scene, description, thumbnail;  ///< the last a PNG, or empty
     std::string outcome, first;                 ///< the first different stage, or empty
     bool fails = false;
-    std::string all, color_alone;  ///< what it is shown from; the latter empty where nothing may be left out
+    std::string all, color_alone;  ///< viewer's data: all, colour alone; the latter empty where all must be shown
   };
   /// `failure`: why the run fails for this scene (table.h, failure_lines()), or empty; `repeat`: the command.
   Drawing draw(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
                const check::BothCaptures& drawn, const Scene& scene, const std::string& failure = "",
                const std::string& repeat = "") const;
   void add(Drawing drawing);
-  /// Both.
+  /// add(draw(...)).
   void add(const check::SceneVerdict& verdict, std::span<const check::Reference> references,
            const check::BothCaptures& drawn, const Scene& scene, const std::string& failure = "",
            const std::string& repeat = "") {
@@ -57,7 +56,7 @@ class HtmlReport {
   struct Holding {
     std::string file, all, color_alone;
   };
-  std::vector<Holding> holding_;  // until it is known what those that fail leave
+  std::vector<Holding> holding_;  // written last, into the bytes that failing scenes leave
 };
 
 }  // namespace plumbline::report

@@ -12,19 +12,18 @@
 
 namespace plumbline::report {
 
-/// A folder with index.html and the files that it shows. Works offline. The folder appears in the end, whole. It
-/// replaces nothing but a page like it: a list in the folder names its files.
+/// A folder with index.html and the files that it shows; works offline. commit() makes the folder appear, complete. It
+/// may replace an earlier page alone, known by a list of the page's files in the folder.
 class PageFolder {
  public:
   /// Throws OutputError (atomic_path.h), as all here do, if the folder cannot be written or is not a page's.
   explicit PageFolder(const std::filesystem::path& folder);
-  /// Removes the page that an earlier run left, which would look like this run's where this one leaves none.
+  /// Removes an earlier run's page, which else might pass for this run's.
   void remove_earlier();
   void write(const std::string& name, std::string_view bytes);
   /// As a PNG.
   void write_picture(const std::string& name, const Plane<glm::vec4>& plane);
-  /// index.html, `body` being HTML under the style of all pages (web/page.css) and the one given; and the folder is
-  /// there.
+  /// Writes index.html with `body` (HTML), web/page.css and `style` (CSS), and makes the folder appear.
   void commit(const std::string& title, std::string_view style, const std::string& body);
 
  private:

@@ -12,7 +12,7 @@ namespace plumbline::report {
 
 namespace {
 
-// Of the last fragment drawn at each pixel, `value(i)`; `none` elsewhere. Empty without such records.
+// Plane of value(i) of the last fragment i drawn at each pixel, `none` elsewhere. Empty without such records.
 template <class T, class Value>
 Plane<T> of_winners(const Capture& c, T none, std::size_t records, Value value) {
   const Records<double>& r = c.records;
@@ -75,7 +75,7 @@ std::vector<Layer> stage_layers(const Scene& scene, const Capture& mine, const C
 std::string positions_drawing(const Scene& scene, const Capture& mine, const Capture& expected, std::size_t most) {
   const std::vector<WindowTriangle<double>>&a = mine.records.triangles, &b = expected.records.triangles;
   if (a.empty()) return {};
-  // Rounding may snap a corner one unit elsewhere, and leave thin triangles out: they are found by their primitive.
+  // Rounding may snap a corner one unit elsewhere, and drop thin triangles, so triangles are matched by primitive.
   const auto same_place = [](const WindowTriangle<double>& t, const WindowTriangle<double>& w) {
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::ivec2 off = glm::abs(t.v[k].snapped - w.v[k].snapped);

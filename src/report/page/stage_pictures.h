@@ -1,4 +1,4 @@
-// What each stage handed on as pictures, ours beside what was expected.
+// Pictures of each stage's output, the candidate's beside the expected.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace plumbline::report {
 
-/// Fragments counted; depth; of the winners texture coordinates, texel, level of detail and the colour before it is
-/// merged; the winning primitives; stencil values; the frame. In the order of the stages, those that either side shows.
+/// Layers of fragment counts; depth; the winners' texture coordinates, texel, level of detail and unmerged colour;
+/// winning primitives; stencil values; the frame. In stage order, without those that neither side shows.
 std::vector<Layer> stage_layers(const Scene& scene, const Capture& mine, const Capture& expected);
 
-/// The window triangles of both sides as an SVG drawing over the frame: expected in green, `mine` in red over them where
-/// it lies elsewhere. At most 2 `most` triangles are drawn, both sides together, those that differ before the others.
+/// The window triangles of both sides as an SVG drawing over the frame: where they differ, expected ones in green and
+/// the candidate's in red over them. At most 2 `most` triangles are drawn, both sides together, differing ones first.
 /// Empty where `mine` has none.
 std::string positions_drawing(const Scene& scene, const Capture& mine, const Capture& expected,
                               std::size_t most = 5000);

@@ -20,7 +20,7 @@ struct Box {
   int x, y, width, height;
 };
 
-// The one before side i that it has most numbers in common with: references often agree where ours does not.
+// The earlier side that has most numbers in common with side i: references often agree with each other.
 const Numbers* base_of(const std::vector<Numbers>& sides, std::size_t i) {
   const Numbers* base = nullptr;
   std::ptrdiff_t most = -1;
@@ -55,7 +55,7 @@ Json packed_layer(const Layer& layer, const Box& box) {
   return {{"name", layer.name}, {"says", layer.says}, {"paint", layer.paint}, {"judged", judged}, {"sides", sides}};
 }
 
-// Pixels of a pass beside one of the frame, which a resolved one is of.
+// Width of a frame's pixel in the comparison's pixels: `factor` for those of a pass, 1 for resolved ones.
 int factor_of(const check::Comparison& c, int factor) { return c.stage == Stage::resolve ? 1 : factor; }
 
 // 1: beyond the tolerance; 2: disputed.
@@ -108,7 +108,7 @@ Json viewed_json(const Viewed& viewed, std::span<const check::Comparison> compar
   return out;
 }
 
-// A part of it, its longer side `percent` as long, about the place.
+// The part of `box` about a pixel, with the longer side cut to `percent`.
 Box smaller(const Box& box, int percent, glm::ivec2 about, const Viewed& viewed) {
   Box out = box;
   (box.width > box.height ? out.width : out.height) = std::max(1, std::max(box.width, box.height) * percent / 100);
@@ -124,7 +124,7 @@ glm::ivec2 worst_pixel(const Viewed& viewed, std::span<const check::Comparison> 
     const auto rank = [](const check::Comparison& row) {
       return std::pair(row.outcome == check::Outcome::dispute, row.stage);
     };
-    const check::Worst* worst = check::shown(c);  // null where more is open than was predicted, and nothing is apart
+    const check::Worst* worst = check::shown(c);  // null where only the budget of ambiguity is exceeded
     if (worst != nullptr && worst->place.x >= 0 && (first == nullptr || rank(c) < rank(*first))) first = &c;
   }
   if (first == nullptr) return {viewed.width / 2, viewed.height / 2};
@@ -135,7 +135,7 @@ glm::ivec2 worst_pixel(const Viewed& viewed, std::span<const check::Comparison> 
 Layer layer_of(std::string name, std::string says, std::string paint, std::vector<Stage> judged,
                std::span<const Planes* const> sides, auto numbers) {
   Layer out{std::move(name), std::move(says), std::move(paint), std::move(judged), {}};
-  // Ours is shown as it is; what others did not round would take many times the place: it is, to the nearest code.
+  // Rounded to the nearest code, except on our side: unrounded numbers would take many times the bytes.
   for (const Planes* planes : sides) out.sides.push_back(numbers(*planes, planes == sides.front() ? 0.01 : 0.5));
   return out;
 }

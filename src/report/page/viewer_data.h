@@ -1,5 +1,4 @@
-// What the pages' viewer (web/viewer.js) is given: planes of several sides as numbers, and what was found at which
-// pixel.
+// Input of the pages' viewer (web/viewer.js): planes of several sides as numbers, and comparisons with their pixels.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +13,7 @@
 
 namespace plumbline::report {
 
-/// One kind of numbers.
+/// One kind of plane, of all sides.
 struct Layer {
   std::string name;            ///< such as "depth": unique among a viewer's layers
   std::string says;            ///< what its colours mean
@@ -31,14 +30,14 @@ struct Viewed {
   std::vector<Layer> layers;
 };
 
-/// Colour, depth, winning primitives, fragments counted and stencil values: all that any side hands out of the
-/// frame; but of the first, rounded to the frame's codes.
+/// Layers of colour, depth, winning primitives, fragment counts and stencil values; without layers that no side hands
+/// out. Colour and depth of all sides but the first are rounded to the frame's codes.
 std::vector<Layer> frame_layers(const Scene& scene, std::span<const Planes* const> sides);
 
-/// As JSON: the layers packed (numbers.h), of a side what differs from the one before that is most like it; the
-/// comparisons (comparison_json.h; packed too), each with the pixels that it is about. Where that is more than `budget`
-/// bytes, the part about the worst pixel alone, ever smaller, of 16 x 16 pixels at least. `factor`: pixels of a pass
-/// beside one of the frame.
+/// JSON of the layers (packed against the most similar earlier side, numbers.h) and of the comparisons
+/// (comparison_json.h; packed, too), each with its differing and disputed pixels. If larger than `budget` bytes, cut to
+/// ever smaller parts about the worst pixel, down to some 16 x 16 pixels. `factor`: width of a frame's pixel in pixels
+/// of a pass.
 std::string viewer_json(const Viewed& viewed, std::span<const check::Comparison> comparisons, int factor = 1,
                         std::size_t budget = 40000);
 

@@ -10,10 +10,10 @@
 
 namespace plumbline::report {
 
-/// What a scene is worth: the points of its stages, or, of none, of the whole scene.
+/// Points of a scene: of its stages; without stages, of the whole scene.
 struct SceneRubric {
   std::string scene;  ///< its name: group/file
-  double points = 0;
+  double points = 0;  ///< of all stages together, or of the scene
   std::vector<std::pair<Stage, double>> stages;
   std::string hint;  ///< what a student sees when it is wrong, or empty
 };
@@ -28,12 +28,12 @@ struct Rubric {
 ///     "coverage/shared_edges": {"stages": {"coverage": 4, "depth": 2, "merge": 4}, "hint": "An edge is drawn twice."},
 ///     "clip/behind_eye": {"points": 5}}}
 ///
-/// Throws JsonError: other keys, no scene, points that are negative or beyond 1e6, stages that there are not, points
-/// and stages of one scene.
+/// Throws JsonError: other keys, no scene, points outside [0,1e6], unknown stages, a scene with both points and stages,
+/// or with neither.
 Rubric read_rubric(const std::filesystem::path& file);
 
-/// What was earned: a stage's points where it was judged, and nothing in it is wrong; a scene's where that holds of
-/// all that was judged (text/conformance.h).
+/// Points earned: a stage's where it was judged and no row of it has failed or differs illegally; a whole scene's where
+/// it holds or is legal (text/conformance.h).
 struct SceneGrade {
   double earned = 0, points = 0;
   std::string text;  ///< a line per stage, then the hint

@@ -20,7 +20,7 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-/// What a run of plumb check was asked, and what was wrong with it but for its scenes.
+/// The request of a run of plumb check, and its failures outside scenes.
 struct RunHead {
   std::map<std::string, std::string> versions;  ///< by renderer
   std::string fault;                            ///< of the candidate; empty: none

@@ -8,8 +8,8 @@
 
 namespace plumbline::report {
 
-/// A test case per scene, of the class of its group, with its time; of one that does not hold what failed, the command
-/// that repeats it, and its rows. What is wrong with the run but for its scenes is a failure as well, a line each.
+/// A test case per scene, its group as class, with its time; if the scene does not hold, with the failure, the command
+/// that repeats it, and its rows. Each line of `of_run`, failures outside scenes, is a failed test case as well.
 std::string junit(std::span<const check::SceneVerdict> verdicts, std::span<const std::string> of_run = {});
 
 }  // namespace plumbline::report

@@ -86,7 +86,7 @@ void add_row(RunDiff& out, const std::string& what, const Comparison& was, const
   }
 }
 
-// What a scene's rows do not tell: a stage that nobody judges, an expectation that is no more met.
+// Failures of a scene that are in none of its rows: an unjudged stage, an expectation no longer met.
 void add_scene(RunDiff& out, const std::string& what, const SceneVerdict& was, const SceneVerdict& now) {
   const auto by_row = [](const SceneVerdict& v) {
     return std::ranges::any_of(v.comparisons, [](const Comparison& c) { return is_failure(c.outcome); });

@@ -22,12 +22,12 @@ struct Change {
 };
 
 struct RunDiff {
-  std::vector<Change> versions;     ///< of renderers; what was asked
-  std::vector<Change> broken;       ///< fails, and did not
+  std::vector<Change> versions;     ///< renderers' versions; the fault and the references asked for
+  std::vector<Change> broken;       ///< fails, and did not fail or was not there
   std::vector<Change> lost;         ///< was judged and is not run, or not judged, any more
   std::vector<Change> excused;      ///< differs as expected, and was not expected to
   std::vector<Change> fixed;        ///< failed, or differed as expected, and holds
-  std::vector<Change> added, gone;  ///< rows that were not there, and those that nobody had judged and are gone
+  std::vector<Change> added, gone;  ///< new rows that are no failure; rows that were not judged and are gone
   std::vector<Change> moved;        ///< other changes of outcome, such as from failed to different
   std::vector<Change> tolerances;   ///< the ledger's factors
   std::vector<Change> differences;  ///< the largest, and how many, of rows with one outcome

@@ -25,7 +25,7 @@ std::vector<std::pair<std::string, std::size_t>> by_count(const Counts& counts) 
 
 std::string group_of(const check::SceneVerdict& verdict) { return verdict.scene.substr(0, verdict.scene.find('/')); }
 
-// Whether every pixel or record that was compared has several legal answers: a program that draws nothing may hold.
+// Whether every item compared has several legal answers, so that even a program that draws nothing may hold.
 bool is_open(const check::SceneVerdict& verdict) {
   std::size_t open = 0;
   for (const check::Comparison& c : verdict.comparisons) {
@@ -183,7 +183,7 @@ std::string not_judged_line(std::span<const check::SceneVerdict> verdicts) {
   return scenes.empty() ? "" : fmt::format("right or legal, and not judged: {}\n", counted(by_count(scenes)));
 }
 
-// The cause of the most scenes, of those that one scene's frame does not tell apart. Empty: none is known.
+// Of the scene's possible causes, the one that `scenes` counts in most scenes; the first of equals. Empty: none.
 std::string likeliest(const check::SceneVerdict& verdict, const Counts& scenes) {
   const auto of = [&](const std::string& cause) { return scenes.at(cause); };
   const auto most = std::ranges::max_element(verdict.causes, {}, of);  // of as many the first

@@ -18,15 +18,15 @@ enum class Conformance {
   known,    ///< what is wrong is expected (--expect)
   differs,  ///< a stage is wrong, and no oracle calls it legal
   failed,   ///< the program crashed, hung, or left what cannot be read
-  /// The program said that it cannot draw the scene, or nothing that it left could be judged, or told from a frame that
-  /// is legal as well.
+  /// The program said that it cannot draw the scene, or none of its output could be judged, or every item judged has
+  /// several legal answers.
   unable
 };
 Conformance conformance_of(const check::SceneVerdict& verdict);
 /// Why a scene is unable, in the program's words where it has said why.
 std::string unable_reason(const check::SceneVerdict& verdict);
-/// The first stage that is wrong, and that no oracle calls legal; where there is one, but check::first_different() names
-/// a stage that is wrong by itself, that stage. Null: none.
+/// Row of the first stage that is `different` and that no oracle calls legal. If there is one, and first_different()
+/// is a row of Kind::per_stage other than coverage's, that row instead. Null: no stage is wrong.
 const check::Comparison* first_wrong(const check::SceneVerdict& verdict);
 
 /// Whether a row finds the stage equal or within its tolerance, and none finds it wrong.

@@ -12,7 +12,7 @@ namespace plumbline::report {
 /// Text for a cell of a table: one line, and what Markdown or HTML would take for its own, escaped.
 std::string cell(std::string_view text);
 
-/// The summary; how many comparisons came to what, and were not run; a row for each scene that does not hold (at most
+/// The summary; numbers of comparisons by outcome; a row for each scene that does not hold (at most
 /// 200), with its first different stage and the command that repeats it; what was disputed or expected.
 std::string markdown(std::span<const check::SceneVerdict> verdicts, const std::string& summary);
 

@@ -1,4 +1,4 @@
-// Planes as text for a page's script: every number, exact, and small.
+// Planes as compressed text for a page's script, without loss.
 #pragma once
 
 #include <cstdint>
@@ -31,14 +31,14 @@ Numbers numbers_of(const Plane<std::int32_t>& plane);
 Numbers numbers_of(const Plane<std::uint32_t>& plane);
 Numbers numbers_of(const Plane<std::uint8_t>& plane);
 
-/// The part of it; empty of an empty one.
+/// The part of width x height numbers from (x, y) on, which must lie inside; empty if `numbers` is.
 Numbers cropped(const Numbers& numbers, int x, int y, int width, int height);
 
-/// Bytes a number: 1, 2 or 4, as its scale wants.
+/// Bytes per number: 1 or 2 for codes of up to 8 or 16 bits, else 4.
 int bytes_of(const Numbers& numbers);
-/// The numbers less those of `base`, if that is of the same shape; of these what each is more than the one a pixel
-/// before; their first bytes, then their second, ...; deflated (RFC 1950); in base64 (RFC 4648). All modulo 2^(8
-/// bytes).
+/// Packs in five steps: subtract `base`, if it has the same shape; subtract the pixel before, per channel; all lowest
+/// bytes, then all second ones, ... (bytes_of()); deflate (RFC 1950); base64 (RFC 4648). Differences are modulo
+/// 2^(8 bytes_of()).
 std::string packed(const Numbers& numbers, const Numbers* base = nullptr);
 /// A text, deflated, in base64.
 std::string packed(std::string_view text);

@@ -10,8 +10,8 @@ namespace plumbline::report {
 std::string as_utf8(std::string_view text);
 /// The same with HTML's own characters written as entities.
 std::string escaped(std::string_view text);
-/// A relative path that any file system takes and a link may hold as it is, another for each text: what is none of
-/// ASCII's letters and digits, "-", "_", "." and "/" becomes its bytes' numbers, "~20".
+/// A relative path for `text`, safe in file systems and links, different for different texts: each byte other than
+/// ASCII letters and digits, "-", "_", "." and "/", and each "." that begins a name, becomes its number, "~20".
 std::string file_name(std::string_view text);
 
 }  // namespace plumbline::report

@@ -10,16 +10,16 @@
 namespace plumbline::report {
 
 std::string table_head();
-/// A line per comparison, and one for all stages that a reference does not judge for one reason.
+/// A line per comparison; one line for all stages that a reference does not judge for the same reason.
 std::string table_rows(const check::SceneVerdict& verdict);
 /// For a scene that failed: the first different stage, its worst item, the stages whose lack of a judge is a failure,
 /// and the command that repeats it; else empty.
 std::string failure_lines(const check::SceneVerdict& verdict, std::span<const Stage> unjudged,
                           const std::string& repeat_command);
-/// A line per group (the part of a scene's name before its first '/'), sorted: its scenes, and how many of their
-/// comparisons came to what.
+/// A line per group (the part of a scene's name before its first '/'), sorted: numbers of scenes and of comparisons,
+/// the latter by outcome.
 std::string group_lines(std::span<const check::SceneVerdict> verdicts);
-/// The last line: a word, and how many comparisons came to what. "FAILED" unless all hold; "nothing was judged"; "ok"
+/// The last line: a word, and numbers of comparisons by outcome. "FAILED" unless all hold; "nothing was judged"; "ok"
 /// where every stage was judged and no row is unsupported, missing, disputed or expected; else "ok where judged".
 std::string summary(std::span<const check::SceneVerdict> verdicts, bool all_hold, double seconds);
 
