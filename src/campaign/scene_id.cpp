@@ -41,8 +41,8 @@ std::string scene_text(const SceneId& id) {
   const Choices choices(id.seeds);
   switch (id.generator) {
     case Generator::ordinary: return ordinary::ordinary_scene(choices, fmt::format("Ordinary scene {}.", seeds));
-    case Generator::hard: break;
     case Generator::plain: return hard::plain_scene(choices, fmt::format("Plain scene {}.", seeds));
+    case Generator::hard: break;
   }
   return hard::hard_scene(choices, fmt::format("Hard scene {}.", seeds));
 }

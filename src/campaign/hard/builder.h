@@ -15,6 +15,7 @@ namespace plumbline::hard {
 using campaign::Choices;
 using campaign::json;
 using campaign::json_array;
+using campaign::json_lines;
 using campaign::json_numbers;
 using campaign::json_string;
 using campaign::Object;

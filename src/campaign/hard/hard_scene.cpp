@@ -1,8 +1,5 @@
 #include "campaign/hard/hard_scene.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "campaign/hard/builder.h"
 
 namespace plumbline::hard {
@@ -60,28 +57,25 @@ std::string hard_scene(campaign::Choices choices, const std::string& description
   Object defaults;
   if (c.chance(10)) defaults.put("fog", fog(b));
   if (c.chance(10)) defaults.put("material", material(b));
-  std::vector<std::string> draws;
+  std::vector<Object> draws;
   const int count = static_cast<int>(c.of({1, 1, 2, 2, 3, 4}));
-  for (int i = 0; i < count; ++i) draws.push_back("    " + draw(b).text());
+  for (int i = 0; i < count; ++i) draws.push_back(draw(b));
 
-  std::vector<std::string> lines;
-  const auto line = [&](std::string_view key, const std::string& value) {
-    lines.push_back(fmt::format("  {}: {}", json_string(key), value));
-  };
-  line("description", json_string(description));
-  if (c.chance(5)) line("version", "1");
-  if (b.dialect != "gl" || c.chance(50)) line("dialect", json_string(b.dialect));
-  line("frame", frame(b).text());
-  line("camera", camera(b).text());
-  line("projection", onto.text());
-  if (c.chance(70)) line("ambient", json_numbers(rgb(b)));
+  Object scene;
+  scene.put("description", json_string(description));
+  if (c.chance(5)) scene.put("version", "1");
+  if (b.dialect != "gl" || c.chance(50)) scene.put("dialect", json_string(b.dialect));
+  scene.put("frame", frame(b));
+  scene.put("camera", camera(b));
+  scene.put("projection", onto);
+  if (c.chance(70)) scene.put("ambient", json_numbers(rgb(b)));
   const Object model = light_model(b);
-  if (!model.empty()) line("light_model", model.text());
-  line("lights", lights(b));
-  if (!b.textures.empty()) line("textures", b.textures.text());
-  if (!defaults.empty()) line("defaults", defaults.text());
-  line("draws", fmt::format("[\n{}\n  ]", fmt::join(draws, ",\n")));
-  return fmt::format("{{\n{}\n}}\n", fmt::join(lines, ",\n"));
+  if (!model.empty()) scene.put("light_model", model);
+  scene.put("lights", lights(b));
+  if (!b.textures.empty()) scene.put("textures", b.textures);
+  if (!defaults.empty()) scene.put("defaults", defaults);
+  scene.put("draws", json_lines(draws));
+  return scene.lines();
 }
 
 }  // namespace plumbline::hard

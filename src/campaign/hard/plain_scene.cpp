@@ -1,6 +1,4 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+// Scenes of opaque, unlit triangles in the geometry of hard scenes.
 #include "campaign/hard/builder.h"
 #include "campaign/hard/hard_scene.h"
 
@@ -32,20 +30,17 @@ std::string plain_scene(campaign::Choices choices, const std::string& descriptio
   Builder b(std::move(choices));
   choose_view(b);
   const Object onto = projection(b);
-  std::vector<std::string> draws;
+  std::vector<Object> draws;
   const int count = static_cast<int>(b.choose.of({1, 1, 2, 2, 3, 4}));
-  for (int i = 0; i < count; ++i) draws.push_back("    " + plain_draw(b).text());
+  for (int i = 0; i < count; ++i) draws.push_back(plain_draw(b));
 
-  std::vector<std::string> lines;
-  const auto line = [&](std::string_view key, const std::string& value) {
-    lines.push_back(fmt::format("  {}: {}", json_string(key), value));
-  };
-  line("description", json_string(description));
-  line("frame", plain_frame(b).text());
-  line("camera", camera(b).text());
-  line("projection", onto.text());
-  line("draws", fmt::format("[\n{}\n  ]", fmt::join(draws, ",\n")));
-  return fmt::format("{{\n{}\n}}\n", fmt::join(lines, ",\n"));
+  Object scene;
+  scene.put("description", json_string(description));
+  scene.put("frame", plain_frame(b));
+  scene.put("camera", camera(b));
+  scene.put("projection", onto);
+  scene.put("draws", json_lines(draws));
+  return scene.lines();
 }
 
 }  // namespace plumbline::hard

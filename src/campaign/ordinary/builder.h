@@ -14,6 +14,7 @@ namespace plumbline::ordinary {
 using campaign::Choices;
 using campaign::json;
 using campaign::json_array;
+using campaign::json_lines;
 using campaign::json_numbers;
 using campaign::json_string;
 using campaign::Object;

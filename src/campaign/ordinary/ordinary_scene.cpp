@@ -1,8 +1,5 @@
 #include "campaign/ordinary/ordinary_scene.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "campaign/ordinary/builder.h"
 
 namespace plumbline::ordinary {
@@ -57,27 +54,22 @@ std::string ordinary_scene(campaign::Choices choices, const std::string& descrip
   const Object model = light_model(b), all = defaults(b);
   add_draws(b);
 
-  std::vector<std::string> lines;
-  const auto line = [&](std::string_view key, const std::string& value) {
-    lines.push_back(fmt::format("  {}: {}", json_string(key), value));
-  };
-  line("description", json_string(description));
-  line("dialect", json_string(b.dialect));
-  line("frame", frame(b).text());
-  line("camera", seen.text());
-  line("projection", onto.text());
+  Object scene;
+  scene.put("description", json_string(description));
+  scene.put("dialect", json_string(b.dialect));
+  scene.put("frame", frame(b));
+  scene.put("camera", seen);
+  scene.put("projection", onto);
   if (b.choose.chance(70)) {
     const double grey = b.choose.number(0, 0.4);
-    line("ambient", json_numbers({grey, grey, b.choose.chance(50) ? grey : b.choose.number(0, 0.4)}));
+    scene.put("ambient", json_numbers({grey, grey, b.choose.chance(50) ? grey : b.choose.number(0, 0.4)}));
   }
-  if (!model.empty()) line("light_model", model.text());
-  if (b.is_lit) line("lights", lamps);
-  if (!b.textures.empty()) line("textures", b.textures.text());
-  if (!all.empty()) line("defaults", all.text());
-  std::vector<std::string> draws;
-  for (const Object& draw : b.draws) draws.push_back("    " + draw.text());
-  line("draws", fmt::format("[\n{}\n  ]", fmt::join(draws, ",\n")));
-  return fmt::format("{{\n{}\n}}\n", fmt::join(lines, ",\n"));
+  if (!model.empty()) scene.put("light_model", model);
+  if (b.is_lit) scene.put("lights", lamps);
+  if (!b.textures.empty()) scene.put("textures", b.textures);
+  if (!all.empty()) scene.put("defaults", all);
+  scene.put("draws", json_lines(b.draws));
+  return scene.lines();
 }
 
 }  // namespace plumbline::ordinary

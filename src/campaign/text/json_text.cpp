@@ -39,4 +39,16 @@ std::string Object::text() const {
   return fmt::format("{{{}}}", fmt::join(members, ", "));
 }
 
+std::string Object::lines() const {
+  std::vector<std::string> out;
+  for (const Member& m : members_) out.push_back(fmt::format("  {}: {}", json_string(m.key), m.value));
+  return fmt::format("{{\n{}\n}}\n", fmt::join(out, ",\n"));
+}
+
+std::string json_lines(const std::vector<Object>& objects) {
+  std::vector<std::string> out;
+  for (const Object& object : objects) out.push_back("    " + object.text());
+  return fmt::format("[\n{}\n  ]", fmt::join(out, ",\n"));
+}
+
 }  // namespace plumbline::campaign

@@ -29,6 +29,8 @@ class Object {
   bool has(std::string_view key) const;
   bool empty() const { return members_.empty(); }
   std::string text() const;
+  /// A file: one line for each member.
+  std::string lines() const;
 
  private:
   struct Member {
@@ -36,5 +38,8 @@ class Object {
   };
   std::vector<Member> members_;
 };
+
+/// Array with a line for each object, for a member of Object::lines().
+std::string json_lines(const std::vector<Object>& objects);
 
 }  // namespace plumbline::campaign

@@ -181,7 +181,7 @@ void compare_polygon(Meter& meter, const ClipPolygon& a, const ClipPolygon& b, c
   if (loosely) {
     for (const auto& polygon : {all_mine, all_theirs}) open_planes(corners, polygon, factor * unit, open);
     within_rounding(meter, all_mine, corners, factor, at);
-    // What rounding cannot cut off must be there; an edge may be off by `factor` u in each of four coordinates.
+    // Vertices that rounding cannot cut off must be there; an edge may be off by `factor` u in each coordinate.
     for (const ClipVertex<double>& v : clipped(corners, factor * unit)) {
       meter.value(distance_to_polygon(v.p_clip, all_mine) / unit, 2 * factor, at("cut off"), 0, 0);
     }

@@ -183,7 +183,7 @@ std::string not_judged_line(std::span<const check::SceneVerdict> verdicts) {
   return scenes.empty() ? "" : fmt::format("right or legal, and not judged: {}\n", counted(by_count(scenes)));
 }
 
-// Of the scene's possible causes, the one that `scenes` counts in most scenes; the first of equals. Empty: none.
+// Cause of the scene that `scenes` counts in most scenes; the first of equals. Empty: none is known.
 std::string likeliest(const check::SceneVerdict& verdict, const Counts& scenes) {
   const auto of = [&](const std::string& cause) { return scenes.at(cause); };
   const auto most = std::ranges::max_element(verdict.causes, {}, of);  // of as many the first
