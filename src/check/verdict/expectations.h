@@ -32,13 +32,12 @@ std::vector<Expectation> read_expectations(const std::filesystem::path& file, st
 std::chrono::sys_days day_of(const std::string& text);
 std::string to_string(std::chrono::sys_days day);
 
-/// What became of an expectation in a run.
+/// What became of an expectation whose scene and reference were asked.
 enum class Settlement {
-  not_asked,  ///< its scene or its reference was not
-  occurred,   ///< its row is now `expected`, and says why
-  expired,    ///< it occurred after its last day: the row stays a failure
-  passed,     ///< the row has another outcome than expected: a failure, too
-  unmatched   ///< scene and reference were asked, and there is no such row: a failure
+  occurred,  ///< its row is now `expected`, and says why
+  expired,   ///< it occurred after its last day: the row stays a failure
+  passed,    ///< the row has another outcome than expected: a failure, too
+  unmatched  ///< scene and reference were asked, and there is no such row: a failure
 };
 struct Settled {
   const Expectation* expectation;
