@@ -311,7 +311,7 @@ Measurement compare_polygons(const Scene& scene, const Records<double>& candidat
       const double tolerance = factor * u * corners.scale;
       const std::vector<ClipVertex<double>> widest =
           a != nullptr ? clipped(corners, -tolerance) : std::vector<ClipVertex<double>>();
-      if (!uncut(corners) &&
+      if (!needs_no_cut(corners) &&
           may_vanish(a != nullptr ? std::span(widest) : vertices_of(*b, reference), corners.planes, tolerance)) {
         meter.ambiguous();
         if (a != nullptr) within_rounding(meter, vertices_of(*a, candidate), corners, factor, at);

@@ -16,7 +16,7 @@ bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance) 
   return std::abs(distances(v.p_clip)[plane]) <= tolerance;
 }
 
-bool uncut(const Corners& c) {
+bool needs_no_cut(const Corners& c) {
   const auto all_corners = [&](std::size_t plane, auto are) {
     return std::ranges::all_of(c.p_clip, [&](const Vec4<double>& corner) { return are(distances(corner)[plane]); });
   };

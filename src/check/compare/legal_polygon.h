@@ -23,9 +23,9 @@ struct Corners {
 std::array<double, 6> distances(const Vec4<double>& p);
 bool on_plane(const ClipVertex<double>& v, std::size_t plane, double tolerance);
 
-/// Whether no plane need be cut by: all corners inside every plane, or all outside one plane. Rounding leaves neither
+/// Whether all corners are inside every plane, or all outside one plane. Rounding leaves neither
 /// open: the difference w - x of two floats, rounded to float, keeps its sign.
-bool uncut(const Corners& c);
+bool needs_no_cut(const Corners& c);
 
 /// The triangle clipped by planes moved inwards by `by` (negative: outwards) [w], by Sutherland-Hodgman in double.
 std::vector<ClipVertex<double>> clipped(const Corners& c, double by);

@@ -34,11 +34,12 @@ using Explain = void (*)(const Evidence&, Finding&);
 
 void in_full(const Evidence& evidence, Finding& finding) {
   finding.numbers = worst_record(evidence, finding.judge, finding.measurement);
-  if (finding.judge.kind != Kind::at_worst && !over_budget(evidence.candidate)) {
+  if (finding.judge.kind != Kind::at_worst && !lacks_fragment_records(evidence.candidate)) {
     finding.explains = pixels_explained(evidence);
   }
   for (const Cause& cause : likely_causes(evidence)) finding.causes.push_back(cause.words);
-  if (finding.stage != Stage::coverage || over_budget(evidence.candidate) || over_budget(evidence.expected))
+  if (finding.stage != Stage::coverage || lacks_fragment_records(evidence.candidate) ||
+      lacks_fragment_records(evidence.expected))
     return;  // of a side without records of fragments, all would be missing
   if (const auto worst = worst_triangle(evidence, finding.measurement.worst.place))
     finding.picture = coverage_picture(*worst);
@@ -89,7 +90,7 @@ void repair(Pass& pass, const Finder& find, Renderer& candidate, const std::set<
   Renderer& referee = find.referee;
   Capture& in = pass.repaired;
   const RendererInfo info = candidate.info(), referee_info = referee.info();
-  const bool fragments_are_here = !over_budget(in);
+  const bool fragments_are_here = !lacks_fragment_records(in);
   for (auto i = static_cast<std::size_t>(*known.begin()); i <= static_cast<std::size_t>(Stage::merge); ++i) {
     copy_stage(static_cast<Stage>(i), {}, in);  // made of wrong records
   }
@@ -162,7 +163,7 @@ void look_at_worst(Pass& pass, const Finder& find, Renderer& candidate) {
     const Legal none;
     Case c{find.scene, mine, none, &find.referee, pass.verdict.comparisons};
     for (const Stage stage : {Stage::depth, Stage::attributes, Stage::texture, Stage::shade}) {
-      if ((stage == Stage::texture && !textured(find.scene)) || over_budget(mine)) continue;
+      if ((stage == Stage::texture && !textured(find.scene)) || lacks_fragment_records(mine)) continue;
       run_exact_stage(c, find.referee, stage, name);
       if (is_wrong(c.out.back())) pass.findings.push_back(find(mine, c.out.back()));
     }
@@ -193,7 +194,7 @@ Pass look_at(const Scene& of_dialect, Renderer& candidate, std::span<const Refer
     if (referee == nullptr || !judges_alone(c) || !is_wrong(c) || !wrong.insert(c.stage).second) continue;
     pass.findings.push_back(Finder{scene, *referee, explain, conventions}(pass.repaired, c));
   }
-  if (referee != nullptr && over_budget(pass.repaired))
+  if (referee != nullptr && lacks_fragment_records(pass.repaired))
     look_at_worst(pass, {scene, *referee, explain, conventions}, candidate);
   if (wrong.empty()) {
     if (!pass.findings.empty()) return pass;

@@ -297,7 +297,8 @@ std::vector<std::string> worst_record(const Evidence& e, const JudgeId& judge, c
     }
     case Stage::coverage:
       if (place.x >= 0) printer.pixel(place.x, place.y, out);
-      if (over_budget(e.candidate) || over_budget(e.expected)) break;  // one side has planes alone
+      if (lacks_fragment_records(e.candidate) || lacks_fragment_records(e.expected))
+        break;  // one side has planes alone
       if (const auto worst = worst_triangle(e, place)) printer.triangle(worst->triangle, out);
       break;
     default:

@@ -82,9 +82,10 @@ void judge_from_scene(Case& c, const Capture& theirs, const RendererInfo& info, 
       c.repeat(name, Stage::attributes, stage);
     } else if (!exact && lacks_texels(c, stage)) {
       c.skip(name, stage, Outcome::unsupported,
-             over_budget(c.candidate) ? kOverBudget : "which levels of detail are legal, exact says: it is not asked");
+             lacks_fragment_records(c.candidate) ? kOverBudget
+                                                 : "which levels of detail are legal, exact says: it is not asked");
     } else if (!exact && stage > Stage::coverage && tests_alpha(c.scene)) {
-      if (over_budget(c.candidate)) {
+      if (lacks_fragment_records(c.candidate)) {
         c.skip(name, stage, Outcome::unsupported, kOverBudget);
         continue;
       }
@@ -245,7 +246,7 @@ std::vector<Comparison> judge_records(const Scene& scene, const Capture& candida
     }
     try {
       const auto known = made.find(stage);
-      if (known != made.end() && !over_budget(candidate)) {
+      if (known != made.end() && !lacks_fragment_records(candidate)) {
         compare_stage(c, known->second, stage, name);
       } else {
         run_exact_stage(c, referee, stage, name);

@@ -134,7 +134,8 @@ Capture facing_as_it_lies(const Capture& in) {
 }  // namespace
 
 void run_exact_stage(Case& c, Renderer& referee, Stage stage, const JudgeId& name) {
-  if (stage >= Stage::depth && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+  if (stage >= Stage::depth && lacks_fragment_records(c.candidate))
+    return c.skip(name, stage, Outcome::unsupported, kOverBudget);
   const bool turned = interpolates_turned(c, stage);
   compare_stage(c, referee.run_stage(c.scene, stage, turned ? facing_as_it_lies(c.candidate) : c.candidate), stage,
                 name);
@@ -158,7 +159,8 @@ void compare_stage(Case& c, const Capture& made, Stage stage, const JudgeId& nam
       if (covers_otherwise(c) && are_sums_of(c.candidate.records, c.candidate.planes))
         return c.add(name, stage, compare_covered_but_edges(c.candidate.records, theirs, c.conventions));
       Measurement planes = compare_coverage(c.candidate.planes, made.planes, c.open_coverage());
-      if (over_budget(c.candidate)) return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
+      if (lacks_fragment_records(c.candidate))
+        return c.add(name, stage, std::move(planes), nullptr, std::string(kOverBudget));
       return c.add(name, stage, worse(std::move(planes), compare_open_covered(c.candidate, theirs, c.open_coverage())));
     }
     case Stage::depth: return add([&](double f) { return compare_depth(c.scene, mine, theirs, f, c.conventions); });

@@ -58,7 +58,7 @@ struct Case {
 };
 
 /// Whether the count plane has fragments and the records none: beyond the budget, or a capture of planes alone.
-inline bool over_budget(const Capture& c) {
+inline bool lacks_fragment_records(const Capture& c) {
   const auto& count = c.planes.count.values();
   return c.records.covered.empty() && std::any_of(count.begin(), count.end(), [](std::uint32_t n) { return n != 0; });
 }

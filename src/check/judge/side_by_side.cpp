@@ -91,7 +91,7 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
       return add(
           compare_window_equal(mine, theirs.records, factor_of(stage), turned_outlines(c.scene, mine, theirs.records)));
     case Stage::coverage:
-      if (draws(c.scene, Topology::lines) && over_budget(c.candidate)) {
+      if (draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate)) {
         return c.skip(name, stage, Outcome::unsupported, kOverBudget);
       }
       return compare_covers(c, c.candidate, theirs, name);
@@ -114,7 +114,7 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
     case Stage::shade:
       // Without textures, lights or fog per fragment, both are the one plane of the winners' colours.
       if (is_plain(c.scene)) return c.repeat(name, Stage::attributes, stage);
-      if (over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      if (lacks_fragment_records(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
       return add(compare_shaded_planes(c.scene, c.candidate, theirs, factor_of(Stage::attributes)));
     case Stage::visibility:
       if (!draws_depth_codes(c.scene, theirs)) {
@@ -123,7 +123,7 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
       if (!draws_lines_or_points(c.scene)) {
         return c.add(name, stage, compare_winners(c.candidate.planes, theirs.planes, c.legal));
       }
-      if (over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      if (lacks_fragment_records(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
       if (mine.depth.size() != mine.covered.size()) {
         return c.skip(name, stage, Outcome::unsupported, "it shows no depths of fragments");
       }
@@ -133,7 +133,8 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
       if (!replaced && mine.drawn.empty() && !mine.covered.empty()) {
         return c.skip(name, stage, Outcome::unsupported, "it shows not which fragments are drawn");
       }
-      if (!replaced && over_budget(c.candidate)) return c.skip(name, stage, Outcome::unsupported, kOverBudget);
+      if (!replaced && lacks_fragment_records(c.candidate))
+        return c.skip(name, stage, Outcome::unsupported, kOverBudget);
       const double attributes = factor_of(Stage::attributes);
       switch (c.scene.frame.color) {
         case ColorFormat::rgba8:
@@ -165,7 +166,7 @@ void compare_shown(Case& c, const Capture& theirs, Stage stage, const JudgeId& n
 // leaves them out, later planes are open where they lie. The rows of exact per stage judge them. False: nothing was
 // compared, because the stage is an earlier one, there are none, or what they cover is unknown.
 bool compare_beside_turned(Case& c, const Capture& theirs, Stage stage, const JudgeId& name) {
-  const bool lines_untold = draws(c.scene, Topology::lines) && over_budget(c.candidate);
+  const bool lines_untold = draws(c.scene, Topology::lines) && lacks_fragment_records(c.candidate);
   if (stage < Stage::coverage || c.referee == nullptr || lines_untold) return false;
   const std::vector<std::uint32_t> turned = turned_outlines(c.scene, c.candidate.records, theirs.records);
   if (turned.empty()) return false;
