@@ -181,8 +181,8 @@ PlaneBounds bounds_from_origin(const WindowTriangle<double>& t, int x, int y, co
   out.depth = std::max(out.depth, along_bounds.depth);
   out.color = glm::max(out.color, along_bounds.color);
   const OfLine projected = at_share(t, b.value[1], limits), along = at_share(t, by_major.value[1], limits);
-  out.along_depth = along.depth - projected.depth;
-  out.along_color = along.color - projected.color;
+  out.line_shift_depth = along.depth - projected.depth;
+  out.line_shift_color = along.color - projected.color;
   return out;
 }
 
@@ -215,8 +215,8 @@ PlaneBounds primitive_bounds(const Records<double>& r, std::int32_t primitive, i
     const double distance = distance_from_line(t, x + 0.5, y + 0.5);
     if (distance >= nearest) continue;
     nearest = distance;  // of an unfilled triangle, the edge nearest the pixel
-    out.along_depth = b.along_depth;
-    out.along_color = b.along_color;
+    out.line_shift_depth = b.line_shift_depth;
+    out.line_shift_color = b.line_shift_color;
   }
   return out;
 }
@@ -266,7 +266,7 @@ std::vector<EdgeValue> edge_values(std::span<const WindowTriangle<double>> edges
     const OfLine projected = at_share(t, along_line(t, x + 0.5, y + 0.5).value[1], limits);
     const PlaneBounds along = bounds_from_origin(t, x, y, limits);
     out.push_back({projected.depth, projected.color});
-    out.push_back({projected.depth + along.along_depth, projected.color + along.along_color});
+    out.push_back({projected.depth + along.line_shift_depth, projected.color + along.line_shift_color});
   }
   if (out.size() <= 2) out.clear();
   return out;

@@ -44,8 +44,8 @@ struct PlaneBounds {
   Vec4<double> color;  ///< [u]
   /// Line: value interpolated by the position on the major axis, as by llvmpipe, less the value at the centre's
   /// projection onto the line (OpenGL 2.1, equation 3.5); signed [window z; colour].
-  double along_depth = 0;
-  Vec4<double> along_color{0};
+  double line_shift_depth = 0;
+  Vec4<double> line_shift_color{0};
 };
 
 /// The range that depths are clamped to: the format's, or the draw's (scene.h, depth_clamp).

@@ -120,16 +120,18 @@ std::vector<std::size_t> fragments_of(const Records<double>& r, const Wanted& wa
 
 }  // namespace
 
-DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r, std::vector<std::size_t> fragments)
+FragmentsByPixel::FragmentsByPixel(const FrameFormat& frame, const Records<double>& r,
+                                   std::vector<std::size_t> fragments)
     : width_(frame.width), records_(r), fragments_(std::move(fragments)) {
   std::ranges::stable_sort(fragments_, {}, [&](std::size_t i) { return pixel(i); });
 }
 
-DrawnAt::DrawnAt(const FrameFormat& frame, const Records<double>& r)
-    : DrawnAt(frame, r,
-              fragments_of(r, [&](std::size_t i) { return r.drawn.size() == r.covered.size() && r.drawn[i].drawn; })) {}
+FragmentsByPixel FragmentsByPixel::drawn(const FrameFormat& frame, const Records<double>& r) {
+  const bool is_known = r.drawn.size() == r.covered.size();
+  return {frame, r, fragments_of(r, [&](std::size_t i) { return is_known && r.drawn[i].drawn; })};
+}
 
-DrawnAt DrawnAt::covered(const FrameFormat& frame, const Records<double>& r) {
+FragmentsByPixel FragmentsByPixel::covered(const FrameFormat& frame, const Records<double>& r) {
   return {frame, r, fragments_of(r, [](std::size_t) { return true; })};
 }
 
@@ -149,7 +151,7 @@ FragmentBounds::FragmentBounds(const Scene& scene, const Capture& candidate, con
           larger(columns_apart(candidate.records.vertices, reference.records.vertices, &Vertex<double>::p_eye, 0),
                  fog_apart(scene, candidate.records))),
       normals_apart_(normals_apart(candidate.records, reference.records)),
-      drawn_(scene.frame, is_plain(scene) ? kNone : candidate.records) {
+      drawn_(FragmentsByPixel::drawn(scene.frame, is_plain(scene) ? kNone : candidate.records)) {
   for (const Draw& draw : scene.draws) plain_.push_back(is_plain(scene, draw));
   for (const Texture& texture : scene.textures)
     texel_arithmetic_.push_back(tolerance(Profile::opengl, Stage::texture).factor * u * largest_texel(texture));
@@ -210,7 +212,7 @@ Vec4<double> FragmentBounds::varying_error(std::size_t i, Varying v) const {
                                : v == Varying::normal    ? normals_apart_
                                : v == Varying::secondary ? secondary_apart_
                                                          : kNowhere;
-  return factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), beside) +
+  return factor_ * u * plane.color + glm::max(glm::abs(plane.line_shift_color), beside) +
          enlarged(*triangle, c.x, c.y) * largest_of(triangle->primitive, vertices_apart, is_lit(v)) +
          mean_error(*triangle, c.x, c.y) + cut_error(triangle->primitive, records_.varyings[v].vertices);
 }
@@ -264,7 +266,7 @@ FragmentBound FragmentBounds::surface(std::size_t i) const {
   const Draw& draw = draw_of(triangle.primitive);
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   FragmentFours errors;
-  errors.color = factor_ * u * plane.color + glm::max(glm::abs(plane.along_color), by_other_edges(i, nullptr)) +
+  errors.color = factor_ * u * plane.color + glm::max(glm::abs(plane.line_shift_color), by_other_edges(i, nullptr)) +
                  lit_error(triangle.primitive, enlarged(triangle, c.x, c.y)) + mean_error(triangle, c.x, c.y);
   for (const Varying v : kAllVaryings) {
     if (!is_back(v) && carries(scene_, draw, v)) errors[v] = varying_error(i, v);
@@ -302,7 +304,7 @@ FragmentBound FragmentBounds::of_fragment(std::size_t i) const {
   const PlaneBounds plane = bounds_from_origin(triangle, c.x, c.y);
   const Vec4<double> apart =
       lit_error(triangle.primitive, enlarged(triangle, c.x, c.y)) + mean_error(triangle, c.x, c.y);
-  return {factor_ * u * plane.color, glm::max(glm::abs(plane.along_color), by_other_edges(i, nullptr)), apart, {}};
+  return {factor_ * u * plane.color, glm::max(glm::abs(plane.line_shift_color), by_other_edges(i, nullptr)), apart, {}};
 }
 
 FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) const {
@@ -314,7 +316,7 @@ FragmentBound FragmentBounds::of_winner(std::int32_t primitive, int x, int y) co
     for (const WindowTriangle<double>& t : triangles_of(records_, primitive)) {
       if (is_near(t, x, y)) mean = glm::max(mean, mean_error(t, x, y));
     }
-    return {factor_ * u * plane.color, plane.along_color, lit_error(p, 1) + mean, {}};
+    return {factor_ * u * plane.color, plane.line_shift_color, lit_error(p, 1) + mean, {}};
   }
   FragmentBound out{Vec4<double>(std::numeric_limits<double>::infinity()), {}, {}, {}};
   drawn_.each(x, y, [&](std::size_t i) {

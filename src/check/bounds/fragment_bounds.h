@@ -16,12 +16,13 @@
 
 namespace plumbline::check {
 
-/// Fragments by pixel: by default those that are drawn.
-class DrawnAt {
+/// Fragments by pixel, in draw order.
+class FragmentsByPixel {
  public:
-  DrawnAt(const FrameFormat& frame, const Records<double>& records);
+  /// Fragments that are drawn; none: the records do not say which.
+  static FragmentsByPixel drawn(const FrameFormat& frame, const Records<double>& records);
   /// All covered fragments, those that are not drawn too.
-  static DrawnAt covered(const FrameFormat& frame, const Records<double>& records);
+  static FragmentsByPixel covered(const FrameFormat& frame, const Records<double>& records);
   /// Calls visit(number of the fragment) for each of them at (x, y), in draw order.
   template <class Visit>
   void each(int x, int y, Visit visit) const {
@@ -36,16 +37,17 @@ class DrawnAt {
   std::int64_t pixel(std::size_t i) const {
     return std::int64_t{records_.covered[i].y} * width_ + records_.covered[i].x;
   }
-  DrawnAt(const FrameFormat& frame, const Records<double>& records, std::vector<std::size_t> fragments);
+  FragmentsByPixel(const FrameFormat& frame, const Records<double>& records, std::vector<std::size_t> fragments);
   int width_;
   const Records<double>& records_;
   std::vector<std::size_t> fragments_;
 };
 
-/// Bounds of the difference between both sides' colours, per channel. Only plain draws have `along` and `apart`.
+/// Bounds of the difference between both sides' colours, per channel. Only plain draws have `line_shift` and `apart`.
 struct FragmentBound {
-  Vec4<double> color{0};    ///< error of the reference's arithmetic (not plain: all errors); infinite: no bound
-  Vec4<double> along{0};    ///< line: PlaneBounds::along_color (of_fragment: or the distance to another edge's colour)
+  Vec4<double> color{0};  ///< error of the reference's arithmetic (not plain: all errors); infinite: no bound
+  /// Line: PlaneBounds::line_shift_color (of_fragment: or the distance to another edge's colour).
+  Vec4<double> line_shift{0};
   Vec4<double> apart{0};    ///< errors of vertex colours, of cuts and of the candidate's interpolation
   std::string_view reason;  ///< why a larger difference is the reference's fault; empty: it is not
 };
@@ -95,7 +97,7 @@ class FragmentBounds {
   std::vector<Vec4<double>> lit_apart_, secondary_apart_, eye_apart_, normals_apart_;  // per vertex
   std::vector<bool> plain_;                                                            // per draw
   std::vector<double> texel_arithmetic_;                                               // per texture
-  DrawnAt drawn_;
+  FragmentsByPixel drawn_;
 };
 
 }  // namespace plumbline::check

@@ -46,7 +46,7 @@ Plane<std::uint8_t> open_by_alpha(const Scene& scene, const Capture& candidate, 
     if (draw == nullptr || !draw->alpha_test) continue;
     const double alpha = r.shaded[i].color.a;
     const FragmentBound bound = bounds.of_fragment(i);  // with a reason, its texel may be another by Mesa's mistake
-    const double off = bound.color.a + std::abs(bound.along.a) + bound.apart.a;
+    const double off = bound.color.a + std::abs(bound.line_shift.a) + bound.apart.a;
     const bool mine = alpha_outcomes(*draw->alpha_test, scene.frame.color, alpha, alpha).may_pass;
     const Outcomes other = std::isfinite(off) && bound.reason.empty()
                                ? theirs_of(*draw->alpha_test, theirs, alpha - off, alpha + off)
@@ -74,7 +74,7 @@ double depth_error(const Records<double>& r, const OffsetErrors& offsets, std::s
   const PlaneBounds bounds = bounds_from_origin(triangle, c.x, c.y, limits);
   const double z = r.depth[fragment];
   if (area_may_vanish(triangle)) return std::numeric_limits<double>::infinity();
-  double apart = std::abs(bounds.along_depth), arithmetic = bounds.depth;
+  double apart = std::abs(bounds.line_shift_depth), arithmetic = bounds.depth;
   if (triangle.corners == 2) {
     const auto primitive = static_cast<std::int32_t>(triangle.primitive);
     for (const EdgeValue& edge : edge_values(triangles_of(r, primitive), c.x, c.y, limits)) {
@@ -119,7 +119,7 @@ Plane<std::uint8_t> open_by_depth(const Scene& scene, const Capture& candidate) 
 Plane<std::uint8_t> open_by_double(const FrameFormat& frame, const Records<double>& r) {
   Plane<std::uint8_t> open(frame.width, frame.height, 0);
   if (frame.depth != DepthFormat::z32f || r.depth.size() != r.covered.size()) return open;
-  const DrawnAt fragments = DrawnAt::covered(frame, r);
+  const FragmentsByPixel fragments = FragmentsByPixel::covered(frame, r);
   std::vector<double> depths;
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
@@ -142,7 +142,7 @@ LegalWinners::LegalWinners(const Scene& scene, const Records<double>& records)
       records_(records),
       draws_(scene),
       offsets_(scene),
-      fragments_(DrawnAt::covered(scene.frame, records)) {}
+      fragments_(FragmentsByPixel::covered(scene.frame, records)) {}
 
 std::vector<LegalAnswer> LegalWinners::at(int x, int y) const {
   std::vector<Hit> hits;

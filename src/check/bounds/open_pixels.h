@@ -48,7 +48,7 @@ class LegalWinners {
   const Records<double>& records_;
   DrawIndex draws_;
   OffsetErrors offsets_;
-  DrawnAt fragments_;
+  FragmentsByPixel fragments_;
 };
 
 /// Both sides' coverage without the primitives `turned`, which each side may legally draw as another face

@@ -140,7 +140,7 @@ class DepthsBeneath {
       : scene_(scene),
         records_(depths_replace(scene) ? none_ : candidate.records),
         draws_(draws),
-        fragments_(DrawnAt::covered(scene.frame, records_)),
+        fragments_(FragmentsByPixel::covered(scene.frame, records_)),
         offsets_(scene) {
     known_ = records_.drawn.size() == records_.covered.size() && records_.depth.size() == records_.covered.size();
     if (known_ && !records_.covered.empty()) open_ = open_by_depth(scene, candidate);
@@ -188,7 +188,7 @@ class DepthsBeneath {
     const auto primitive = static_cast<std::int32_t>(triangle.primitive);
     const DepthLimits limits = depth_limits(draws_, primitive);
     const PlaneBounds bounds = bounds_from_origin(triangle, x, y, limits);
-    Values out{{records_.depth[i], records_.depth[i] + bounds.along_depth}, bounds.depth + offsets_.of(triangle)};
+    Values out{{records_.depth[i], records_.depth[i] + bounds.line_shift_depth}, bounds.depth + offsets_.of(triangle)};
     for (const EdgeValue& edge : edge_values(triangles_of(records_, primitive), x, y, limits)) {
       out.depths.push_back(edge.depth);
     }
@@ -199,7 +199,7 @@ class DepthsBeneath {
   const Records<double> none_;
   const Records<double>& records_;
   const DrawIndex& draws_;
-  DrawnAt fragments_;
+  FragmentsByPixel fragments_;
   OffsetErrors offsets_;
   Plane<std::uint8_t> open_;
   bool known_ = false;
@@ -227,7 +227,7 @@ Measurement compare_depth_planes(const Scene& scene, const Capture& candidate, c
     const DepthLimits limits = depth_limits(draws, id);
     const PlaneBounds bounds = primitive_bounds(candidate.records, id, x, y, limits);
     double bound = bounds.depth + offsets.of(candidate.records, id),
-           diff = std::min(difference(z, z_ref), difference(z + bounds.along_depth, z_ref));
+           diff = std::min(difference(z, z_ref), difference(z + bounds.line_shift_depth, z_ref));
     for (const EdgeValue& edge : edge_values(triangles_of(candidate.records, id), x, y, limits)) {
       diff = std::min(diff, difference(edge.depth, z_ref));
     }
@@ -258,7 +258,7 @@ Measurement compare_shaded_planes(const Scene& scene, const Capture& candidate, 
       if (!std::isfinite(bound.color[c])) {
         open_value(meter, v, place, w);
       } else {
-        double diff = std::min(difference(v, w), difference(v + bound.along[c], w));
+        double diff = std::min(difference(v, w), difference(v + bound.line_shift[c], w));
         for (const EdgeValue& edge : edges) diff = std::min(diff, difference(edge.color[c], w));
         meter.value(diff / u, bound.color[c] / u, place, v, w, bound.apart[c] / u);
       }
@@ -288,8 +288,8 @@ Measurement compare_codes(const Scene& scene, const Capture& candidate, const Ca
       for (const EdgeValue& edge : edges) {
         diff = std::min(diff, difference(std::round(scale * std::clamp(edge.color[c], 0.0, 1.0)), w));
       }
-      if (fragment.along[c] != 0 && a.shaded.size() == a.color.size()) {
-        const double along = static_cast<double>(a.shaded(x, y)[c]) + fragment.along[c];
+      if (fragment.line_shift[c] != 0 && a.shaded.size() == a.color.size()) {
+        const double along = static_cast<double>(a.shaded(x, y)[c]) + fragment.line_shift[c];
         diff = std::min(diff, difference(std::round(scale * std::clamp(along, 0.0, 1.0)), w));
       }
       meter.value(diff, cleared ? cleared_codes(scene.frame, c) : codes, {x, y, id, "color", true}, v, w,
@@ -303,7 +303,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
   const Planes &a = candidate.planes, &b = reference.planes;
   const double scale = color_scale(scene.frame.color);
   const FragmentBounds bounds(scene, candidate, reference, factor);
-  const DrawnAt drawn(scene.frame, candidate.records);
+  const FragmentsByPixel drawn = FragmentsByPixel::drawn(scene.frame, candidate.records);
   const Plane<std::uint8_t> tied = legal.empty() ? open_by_depth(scene, candidate) : Plane<std::uint8_t>();
   const OthersCover others_cover(a, b);
   const std::string unit = code_unit(scene.frame);
@@ -320,7 +320,7 @@ Measurement compare_blended(const Scene& scene, const Capture& candidate, const 
       const FragmentBound of = bounds.of_fragment(i);
       ++fragments;
       if (!of.reason.empty()) meter.suspect(of.reason);
-      const Vec4<double> sum = of.color + glm::abs(of.along) + of.apart;
+      const Vec4<double> sum = of.color + glm::abs(of.line_shift) + of.apart;
       bound += std::max({sum.r, sum.g, sum.b, sum.a});
       const Records<double>& r = candidate.records;
       const Merge& merge = bounds.draw_of(r.triangles[r.covered[i].triangle].primitive).merge;

@@ -77,7 +77,7 @@ Measurement compare_texel_planes(const Scene& scene, const Capture& candidate, c
   std::string why;
   if (!same_size(a.id, b.id, why) || !same_size(a.id, a.texel, why)) return mismatch("u", why, a.id.size());
   const FragmentBounds bounds(scene, candidate, reference, factor);
-  const DrawnAt drawn(scene.frame, candidate.records);
+  const FragmentsByPixel drawn = FragmentsByPixel::drawn(scene.frame, candidate.records);
   double area = 0, centres = 0;
   std::uint64_t open = 0;
   Measurement m = compare_planes(a.texel, b.texel, "u", [&](Meter& meter, int x, int y) {

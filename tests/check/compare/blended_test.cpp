@@ -153,7 +153,7 @@ TEST_F(BlendedPairs, OtherFragmentsAreCoveragesMatterAndALinesColourGoesAlongIts
   WindowTriangle<double>& line = capture.records.triangles[0];
   line.v[2] = line.v[1];
   line.corners = 2;
-  const Vec4<double> along = glm::abs(bounds_from_origin(line, 3, 1).along_color);
+  const Vec4<double> along = glm::abs(bounds_from_origin(line, 3, 1).line_shift_color);
   const double largest = std::max({along.r, along.g, along.b, along.a});
   ASSERT_GT(255 * largest, 1);
   EXPECT_EQ(most(3, 1), 5 + static_cast<int>(255 * 3 * largest)) << "as colour, as factor of itself and of the frame";

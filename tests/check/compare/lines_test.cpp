@@ -148,8 +148,8 @@ TEST(CheckLines, depths_along_a_line_end_where_the_range_clamps_them) {
   WindowTriangle<double> line = line_of({2.5, 2.5}, {6.5, 4.5}, 1);
   line.v[0].p_win.z = 0.5;
   line.v[1].p_win.z = line.v[2].p_win.z = 0.56;
-  const double beyond = bounds_from_origin(line, 7, 2).along_depth;  // share 5/4
-  const double clamped = bounds_from_origin(line, 7, 2, {0.5, 0.56}).along_depth;
+  const double beyond = bounds_from_origin(line, 7, 2).line_shift_depth;  // share 5/4
+  const double clamped = bounds_from_origin(line, 7, 2, {0.5, 0.56}).line_shift_depth;
   const double projected = 0.5 + 0.06 * (5 * 4 + 0 * 2) / 20.0;
   EXPECT_NEAR(beyond, 0.575 - projected, 1e-12);
   EXPECT_NEAR(clamped, 0, 1e-12) << "both are 0.56";
@@ -278,13 +278,13 @@ TEST(CheckLines, depth_and_color_go_by_the_major_axis_or_by_the_projection) {
   // Along (4, 2): the pixel above the middle projects to 0.6 of the way; by the major axis it is 0.5.
   WindowTriangle<double> t = line_of({2.5, 1.5}, {6.5, 3.5});
   const PlaneBounds b = bounds_from_origin(t, 4, 3);
-  EXPECT_NEAR(b.along_depth, -0.1 * 0.5, 1e-12);
-  EXPECT_NEAR(b.along_color.r, 0.1, 1e-12);
-  EXPECT_EQ(bounds_from_origin(t, 4, 2).along_depth, 0);  // on the line
-  EXPECT_EQ(bounds_from_origin(line_of({2.5, 1.5}, {6.5, 1.5}), 4, 2).along_depth, 0);
+  EXPECT_NEAR(b.line_shift_depth, -0.1 * 0.5, 1e-12);
+  EXPECT_NEAR(b.line_shift_color.r, 0.1, 1e-12);
+  EXPECT_EQ(bounds_from_origin(t, 4, 2).line_shift_depth, 0);  // on the line
+  EXPECT_EQ(bounds_from_origin(line_of({2.5, 1.5}, {6.5, 1.5}), 4, 2).line_shift_depth, 0);
   EXPECT_TRUE(std::isfinite(b.depth) && std::isfinite(b.color.r));
   t.corners = 1;
-  EXPECT_EQ(bounds_from_origin(t, 4, 3).along_depth, 0);
+  EXPECT_EQ(bounds_from_origin(t, 4, 3).line_shift_depth, 0);
   // A line as long in x as in y but for float's rounding has x for its major axis. The pixel's place is 3.1 / 24 along
   // x.
   const auto at = [](float z) { return static_cast<double>(z); };
@@ -292,7 +292,7 @@ TEST(CheckLines, depth_and_color_go_by_the_major_axis_or_by_the_projection) {
   EXPECT_GT(std::abs(diagonal.v[1].p_win.y - diagonal.v[0].p_win.y),
             std::abs(diagonal.v[1].p_win.x - diagonal.v[0].p_win.x));
   const double from_projection = (3.1 - 2.14) / 2 / 24;  // of the way, along which the colour falls from 1 to 0
-  EXPECT_NEAR(bounds_from_origin(diagonal, 46, 11).along_color.r, -from_projection, 1e-6);
+  EXPECT_NEAR(bounds_from_origin(diagonal, 46, 11).line_shift_color.r, -from_projection, 1e-6);
 
   Scene scene;
   scene.frame.depth = DepthFormat::z32f;
