@@ -19,11 +19,11 @@ Scene scene_of(std::string_view name) {
 }
 
 GivenFrame drawn(const Scene& scene, const std::string& fault, const Conventions& conventions = {},
-                 Sides sides = Sides::cut) {
+                 CutAt cut_at = CutAt::frame_sides) {
   const SceneByConventions seen(scene, conventions);
   Request request;
   request.planes = WantedPlanes::picture;
-  const Planes planes = make_candidate(fault, sides)->capture(*seen, request).planes;
+  const Planes planes = make_candidate(fault, cut_at)->capture(*seen, request).planes;
   return {{planes.color, planes.depth}, conventions, {}};
 }
 
@@ -182,7 +182,7 @@ TEST(Lookalikes, are_drawn_by_the_conventions) {
 // Attributes that are not in perspective are others where a polygon is cut.
 TEST(Lookalikes, of_renderers_that_leave_the_sides_to_the_raster) {
   const Scene scene = scene_of("clip/crowd.json");
-  const GivenFrame kept = drawn(scene, "attributes.affine", {}, Sides::kept);
+  const GivenFrame kept = drawn(scene, "attributes.affine", {}, CutAt::guard_band);
   EXPECT_NE(kept.color.values(), drawn(scene, "attributes.affine").color.values()) << "else nothing is tested";
   const Lookalikes found = lookalikes(scene, kept);
   EXPECT_EQ(found.likely, "attributes (fault attributes.affine)") << found.text;

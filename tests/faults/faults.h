@@ -14,6 +14,6 @@ std::span<const Fault> of_stages();
 std::vector<Fault> all();
 /// No fault: polygons are cut at eight times the view volume's width and height, and the frame's sides are left to the
 /// raster.
-void keep_sides(pipeline::Stages& stages);
+void use_guard_band(pipeline::Stages& stages);
 
 }  // namespace plumbline::faults

@@ -259,6 +259,6 @@ constexpr std::array kPolygons = {
 
 std::span<const Fault> of_polygons() { return kPolygons; }
 
-void keep_sides(pipeline::Stages& stages) { put<&Stages::clip, cut_far_off>(stages); }
+void use_guard_band(pipeline::Stages& stages) { put<&Stages::clip, cut_far_off>(stages); }
 
 }  // namespace plumbline::faults

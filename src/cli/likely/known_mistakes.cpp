@@ -145,7 +145,7 @@ std::vector<Mistake> known_mistakes(const Scene& scene, const GivenFrame& given)
 }
 
 ColorAndDepth draw_with(std::span<const Mistake* const> mistakes, const Scene& scene, const Conventions& conventions,
-                        Sides sides) {
+                        CutAt cut_at) {
   Scene changed = scene;
   std::vector<std::string> faults;
   for (const Mistake* m : mistakes) {
@@ -154,7 +154,7 @@ ColorAndDepth draw_with(std::span<const Mistake* const> mistakes, const Scene& s
   }
   Request request;
   request.planes = WantedPlanes::picture;
-  Planes planes = make_candidate(faults, sides)->capture(changed, request).planes;
+  Planes planes = make_candidate(faults, cut_at)->capture(changed, request).planes;
   if (conventions.color_encoding == Conventions::Encoding::srgb) std::ranges::for_each(planes.color.values(), encode);
   ColorAndDepth out{std::move(planes.color), std::move(planes.depth)};
   for (const Mistake* m : mistakes) {

@@ -27,6 +27,6 @@ std::vector<Mistake> known_mistakes(const Scene& scene, const GivenFrame& given)
 
 /// The scene's frame as plumbline's renderer draws it with these mistakes, its colours encoded as the conventions say.
 ColorAndDepth draw_with(std::span<const Mistake* const> mistakes, const Scene& scene, const Conventions& conventions,
-                        Sides sides = Sides::cut);
+                        CutAt cut_at = CutAt::frame_sides);
 
 }  // namespace plumbline::cli

@@ -30,21 +30,21 @@ struct Lookalike {
 };
 
 // Draws the scene with mistakes, and counts the pixels that differ. Where the frame's sides cut polygons, the scene is
-// drawn with these cuts and with a guard band (Sides); the nearer frame counts.
+// drawn with these cuts and with a guard band (CutAt); the nearer frame counts.
 class Trial {
  public:
   Trial(const Scene& scene, const GivenFrame& given, const ColorAndDepth& ours)
       : scene_(scene), conventions_(given.conventions), apart_(scene.frame.depth, given, ours) {
-    right_.emplace(Sides::cut, ours);
-    if (cuts(Sides::cut) != cuts(Sides::kept))
-      right_.emplace(Sides::kept, draw_with({}, scene, conventions_, Sides::kept));
+    right_.emplace(CutAt::frame_sides, ours);
+    if (cuts(CutAt::frame_sides) != cuts(CutAt::guard_band))
+      right_.emplace(CutAt::guard_band, draw_with({}, scene, conventions_, CutAt::guard_band));
   }
   Apart apart(const ColorAndDepth& frame) const { return apart_.from(frame); }
   Lookalike made(Mistakes mistakes) const {
     Lookalike out{std::move(mistakes), {}};
-    for (const auto& [sides, right] : right_) {
-      const Apart left = apart_.from(frame_with(out.mistakes, sides, right));
-      const bool is_first = sides == Sides::cut;
+    for (const auto& [cut_at, right] : right_) {
+      const Apart left = apart_.from(frame_with(out.mistakes, cut_at, right));
+      const bool is_first = cut_at == CutAt::frame_sides;
       const auto nearer = [=](std::size_t a, std::size_t b) { return is_first ? b : std::min(a, b); };
       std::ranges::transform(out.apart, left, out.apart.begin(), nearer);
     }
@@ -52,14 +52,14 @@ class Trial {
   }
 
  private:
-  std::ptrdiff_t cuts(Sides sides) const {
+  std::ptrdiff_t cuts(CutAt cut_at) const {
     const Request clipped{{Stage::clip}, false, {}, {}, Request().memory_budget, WantedPlanes::none};
-    const Capture drawn = make_candidate("", sides)->capture(scene_, clipped);
+    const Capture drawn = make_candidate("", cut_at)->capture(scene_, clipped);
     return std::ranges::count(drawn.records.polygons.vertices, true, &ClipVertex<double>::cut);
   }
-  ColorAndDepth frame_with(const Mistakes& mistakes, Sides sides, const ColorAndDepth& right) const {
+  ColorAndDepth frame_with(const Mistakes& mistakes, CutAt cut_at, const ColorAndDepth& right) const {
     const auto draws_anew = [](const Mistake* m) { return m->of_scene || !m->fault.empty(); };
-    if (std::ranges::any_of(mistakes, draws_anew)) return draw_with(mistakes, scene_, conventions_, sides);
+    if (std::ranges::any_of(mistakes, draws_anew)) return draw_with(mistakes, scene_, conventions_, cut_at);
     ColorAndDepth out = right;
     for (const Mistake* m : mistakes) m->of_frame(out);
     return out;
@@ -67,7 +67,7 @@ class Trial {
   const Scene& scene_;
   const Conventions& conventions_;
   FramesApart apart_;
-  std::map<Sides, ColorAndDepth> right_;  // frames without a mistake
+  std::map<CutAt, ColorAndDepth> right_;  // frames without a mistake
 };
 
 // "STAGE (fault NAME)", of several in the stages' order.

@@ -187,15 +187,15 @@ faults::Fault fault_of(const std::string& name) {
 
 }  // namespace
 
-std::unique_ptr<Renderer> make_candidate(const std::string& fault, Sides sides) {
-  if (fault.empty()) return make_candidate(std::span<const std::string>(), sides);
-  return make_candidate(std::span(&fault, 1), sides);
+std::unique_ptr<Renderer> make_candidate(const std::string& fault, CutAt cut_at) {
+  if (fault.empty()) return make_candidate(std::span<const std::string>(), cut_at);
+  return make_candidate(std::span(&fault, 1), cut_at);
 }
 
-std::unique_ptr<Renderer> make_candidate(std::span<const std::string> faults, Sides sides) {
-  if (faults.empty() && sides == Sides::cut) return pipeline::make_pipeline();
+std::unique_ptr<Renderer> make_candidate(std::span<const std::string> faults, CutAt cut_at) {
+  if (faults.empty() && cut_at == CutAt::frame_sides) return pipeline::make_pipeline();
   pipeline::Stages stages = pipeline::production_stages();
-  if (sides == Sides::kept) faults::keep_sides(stages);
+  if (cut_at == CutAt::guard_band) faults::use_guard_band(stages);
   for (const std::string& name : faults) fault_of(name).apply(stages);
   return pipeline::make_pipeline(stages);
 }

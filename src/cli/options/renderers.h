@@ -45,11 +45,11 @@ std::vector<FaultInfo> fault_infos();
 /// The reference that the fault is of (faults/endings.h); empty: it is none of a reference.
 std::string faulted_reference(const std::string& fault);
 /// Whether polygons are cut at the frame's sides, or at a guard band eight times as wide and high (faults.h,
-/// keep_sides).
-enum class Sides { cut, kept };
+/// use_guard_band).
+enum class CutAt { frame_sides, guard_band };
 /// Our pipeline; with the named fault unless the name is empty. Throws std::invalid_argument if it is unknown.
-std::unique_ptr<Renderer> make_candidate(const std::string& fault, Sides sides = Sides::cut);
+std::unique_ptr<Renderer> make_candidate(const std::string& fault, CutAt cut_at = CutAt::frame_sides);
 /// With all of these faults; of two that replace one function, the later one's stays.
-std::unique_ptr<Renderer> make_candidate(std::span<const std::string> faults, Sides sides = Sides::cut);
+std::unique_ptr<Renderer> make_candidate(std::span<const std::string> faults, CutAt cut_at = CutAt::frame_sides);
 
 }  // namespace plumbline::cli
