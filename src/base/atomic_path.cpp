@@ -178,6 +178,7 @@ void write_files(std::span<const OutputFile> files) {
     written.push_back(std::make_unique<AtomicPath>(file.path));
     written.back()->write(file.bytes);
   }
+  const EndsLater all;
   for (const auto& file : written) file->commit();
 }
 
