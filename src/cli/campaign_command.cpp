@@ -21,10 +21,11 @@
 #include "campaign/entry_bytes.h"
 #include "campaign/journal.h"
 #include "campaign/results.h"
+#include "cli/campaign_findings.h"
 #include "cli/campaign_judge.h"
 #include "cli/commands.h"
+#include "cli/fingerprints.h"
 #include "cli/judge_in_workers.h"
-#include "cli/judges.h"
 #include "cli/options/program_argument.h"
 #include "cli/options/references.h"
 #include "cli/options/say.h"
@@ -339,7 +340,7 @@ int campaign(const CampaignOptions& o) {
   if (!rules.options.candidate.command.empty()) require_program(rules.options.candidate);
   const std::string& fault = rules.options.fault;
   make_candidate(faulted_reference(fault).empty() ? fault : "");  // refuses an unknown fault
-  const std::string terms = terms_of(rules.options);
+  const std::string terms = campaign_fingerprint(rules.options);
   const fs::path folder = o.folder, journals = folder / "journal";
   if (o.write) {
     write_scenes(o, terms);

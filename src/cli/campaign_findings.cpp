@@ -1,4 +1,5 @@
-// Findings: a folder for each (campaign_judge.h).
+#include "cli/campaign_findings.h"
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -55,7 +56,7 @@ bool has_bytes(const fs::path& file) {
 }
 
 // Findings whose folder is missing, incomplete, or of another scene than the group's lowest.
-std::vector<Finding> unknown(const fs::path& folder, const std::vector<campaign::Group>& groups) {
+std::vector<Finding> unfinished_findings(const fs::path& folder, const std::vector<campaign::Group>& groups) {
   std::set<std::string> names;
   std::vector<Finding> out;
   for (const campaign::Group& group : groups) {
@@ -108,7 +109,7 @@ std::string not_repeated(const check::SceneVerdict& verdict, const campaign::Sig
 
 std::string leave_findings(const fs::path& folder, const std::vector<campaign::Group>& groups,
                            const CheckRules& rules) {
-  const std::vector<Finding> findings = unknown(folder, groups);
+  const std::vector<Finding> findings = unfinished_findings(folder, groups);
   if (findings.empty()) return "";
   leave_smallest(findings, rules);
   std::vector<Scene> scenes;

@@ -1,4 +1,4 @@
-// A campaign's scenes: judged in a worker process, made smaller, and left for people.
+// A campaign's scenes: judged in a worker process, and made smaller.
 #pragma once
 
 #include <filesystem>
@@ -38,12 +38,5 @@ class CampaignJudge {
 /// Signature of the scene's failure; none where the scene holds. `command`: the program's command line, which is
 /// removed from the signature's cause.
 std::optional<campaign::Signature> signature_of(const check::SceneVerdict& verdict, const std::string& command = {});
-
-/// Writes a folder `folder`/STAGE-CAUSE-REFERENCE for each group of findings: found.json, the group's lowest scene;
-/// scene.json, that scene made smaller; scene.txt, its rows and the command that repeats them; scene/, its page. A
-/// folder stays as it is where scene.json and scene.txt are there and found.json is the group's lowest scene. Returns
-/// lines for people about the folders that were written. Throws OutputError.
-std::string leave_findings(const std::filesystem::path& folder, const std::vector<campaign::Group>& groups,
-                           const CheckRules& rules);
 
 }  // namespace plumbline::cli

@@ -17,8 +17,8 @@
 #include "check/verdict/expectations.h"
 #include "cli/check_failures.h"
 #include "cli/commands.h"
+#include "cli/fingerprints.h"
 #include "cli/judge_in_workers.h"
-#include "cli/judges.h"
 #include "cli/options/default_cache.h"
 #include "cli/options/outputs.h"
 #include "cli/options/program_argument.h"
@@ -149,7 +149,7 @@ int check(const CheckOptions& given) {
   if (!o.report.empty()) rules.page.emplace(o.report, scenes.size());
   // A page shows what both sides drew, and a reference with a fault is none of this program's judges.
   const std::string cache = rules.page || !faulted_reference(o.fault).empty() ? "" : made_cache(o.cache);
-  if (!cache.empty()) rules.kept = {check::VerdictStore(cache), judges_of(o), check::tried_at_random, began};
+  if (!cache.empty()) rules.kept = {check::VerdictStore(cache), judges_fingerprint(o), check::tried_at_random, began};
   std::set<std::string> words;  // that verdicts refer to
   std::vector<check::SceneVerdict> verdicts;
   std::vector<check::Settled> settled;

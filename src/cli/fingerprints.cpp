@@ -1,4 +1,4 @@
-#include "cli/judges.h"
+#include "cli/fingerprints.h"
 
 #include <link.h>
 #include <sys/stat.h>
@@ -63,10 +63,10 @@ std::string settings() {
 
 }  // namespace
 
-std::string judges_of(const CheckOptions& o) {
-  return fmt::format("{}\n{}{}{}against {} fault {} program {} from {} primitives {}", kJudgesPrint, loaded_libraries(),
-                     processor(), settings(), fmt::join(o.against, ","), o.fault, o.candidate.command, o.candidate.from,
-                     o.candidate.probes);
+std::string judges_fingerprint(const CheckOptions& o) {
+  return fmt::format("{}\n{}{}{}against {} fault {} program {} from {} primitives {}", kJudgesFingerprint,
+                     loaded_libraries(), processor(), settings(), fmt::join(o.against, ","), o.fault,
+                     o.candidate.command, o.candidate.from, o.candidate.probes);
 }
 
 namespace {
@@ -78,7 +78,7 @@ std::string bytes_of(const fs::path& file) {
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-std::string print_of(const std::vector<fs::path>& files) {
+std::string fingerprint_of(const std::vector<fs::path>& files) {
   std::string all;
   for (const fs::path& file : files) {
     const std::string bytes = bytes_of(file);
@@ -120,11 +120,11 @@ std::vector<fs::path> files_in(const std::vector<std::string>& folders) {
 
 }  // namespace
 
-std::string terms_of(const CheckOptions& o) {
-  std::string out = fmt::format("plumb {}{}", PLUMBLINE_VERSION, print_of({"/proc/self/exe"}));
+std::string campaign_fingerprint(const CheckOptions& o) {
+  std::string out = fmt::format("plumb {}{}", PLUMBLINE_VERSION, fingerprint_of({"/proc/self/exe"}));
   if (!o.fault.empty()) out += ", fault " + o.fault;
   if (!o.candidate.command.empty())
-    out += ", program " + report::as_utf8(o.candidate.command) + print_of(files_of(o.candidate.command));
+    out += ", program " + report::as_utf8(o.candidate.command) + fingerprint_of(files_of(o.candidate.command));
   if (!o.candidate.from.empty()) out += ", from " + o.candidate.from;
   if (o.candidate.probes) out += ", each primitive";
   if (!o.candidate.conventions.empty())
@@ -136,8 +136,8 @@ std::string terms_of(const CheckOptions& o) {
     out += fmt::format(", {} s, of a program {} s, {} MiB", o.limits.step / std::chrono::seconds(1),
                        o.candidate.time_limit.count(), o.limits.memory >> 20);
   }
-  return out +
-         fmt::format(", assets{}, against {}", print_of(files_in(o.scene_arguments.assets)), fmt::join(o.against, ","));
+  return out + fmt::format(", assets{}, against {}", fingerprint_of(files_in(o.scene_arguments.assets)),
+                           fmt::join(o.against, ","));
 }
 
 }  // namespace plumbline::cli
