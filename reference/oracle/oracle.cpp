@@ -118,12 +118,12 @@ const Draw& draw_of(const Scene& scene, const Projected& projected, const Hit& h
 
 /// The stencil and the depth test, which change the stencil plane.
 bool tested(const PixelHit& h, double z, Planes& planes, int x, int y) {
-  const bool nearer = passes(h.hit.depth_func, z, planes.depth(x, y));
-  if (h.hit.stencil == nullptr) return nearer;
+  const bool passes_depth = passes(h.hit.depth_func, z, planes.depth(x, y));
+  if (h.hit.stencil == nullptr) return passes_depth;
   std::uint8_t& held = planes.stencil(x, y);
   const bool passed = stencil_passes(*h.hit.stencil, held);
-  held = stencil_after(*h.hit.stencil, nearer, held);
-  return passed && nearer;
+  held = stencil_after(*h.hit.stencil, passes_depth, held);
+  return passed && passes_depth;
 }
 
 /// Double's own picture of a pixel.

@@ -38,8 +38,8 @@ bool stencil_passes(const StencilFace& face, std::uint8_t held) {
   return outcomes(face.func, mine, mine, theirs).may_pass;
 }
 
-std::uint8_t stencil_after(const StencilFace& face, bool nearer, std::uint8_t held) {
-  const StencilOp op = !stencil_passes(face, held) ? face.fail : nearer ? face.pass : face.depth_fail;
+std::uint8_t stencil_after(const StencilFace& face, bool passes_depth, std::uint8_t held) {
+  const StencilOp op = !stencil_passes(face, held) ? face.fail : passes_depth ? face.pass : face.depth_fail;
   int value = held;
   switch (op) {
     case StencilOp::keep: break;

@@ -23,7 +23,7 @@ Outcomes alpha_outcomes(const AlphaTest& test, ColorFormat format, double lo, do
 
 /// OpenGL 2.1 spec 4.1.5.
 bool stencil_passes(const StencilFace& face, std::uint8_t held);
-/// Stencil value after the stencil and depth tests. `held`: the value before; `nearer`: the depth test passes.
-std::uint8_t stencil_after(const StencilFace& face, bool nearer, std::uint8_t held);
+/// Stencil value after the stencil and depth tests. `held`: the value before; `passes_depth`: the depth test passes.
+std::uint8_t stencil_after(const StencilFace& face, bool passes_depth, std::uint8_t held);
 
 }  // namespace plumbline

@@ -111,8 +111,8 @@ std::vector<LegalAnswer> united(std::vector<LegalAnswer> a, const std::vector<Le
 std::vector<LegalAnswer> drawn_by_stencil(const Hit& hit, bool certain, const StencilFace* face, DepthFormat format,
                                           const std::vector<LegalAnswer>& winners) {
   std::vector<LegalAnswer> left;
-  const auto put = [&](LegalAnswer a, bool nearer, std::uint8_t held) {
-    a.stencil = face == nullptr ? held : stencil_after(*face, nearer, held);
+  const auto put = [&](LegalAnswer a, bool passes_depth, std::uint8_t held) {
+    a.stencil = face == nullptr ? held : stencil_after(*face, passes_depth, held);
     left.push_back(a);
   };
   for (const LegalAnswer& held : winners) {

@@ -106,12 +106,13 @@ std::vector<Test> tests_of(const Scene& scene, glm::ivec2 pixel, const PixelFrag
                    compared("alpha", draw.alpha_test->func, in_codes(a, scale), in_codes(reference, scale))});
   }
   const bool arrives = std::ranges::all_of(out, &Test::passes);
-  bool nearer = f.drawn.value_or(true);
+  bool passes_depth = f.drawn.value_or(true);
   std::optional<Test> depth;
   if (f.depth) {
     const double z = depth_in_format(scene.frame.depth, *f.depth), scale = depth_scale(scene.frame.depth);
-    nearer = outcomes(draw.depth_func, z, z, held.depth).may_pass;
-    depth = {Fate::depth, nearer, compared("depth", draw.depth_func, in_codes(z, scale), in_codes(held.depth, scale))};
+    passes_depth = outcomes(draw.depth_func, z, z, held.depth).may_pass;
+    depth = {Fate::depth, passes_depth,
+             compared("depth", draw.depth_func, in_codes(z, scale), in_codes(held.depth, scale))};
   }
   if (draw.stencil && held.stencil) {
     const StencilFace& face = f.front ? draw.stencil->front : draw.stencil->back;
@@ -119,7 +120,7 @@ std::vector<Test> tests_of(const Scene& scene, glm::ivec2 pixel, const PixelFrag
     std::string text =
         compared("stencil", face.func, std::to_string(face.reference & face.mask), std::to_string(before & face.mask));
     const bool passes = stencil_passes(face, before);
-    if (arrives) held.stencil = stencil_after(face, nearer, before);
+    if (arrives) held.stencil = stencil_after(face, passes_depth, before);
     if (face.mask != 0xff) text += fmt::format(" under mask {}", face.mask);
     if (held.stencil != before) text += fmt::format(" (then {} becomes {})", before, *held.stencil);
     out.push_back({Fate::stencil, passes, std::move(text)});
