@@ -1,4 +1,4 @@
-// Draws of a scene's vertices and primitives, which are numbered over all draws.
+// Look-up of the draw to which a vertex or primitive of the scene belongs.
 #pragma once
 
 #include <algorithm>
@@ -11,31 +11,32 @@
 
 namespace plumbline {
 
-/// The scene has to outlive it.
+/// Index of a scene's draws by vertex and primitive numbers, which run over all draws (DrawRange). The scene has to
+/// outlive the index, unchanged.
 class DrawIndex {
  public:
   explicit DrawIndex(const Scene& scene) : scene_(&scene), ranges_(draw_ranges(scene)) {}
 
-  /// Number, in Scene::draws, of the draw that a vertex or a primitive is of; none: the scene has no such one.
+  /// Index into Scene::draws of the draw that a vertex or a primitive belongs to; nullopt: no such number in the scene.
   std::optional<std::size_t> of_vertex(std::size_t vertex) const {
     return find<&DrawRange::first_vertex, &DrawRange::vertex_count>(vertex);
   }
   std::optional<std::size_t> of_primitive(std::uint32_t primitive) const {
     return find<&DrawRange::first_primitive, &DrawRange::primitive_count>(primitive);
   }
-  /// The primitive's draw; null: the scene has no such primitive.
+  /// The primitive's draw; null: no such primitive in the scene.
   const Draw* draw(std::uint32_t primitive) const {
     const auto number = of_primitive(primitive);
     return number ? &scene_->draws[*number] : nullptr;
   }
-  /// Numbers of the corners' vertices, of a primitive that the scene has.
+  /// Vertex numbers of a primitive's corners. Throws std::bad_optional_access: no such primitive in the scene.
   glm::uvec3 corners(std::uint32_t primitive) const {
     const std::size_t d = of_primitive(primitive).value();
     const Mesh& mesh = scene_->meshes[scene_->draws[d].mesh];
     return mesh.triangles[primitive - ranges_[d].first_primitive] + ranges_[d].first_vertex;
   }
   const Scene& scene() const { return *scene_; }
-  /// One for each draw.
+  /// One range per draw.
   const std::vector<DrawRange>& ranges() const { return ranges_; }
   std::size_t vertices() const {
     return ranges_.empty() ? 0 : ranges_.back().first_vertex + ranges_.back().vertex_count;

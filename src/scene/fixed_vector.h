@@ -1,4 +1,5 @@
-// A vector of at most N values, stored in place: it allocates no memory.
+// A vector of at most N values, stored in place, without allocation. Throws std::length_error where an (N + 1)th is
+// added.
 #pragma once
 
 #include <array>

@@ -1,11 +1,12 @@
-// What a draw says of its fragments' tests, and of their logic op: plain structs of scene.h.
+// State of a draw's depth, alpha and stencil tests, polygon offset and logic op: the part of scene.h about fragments.
 #pragma once
 
 #include <cstdint>
 
 namespace plumbline {
 
-/// How two numbers are compared: a depth with the one that is held, alpha and stencil values with a reference.
+/// Comparison that a fragment must pass: its depth with the stored one, its alpha with a reference, the stencil
+/// reference with the stored value.
 enum class DepthFunc { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 using CompareFunc = DepthFunc;
 
@@ -15,15 +16,15 @@ struct DepthRange {
   bool operator==(const DepthRange&) const = default;
 };
 
-/// glPolygonOffset: a triangle's depths move by factor * m + units * r, m its steepest slope along x or y, per pixel,
-/// and r a step (scene.h, polygon_offset_unit; OpenGL 2.1 spec 3.5.5). Lines and points have none.
+/// glPolygonOffset: factor * m + units * r is added to a filled triangle's depths. m is the larger of |dz/dx| and
+/// |dz/dy| [window z per pixel], r a depth step (polygon_offset_unit() of scene.h; OpenGL 2.1 spec 3.5.5). Lines and
+/// points, those of unfilled triangles included, are not offset.
 struct PolygonOffset {
   float factor = 0, units = 0;
   bool operator==(const PolygonOffset&) const = default;
 };
 
-/// glAlphaFunc (OpenGL 2.1 spec 4.1.4): fragments are dropped whose alpha, in the frame's format, does not compare so
-/// with the reference in that format.
+/// glAlphaFunc (OpenGL 2.1 spec 4.1.4): a fragment passes if `alpha func reference` holds, both in the frame's format.
 struct AlphaTest {
   CompareFunc func = CompareFunc::always;
   float reference = 0;  ///< [0,1]
@@ -31,8 +32,8 @@ struct AlphaTest {
 
 enum class StencilOp { keep, zero, replace, increment, increment_wrap, decrement, decrement_wrap, invert };
 
-/// glStencilFunc, glStencilOp, glStencilMask (OpenGL 2.1 spec 4.1.5): (reference & mask) is compared with (held &
-/// mask).
+/// glStencilFunc, glStencilOp, glStencilMask (OpenGL 2.1 spec 4.1.5). The test passes if (reference & mask) func
+/// (stored & mask) holds.
 struct StencilFace {
   CompareFunc func = CompareFunc::always;
   std::uint8_t reference = 0, mask = 0xff;
@@ -47,7 +48,7 @@ struct Stencil {
   StencilFace front, back;
 };
 
-/// glLogicOp, in its order: s the fragment's code, d what is stored.
+/// glLogicOp's operations, in the order of GL's constants. s: the fragment's code, d: the stored code.
 enum class LogicOp {
   clear,          ///< 0
   and_,           ///< s & d

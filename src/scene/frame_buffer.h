@@ -7,13 +7,13 @@
 
 namespace plumbline {
 
-/// Total memory of a buffer of width x height pixels of so many bytes each: the notes' exam question.
+/// Memory of a buffer of width x height pixels [bytes]: the notes' exam question.
 constexpr std::size_t buffer_bytes(int width, int height, std::size_t pixel_bytes) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * pixel_bytes;
 }
 
-/// Pixel depth: the bytes of one pixel, colour and z value, as pipeline/frame.h keeps them (four channels, of 12 bits
-/// in 2 bytes each; depth codes in 4 bytes).
+/// Pixel depth: bytes of one pixel's colour and depth, as pipeline/frame.h keeps them (four channels, 12 bits in 2
+/// bytes each; depth in 4 bytes whatever its format). Stencil values are not counted.
 constexpr std::size_t pixel_bytes(const FrameFormat& frame) {
   constexpr std::size_t kDepth = 4;
   switch (frame.color) {

@@ -1,4 +1,4 @@
-// Names of the scene's enumerations, as files say them: in the order of their values.
+// Enumerators' names as scene files write them, in the order of the enumerators' values.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// What to draw. Plain data that knows no renderer; every renderer reads the same numbers.
+// The scene: meshes, draws, lights, view and frame format. Plain data that knows no renderer; every renderer reads the
+// same numbers.
 #pragma once
 
 #include <algorithm>
@@ -15,26 +16,26 @@
 
 namespace plumbline {
 
-/// The conventions under which a scene's numbers are read: window origin, pixel centre, handedness, where the eye is...
+/// Conventions under which a scene's numbers are read: window origin, pixel centre, handedness, position of the eye...
 /// `gl`: OpenGL. `gzrender`: CSCI-580's GzRender; world and camera space are left-handed. `games101`: GAMES101.
 /// `tinyrenderer`: TinyRenderer.
 enum class Dialect { gl, gzrender, games101, tinyrenderer };
 
-/// Whether row 0 is the picture's uppermost.
+/// Whether row 0 is the top row of the picture.
 constexpr bool rows_from_top(Dialect dialect) { return dialect == Dialect::gzrender; }
 
-/// What a mesh is made of.
+/// Kind of a mesh's primitives.
 enum class Topology { triangles, lines, points };
-/// How many corners a primitive has: 3, 2 or 1.
+/// Corners of one primitive: 3, 2 or 1.
 constexpr std::uint32_t corner_count(Topology topology) { return 3 - static_cast<std::uint32_t>(topology); }
 
 /// An indexed mesh in model space. Every primitive has three indices, so that loops over corners need no case: a line
-/// repeats its last, a point has three equal ones.
+/// repeats its second index, a point has three equal indices.
 struct Mesh {
   std::vector<glm::vec3> positions;   ///< model space, finite
   std::vector<glm::vec3> normals;     ///< unit length, as many as positions
   std::vector<glm::vec4> colors;      ///< empty, or as many as positions: rgba, nominally [0,1]
-  std::vector<glm::uvec3> triangles;  ///< indices of positions; the last corner is the provoking vertex
+  std::vector<glm::uvec3> triangles;  ///< primitives: indices of positions; the last corner is the provoking vertex
   Topology topology = Topology::triangles;
   std::vector<glm::vec2> texcoords{};  ///< s, t; empty, or as many as positions
 };
@@ -43,7 +44,7 @@ struct Translate {
   glm::dvec3 by;
   bool operator==(const Translate&) const = default;
 };
-/// Counter-clockwise about `axis` (looked at from its tip), which need not be of unit length but not zero.
+/// Rotation about `axis` (any length but 0), counter-clockwise as seen from the axis' tip.
 struct Rotate {
   double degrees;
   glm::dvec3 axis;
@@ -69,7 +70,7 @@ struct Perspective {
   double near;
   double far;
 };
-/// glOrtho; in `games101` near and far are coordinates, far < near.
+/// glOrtho, in `gl`: near < far are distances of either sign. `games101`: near and far are coordinates, far < near.
 struct Orthographic {
   double left, right, bottom, top, near, far;
 };
@@ -81,7 +82,7 @@ struct Frustum {
 struct ViewPlane {
   double fov_degrees;  ///< (0, 180)
 };
-/// w = 1 - z/c, in `tinyrenderer`: the eye at (0, 0, c); where c = |eye - center|, that is the camera's.
+/// w = 1 - z/c, in `tinyrenderer`: the eye is at (0, 0, c), which is Camera::eye where c = |eye - center|.
 struct Pinhole {
   double c;  ///< > 0
 };
@@ -89,7 +90,7 @@ using Projection = std::variant<Perspective, Orthographic, Frustum, ViewPlane, P
 
 /// A point light's cone (OpenGL 2.1 spec 2.14.1: GL_SPOT_...).
 struct Spot {
-  glm::dvec3 direction{0, 0, -1};  ///< world space, of any length: where it shines to
+  glm::dvec3 direction{0, 0, -1};  ///< from the light along the cone's axis; world space, any length but 0
   double cutoff_degrees = 90;      ///< [0, 90], from the axis
   float exponent = 0;              ///< [0, 128]
 };
@@ -97,24 +98,24 @@ struct Spot {
 struct Light {
   enum class Kind { directional, point };
   Kind kind = Kind::directional;
-  glm::dvec3 vector{0, 0, 1};  ///< world space: towards the light (directional; any length), or its place (point)
+  glm::dvec3 vector{0, 0, 1};  ///< world space: direction to the light (directional; any length) or position (point)
   glm::vec3 ambient{0};
   glm::vec3 diffuse{1};
   glm::vec3 specular{1};
   glm::vec3 attenuation{1, 0, 0};  ///< of a point light: k0, k1, k2 >= 0 of 1 / (k0 + k1 d + k2 d^2); not all 0
-  std::optional<Spot> spot{};      ///< of a point light; without it, it shines to all sides
+  std::optional<Spot> spot{};      ///< of a point light; nullopt: the light shines in all directions
 };
 
-/// glLightModel, and what the course notes have in its place.
+/// glLightModel, extended by the course notes' variants (`reflection`, `flip`).
 struct LightModel {
   enum class Specular {
     half_vector,  ///< (N.H)^s, H halfway between light and eye: OpenGL's (Blinn)
     reflection    ///< (R.E)^s, R the light's direction mirrored at N: note 000's (Phong)
   };
   enum class Sides {
-    one,  ///< normals are as they are
-    two,  ///< back faces are lit by the normal turned over, and by the back's material (GL_LIGHT_MODEL_TWO_SIDE)
-    flip  ///< GzRender's: N.L and N.E both negative: N is turned over; of different signs: the light does not count
+    one,  ///< both faces are lit by N
+    two,  ///< back faces are lit by -N and the back material (GL_LIGHT_MODEL_TWO_SIDE)
+    flip  ///< GzRender's: -N where N.L and N.E are both negative; if their signs differ, only the ambient term is left
   };
   glm::vec3 ambient{0};
   bool local_viewer = false;  ///< the eye is at eye space's origin, else infinitely far away along +z
@@ -132,15 +133,16 @@ struct Material {
   float shininess = 0;  ///< [0, 128]
 };
 
-/// glColorMaterial, both faces: what of the material a vertex colour stands for. Where the mesh has none, nothing.
+/// Material colours that the vertex colour replaces, on both faces (glColorMaterial); of a mesh without colours, none.
 enum class ColorMaterial { none, ambient, diffuse, ambient_and_diffuse, specular, emission };
 
-/// What becomes of normals in eye space (OpenGL 2.1 spec 2.11.3): unit length; divided by how much a uniform scale
-/// lengthens them; or neither.
+/// Treatment of normals in eye space (OpenGL 2.1 spec 2.11.3): brought to unit length (GL_NORMALIZE), multiplied by the
+/// model-view matrix' uniform scale (GL_RESCALE_NORMAL), or neither.
 enum class Normals { normalize, rescale, as_they_are };
 
-/// phong: a lit draw's fragments are lit, each at the interpolated position and normal, which is brought to unit length
-/// whatever Normals says; its vertices have the colours that they would have unlit. (GLSL programs, note 000.)
+/// Interpolation of a draw's colours. `phong`: a lit draw is lit per fragment, at the interpolated position and at the
+/// interpolated normal, brought to unit length whatever Normals says; its vertex colours are those of an unlit draw.
+/// (GLSL programs, note 000.)
 enum class Shading { flat, gouraud, phong };
 enum class Cull { none, back, front };
 enum class PolygonMode { fill, line, point };
@@ -148,7 +150,7 @@ enum class ColorFormat { rgba8, rgba12, rgba16, rgba32f };  ///< 12 bits a chann
 enum class DepthFormat { z8, z16, z24, z32f };              ///< 8 bits: tinyrenderer's z-buffer (note 002)
 enum class StencilFormat { none, s8 };
 
-/// glBlendFuncSeparate's factors. As a destination's, source_alpha_saturate is not allowed.
+/// glBlendFuncSeparate's factors. source_alpha_saturate is allowed as a source factor only.
 enum class BlendFactor {
   zero,
   one,
@@ -168,7 +170,7 @@ enum class BlendFactor {
 };
 enum class BlendEquation { add, subtract, reverse_subtract, min, max };
 
-/// source * its factor (equation) destination * its factor; min and max are of the two without factors.
+/// (colour * factor of the source) `equation` (colour * factor of the destination); min and max ignore the factors.
 struct BlendTerm {
   BlendFactor source = BlendFactor::one;
   BlendFactor destination = BlendFactor::zero;
@@ -181,7 +183,7 @@ struct Blend {
   glm::vec4 color{0};  ///< the constant colour, [0,1]
 };
 
-/// Pixels [x, x + width) x [y, y + height), rows counted as the dialect's; it may reach beyond the frame.
+/// Pixels [x, x + width) x [y, y + height), rows counted as in the dialect; the box may reach beyond the frame.
 struct Scissor {
   int x = 0, y = 0;           ///< [0, 16384]
   int width = 0, height = 0;  ///< [0, 16384]
@@ -195,34 +197,33 @@ struct Fog {
   Mode mode = Mode::exp;
   glm::vec3 color{0};  ///< [0,1]
   float density = 1;   ///< >= 0; exp, exp2
-  float start = 0;     ///< distances, not equal; linear
+  float start = 0;     ///< linear: start and end are distances, not equal
   float end = 1;
 };
 
-/// How a fragment that is drawn goes into the frame.
+/// How a fragment that passed all tests is written to the frame.
 struct Merge {
-  std::optional<Blend> blend;   ///< none: it replaces what is there
+  std::optional<Blend> blend;   ///< nullopt: the colour replaces the stored one
   glm::bvec4 color_mask{true};  ///< channels that are written
-  bool depth_mask = true;       ///< whether its depth is written
+  bool depth_mask = true;       ///< whether depth is written
   /// Logic op of colour codes, in blending's place (OpenGL 2.1 spec 4.1.10). In a float frame the colour replaces what
   /// is stored.
   std::optional<LogicOp> logic_op = std::nullopt;
 };
 
-/// A mesh, placed, with the state it is drawn under. Counter-clockwise in the window is the front.
+/// One draw: a mesh, its transforms and its state. Triangles that are counter-clockwise in the window face the front.
 struct Draw {
   std::uint32_t mesh = 0;                 ///< index into Scene::meshes
-  std::vector<Transform> transforms;      ///< in the order written, as glTranslate... would be: the last acts first
+  std::vector<Transform> transforms;      ///< in the order of glTranslate... calls: the last acts first on a vertex
   Material material;                      ///< of both faces
-  std::optional<Material> back_material;  ///< of back faces, where there is one and light has two sides
+  std::optional<Material> back_material;  ///< of back faces under Sides::two; nullopt: `material`
   bool lit = true;                        ///< false: the mesh's colours, or the material's diffuse
   ColorMaterial color_material = ColorMaterial::none;
   Normals normals = Normals::normalize;
   Shading shading = Shading::gouraud;
   Cull cull = Cull::none;
-  /// glPolygonMode: what is left of a triangle after clipping is filled, or its edges are drawn as lines, or its
-  /// corners as points. All are boundary edges (OpenGL 2.1 spec 3.5.4), those that clipping makes too; there are no
-  /// edge flags.
+  /// glPolygonMode: the clipped triangle is filled, or its edges are drawn as lines, or its corners as points. All
+  /// edges are boundary edges (OpenGL 2.1 spec 3.5.4), those that clipping makes included; there are no edge flags.
   PolygonMode front_mode = PolygonMode::fill, back_mode = PolygonMode::fill;
   int line_width = 1;  ///< pixels, [1, 16]
   int point_size = 1;  ///< pixels, [1, 64]: the side of a square
@@ -230,33 +231,33 @@ struct Draw {
   DepthRange depth_range;
   PolygonOffset polygon_offset;
   std::optional<AlphaTest> alpha_test;
-  std::optional<Stencil> stencil;  ///< in a frame that has stencil values
+  std::optional<Stencil> stencil;  ///< only where the frame has stencil values
   std::optional<Fog> fog;
   Merge merge;
-  std::optional<Scissor> scissor;      ///< no pixel outside of it is covered
-  std::optional<DrawTexture> texture;  ///< the mesh then has texture coordinates
+  std::optional<Scissor> scissor;      ///< pixels outside are not covered
+  std::optional<DrawTexture> texture;  ///< requires texture coordinates in the mesh and both polygon modes fill
 };
 
-/// Where light falls: on the vertices, or on the fragments.
+/// Whether a draw is lit at its vertices, and whether at its fragments.
 inline bool is_lit_per_vertex(const Draw& draw) { return draw.lit && draw.shading != Shading::phong; }
 inline bool is_lit_per_fragment(const Draw& draw) { return draw.lit && draw.shading == Shading::phong; }
 
-/// Samples that a pixel's colour is the mean of (antialias.h); `none`: the colour at the pixel's centre.
+/// Samples whose weighted mean is a pixel's colour (antialias.h); `none`: the colour at the pixel's centre.
 struct Antialias {
   enum class Kind {
     none,
     multisample,  ///< OpenGL's: coverage and depth of four samples, one colour
-    supersample,  ///< a frame `factor` times as wide and as high
-    taps          ///< GzRender's: six pictures, each moved by part of a pixel
+    supersample,  ///< one picture, `factor` times as wide and as high
+    taps          ///< GzRender's: six pictures, each moved by a fraction of a pixel
   };
   Kind kind = Kind::none;
   int factor = 1;  ///< of supersample, [1, 8]
 };
 
-/// What an antialiased scene's passes differ by.
+/// State in which the passes of an antialiased scene differ.
 struct Pass {
-  glm::dvec2 shift{0};        ///< of the whole picture, in pixels of the window
-  std::optional<int> sample;  ///< coverage and depth are those of OpenGL's sample 0 to 3, colours the pixel centre's
+  glm::dvec2 shift{0};        ///< shift of the whole picture [pixels]
+  std::optional<int> sample;  ///< OpenGL's sample [0, 3] that decides coverage and depth; colours are at the centre
 };
 
 struct FrameFormat {
@@ -269,20 +270,20 @@ struct FrameFormat {
   StencilFormat stencil = StencilFormat::none;
   std::uint8_t clear_stencil = 0;
   Antialias antialias = {};
-  Pass pass = {};  ///< as passes_of() sets it (antialias.h)
+  Pass pass = {};  ///< set by passes_of() (antialias.h)
 };
 
 struct Scene {
-  std::string name;                ///< group/file, without the ending
-  std::string path;                ///< the file it was read from, empty if made in memory
-  std::vector<std::string> files;  ///< of JSON, that it was read from: that and what it includes, as they were read
-  std::vector<std::string> notes;  ///< what of its mesh files is left out: "file: ...", for people
-  std::string description;         ///< what must be seen, and why
+  std::string name;                ///< folder/file, without the ending
+  std::string path;                ///< scene file; empty if the scene was made in memory
+  std::vector<std::string> files;  ///< the scene file and the JSON files it includes, in the order they were read
+  std::vector<std::string> notes;  ///< parts of mesh files that were left out: "file: ...", for people
+  std::string description;         ///< what the picture must show, and why
   Dialect dialect = Dialect::gl;
   FrameFormat frame;
   Camera camera;
   Projection projection = Perspective{45, 1, 100};  ///< one of the dialect's
-  bool depth_clamp = false;  ///< no near and far plane: depths beyond are clamped to the draw's range (GL_DEPTH_CLAMP)
+  bool depth_clamp = false;  ///< no near and far plane: depths are clamped to the draw's depth range (GL_DEPTH_CLAMP)
   LightModel light_model;
   std::vector<Light> lights;  ///< at most 8
   std::vector<Texture> textures;
@@ -294,30 +295,30 @@ struct Scene {
 inline bool textured(const Scene& scene) {
   return std::any_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.texture.has_value(); });
 }
-/// One of the colours that light gives a vertex: of the front or the back, and the specular term alone, or what is left
-/// without it. Where the light model keeps nothing apart, the front's is all.
+/// Selects one of a vertex' lit colours. `back`: the back face's. `secondary`: the specular term alone, where
+/// LightModel::separate_specular; the primary colour is then the rest, and otherwise the whole.
 struct LitPart {
   bool back = false, secondary = false;
 };
-/// The material that makes that part of a lit draw's colour, what the vertex colour stands for replaced by it (OpenGL
-/// 2.1 spec 2.14.3); null: the mesh has none. Of the secondary part, alpha means nothing.
+/// The material that gives that part of a lit draw's colour. `color`: the vertex colour, which replaces the material
+/// colours of Draw::color_material (OpenGL 2.1 spec 2.14.3); null: the mesh has no colours. The secondary part has no
+/// meaningful alpha.
 Material lit_material(const Scene& scene, const Draw& draw, LitPart part, const glm::vec4* color);
 
-/// Whether any draw makes primitives of that topology, by its mesh or by its polygon modes.
+/// Whether any draw may make primitives of that topology, by its mesh or by one of its polygon modes.
 bool draws(const Scene& scene, Topology topology);
-/// Whether a pixel's colour is that of its last fragment alone: nothing is blended, combined or masked.
+/// Whether a pixel's colour depends on the last drawn fragment alone: no blending, logic op or colour mask in any draw.
 inline bool colors_replace(const Scene& scene) {
   return std::all_of(scene.draws.begin(), scene.draws.end(),
                      [](const Draw& d) { return !d.merge.blend && !d.merge.logic_op && glm::all(d.merge.color_mask); });
 }
-/// Whether every fragment that is drawn leaves its depth.
+/// Whether every drawn fragment writes its depth: depth_mask is set in all draws.
 inline bool depths_replace(const Scene& scene) {
   return std::all_of(scene.draws.begin(), scene.draws.end(), [](const Draw& d) { return d.merge.depth_mask; });
 }
 
-/// Where one draw's vertices and triangles lie in arrays that run over all draws, in draw order.
-/// A **primitive** is numbered so, over the whole scene: `first_primitive + index of the mesh's triangle` (line,
-/// point).
+/// One draw's range in arrays of all draws' vertices and primitives, in draw order.
+/// The number of a **primitive** in the scene is `first_primitive` + its index in Mesh::triangles.
 struct DrawRange {
   std::uint32_t first_vertex, vertex_count;
   std::uint32_t first_primitive, primitive_count;
@@ -325,7 +326,7 @@ struct DrawRange {
 
 /// One range per draw.
 std::vector<DrawRange> draw_ranges(const Scene& scene);
-/// The same in memory that is kept.
+/// The same into `out`, whose memory is reused.
 void draw_ranges(const Scene& scene, std::vector<DrawRange>& out);
 
 /// The largest code of a colour channel (2^8-1, 2^12-1, 2^16-1); 0 for rgba32f.
@@ -350,11 +351,12 @@ constexpr double depth_scale(DepthFormat format) {
   return 0.0;
 }
 
-/// One step of the depth format at window depth z: 1/(2^n - 1); for z32f the larger of z's ULP and 2^-24.
+/// One step of the depth format at window depth `z_win`: 1/(2^n - 1); for z32f the larger of the ULP at z_win and
+/// 2^-24.
 double depth_step(DepthFormat format, double z_win);
 
-/// r of a triangle whose largest window z is `z_max` (PolygonOffset), as Mesa has it where OpenGL leaves it open: two
-/// steps of a unorm format; of float 2^(e - 23), e the exponent of z_max.
+/// r of PolygonOffset, for a triangle whose largest window z is `z_max`: 2^(e - 23) for z32f, e the exponent of z_max
+/// (-126 or more); for a unorm format, where OpenGL leaves r open, Mesa's two steps.
 double polygon_offset_unit(DepthFormat format, double z_max);
 
 }  // namespace plumbline

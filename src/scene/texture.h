@@ -1,4 +1,4 @@
-// Textures as OpenGL takes them: format, sampler parameters, and the texels of each level.
+// Textures in OpenGL's terms: format, sampler parameters, and the texels of each level.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace plumbline {
 
 /// OpenGL's base internal formats: which components a texture has (OpenGL 2.1 spec, table 3.15).
 enum class TextureFormat { alpha, luminance, luminance_alpha, intensity, rgb, rgba };
-/// How its components are kept: as codes of 8 bits, value = code / 255, or as floats.
+/// Storage of a texture's components: codes of 8 bits, value = code / 255, or floats.
 enum class TexelType { unorm8, float32 };
 
 enum class MinFilter {
@@ -32,14 +32,14 @@ struct Sampler {
   MagFilter mag = MagFilter::linear;
   Wrap wrap_s = Wrap::repeat;
   Wrap wrap_t = Wrap::repeat;
-  glm::vec4 border{0};  ///< rgba, of which the format's components count
+  glm::vec4 border{0};  ///< rgba in [0,1]; components that the format lacks are ignored
   float lod_bias = 0;   ///< [-16, 16]
   float min_lod = -1000, max_lod = 1000;
-  int base_level = 0, max_level = 1000;  ///< base_level is there
+  int base_level = 0, max_level = 1000;  ///< base_level is an existing level, max_level >= base_level
 };
 
-/// A level's texels, row by row from t = 0, as texture source components (Cs, As) of OpenGL 2.1's table 3.21: what a
-/// format lacks is filled in, so that levels of all formats are filtered alike.
+/// A level's texels, row by row from t = 0, as texture source components (Cs, As) of OpenGL 2.1's table 3.21:
+/// components that the format lacks are filled in, so that one filter serves all formats.
 struct TextureLevel {
   int width = 0, height = 0;
   std::vector<glm::vec4> texels;
@@ -56,16 +56,17 @@ struct Texture {
   std::vector<TextureLevel> levels;  ///< 0: the image; each next half as wide and high, rounded down; the last 1 x 1
 };
 
-/// rgba as a texture of the format would hand it on: alpha's colour is 0, luminance's alpha 1 (OpenGL 2.1 spec, tables
-/// 3.15 and 3.21).
+/// Texture source components (Cs, As) that a texture of the format makes of `rgba`: colour 0 of `alpha`, alpha 1 of
+/// `luminance` and `rgb` (OpenGL 2.1 spec, tables 3.15 and 3.21).
 glm::vec4 source_components(TextureFormat format, const glm::vec4& rgba);
 
-/// The image, rgba, in a texture's format and type, and the levels below it. Each texel is the mean of those of the
-/// level above that it lies on, by area (of sides that are not even, parts of texels count), in double, rounded to the
-/// type. OpenGL leaves that filter open (3.8.8, automatic mipmap generation): all renderers get these levels.
+/// Sets texture.levels: the rgba image in the texture's format and type, and the mipmap levels down to 1 x 1. A texel
+/// is the mean of the area that it covers in the next finer level (of odd sides, fractions of texels count), computed
+/// in double and rounded to the type. OpenGL leaves that filter open (3.8.8, automatic mipmap generation): all
+/// renderers get these levels.
 void set_levels(Texture& texture, TextureLevel image);
 
-/// The highest number of a level that may be sampled: `q` of OpenGL 2.1 spec 3.8.8.
+/// Number of the coarsest level that may be sampled: `q` of OpenGL 2.1 spec 3.8.8.
 int last_level(const Texture& texture);
 
 enum class TextureEnvironment { replace, modulate, decal, blend, add };

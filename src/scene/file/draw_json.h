@@ -11,14 +11,15 @@ namespace plumbline {
 /// A draw's state, without its mesh.
 struct DrawState {
   Draw draw;
-  bool has_material = false;  ///< the file gives one; a mesh file's own counts where not
+  bool has_material = false;  ///< the scene file gives a material; false: that of the mesh file, if any, is used
 };
 
-/// What "defaults" holds, over the dialect's: any key of a draw but its mesh. `textures`: the scene's. Throws
-/// JsonError.
+/// Reads "defaults": any key of a draw but "mesh". Keys that are left out keep the values of `defaults`, the dialect's.
+/// `textures`: the scene's. Throws JsonError.
 DrawState read_draw_state(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures);
 
-/// A draw: its keys over the defaults'; of a material, each key for itself. Throws JsonError.
+/// Reads a draw's state. Keys that are left out keep the values of `defaults`; in material, back_material and texture
+/// so do the keys within, any other value is replaced as a whole. The mesh is left to read_mesh(). Throws JsonError.
 DrawState read_draw(const JsonNode& node, const DrawState& defaults, const std::vector<Texture>& textures);
 
 }  // namespace plumbline

@@ -59,7 +59,7 @@ LogicOp read_logic_op(const JsonNode& node) { return node.choice<LogicOp>(kNames
 void read_blend_term(const JsonNode& node, BlendTerm& term) {
   constexpr std::span<const Name> kFactors(kNamesOf<BlendFactor>);
   if (const auto n = node.find("source")) term.source = n->choice<BlendFactor>(kFactors);
-  if (const auto n = node.find("destination")) {  // its last is a source's alone
+  if (const auto n = node.find("destination")) {  // source_alpha_saturate, the last, is a source factor only
     term.destination = n->choice<BlendFactor>(kFactors.first(kFactors.size() - 1));
   }
   if (const auto n = node.find("equation")) {

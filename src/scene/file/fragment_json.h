@@ -1,4 +1,4 @@
-// What a draw of a scene file says of its fragments: tests, blending, masks.
+// Parser of a draw's fragment state in scene files: scissor, tests, polygon offset, blending, masks.
 #pragma once
 
 #include "scene/json/json_tree.h"
@@ -6,7 +6,7 @@
 
 namespace plumbline {
 
-/// What the node gives, over what the draw has. Throws JsonError.
+/// Overwrites those parts of the draw's fragment state whose keys the node has. Throws JsonError.
 void read_fragment_state(const JsonNode& node, Draw& draw);
 
 }  // namespace plumbline

@@ -6,13 +6,13 @@
 
 namespace plumbline {
 
-/// [r, g, b], 0 or more. Throws JsonError.
+/// [r, g, b], each in [0, 1e6]. Throws JsonError.
 glm::vec3 read_light_color(const JsonNode& node);
 
 /// One of "lights". Throws JsonError.
 Light read_light(const JsonNode& node);
 
-/// All but its ambient light. Throws JsonError.
+/// "light_model"; LightModel::ambient, a key of its own in scene files, keeps its default. Throws JsonError.
 LightModel read_light_model(const JsonNode& node);
 
 }  // namespace plumbline

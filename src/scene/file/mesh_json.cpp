@@ -61,7 +61,7 @@ std::vector<glm::vec2> read_texcoords(const JsonNode& node, std::size_t count) {
 
 /// Empty where the file has none.
 std::vector<glm::vec3> read_normals(const JsonNode& node, std::size_t count) {
-  constexpr double kFromUnitLength = 1e-3;  // of three decimals, each rounded by at most 5e-4
+  constexpr double kFromUnitLength = 1e-3;  // components of three decimals, each off by at most 5e-4: sqrt(3) * 5e-4
   std::vector<glm::vec3> normals;
   if (const auto list = node.find("normals")) {
     for (const JsonNode& n : list->elements(count, count)) {
@@ -104,7 +104,7 @@ Mesh read_triangles(const JsonNode& node) {
   return mesh;
 }
 
-/// Primitives that have no side, and so no normal of their own: +z.
+/// Mesh of lines or points. All normals are +z, as lines and points have none of their own.
 Mesh line_or_point_mesh(std::vector<glm::vec3> positions, std::vector<glm::uvec3> primitives,
                         std::vector<glm::vec4> colors, Topology topology) {
   std::vector<glm::vec3> normals(positions.size(), glm::vec3(0, 0, 1));
@@ -146,7 +146,7 @@ Mesh read_quad(const JsonNode& node) {
       given->refuse("a flat quad that does not cross itself", fault);
     }
   }
-  // A diagonal on whose sides the two halves lie: the other one of an arrowhead leaves it.
+  // Cut along a diagonal that lies inside the quad: in a concave quad (an arrowhead) one of the two lies outside.
   const auto half = [&](int a, int b, int c) {
     const auto at = [&](int i) { return glm::dvec3(p[static_cast<std::size_t>(i)]); };
     return glm::cross(at(b) - at(a), at(c) - at(a));

@@ -35,8 +35,9 @@ Antialias read_antialias(const JsonNode& node, const FrameFormat& frame) {
   return {Antialias::Kind::supersample, factor};
 }
 
-// OpenGL makes lines and points under multisampling rectangles and squares of their own (OpenGL 2.1, sections 3.4.4 and
-// 3.3.1), which are not drawn here; in a supersampled frame they would be thinner.
+// Refuses lines and points in multisampled and supersampled frames. OpenGL multisamples them as rectangles and squares
+// of their own (OpenGL 2.1, sections 3.4.4 and 3.3.1), which are not drawn here; in a supersampled frame their widths,
+// in pixels of the larger frame, would shrink.
 void require_drawable(const JsonNode& frame, const Scene& scene) {
   const Antialias::Kind kind = scene.frame.antialias.kind;
   if (kind != Antialias::Kind::multisample && kind != Antialias::Kind::supersample) return;
@@ -80,9 +81,10 @@ Camera read_camera(const JsonNode& node) {
   return camera;
 }
 
-/// Near and far, the one before the other by more than float's rounding: distances of at least `limit`, or coordinates
-/// of at most `limit`, which fall.
+/// Meaning of near and far: distances, near < far, or z coordinates, far < near.
 enum class Depths { distances, coordinates };
+/// Reads near and far, which must differ by more than float's rounding. `limit`: the least distance, or the largest
+/// coordinate.
 void read_depths(const JsonNode& node, Depths depths, double limit, double& near, double& far) {
   const bool fall = depths == Depths::coordinates;
   const double least = fall ? -kLargestCoordinate : limit, most = fall ? limit : kLargestCoordinate;
@@ -93,7 +95,7 @@ void read_depths(const JsonNode& node, Depths depths, double limit, double& near
   }
 }
 
-/// A view's box; right may be left of left, top below bottom: that mirrors.
+/// A view's box. left > right or bottom > top mirrors the picture.
 template <class Box>
 Box read_box(const JsonNode& node, Depths depths, double limit) {
   node.only({"left", "right", "bottom", "top", "near", "far"});
@@ -150,7 +152,7 @@ Projection read_tinyrenderer_projection(const JsonNode& node, double eye_distanc
   return Pinhole{c ? c->number(kSmallestLength, kLargestCoordinate) : eye_distance};
 }
 
-/// What the dialect says where the file says nothing: the projection, and which depth is nearer.
+/// Sets the dialect's defaults of clear depth, depth function and depth clamp.
 void set_defaults(Scene& scene, DrawState& state) {
   const bool greater_is_nearer = scene.dialect == Dialect::games101 || scene.dialect == Dialect::tinyrenderer;
   if (greater_is_nearer) {
@@ -171,11 +173,11 @@ Projection read_projection(const JsonNode* node, Dialect dialect, const Camera& 
   return Perspective{};
 }
 
-/// A draw's mesh, or the meshes of a file of several materials, in the scene.
+/// A mesh that is in the scene already: consecutive entries of Scene::meshes, several for a file of several materials.
 struct KnownMesh {
   const JsonValue* json;
-  std::uint32_t first;  ///< index into Scene::meshes
-  std::vector<std::optional<Material>> materials;
+  std::uint32_t first;                             ///< index into Scene::meshes
+  std::vector<std::optional<Material>> materials;  ///< one per entry
 };
 
 void read_draws(const JsonNode& node, const DrawState& defaults, const AssetFolders& folders, Scene& scene) {

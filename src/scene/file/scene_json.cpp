@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// RFC 7396, section 2. An object that both sides have is then said to be written where the patch is.
+/// JSON merge patch (RFC 7396, section 2). A merged object counts as written in the patch's file.
 void patch(JsonValue& target, JsonValue&& with) {
   if (with.kind != JsonValue::Kind::object) {
     target = std::move(with);

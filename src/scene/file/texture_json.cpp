@@ -20,14 +20,14 @@ struct Size {
   int width, height;
 };
 
-/// An image whose size is known, made when the scene's other textures are known to fit beside it.
+/// An image of known size that is not made yet: make() runs when all textures of the scene are known to fit together.
 struct Image {
   Size size;
   std::function<TextureLevel()> make;
   int channels = 4;
 };
 
-/// "width" and "height", 64 where they are left out.
+/// "width" and "height" [texels], 64 where left out.
 Size read_size(const JsonNode& node, std::size_t most_texels) {
   const auto side = [&](const char* key) {
     const auto n = node.find(key);
@@ -43,7 +43,7 @@ Size read_size(const JsonNode& node, std::size_t most_texels) {
   return size;
 }
 
-/// "columns" and "rows", 8 where they are left out and fit.
+/// "columns" and "rows", where left out the smaller of 8 and the side in texels.
 Size read_cells(const JsonNode& node, Size size) {
   const auto count = [&](const char* key, int texels) {
     const auto n = node.find(key);
@@ -178,7 +178,7 @@ Sampler read_sampler(const JsonNode& node) {
   return sampler;
 }
 
-/// A texture that lacks its levels, and their image.
+/// A texture without levels, and the image that they are to be made of.
 std::pair<Texture, Image> read_texture(const JsonNode& node, const AssetFolders& folders, std::size_t most_texels) {
   node.only({"image", "format", "texels", "min", "mag", "wrap_s", "wrap_t", "border", "lod_bias", "min_lod", "max_lod",
              "base_level", "max_level"});

@@ -22,7 +22,7 @@ std::string plain_text(std::string message) {
   return message;
 }
 
-/// Builds the tree from the parser's events, so that it knows the place of whatever the parser refuses.
+/// Builds the tree from the parser's events, so that errors of the parser can name their JSON pointer.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
  public:
   Builder(const std::string& file, JsonValue& root) : file_(file), root_(root) {}
@@ -84,7 +84,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     keys_.pop_back();
     return true;
   }
-  /// The place of the value that comes next.
+  /// JSON pointer of the value that comes next.
   std::string pointer() const {
     std::string p;
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -101,7 +101,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   const std::string& file_;
   JsonValue& root_;
   std::vector<JsonValue*> open_;   ///< the arrays and objects around the next value, outermost first
-  std::vector<std::string> keys_;  ///< beside open_: an object's last key
+  std::vector<std::string> keys_;  ///< one per entry of open_: the last key of an object
 };
 
 }  // namespace
@@ -117,12 +117,12 @@ JsonValue read_json_file(const std::filesystem::path& path, const std::string& n
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!in) refuse("a JSON file", "one that cannot be read");
   if (text.size() > most_bytes) refuse(fmt::format("JSON of at most {} bytes", most_bytes), "more");
-  // The parser would end there.
+  // The parser would end at a NUL byte.
   if (const std::size_t at = text.find('\0'); at != text.npos) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
     refuse("JSON", fmt::format("a NUL byte in line {}", line));
   }
-  // The parser would skip it; other readers of the same file would not.
+  // The parser would skip a byte order mark; other readers of the same file would not.
   if (text.starts_with("\xef\xbb\xbf")) refuse("JSON in UTF-8 without a byte order mark", "the mark");
 
   JsonValue root;

@@ -1,5 +1,4 @@
-// JSON that knows its place: whatever is refused is refused with the file, the JSON pointer, what was expected and what
-// was found.
+// JSON trees whose values know their file and JSON pointer. Errors name both, what was expected and what was found.
 #pragma once
 
 #include <cstdint>
@@ -27,11 +26,11 @@ struct JsonValue {
   Kind kind = Kind::null;
   bool boolean = false;
   std::int64_t integer = 0;
-  double real = 0;  ///< of an integer, too
+  double real = 0;  ///< set for an integer, too
   std::string text{};
   std::vector<JsonValue> items{};                           ///< of an array
   std::map<std::string, JsonValue, std::less<>> members{};  ///< of an object
-  const std::string* file = nullptr;                        ///< where it was written; owned by who read it
+  const std::string* file = nullptr;                        ///< name of its file; owned by the reader of the tree
 
   /// Equal in content, wherever written.
   bool operator==(const JsonValue& other) const;
@@ -40,28 +39,29 @@ struct JsonValue {
 /// One reference token of a JSON pointer, with its slash (RFC 6901).
 std::string pointer_token(std::string_view key);
 
-/// A value at its place in a file; refers to the tree that it came from. Every reader throws JsonError.
+/// A value and its JSON pointer; refers to the tree, which has to outlive the node. Every function that reads the value
+/// throws JsonError where the value is not as asked for.
 class JsonNode {
  public:
   JsonNode(const JsonValue& value, std::string pointer) : value_(&value), pointer_(std::move(pointer)) {}
 
   const JsonValue& value() const { return *value_; }
 
-  /// Refuses anything but an object all of whose keys are among these.
+  /// Requires an object all of whose keys are among `keys`.
   void only(std::span<const std::string_view> keys) const;
   void only(std::initializer_list<std::string_view> keys) const { only(std::span(keys.begin(), keys.size())); }
-  /// Refuses anything but an object that holds exactly one key, one of these; returns it.
+  /// Requires an object of exactly one key, one of `keys`; returns the key.
   std::string_view one_of(std::initializer_list<std::string_view> keys) const;
-  JsonNode operator[](std::string_view key) const;
-  std::optional<JsonNode> find(std::string_view key) const;
+  JsonNode operator[](std::string_view key) const;           ///< the member of an object, which must have it
+  std::optional<JsonNode> find(std::string_view key) const;  ///< the member of an object; nullopt: no such key
 
-  std::size_t size() const;  ///< of an array
-  JsonNode operator[](std::size_t index) const;
+  std::size_t size() const;                      ///< of an array
+  JsonNode operator[](std::size_t index) const;  ///< element of an array; throws std::out_of_range
   /// An array's elements, from `least` to `most` of them.
   std::vector<JsonNode> elements(std::size_t least, std::size_t most) const;
 
-  double number(double lo, double hi) const;
-  std::int64_t integer(std::int64_t lo, std::int64_t hi) const;
+  double number(double lo, double hi) const;                     ///< in [lo, hi]
+  std::int64_t integer(std::int64_t lo, std::int64_t hi) const;  ///< in [lo, hi], written without point or exponent
   bool boolean() const;
   const std::string& text() const;  ///< not empty
   template <int N>
@@ -81,13 +81,13 @@ class JsonNode {
     refuse_choice(names);
   }
 
-  /// The enumerator whose name it is; `names` in the order of their values.
+  /// The enumerator that the text names; `names` in the order of the enumerators' values.
   template <class E>
   E choice(std::span<const std::string_view> names) const {
     return static_cast<E>(index_among(names));
   }
 
-  /// Refuses the value as found.
+  /// Throws JsonError. `found`: without it, the value's own description.
   [[noreturn]] void refuse(std::string_view expected) const;
   [[noreturn]] void refuse(std::string_view expected, std::string_view found) const;
 

@@ -1,4 +1,4 @@
-// Values that occur all over a scene file, and their limits.
+// Points and directions of scene files, and the limits of a scene's numbers.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,16 @@
 
 namespace plumbline {
 
-/// The largest coordinate that a scene may hold: the products of three such numbers stay far within float's range.
+/// Largest absolute value of a coordinate: products of three coordinates stay far within float's range.
 inline constexpr double kLargestCoordinate = 1e6;
-/// The shortest vector and the smallest scale: their reciprocals are harmless in float.
+/// Least length of a vector, and least scale: their reciprocals are harmless in float.
 inline constexpr double kSmallestLength = 1e-6;
-/// A primitive's number is exact in float.
+/// Most primitives of a scene, so that a primitive's number is exact in float.
 inline constexpr std::size_t kMostTriangles = 1u << 24;
 
-/// Both throw JsonError.
+/// Three numbers within +-kLargestCoordinate. Throws JsonError.
 glm::dvec3 read_point(const JsonNode& node);
-glm::dvec3 read_direction(const JsonNode& node);  ///< not zero
+/// A point at least kSmallestLength from the origin. Throws JsonError.
+glm::dvec3 read_direction(const JsonNode& node);
 
 }  // namespace plumbline

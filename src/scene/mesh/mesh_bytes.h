@@ -1,5 +1,5 @@
-// Meshes as bytes in memory's own form, from the program that reads mesh files (program/mesh_reader.cpp) to
-// load_mesh().
+// Encoding of mesh parts as bytes (base/byte_archive.h), by which the program that reads mesh files
+// (program/mesh_reader.cpp) hands them to load_mesh().
 #pragma once
 
 #include <string>
@@ -10,9 +10,10 @@
 
 namespace plumbline {
 
+/// Bytes of the parts, which must be of triangles: Mesh::topology is not encoded.
 std::string to_bytes(std::vector<MeshPart> parts);
-/// Parts of which to_bytes() made the bytes; of other bytes, anything. Throws std::runtime_error where they end too
-/// early.
+/// The parts that to_bytes() encoded; of other bytes the result is unspecified. Throws std::runtime_error where the
+/// bytes end too early.
 std::vector<MeshPart> parts_of(std::string_view bytes);
 
 }  // namespace plumbline

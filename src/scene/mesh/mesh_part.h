@@ -1,4 +1,4 @@
-// A mesh as its file gives it.
+// A part of a mesh file: its triangles of one material.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,10 @@ struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A mesh, and the material that its file gives it, if it does.
 struct MeshPart {
   Mesh mesh;
-  std::optional<Material> material;
-  std::string note{};  ///< on the first part: what of the file is left out, if anything
+  std::optional<Material> material;  ///< nullopt: the file gives none
+  std::string note{};                ///< on the first part only: what of the file was left out; empty: nothing
 };
 
 }  // namespace plumbline

@@ -106,7 +106,7 @@ Mesh make_globe(int slices, int stacks) {
   Mesh mesh;
   for (int j = 0; j <= stacks; ++j) {
     const bool pole = j == 0 || j == stacks;
-    // The last ring, and the first, are the poles exactly; a ring's last vertex is its first.
+    // The first and the last ring lie exactly on the poles; the last vertex of a ring lies exactly on its first.
     const double polar = std::numbers::pi * j / stacks, radius = pole ? 0 : std::sin(polar);
     const double y = pole ? (j == 0 ? 1 : -1) : std::cos(polar);
     for (int i = 0; i <= slices; ++i) {

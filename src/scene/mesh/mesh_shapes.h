@@ -12,8 +12,8 @@
 
 namespace plumbline {
 
-/// One normal per position: the sum of the adjacent triangles' normals, each as long as its area, at unit length;
-/// +z where that sum is zero or not finite. Every index must be in range.
+/// Unit normals, one per position: the sum of the adjacent triangles' normals, weighted by area, normalised; +z where
+/// that sum is zero or not finite. Every index must be in range.
 std::vector<glm::vec3> area_weighted_normals(std::span<const glm::vec3> positions,
                                              std::span<const glm::uvec3> triangles);
 
@@ -28,12 +28,13 @@ Mesh make_grid(int columns, int rows);
 /// once, so the mesh is closed, and each pole is the tip of `slices` triangles. slices >= 3, stacks >= 2.
 Mesh make_uv_sphere(int slices, int stacks);
 
-/// The same sphere cut open along the meridian of +z, with texture coordinates: s from 0 to 1 eastwards, t from the
-/// south pole's 0 to the north pole's 1. At a pole each triangle has its own vertex, s in the triangle's middle.
+/// make_uv_sphere()'s sphere cut open along the meridian of +z, with texture coordinates: s from 0 to 1 eastwards, t
+/// from the south pole's 0 to the north pole's 1. At a pole each triangle has its own vertex, whose s is that of the
+/// triangle's middle; one further vertex per pole, with s above 1, belongs to no triangle. slices >= 3, stacks >= 2.
 Mesh make_globe(int slices, int stacks);
 
-/// `triangles` separate triangles: the middle anywhere in [-extent,extent]^3, each corner up to `size` from it along
-/// each axis, each corner of another colour (alpha 1), the normal the triangle's own.
+/// `triangles` random triangles that share no vertex: centre in [-extent,extent]^3, corners within `size` of it along
+/// each axis, a random colour per corner (alpha 1), the triangle's own normal.
 Mesh make_soup(int triangles, std::uint64_t seed, double extent, double size);
 
 }  // namespace plumbline

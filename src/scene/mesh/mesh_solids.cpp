@@ -28,8 +28,8 @@ class Middles {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made_;
 };
 
-/// Two triangles between the rings of `around` vertices that begin at `first` and at `next`: next lies after first,
-/// a ring's vertices run counter-clockwise seen against that direction.
+/// Adds the 2 `around` triangles between two rings of `around` vertices, which begin at `first` and at `next`. They are
+/// counter-clockwise from outside if each ring runs counter-clockwise as seen looking from `next` to `first`.
 void add_band(std::vector<glm::uvec3>& triangles, std::uint32_t first, std::uint32_t next, int around) {
   for (int i = 0; i < around; ++i) {
     const auto a = static_cast<std::uint32_t>(i), b = static_cast<std::uint32_t>((i + 1) % around);
@@ -94,7 +94,7 @@ Mesh make_torus_knot(const TorusKnot& knot) {
   for (int s = 0; s < knot.segments; ++s) {
     const double turn = 2 * std::numbers::pi * s / knot.segments, around = knot.p * turn, through = knot.q * turn;
     const glm::dvec3 outward(std::cos(around), std::sin(around), 0), along(-outward.y, outward.x, 0), up(0, 0, 1);
-    // The torus' normal and the curve's tangent on the torus: a frame that closes after one round, twists and all.
+    // The torus' normal and the curve's tangent make a frame that closes after one round without a twist to correct.
     const glm::dvec3 normal = std::cos(through) * outward + std::sin(through) * up;
     const double from_axis = kRing + kThickness * std::cos(through);
     const glm::dvec3 tangent = glm::normalize(

@@ -1,4 +1,4 @@
-// Curved and closed meshes made by formula: the same numbers on every machine, up to its library's sine and cosine.
+// Curved and closed meshes made by formula: the same numbers on every machine whose sine and cosine agree.
 #pragma once
 
 #include <span>
@@ -14,26 +14,26 @@ namespace plumbline {
 Mesh make_cube();
 
 /// The unit sphere from an icosahedron, each triangle cut into four `subdivisions` times: 20 * 4^n triangles of nearly
-/// one size. A normal is its position. Each vertex exists once: closed. subdivisions: 0 to 8.
+/// one size. A normal is its position. Each vertex exists once: the mesh is closed. subdivisions: [0, 8].
 Mesh make_icosphere(int subdivisions);
 
 struct TorusKnot {
-  int p = 2;          ///< times around the axis (z)
-  int q = 3;          ///< times through the hole; p and q have no common divisor, else it would be several curves
+  int p = 2;          ///< turns around the axis (z)
+  int q = 3;          ///< turns through the hole; p and q have no common divisor, else there would be several curves
   int segments = 0;   ///< along the knot, >= 3
   int sides = 0;      ///< around the tube, >= 3
   double tube = 0.1;  ///< the tube's radius
 };
-/// A tube along the (p, q) torus knot on a torus of radii 0.6 and 0.25. Each vertex exists once: closed.
+/// A tube along the (p, q) torus knot on a torus of radii 0.6 and 0.25. Each vertex exists once: the mesh is closed.
 Mesh make_torus_knot(const TorusKnot& knot);
 
 /// The profile (radius, y) of a chain of cubic Bézier curves, each cut into `steps` straight pieces.
 /// control: 3 n + 1 points, neighbouring curves sharing one.
 std::vector<glm::dvec2> bezier_profile(std::span<const glm::dvec2> control, int steps);
 
-/// A profile (radius, y) turned about the y axis, such as a teapot's body: counter-clockwise from outside where the
-/// profile goes up. The first and last radius may be 0: the tip of a fan, closed there. Normals are area-weighted.
-/// Each vertex exists once. slices >= 3; the profile has two points or more, between its ends radii over 0.
+/// Surface of revolution of a profile (radius, y) about the y axis, such as a teapot's body: counter-clockwise from
+/// outside where the profile goes up. An end of radius 0 is the tip of a fan and closes the mesh there. Normals are
+/// area-weighted. Each vertex exists once. slices >= 3; two points or more, radii above 0 between the ends.
 Mesh make_revolution(std::span<const glm::dvec2> profile, int slices);
 
 }  // namespace plumbline

@@ -9,15 +9,15 @@
 namespace plumbline {
 namespace {
 
-/// Distance of a corner from the polygon's plane, in its extent (the diagonal of its box). Whichever way a polygon is
-/// cut, its surface stays between its corners' distances from the plane: two ways differ by at most 2 kFlat extents,
-/// less than a pixel where the polygon is 64 pixels long. Triangles of a quad as wide as long lean by at most 4 kFlat,
-/// 1.8 degrees, so that all face one way but where the quad is that close to edge-on.
+/// Largest distance of a corner from the polygon's plane, in extents (an extent: the diagonal of the bounding box).
+/// Whichever way a polygon is cut, its surface stays within that distance: two cuts differ by at most 2 kFlat extents,
+/// less than a pixel where the polygon is 64 pixels long. The triangles of a square quad lean by at most 4 kFlat,
+/// 1.8 degrees: they all face one way, except where the quad is that close to edge-on.
 constexpr double kFlat = 1.0 / 128;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-/// Whether c lies on the line through a and b, left (1) or right (-1) of it.
+/// Side of the line from a to b on which c lies: 1 left, -1 right, 0 on the line.
 int side(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   const double area = cross(b - a, c - a);
   return (area > 0) - (area < 0);

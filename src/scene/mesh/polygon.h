@@ -1,4 +1,5 @@
-// What a polygon must be, to be cut into triangles in one way that everybody expects.
+// Check of polygons that are to be cut into triangles: whichever way a valid polygon is cut, the surface looks the
+// same.
 #pragma once
 
 #include <span>
@@ -8,9 +9,9 @@
 
 namespace plumbline {
 
-/// What is wrong with a polygon of three corners or more, in words that follow "found"; empty if nothing is. It must be
-/// flat (no corner further from its plane than a 128th of its extent), have an area, and not touch itself.
-/// A triangle is always right. Corners are finite.
+/// Description of what is wrong with a polygon, as it follows "found" in a message; empty: the polygon is valid. It
+/// must be flat (each corner within 1/128 of the diagonal of its bounding box from its plane), have an area, and not
+/// cross or touch itself. Three corners or fewer are always valid. Corners must be finite.
 std::string polygon_fault(std::span<const glm::dvec3> corners);
 
 }  // namespace plumbline

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
   throw TextureError(fmt::format("{}: expected {}, found {}", file.string(), expected, found));
 }
 
-/// What a stored number is divided by. OpenImageIO converts codes to floats itself, rounding as it likes: they are read
-/// as they are stored.
+/// Divisor of stored numbers: the largest code, 1 for floats. Codes are read as stored, since OpenImageIO's own
+/// conversion to float rounds in its own way.
 template <class T>
 constexpr double kScale = std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1.0;
 

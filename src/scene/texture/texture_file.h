@@ -14,9 +14,9 @@ struct TextureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The longest side of an image, in texels.
+/// The longest side of an image [texels].
 inline constexpr int kLargestTexture = 16384;
-/// All images of a scene together: 256 MiB, and a third more for the levels below.
+/// Most texels of all images of a scene together: 256 MiB of vec4, and a third more for the coarser levels.
 inline constexpr std::size_t kMostTexels = std::size_t{1} << 24;
 
 struct TextureImage {
@@ -24,11 +24,13 @@ struct TextureImage {
   int channels = 4;  ///< of the file: 1 grey, 2 with alpha, 3 rgb, 4 rgba
 };
 
-/// A PNG, JPEG, TGA or EXR file, the lowest row first. Numbers are as stored: codes / their largest, floats as they
-/// are; no colour space converted, no alpha multiplied or divided. Grey is r, g and b alike; a missing alpha is 1.
+/// The image of a PNG, JPEG, TGA or EXR file, the lowest row first. Numbers are as stored: codes of 8 or 16 bits
+/// divided by the largest code, floats as they are; no colour space is converted, no alpha multiplied or divided. Grey
+/// is repeated in r, g and b; a missing alpha is 1.
 ///
-/// Throws TextureError: no such format, cannot be read, truncated; several images in one; more than four channels,
-/// kLargestTexture texels a side or `most_texels`; numbers that are not finite or beyond +-65504, half's largest.
+/// Throws TextureError: another ending, not readable, truncated; several images in one; more than four channels,
+/// kLargestTexture texels a side or `most_texels`; numbers of another type, not finite or beyond +-65504, half's
+/// largest.
 TextureImage load_texture_image(const std::filesystem::path& file, std::size_t most_texels);
 
 }  // namespace plumbline

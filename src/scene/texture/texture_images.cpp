@@ -3,7 +3,7 @@
 namespace plumbline {
 namespace {
 
-/// color(x, y) of each texel.
+/// Image whose texel (x, y) is color(x, y).
 template <class Color>
 TextureLevel make(int width, int height, Color color) {
   TextureLevel out{width, height, {}};
@@ -14,7 +14,7 @@ TextureLevel make(int width, int height, Color color) {
   return out;
 }
 
-/// Which of `cells` texel i's centre lies in, in integers.
+/// Number of the cell, of `cells` along `size` texels, in which texel i's centre lies; exact, in integers.
 int cell(int i, int size, int cells) {
   return static_cast<int>((2 * static_cast<std::int64_t>(i) + 1) * cells / (2 * static_cast<std::int64_t>(size)));
 }
@@ -22,7 +22,7 @@ int cell(int i, int size, int cells) {
 /// Whether texel i is the first of its cell.
 bool begins(int i, int size, int cells) { return i == 0 || cell(i, size, cells) != cell(i - 1, size, cells); }
 
-/// An integer's bits mixed (Wellons' lowbias32).
+/// Hash of an integer (Wellons' lowbias32).
 std::uint32_t mixed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x7feb352du;
   x = (x ^ (x >> 15)) * 0x846ca68bu;

@@ -1,6 +1,6 @@
-// What has to be checked in mesh files before assimp reads them, as it goes on by guessing: it leaves out vertices that
-// it cannot read, makes up what a truncated file lacks, takes hours over counts that are not true, and memory for
-// lengths beyond the file's end.
+// Checks of mesh files before assimp reads them. On bad files assimp guesses: it leaves out vertices that it cannot
+// read, makes up the rest of a truncated file, takes hours over false counts, and allocates lengths beyond the file's
+// end.
 #pragma once
 
 #include <string>
@@ -8,9 +8,10 @@
 
 namespace plumbline {
 
-/// Checks an OBJ file's text: statements that are drawn or that do not matter; v with 3 numbers (4: w; 6: a colour, in
-/// all lines or in none), vt with 2 or 3, each number beginning with a sign or a digit; f with three corners or more.
-/// Returns a note where something is left out, else nothing: a third texture coordinate other than 0.
+/// Checks an OBJ file's text: no statements but v, vt, f and those that change no shape (vn, g, o, s, mg, mtllib,
+/// usemtl); v with 3 numbers, 4 (w) or 6 (a colour), as many in all lines; vt with 2 or 3; no number that begins with a
+/// point; f with three corners or more, indices in range. Numbers of vn are not checked.
+/// Returns a note where a third texture coordinate other than 0 is left out, else an empty string.
 /// Throws std::runtime_error: expected ..., found ... in line n.
 std::string check_obj(std::string_view text);
 
@@ -23,10 +24,10 @@ void check_glb(std::string_view bytes);
 /// Throws std::runtime_error: expected ..., found ....
 void check_ply(std::string_view bytes);
 
-/// A checked PLY file with its triangle strips (element tristrips, one list vertex_indices) as faces, each strip's in
-/// order; a file without strips as it is. Corners i, i + 1, i + 2 of a strip are a triangle, every second one with its
-/// first two corners exchanged, as in OpenGL (4.5, section 10.1.7); -1 ends a strip within the list.
-/// Throws std::runtime_error: other properties, faces beside strips, indices out of range.
+/// A copy of a PLY file that check_ply() accepts, with its triangle strips (element tristrips, one list vertex_indices)
+/// turned into faces, in order; a file without strips is copied as it is. Corners i, i + 1, i + 2 of a strip are a
+/// triangle, every second one with its first two corners exchanged, as in OpenGL (4.5, section 10.1.7); -1 ends a strip
+/// within the list. Throws std::runtime_error: other properties, faces beside strips, indices out of range.
 std::string with_faces_for_strips(std::string_view bytes);
 
 }  // namespace plumbline

@@ -40,19 +40,19 @@ std::string read_bytes(const fs::path& file) {
   return bytes;
 }
 
-/// Files for assimp: the mesh file's bytes as they were checked, and regular files that the folders allow. A material
-/// file that does not exist is an empty one.
+/// File access for assimp: the mesh file's bytes as they were checked, and regular files that the folders allow. A
+/// material file that does not exist reads as an empty one.
 class AllowedFiles : public Assimp::DefaultIOSystem {
  public:
-  /// Material files asked for, and the first other file that was not opened.
+  /// Outcome of assimp's requests for files.
   struct Asked {
-    std::string refused;     ///< with what is wrong
-    std::string missing;     ///< material file that does not exist, the first
+    std::string refused;     ///< the first file that was not opened, and why
+    std::string missing;     ///< the first material file that does not exist
     bool materials = false;  ///< a material file was opened
   };
   AllowedFiles(const AssetFolders& folders, const fs::path& mesh, std::string_view bytes, Asked& asked)
       : folders_(folders), mesh_(mesh), bytes_(bytes), asked_(asked) {}
-  /// Without opening it, as assimp's own does: a pipe would wait for ever.
+  /// Whether the file is a regular one. assimp's own opens the file, which waits for ever on a pipe.
   bool Exists(const char* file) const override {
     std::error_code error;
     return fs::is_regular_file(file, error);
@@ -81,7 +81,7 @@ class AllowedFiles : public Assimp::DefaultIOSystem {
   static Assimp::IOStream* stream_of(std::string_view bytes) {
     return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   }
-  /// A name with blanks may be several files' names.
+  /// Whether a material file is certainly missing: a name with blanks may be those of several files.
   static bool lacks(const std::string& file) {
     std::error_code error;
     return fs::symlink_status(file, error).type() == fs::file_type::not_found &&
@@ -94,15 +94,15 @@ class AllowedFiles : public Assimp::DefaultIOSystem {
   Asked& asked_;
 };
 
-/// Complaints after which nothing of the shape is guessed: parts without nodes, an OBJ without "o", animations, third
-/// texture coordinates that are 0.
+/// Parts of complaints after which assimp guesses nothing about the shape: meshes without nodes, an OBJ without "o",
+/// animations, third texture coordinates that are 0.
 constexpr std::array<std::string_view, 6> kHarmlessComplaints = {
     "No hierarchy information", "No object detected to attach",         "animation", "roll track",
     "Skipping pivot",           "UVs are declared to be 3D but they're"};
 
 using Names = std::set<std::string, std::less<>>;
 
-/// What assimp complains about while this lives: what it then does is guess.
+/// Records assimp's warnings and errors during its lifetime; after most of them assimp goes on by guessing.
 class Complaints {
  public:
   Complaints() {
@@ -139,7 +139,7 @@ class Complaints {
   Names undefined_;
 };
 
-/// Before anything is made of it: a post-processing step would trust the numbers.
+/// Checks a mesh of assimp's before its post-processing, which trusts indices and numbers.
 void check_part(const aiMesh& part) {
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
@@ -206,7 +206,7 @@ glm::vec4 read_color(const aiMaterial& from, const char* key, float alpha) {
   return {c.r, c.g, c.b, alpha};
 }
 
-/// None for the materials that assimp makes up: where a file has none (a PLY file never has), and `undefined` ones.
+/// The material, or nullopt for one that assimp made up: of a file without materials (every PLY file), or `undefined`.
 std::optional<Material> read_material(const aiMaterial& from, std::string_view ending, const Names& undefined) {
   const std::string name = from.GetName().C_Str();
   const bool made_up = name == AI_DEFAULT_MATERIAL_NAME || name == "%%%DEFAULT" || undefined.contains(name);
@@ -230,7 +230,7 @@ std::optional<Material> read_material(const aiMaterial& from, std::string_view e
   return to;
 }
 
-/// Puts the file's parts, placed, one after the other.
+/// Collects the meshes of a node tree, transformed, as parts: neighbours of one material in one part.
 class Assembly {
  public:
   Assembly(const aiScene& scene, std::string_view ending, const Names& undefined_materials, std::size_t most_triangles)
@@ -296,7 +296,7 @@ class Assembly {
   std::vector<MeshPart> parts_;
 };
 
-/// Unit length; where one is not to be had (around triangles without an area), one made from the adjacent triangles.
+/// Normalises the normals; one without a direction (around triangles without area) is made from the adjacent triangles.
 void repair_normals(Mesh& mesh) {
   std::vector<glm::vec3> spare;
   for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
@@ -312,7 +312,8 @@ void repair_normals(Mesh& mesh) {
 
 void add_note(std::string& notes, const std::string& note) { notes += (notes.empty() ? "" : "; ") + note; }
 
-/// On bytes that are not the ending's, assimp tries every format that it knows, and may then read for ever.
+/// Requires the first bytes of the format that the ending names: on others assimp tries every format that it knows, and
+/// may read for ever.
 void check_beginning(std::string_view bytes, std::string_view ending) {
   if (ending == ".glb") check_glb(bytes);
   if (ending == ".3ds" && !bytes.starts_with("MM")) refuse("a 3DS file, beginning with MM", "another beginning");

@@ -10,7 +10,8 @@
 
 namespace plumbline {
 
-/// What load_mesh (mesh_file.h) does, in this process. Throws std::runtime_error: expected ..., found ...
+/// load_mesh() (mesh_file.h) in this process: assimp may crash or hang it. Throws std::runtime_error: expected ...,
+/// found ...
 std::vector<MeshPart> import_mesh(const std::filesystem::path& file, const AssetFolders& folders,
                                   std::size_t most_triangles);
 

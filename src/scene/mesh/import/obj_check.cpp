@@ -14,7 +14,7 @@
 namespace plumbline {
 namespace {
 
-/// The numbers of a line, each of which assimp's reader takes for one.
+/// The numbers of a line. Refuses words that assimp's reader does not take for a number, such as ".5".
 std::vector<double> read_numbers(std::string_view line) {
   std::vector<double> numbers;
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
@@ -28,7 +28,7 @@ std::vector<double> read_numbers(std::string_view line) {
   return numbers;
 }
 
-/// Of v, vt and vn, in the order in which a corner names them.
+/// Counts of v, vt and vn statements, in the order of a corner's indices.
 using Counts = std::array<std::int64_t, 3>;
 constexpr std::array<std::string_view, 3> kIndexed = {"v", "vt", "vn"};
 
@@ -45,7 +45,7 @@ Counts count_all(std::string_view text) {
   return counts;
 }
 
-/// Indices count from 1 in the whole file, or down from -1 in what stands above.
+/// Checks a corner's indices: from 1 up over the whole file, or from -1 down over the statements above the face.
 void check_corner(std::string_view corner, const Counts& all, const Counts& above) {
   for (std::size_t i = 0; i < kIndexed.size() && !corner.empty(); ++i) {
     const std::string_view word = corner.substr(0, corner.find('/'));

@@ -189,7 +189,7 @@ void require_strips_alone(const Header& header) {
   if (elements > 1) refuse("faces in one element, face or tristrips", "more");
 }
 
-/// The indices in a row of a strips' element, taken off the bytes.
+/// Takes a row of a tristrips element off the bytes: its indices.
 std::vector<std::int64_t> take_strip(std::string_view& bytes, const Property& property, Format format) {
   std::vector<std::int64_t> indices;
   if (format == Format::ascii) {
@@ -218,7 +218,7 @@ std::vector<std::int64_t> take_strip(std::string_view& bytes, const Property& pr
 using Corners = std::array<std::int64_t, 3>;
 
 void add_triangles(const std::vector<std::int64_t>& strip, std::uint64_t vertices, std::vector<Corners>& triangles) {
-  std::size_t first = 0;  // of the strip that the list is at
+  std::size_t first = 0;  // index of the current strip's first corner
   for (std::size_t i = 0; i < strip.size(); ++i) {
     if (strip[i] == -1) {
       first = i + 1;

@@ -1,4 +1,4 @@
-// How the checks of a mesh file refuse it.
+// The error of the mesh files' checks.
 #pragma once
 
 #include <stdexcept>

@@ -9,7 +9,7 @@
 
 namespace plumbline {
 
-/// Takes the next line off the text, without its end.
+/// Takes the next line off the text and returns it without its line end (LF or CR LF).
 inline std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   std::string_view line = text.substr(0, end);
@@ -18,7 +18,7 @@ inline std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// Takes the next word off the line; empty if there is none.
+/// Takes the next word (blanks and tabs separate) off the line; empty if there is none.
 inline std::string_view take_word(std::string_view& line) {
   constexpr std::string_view kBlanks = " \t";
   line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
@@ -27,7 +27,7 @@ inline std::string_view take_word(std::string_view& line) {
   return word;
 }
 
-/// The whole word as a number; "nan" and "inf" are numbers, too.
+/// The whole word as a number, with or without a sign; "nan" and "inf" are numbers, too. nullopt: no number of type T.
 template <class T>
 std::optional<T> number_in(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);

@@ -1,5 +1,5 @@
-// plumbline_mesh_reader FILE MOST_TRIANGLES FOLDER...: what import_mesh() makes of the file, for load_mesh()
-// (mesh_file.h). A program of its own: the library that reads the files crashes, hangs and guesses on some bad ones.
+// plumbline_mesh_reader FILE MOST_TRIANGLES FOLDER...: runs import_mesh() for load_mesh() (mesh_file.h), in a process
+// of its own, as assimp crashes or hangs on some bad files.
 #include <filesystem>
 #include <string>
 #include <vector>
