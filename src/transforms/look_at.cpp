@@ -3,12 +3,12 @@
 namespace plumbline::transforms {
 namespace {
 
-/// A camera space, in world coordinates: its axes, of unit length and at right angles, and its origin.
+/// A camera space in world coordinates: orthonormal axes and the origin.
 struct Axes {
   glm::dvec3 x, y, z, origin;
 };
 
-// Class notes (004) 3.3, item 8: whose axes are known, that space's transform is known, and so is its inverse.
+// Class notes (004) 3.3, item 8: the axes of a space give its transform, and the inverse.
 glm::dmat4 to_world(const Axes& a) {
   return {glm::dvec4(a.x, 0.0), glm::dvec4(a.y, 0.0), glm::dvec4(a.z, 0.0), glm::dvec4(a.origin, 1.0)};
 }

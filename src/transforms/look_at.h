@@ -1,6 +1,7 @@
-// World to camera space, by the four constructions, and back. None of them mirrors: left-handed cameras take their
-// world for left-handed too. In one world, GL's camera is theirs with x and z negated. Where the view is along `up`, or
-// has no length, the entries are NaN.
+// View matrices (world to camera space) by four constructions, and their inverses. Each is a rotation and a translation
+// and does not mirror: a left-handed camera space belongs to a left-handed world. For one eye and centre, GL's x and z
+// axes are the negatives of the left-handed cameras'. Entries are NaN where the view direction is exactly along `up` or
+// has length 0.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -24,8 +25,8 @@ glm::dmat4 m_cam(const glm::dvec3& e, const glm::dvec3& g, const glm::dvec3& t);
 glm::dmat4 inverse_m_cam(const glm::dvec3& e, const glm::dvec3& g, const glm::dvec3& t);
 
 /// X_iw and its inverse X_wi, class notes (004) 3.3: `c` at the origin, looking along +z at `l`; left-handed. Z =
-/// cl/|cl|, Y is what of up is at right angles to Z (Gram-Schmidt), X = Y x Z. The same matrix as m_cam(c, l - c, up).
-/// With x_pi, whose eye is at (0, 0, -d), the eye is d behind c.
+/// cl/|cl|, Y is the part of `up` at right angles to Z, normalised (Gram-Schmidt), X = Y x Z. The same matrix as
+/// m_cam(c, l - c, up). With x_pi, whose eye is at (0, 0, -d), the eye is d behind c.
 glm::dmat4 x_iw(const glm::dvec3& c, const glm::dvec3& l, const glm::dvec3& up);
 glm::dmat4 x_wi(const glm::dvec3& c, const glm::dvec3& l, const glm::dvec3& up);
 

@@ -2,7 +2,7 @@
 
 namespace plumbline::transforms {
 
-// The inverse is the cofactors' transpose over the determinant (Cramer); its transpose, the cofactors themselves.
+// The inverse is transpose(cofactors) / determinant (Cramer), so the inverse transpose is cofactors / determinant.
 glm::dmat3 normal_matrix(const glm::dmat4& matrix) {
   const glm::dmat3 m(matrix);
   const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));

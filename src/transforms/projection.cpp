@@ -26,7 +26,8 @@ glm::dmat4 frustum(double l, double r, double b, double t, double n, double f) {
   return m;
 }
 
-// With z_clip = A z + B and w_clip = -z, A and B as above: z = -w_clip and 1 = (z_clip + A w_clip) / B.
+// With z_clip = A z + B and w_clip = -z, A = (n + f) / (n - f) and B = 2 f n / (n - f): z = -w_clip and
+// 1 = (z_clip + A w_clip) / B.
 glm::dmat4 inverse_frustum(double l, double r, double b, double t, double n, double f) {
   glm::dmat4 m(0.0);
   m[0][0] = (r - l) / (2.0 * n);
@@ -88,7 +89,7 @@ glm::dmat4 x_pi(double d) {
   return m;
 }
 
-// Z = d z' and 1 = w - z'.
+// With z' = Z / d and w' = Z / d + 1: Z = d z' and 1 = w' - z'.
 glm::dmat4 inverse_x_pi(double d) {
   glm::dmat4 m(1.0);
   m[2][2] = d;

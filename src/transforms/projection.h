@@ -1,24 +1,24 @@
-// From camera to clip space, whose division by w gives the canonical volume (NDC). Angles in radians. Where a volume is
-// empty or a distance is 0, entries are infinite or NaN.
+// Projections: matrices from camera to clip space, of which division by w makes the canonical volume (NDC), and their
+// inverses. Angles in radians. An empty volume or a distance of 0 gives infinite or NaN entries.
 #pragma once
 
 #include <glm/glm.hpp>
 
 namespace plumbline::transforms {
 
-/// What is seen of the near plane, in camera space.
+/// The visible rectangle of the near plane, in camera space.
 struct NearPlane {
   double left, right, bottom, top;
 };
 
-/// A view that is symmetric about the z-axis: its whole angle in y, (0, pi), and its width over its height.
+/// A view that is symmetric about the z-axis: its full angle in y, (0, pi), and width / height.
 struct FieldOfView {
   double fov_y, aspect;
 };
 
 /// GAMES101 (001) "Perspective Projection": tan(fovY/2) = t/|n|, aspect = r/t, l = -r, b = -t; n of either sign.
 NearPlane near_plane(const FieldOfView& view, double n);
-/// The same read backwards; of a plane that is symmetric.
+/// The inverse of near_plane(). The plane must be symmetric: only `right` and `top` are read.
 FieldOfView field_of_view(const NearPlane& plane, double n);
 
 /// Right-handed, the eye at the origin looking down -z. 0 < n < f are distances. NDC is left-handed, z in [-1, 1], -1
@@ -40,7 +40,8 @@ glm::dmat4 inverse_perspective(const FieldOfView& view, double n, double f);
 /// in [0, 1): 0 on the view plane, 1 at infinity; -d < z < 0 projects to NDC z < 0.
 namespace gzrender {
 
-/// Class notes (004) 3.2: 1/d = tan(FOV/2), for x in [-1, 1] on the view plane.
+/// Distance d of the eye from the view plane, and back: 1/d = tan(FOV/2), for x in [-1, 1] on the view plane. Class
+/// notes (004) 3.2.
 double d_of_fov(double fov);
 double fov_of_d(double d);
 
@@ -57,11 +58,11 @@ namespace games101 {
 glm::dmat4 orthographic(double l, double r, double b, double t, double n, double f);
 glm::dmat4 inverse_orthographic(double l, double r, double b, double t, double n, double f);
 
-/// Frustum to cuboid: what is on the near plane stays, z = n and z = f stay. w = z, negative for what is seen.
+/// Frustum to cuboid: points on the near plane stay, z = n and z = f stay. w = z, negative for visible points.
 glm::dmat4 persp_to_ortho(double n, double f);
 glm::dmat4 inverse_persp_to_ortho(double n, double f);
 
-/// Frustum to canonical cube: the orthographic one after persp_to_ortho, l r b t by near_plane.
+/// Frustum to canonical cube: orthographic() * persp_to_ortho(), with l, r, b, t of near_plane(); w = z as there.
 glm::dmat4 perspective(const FieldOfView& view, double n, double f);
 glm::dmat4 inverse_perspective(const FieldOfView& view, double n, double f);
 

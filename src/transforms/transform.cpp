@@ -6,7 +6,7 @@
 
 namespace plumbline::transforms {
 
-// Columns are what the axes become; the last is the translation.
+// A matrix' first three columns are the images of the axes, its last the translation.
 glm::dmat4 translation(const glm::dvec3& t) {
   glm::dmat4 m(1.0);
   m[3] = glm::dvec4(t, 1.0);
@@ -67,7 +67,7 @@ glm::dmat4 rotation(double angle, const glm::dvec3& axis) {
 glm::dmat4 inverse_rotation(double angle, const glm::dvec3& axis) { return glm::transpose(rotation(angle, axis)); }
 
 glm::dmat4 rotation_by_basis(double angle, const glm::dvec3& axis) {
-  // Any up will do that is not along the axis: the coordinate axis that is farthest from it.
+  // Any `up` that is not along the axis serves: the coordinate axis that is farthest from it is taken.
   const glm::dvec3 a = glm::abs(axis);
   const glm::dvec3 up(a.x <= a.y && a.x <= a.z, a.y < a.x && a.y <= a.z, a.z < a.x && a.z < a.y);
   const glm::dmat4 basis = gzrender::x_wi(glm::dvec3(0), axis, up);

@@ -1,6 +1,6 @@
-// Translation, scaling, rotations and orbits, as matrices in double. Columns as GLM stores them: p' = M p. Angles are
-// in radians, counter-clockwise looked at from the axis' tip in right-handed coordinates (clockwise in left-handed
-// ones: the numbers are the same). Each matrix' inverse is a formula of its own, not an elimination.
+// Translation, scaling, rotations and orbits, as matrices in double that act on column vectors: p' = M p. Angles are in
+// radians, counter-clockwise as seen from the axis' tip in right-handed coordinates (clockwise in left-handed ones: the
+// numbers are the same). Each inverse is a formula of its own, not an elimination.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -23,12 +23,12 @@ glm::dmat4 inverse_rotation_x(double angle);
 glm::dmat4 inverse_rotation_y(double angle);
 glm::dmat4 inverse_rotation_z(double angle);
 
-/// About any axis through the origin, of any length but 0 (which gives NaN). Rodrigues: R = c I + (1 - c) a a^T + s
-/// [a]x, the matrix of glRotate (GL 2.1 spec 2.11.2). R^-1 = R^T.
+/// Rotation about an axis through the origin, of any length but 0 (which gives NaN). Rodrigues: R = c I + (1 - c) a a^T
+/// + s [a]x, a being the unit axis: the matrix of glRotate (GL 2.1 spec 2.11.2). R^-1 = R^T.
 glm::dmat4 rotation(double angle, const glm::dvec3& axis);
 glm::dmat4 inverse_rotation(double angle, const glm::dvec3& axis);
 
-/// The same, by class notes (004) 3.3, item 8: into a space whose Z is the axis, about Z there, and back.
+/// rotation() by class notes (004) 3.3, item 8: into a space whose Z is the axis, a rotation about Z there, and back.
 glm::dmat4 rotation_by_basis(double angle, const glm::dvec3& axis);
 glm::dmat4 inverse_rotation_by_basis(double angle, const glm::dvec3& axis);
 
