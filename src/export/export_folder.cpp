@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kFormat = "plumbline export";
 constexpr int kVersion = 1;
 
-// Writes records of stages 0 to 4, doubles as floats.
+// Writes a capture's records of stages 0 to 4 as arrays, doubles rounded to float.
 class StageWriter {
  public:
   explicit StageWriter(ArrayFolder& folder) : folder_(folder) {}
@@ -86,7 +86,7 @@ Json head(const Scene& scene) {
   return {{"format", kFormat}, {"version", kVersion}, {"name", scene.name}, {"frame", frame_json(scene)}};
 }
 
-// A scene of one sample a pixel.
+// Writes a scene of one sample per pixel: one that is not antialiased, or a pass.
 void write_single(const Scene& scene, const StagesOf& stages_of, ArrayFolder folder) {
   const ExportedStages stages = stages_of(scene);
   Json manifest = head(scene);
@@ -121,7 +121,7 @@ void write_single(const Scene& scene, const StagesOf& stages_of, ArrayFolder fol
 
 fs::path pass_folder(std::size_t pass) { return fmt::format("pass{}", pass); }
 
-// Names of the files that an export holds, by its manifest.
+// Adds the files of an export, by its manifest, to `names`. `inside`: folder of a pass, relative to `folder`.
 void add_files(const fs::path& folder, const fs::path& inside, std::set<fs::path>& names) {
   const JsonFile file(folder / inside / "manifest.json");
   const JsonNode root = file.root();

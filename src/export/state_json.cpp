@@ -14,7 +14,7 @@ Json vector(const glm::vec<N, T, Q>& v) {
   return out;
 }
 
-// Null where there is none.
+// The value as JSON, or null.
 template <class T, class ToJson>
 Json optional(const std::optional<T>& value, const ToJson& to_json) {
   return value ? to_json(*value) : Json();

@@ -1,5 +1,6 @@
-// A scene's state as JSON, every default written out, under the keys of scene files (tests/scenes/scene.schema.json).
-// Lights are in eye space, as stage 0 leaves them; camera, projection and transforms are left out.
+// A scene's state as JSON, every default written out, mostly under the keys of scene files
+// (tests/scenes/scene.schema.json). Lights are in eye space, as stage 0 leaves them; camera, projection and transforms
+// are left out.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,15 +12,16 @@ namespace plumbline {
 
 using Json = nlohmann::ordered_json;
 
-/// Size, formats and clear values; rows_from_top, depth_clamp, and the pass' sample.
+/// Size, formats and clear values; rows_from_top, depth_clamp, and the offset of the pass' sample [1/256 pixel].
 Json frame_json(const Scene& scene);
-/// GL_LIGHT_MODEL_..., the ambient light among it.
+/// The light model, its ambient light included.
 Json light_model_json(const LightModel& model);
-/// A light's colours, with its place and direction in eye space.
+/// A light's colours, attenuation and cone, with its position and direction in eye space.
 Json light_json(const Light& light, const LightSource<double>& in_eye_space);
-/// Format, sampler, and the size of each level.
+/// Format, sampler, and the size of each level; no texels. `border` is converted to the format's source components.
 Json texture_json(const Texture& texture);
-/// All but the mesh and the matrices. What a draw does not use is null: blend, fog, texture...
+/// A draw's state, with the numbers of its mesh and texture, without matrices. State that a draw does not use (blend,
+/// fog, texture...) is null.
 Json draw_json(const Draw& draw);
 
 }  // namespace plumbline
