@@ -9,7 +9,7 @@
 namespace plumbline {
 
 const ImageCodec& image_codec() {
-  // Never unloaded: what it handed out may live until the end.
+  // Never unloaded: images that the module opened may live until the process ends.
   static const ImageCodec* const kCodec = [] {
     void* module = dlopen("plumbline_openimageio.so", RTLD_LAZY | RTLD_LOCAL);
     const void* codec = module == nullptr ? nullptr : dlsym(module, "plumbline_image_codec");

@@ -1,4 +1,4 @@
-// The module that image_codec.h speaks of: the one file that knows OpenImageIO.
+// The module of image_codec.h: the one file that includes OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -63,7 +63,7 @@ class File : public OpenImage {
   }
   std::string error() const override {
     std::string said = in_->geterror();
-    said.resize(std::min(said.find('\n'), said.size()));  // what follows says it again
+    said.resize(std::min(said.find('\n'), said.size()));  // further lines repeat the first
     return said.empty() ? "the file ends before its pixels do, or holds others than its header says" : said;
   }
 
@@ -83,7 +83,8 @@ std::unique_ptr<OpenImage> open(const std::string& name, std::string& error) {
   return std::make_unique<File>(std::move(in));
 }
 
-// Pictures are small: threads of the libraries' own cost more than they save, and a process that has them cannot fork.
+// No threads of the libraries' own: for small pictures they cost more than they save, and a process with threads cannot
+// fork safely.
 [[maybe_unused]] const bool kNoThreads = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
 
 // Removes the eXIf chunk (length, type, data, CRC) of a PNG file: OpenImageIO 3.0 writes an empty one, 2.4 none, and a
@@ -108,7 +109,7 @@ std::string encode(const ImageToEncode& image, std::string& error) {
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), type_of(image.type));
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("compression", "zip");
-  // Of an EXR file: without a date OpenImageIO writes today's, and no two files were the same.
+  // An EXR file gets a fixed date: OpenImageIO would write today's, and no two files would be the same.
   if (image.type == SampleType::float32) spec.attribute("DateTime", "1970:01:01 00:00:00");
   spec.channelnames = image.channels;
   for (int c = 0; c < spec.nchannels; ++c) {
