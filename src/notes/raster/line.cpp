@@ -12,7 +12,7 @@ namespace plumbline::raster {
 
 namespace {
 
-// A line turned into the octant 0 <= a <= n: pixel (x, y) there is start + x * major + y * minor.
+// A line reflected into the octant 0 <= a <= n: the octant's pixel (x, y) is start + x * major + y * minor.
 struct Octant {
   glm::i64vec2 start, major, minor;
   std::int64_t n, a;
@@ -30,7 +30,7 @@ Octant octant_of(glm::ivec2 from, glm::ivec2 to) {
   return dx >= dy ? Octant{from, x, y, dx, dy} : Octant{from, y, x, dy, dx};
 }
 
-// The steps [first, last] whose pixels have a major coordinate within the frame.
+// The steps [first, last] of the line whose pixels' major coordinate is within the frame; first > last: none.
 struct Steps {
   std::int64_t first, last;
 };
@@ -42,10 +42,10 @@ Steps steps_within(const Octant& o, glm::ivec2 frame) {
   return {std::max<std::int64_t>(all.first, 0), std::min(all.last, o.n)};
 }
 
-// ROUND(k x), half towards E: the largest y that is less than k x + 1/2, or equal to k x.
+// ROUND(k x), half towards E: the largest integer less than k x + 1/2.
 std::int64_t round_to_e(const Octant& o, std::int64_t x) { return o.n == 0 ? 0 : (2 * o.a * x + o.n - 1) / (2 * o.n); }
 
-// A line's pixels as they are found.
+// Collects a line's pixels within the frame, with their depth and colour.
 class Drawn {
  public:
   Drawn(const LinePixel& from, const LinePixel& to, const Octant& octant, glm::ivec2 frame)
@@ -91,7 +91,7 @@ std::vector<LinePixel> midpoint_line(const LinePixel& from, const LinePixel& to,
   const Steps steps = steps_within(o, frame);
   const std::int64_t a = o.a, b = -o.n;
   Drawn drawn(from, to, o, frame);
-  // The first pixel within the frame may be any of the line's: f is set up there, not at the line's start.
+  // f is set up at the first pixel within the frame, not at the line's start.
   std::int64_t y = round_to_e(o, steps.first);
   std::int64_t twice_f = 2 * a * (steps.first + 1) + b * (2 * y + 1);
   for (std::int64_t x = steps.first; x <= steps.last; ++x) {

@@ -13,19 +13,19 @@ namespace {
 
 using Point = glm::i64vec2;
 
-/// c is left (1) or right (-1) of the line from a to b, or on it.
+/// Side of the line from a to b on which c lies: 1 left, -1 right, 0 on the line.
 int side(Point a, Point b, Point c) {
   const std::int64_t z = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   return (z > 0) - (z < 0);
 }
 
-/// c, on the line through a and b, lies between them.
+/// Whether c, a point on the line through a and b, lies between a and b or on one of them.
 bool between(Point a, Point b, Point c) {
   return c.x >= std::min(a.x, b.x) && c.x <= std::max(a.x, b.x) && c.y >= std::min(a.y, b.y) &&
          c.y <= std::max(a.y, b.y);
 }
 
-/// The insides of two segments meet in one point.
+/// Whether the interiors of segments ab and cd cross in one point.
 bool cross(Point a, Point b, Point c, Point d) {
   return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
 }
@@ -44,7 +44,8 @@ void require_simple(const std::vector<Point>& p) {
   }
 }
 
-/// 1: counter-clockwise. The lowest of the leftmost corners juts out, so that it turns as the whole does.
+/// Winding of a simple polygon: 1 counter-clockwise, -1 clockwise; that of the lowest of the leftmost corners, which is
+/// convex.
 int winding(const std::vector<Point>& p) {
   const std::size_t n = p.size();
   std::size_t at = 0;
@@ -86,7 +87,7 @@ std::vector<glm::uvec3> decompose(std::span<const glm::ivec2> corners) {
   std::vector<glm::uvec3> out;
   while (left.size() > 3) {
     std::size_t ear = 0;
-    while (!is_ear(ear)) ++ear;  // there is one: every simple polygon has two
+    while (!is_ear(ear)) ++ear;  // ends: every simple polygon of more than three corners has two ears
     const std::size_t n = left.size();
     out.emplace_back(left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]);
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));

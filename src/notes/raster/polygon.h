@@ -9,12 +9,13 @@
 
 namespace plumbline::raster {
 
-/// Cuts a polygon of n corners into n - 2 triangles of its corners' indices, wound as it is: together they cover it
-/// once. An ear is three corners in a row whose triangle has an area and holds no other corner, not even on its border,
-/// so that corners amid a straight side stay corners of the pieces, and no piece is without area. In integers, exact,
-/// in O(n^3) at worst, of the first ear each time: the same on every machine. Corners in 1/256 pixel or any other unit,
-/// within +-2^29. Throws std::invalid_argument for fewer than three, corners beyond that, and a polygon that crosses or
-/// touches itself or has no area. (What may stand in a mesh file is decided in scene/mesh/polygon.h.)
+/// Cuts a polygon of n corners into n - 2 triangles, as indices of corners, of the polygon's winding, which cover it
+/// exactly once. An ear is three successive corners whose triangle has an area and holds no other corner, not even on
+/// its border: so corners within a straight side remain corners of triangles, and no triangle is without area. Exact,
+/// in integers; takes the first ear each time, so that the result is the same on every machine; O(n^3) at worst.
+/// Corners in 1/256 pixel or any other unit, within +-2^29. Throws std::invalid_argument for fewer than three corners,
+/// corners out of range, and a polygon that crosses or touches itself or has no area. (scene/mesh/polygon.h decides
+/// which polygons a mesh file may have.)
 std::vector<glm::uvec3> decompose(std::span<const glm::ivec2> corners);
 
 }  // namespace plumbline::raster

@@ -1,11 +1,13 @@
-// The pixels a triangle covers, by each of the algorithms that the notes teach. The one that ships is
-// kernels/coverage.h; these four stand beside it, each by its own expression, in integers, and share no predicate, so
-// that any of them is a witness for the others.
+// Coverage of a triangle by the four algorithms that the notes teach. The renderer's is kernels/coverage.h; these four
+// each have their own expression, in integers, and share no predicate, so that each checks the others.
 //
 // Corners are snapped to 1/256 pixel, pixel (i, j)'s centre is at (256 i, 256 j), y counts up. A centre inside is
 // covered; one on an edge if the interior lies to its right (+x), or, where the edge is horizontal, above it (+y)
-// (stages.h, TieRule::small_sides_in). Each algorithm has that rule in words of its own. Either winding covers the
-// same; a triangle without area covers nothing.
+// (stages.h, TieRule::small_sides_in). Each algorithm has its own form of that rule. Both windings cover the same
+// pixels; a triangle without area covers none.
+//
+// All four return the covered pixels of a width x height frame, ascending in y, then x. They throw std::out_of_range
+// for corners beyond +-2^29 (2 million pixels) and frame sides beyond [1, 16384].
 #pragma once
 
 #include "notes/raster/triangle_spans.h"
@@ -13,15 +15,13 @@
 namespace plumbline::raster {
 
 /// Barycentric coordinates alpha, beta, gamma by f_ij, over the bounding box (note 000, Rasterization).
-/// All four: the covered pixels of a width x height frame, ascending in y, then x.
-/// Throws std::out_of_range for corners beyond +-2^29 (2 million pixels) and frame sides beyond [1, 16384].
 Spans cover_by_barycentric(const Corners& corners, int width, int height);
 
 /// The sign of three cross products, the same for a point inside (note 001, "Evaluating inside(tri, x, y)").
 Spans cover_by_cross_products(const Corners& corners, int width, int height);
 
-/// Linear expression evaluation: E(x, y) = dY (x - X) - dX (y - Y) of each edge, from pixel to pixel by one addition
-/// (note 004, section 2.5).
+/// Linear expression evaluation: E(x, y) = dY (x - X) - dX (y - Y) of each edge, stepped from pixel to pixel by one
+/// addition (note 004, section 2.5).
 Spans cover_by_lee(const Corners& corners, int width, int height);
 
 /// Scan line: each row's span from edge to edge (note 004, section 2.4, object order).

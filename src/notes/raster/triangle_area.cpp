@@ -25,7 +25,7 @@ std::vector<glm::dvec2> cut(const std::vector<glm::dvec2>& polygon, Distance dis
 }  // namespace
 
 double area_in_pixel(const Corners& corners, int x, int y) {
-  std::vector<glm::dvec2> polygon;  // from the pixel's centre, so that the square is small numbers
+  std::vector<glm::dvec2> polygon;  // relative to the pixel's centre: the square's sides are at +-1/2
   for (const glm::ivec2& p : corners) polygon.push_back(glm::dvec2(p) / 256.0 - glm::dvec2(x, y));
   for (const int axis : {0, 1}) {
     polygon = cut(polygon, [=](glm::dvec2 p) { return 0.5 + p[axis]; });

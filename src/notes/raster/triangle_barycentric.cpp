@@ -9,18 +9,18 @@ namespace {
 
 int sign_of(std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
-/// One barycentric coordinate, such as alpha = f12(p) / f12(p0), by its sign: that of f12(p) times that of f12(p0), so
-/// that nothing is divided. 0 everywhere where the triangle has no area.
+/// Sign of one barycentric coordinate, such as alpha = f12(p) / f12(p0): the sign of f12(p) times that of f12(p0),
+/// without a division. 0 everywhere for a triangle without area.
 class Coordinate {
  public:
-  /// Of vertex k, by the line through i and j.
+  /// The coordinate of vertex k, by the line through i and j.
   Coordinate(glm::i64vec2 i, glm::i64vec2 j, glm::i64vec2 k)
       : a_(i.y - j.y), b_(j.x - i.x), c_(i.x * j.y - j.x * i.y), at_own_vertex_(sign_of(f(k.x, k.y))) {}
 
   int sign(std::int64_t x, std::int64_t y) const { return sign_of(f(x, y)) * at_own_vertex_; }
 
-  /// A coordinate of 0: the centre is on the line. It is in if the coordinate is positive one step to the right; where
-  /// that is on the line too, one step above.
+  /// Whether the coordinate is positive. Where it is 0, the centre is on the line, and the coordinate one step to the
+  /// right decides; where that is 0, too, the one a step above.
   bool accepts(std::int64_t x, std::int64_t y) const {
     if (const int here = sign(x, y); here != 0) return here > 0;
     if (const int right = sign(x + 1, y); right != 0) return right > 0;

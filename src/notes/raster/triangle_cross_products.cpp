@@ -9,9 +9,9 @@ namespace {
 
 std::int64_t cross(glm::i64vec2 a, glm::i64vec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// Whether q is on the inner side of the edge from -> to of a triangle walked counter-clockwise. On the edge itself it
-/// is in where the walk goes down, for the interior, on the walk's left, then lies to the right in the window; or where
-/// it goes straight to the right, for then the interior lies above.
+/// Whether q is on the inner side (left) of the edge from -> to of a counter-clockwise triangle. A q on the edge is in
+/// where the edge goes down, since the interior on its left is then to the right in the window, and where it goes
+/// straight to the right, since the interior is then above.
 bool is_left_of(glm::i64vec2 from, glm::i64vec2 to, glm::i64vec2 q) {
   const glm::i64vec2 walk = to - from;
   const std::int64_t z = cross(walk, q - from);

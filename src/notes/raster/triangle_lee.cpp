@@ -7,9 +7,9 @@ namespace plumbline::raster {
 
 namespace {
 
-/// An edge's expression at one pixel, positive on the side where the third corner lies. Edges with the triangle to
-/// their right (left edges) keep their own pixels, and so do horizontal ones with it above (bottom edges); the others'
-/// are taken away by 1, which no other value is near enough to notice. Inside: >= 0.
+/// An edge's expression at one pixel, >= 0 inside. Left edges (the triangle to their right) and bottom edges
+/// (horizontal, the triangle above) own the pixels on them. The expressions of other edges are lowered by 1: of
+/// integers, that changes the sign of 0 alone.
 struct Expression {
   std::int64_t value, step_x, step_y;  // from pixel to pixel
 };
@@ -30,7 +30,7 @@ Spans cover_by_lee(const Corners& corners, int width, int height) {
   const auto& [a, b, c] = corners;
   const auto [x_low, x_high] = std::minmax({a.x, b.x, c.x});
   const auto [y_low, y_high] = std::minmax({a.y, b.y, c.y});
-  // The first centre at or after, and the last at or before.
+  // The first centre at or after the low ends, and the last at or before the high ones.
   const int x_first = std::max((x_low + 255) / 256, 0), x_last = std::min(x_high >> 8, width - 1);
   const int y_first = std::max((y_low + 255) / 256, 0), y_last = std::min(y_high >> 8, height - 1);
 

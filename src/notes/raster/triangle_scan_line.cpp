@@ -7,7 +7,7 @@ namespace plumbline::raster {
 
 namespace {
 
-/// The first pixel at or after n / d, d > 0: the quotient rounded up.
+/// ceil(n / d), d > 0.
 std::int64_t round_up(std::int64_t n, std::int64_t d) { return n / d + (n % d > 0 ? 1 : 0); }
 
 /// The first pixel of row y whose centre is at or to the right of the edge, which goes up and crosses the row:
@@ -19,9 +19,8 @@ std::int64_t first_right_of(glm::i64vec2 low, glm::i64vec2 high, std::int64_t y)
 
 }  // namespace
 
-// Ties are settled by half-open intervals. A row belongs to the triangle from the lowest corner on, the highest
-// excluded; a pixel to a span from the one edge on, the other excluded: left and bottom edges are in, right and top
-// ones are not.
+// Half-open intervals settle ties: rows from the lowest corner, included, to the highest, excluded; pixels of a row
+// from the left edge, included, to the right one, excluded.
 Spans cover_by_scan_line(const Corners& corners, int width, int height) {
   require_in_range(corners, width, height);
   std::array<glm::i64vec2, 3> p{corners[0], corners[1], corners[2]};

@@ -1,4 +1,4 @@
-// What the triangle algorithms take and hand out.
+// Input and output of the triangle algorithms: corners and spans of pixels.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ struct Span {
 };
 using Spans = std::vector<Span>;
 
-/// Adds a pixel, which lengthens the last span if it is the next in its row.
+/// Appends a pixel: lengthens the last span if the pixel is the next in the span's row, else begins a span.
 void append_pixel(int x, int y, Spans& out);
 
-/// Throws std::out_of_range unless corners are within +-2^29 and sides within [1, 16384]. Then differences of corners
-/// are at most 2^30, products of one with a coordinate 2^59 or with another one 2^60, and their sums of two far below
-/// 2^63.
+/// Throws std::out_of_range unless corners are within +-2^29 and sides within [1, 16384]. Then a difference of corners
+/// is at most 2^30, its product with a coordinate at most 2^59, with another difference 2^60, and the sum of two such
+/// products far below 2^63.
 void require_in_range(const Corners& corners, int width, int height);
 
 }  // namespace plumbline::raster
