@@ -1,4 +1,4 @@
-// Numbers known to a bound, and the rounding errors of float arithmetic.
+// Numbers with an error bound, and the rounding errors of float arithmetic.
 #pragma once
 
 #include <algorithm>
@@ -15,34 +15,34 @@ inline constexpr double kFloatRounding = 1.0 / (1 << 24);  ///< u, the unit roun
 /// operands and as results; Mesa sets the processor so for its vertices and for llvmpipe (util_fpstate).
 inline constexpr double kGradualUnderflow = 0x1p-150, kFlushedUnderflow = 0x1p-126;
 
-/// Roundings of a step in float: `count` of them, and the renderer's underflow.
+/// Rounding error of a computation in float.
 struct Roundings {
-  double count;
-  double underflow = kGradualUnderflow;
-  /// Error of a result whose terms come to `magnitude`. A sum of nothing but zeros is not rounded.
+  double count;                          ///< roundings, each of the whole magnitude
+  double underflow = kGradualUnderflow;  ///< absolute error of each by underflow
+  /// Error of a result whose terms' absolute values sum to `magnitude`. A sum of nothing but zeros is not rounded.
   double operator()(double magnitude) const {
     return magnitude == 0 ? 0 : count * (kFloatRounding * magnitude + underflow);
   }
 };
 
-/// A number, and how far another renderer's may be from it.
+/// A number, and a bound on the absolute error of another renderer's.
 struct Bounded {
   double value = 0, error = 0;
 };
-/// Four numbers, a colour or a position, and how far any of another renderer's may be from its own; infinite: anything.
+/// Four numbers (a colour, a position) with one bound on the absolute error of each; infinite: no bound.
 struct BoundedFour {
   glm::dvec4 value{0};
   double bound = 0;
 };
 
-/// Operations that make a fragment's colour, on real numbers.
+/// Operations of a fragment's colour on real numbers.
 struct Exactly {
   static double product(double a, double b) { return a * b; }
   static double mixed(double a, double b, double share) { return a * (1 - share) + b * share; }
   static double clamped_sum(double a, double b) { return std::clamp(a + b, 0.0, 1.0); }
 };
 
-/// Operations that make a fragment's colour, on numbers known to a bound, by a renderer that rounds each result.
+/// Operations of a fragment's colour on numbers with an error bound, by a renderer that rounds each result.
 struct Rounding {
   Roundings roundings;
   Bounded product(Bounded a, Bounded b) const {

@@ -10,7 +10,7 @@ namespace plumbline::math {
 
 namespace {
 
-/// |m| |v|: what the sums' terms come to by their absolute values.
+/// |m| |v|: per component, the sum of the absolute values of the terms of m v.
 glm::dvec3 terms(const glm::dmat3& m, glm::dvec3 v) {
   return glm::abs(m[0] * v.x) + glm::abs(m[1] * v.y) + glm::abs(m[2] * v.z);
 }
@@ -32,7 +32,8 @@ Known eye_position(const Mesh& mesh, const Matrices<double>& m, std::uint32_t ve
   return {glm::dvec3(m.model_view * glm::dvec4(p, 1)), place_error(m.model_view, p)};
 }
 
-// Matrix entries 1 u, sum 3 u of its terms; normalising 3 u, or a divisor of 6 u.
+// Error: 1 u by the matrix' entries and 3 u by the sum, of its terms; 3 u by normalising, or 6 u by rescaling's
+// divisor.
 Known eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex) {
   const glm::dvec3 normal(mesh.normals[vertex]), scaled = m.normal * normal;
   const glm::dvec3 n = normal_in_eye_space(draw.normals, m.normal, normal);

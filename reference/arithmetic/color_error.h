@@ -1,4 +1,4 @@
-// How far a float evaluation of a vertex' colour may be from the one in double.
+// Bounds on the error of a vertex' colour, position, normal and lights in float arithmetic.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,23 @@
 
 namespace plumbline::math {
 
-/// Error of each light's place or direction in eye space, in length.
+/// Error of each light's position or direction in eye space [length of the error vector], in the order of the lights.
 std::vector<double> light_errors(const Scene& scene, const glm::dmat4& view);
 
-/// Per channel, for vertex number `vertex` of the draw's mesh; `m` and `lights` unrounded, the latter's errors
-/// `light_errors`. At most 1: colours are clamped.
+/// Error, per channel, of the colour of vertex number `vertex` of the draw's mesh. `m` and `lights` are unrounded,
+/// `light_errors` the lights' errors. At most 1, as colours are clamped.
 double color_error(const Scene& scene, const Draw& draw, const Matrices<double>& m, Lights lights,
                    std::span<const double> light_errors, std::uint32_t vertex, LitPart part = {});
 
-/// A vector of eye space and how far it may be off, in length.
+/// A vector in eye space, and a bound on the length of its error.
 struct Known {
   glm::dvec3 v;
   double error;
 };
 
-/// Brought to unit length: 4 u for that. Without a direction to rely on it may be anywhere: an error of 2.
+/// `a` at unit length; normalising adds 4 u. Where |a| <= 2 * error, no direction is certain: +z with an error of 2.
 Known unit(const Known& a);
-/// The position and the normal of the mesh's vertex number `vertex`, float's errors in them.
+/// Position and normal of the mesh's vertex number `vertex`, with the errors of float arithmetic.
 Known eye_position(const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex);
 Known eye_normal(const Draw& draw, const Mesh& mesh, const Matrices<double>& m, std::uint32_t vertex);
 

@@ -1,15 +1,15 @@
-// What a frame keeps of a depth, and which depths it lets pass.
+// Depth formats and the depth test.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace plumbline::math {
 
-/// Window z, clamped to [0,1], as the format's number: code / (2^n - 1), rounded to nearest, half to even (z8: half
-/// up, int(z + .5)); z32f: as float.
+/// Window z, clamped to [0,1] and rounded to the format: code / (2^n - 1) of the nearest code, half to even (z8: half
+/// up, int(z + .5)); z32f: the nearest float.
 double in_format(DepthFormat format, double z_win);
 
-/// Whether `incoming func stored` holds, as glDepthFunc has it.
+/// Whether `incoming func stored` holds (glDepthFunc).
 bool passes(DepthFunc func, double incoming, double stored);
 
 }  // namespace plumbline::math

@@ -17,7 +17,7 @@ std::vector<DrawRange> ranges_of_draws(const Scene& scene) {
 }
 
 std::optional<std::size_t> draw_with(std::span<const DrawRange> ranges, std::uint32_t primitive) {
-  std::size_t first = 0, end = ranges.size();  // the draw is in [first, end), if there is one
+  std::size_t first = 0, end = ranges.size();  // the draw, if any, is in [first, end)
   while (first < end) {
     const std::size_t middle = first + (end - first) / 2;
     const DrawRange& range = ranges[middle];

@@ -1,4 +1,5 @@
-// Numbers of vertices and primitives over all draws, counted for the references: the renderer's are src/scene/scene.h.
+// Numbering of vertices and primitives over all draws, as references count them; the renderer's count is in
+// src/scene/scene.h.
 #pragma once
 
 #include <optional>
@@ -12,7 +13,7 @@ namespace plumbline::math {
 /// One range per draw, in draw order, each beginning where the one before ends.
 std::vector<DrawRange> ranges_of_draws(const Scene& scene);
 
-/// Index of the draw whose range has the primitive; nothing where none has.
+/// Index of the draw whose range holds the primitive; nullopt: no draw.
 std::optional<std::size_t> draw_with(std::span<const DrawRange> ranges, std::uint32_t primitive);
 
 }  // namespace plumbline::math

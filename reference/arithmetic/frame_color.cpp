@@ -17,7 +17,7 @@ Interval operator/(Interval a, double b) { return {a.lo / b, a.hi / b}; }
 Interval lesser(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 Interval greater(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 
-/// Colours and factors times the largest code, so that those of the frame are whole numbers.
+/// Blending of colours and factors in units of the largest code (`one`), in which stored colours are whole numbers.
 struct Blender {
   const ColorInterval &source, &destination;
   glm::dvec4 constant;
@@ -85,7 +85,7 @@ unsigned logic(LogicOp op, unsigned s, unsigned d, unsigned all) {
   return value() & all;
 }
 
-/// Of all codes that the two may be; where those are many, any code.
+/// Results of the op over all pairs of codes in the two intervals; all codes where the pairs are many.
 Interval logic(LogicOp op, Interval source, Interval stored, double largest) {
   constexpr double kMost = 64;
   if ((source.hi - source.lo + 1) * (stored.hi - stored.lo + 1) > kMost) return {0, largest};
@@ -99,7 +99,7 @@ Interval logic(LogicOp op, Interval source, Interval stored, double largest) {
   return out;
 }
 
-/// Rounded to float. Not two at a time: GCC 12 leaves the rounding out where it makes one vector of them (-O2).
+/// `v` rounded to float. volatile: GCC 12 (-O2) leaves the rounding out where it vectorises two of them.
 double in_float(double v) {
   const volatile float rounded = static_cast<float>(v);
   return static_cast<double>(rounded);
@@ -147,8 +147,8 @@ void FrameColor::write(const Merge& state, const ColorInterval& color) {
     const Interval sum = blender(c < 3 ? state.blend->rgb : state.blend->alpha, c);
     result[c] = clamped({sum.lo - 2 * half, sum.hi + 2 * half});
   }
-  // A colour in float, as it comes, may be a rounding off when it is brought to codes; what is blended in double a few
-  // of 2^-53 of some products of codes.
+  // Slack of the rounding to codes: a colour in float may be one float rounding off when it is scaled to codes, a
+  // colour that is blended here, in double, a few 2^-53 of products of codes.
   const bool blends = state.blend && !state.logic_op;
   const double either_way = blends ? 0x1p-36 : unit_ * 0x1p-23;
   const auto codes = [&](Interval v) -> Interval {

@@ -19,12 +19,12 @@ glm::dvec3 towards(const Light& light, const LightSource<double>& source, glm::d
   return light.kind == Light::Kind::directional ? place : place - p_eye;
 }
 
-/// att_i * spot_i.
+/// att_i * spot_i of the specification.
 double share_at(const Light& light, const LightSource<double>& source, glm::dvec3 vp) {
   if (light.kind == Light::Kind::directional) return 1;
   const double d = glm::length(vp);
   const glm::dvec3 k(light.attenuation);
-  // A light at the point itself may have nothing to divide by: the specification says nothing, this stays a number.
+  // The divisor may be 0 for a light at the point itself, which the specification leaves open: a finite number here.
   const double attenuation = 1 / std::max(k[0] + k[1] * d + k[2] * d * d, 1e-38);
   if (!light.spot) return attenuation;
   const glm::dvec3 s = unit_of(source.spot_eye);
@@ -42,8 +42,9 @@ double highlight(const LightModel& model, glm::dvec3 n, glm::dvec3 l, glm::dvec3
   return 0;
 }
 
-/// x^s, finite: a normal as it is may be so long that the power is beyond double, and 0 times infinity no number. At
-/// 1e300 any colour above 1e-200, by any share above 1e-100, comes to more than 1, to which the sum is clamped.
+/// x^s, at most 1e300: a normal that is not normalised may be so long that the power exceeds double, and 0 times
+/// infinity is NaN. At 1e300 any colour above 1e-200, times any share above 1e-100, exceeds 1, to which the sum is
+/// clamped.
 double finite_power(double x, double s) { return std::min(std::pow(x, s), 1e300); }
 
 }  // namespace
@@ -73,7 +74,7 @@ glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, Lights ligh
     if (!(share > 0)) continue;
     glm::dvec3 n = n_eye;
     if (model.sides == LightModel::Sides::flip && glm::dot(n, to_eye) < 0) n = -n;
-    // Of what is turned over, the light must be on the eye's side: else the two dot products are of different signs.
+    // After the flip, the light must be on the eye's side; else N.L and N.E had different signs.
     const bool reached = model.sides != LightModel::Sides::flip || glm::dot(n, to_eye) > 0;
     const double n_dot_vp = glm::dot(n, to_light);
     glm::dvec3 color = ambient * glm::dvec3(source.ambient);

@@ -13,9 +13,9 @@
 
 namespace plumbline::math {
 
-/// The scene's lights in eye space.
+/// The scene's lights in eye space, one per Scene::lights.
 using Lights = std::span<const LightSource<double>>;
-/// Built by matrices.h, unrounded.
+/// The scene's lights taken to eye space by view_matrix() (matrices.h), unrounded.
 std::vector<LightSource<double>> light_sources(const Scene& scene);
 
 /// glMaterial in double.
@@ -23,31 +23,32 @@ struct DoubleMaterial {
   glm::dvec4 ambient, diffuse, specular, emission;
   double shininess;
 };
-/// The draw's, what follows the vertex colour being `color` (2.14.3) where its mesh has colours.
-/// That part of it: the face's; the specular colour alone, or where the light model keeps that apart, all but it.
+/// The draw's material for one part of its lit colour: of the part's face; the specular colour alone for the secondary
+/// part, and without it for the primary one where the light model separates the two. `color`: the vertex colour, which
+/// replaces the colours of Draw::color_material (2.14.3) where the mesh has colours.
 DoubleMaterial material_of(const Scene& scene, const Draw& draw, LitPart part, const glm::dvec4& color);
-/// At the mesh's vertex number `vertex`.
+/// material_of() with the colour of the mesh's vertex number `vertex`.
 DoubleMaterial material_at(const Scene& scene, const Draw& draw, LitPart part, std::uint32_t vertex);
 
-/// The lit colour at a point: rgba, clamped to [0,1]; alpha is the material's diffuse alpha. `lights`: one for each of
-/// the scene's. 0^0 is 1, and a vector without a direction (a light at the point itself) has a dot product of 0 with
-/// everything.
+/// The lit colour at a point: rgba, clamped to [0,1]; alpha is the material's diffuse alpha. 0^0 is 1. The dot products
+/// of a vector of length 0 (to a light at the point itself) are 0.
 glm::dvec4 light(const Scene& scene, const DoubleMaterial& material, Lights lights, glm::dvec3 p_eye, glm::dvec3 n_eye);
 
-/// The colour of a fragment that is lit: at its interpolated vertex colour, normal (of any length) and position.
+/// The lit colour of a fragment, from its interpolated vertex colour, normal (of any length) and position. For a back
+/// face, the normal is negated here.
 glm::dvec4 fragment_light(const Scene& scene, const Draw& draw, LitPart part, Lights lights, const glm::dvec4& color,
                           glm::dvec3 n, glm::dvec3 p_eye);
 
-/// rgb of the two added up, the first's alpha; clamped to [0,1], alpha too (OpenGL 2.1 spec 3.9).
+/// Colour sum (OpenGL 2.1 spec 3.9): primary.rgb + secondary.rgb and primary's alpha, clamped to [0,1].
 glm::dvec4 color_sum(const glm::dvec4& primary, const glm::dvec4& secondary);
 
-/// The colour of the mesh's vertex number `vertex`: lit, or where the draw's vertices are not, the mesh's colour there,
-/// or where it has none, the material's diffuse colour. rgba, clamped to [0,1]. Of the back, the normal is turned over;
-/// the secondary part has no alpha.
+/// The colour of the mesh's vertex number `vertex`: rgba, clamped to [0,1]. A draw that is lit per vertex has the lit
+/// colour (for a back face, the normal is negated here; the secondary part has alpha 0). Any other draw has the mesh's
+/// colour, or the material's diffuse colour where the mesh has none, whatever `part` is.
 glm::dvec4 vertex_color(const Scene& scene, const Draw& draw, Lights lights, std::uint32_t vertex, glm::dvec3 p_eye,
                         glm::dvec3 n_eye, LitPart part = {});
 
-/// A normal as the draw has it: `n` by the normal matrix, brought to unit length, rescaled (2.11.3) or neither.
+/// The normal in eye space: normal_matrix * n, brought to unit length, rescaled (2.11.3) or neither.
 glm::dvec3 normal_in_eye_space(Normals normals, const glm::dmat3& normal_matrix, glm::dvec3 n);
 
 }  // namespace plumbline::math

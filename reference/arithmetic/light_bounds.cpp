@@ -10,9 +10,9 @@ namespace plumbline::math {
 
 namespace {
 
-constexpr double kError = 16 * kFloatRounding;  // of N.L, as of the whole (ledger, exact.light)
+constexpr double kError = 16 * kFloatRounding;  // error of N.L, and unit of the whole equation's (ledger, exact.light)
 
-// A light as it meets the vertex.
+// Direction and distance from the vertex to a light, and the direction's condition (LightBounds, k).
 struct Ray {
   Vec3<double> to_light;  // unit length
   double distance, condition;
@@ -27,7 +27,7 @@ Ray ray(const Light& light, const LightSource<double>& source, const Vec3<double
   return {to_light / distance, distance, point ? 1 + (glm::length(l_eye) + glm::length(p_eye)) / distance : 1};
 }
 
-// x^s where x may be `error` off, and how much that comes to, in units of kError: the slope at its steepest.
+// x^s, and its error where x has an error of `error`, by the steepest slope in that range [units of kError].
 struct Power {
   double value, slope;
 };
@@ -37,17 +37,18 @@ Power power(double x, double s, double error) {
   return {at(x), s * std::min(std::pow(std::max(x + error, 1.0), s - 1), 1e30) * error / kError};
 }
 
-// How far x^s moves where x does by `error`.
+// Largest change of x^s where x changes by up to `error`.
 double moved_power(double x, double s, double error) {
   if (error == 0) return 0;
   const auto at = [&](double t) { return std::min(std::pow(std::max(t, 0.0), s), 1e30); };
   return std::max(at(x + error) - at(x), at(x) - at(x - error));
 }
 
-// What distance and cone leave of a light, its error in units of kError, and whether the cone ends here.
+// Share of a light that attenuation and cone leave: its value, its error [units of kError], `beyond` (the share, where
+// rounding may put the vertex on either side of the cone's border; else 0), and its error by the inputs' errors.
 struct Share {
-  double value = 1, error = 0, beyond = 0;  ///< beyond: `value`, if the cone may end on either side
-  double inherited = 0;                     ///< of the point being off by so much
+  double value = 1, error = 0, beyond = 0;
+  double inherited = 0;
 };
 Share share_of(const Light& light, const LightSource<double>& source, const Ray& r, double off) {
   Share out;
@@ -70,7 +71,7 @@ Share share_of(const Light& light, const LightSource<double>& source, const Ray&
           out.inherited * (p.value + moved) + out.value * moved};
 }
 
-// The cosine whose power the highlight is, how far it may be off in units of kError, and E.
+// Base of the specular power: a cosine, and its error [units of kError].
 struct Highlight {
   double cosine, error;
 };
@@ -105,7 +106,7 @@ LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vert
   const double n_dot_e = glm::dot(vertex.n_eye, e);
   const Vec3<double> n = flips && n_dot_e < 0 ? -vertex.n_eye : vertex.n_eye;
   const double length = std::max(glm::length(n), 1.0);
-  // A colour that is carried on beyond its triangle may be negative, and so a material that follows it.
+  // Extrapolated beyond its triangle, a colour may be negative, and so may a material colour that follows it.
   out.magnitude = glm::abs(Vec3<double>(m.emission)) + glm::abs(Vec3<double>(m.ambient) * Vec3<double>(model.ambient));
   out.inherited = errors.color * (Vec3<double>(1) + Vec3<double>(model.ambient));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -130,7 +131,7 @@ LightBounds light_bounds(const Scene& scene, const DoubleMaterial& m, const Vert
                                     (r.condition * std::max(p.value, 1.0) + p.slope) * specular) +
                      share.error * all;
     out.jump += share.beyond * all;
-    // What the inputs' errors do to N.L, and to the highlight's cosine.
+    // Change of N.L and of the specular power's base by the inputs' errors.
     const double l_moved = 2 * off / r.distance, n_l_moved = errors.n_eye + length * l_moved;
     const double half_length = std::max(glm::length(r.to_light + e), 1e-6);
     const double h_moved = model.specular == LightModel::Specular::half_vector

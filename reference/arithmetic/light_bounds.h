@@ -1,4 +1,4 @@
-// Error of stage 2's light equation in float arithmetic.
+// Bounds on the error of stage 2's light equation in float arithmetic.
 #pragma once
 
 #include <span>
@@ -11,37 +11,39 @@
 
 namespace plumbline::math {
 
-/// Bounds of what rounding does to a lit colour.
+/// Bounds on the effect of rounding and of the inputs' errors on a lit colour, per channel.
 struct LightBounds {
-  /// Per channel, in units of u, how it may differ in float from the spec's equation in double: the sum over the lights
-  /// of |ambient| + k |n| |diffuse| + (k + s e) |specular|, at least 1 (the clamped result).
-  /// s: shininess, by which a power multiplies its argument's error (of cosines above 1, by s n^(s-1)); e: that error,
-  /// |n| k (1 + 1 / |L + E|) of the half vector (|L + E|: its length before it is normalised; 1 / |L + E| more of a
-  /// local viewer), 4 |n|^2 (k + 1) of 2 (N.L) (N.E) - L.E; k: of a point light, (|light| + |p_eye|) / |light - p_eye|
-  /// + 1. Attenuation has 2 k, a cone the slope of its power times k + 1. Infinite where the light lies at the vertex and
-  /// has no direction.
+  /// Rounding error of the light equation in float, in units of 16 u: |emission| + |ambient| |global ambient| and the
+  /// sum over the lights of |ambient| + k |n| |diffuse| + (k + s e) |specular|, at least 1 (the clamped result). k:
+  /// condition of the direction to the light, 1 for a directional light, 1 + (|light| + |p_eye|) / |light - p_eye| for
+  /// a point light. |n|: the normal's length, at least 1. s: shininess, by which a power multiplies the error e of its
+  /// base (for cosines above 1, by s n^(s-1)). e: |n| k (1 + 1 / |L + E|) of the half vector (|L + E|: its length
+  /// before it is normalised), for a local viewer |n| / |L + E| more; 4 |n|^2 (k + 1) of 2 (N.L) (N.E) - L.E.
+  /// Attenuation adds 2 k, a cone the slope of its power times k + 1. Infinite where the direction to a light or to a
+  /// local viewer is lost in rounding.
   Vec3<double> magnitude{0};
-  /// Per channel, the light that rounding may add or take away: the specular terms of lights whose N.L is within
-  /// rounding of 0; all of a light whose cone ends within rounding; in GzRender's rule, where N.E is.
+  /// Light that rounding may add or remove: the specular terms of lights whose N.L is within rounding of 0; all of a
+  /// light whose cone ends within rounding; under Sides::flip, of a light where N.E is within rounding of 0.
   Vec3<double> jump{0};
-  /// Per channel, the error that the inputs' errors (LightInputs) cause; `magnitude` does not contain it.
+  /// Error that the inputs' errors (LightInputs) cause; not part of `magnitude`.
   Vec3<double> inherited{0};
-  /// Per channel: the specular term is 0 while its power may overflow float. A renderer that does not limit the power
-  /// then computes 0 times infinity.
+  /// Whether the specular term is 0 while its power may overflow float. A renderer that does not limit the power then
+  /// computes 0 times infinity.
   glm::bvec3 overflows{false};
 };
-/// How far position and normal (in length), the material's colours that follow the vertex', and each light's place or
-/// direction (in length; none: 0) may be off.
+/// Errors of the light equation's inputs: of position and normal [length], of material colours that follow the vertex
+/// colour, and of each light's position or direction [length]; a light without an entry has none.
 struct LightInputs {
   double p_eye = 0, n_eye = 0, color = 0;
   std::span<const double> lights{};
 };
-/// `material`: the draw's at the vertex (light.h). `lights`: recorded ones; where there are none, the scene's.
+/// Bounds at a vertex. `material`: the draw's there (light.h). `lights`: recorded ones; the scene's for those that are
+/// missing.
 LightBounds light_bounds(const Scene& scene, const DoubleMaterial& material, const Vertex<double>& vertex,
                          const LightInputs& errors = {}, Lights lights = {});
 
-/// Per channel, at most 1, for colours are clamped: how far a light equation in float may be from the one in double.
-/// 16 u of the magnitude, what the inputs' errors come to, and the light that they may add or take away.
+/// Error of the light equation in float, largest over the channels, at most 1, as colours are clamped: 16 u of
+/// `magnitude`, plus `inherited`, plus `jump`.
 double light_error(const Scene& scene, const DoubleMaterial& material, const Vertex<double>& vertex,
                    const LightInputs& errors, Lights lights);
 

@@ -14,12 +14,13 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
-// Near and far as distances: games101 has them as coordinates.
+// Near or far as a distance: in games101 they are z coordinates.
 double distance_to(const Scene& scene, double near_or_far) {
   return scene.dialect == Dialect::games101 ? -near_or_far : near_or_far;
 }
 
-/// The projection as OpenGL would set it up, its NDC z -1 near and +1 far, and its window's rows from the bottom.
+/// The projection by OpenGL's conventions: NDC z is -1 near and +1 far, rows from the bottom. A pinhole has no near and
+/// far plane: its NDC z is 0 at the distance c and greater nearer.
 glm::dmat4 opengl_projection(const Scene& scene) {
   return std::visit(
       Overloaded{[&](const Perspective& p) {
@@ -33,13 +34,12 @@ glm::dmat4 opengl_projection(const Scene& scene) {
                  },
                  [](const Frustum& f) { return glm::frustum(f.left, f.right, f.bottom, f.top, f.near, f.far); },
                  [](const ViewPlane& v) {
-                   // A pyramid without an end that begins at the view plane, d before the eye. X_pi's w is 1 there,
-                   // OpenGL's is d.
+                   // An infinite pyramid that begins at the view plane, at distance d. There X_pi's w is 1, OpenGL's d.
                    const double half = glm::radians(v.fov_degrees) / 2, d = std::cos(half) / std::sin(half);
                    return glm::infinitePerspective(2 * half, 1.0, d) / d;
                  },
                  [](const Pinhole& p) {
-                   // What is c before the eye keeps its size, has depth 0 and w = 1; what lies behind, less.
+                   // At distance c, x and y keep their size, depth is 0 and w is 1; farther, depth is less.
                    glm::dmat4 m(1.0);
                    m[2][3] = -1 / p.c;
                    m[3][2] = p.c;
@@ -49,7 +49,7 @@ glm::dmat4 opengl_projection(const Scene& scene) {
       scene.projection);
 }
 
-/// The dialect's depth and window, where they are not OpenGL's.
+/// opengl_projection() with the dialect's sense of depth, row order and pixel centres.
 glm::dmat4 dialect_projection(const Scene& scene) {
   const glm::dmat4 projection = opengl_projection(scene);
   const double half_x = 1.0 / scene.frame.width, half_y = 1.0 / scene.frame.height;  // half a pixel, in NDC
@@ -64,7 +64,7 @@ glm::dmat4 dialect_projection(const Scene& scene) {
   return projection;
 }
 
-/// And its picture moved, if the pass wants that: window x by s pixels is NDC x by 2 s / width.
+/// dialect_projection() with the picture moved by the pass' shift: s pixels are 2 s / width in NDC.
 glm::dmat4 projection_matrix(const Scene& scene) {
   glm::dmat4 m = dialect_projection(scene);
   const glm::dvec2 moved = 2.0 * scene.frame.pass.shift / glm::dvec2(scene.frame.width, scene.frame.height);

@@ -8,14 +8,17 @@
 
 namespace plumbline::math {
 
-/// p_eye = view_matrix * p_world, whatever the dialect: right-handed, the eye at 0, looking down -z. Unrounded.
+/// World to eye space, p_eye = view_matrix * p_world, unrounded. In each dialect, eye space is right-handed, the eye at
+/// 0 looking down -z.
 glm::dmat4 view_matrix(const Scene& scene);
 
-/// The draw's matrices, unrounded. model_view = view * T1 * T2 * ... in the order written; win_scale and win_translate
-/// are (width/2, height/2, 1/2), in pixels and window z.
+/// The draw's matrices, unrounded. model_view = view * T1 * T2 * ... in the order written. In pixels and window z,
+/// win_scale is (width, height, far - near) / 2 and win_translate (width, height, far + near) / 2, near and far of the
+/// draw's depth range.
 Matrices<double> double_matrices(const Scene& scene, const Draw& draw);
 
-/// The same, as the project's renderers hold them: each entry below 1e-12 is 0, the others are rounded once to float.
+/// double_matrices() as the project's renderers hold them: entries below 1e-12 in absolute value are 0 (not those of
+/// win_scale and win_translate), all are rounded once to float.
 Matrices<double> float_matrices(const Scene& scene, const Draw& draw);
 
 }  // namespace plumbline::math

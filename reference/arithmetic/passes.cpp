@@ -4,7 +4,8 @@ namespace plumbline::math {
 
 namespace {
 
-/// GzRender's filter, AAFilter of CSCI-580's homework 6: the picture's shift in x and y [pixels], and a weight.
+/// GzRender's filter, AAFilter of CSCI-580's homework 6: the sample's offset in x and y [pixels] (its picture is moved
+/// the other way), and its weight.
 struct Filter {
   double shift_x, shift_y, weight;
 };

@@ -12,8 +12,8 @@ namespace plumbline::math {
 
 namespace {
 
-/// r of OpenGL 4.5, section 14.6.5: of float depths the distance from the last float at or below z to the next one; of
-/// codes `unit` of their steps (2, as Mesa has it where OpenGL leaves it open).
+/// r of OpenGL 4.5, section 14.6.5: for float depths the distance from the last float at or below z to the next one;
+/// for codes `unit` steps (2 in Mesa; OpenGL leaves it open).
 double step_at(DepthFormat format, double unit, double z) {
   switch (format) {
     case DepthFormat::z8: return unit / 0xff;
@@ -37,7 +37,7 @@ OffsetBounds polygon_offset(const Triangle& t, const PolygonOffset& offset, Dept
   const double scale = range_scale(t), factor = offset.factor, units = offset.units;
   const double corner_error =
       kFloatRounding * (scale * t.roundings * (t.size.z + t.size.w) / (2 * t.w_min) + 3);  // as pixel_hit.cpp's
-  // r goes by the largest depth of a piece's corners, which are those of the triangle, or cuts.
+  // r depends on the largest depth of a piece's corners: corners of the triangle, or cuts.
   const double near = t.range.near, far = t.range.far;
   double least = std::min(near, far), largest = std::max(near, far);
   if (t.ahead) {

@@ -28,9 +28,9 @@ namespace {
 // A point (X, Y, W) = w d that moves by (eX, eY, eW) moves in the window by (eX - x eW) / w, to first order.
 constexpr double kRoundingsUncut = 14;
 constexpr double kRoundingsCut = 24;
-/// Scaling and translating to the window: rounded twice, window coordinates are at most the window's size; and 2 spare.
+/// Roundings of the scaling and translation to the window, of the window's size: 2, and 2 spare.
 constexpr double kWindowRoundings = 4;
-/// An entry below this is 0 in float: an error of its whole size, 2^24 roundings.
+/// A matrix entry below this is 0 in float (float_matrices()): an error of its whole size, 2^24 roundings.
 constexpr double kZeroEntry = 1e-12;
 
 glm::dmat4 sizes(const glm::dmat4& m) {
@@ -44,7 +44,7 @@ glm::dmat4 sizes(const glm::dmat4& m) {
   return out;
 }
 
-/// One number per distinct position: the index of its first vertex.
+/// Per vertex, the index of the first vertex whose position has the same bits.
 std::vector<std::uint32_t> weld(const Mesh& mesh) {
   struct Bits {
     std::uint32_t x, y, z;
@@ -111,7 +111,7 @@ void add_corners(const Scene& scene, const Draw& draw, Projected& out) {
   }
 }
 
-/// What float arithmetic may add to the distances below, of a corner of that size.
+/// Errors in float of inside_planes()' distances, for a corner of that size.
 std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& size, double margin) {
   const glm::dvec4 error = kRoundingsCut * kFloatRounding * size;
   const double x = error.x + (0.5 * scene.width + margin) * error.w;
@@ -120,8 +120,8 @@ std::array<double, 6> plane_errors(const Projected& scene, const glm::dvec4& siz
   return {z, z, x, x, y, y};
 }
 
-/// Distances inside the view volume's planes, each plus what float arithmetic may add; near and far first. `deep`: with
-/// the eye's plane for the near one, and no far one.
+/// A corner's distances inside the view volume's planes, near and far first, each plus its error in float. `deep`: with
+/// the eye's plane in place of the near plane, and no far plane.
 std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, double margin, bool deep) {
   const glm::dvec2 reach(0.5 * scene.width + margin, 0.5 * scene.height + margin);
   const glm::dvec2 at = glm::dvec2(c.v) + scene.sample * c.v.z;  // the frame itself is not moved
@@ -137,8 +137,8 @@ std::array<double, 6> inside_planes(const Projected& scene, const Corner& c, dou
   return inside;
 }
 
-/// Of a triangle cut by six planes: 9 corners, but where rounding makes a polygon of huge coordinates cross a plane
-/// many times, each plane may leave half as many again: 3, 4, 6, 9, 13, 19, 28.
+/// Most corners of a triangle cut by six planes: exactly 9, but where rounding makes a polygon of huge coordinates
+/// cross a plane many times, each plane may leave half as many again: 3, 4, 6, 9, 13, 19, 28.
 constexpr std::size_t kMostCorners = 28;
 
 struct Polygon {
@@ -231,12 +231,12 @@ void set_planes(const std::array<const Corner*, 3>& c, Triangle& t) {
   t.flat = !(std::abs(det) > 1e-12 * terms) || !std::isfinite(t.z_plane.z) || !std::isfinite(t.w_plane.z);
 }
 
-/// How far the triangle's places may be moved at a pixel, beyond first order.
-/// - Where w is e off, what is divided by it is w / (w - e) off again; from e = w/2 on, beside the eye, it may be
-///   anywhere.
-/// - A place is moved by C / w (float_displacement), and 1/w is affine in the window: of the places s pixels from the
-///   one nearest to a pixel some are moved by C g s more, g the slope of 1/w, and reach it where s <= moved + C g s:
-///   1 / (1 - C g) times as far. From C g = 1/2 on the largest displacement is taken for all.
+/// Sets the displacements of the triangle's points at a pixel beyond first order: `reach`, `growth` and `loose`.
+/// - An error of e in w multiplies the displacement of a quotient by w / (w - e); from e = w/2 on, beside the eye, the
+///   point may be anywhere.
+/// - A point is displaced by C / w (float_displacement()), and 1/w is affine in the window: s pixels from the point
+///   nearest to a pixel the displacement grows by up to C g s, g the slope of 1/w. Such a point reaches the pixel if
+///   s <= moved + C g s: 1 / (1 - C g) times as far. From C g = 1/2 on the largest displacement is taken for all.
 void set_growth(const Projected& scene, Triangle& t) {
   const double in_float = kFloatRounding * t.roundings, of_w = in_float * t.size.w / t.w_min;
   const glm::dvec2 half(0.5 * scene.width, 0.5 * scene.height);
@@ -277,7 +277,7 @@ void set_up(const Projected& scene, const Draw& draw, Triangle& t) {
   t.w_min = std::numeric_limits<double>::infinity();
   glm::dvec3 farthest(0, 0, 1);
   for (std::size_t i = 0; i < part.count; ++i) {
-    // A near plane closer to the eye than w is certain lets w reach 0: then the triangle may be anywhere.
+    // A near plane closer to the eye than the error of w lets w reach 0: then the triangle may be anywhere.
     const double w = std::max(part.v[i].z, kFloatRounding * t.size.w);
     t.w_min = std::min(t.w_min, w);
     t.w_max = std::max(t.w_max, w);
@@ -348,7 +348,8 @@ Piece piece_in_window(const Projected& scene, const Corner& j, const Corner& k, 
 
 namespace {
 
-/// How far snapping to a grid of 2^-bits moves a coordinate [pixels]: to the nearest place half a step, else up to one.
+/// Largest displacement of a coordinate by snapping to a grid of 2^-bits [pixels]: half a step by rounding to nearest,
+/// else a step.
 double snapping_step(const Conventions& c) {
   if (c.subpixel_bits == Conventions::kFloat) return 0;
   const double step = std::ldexp(1.0, -c.subpixel_bits);

@@ -1,4 +1,4 @@
-// A scene's triangles in homogeneous window coordinates, in double, with what float arithmetic may make of them.
+// A scene's triangles in homogeneous window coordinates, in double, with bounds on their errors in float arithmetic.
 //
 // A vertex is v = (X, Y, W) = (x_clip width/2, y_clip height/2, w_clip), and the point (x, y) of the window, counted in
 // pixels from its *middle*, is the ray d = (x, y, 1) from the origin: the triangle v0 v1 v2 is at the point where
@@ -26,30 +26,30 @@ namespace plumbline::math {
 struct Corner {
   glm::dvec3 v;        ///< (X, Y, W)
   double z;            ///< z_clip
-  glm::dvec4 size;     ///< of (X, Y, z_clip, W): the sums' terms by their absolute values
+  glm::dvec4 size;     ///< of (X, Y, z_clip, W): sums of their terms' absolute values
   glm::dvec4 color;    ///< lit, clamped to [0,1]
-  double color_error;  ///< how far a float evaluation of `color` may be from it
+  double color_error;  ///< bound on the error of `color` in float
   glm::dvec4 back_color{0}, secondary{0}, back_secondary{0};  ///< where the light model has them
   double back_color_error = 0, secondary_error = 0, back_secondary_error = 0;
   glm::dvec2 texcoord;      ///< 0 where the mesh has none
-  double z_eye;             ///< before the projection
-  double z_eye_error;       ///< how far a float evaluation of it may be
-  glm::dvec3 p_eye, n_eye;  ///< likewise, for light per fragment
+  double z_eye;             ///< eye-space z, for fog
+  double z_eye_error;       ///< bound on the error of z_eye in float
+  glm::dvec3 p_eye, n_eye;  ///< position and normal in eye space, for light per fragment
   double p_eye_error, n_eye_error;
   std::uint32_t point;  ///< equal for vertices of one draw whose positions are bit-equal
 };
 
-/// A triangle that some legal renderer may draw.
+/// One of the scene's triangles, with its planes and bounds where some legal renderer may draw it.
 struct Triangle {
   std::array<std::uint32_t, 3> corner;  ///< indices into Projected::corners
   std::uint32_t draw = 0;
-  bool drawn = false;        ///< false: no legal renderer draws any of it; nothing below is set
-  bool facing_kept = false;  ///< its facing in double is not culled
-  bool thin = false;         ///< snapping may turn it over, or make its area 0
-  bool flat = false;         ///< without area in double: it has no plane
+  bool drawn = false;        ///< false: no legal renderer draws any of it; members below may not be set
+  bool facing_kept = false;  ///< the draw does not cull its facing in double
+  bool thin = false;         ///< snapping may reverse its facing or make its area 0
+  bool flat = false;         ///< no area in double, and so no plane
   bool cut = false;          ///< some renderer may cut it at the view volume
-  bool ahead = false;        ///< all w > 0
-  bool loose = false;        ///< float arithmetic may move it anywhere in the window; flat as well
+  bool ahead = false;        ///< w > 0 at all corners
+  bool loose = false;        ///< float arithmetic may move it anywhere in the window; `flat` is set, too
   double sign = 0;           ///< of det
   std::array<glm::dvec3, 3> n;
   std::array<double, 3> per_pixel;  ///< 1 / |(n_i.x, n_i.y)|: e_i times it is the distance to the edge's line
@@ -61,40 +61,40 @@ struct Triangle {
   DepthRange range;                 ///< z_win = near + (far - near) z_view + offset
   double offset = 0;                ///< the polygon offset
   double z_min = 0, z_max = 0;      ///< z_view over its corners, where `ahead`
-  double altitude = 0;              ///< pixels: the smallest one of all planes a renderer may set up for it
-  double fat_altitude = 0;  ///< of those that are thicker than snapping may turn; thinner ones lie along its border
-  double reach = 0;         ///< pixels: the largest vertex displacement over its visible part
+  double altitude = 0;              ///< [pixels] least altitude of all pieces for which a renderer may set up a plane
+  double fat_altitude = 0;  ///< altitude without pieces so thin that snapping may turn them, which lie along the border
+  double reach = 0;         ///< [pixels] largest displacement of a vertex over its visible part
   double growth = 1;        ///< factor: displacement at the point nearest to a pixel -> bound for all points near it
 };
 
-/// z_win of a triangle's z_view.
+/// z_win of a triangle at z_view; the polygon offset is included.
 inline double to_window(const Triangle& t, double z_view) {
   const double near = t.range.near, far = t.range.far;
   return near + (far - near) * z_view + t.offset;
 }
-/// What a difference of z_view comes to in the window.
+/// Difference of window z per difference of z_view, as an absolute value.
 inline double range_scale(const Triangle& t) { return std::abs(double{t.range.far} - double{t.range.near}); }
 
 /// A scene's corners and triangles, numbered as its vertices and primitives are (scene.h, DrawRange).
 struct Projected {
   int width = 0, height = 0;
   std::vector<LightSource<double>> lights;
-  std::vector<double> light_errors;  ///< beside lights (color_error.h)
+  std::vector<double> light_errors;  ///< one per light (color_error.h)
   bool perspective = true;
   bool depth_clamp = false;  ///< no near and far plane
-  Conventions conventions;   ///< of the renderer whose answers are asked
-  double step = 0;           ///< h: how far snapping moves a vertex, per axis [pixels]
-  double snap = 0;           ///< and in all
+  Conventions conventions;   ///< of the renderer whose legal answers are wanted
+  double step = 0;           ///< h: largest displacement of a vertex by snapping, per axis [pixels]
+  double snap = 0;           ///< length of that displacement, sqrt(2) h [pixels]
   DepthFormat depth = DepthFormat::z24;
-  /// From a pixel's centre to where it is covered, in pixels (scene/antialias.h). The window is moved by as much the
-  /// other way, so that all that is said of pixels' centres is true of these places. Colours are the centre's still.
+  /// Sample offset from the pixel's centre [pixels] (scene/antialias.h). The window is moved by -sample, so that a
+  /// pixel's centre stands for its sample. Colours are evaluated at the true centre (to_centre()).
   glm::dvec2 sample{0};
   std::vector<Corner> corners;
   std::vector<Triangle> triangles;
 
-  /// The ray of a pixel's centre, or sample.
+  /// The ray d of a pixel's sample (its centre where there are no samples).
   glm::dvec3 ray(int px, int py) const { return {px + 0.5 - 0.5 * width, py + 0.5 - 0.5 * height, 1}; }
-  /// The ray of the centre, of that of the sample.
+  /// The ray of a pixel's true centre, from that of its sample.
   glm::dvec3 to_centre(glm::dvec3 d) const { return d - glm::dvec3(sample, 0); }
 };
 

@@ -10,8 +10,8 @@ namespace {
 
 using Color = glm::dvec4;
 
-// Of codes, code by code: where a frame has codes their sums, weighted by integers, are exact, and so is which of two
-// codes is nearer.
+// The weighted mean of a pixel's samples, in codes where the frame has codes: their sums, with integer weights, are
+// exact, and so is the choice of the nearer code.
 Color mean_codes(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples, int x, int y) {
   const double scale = color_scale(frame.color);
   Color sum(0);

@@ -1,4 +1,4 @@
-// Stage 12 in double: the passes of an antialiased scene become one frame.
+// Stage 12 in double: the passes of an antialiased scene are resolved into one frame.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,14 @@
 
 namespace plumbline::math {
 
-/// The weighted mean of each pixel's samples. Codes (as code / (2^n - 1)) are not rounded to codes.
+/// The weighted mean of each pixel's samples, not rounded to codes. `samples`: the colour plane of each pass, codes as
+/// code / (2^n - 1).
 Plane<glm::vec4> mean_colors(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples);
-/// The same in the frame's format: codes rounded to the nearest, halves up.
+/// mean_colors() in the frame's format: rounded to the nearest code, halves up.
 Plane<glm::vec4> resolved_colors(const FrameFormat& frame, const std::vector<Plane<glm::vec4>>& samples);
 
-/// A renderer's capture of an antialiased scene (renderer.h) from its captures of the passes.
+/// A renderer's capture of an antialiased scene (renderer.h) from its captures of the passes: samples, resolved colour,
+/// and depth of the first sample. Throws OverBudget, and what the renderer's capture() throws.
 Capture capture_resolved(Renderer& renderer, const Scene& scene, const Request& request);
 
 }  // namespace plumbline::math

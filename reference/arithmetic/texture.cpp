@@ -9,7 +9,7 @@
 namespace plumbline::math {
 namespace {
 
-constexpr double kNoLength = -1e6;  // the logarithm of 0, before it is limited
+constexpr double kNoLength = -1e6;  // in place of log2(0), before lambda is limited
 
 double squared_rho(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
   const TextureLevel& base = texture.levels[static_cast<std::size_t>(texture.sampler.base_level)];
@@ -28,7 +28,7 @@ RhoRange legal_rho(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy) {
   return {std::max(m.x, m.y), m.x + m.y};
 }
 
-/// lambda between its limits, from its logarithm and a bias.
+/// lambda within the sampler's limits, from log2(rho) and a bias.
 double limited(const Sampler& s, double log2_rho, double bias) {
   return std::clamp(log2_rho + bias, static_cast<double>(s.min_lod), static_cast<double>(s.max_lod));
 }
@@ -49,8 +49,8 @@ double magnified_up_to(const Sampler& s, const LevelRules& rules) {
   return s.mag == MagFilter::linear && nearest ? 0.5 : 0;
 }
 
-/// A coordinate of the unit interval, by the wrap mode (3.8.7); of clamp_to_edge and clamp_to_border, by the level's
-/// size.
+/// A texture coordinate wrapped by the mode (3.8.7). `size`: the level's side [texels], which the clamping modes and
+/// mirrored_repeat use.
 double wrapped(Wrap wrap, double s, int size) {
   const double half = 0.5 / size;
   switch (wrap) {
@@ -77,7 +77,7 @@ glm::dvec4 border_color(TextureFormat format, const glm::dvec4& border) {
   return gray ? glm::dvec4(border.r, border.r, border.r, alpha) : glm::dvec4(border.r, border.g, border.b, alpha);
 }
 
-/// A texel; one outside of the image is its neighbour around (repeat) or the border.
+/// Texel (i, j) of a level; beyond the image, by the wrap mode: the texel around, at the edge, or the border's colour.
 glm::dvec4 texel(const Texture& texture, const TextureLevel& level, int i, int j) {
   const Sampler& s = texture.sampler;
   const auto around = [](Wrap wrap, int at, int size) {
@@ -183,7 +183,8 @@ std::pair<int, int> levels_at(const Texture& texture, double lambda, const Level
   return {static_cast<int>(std::floor(at)), static_cast<int>(std::ceil(at))};
 }
 
-/// How fast one level's texel changes with s and t around a place, and how far off it jumps.
+/// Adds one level to the range: its slopes in s and t around `st` (linear), or the distance to the next texel
+/// (nearest).
 void add_slopes(const Texture& texture, int number, bool linear, glm::dvec2 st, TexelRange& out) {
   const TextureLevel& level = texture.levels[static_cast<std::size_t>(number)];
   const glm::dvec2 size(level.width, level.height);
@@ -199,8 +200,8 @@ void add_slopes(const Texture& texture, int number, bool linear, glm::dvec2 st, 
     }
     return;
   }
-  // Between texels' centres it changes by the difference of two texels' means; three by three points a texel apart
-  // around the place are on all the slopes that are within half a texel of it.
+  // Between texel centres the filtered texel changes by at most the difference of neighbouring texels; the 3 x 3 texels
+  // around `st` have all slopes within half a texel of it.
   glm::dvec4 at[3][3];
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i) {
@@ -227,7 +228,7 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
   TexelRange out;
   out.lambda_lo = lambda_lo;
   out.lambda_hi = lambda_hi;
-  std::uint64_t sloped = 0;  // a bit for each level and filter whose slopes are in
+  std::uint64_t sloped = 0;  // a bit for each level and filter that add_slopes() has added
   out.lo = glm::dvec4(std::numeric_limits<double>::infinity());
   out.hi = -out.lo;
   const auto add = [&](double lambda) {
@@ -247,8 +248,8 @@ TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, 
       (lambda_lo <= lambda_hi && lambda_hi <= magnified_up_to(texture.sampler, rules)))
     return out;
   add(lambda_hi);
-  // What is chosen by lambda changes at multiples of a half alone, and between them linearly; a little beyond each the
-  // other choice is made.
+  // Level and filter change at multiples of a half of lambda only; between these the texel is linear in lambda. A
+  // little beyond each multiple the next choice is made.
   constexpr double kMost = 16, kBeyond = 1e-9;
   for (double at = std::ceil(2 * std::max(lambda_lo, -1.0)) / 2; at <= std::min(lambda_hi, kMost); at += 0.5) {
     add(at);
@@ -269,15 +270,15 @@ glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const 
 
 namespace {
 
-/// Whether slopes hold for a place `bound` off in s and t: within half a texel of each level that is filtered linearly.
+/// Whether the slopes hold for an error of `bound` in s and t: less than half a texel of each linearly filtered level.
 bool within_slopes(const Texture& texture, const TexelRange& range, double bound) {
   if (range.last_linear < range.first_linear) return std::isfinite(bound);
   const TextureLevel& finest = texture.levels[static_cast<std::size_t>(range.first_linear)];
   return bound * std::max(finest.width, finest.height) < 0.5;
 }
 
-/// Error of means whose weights have n fraction bits, and whose results have, too: each weight is off by 2^-n, of two
-/// levels and the way between them, and each of three results by half of that.
+/// Error of weighted means where weights and results have n fraction bits: each weight (within two levels, and between
+/// them) is off by 2^-n, each of the three results by half of that.
 glm::dvec4 weights_error(const Texture& texture, const TexelRange& range, const LevelRules& rules) {
   const bool means = range.last_linear >= range.first_linear || range.last_nearest > range.first_nearest;
   if (rules.weight_bits == Conventions::kFloat || !means) return glm::dvec4(0);
@@ -300,7 +301,7 @@ BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& st
   if (open) return {out.value, std::numeric_limits<double>::infinity()};
   const glm::dvec4 slack = (range.slope_s + range.slope_t) * place.bound + weights_error(texture, range, rules);
   const glm::dvec4 lo = range.lo - slack, hi = range.hi + slack;
-  // Every environment is linear in each of Cf, Af, Cs and As: its extremes are at their ends.
+  // Every environment is linear in each of Cf, Af, Cs and As: its extremes are at the ends of their intervals.
   for (unsigned ends = 0; ends < 16; ++ends) {
     const auto low = [&](unsigned of) { return (ends >> of & 1u) == 0; };
     const glm::dvec4 f = fragment.value + fragment.bound * glm::dvec4(glm::dvec3(low(0) ? -1 : 1), low(1) ? -1 : 1);

@@ -10,41 +10,41 @@
 
 namespace plumbline::math {
 
-/// How a renderer finds levels and means of texels.
+/// A renderer's conventions of levels and filters.
 struct LevelRules {
-  bool approximate = false;        ///< rho
-  bool magnified_to_zero = false;  ///< up to a lambda of 0, whatever the filters
-  bool half_way_either = false;    ///< the nearest level, where two are as near
-  int weight_bits = Conventions::kFloat;
+  bool approximate = false;               ///< rho is approximated within OpenGL's limits (2.1, 3.8.8)
+  bool magnified_to_zero = false;         ///< magnified up to a lambda of 0, whatever the filters
+  bool half_way_either = false;           ///< half way between two levels, either may be the nearest
+  int weight_bits = Conventions::kFloat;  ///< fraction bits of the weights of texels and levels
 };
 LevelRules level_rules(const Conventions& conventions);
 
-/// lambda, with the texture's bias and limits (equations 3.17 to 3.22), from the derivatives of (s, t) by window x and
-/// y; of no length, the least that is allowed.
+/// LOD lambda, with the texture's bias and limits (equations 3.17 to 3.22), from the derivatives of (s, t) by window x
+/// and y [1 / pixel]; where these are 0, min_lod.
 double level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy);
 
-/// The least and the greatest lambda of the specification and of Mesa, from the same derivatives.
-/// Mesa's drivers take a logarithm that is linear between powers of two, of rho squared: up to 0.0431 below
-/// (log2(m 2^e) as e + m - 1 is up to 0.0861 below; half of that). Mesa rounds the bias to the nearest 1/256 before its
-/// drivers see it (st_atom_sampler.c; measured in 22.3.6): up to 1/512 below or above.
+/// The least and the greatest lambda of the specification and of Mesa, from the same derivatives. Mesa's drivers take a
+/// logarithm of rho squared that is linear between powers of two: lambda is up to 0.0431 too small (e + m - 1 for
+/// log2(m 2^e) is up to 0.0861 too small; half of that). Mesa rounds the bias to the nearest 1/256 before its drivers
+/// see it (st_atom_sampler.c; measured in 22.3.6): up to 1/512 below or above.
 ///
-/// Where `rules` say that it is approximated, rho is anything from the largest absolute derivative of a texel
-/// coordinate to the sum of the largest of each (OpenGL 2.1, 3.8.8).
+/// Under LevelRules::approximate, rho is anything from m = max(m_u, m_v) to m_u + m_v, m_u and m_v being the largest
+/// absolute derivatives of the texel coordinates u and v (OpenGL 2.1, 3.8.8).
 double smallest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy, const LevelRules& rules = {});
 double largest_level_of_detail(const Texture& texture, glm::dvec2 d_dx, glm::dvec2 d_dy, const LevelRules& rules = {});
 
-/// The texture source components at (s, t), filtered at lambda.
+/// The texture source components at (s, t), filtered at lambda; NaN where lambda is.
 glm::dvec4 filtered_texel(const Texture& texture, glm::dvec2 st, double lambda, const LevelRules& rules = {});
 
-/// Whether lambda makes a difference to it.
+/// Whether filtered_texel() depends on lambda.
 bool depends_on_lambda(const Sampler& sampler);
 
-/// What filtered_texel() comes to where lambda is in an interval, and (s, t) not quite known.
+/// Range of filtered_texel() over lambda in [lambda_lo, lambda_hi], and its slopes and gaps around (s, t).
 TexelRange texel_range(const Texture& texture, glm::dvec2 st, double lambda_lo, double lambda_hi,
                        const LevelRules& rules = {});
 
-/// One channel of a fragment's colour and a texel as one (tables 3.22 and 3.23), by the operations `by` (bounded.h).
-/// `alpha`: it is alpha. Of `fragment`, `texel` and the environment's `constant`, that channel.
+/// One channel of the texture environment's result (tables 3.22 and 3.23), by the operations `by` (bounded.h). `alpha`:
+/// the channel is alpha. `fragment`, `texel` and `constant` (of the environment) are the values of that channel.
 template <class Number, class Operations>
 Number textured_channel(TextureFormat format, TextureEnvironment environment, bool alpha, Number fragment, Number texel,
                         Number texel_alpha, Number constant, const Operations& by) {
@@ -67,17 +67,18 @@ Number textured_channel(TextureFormat format, TextureEnvironment environment, bo
   return by.product(fragment, texel);
 }
 
-/// All channels. Sums are clamped to [0,1].
+/// The texture environment's result. Environment `add` clamps to [0,1].
 glm::dvec4 textured_color(TextureFormat format, const DrawTexture& state, const glm::dvec4& fragment,
                           const glm::dvec4& texel);
 
-/// The same where colour, texture coordinates and lambda are known to bounds: the value in the middle, and how far any
-/// channel may be from it; infinite where it is open which texel is the nearest.
+/// Texture coordinates and lambda, with their bounds.
 struct BoundedPlace {
   glm::dvec2 st{0};
-  double bound = 0;  ///< of s and t
+  double bound = 0;  ///< bound on the error of s and of t
   double lambda = 0, lambda_lo = 0, lambda_hi = 0;
 };
+/// textured_color() of a fragment and a place with bounds; the bound is infinite where (s, t) is too uncertain to tell
+/// the nearest texel.
 BoundedFour bounded_textured_color(const Texture& texture, const DrawTexture& state, const BoundedFour& fragment,
                                    const BoundedPlace& place, const LevelRules& rules = {});
 

@@ -1,6 +1,5 @@
-// Embree 3 and 4 by one set of names. What differs between them of all that is used here: the header, the context's
-// type, and how rays are sent off. Filter functions of a geometry work in 4 as they did in 3. Included by .cpp files
-// alone.
+// One set of names for Embree 3 and 4, which differ, as far as used here, in the header, the context's type and the
+// call that intersects rays. Filter functions of a geometry are the same in both. To be included by .cpp files only.
 #pragma once
 
 #if PLUMBLINE_EMBREE_MAJOR == 4
@@ -17,7 +16,7 @@ using Context = RTCRayQueryContext;
 
 inline void init(Context& context) { rtcInitRayQueryContext(&context); }
 
-/// Coherent rays; those whose `valid` is -1.
+/// Intersects 16 coherent rays, of which those with `valid` -1 are active.
 inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRayHit16& rays) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
@@ -35,7 +34,7 @@ inline void init(Context& context) {
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 }
 
-/// Coherent rays; those whose `valid` is -1.
+/// Intersects 16 coherent rays, of which those with `valid` -1 are active.
 inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRayHit16& rays) {
   rtcIntersect16(valid, scene, &context, &rays);
 }

@@ -19,7 +19,7 @@ namespace {
 using math::Candidates;
 using math::Projected;
 
-constexpr double kRange = 1e18;  ///< beyond it Embree drops triangles without a word
+constexpr double kRange = 1e18;  ///< largest coordinate: Embree silently drops triangles beyond it
 constexpr int kPacket = 16;
 
 struct Release {
@@ -43,18 +43,20 @@ Handle<RTCDevice> make_device() {
   return device;
 }
 
-/// Perspective: rays from the origin, so that t is w. Orthographic: w is 1 everywhere, and z_clip takes its place.
+/// Position of a corner in Embree's scene. Perspective: (X, Y, W), with rays from the origin, so that t is w.
+/// Orthographic: (X, Y, z_clip), as w is 1 everywhere.
 glm::dvec3 place(const Projected& projected, const math::Corner& corner) {
   return {corner.v.x, corner.v.y, projected.perspective ? corner.v.z : corner.z};
 }
 
 struct Finding {
-  Context context;  // first: the filter function gets its address
+  Context context;  // must be the first member: the filter function gets its address
   const std::vector<std::uint32_t>* primitives;
   Candidates* out;
 };
 
-/// Called for each triangle along a ray. Notes it and rejects it, so that the ray goes on.
+/// Filter function, called for each triangle along a ray: adds it as a candidate and rejects the hit, so that the ray
+/// goes on.
 void note(const RTCFilterFunctionNArguments* args) {
   auto* finding = reinterpret_cast<Finding*>(args->context);
   for (unsigned i = 0; i < args->N; ++i) {
@@ -87,7 +89,7 @@ Handle<RTCGeometry> make_mesh(RTCDevice device, const Projected& projected, std:
   return mesh;
 }
 
-/// 16 rays through a row's pixels from x on; those beyond the frame are off.
+/// Sets 16 rays through a row's pixels from x on; rays beyond the frame are inactive.
 void set_rays(const Projected& projected, int x, int y, int* valid, RTCRayHit16& rays) {
   for (int i = 0; i < kPacket; ++i) {
     const glm::dvec3 d = projected.ray(x + i, y);

@@ -1,4 +1,4 @@
-// Embree as a finder of triangles.
+// Search of the triangles at each pixel by Embree.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace plumbline::embree {
 
-/// Every triangle that a ray through a pixel's centre hits, behind others or not, up to Embree's own float rounding.
-/// Throws Unsupported (a vertex beyond Embree's range), RendererFailed.
+/// Adds each triangle that a ray through a pixel's centre (or sample) hits, hidden ones included, up to Embree's own
+/// float rounding. Throws Unsupported (a vertex beyond Embree's range, an error of the device) and OverBudget.
 void add_by_rays(const math::Projected& projected, math::Candidates& out);
 
-/// "3.13.5", as the device reports it. Throws RendererFailed.
+/// Embree's version, such as "3.13.5", as the device reports it. Throws Unsupported where no device can be made.
 std::string version();
 
 }  // namespace plumbline::embree

@@ -1,4 +1,4 @@
-// Where in its triangle a fragment lies: the ground of stages 6 and 7.
+// Barycentric weights of fragments, for stages 6 and 7.
 #pragma once
 
 #include <array>
@@ -8,33 +8,33 @@
 
 namespace plumbline::exact {
 
-/// Weights of a triangle's corners at pixel centres, in the window; they sum to 1. Through the *unsnapped* window
-/// positions, or where those have no area or the other facing, the snapped ones.
+/// Weights of a triangle's corners at pixels, in the window, without perspective; they sum to 1. They are computed from
+/// the *unsnapped* window positions, or, where these have no area or the other facing, from the snapped ones.
 ///
-/// Along a line, the second corner's is (p - a).(b - a) / |b - a|^2, the third's 0 (OpenGL 2.1, equation 3.5); of a
-/// point both are 0.
+/// Along a line, the second corner's weight is (p - a).(b - a) / |b - a|^2, the third's 0 (OpenGL 2.1, equation 3.5);
+/// for a point both are 0.
 ///
-/// The set-up is in 113 bits, so that a sliver's area and gradients are right; the weights are evaluated in long double
-/// from the first corner on, or where their terms are large (a sliver, whose weights are small differences of them)
-/// in 113 bits: they are good to 2^-52 relative to the largest weight.
+/// The set-up has 113 bits, so that a sliver's area and gradients are right. Weights are evaluated relative to the
+/// first corner, in long double, or in 113 bits where their terms are large (a sliver, whose weights are small
+/// differences of large terms): their error is at most 2^-52 of the largest weight.
 class Barycentric {
  public:
-  /// Of a triangle with a snapped area, a line or a point; else the weights are NaN. `width`, `height` of the frame, in
-  /// pixels.
+  /// Weights of a triangle with a snapped area, a line or a point; of a triangle without a snapped area they are NaN.
+  /// `width`, `height`: of the frame [pixels].
   Barycentric(const WindowTriangle<double>& triangle, int width, int height);
 
-  /// At pixel (x, y)'s centre, or `off` it, in pixels.
+  /// Weights at pixel (x, y)'s centre + `off` [pixels].
   std::array<long double, 3> at(int x, int y, glm::dvec2 off = {0, 0}) const;
 
-  /// Along x and along y, per pixel, of what is 0 at the first corner and has these values at the others.
+  /// Slopes along x and y [per pixel] of a quantity that is 0 at the first corner and has these values at the others.
   std::array<Float128, 2> slope(double at_second, double at_third) const;
 
  private:
   template <class T>
   struct Affine {
-    T x0, y0;        // the first corner, in pixels
-    T d1_dx, d1_dy;  // the second corner's weight: its gradient; it is 0 at the first corner
-    T d2_dx, d2_dy;  // the third's
+    T x0, y0;        // the first corner [pixels], at which the other corners' weights are 0
+    T d1_dx, d1_dy;  // gradient of the second corner's weight
+    T d2_dx, d2_dy;  // gradient of the third corner's weight
   };
   template <class T>
   static std::array<long double, 3> at(const Affine<T>& affine, glm::dvec2 p);

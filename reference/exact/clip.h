@@ -1,4 +1,4 @@
-// Stage 3 in double: triangles are assembled and cut at the view volume -w <= x, y, z <= w.
+// Stage 3 in double: primitives are assembled and clipped to the view volume -w <= x, y, z <= w.
 #pragma once
 
 #include <array>
@@ -12,21 +12,24 @@ namespace plumbline::exact {
 /// Number of clip planes.
 inline constexpr int kPlanes = 6;
 inline constexpr int kSides = 4;  ///< number without near and far, which do not cut under depth clamp
-/// Coefficients of clip plane `index`: inside is dot(plane, p_clip) >= 0. Right, left, top, bottom, near, far.
+/// Coefficients of clip plane `index`, in the order right, left, top, bottom, near, far: inside is dot(plane, p_clip)
+/// >= 0. Throws std::invalid_argument for an index beyond [0, kPlanes).
 glm::dvec4 clip_plane(int index);
 
-/// What is left of one triangle at the first `planes`, by Sutherland and Hodgman: no vertices, or 3 to 9, in the
-/// triangle's sense of rotation. Only planes that one of its corners violates cut it. A cut is taken from the inside
-/// end of the edge, so that triangles which share the edge share the cut. Colours are cut at the same place.
+/// The part of a triangle inside the first `planes` clip planes, by Sutherland and Hodgman: no vertices, or 3 to 9, in
+/// the triangle's winding. Only planes that one of its corners violates cut it. A cut is computed from the inside end
+/// of the edge, so that triangles that share the edge share the cut. Colours are interpolated by the cut's parameter.
 std::vector<ClipVertex<double>> clip_triangle(const std::array<ClipVertex<double>, 3>& corners, int planes = kPlanes);
 
-/// What is left of a line between two vertices: none, or two. Of all t in [0,1], those whose a + t (b - a) is inside
-/// are an interval; its ends are the line's.
+/// The part of a line inside the first `planes` clip planes: no vertices, or two. It is the interval of all t in [0,1]
+/// for which a + t (b - a) is inside.
 std::vector<ClipVertex<double>> clip_line(const ClipVertex<double>& a, const ClipVertex<double>& b,
                                           int planes = kPlanes);
 
-/// Stage 3; a point inside is left as it is. Primitives with a corner that is not finite, and those that lie outside,
-/// leave no polygon. Throws std::invalid_argument where the records do not fit the scene.
+/// Stage 3: the polygons of all primitives, in draw order; a point is kept or dropped. Primitives with a corner that is
+/// not finite, and those outside, leave no polygon. Under flat shading, if `flat_applies` (false for varyings that are
+/// no lit colours), all corners have the provoking vertex' colour. Throws std::invalid_argument where the records do
+/// not fit the scene.
 ClipPolygons<double> clip_primitives(const Scene& scene, const std::vector<Vertex<double>>& vertices,
                                      const std::vector<Lit<double>>& lit, bool flat_applies = true);
 

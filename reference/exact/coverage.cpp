@@ -12,7 +12,7 @@
 namespace plumbline::exact {
 namespace {
 
-/// The square, by its definition: a centre is inside where it is at most half the size from the middle.
+/// Pixels of a point, by the square's definition: centres less than half the size from its middle along both axes.
 std::vector<glm::ivec2> point_pixels(glm::ivec2 snapped, int size, const FrameFormat& frame) {
   const glm::dvec2 p_win = glm::dvec2(snapped) / static_cast<double>(kSubpixel) + 0.5;
   const glm::dvec2 middle = size % 2 == 1 ? glm::floor(p_win) + 0.5 : glm::floor(p_win + 0.5);
@@ -25,21 +25,21 @@ std::vector<glm::ivec2> point_pixels(glm::ivec2 snapped, int size, const FrameFo
   return pixels;
 }
 
-/// Divisors are positive.
+/// floor(a / b) and ceil(a / b); b > 0.
 Int128 floor_div(Int128 a, Int128 b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 Int128 ceil_div(Int128 a, Int128 b) { return -floor_div(-a, b); }
 
 int clamped(Int128 value, int low, int high) { return static_cast<int>(std::clamp<Int128>(value, low, high)); }
 
-/// The corners counted from the sample of pixel (0, 0).
+/// The corners relative to the sample of pixel (0, 0).
 std::array<glm::ivec2, 3> from_sample(std::array<glm::ivec2, 3> snapped, const FrameFormat& frame) {
   const glm::ivec2 sample(static_cast<double>(kSubpixel) * math::sample_offset(frame));  // a whole number
   for (glm::ivec2& corner : snapped) corner -= sample;
   return snapped;
 }
 
-/// The record's facing gives the edges their inner sides: where the corners turn the other way, no centre is on the
-/// inner side of all three. (The facing is stage 4's, which answers for it.)
+/// Whether the snapped corners' winding is the recorded facing, which decides the edges' inner sides: if not, no centre
+/// is on the inner side of all three. (A wrong facing is stage 4's error.)
 bool faces_as_recorded(const WindowTriangle<double>& triangle) {
   return facing(snapped_corners(triangle)) == (triangle.front ? 1 : -1);
 }
@@ -122,7 +122,8 @@ void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& 
 
 namespace {
 
-/// A line has at most one pixel, or column of pixels, in each row or column that it passes, and one more.
+/// Upper bound of a line's or point's pixels. A line has at most one pixel, times its width, in each column (y-major:
+/// row) that it passes, and one more.
 std::size_t most_pixels(const WindowTriangle<double>& line_or_point, int longest) {
   const glm::i64vec2 d = glm::abs(glm::i64vec2(line_or_point.v[1].snapped) - glm::i64vec2(line_or_point.v[0].snapped));
   const std::size_t width = line_or_point.width;

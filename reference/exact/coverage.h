@@ -1,8 +1,8 @@
-// Stage 5 in integers: which pixels' centres a snapped triangle covers.
+// Stage 5 in integers: the pixels whose centres a snapped primitive covers.
 //
-// E(p) = cross(b - a, p - a), times the sign of the area, is positive on the inner side of the edge a -> b. Ties
-// (TieRule::small_sides_in) are those of a sample moved by an infinitesimal (+e, +e^2): where E is 0, dE/dx decides,
-// and where that is 0, dE/dy. No two triangles on either side of an edge can both have such a sample, nor neither.
+// E(p) = cross(b - a, p - a), times the sign of the area, is positive on the inner side of the edge a -> b. The tie
+// rule (TieRule::small_sides_in) moves a sample by an infinitesimal (+e, +e^2): where E is 0, dE/dx decides, and where
+// that is 0, dE/dy. Of two triangles on either side of an edge exactly one has a sample on the edge.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace plumbline::exact {
 
-/// Whether a sample exactly on an edge is inside, from the inward gradient of E there.
+/// Whether a sample exactly on an edge is inside, from the inward gradient of E.
 bool tie_is_in(std::int64_t de_dx, std::int64_t de_dy);
 
 /// Pixels [begin, end) of a row.
@@ -27,9 +27,9 @@ struct Span {
 /// The pixels that a triangle of snapped corners covers within a frame, row by row: a convex shape's row is one span.
 class CoveredRows {
  public:
-  /// Any corners; no rows where the area is zero.
+  /// Pixels of a width x height frame, sampled at centres. Corners of either winding; no rows where the area is zero.
   CoveredRows(const std::array<glm::ivec2, 3>& snapped, int width, int height);
-  /// Within the frame and the draw's scissor box, of the frame's samples where it has others than the centres.
+  /// Pixels of the frame within the draw's scissor box, sampled at the frame's sample offset.
   CoveredRows(const std::array<glm::ivec2, 3>& snapped, const FrameFormat& frame, const Draw& draw);
   int y_begin() const { return y_begin_; }
   int y_end() const { return y_end_; }
@@ -51,9 +51,10 @@ std::size_t covered_count(const CoveredRows& rows);
 /// Appends one entry per pixel covered, by y, then x.
 void append_covered(const CoveredRows& rows, std::uint32_t triangle, std::vector<Covered>& out);
 
-/// Likewise of a triangle, a line (line_coverage.h) or a point, as record number `triangle`, in the draw's scissor box.
-/// A point is the pixels whose centres are in a square of its size about (floor x + 1/2, floor y + 1/2), or, where the
-/// size is even, (floor(x + 1/2), floor(y + 1/2)), (x, y) its snapped window position (OpenGL 2.1, section 3.3).
+/// Appends the pixels of a triangle, a line (line_coverage.h) or a point, within the draw's scissor box, as those of
+/// record number `triangle`. A triangle whose recorded facing is not that of its corners covers none. A point covers
+/// the pixels whose centres are in a square of its size about (floor x + 1/2, floor y + 1/2), or, where the size is
+/// even, about (floor(x + 1/2), floor(y + 1/2)), (x, y) its snapped window position (OpenGL 2.1, section 3.3).
 void append_covered(const WindowTriangle<double>& primitive, const FrameFormat& frame, const Draw& draw,
                     std::uint32_t triangle, std::vector<Covered>& out);
 

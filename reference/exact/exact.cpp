@@ -84,7 +84,7 @@ Capture Exact::run_stage(const Scene& scene, Stage stage, const Capture& in) {
   return out;
 }
 
-/// Planes of nothing but the clear values; depth and colour are in their buffers.
+/// count, id_sum, id and shaded, cleared; depth, stencil and colour are taken from TestedFrame and ColorBuffer.
 Planes cleared_planes(const FrameFormat& frame) {
   Planes planes;
   planes.count = Plane<std::uint32_t>(frame.width, frame.height);
@@ -94,7 +94,7 @@ Planes cleared_planes(const FrameFormat& frame) {
   return planes;
 }
 
-/// How many fragments' records a capture will hold.
+/// Number of fragments of which a capture will hold records.
 std::size_t selected_fragments(const Scene& scene, const Selection& selection,
                                const std::vector<WindowTriangle<double>>& triangles) {
   std::size_t count = 0;
@@ -129,8 +129,8 @@ Fours fours_at(const Scene& scene, const Draw& draw, const Records<double>& wind
   return out;
 }
 
-/// Stages 5 to 11 of the window's triangles, one by one, under its lights, so that no fragment is kept that nobody
-/// asked for.
+/// Stages 5 to 11 of the triangles of `window`, under its lights: planes, and records of the selected fragments.
+/// Triangle by triangle, so that fragments that are not selected need no memory.
 void draw_triangles(const Scene& scene, const Records<double>& window, const Selection& selection, Capture& out) {
   const FrameFormat& frame = scene.frame;
   const DrawOf draw_of(scene);
@@ -138,7 +138,7 @@ void draw_triangles(const Scene& scene, const Records<double>& window, const Sel
   ColorBuffer colors(scene);
   out.planes = cleared_planes(frame);
   if (textured(scene)) out.planes.texel = Plane<glm::vec4>(frame.width, frame.height, glm::vec4(0));
-  std::uint32_t kept = 0;  // the triangle's number among those that the capture hands out
+  std::uint32_t kept = 0;  // number of the next triangle among those that the capture keeps
   std::vector<Covered> covered;
   for (std::size_t t = 0; t < window.triangles.size(); ++t) {
     const WindowTriangle<double>& triangle = window.triangles[t];

@@ -9,8 +9,8 @@
 namespace plumbline::exact {
 namespace {
 
-/// r of OpenGL 4.5, section 14.6.5: 2^(e - 23) of float depths, e the exponent of the largest corner's (normal) depth;
-/// of n-bit codes two steps 1 / (2^n - 1), as Mesa has it where OpenGL leaves it open.
+/// r of OpenGL 4.5, section 14.6.5: for float depths 2^(e - 23), e the exponent (-126 or more) of the corners' largest
+/// depth; for n-bit codes, where OpenGL leaves it open, Mesa's two steps of 1 / (2^n - 1).
 long double offset_unit(DepthFormat format, double largest_z) {
   int bits = 0;
   switch (format) {
@@ -39,7 +39,7 @@ long double polygon_offset(DepthFormat format, const PolygonOffset& offset, cons
 
 }  // namespace
 
-// GL 4.5 compatibility, section 17.3.6: clamped depths go to the range that glDepthRange gives, either end first.
+// GL 4.5 compatibility, section 17.3.6: depth clamp clamps to glDepthRange's range, whichever end is the larger.
 DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
                      const Barycentric& weights) {
   DepthRule rule;
@@ -55,7 +55,8 @@ DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<
 double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
                 int y) {
   const auto b = weights.at(x, y, rule.place);
-  // From the first corner on: the weights' sum of 1 is used in exact form, and a flat triangle's depth is exact.
+  // Relative to the first corner, so that the weights sum to 1 exactly, and a triangle of one depth has exactly that
+  // depth.
   const long double z0 = triangle.v[0].p_win.z;
   const long double z = rule.offset + z0 + b[1] * (triangle.v[1].p_win.z - z0) + b[2] * (triangle.v[2].p_win.z - z0);
   return std::clamp(static_cast<double>(z), rule.low, rule.high);

@@ -1,4 +1,4 @@
-// Stages 6 and 7: a fragment's depth and attributes, real numbers.
+// Stages 6 and 7: a fragment's depth and attributes, not rounded to any format.
 #pragma once
 
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace plumbline::exact {
 
-/// What a draw says of a triangle's depths.
+/// Per-triangle input of depth_at().
 struct DepthRule {
-  glm::dvec2 place{0};       ///< of the frame's sample, from the pixel's centre
-  double low = 0, high = 1;  ///< depths beyond are clamped
-  long double offset = 0;    ///< is added before
+  glm::dvec2 place{0};       ///< sample offset from the pixel's centre [pixels]
+  double low = 0, high = 1;  ///< range to which depths are clamped
+  long double offset = 0;    ///< polygon offset, added before the clamp
 };
 DepthRule depth_rule(const Scene& scene, const Draw& draw, const WindowTriangle<double>& triangle,
                      const Barycentric& weights);
 
-/// Window z at pixel (x, y)'s centre, or that of the frame's sample, by the plane through the corners, moved and
-/// clamped. Not in any depth format.
+/// Window z of the plane through the corners at pixel (x, y)'s centre + rule.place, plus the polygon offset, clamped;
+/// not rounded to the depth format.
 double depth_at(const WindowTriangle<double>& triangle, const Barycentric& weights, const DepthRule& rule, int x,
                 int y);
 

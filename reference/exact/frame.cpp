@@ -12,7 +12,8 @@ using math::in_format;
 
 namespace {
 
-/// The comparisons in OpenGL's order are the sets of less (1), equal (2) and greater (4) at which they pass.
+/// Whether `a func b` holds. CompareFunc's values, in OpenGL's order, are bit sets of the relations that pass: less
+/// (1), equal (2), greater (4). NaN passes `always` only.
 bool passes(CompareFunc func, double a, double b) {
   const int relation = a < b ? 1 : a == b ? 2 : a > b ? 4 : 0;
   return func == CompareFunc::always || (static_cast<int>(func) & relation) != 0;
@@ -74,7 +75,7 @@ glm::vec4 kept_color(ColorFormat format, glm::dvec4 color) {
   return glm::vec4(format == ColorFormat::rgba32f ? color : glm::clamp(color, 0.0, 1.0));
 }
 
-/// The fragments that made the winners `id`, which passed, as nothing else is known.
+/// Which fragments passed, as far as the winners `id` tell: those of the winning primitive at each pixel.
 std::vector<Drawn> drawn_by_winners(const Scene& scene, const Records<double>& records, const Plane<std::int32_t>& id) {
   const FrameFormat& frame = scene.frame;
   require_size("planes.id", id.size(), static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
@@ -85,7 +86,7 @@ std::vector<Drawn> drawn_by_winners(const Scene& scene, const Records<double>& r
     if (id(f.x, f.y) != primitive) return;
     // A cut primitive may have two triangles at a pixel: the later one has to pass the earlier.
     Draw known = f.draw;
-    known.stencil.reset();  // what was held is not known
+    known.stencil.reset();  // the stored stencil value is not known
     if (written(f.x, f.y) == 0) known.depth_func = DepthFunc::always;
     drawn[i].drawn = buffer.test({f.x, f.y, known, f.front, f.depth, f.alpha});
     written(f.x, f.y) = 1;
@@ -180,7 +181,7 @@ Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>
 void merge_fragments(const Scene& scene, const Capture& in, Capture& out) {
   const Records<double>& records = in.records;
   require_size("records.shaded", records.shaded.size(), records.covered.size());
-  Plane<std::uint8_t> stencil;  // visibility's matter
+  Plane<std::uint8_t> stencil;  // stage 10's result, not needed here
   const std::vector<Drawn> drawn = !records.drawn.empty() ? records.drawn
                                    : in.planes.id.empty() ? drawn_fragments(scene, records, stencil)
                                                           : drawn_by_winners(scene, records, in.planes.id);

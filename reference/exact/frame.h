@@ -10,23 +10,25 @@
 
 namespace plumbline::exact {
 
-/// A fragment as its tests see it.
+/// Input of a fragment's tests.
 struct Fragment {
   int x, y;
   const Draw& draw;
   bool front;    ///< facing of the triangle, or of the polygon of an outline; true for a mesh's lines and points
   double depth;  ///< window z
-  double alpha;  ///< looked at where the draw tests it
+  double alpha;  ///< used where the draw has an alpha test
 };
 
-/// The planes that tests go by: depth in the frame's format, and stencil values where it has them. Cleared.
+/// The depth plane, in the frame's format, and the stencil plane, where the frame has one; constructed with clear
+/// values.
 class TestedFrame {
  public:
   explicit TestedFrame(const FrameFormat& frame);
-  /// A fragment arrives: alpha, stencil and depth test, in that order (OpenGL 2.1 spec 4.1.4 to 4.1.6). Where it
-  /// passes, its depth is stored, if the draw writes depth; the stencil value changes either way.
+  /// Alpha, stencil and depth test, in that order (OpenGL 2.1 spec 4.1.4 to 4.1.6); returns whether the fragment
+  /// passes. A fragment that passes stores its depth, if the draw writes depth. A fragment that passes the alpha test
+  /// updates the stencil value, whether or not it passes the other two.
   bool test(const Fragment& fragment);
-  /// One that is known to pass.
+  /// Stores the depth of a fragment that is known to pass, if the draw writes depth.
   void store(const Fragment& fragment);
   Plane<double> take_depth() { return std::move(depth_); }
   Plane<std::uint8_t> take_stencil() { return std::move(stencil_); }
@@ -38,33 +40,33 @@ class TestedFrame {
   Plane<std::uint8_t> stencil_{};
 };
 
-/// The colour plane, cleared. Clamped to [0,1] where the frame has codes, but what is written last not rounded to them;
-/// as it is for rgba32f.
+/// The colour plane, constructed with the clear colour. Colours are clamped to [0,1] where the frame has codes; the
+/// last colour written to a pixel is not rounded to codes.
 class ColorBuffer {
  public:
   explicit ColorBuffer(const Scene& scene);
   void write(int x, int y, const Merge& state, const glm::dvec4& color);
-  /// The middle, where rounding on the way may go either way.
+  /// The colours; the middle of the interval where an earlier rounding may go either way. Leaves the plane unspecified.
   Plane<glm::vec4> take();
-  /// Its bounds there, as Legal has them; empty where no colour is blended or masked.
+  /// Sets the intervals of Legal (color_lo, color_hi); leaves them empty where no colour is blended or masked.
   void take_bounds(Legal& out) const;
 
  private:
   ColorFormat format_;
-  Plane<glm::vec4> replaced_;          // where each colour replaces the one before it,
-  Plane<math::FrameColor> blended_{};  // or else
+  Plane<glm::vec4> replaced_;          // used if colors_replace(scene)
+  Plane<math::FrameColor> blended_{};  // used otherwise
 };
 
-/// Stage 10, from records.triangles, covered, depth and (for alpha tests) shaded: which fragments pass all tests, and
-/// the stencil plane that these leave; and planes.id, the last of them. Both throw std::invalid_argument where the
-/// records do not fit the scene or each other.
+/// Stage 10, from records.triangles, covered, depth and (for alpha tests) shaded. drawn_fragments(): which fragments
+/// pass all tests, and the resulting stencil plane. visible_primitives(): planes.id, the primitive of the last drawn
+/// fragment. Both throw std::invalid_argument where the records do not fit the scene or each other.
 std::vector<Drawn> drawn_fragments(const Scene& scene, const Records<double>& records, Plane<std::uint8_t>& stencil);
 Plane<std::int32_t> visible_primitives(const Scene& scene, const Records<double>& records,
                                        const std::vector<Drawn>& drawn);
 
-/// Stage 11: planes.color and planes.depth, and the legal colours where they are not one, into `out`; from in.records'
-/// triangles, covered, depth, shaded and drawn. Where the last is not there, the fragments drawn are those of the
-/// winning primitives, in.planes.id, or of depth's own fold.
+/// Stage 11: sets planes.color and planes.depth, and the interval of legal colours where there is one, in `out`, from
+/// in.records' triangles, covered, depth, shaded and drawn. If `drawn` is empty, the drawn fragments are those of the
+/// winners in.planes.id, or, if that is empty too, those of drawn_fragments().
 /// Throws std::invalid_argument where the records do not fit the scene or each other.
 void merge_fragments(const Scene& scene, const Capture& in, Capture& out);
 

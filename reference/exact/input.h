@@ -1,4 +1,4 @@
-// What every stage here asks of the scene and records that it is given.
+// Checks and look-ups that the stages share, of the records that they are given.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace plumbline::exact {
 
-/// Throws std::invalid_argument, naming what has the wrong size.
+/// Throws std::invalid_argument, naming `what`, unless `is` == `expected`.
 void require_size(std::string_view what, std::size_t is, std::size_t expected);
-/// Throws std::invalid_argument, naming the index, where it is not below `end`.
+/// Throws std::invalid_argument, naming `what`, unless `is` < `end`.
 void require_index(std::string_view what, std::size_t is, std::size_t end);
 
-/// The draw that a primitive of the scene belongs to.
+/// Look-up of the draw that a primitive belongs to. The scene has to outlive it.
 class DrawOf {
  public:
   explicit DrawOf(const Scene& scene);
@@ -34,8 +34,8 @@ struct FragmentRun {
   std::uint32_t triangle;
   std::size_t first, last;
 };
-/// The fragments split by triangle. Throws std::invalid_argument where they are not in the triangles' order, or one
-/// names a triangle that is not there or a pixel outside the frame.
+/// records.covered split by triangle; triangles without fragments have no run. Throws std::invalid_argument where the
+/// fragments are not in the triangles' order, or one names no triangle of the records or a pixel outside the frame.
 std::vector<FragmentRun> runs_by_triangle(const Scene& scene, const Records<double>& records);
 
 }  // namespace plumbline::exact

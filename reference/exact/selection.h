@@ -1,4 +1,4 @@
-// Which records a request asks for.
+// Selection of the records that a request asks for.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,14 @@
 
 namespace plumbline::exact {
 
-/// A request, made ready to be asked per fragment.
+/// A request, indexed for look-ups per fragment. The request has to outlive the selection.
 class Selection {
  public:
   Selection(const Scene& scene, const Request& request);
 
+  /// Whether records of the primitive are requested.
   bool primitive(std::uint32_t number) const;
-  /// fragments(): whether records of stages 5 to 10 are asked for. pixel(): whether those of this pixel are.
+  /// fragments(): whether records of stages 5 to 10 are requested at all. pixel(): whether those of this pixel are.
   bool fragments() const { return bytes_per_fragment() > 0; }
   bool pixel(int x, int y) const { return pixels_.empty() || pixels_(x, y) != 0; }
   std::size_t bytes_per_fragment() const;
@@ -29,11 +30,11 @@ class Selection {
     glm::dvec4 shaded;
     bool drawn;
   };
-  /// Appends a fragment to those of the records that are asked for.
+  /// Appends a fragment to the requested records of stages 5 to 10.
   void add(const Fragment& fragment, Records<double>& out) const;
   void reserve(std::size_t fragments, Records<double>& out) const;
 
-  /// Takes what is not asked for out of the records of stages 0 to 4.
+  /// Removes stages and primitives that are not requested from the records of stages 0 to 4.
   void prune(Records<double>& records) const;
 
  private:
@@ -45,7 +46,7 @@ class Selection {
   std::vector<Varying> varyings_;  // that fragments carry
 };
 
-/// The bytes that the records of stages 0 to 4 take.
+/// Memory of the records of stages 0 to 4, without the (at most 8) lights [bytes].
 std::size_t geometry_bytes(const Records<double>& records);
 
 }  // namespace plumbline::exact

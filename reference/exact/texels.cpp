@@ -13,12 +13,13 @@ namespace {
 using Real = long double;
 using ThreeReals = std::array<Real, 3>;
 
-/// The legal interval of lambda around a pixel: from the least at its square of two by two, with a logarithm that is
-/// linear between powers of two, to the greatest, with the bias or Mesa's. Along a row and along a column the
-/// derivative of a perspective mapping has one direction, and its length is monotone: a difference of neighbours lies
-/// between theirs. Without bound where the plane reaches the eye within the square. Such differences are of coordinates
-/// in float, each a quotient of sums that is off by 3 u of its terms, which are slopes from the window's origin on: by
-/// 6 u together, in proportion to their length; a logarithm in float is off by some u of its own magnitude more.
+/// The legal interval of lambda at a pixel: from the least in its 2 x 2 quad, by a logarithm that is linear between
+/// powers of two, to the greatest, with the exact bias or Mesa's. Renderers take differences of neighbours in place of
+/// derivatives: along a row and along a column the derivative of a perspective mapping has one direction, and its
+/// length is monotone, so that a difference is between the derivatives at both pixels. The sampler's limits where the
+/// plane reaches the eye within the quad. The differences are of coordinates in float, each a quotient of sums with an
+/// error of 3 u of their terms, which are slopes from the window's origin: 6 u together, relative to the difference's
+/// length; a logarithm in float adds some u of its own magnitude.
 void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, double& lo, double& hi) {
   constexpr double kRounding = 1.0 / 16777216.0;
   const TextureLevel& base = t.texture.levels[static_cast<std::size_t>(t.texture.sampler.base_level)];
@@ -47,7 +48,7 @@ void lambda_interval(const TexturedTriangle& t, glm::dvec2 st, int x, int y, dou
 }  // namespace
 
 TextureGradient texture_gradient(const TexturedTriangle& t, int x, int y) {
-  // Weights are affine: a step of one pixel is their derivative.
+  // Weights are affine: their difference over one pixel is their derivative.
   const auto at = t.weights.at(x, y), right = t.weights.at(x + 1, y), above = t.weights.at(x, y + 1);
   const auto over_w = [&](const ThreeReals& b) {
     ThreeReals sum{};  // s/w, t/w, 1/w

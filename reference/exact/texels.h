@@ -1,4 +1,4 @@
-// Stage 8: a fragment's texel, on real numbers (reference/arithmetic/texture.h filters).
+// Stage 8: a fragment's LOD and filtered texel, in double (filters: reference/arithmetic/texture.h).
 #pragma once
 
 #include <vector>
@@ -9,27 +9,27 @@
 
 namespace plumbline::exact {
 
-/// A triangle with a texture: its coordinates at the corners.
+/// A triangle with its texture. Holds references: all must outlive it.
 struct TexturedTriangle {
   const WindowTriangle<double>& triangle;
-  const std::array<glm::dvec4, 3>& texcoords;
+  const std::array<glm::dvec4, 3>& texcoords;  ///< s and t at the corners
   const Texture& texture;
   const Barycentric& weights;
 };
 
-/// Derivatives of (s, t) by window x and y at a pixel's centre: the quotient rule, from s/w, t/w and 1/w.
+/// Derivatives of (s, t) by window x and y [1 / pixel] at a pixel's centre, by the quotient rule from s/w, t/w and 1/w.
 struct TextureGradient {
   glm::dvec2 d_dx, d_dy;
 };
 TextureGradient texture_gradient(const TexturedTriangle& t, int x, int y);
 
-/// At pixel (x, y)'s centre, where the texture coordinates are `st`.
+/// LOD and texel at pixel (x, y)'s centre, where the texture coordinates are `st`.
 Texel<double> texel_at(const TexturedTriangle& t, glm::dvec2 st, int x, int y);
 
-/// Stage 8 of records.triangles, covered and varyings: out.records.texels, the level of detail from the triangles, the
-/// colour at the records' own texture coordinates and, where there are texels, at their own level of detail; and
-/// out.legal.texels, over the levels of detail at the four pixels of (x, y)'s square of two by two. Nothing without a
-/// texture. Throws std::invalid_argument where the records do not fit the scene or each other.
+/// Stage 8, from records.triangles, covered and varyings. Sets out.records.texels: the LOD from the triangles, the
+/// colour at the recorded texture coordinates and, where texels are recorded, at their recorded LOD. Sets
+/// out.legal.texels: the range over the LODs at the four pixels of the fragment's 2 x 2 quad. Sets nothing if no draw
+/// has a texture. Throws std::invalid_argument where the records do not fit the scene or each other.
 void filter_texels(const Scene& scene, const Records<double>& records, Capture& out);
 
 }  // namespace plumbline::exact

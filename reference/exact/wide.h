@@ -1,4 +1,4 @@
-// The compilers' wide numbers, which -Wpedantic wants announced.
+// The compilers' wide numbers, declared so that -Wpedantic accepts them.
 #pragma once
 
 namespace plumbline::exact {

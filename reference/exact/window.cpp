@@ -30,15 +30,15 @@ bool culled(Cull cull, bool front) { return cull == Cull::back ? !front : cull =
 }  // namespace
 
 glm::ivec2 snap(glm::dvec2 p_win) {
-  // std::remainder rounds half to even whatever the rounding mode is.
+  // std::remainder rounds half to even in every rounding mode.
   const auto round = [](double v) { return static_cast<int>(v - std::remainder(v, 1.0)); };
   return {round((p_win.x - 0.5) * kSubpixel), round((p_win.y - 0.5) * kSubpixel)};
 }
 
 namespace {
 
-/// What GL makes of a polygon that it does not fill (OpenGL 2.1, section 3.5.4): its boundary edges as lines, each from
-/// a corner to the next, or its corners as points. Facing goes by the sign of the area of the whole, equation 3.6.
+/// Appends the records of a polygon that is not filled (OpenGL 2.1, section 3.5.4): its boundary edges as lines, each
+/// from a corner to the next, or its corners as points. `front`: facing by the whole polygon's area, equation 3.6.
 void append_outline(const Draw& draw, const std::vector<WindowVertex<double>>& corners, std::uint32_t primitive,
                     bool front, PolygonMode mode, std::vector<WindowTriangle<double>>& out) {
   const std::size_t n = corners.size();
@@ -51,7 +51,7 @@ void append_outline(const Draw& draw, const std::vector<WindowVertex<double>>& c
   }
 }
 
-/// Shoelace formula over the snapped corners.
+/// Whether a polygon's snapped corners have a positive area (shoelace formula).
 bool faces_front(const std::vector<WindowVertex<double>>& corners) {
   Int128 area = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -103,7 +103,7 @@ std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const C
     }
     const bool front = faces_front(corners);
     const bool filled = state.front_mode == PolygonMode::fill && state.back_mode == PolygonMode::fill;
-    if (!filled && culled(state.cull, front)) continue;  // by the face that chooses the mode: that of the whole
+    if (!filled && culled(state.cull, front)) continue;  // by the whole polygon's facing, which selects the mode
     if (const PolygonMode mode = front ? state.front_mode : state.back_mode; mode != PolygonMode::fill) {
       append_outline(state, corners, polygon.primitive, front, mode, triangles);
       continue;

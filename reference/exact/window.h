@@ -1,4 +1,4 @@
-// Stage 4: polygons are divided by w, moved to the window in double, snapped, split and faced in integers.
+// Stage 4: polygons are divided by w and moved to the window in double; snapping, fans and facing are in integers.
 #pragma once
 
 #include <array>
@@ -12,15 +12,16 @@ namespace plumbline::exact {
 /// round_half_even((p_win - 1/2) * 256): pixel (i, j)'s centre is (256 i, 256 j).
 glm::ivec2 snap(glm::dvec2 p_win);
 
-/// The sign of the area: 1 where the snapped corners run counter-clockwise (the front), -1 clockwise, 0 for none.
+/// Sign of the snapped corners' area: 1 counter-clockwise (front), -1 clockwise, 0 without area.
 int facing(const std::array<glm::ivec2, 3>& snapped);
 
 /// The corners' snapped positions.
 std::array<glm::ivec2, 3> snapped_corners(const WindowTriangle<double>& triangle);
 
-/// Stage 4. Lines and points stay as they are, and face the front. A polygon with a corner of w <= 0, or whose window
-/// position is not finite or beyond 2^31 / 256 pixels, is dropped whole. Throws std::invalid_argument where the records
-/// do not fit the scene or each other.
+/// Stage 4: a fan of triangles per polygon, without those that are culled or have no snapped area; edges or corners of
+/// polygons that are not filled. Lines and points face the front and are not culled. A polygon with a corner of w <= 0,
+/// or whose window position is not finite or beyond 2^31 / 256 pixels, is dropped as a whole. Throws
+/// std::invalid_argument where the records do not fit the scene or each other.
 std::vector<WindowTriangle<double>> window_triangles(const Scene& scene, const ClipPolygons<double>& polygons,
                                                      const std::vector<Matrices<double>>& matrices);
 

@@ -1,22 +1,21 @@
-// Edges. A pixel is ambiguous where its centre is within delta of an edge that can be seen; centres lie about evenly,
-// so their expected number is the area of those bands: the integral of 2 delta along the visible edges. Each edge is
+// Edges. A pixel is ambiguous where its centre is within delta of a visible edge. Where centres are spread evenly,
+// their expected number is the area of those bands: the integral of 2 delta along the visible edges. Each edge is
 // sampled about once per pixel of its length, and a sample counts where its point would be seen beside the winner of
-// the pixel that it falls into. Where two drawn triangles meet, the edge is one, and is counted once, by the delta of
-// the triangle that may be moved farther.
-// Centres do not lie evenly about edges that run along rows, columns or diagonals of them, as made-up scenes' do: so
-// the centres within the bands are counted too, one per row or column that the edge crosses, and the larger figure is
-// taken. Both know nothing of depth intervals, groups and folding.
+// the pixel that it falls into. An edge that drawn triangles share is counted once, by the delta of the triangle that
+// may be displaced farthest. Centres are not spread evenly about edges that run along rows, columns or diagonals of
+// centres, as the edges of made-up scenes do: so the centres within the bands are counted too, in each row or column
+// that the edge crosses, and the larger figure is taken. Neither figure depends on depth intervals, groups or folding.
 //
-// Surfaces that meet. Two depths cannot be told apart where |z1 - z2| <= w, w the half intervals' sum and a step; with
-// s the slope of z1 - z2 that is a band of half width w/s along the line where the surfaces meet. That line passes at
-// |z1 - z2|/s from the centre. A pixel whose centre is within r = max(1, w/s) pixels of it stands for a share of the
-// band as large as (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such
-// line; within w of each other, they are ambiguous everywhere, but not where both are clamped to the same end, nor
-// where one triangle is drawn again: these are ties, which the depth function settles. The near and far planes are met
-// likewise, w the half interval, by the winner, by whatever would win were it not cut off, and by all that stencil
-// values count, though its depth test never passes. Where a triangle has no plane to rely on, the pixel is ambiguous
-// whatever else is there. Such a line too may run through a row of centres, and again the larger of the area
-// and the number of centres in the bands is taken.
+// Surfaces that meet. Two depths cannot be told apart where |z1 - z2| <= w, w the sum of the half intervals and a step;
+// with s the slope of z1 - z2 that is a band of half width w/s along the line where the surfaces meet. That line passes
+// at |z1 - z2|/s from the centre. A pixel whose centre is within r = max(1, w/s) pixels of the line has a share of the
+// band of (w/s)/r: over all pixels within r, the shares sum to the band's area. Parallel surfaces have no such line:
+// within w of each other they are ambiguous everywhere, except where both are clamped to the same end and where one
+// triangle is drawn again, ties that the depth function settles. Bands along the near and far planes are computed
+// likewise, w the half interval: for the winner, for surfaces that would win if they were not cut off, and for surfaces
+// that stencil values count although their depth test never passes. Where a triangle has no reliable plane, the pixel
+// is ambiguous. These lines, too, may run through a row of centres, and again the larger of the area and the number of
+// centres in the bands is taken.
 #include "reference/oracle/ambiguity.h"
 
 #include <algorithm>
@@ -31,9 +30,9 @@ namespace plumbline::math {
 
 namespace {
 
-// A stencil value tells of hidden surfaces too, so that where there are stencil tests all edges and meetings count.
-/// Whether all of them look for the nearest surface, or all for the farthest: then only what meets the winner matters.
-/// Else what one function keeps decides what the next compares with, and hidden surfaces matter too.
+/// Whether all depth functions keep the nearest surface, or all keep the farthest: then only meetings with the winner
+/// matter. Otherwise the surface that one function keeps is what the next compares with, and hidden surfaces matter
+/// too. (Under stencil tests hidden surfaces always matter: stencil values depend on them.)
 template <class Range, class FuncOf>
 bool one_sense(const Range& range, FuncOf func_of) {
   const auto all = [&](DepthFunc func, DepthFunc or_equal) {
@@ -44,13 +43,13 @@ bool one_sense(const Range& range, FuncOf func_of) {
 }
 
 struct Edge {
-  std::uint32_t from, to;  // points, from < to
+  std::uint32_t from, to;  // Corner::point of the ends, from < to
   std::uint32_t j, k;      // corners
   std::uint32_t primitive;
-  std::uint32_t loosest;  // of the primitives that share it, the one of the largest reach
+  std::uint32_t loosest;  // the primitive of the largest reach among those that share the edge
 };
 
-/// Each edge of the drawn triangles once.
+/// The edges of all drawn triangles, shared ones once.
 std::vector<Edge> drawn_edges(const Projected& projected) {
   std::vector<Edge> edges;
   for (std::uint32_t primitive = 0; primitive < projected.triangles.size(); ++primitive) {
@@ -80,8 +79,8 @@ double z_at(const Triangle& t, glm::dvec3 d) {
 }
 double slope_of(const Triangle& t) { return range_scale(t) * (std::abs(t.z_plane.x) + std::abs(t.z_plane.y)); }
 
-/// Whether a point of depth z of `primitive` is seen in the pixel's neighbourhood, whose winner is `winner`. Surfaces
-/// may fall away within the pixel, as the winner's own neighbours do: depths within a pixel's slope count as equal.
+/// Whether a point at depth z of `primitive` is visible at a pixel whose winner is `winner`. Depths count as equal
+/// within the slopes of both surfaces over a pixel, as a surface may fall away within the pixel.
 bool seen(const Scene& scene, const Projected& projected, std::uint32_t primitive, std::int32_t winner, glm::dvec3 d,
           double z) {
   const Triangle& t = projected.triangles[primitive];
@@ -89,7 +88,7 @@ bool seen(const Scene& scene, const Projected& projected, std::uint32_t primitiv
   if (winner != kBackground) {
     const Triangle& w = projected.triangles[static_cast<std::size_t>(winner)];
     if (static_cast<std::uint32_t>(winner) == primitive || w.flat) return true;
-    // A winner that leaves the depth as it is hides nothing that is drawn after it.
+    // A winner that does not write depth hides nothing that is drawn after it.
     if (static_cast<std::uint32_t>(winner) < primitive && !scene.draws[w.draw].merge.depth_mask) return true;
     held = z_at(w, d);
     slack += slope_of(w);
@@ -99,11 +98,11 @@ bool seen(const Scene& scene, const Projected& projected, std::uint32_t primitiv
   return nearest ? z <= held + slack : z >= held - slack;
 }
 
-/// The bands along the edges: their area, and the pixels whose centres they hold.
+/// The bands along the edges.
 struct Bands {
   bool all_seen = false;  ///< hidden edges count as well
-  double area = 0;
-  Plane<char> near;
+  double area = 0;        ///< [pixels]
+  Plane<char> near;       ///< 1: the pixel's centre is in a band
 };
 
 /// Length of the part of p + t n, t in [-delta, delta], that is within the window of this size.
@@ -127,7 +126,7 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
   const Triangle& loosest = projected.triangles[edge.loosest];
   const Corner &j = projected.corners[edge.j], &k = projected.corners[edge.k];
   const glm::dvec2 window(id.width(), id.height()), half = 0.5 * window;
-  // An edge outside the window has its band within, where it may be moved that far.
+  // The band of an edge outside the window may reach into the window.
   const Piece piece = visible_piece(projected, j, k, std::min(loosest.reach, window.x + window.y));
   if (piece.from > piece.to) return;
   const auto homogeneous = [&](double at) { return glm::dvec4(j.v, j.z) + at * glm::dvec4(k.v - j.v, k.z - j.z); };
@@ -135,7 +134,7 @@ void add_band(const Scene& scene, const Projected& projected, const Edge& edge, 
   if (!(a.z > 0 && b.z > 0)) return;
   const glm::dvec3 from(a.x / a.z, a.y / a.z, 1), to(b.x / b.z, b.y / b.z, 1);
   const glm::dvec3 along = to - from;
-  // The point at from + s along in the window, whether it is seen in the pixel nearest to it, and delta.
+  // The point from + s * along in the window, whether it is visible at the nearest pixel, and delta there.
   struct Sample {
     bool seen;
     glm::dvec2 p_win;
@@ -207,9 +206,9 @@ struct Surface {
   std::int32_t number = kNoSurface;  ///< Hit::surface
 };
 
-/// The share of the band where the two meet, that this pixel stands for.
+/// This pixel's share of the band where the two surfaces meet.
 DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b) {
-  const DepthFunc later = a.order > b.order ? a.func : b.func;  // compares the two, or does not care
+  const DepthFunc later = a.order > b.order ? a.func : b.func;  // the function that compares the two
   if (later == DepthFunc::always || later == DepthFunc::never) return {};
   if (a.number != kNoSurface && a.number == b.number) return {};
   const double step = depth_step(frame.depth, std::clamp(std::max(a.win.z, b.win.z), 0.0, 1.0));
@@ -222,8 +221,8 @@ DepthShare meeting(const FrameFormat& frame, const Surface& a, const Surface& b)
   return {apart <= kStandsFor * slope ? width / slope / kStandsFor : 0, within};
 }
 
-/// The share of the band along the line where the near or far plane, at depth `plane`, cuts the surface. Only
-/// pixels on the visible side have the surface as a hit, so each stands for the other side as well.
+/// This pixel's share of the band along the line where the near or far plane, at depth `plane`, cuts the surface. Only
+/// pixels on the visible side have the surface as a hit, so each has the share of the other side as well.
 DepthShare cut(const PixelDepth& surface, double plane) {
   const double apart = std::abs(surface.z - plane), slope = glm::length(surface.slope);
   const bool within = apart <= surface.half;
@@ -232,8 +231,8 @@ DepthShare cut(const PixelDepth& surface, double plane) {
   return {visible && apart <= kStandsFor * slope ? 2 * surface.half / slope / kStandsFor : 0, within};
 }
 
-/// The bands' shares of all pairs that count. `surfaces` far from each other for their slopes do not meet here: in
-/// order of depth, each is asked about its neighbours alone.
+/// Sum of meeting() over all pairs for which counts(a, b) holds. Surfaces are sorted by depth, and pairs too far apart
+/// to meet within their slopes are skipped.
 template <class Counts>
 DepthShare meetings(const FrameFormat& frame, std::vector<Surface> surfaces, Counts counts) {
   std::ranges::sort(surfaces, {}, [](const Surface& s) { return s.win.z; });
@@ -265,7 +264,7 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
     const bool never = h.hit.depth_func == DepthFunc::never;
     if ((never && h.hit.stencil == nullptr) || !h.hit.alpha_passes) continue;
     if (!std::isfinite(h.win.half) || h.hit.alpha_fails) return {1, true};
-    const bool clamped = h.hit.z_lo == h.hit.z_hi;  // whatever its rounding
+    const bool clamped = h.hit.z_lo == h.hit.z_hi;  // however it is rounded
     const PixelDepth win = clamped ? PixelDepth{h.hit.z_lo, 0, glm::dvec2(0)} : h.win;
     const Surface surface{h.hit.primitive, h.hit.depth_func, win, h.view, h.hit.surface};
     if (never) {
@@ -282,7 +281,7 @@ DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits
   for (const Surface& other : others) share += meeting(scene.frame, won, other);
   const bool counted = std::ranges::any_of(hits, [](const PixelHit& h) { return h.hit.stencil != nullptr; });
   const bool all_count = counted || !one_sense(hits, [](const PixelHit& h) { return h.hit.depth_func; });
-  // A surface after a winner that leaves the depth as it is, is compared with what the winner hides.
+  // A surface drawn after a winner that does not write depth is compared with surfaces that the winner hides.
   const auto after = [&](const Surface& s) { return !won_writes && s.order > won.order; };
   if (all_count || !won_writes) {  // else no pair counts
     share += meetings(scene.frame, others,

@@ -1,5 +1,5 @@
-// How many pixels of a frame will have more than one legal answer, predicted from the geometry and without counting
-// them: a count far above it means that the oracle hides behind its own width.
+// Predicted number of pixels with more than one legal answer, from the geometry alone. An actual count far above the
+// prediction means that the oracle's bounds are too wide.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,16 @@
 
 namespace plumbline::math {
 
-/// Pixels: the area of the bands, delta to either side, along all edges that can be seen. `id`: the winners in double.
+/// Predicted number of pixels that are ambiguous by edges: the area of the bands within delta of all visible edges, or
+/// the number of centres in these bands, whichever is larger. `id`: the winners in double.
 double ambiguous_by_edges(const Scene& scene, const Projected& projected, const Plane<std::int32_t>& id);
 
-/// What one pixel has of the bands along the lines where its winner meets another surface, or the near or far plane.
+/// One pixel's share of the bands along the lines where surfaces meet each other, or the near or far plane.
 struct DepthShare {
-  double area = 0;      ///< pixels, [0,1]
-  bool centre = false;  ///< whether its centre is in one
+  double area = 0;      ///< [pixels, in [0,1]]
+  bool centre = false;  ///< whether the pixel's centre is in a band
 };
+/// `hits`: all hits of the pixel, in draw order. `winner`: the pixel's winner in double, or kBackground.
 DepthShare ambiguous_by_depth(const Scene& scene, std::span<const PixelHit> hits, std::int32_t winner);
 
 }  // namespace plumbline::math

@@ -12,7 +12,7 @@ namespace plumbline::math {
 
 namespace {
 
-/// Pixels whose centres lie in [lo, hi], within [0, size).
+/// Pixels [first, last] of [0, size) whose centres are in [lo, hi]; first > last: none.
 struct Range {
   int first, last;
 };
@@ -21,7 +21,8 @@ Range centres(double lo, double hi, int size) {
           static_cast<int>(std::clamp(std::floor(hi - 0.5), -1.0, static_cast<double>(size - 1)))};
 }
 
-/// All pixels whose centres are within `reach` of the window segment a-b, and some that are a little farther.
+/// Calls visit(x, y) for all pixels whose centres are within `reach` of the window segment a-b, and some a little
+/// farther.
 template <class Visit>
 void walk(const Projected& projected, glm::dvec2 a, glm::dvec2 b, double reach, Visit visit) {
   const bool steep = std::abs(b.y - a.y) > std::abs(b.x - a.x);
@@ -84,8 +85,8 @@ void add_by_edges(const Projected& projected, Candidates& out) {
     for (std::uint32_t pixel = 0; t.loose && pixel < pixels; ++pixel) out.add(pixel, primitive);
     for (std::size_t i = 0; i < 3 && !t.loose; ++i) {
       const Corner &j = projected.corners[t.corner[i]], &k = projected.corners[t.corner[(i + 1) % 3]];
-      // Its parts before the near plane and behind the far one as well: a triangle that is seen edge on is snapped onto
-      // pixels that lie beyond such an edge and beyond the plane.
+      // Pieces in front of the near plane and behind the far one are included: a triangle seen edge on may be snapped
+      // onto pixels beyond such an edge and beyond the plane.
       const Piece piece = piece_in_window(projected, j, k, t.reach + 1);
       if (piece.from > piece.to) continue;
       std::array<glm::dvec2, 2> p;

@@ -1,5 +1,5 @@
-// Which triangles may be at which pixels: two independent ways of finding those that contain a pixel's centre (rays,
-// in reference/embree; boxes, here), and one of finding those that only come near it.
+// Candidates: triangles that may cover a pixel. Two independent searches find those that contain a pixel's centre
+// (rays, in reference/embree; boxes, here), one finds those that only come near the centre.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,17 @@
 
 namespace plumbline::math {
 
-/// A triangle to be looked at for a pixel: a claim, not a fact; duplicates do no harm.
+/// A triangle to be tested at a pixel. It need not cover the pixel; duplicates do no harm.
 struct Candidate {
   std::uint32_t pixel;  ///< y * width + x
   std::uint32_t primitive;
 };
 
-/// Candidates, up to a number of them: what is added beyond it is dropped and remembered, so that nothing is thrown
-/// through a foreign library's call.
+/// A list of up to `most` candidates. Further ones are dropped and reported by require_complete(), as add() must not
+/// throw through a foreign library's callback.
 class Candidates {
  public:
-  /// `wanted`: by pixel, others are left out; empty: all.
+  /// `wanted`: per pixel, whether its candidates are kept; empty: all are.
   explicit Candidates(std::size_t most, std::vector<bool> wanted = {}) : most_(most), wanted_(std::move(wanted)) {}
   void add(std::uint32_t pixel, std::uint32_t primitive) {
     if (!wanted_.empty() && !wanted_[pixel]) return;
@@ -42,11 +42,11 @@ class Candidates {
   std::vector<Candidate> all_;
 };
 
-/// Every triangle with the pixels whose centres are within its edges, by testing all of its bounding box.
-/// Throws OverBudget.
+/// Adds each triangle with an area at the pixels whose centres are inside it or on an edge, by testing all pixels of
+/// its bounding box (of the frame, where the triangle is not wholly in front of the eye). Throws OverBudget.
 void add_by_boxes(const Projected& projected, Candidates& out);
-/// Every triangle with the pixels whose centres are within snapping and float error of an edge of it, by walking along
-/// its edges; of a loose one, all pixels. Throws OverBudget.
+/// Adds each triangle at the pixels whose centres are within snapping and float error of one of its edges, and at some
+/// farther ones, by walking along the edges; a loose triangle at all pixels. Throws OverBudget.
 void add_by_edges(const Projected& projected, Candidates& out);
 
 }  // namespace plumbline::math

@@ -1,13 +1,13 @@
-// Possible hits that together certainly cover a pixel.
+// Groups: possible hits that together certainly cover a pixel.
 //
-// Take triangles that a renderer may draw near a pixel, each turned counter-clockwise as double sees it, and sum their
+// Take the triangles that a renderer may draw near a pixel, each oriented counter-clockwise in double, and sum their
 // outlines: where two of them share an edge and lie on opposite sides of it, the edge cancels. If no edge that passes
 // within delta of the pixel is left, the sum's winding number is the same everywhere within delta of the pixel, and
-// does not change while the vertices move by less than delta (shared vertices moving together, as they do: one position
-// is transformed and snapped in one way). A member that comes near the pixel makes it at least 1. So after snapping it
-// is at least 1 too, and since a triangle that is turned over by snapping counts -1, one that is not turned over - and
-// so is culled by nobody - covers the pixel; on a shared edge, the tie rule gives it to one of them. Thin members are
-// thus no trouble. A silhouette does not cancel: there both triangles lie on the same side.
+// does not change while the vertices move by less than delta (shared vertices move together: one position is
+// transformed and snapped in one way). A member that comes near the pixel makes the winding number at least 1, so after
+// snapping it is at least 1, too. A triangle that snapping turns over counts -1; so some triangle that is not turned
+// over, and that no renderer culls, covers the pixel; on a shared edge, the tie rule gives the pixel to one of the two.
+// Thin members are thus allowed. A silhouette does not cancel: both its triangles lie on the same side.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -19,8 +19,8 @@ namespace plumbline::math {
 namespace {
 
 struct NearEdge {
-  std::uint32_t from, to;  // points, from < to
-  int winding;             // +1 if the member runs from -> to
+  std::uint32_t from, to;  // Corner::point of the ends, from < to
+  int winding;             // +1 if the member's outline runs from -> to, else -1
   std::size_t member;      // index into hits
 };
 
@@ -59,7 +59,7 @@ int form_groups(const Projected& projected, std::span<PixelHit> hits, int px, in
   if (candidates < 2) return 0;
   const std::vector<NearEdge> edges = near_edges(projected, hits, projected.ray(px, py), delta);
 
-  // Members that share an edge belong together; what does not cancel spoils all that hang on it.
+  // Members that share an edge are connected; an edge that does not cancel spoils all members connected with it.
   std::vector<std::size_t> parent(hits.size());
   for (std::size_t i = 0; i < hits.size(); ++i) parent[i] = i;
   std::vector<bool> open(hits.size(), false);

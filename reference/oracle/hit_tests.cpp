@@ -1,4 +1,4 @@
-// Alpha and stencil tests of a hit: what they may come to.
+// Possible outcomes of a hit's alpha test, and its stencil state.
 #include <cmath>
 
 #include "capture/fragment_outcomes.h"

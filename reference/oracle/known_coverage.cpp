@@ -1,10 +1,10 @@
 // Coverage that declared conventions decide.
 //
-// A renderer that declares its grid and its tie rule (settles_ties()) leaves coverage open nowhere but where float
-// arithmetic decides to which place of the grid a corner goes. A corner goes to one place in every such renderer where
-// its position in double is farther from the middle between two places than float arithmetic may move it
-// (corner_displacement()). Where all three corners of a triangle do, the sample's edge functions are known, and the tie
-// rule settles those that are 0.
+// For a renderer that declares its grid and its tie rule (settles_ties()), coverage is open only where float arithmetic
+// decides to which grid point a corner is snapped. Every such renderer snaps a corner to the same grid point where the
+// corner's position in double is farther from the middle between two grid points than float arithmetic may displace it
+// (corner_displacement()). Where this holds for all three corners of a triangle, the sample's edge functions are known,
+// and the tie rule settles those that are 0.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,12 +18,12 @@ namespace {
 
 using C = Conventions;
 
-/// The place that the corner is snapped to, from the window's lower left corner [steps of the grid]; NaN where it may
-/// be one of several.
+/// The grid point to which the corner is snapped, from the window's lower left corner [steps of the grid]; NaN where it
+/// is not certain.
 glm::dvec2 place_of(const Projected& scene, const Corner& corner, double steps) {
   const glm::dvec2 half(0.5 * scene.width, 0.5 * scene.height), off = steps * corner_displacement(scene, corner);
   const glm::dvec2 at = steps * (glm::dvec2(corner.v) / corner.v.z + scene.sample + half), place = glm::round(at);
-  const glm::dvec2 left = 0.5 - glm::abs(at - place);  // to the middle between two
+  const glm::dvec2 left = 0.5 - glm::abs(at - place);  // distance to the middle between two grid points
   if (left.x > off.x && left.y > off.y) return place;
   return glm::dvec2(std::numeric_limits<double>::quiet_NaN());
 }
@@ -37,7 +37,7 @@ bool owns_ties(C::TieRule rule, glm::dvec2 inward) {
   return inward.x != 0 ? (inward.x > 0) == left : (inward.y > 0) == bottom;
 }
 
-// Edge functions are exact in double: products of places in 1/1024 pixel or coarser (settles_ties()).
+// Edge functions are exact in double: products of grid coordinates of 1/1024 pixel or coarser (settles_ties()).
 std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, int px, int py) {
   const C& c = scene.conventions;
   if (t.flat || t.cut || t.thin || !t.facing_kept || !settles_ties(c)) return std::nullopt;
@@ -58,7 +58,7 @@ std::optional<bool> known_coverage(const Projected& scene, const Triangle& t, in
 }
 
 void settle_coverage(C::TieRule tie_rule, std::vector<PixelHit>& hits) {
-  // By an exclusive rule a shared edge is in neither triangle: no group is sure of one.
+  // By an exclusive rule a shared edge is in neither triangle: no group certainly covers the pixel.
   for (const PixelHit& h : hits) {
     const int group = h.hit.group;
     if (group < 0 || (tie_rule != C::TieRule::exclusive && h.covers != true)) continue;

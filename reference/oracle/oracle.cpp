@@ -24,7 +24,7 @@ glm::vec4 to_format(ColorFormat format, glm::vec4 color) {
   return glm::round(glm::clamp(color, 0.0f, 1.0f) * scale) / scale;
 }
 
-/// The candidates' primitives by pixel, each pixel's ascending and without duplicates.
+/// The candidates' primitives by pixel; at() sorts a pixel's in ascending order and removes duplicates.
 class ByPixel {
  public:
   ByPixel(const Candidates& candidates, std::size_t pixels) : first_(pixels + 1, 0) {
@@ -57,17 +57,17 @@ Planes empty_planes(const FrameFormat& frame) {
   return planes;
 }
 
-/// Fragments that a hit makes at most. A possible hit of a cut triangle makes up to two: snapping may turn over a
-/// sliver of its fan, which then covers the pixel together with its neighbour in the fan.
+/// Most fragments of a hit. A possible hit of a cut triangle has up to two: snapping may turn over a sliver of the
+/// triangle's fan, which then covers the pixel together with its neighbour in the fan.
 std::uint32_t pieces(const Projected& projected, const PixelHit& h) {
   return !h.hit.certain && projected.triangles[h.hit.primitive].cut ? 2 : 1;
 }
 
-/// Upper bound of the fragments that the hits make at the pixel.
+/// Upper bound of the number of fragments that the hits make at the pixel.
 ///
-/// A group (groups.cpp) whose triangles are neither cut nor turned over makes as many as its winding number, at least
-/// one. That number is the same everywhere within delta of the pixel, and is counted where no edge runs through. By an
-/// inclusive rule a sample on an edge is in both.
+/// A group (groups.cpp) whose triangles are neither cut nor turned over makes as many fragments as its winding number,
+/// at least one. The winding number is the same everywhere within delta of the pixel, and is counted beside the centre,
+/// at a point through which no edge is likely to run. By an inclusive rule a sample on an edge is in both triangles.
 std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHit> hits, std::size_t groups, int x,
                              int y) {
   const auto beside = [&](double delta) { return projected.ray(x, y) + delta * glm::dvec3(0.37, 0.21, 0); };
@@ -93,7 +93,8 @@ std::uint32_t most_fragments(const Projected& projected, std::span<const PixelHi
   return most;
 }
 
-/// Settles coverage at the pixel by the declared tie rule, and sets how many fragments are and may be there.
+/// Settles coverage at the pixel by the declared tie rule, and sets the least and the largest number of its fragments
+/// (Legal::certain, possible, shared).
 void settle_pixel(const Projected& projected, std::vector<PixelHit>& hits, int x, int y, Legal& legal) {
   using enum Conventions::TieRule;
   const Conventions::TieRule rule = projected.conventions.tie_rule;
@@ -116,7 +117,7 @@ const Draw& draw_of(const Scene& scene, const Projected& projected, const Hit& h
   return scene.draws[projected.triangles[hit.primitive].draw];
 }
 
-/// The stencil and the depth test, which change the stencil plane.
+/// Whether the hit passes the stencil and the depth test; updates the stencil plane.
 bool tested(const PixelHit& h, double z, Planes& planes, int x, int y) {
   const bool passes_depth = passes(h.hit.depth_func, z, planes.depth(x, y));
   if (h.hit.stencil == nullptr) return passes_depth;
@@ -126,7 +127,7 @@ bool tested(const PixelHit& h, double z, Planes& planes, int x, int y) {
   return passed && passes_depth;
 }
 
-/// Double's own picture of a pixel.
+/// Draws the hits that are inside in double into the planes at the pixel, and sets PixelHit::drawn.
 void draw_inside(const Scene& scene, const Projected& projected, std::span<PixelHit> hits, int x, int y,
                  Planes& planes) {
   const FrameFormat& frame = scene.frame;
@@ -166,7 +167,7 @@ void add_fragments(const Projected& projected, std::span<const PixelHit> hits, i
   }
 }
 
-/// Colours of the winners, whose hits may have been without.
+/// Sets the answers' colours, computing those of the winners' hits that have none yet.
 void color_answers(const Scene& scene, const Projected& projected, std::span<PixelHit> hits, int x, int y,
                    std::span<LegalAnswer> answers) {
   for (LegalAnswer& answer : answers) {
@@ -179,7 +180,7 @@ void color_answers(const Scene& scene, const Projected& projected, std::span<Pix
   }
 }
 
-/// The frame's colour at a pixel, where it is certain which fragments make it; else anything.
+/// Sets the legal interval of the frame's colour at a pixel: unbounded unless it is certain which fragments are drawn.
 void fold_colors(const Scene& scene, const Projected& projected, std::span<const Hit> hits, int x, int y,
                  Legal& legal) {
   FrameColor color(scene.frame, projected.conventions.blending);
@@ -193,7 +194,7 @@ void fold_colors(const Scene& scene, const Projected& projected, std::span<const
     const bool drawn = left.size() == 1 && left[0].primitive == static_cast<std::int32_t>(hit.primitive);
     const bool hidden = left.size() == 1 && left[0].primitive == held;
     certain = hit.certain && !hit.alpha_fails && drawn != hidden && (!drawn || std::isfinite(hit.color_bound));
-    if (!certain) break;  // so far no hit was of a group, for those are not certain
+    if (!certain) break;  // members of groups are not certain, so none has been folded so far
     if (drawn) color.write(draw_of(scene, projected, hit).merge, around(hit.color, hit.color_bound));
   }
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -253,7 +254,8 @@ Oracle consult(const Scene& scene, const Projected& projected, const Candidates&
 
 std::size_t candidate_budget(const Scene& scene, std::size_t memory_budget) {
   const std::size_t pixels = static_cast<std::size_t>(scene.frame.width) * static_cast<std::size_t>(scene.frame.height);
-  // Two planes, the answers' index, two answers a pixel (most have one), and a candidate's list by pixel.
+  // Per pixel: `certain`, `possible`, the index of answers, the index of candidates, and two answers (most pixels have
+  // one).
   const std::size_t fixed = plane_bytes(scene) + pixels * (4 * sizeof(std::uint32_t) + 2 * sizeof(LegalAnswer));
   require_budget(scene, fixed, memory_budget);
   return (memory_budget - fixed) / (sizeof(Candidate) + sizeof(std::uint32_t));

@@ -18,13 +18,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Place {
   bool inside = false;    ///< in the closed triangle, in double
-  bool by_ties = false;   ///< and by the tie rule
-  double border = 0;      ///< pixels to its border
+  bool by_ties = false;   ///< inside, with edges by the tie rule
+  double border = 0;      ///< distance to the triangle's border [pixels]
   glm::dvec3 nearest{0};  ///< the point of the triangle nearest to d
-  double w = 0;           ///< there
+  double w = 0;           ///< clip w at `nearest`
 };
 
-/// S: by how much the errors of a plane's corners may be enlarged at a pixel of its triangle; infinite: without bound.
+/// S: factor by which the errors of a plane's corners may grow at a pixel of its triangle; infinite: without bound.
 double snap_weight(const Projected& scene, const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
   // A plane is set up through vertices within delta_E of their places, and evaluated at the pixel. With b' the pixel's
   // barycentrics in the moved triangle, it comes to z at sum b'_i v_i, which is within sum |b'_i| delta_E of the pixel.
@@ -33,8 +33,8 @@ double snap_weight(const Projected& scene, const Triangle& t, const Place& at, g
   // have such borders inside it too.
   if (certain && !t.cut) return 1;
   // Three corners of a convex polygon that are nearly in line lie along its border: such a piece reaches no pixel that
-  // is deep inside, which is: from the triangle's edges, from the cuts by near and far, and half a pixel (a sample:
-  // less) from the frame's.
+  // is deep inside, that is, far from the triangle's edges, from the cuts by near and far, and from the frame's border
+  // (half a pixel away; from a sample, less).
   const double margin = 4 * t.reach, z = 0.5 + glm::dot(t.z_plane, d);
   const double from_frame = 0.5 - std::max(std::abs(scene.sample.x), std::abs(scene.sample.y));
   const bool deep = certain && at.border > margin && margin < from_frame &&
@@ -43,8 +43,8 @@ double snap_weight(const Projected& scene, const Triangle& t, const Place& at, g
   return altitude > 0 ? 1 + 4 * scene.snap / altitude : kInfinity;
 }
 
-/// The same for the pixel's centre, where a sample of it is at the pixel: it may lie outside by as much as they are
-/// apart.
+/// snap_weight() for the pixel's centre where the triangle covers a sample: the centre may be outside of the triangle
+/// by the sample's offset.
 double centre_weight(const Projected& scene, const Triangle& t, const Place& at, glm::dvec3 d, bool certain) {
   const double weight = snap_weight(scene, t, at, d, certain), apart = glm::length(scene.sample);
   if (apart == 0) return weight;
@@ -84,8 +84,8 @@ Place place(const Projected& scene, const Triangle& t, glm::dvec3 d) {
   return out;
 }
 
-/// The depth interval in the window, from that of z_view. Scaling and moving it there are rounded twice more, but where
-/// nothing is scaled or moved (the rounding of [0,1] itself is counted already).
+/// Sets the depth interval in the window, from that of z_view: two further roundings, unless the depth range is [0,1],
+/// whose rounding is counted already.
 void set_window_depth(const Triangle& t, const OffsetBounds& offset, bool clamps, double lo, double hi, double weight,
                       PixelHit& out) {
   const double moved = t.range == DepthRange{} ? 0 : 2 * weight * kFloatRounding, scale = range_scale(t);
@@ -105,8 +105,8 @@ void set_window_depth(const Triangle& t, const OffsetBounds& offset, bool clamps
   out.hit.z_hi = std::clamp(farthest + rounding, low, high);
 }
 
-/// The depth interval: the plane's z at the pixel, moved by at most h + delta_E where coverage and plane are snapped
-/// alike, or by the plane's own error where only coverage is; then the corners' own depth error.
+/// Sets the depth interval: the plane's z at the pixel, displaced by at most h + delta_E where coverage and plane are
+/// snapped alike, or by the plane's own error where only coverage is snapped; plus the corners' depth error.
 void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& offset, bool clamps, glm::dvec3 d,
                const Place& at, glm::dvec2 moved, PixelHit& out) {
   const double weight = snap_weight(scene, t, at, d, out.hit.certain);
@@ -138,8 +138,8 @@ void set_depth(const Projected& scene, const Triangle& t, const PolygonOffset& o
   set_window_depth(t, polygon_offset(t, offset, scene.depth, scene.conventions), clamps, lo, hi, weight, out);
 }
 
-/// Edge functions' gradients, which attributes are weighted by: where a renderer interpolates without perspective, each
-/// times its corner's w.
+/// Gradients of the edge functions that weight attributes: where a renderer interpolates without perspective, each is
+/// multiplied by its corner's w.
 std::array<glm::dvec3, 3> weight_planes(const Projected& scene, const Triangle& t) {
   std::array<glm::dvec3, 3> out = t.n;
   if (scene.conventions.interpolation == Conventions::Interpolation::perspective) return out;
@@ -147,20 +147,20 @@ std::array<glm::dvec3, 3> weight_planes(const Projected& scene, const Triangle& 
   return out;
 }
 
-/// Whether a renderer interpolates without perspective between corners that a cut makes: anywhere.
+/// Whether a renderer interpolates without perspective between corners that a cut made: then no bound holds.
 bool is_affine_and_cut(const Projected& scene, const Triangle& t) {
   return scene.conventions.interpolation == Conventions::Interpolation::affine && (t.cut || !t.ahead);
 }
 
-/// Perspective-correct, the plane going on beyond the triangle's border, as renderers' do. `corners`: with their
-/// bounds.
+/// An attribute at the pixel's centre, with its bound, by the renderer's interpolation; extrapolated beyond the
+/// triangle's border, as renderers do. `corners`: the attribute at the corners.
 BoundedFour at_pixel(const Projected& scene, const Triangle& t, const std::array<BoundedFour, 3>& corners, glm::dvec3 d,
                      const Place& at, glm::dvec2 moved, bool certain) {
   const glm::dvec3 centre = scene.to_centre(d);
   const std::array<glm::dvec3, 3> n = weight_planes(scene, t);
   const glm::dvec3 e(glm::dot(n[0], centre), glm::dot(n[1], centre), glm::dot(n[2], centre));
   const double weight = centre_weight(scene, t, at, d, certain), sum = e.x + e.y + e.z;
-  // No plane to rely on.
+  // No reliable plane.
   if (t.flat || !std::isfinite(weight) || !(sum * t.sign > 0) || is_affine_and_cut(scene, t))
     return {(corners[0].value + corners[1].value + corners[2].value) / 3.0, kInfinity};
   const auto largest = [](const glm::dvec4& v) {
@@ -193,8 +193,8 @@ BoundedFour at_pixel(const Projected& scene, const Triangle& t, const std::array
                      value_weight * (error + 2 * w_error * spread + 32 * kFloatRounding * near_end * size)};
 }
 
-/// Share by which a renderer's slopes of attributes may be off: corners that float arithmetic moves, or snapping, turn a
-/// plane by as much over its altitude; w is off by its own error; 16 u for the evaluation.
+/// Relative error of a renderer's slopes of attributes: corners displaced by float arithmetic or snapping tilt a plane
+/// by the displacement over its altitude; w adds its own error, the evaluation 16 u.
 double slopes_off(const Projected& scene, const Triangle& t, glm::dvec2 moved, bool certain) {
   const bool snapped = scene.conventions.attribute_corners == Conventions::Corners::snapped;
   const double altitude = certain ? t.fat_altitude : t.altitude, by = glm::length(moved) + (snapped ? scene.snap : 0);
@@ -203,8 +203,8 @@ double slopes_off(const Projected& scene, const Triangle& t, glm::dvec2 moved, b
   return altitude > 0 ? std::min(4 * by / altitude + 4 * of_w + 16 * kFloatRounding, kAnything) : kAnything;
 }
 
-/// Where in its texture the hit is, and the levels of detail at the four pixels of its square of two by two: ray
-/// differentials, d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j. They may be `off` by a share of their length.
+/// The hit's texture coordinates, and the range of lambda over the four pixels of its 2 x 2 quad, by ray differentials:
+/// d b_i / dx = (n_i.x - b_i sum_j n_j.x) / sum_j e_j. `off`: relative error of the derivatives.
 BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const std::array<glm::dvec2, 3>& texcoords,
                               const BoundedFour& st, glm::dvec3 d, glm::ivec2 pixel, const LevelRules& rules,
                               double off) {
@@ -234,8 +234,8 @@ BoundedPlace place_in_texture(const Texture& texture, const Triangle& t, const s
   return out;
 }
 
-/// How far colours are beyond [0,1] where those of all corners are within: outside of the triangle, where a renderer
-/// may clamp them, or not.
+/// Largest excess of a colour beyond [0,1] in channels that are within [0,1] at all corners: by extrapolation beyond
+/// the triangle, where a renderer may clamp or not.
 double overshoot(const glm::dvec4& color, const std::array<BoundedFour, 3>& corners) {
   double out = 0;
   for (glm::length_t c = 0; c < 4; ++c) {
@@ -245,7 +245,7 @@ double overshoot(const glm::dvec4& color, const std::array<BoundedFour, 3>& corn
   return out;
 }
 
-/// The fragment's colour at the pixel, from its attributes there.
+/// Sets the fragment's colour and its bound, from its attributes at the pixel.
 void set_color(const Scene& scene, const Projected& projected, const Triangle& t, glm::dvec3 d, glm::ivec2 pixel,
                const Place& at, glm::dvec2 moved, PixelHit& out) {
   const Draw& draw = scene.draws[t.draw];
@@ -365,15 +365,15 @@ std::optional<PixelHit> pixel_hit(const Scene& scene, const Projected& projected
   const double w = std::clamp(at.w, t.w_min, t.w_max);
   const glm::dvec2 moved = float_displacement(projected, t, at.nearest, w);
   PixelHit out;
-  // One that is seen edge on may, by rounding, show what comes nearest to the eye, wherever that is seen.
+  // A triangle seen edge on may, by rounding, cover a pixel by its part nearest to the eye.
   out.delta = t.flat ? t.reach : std::min(t.reach, projected.snap + t.growth * glm::length(moved));
   if (!at.inside && !t.loose && at.border > out.delta) return std::nullopt;
   out.hit.primitive = primitive;
   out.hit.depth_func = scene.draws[t.draw].depth_func;
   out.hit.depth_mask = scene.draws[t.draw].merge.depth_mask;
   out.hit.certain = at.inside && at.border > out.delta && !t.thin;
-  // Where a side cuts an edge that two triangles share, each rounds the corner that it makes: down or up, maybe to
-  // another place.
+  // A side plane cuts an edge that two triangles share: each rounds the new corner, down or up, perhaps to another grid
+  // point.
   const bool apart = t.cut && projected.conventions.subpixel_rounding != Conventions::Rounding::nearest;
   out.whole = t.facing_kept && !t.flat && !t.cut;
   set_depth(projected, t, scene.draws[t.draw].polygon_offset, scene.depth_clamp, d, at, moved, out);

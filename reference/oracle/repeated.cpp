@@ -7,8 +7,8 @@ namespace plumbline::math {
 
 namespace {
 
-/// Whether both draws give a triangle one depth: by their transforms and depth state, and by the state for which a
-/// renderer may have another program (light, shading, texture, fog).
+/// Whether both draws give a triangle the same depth: equal transforms and depth state, and equal state in which
+/// renderers may run another program (light, shading, texture, fog).
 bool same_placement(const Draw& a, const Draw& b) {
   return a.transforms == b.transforms && a.depth_range == b.depth_range && a.polygon_offset == b.polygon_offset &&
          a.lit == b.lit && a.shading == b.shading && a.texture.has_value() == b.texture.has_value() &&

@@ -1,4 +1,4 @@
-// Triangles that are drawn again where they were: every renderer gives both one depth.
+// Triangles that are drawn twice in the same position: every renderer gives both the same depth.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace plumbline::math {
 
-/// Finds triangles whose vertices are another's, in order and to the bit, under the same transforms and state of the
-/// depth (OpenGL 2.1 spec, appendix A: repeatability, and invariance from what else is set).
+/// Finds triangles whose vertices are another's, in order and to the bit, under the same transforms and depth state
+/// (OpenGL 2.1 spec, appendix A: repeatability, and invariance under changes of other state).
 class Repeated {
  public:
   /// `scene` and `projected` have to outlive it.

@@ -46,7 +46,7 @@ class OpenGlRenderer final : public Renderer {
   }
   ~OpenGlRenderer() override {
     try {
-      context_->make_current();  // the vertex program is this context's; another's may have the same number
+      context_->make_current();  // names of programs are deleted in this context: another may use the same names
     } catch (const RendererFailed&) {
     }
   }
@@ -87,7 +87,7 @@ class OpenGlRenderer final : public Renderer {
     for (const Draw& draw : scene.draws) require_outlines_shown(scene, draw);
   }
 
-  // Faces that are not filled, as Mesa draws otherwise than OpenGL 2.1 says.
+  // Throws Unsupported for unfilled faces that Mesa draws otherwise than OpenGL 2.1 specifies.
   static void require_outlines_shown(const Scene& scene, const Draw& draw) {
     const bool front = draw.front_mode == PolygonMode::fill, back = draw.back_mode == PolygonMode::fill;
     const bool moved = draw.polygon_offset != PolygonOffset{};
@@ -103,7 +103,8 @@ class OpenGlRenderer final : public Renderer {
     }
   }
 
-  // OpenGL itself resolves its samples; larger frames and moved pictures are averaged here.
+  // OpenGL resolves its own samples (multisampling); supersampled frames and taps are averaged by
+  // math::capture_resolved.
   Capture capture_resolved(const Scene& scene, const Request& request) {
     Capture capture = math::capture_resolved(*this, scene, request);
     if (scene.frame.antialias.kind != Antialias::Kind::multisample) return capture;

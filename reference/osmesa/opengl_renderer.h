@@ -1,4 +1,4 @@
-// A renderer that draws by OpenGL's fixed function, wherever its context comes from.
+// A renderer that draws by OpenGL's fixed function, in any Context.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace plumbline::osmesa {
 
-/// What it shows: osmesa.h. Throws RendererFailed if the context is none of `driver`'s.
+/// Makes the renderer that osmesa.h describes. Throws RendererFailed if the context is not one of `driver`.
 std::unique_ptr<Renderer> make_opengl_renderer(std::string name, MesaDriver driver, std::unique_ptr<Context> context);
 
 }  // namespace plumbline::osmesa

@@ -1,4 +1,4 @@
-// A buffer object of GL's.
+// Ownership of a GL buffer object.
 #pragma once
 
 #include <span>
@@ -12,7 +12,8 @@ class Buffer {
  public:
   template <class T>
   Buffer(const Gl& gl, std::span<const T> values) : Buffer(gl, values.size_bytes(), values.data()) {}
-  /// `data` may be null: bytes of no particular value.
+  /// `data`: `bytes` bytes, or null: contents undefined. The context must be current, also when the buffer is
+  /// destroyed.
   Buffer(const Gl& gl, std::size_t bytes, const void* data) : gl_(&gl) {
     gl_->GenBuffers(1, &name_);
     gl_->BindBuffer(GL_ARRAY_BUFFER, name_);

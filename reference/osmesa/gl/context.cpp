@@ -40,7 +40,7 @@ void claim_process(std::string_view library, MesaDriver driver, ShaderCode code)
   static const std::string claimed = [&] {
     setenv("GALLIUM_DRIVER", name_of(driver), 1);
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);  // EGL would look for a graphics card
-    // Shaders that are not optimised draw the same bits, and compile three times as fast.
+    // nopt: shaders that are not optimised draw the same bits, and compile three times as fast.
     constexpr const char* kPerf[] = {"no_aos_sampling,no_filter_hacks,nopt", "no_aos_sampling,no_filter_hacks", ""};
     setenv("GALLIVM_PERF", kPerf[static_cast<std::size_t>(code)], 1);
     if (driver == MesaDriver::softpipe) setenv("DRAW_USE_LLVM", "0", 1);  // else feedback with lighting is wrong

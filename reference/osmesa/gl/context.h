@@ -1,5 +1,4 @@
-// An OpenGL context without a window, as the rest of this folder sees it. osmesa_context.cpp or egl_context.cpp makes
-// it.
+// Interface of an OpenGL context without a window, which osmesa_context.cpp or egl_context.cpp makes.
 #pragma once
 
 #include <memory>
@@ -11,7 +10,7 @@ namespace plumbline::osmesa {
 
 struct Gl;
 
-/// A compatibility context. It may have no frame buffer of its own: all is drawn into frame buffer objects (target.h).
+/// A compatibility context. It may have no frame buffer of its own: drawing is to frame buffer objects (target.h).
 class Context {
  public:
   virtual ~Context() = default;
@@ -22,27 +21,27 @@ class Context {
   virtual Function function(const char* name) const = 0;
 };
 
-/// Code that Mesa makes of shaders. The first two draw the same bits; `approximate`, which is Mesa's default and quick
-/// to run, filters textures by weights of 8 bits and levels of detail of four pixels at a time.
+/// Kind of code that Mesa compiles shaders to. The first two draw the same bits; `approximate`, Mesa's default, is fast
+/// to run, but filters textures with weights of 8 bits and one LOD for four pixels.
 enum class ShaderCode { quick_to_make, quick_to_run, approximate };
 
-/// OSMesa's, if it is built in. Throws RendererFailed.
+/// A context of OSMesa; defined in builds with OSMesa. Throws RendererFailed.
 std::unique_ptr<Context> make_osmesa_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
 
-/// EGL's, if it is built in. Throws RendererFailed.
+/// A context of EGL; defined in builds with EGL. Throws RendererFailed.
 std::unique_ptr<Context> make_egl_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
 
-/// OSMesa's; in a build without it EGL's.
+/// make_osmesa_context(), or make_egl_context() in a build without OSMesa.
 std::unique_ptr<Context> make_opengl_context(MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
 
-/// All of OpenGL's entry points that are used here. Throws RendererFailed, naming the one that lacks.
+/// The entry points of gl.h, from the context. Throws RendererFailed, naming one that is missing.
 Gl load(const Context& context);
 
 const char* name_of(MesaDriver driver);
 
-/// To be called before the first context is made: Mesa reads its environment once per process, and two of Mesa's
-/// libraries in one share the current context without knowing of each other. Throws RendererFailed if the process has
-/// another library or driver already.
+/// Sets Mesa's environment variables for this process, before the first context is made. Mesa reads them once, and two
+/// of Mesa's libraries in one process would share the current context without knowing of each other: throws
+/// RendererFailed if the process has claimed another library, driver or shader code.
 void claim_process(std::string_view library, MesaDriver driver, ShaderCode code = ShaderCode::quick_to_make);
 
 }  // namespace plumbline::osmesa

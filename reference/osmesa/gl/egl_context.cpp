@@ -1,4 +1,4 @@
-// The context by EGL on Mesa's surfaceless platform, for a Mesa without OSMesa (25.1 and later). It has no frame
+// Contexts of EGL on Mesa's surfaceless platform, for a Mesa without OSMesa (25.1 and later). They have no frame
 // buffer.
 #include <memory>
 #include <string>
@@ -29,8 +29,8 @@ void require_extension(EGLDisplay display, std::string_view name) {
   }
 }
 
-// EGL has one surfaceless display in a process. It is never terminated: that would end all contexts, and unload the
-// driver, which keeps some memory (Mesa 22.3) that leak checkers then could not tell whose it is.
+// The process' one surfaceless display. It is never terminated: that would end all contexts and unload the driver,
+// which keeps some memory (Mesa 22.3) that leak checkers could then not attribute.
 EGLDisplay surfaceless_display() {
   static const EGLDisplay display = [] {
     const EGLDisplay found = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
@@ -49,7 +49,7 @@ class EglContext final : public Context {
     claim_process("EGL", driver, code);
     display_ = surfaceless_display();
     if (!eglBindAPI(EGL_OPENGL_API)) fail("no OpenGL");
-    const EGLint any_version[] = {EGL_NONE};  // which is a compatibility context
+    const EGLint any_version[] = {EGL_NONE};  // gives a compatibility context
     context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, any_version);
     if (context_ == EGL_NO_CONTEXT) fail("no context");
   }
@@ -63,7 +63,7 @@ class EglContext final : public Context {
   EglContext& operator=(const EglContext&) = delete;
 
   void make_current() override {
-    if (!eglBindAPI(EGL_OPENGL_API) ||  // a thread's own setting
+    if (!eglBindAPI(EGL_OPENGL_API) ||  // per-thread state
         !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
       fail("the context cannot be made current");
     }

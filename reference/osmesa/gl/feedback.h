@@ -1,4 +1,4 @@
-// GL's feedback mode: vertices come back instead of being drawn.
+// GL's feedback mode, in which vertices are returned and not drawn.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@ namespace plumbline::osmesa {
 
 class Feedback {
  public:
-  /// `type`: what is handed out per vertex, such as GL_3D_COLOR.
+  /// `type`: the values per vertex, such as GL_3D_COLOR.
   Feedback(const Gl& gl, GLenum type) : gl_(gl), type_(type) {}
 
-  /// Runs `draw` and returns what comes back, valid until the next run. `expected` values are made room for; where
-  /// more come, `draw` runs again with more room.
+  /// Runs `draw` and returns the feedback, valid until the next run. `expected`: number of values for which memory is
+  /// reserved; if there are more, `draw` runs again with more memory. Throws RendererFailed.
   std::span<const float> run(std::size_t expected, const std::function<void()>& draw);
 
  private:

@@ -1,5 +1,5 @@
-// OpenGL's entry points, taken from the context at run time: libOSMesa and libOpenGL both export gl* functions, and
-// only the context's own are the right ones. Included by this folder's .cpp files alone.
+// OpenGL's entry points, loaded from the context at run time: libOSMesa and libOpenGL both export gl* functions, and
+// only the context's own are the right ones. To be included within reference/osmesa only.
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES
@@ -32,19 +32,20 @@ namespace plumbline::osmesa {
   F(TransformFeedbackVaryings) F(Translated) F(Uniform1i) F(UseProgram) F(VertexPointer) F(Viewport)
 // clang-format on
 
+/// The functions above, without their prefix "gl".
 struct Gl {
 #define PLUMBLINE_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
   PLUMBLINE_GL_FUNCTIONS(PLUMBLINE_GL_MEMBER)
 #undef PLUMBLINE_GL_MEMBER
 };
 
-/// Throws RendererFailed, with GL's name of the error and `where`, if GL has recorded one.
+/// Throws RendererFailed, with GL's name of the error and `where`, if GL has recorded an error; clears GL's errors.
 void check(const Gl& gl, std::string_view where);
 
-/// One of GL's limits.
+/// An integer limit of GL, such as GL_MAX_LIGHTS.
 GLint limit(const Gl& gl, GLenum name);
 
-/// State set during its lifetime goes back to what it was: all but the matrices, and what Mesa's pop leaves out
+/// Saves GL state and restores it on destruction: all but the matrices, and state that Mesa's pop leaves out
 /// (default_state.h).
 class SavedState {
  public:
@@ -66,7 +67,7 @@ class SavedState {
   GLint program_ = 0, frame_buffer_ = 0;
 };
 
-/// The same for vertex arrays and their buffers.
+/// Saves vertex arrays and their buffers and restores them on destruction.
 class SavedArrays {
  public:
   explicit SavedArrays(const Gl& gl) : gl_(gl) { gl_.PushClientAttrib(GL_CLIENT_VERTEX_ARRAY_BIT); }

@@ -1,4 +1,4 @@
-// OpenGL's own matrix functions, as a reference for matrices that are built elsewhere.
+// OpenGL's matrix functions, as a reference for matrices that are built elsewhere.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,8 @@ class MatrixStack {
   explicit MatrixStack(std::unique_ptr<Context> context);
   ~MatrixStack();
 
-  /// What the calls make of the identity, each one multiplied from the right, read back. Mesa rounds the arguments to
-  /// float and computes in it. Throws RendererFailed where GL refuses an argument.
+  /// The product of the calls' matrices, each multiplied from the right, read back. Mesa rounds the arguments to float
+  /// and computes in float. Throws RendererFailed where GL refuses an argument.
   glm::dmat4 product(std::span<const MatrixCall> calls) const;
 
  private:

@@ -5,11 +5,11 @@
 
 namespace plumbline {
 
-/// A process can use one of them, by one of the libraries.
+/// A process can use one of the drivers, by one of the libraries (claim_process() of context.h).
 enum class MesaDriver { llvmpipe, softpipe };
 
-/// Why the driver rounds window positions twice, where OpenGL on other machines rounds them once, by a fused
-/// multiply-add (FMA); empty: it rounds them once.
+/// Reason, for people, why the driver rounds window positions twice: it, or the processor, lacks the fused multiply-add
+/// (FMA) by which others round once. Empty: the driver rounds once.
 std::string why_unfused(MesaDriver driver);
 
 }  // namespace plumbline

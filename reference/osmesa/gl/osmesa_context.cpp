@@ -1,5 +1,5 @@
-// The context by OSMesa. Its library brings LLVM's, whose start takes longer than most programs that ask nothing of it:
-// it is loaded with the first context.
+// Contexts of OSMesa. The library depends on LLVM's, which takes longer to start than most programs run: both are
+// loaded with the first context.
 #include "reference/osmesa/gl/context.h"
 
 #include <dlfcn.h>
@@ -61,7 +61,7 @@ class OsmesaContext final : public Context {
   Function function(const char* name) const override { return library().function(name); }
 
  private:
-  static constexpr int kSize = 4;  // pixels in width and height; OSMesa wants a frame, though nobody draws into it
+  static constexpr int kSize = 4;  // side of the frame that OSMesa requires [pixels]; nothing is drawn to it
   struct Destroy {
     void operator()(osmesa_context* context) const { library().destroy(context); }
   };

@@ -1,4 +1,4 @@
-// A GLSL program of GL's.
+// Ownership of a GLSL program.
 #pragma once
 
 #include <span>
@@ -11,8 +11,9 @@ namespace plumbline::osmesa {
 
 class Program {
  public:
-  /// `fragment` may be empty: fragments are then the fixed function's. `captured`: what transform feedback writes, one
-  /// after the other. Throws RendererFailed, with GL's words, where it does not link.
+  /// Compiles and links. An empty `vertex` or `fragment` leaves that stage to the fixed function. `captured`: the
+  /// varyings that transform feedback writes, interleaved. Throws RendererFailed, with GL's log, where the program does
+  /// not link.
   Program(const Gl& gl, const std::string& vertex, const std::string& fragment,
           std::span<const GLchar* const> captured = {});
   ~Program() {

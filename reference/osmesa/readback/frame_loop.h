@@ -1,4 +1,4 @@
-// One scene drawn by OSMesa's llvmpipe again and again, for timing: what is made once is made before.
+// Repeated drawing of one scene by Mesa's llvmpipe (OSMesa, in a build without it EGL), for timing.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,21 @@
 
 namespace plumbline {
 
+/// A scene in GL; buffers, textures and programs are made by the constructor.
 class OsmesaFrames {
  public:
-  /// How llvmpipe filters textures: as exactly as it can, or as it does by default (GALLIVM_PERF). One for a process.
+  /// Texture filters of llvmpipe: as exact as it can, or its default (GALLIVM_PERF). A process can use one of the two.
   enum class Filters { exact, approximate };
-  /// A scene without antialiasing, or of OpenGL's own samples. Keeps a reference to it. Throws RendererFailed. One at a
-  /// time.
+  /// `scene`: not antialiased, or multisampled; not rgba12. Keeps a reference to the scene. Throws RendererFailed and
+  /// Unsupported. Not to be called concurrently.
   explicit OsmesaFrames(const Scene& scene, Filters filters = Filters::exact);
   ~OsmesaFrames();
 
-  /// Clear, draws, and wait until all is in the frame buffer.
+  /// Clears and draws the frame, and waits until it is complete.
   void draw();
-  /// What was drawn last: colour and depth.
+  /// Colour and depth of the last frame.
   Planes read() const;
-  /// Its colour codes into a plane of the frame's size. For rgba8.
+  /// Colour codes of the last frame (rgba8 only) into a plane of the frame's size.
   void read_codes(Plane<std::uint32_t>& to) const;
 
  private:

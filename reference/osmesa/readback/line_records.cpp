@@ -10,11 +10,11 @@
 namespace plumbline::osmesa {
 namespace {
 
-// A colour that no primitive's number is.
+// Offset of edges' colour codes, beyond all primitives' numbers.
 constexpr std::uint32_t kEdge = 1u << 31;
 
-// The edge that ends in this corner, alone: edge flags leave the others out. One says of a corner whether the edge from
-// it to the next is a boundary.
+// Draws only the edge of a triangle that ends in this corner. A corner's edge flag says whether the edge from it to the
+// next corner is a boundary.
 void draw_edge(const Gl& gl, const Mesh& mesh, const glm::uvec3& triangle, std::uint32_t corner, std::uint32_t code) {
   const SavedArrays arrays(gl);
   const std::array<GLboolean, 3> flags = {corner == 1, corner == 2, corner == 0};
@@ -39,9 +39,9 @@ void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& r
   target.bind();
   scene.clear(glm::vec4(0));
   gl.ShadeModel(GL_FLAT);
-  gl.Disable(GL_LIGHTING);  // the records before may have left it on
+  gl.Disable(GL_LIGHTING);  // earlier records may have left it on
   std::size_t draw = 0;
-  std::uint32_t edge = 0;  // its number in its triangle
+  std::uint32_t edge = 0;  // number of the line in its triangle
   for (std::uint32_t i = 0; i < records.triangles.size(); ++i) {
     const WindowTriangle<double>& line = records.triangles[i];
     edge = i > 0 && records.triangles[i - 1].primitive == line.primitive ? edge + 1 : 0;
@@ -59,7 +59,7 @@ void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& r
     } else {
       scene.draw_id(draw, line.primitive);
     }
-    // Its number is on no other line, so that what earlier ones left need not be cleared.
+    // The code is unique to the line, so that earlier lines need not be cleared.
     const glm::dvec2 a(line.v[0].p_win), b(line.v[1].p_win), size(frame.width, frame.height);
     const double reach = 2.0 + line.width;
     const glm::ivec2 low(glm::clamp(glm::min(a, b) - reach, glm::dvec2(0), size));

@@ -1,4 +1,4 @@
-// Which pixels each line covers: OpenGL leaves some of that open, so the lines are looked at one by one.
+// Coverage of single lines: OpenGL leaves some of it open, so that lines are compared one by one.
 #pragma once
 
 #include "capture/stages.h"
@@ -6,8 +6,9 @@
 
 namespace plumbline::osmesa {
 
-/// records.covered of the lines among records.triangles, the edges of triangles that are not filled included, and of
-/// them alone; of a point or a filled triangle, the planes say all. Call with records.triangles read.
+/// Appends to records.covered the pixels of the lines among records.triangles, edges of unfilled triangles included;
+/// those of points and filled triangles are judged by the planes. Call after read_polygons(), which sets
+/// records.triangles.
 void read_covered_lines(const Gl& gl, const SceneInGl& scene, Records<double>& records);
 
 }  // namespace plumbline::osmesa

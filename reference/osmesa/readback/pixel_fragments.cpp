@@ -22,7 +22,7 @@ class OnePixel {
   OnePixel(const Gl& gl, const SceneInGl& scene, const Target& floats, const Target& frame, glm::ivec2 pixel)
       : gl_(gl), scene_(scene), floats_(floats), frame_(frame), pixel_(pixel) {}
 
-  /// The primitives at the pixel: halves are drawn, and halves of those that reach it.
+  /// The primitives that reach the pixel, by bisection: half of them are drawn, and halves of a half that reaches it.
   std::vector<Found> find() const {
     std::vector<Found> found;
     for (std::size_t draw = 0; draw < scene_.ranges().size(); ++draw) {
@@ -35,7 +35,7 @@ class OnePixel {
     glm::vec4 shaded;
     double depth;
   };
-  /// Alone, with no test in its way.
+  /// Colour and depth of the primitive drawn alone, without tests.
   Values values(const Found& f) const {
     {
       const PassState state(gl_);
@@ -69,7 +69,8 @@ class OnePixel {
     frame_.bind();
     scene_.clear(glm::vec4(0));
   }
-  /// Over what those before it have left: whether it passes. A colour far from its own lies there before.
+  /// Whether the primitive's fragment passes the tests, over the depth and stencil of the primitives before it. Cleared
+  /// to a red far from the fragment's, the pixel shows whether it was drawn.
   bool draws(const Found& f, const glm::vec4& shaded) const {
     const float before = shaded.r < 0.5f ? 1 : 0;
     {

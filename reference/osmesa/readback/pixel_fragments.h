@@ -1,4 +1,5 @@
-// The fragments of single pixels: which primitives reach one, and what becomes of each, by drawing them one at a time.
+// Fragments of single pixels, by drawing primitives one at a time: which reach a pixel, their values, and which are
+// drawn.
 #pragma once
 
 #include "capture/renderer.h"
@@ -6,11 +7,11 @@
 
 namespace plumbline::osmesa {
 
-/// Of each of request.pixels, in their order, the fragments in draw order, one per primitive: triangles (of no corners:
-/// primitive and front are all that is known of them), covered, and, as asked for, depth in the frame's format; texels,
-/// whose level of detail OpenGL does not tell (NaN); shaded, in float; drawn, by the scene's own tests in the frame's
-/// own formats. A primitive that has several fragments there, as outlines do at their corners, is handed out once, with
-/// the last's values. Throws RendererFailed.
+/// Appends records of the fragments at request.pixels, pixel by pixel in their order, each in draw order, one per
+/// primitive: triangles (with `corners` 0: only primitive and front are known), covered, and, as requested, depth in
+/// the frame's format; texels, with a LOD of NaN, as OpenGL does not tell it; shaded, in float; drawn, by the scene's
+/// tests in the frame's formats. A primitive with several fragments at a pixel, as outlines have at their corners, has
+/// one record, with the values of the last. Throws RendererFailed.
 void read_pixel_fragments(const Gl& gl, const SceneInGl& scene, const Request& request, Records<double>& records);
 
 }  // namespace plumbline::osmesa

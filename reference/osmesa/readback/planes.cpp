@@ -16,8 +16,9 @@
 namespace plumbline::osmesa {
 namespace {
 
-/// While fragments are counted, softpipe tests the depth of each; else it adds 16-bit depth up along a row, in steps
-/// that are rounded first (8 codes off in a frame of 97 pixels). llvmpipe does as it always does.
+/// Scope in which GL counts fragments (GL_SAMPLES_PASSED). softpipe then computes the depth of each fragment; otherwise
+/// it increments 16-bit depth along a row by steps that are rounded first (8 codes off in a frame of 97 pixels).
+/// llvmpipe is not affected.
 class CountedFragments {
  public:
   explicit CountedFragments(const Gl& gl) : gl_(gl) {
@@ -37,8 +38,8 @@ class CountedFragments {
 };
 
 enum class Colors {
-  of_winners,  ///< each fragment that is drawn replaces what is there
-  merged,      ///< as the scene is meant to look
+  of_winners,  ///< each drawn fragment replaces the stored colour
+  merged,      ///< the scene's blending, logic ops and masks
   texels       ///< each fragment's texture source
 };
 
@@ -63,18 +64,18 @@ void draw_scene(const Gl& gl, const SceneInGl& scene, const Target& target, Colo
   check(gl, "drawing the scene");
 }
 
-// Where alpha is tested, a primitive's number must not be in its alpha.
+// Whether any draw tests alpha: then a primitive's number must not be in its alpha.
 bool tests_alpha(const Scene& scene) {
   return std::ranges::any_of(scene.draws, [](const Draw& draw) { return draw.alpha_test.has_value(); });
 }
 
-/// The number that the bytes of red, green and blue are.
+/// The number whose bytes are red (the lowest), green and blue.
 std::int32_t number_of(const glm::vec4& color) {
   const auto byte = [](float v) { return static_cast<std::int32_t>(std::lround(255 * v)); };
   return byte(color.r) | byte(color.g) << 8 | byte(color.b) << 16;
 }
 
-/// As draw_ids(), in a target of the frame's own format, whose alpha test it is.
+/// draw_ids() for scenes with alpha tests, in a target of the frame's format, in which the test compares.
 Plane<std::int32_t> draw_tested_ids(const Gl& gl, const SceneInGl& scene, const Target& target) {
   {
     const PassState state(gl);
@@ -113,7 +114,7 @@ Plane<std::int32_t> draw_tested_ids(const Gl& gl, const SceneInGl& scene, const 
   return ids;
 }
 
-/// The scene with each primitive's number + 1 for its colour, on 0.
+/// The winners: the scene is drawn with each primitive's number + 1 as its colour, over 0.
 Plane<std::int32_t> draw_ids(const Gl& gl, const SceneInGl& scene, const Target& target) {
   {
     const PassState state(gl);
@@ -135,7 +136,7 @@ Plane<std::int32_t> draw_ids(const Gl& gl, const SceneInGl& scene, const Target&
   return ids;
 }
 
-/// All fragments of all primitives, added up: r counts them, g, b and a sum their weights' parts.
+/// The sum over all fragments of all primitives: r counts them, g, b and a sum the parts of their weights.
 Plane<glm::vec4> draw_weights(const Gl& gl, const SceneInGl& scene, const Target& target) {
   {
     const PassState state(gl);
@@ -186,7 +187,7 @@ Planes draw_planes(const Gl& gl, const SceneInGl& scene) {
   std::optional<Target> shorts;
   if (frame.color == ColorFormat::rgba16) shorts.emplace(gl, frame, ColorFormat::rgba16);
   Planes planes;
-  // An alpha test would look at the texels' alpha, not at the fragments'.
+  // An alpha test would compare the texels' alpha, not the fragments'.
   if (textured(scene.scene()) && !tests_alpha(scene.scene())) {
     draw_scene(gl, scene, floats, Colors::texels);
     planes.texel = floats.read_color();

@@ -1,4 +1,4 @@
-// The planes, drawn and read back.
+// Planes of a capture, drawn by GL and read back.
 #pragma once
 
 #include "capture/capture.h"
@@ -6,9 +6,10 @@
 
 namespace plumbline::osmesa {
 
-/// Throws RendererFailed, also where more than 4096 fragments lie on one pixel: their weights' sum is not exact then.
+/// All planes (texel only if the scene has textures and no alpha tests). Throws Unsupported where a pixel has more than
+/// 4096 fragments, as the sum of their weights is then not exact, and where OpenGL lacks the samples; RendererFailed.
 Planes draw_planes(const Gl& gl, const SceneInGl& scene);
-/// The frame's colour and depth alone.
+/// The frame's colour and depth only. Throws as draw_planes().
 Planes draw_picture(const Gl& gl, const SceneInGl& scene);
 
 }  // namespace plumbline::osmesa

@@ -17,29 +17,29 @@
 namespace plumbline::osmesa {
 namespace {
 
-// A triangle's corner as it goes in. `tag` is a texture coordinate, which clipping cuts like every other: x and y are
-// the primitive's low and high 16 bits, the same at all corners and so at all cuts; z and w are (1,0), (0,1), (0,0) at
-// the corners, and none of these at a cut.
+// A corner of a primitive, as it is fed. `tag` is a texture coordinate, which clipping interpolates: x and y are the
+// low and high 16 bits of the primitive's number, the same at all corners and so at all cuts; z and w are (1,0), (0,1),
+// (0,0) at the corners, and none of these at a cut.
 struct FedCorner {
   glm::vec3 position, normal;
   glm::vec4 color, tag;
 };
 
-// A triangle, or line or point, as GL_4D_COLOR_TEXTURE hands it out.
+// A vertex and a triangle (or line or point) of GL_4D_COLOR_TEXTURE feedback.
 struct FedVertex {
   glm::vec4 p_win_w;  // window x, y, z; clip w
   glm::vec4 color, tag;
 };
 struct FedTriangle {
-  std::array<FedVertex, 3> v;  // of a line the last twice, of a point the one three times
+  std::array<FedVertex, 3> v;  // a line repeats its last vertex, a point has three equal ones
   std::uint32_t corners;
 };
 constexpr std::size_t kVertex = sizeof(FedVertex) / sizeof(float);
 static_assert(kVertex == 12);
-// The values of one: its token, a triangle's count, its vertices.
+// Number of feedback values of one primitive: token, count of vertices (triangles only), vertices.
 constexpr std::size_t values_of(std::size_t corners) { return (corners == 3 ? 2 : 1) + corners * kVertex; }
 
-// So many triangles go in at a time: it bounds what the feedback takes.
+// Primitives fed at a time, which bounds the feedback buffer.
 constexpr std::size_t kBatch = 1 << 15;
 
 std::vector<std::uint32_t> wanted_primitives(const DrawRange& range, const std::vector<std::uint32_t>& only) {
@@ -54,7 +54,7 @@ std::vector<std::uint32_t> wanted_primitives(const DrawRange& range, const std::
   return primitives;
 }
 
-// Each with the colour that `color` gives of its vertex.
+// The corners of the primitives; color(vertex) is a corner's colour.
 template <class Color>
 std::vector<FedCorner> fed_corners(const Mesh& mesh, std::uint32_t first_primitive,
                                    std::span<const std::uint32_t> primitives, const Color& color) {
@@ -74,7 +74,7 @@ std::vector<FedCorner> fed_corners(const Mesh& mesh, std::uint32_t first_primiti
   return corners;
 }
 
-// From this process' memory: feedback mode never lets go of a buffer object that it has read (Mesa 22.3).
+// Draws the corners from client memory, as feedback mode never frees a buffer object that it has read (Mesa 22.3).
 void draw_corners(const Gl& gl, const std::vector<FedCorner>& corners, Topology topology, bool colors) {
   const SavedArrays arrays(gl);
   gl.VertexPointer(3, GL_FLOAT, sizeof(FedCorner), &corners[0].position);
@@ -139,7 +139,8 @@ class ToClip {
   glm::dvec3 scale_, translate_;
 };
 
-// Neighbouring triangles of one primitive are the fan (1, 2, 0), (2, 3, 0) ... of the polygon that clipping left.
+// Appends the polygons. Successive triangles of one primitive are the fan (1, 2, 0), (2, 3, 0) ... of a clipped
+// polygon.
 void add_polygons(std::span<const FedTriangle> triangles, const ToClip& to_clip, ClipPolygons<double>& out) {
   for (const FedTriangle& t : triangles) {
     for (const FedVertex& v : t.v) {
@@ -175,12 +176,13 @@ bool outlined(const Mesh& mesh, const Draw& draw) {
          (draw.front_mode != PolygonMode::fill || draw.back_mode != PolygonMode::fill);
 }
 
-// OpenGL 2.1, section 2.12: "edges introduced by clipping are flagged as boundary". Mesa draws those that user clip
-// planes make, and none that the view volume makes; of their corners, as points, one of two.
+// Throws Unsupported if the view volume cuts an unfilled triangle. OpenGL 2.1, section 2.12: "edges introduced by
+// clipping are flagged as boundary". Mesa draws those made by user clip planes, but none made by the view volume; of
+// their corners, as points, one of two.
 void require_uncut(std::span<const FedTriangle> triangles) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const FedTriangle& t = triangles[i];
-    // A cut beside a corner has the corner's tag: then the fan tells.
+    // A cut very close to a corner has the corner's tag; then the fan shows the cut.
     const bool fan = i > 0 && primitive_of(triangles[i - 1]) == primitive_of(t);
     if (!fan && !std::any_of(t.v.begin(), t.v.end(), is_cut)) continue;
     throw Unsupported(fmt::format(
@@ -190,7 +192,7 @@ void require_uncut(std::span<const FedTriangle> triangles) {
   }
 }
 
-// stages.h's rule, in float as the rasterizer has it.
+// Snapping by the rule of stages.h, in float as in Mesa's rasterizer.
 int snap(float window) { return static_cast<int>(std::lrint((window - 0.5f) * static_cast<float>(kSubpixel))); }
 
 std::int64_t doubled_area(const WindowTriangle<double>& t) {
@@ -198,9 +200,9 @@ std::int64_t doubled_area(const WindowTriangle<double>& t) {
   return edge(1).x * edge(2).y - edge(1).y * edge(2).x;
 }
 
-// Feedback mode culls by the area of the unsnapped positions, and the rasterizer by that of the snapped ones (measured:
-// on slivers the two differ, and the pixels are those of the latter). So culling is off, and its rule applied here;
-// GL's own culling shows in the planes.
+// Appends the triangles that are not culled. Feedback mode culls by the area of the unsnapped positions, the rasterizer
+// by that of the snapped ones (measured: on slivers the two differ, and the pixels are those of the latter). So culling
+// is off in GL, and applied here by the snapped area; GL's own culling shows in the planes.
 void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std::vector<WindowTriangle<double>>& out) {
   for (const FedTriangle& fed : triangles) {
     WindowTriangle<double> t;
@@ -218,12 +220,12 @@ void add_triangles(std::span<const FedTriangle> triangles, const Draw& draw, std
   }
 }
 
-// Draws that feedback mode lights itself: `lit` holds the front faces' colours alone.
+// Whether feedback mode must light the draw: read_polygons()' `lit` has the colours of front faces only.
 bool feeds_two_sides(const Scene& scene, const Draw& draw) {
   return is_lit_per_vertex(draw) && scene.light_model.sides == LightModel::Sides::two;
 }
 
-// The number before the first point of "4.5 (Compatibility Profile) Mesa 25.0.7-2+deb13u1"; 0: no Mesa.
+// Mesa's major version, such as 25 of "4.5 (Compatibility Profile) Mesa 25.0.7-2+deb13u1"; 0: not Mesa.
 int major_version_of_mesa(std::string_view gl_version) {
   constexpr std::string_view kMesa = "Mesa ";
   const std::size_t at = gl_version.find(kMesa);

@@ -1,4 +1,4 @@
-// What GL tells of stages 3 and 4, by feedback mode.
+// GL's records of stages 3 and 4, by feedback mode.
 #pragma once
 
 #include <span>
@@ -10,8 +10,9 @@
 
 namespace plumbline::osmesa {
 
-/// Puts records.polygons and records.triangles, where the request names their stages. `lit`: the colours of all draws'
-/// vertices. Call with a Target bound.
+/// Appends to records.polygons and records.triangles, as far as the request has stages 3 and 4. `lit`: the colours of
+/// all draws' vertices. Call with a Target bound. Throws Unsupported where clipping exceeds float's range or cuts an
+/// unfilled triangle (Mesa draws no edges there), RendererFailed where the feedback is not as expected.
 void read_polygons(const Gl& gl, const SceneInGl& scene, std::span<const Lit<double>> lit, const Request& request,
                    Records<double>& records);
 

@@ -40,7 +40,7 @@ glm::dmat4 read_matrix(const Gl& gl, GLenum name) {
   return glm::dmat4(matrix);
 }
 
-// Nothing is drawn, and the program runs instead of the fixed function.
+// Scope of transform feedback: rasterization is off, the program is in use, and a query is at hand.
 class Captured {
  public:
   Captured(const Gl& gl, GLuint program) : gl_(gl) {
@@ -62,8 +62,8 @@ class Captured {
   GLuint query_ = 0;
 };
 
-// Every vertex, its eye-space w being 1, goes to the middle of the view volume: none is clipped, and of a viewport of
-// one pixel each is drawn at its centre.
+// Loads a projection that puts every vertex (whose eye-space w is 1) in the middle of the view volume: none is clipped,
+// and in a viewport of one pixel each is drawn at the pixel's centre.
 void gather_vertices(const Gl& gl) {
   glm::mat4 middle(0);
   middle[3][3] = 1;
@@ -133,7 +133,7 @@ VertexColors::VertexColors(const Gl& gl) : gl_(gl), primary_(gl, "", "void main(
 
 std::vector<Lit<double>> VertexColors::read(const SceneInGl& scene) const {
   constexpr std::uint32_t kWidth = 256, kHeight = 64;
-  constexpr float kUndrawn = -1;  // that no vertex is: GL clamps them
+  constexpr float kUndrawn = -1;  // no vertex has this colour: GL clamps vertex colours
   FrameFormat frame;
   frame.width = kWidth;
   frame.height = kHeight;
@@ -146,7 +146,7 @@ std::vector<Lit<double>> VertexColors::read(const SceneInGl& scene) const {
     scene.set_matrices(i);
     gather_vertices(gl_);
     scene.set_vertex_light(i);
-    // Their fragments are to have the primary colour alone, and no texture.
+    // Fragments must have the primary colour only, and no texture.
     if (scene.has_vertex_program(i)) {
       gl_.Disable(GL_LIGHTING);  // with it, GL would add the secondary colour; the program lights either way
       gl_.Disable(GL_COLOR_SUM);

@@ -1,4 +1,4 @@
-// What GL tells of stages 0 to 2.
+// GL's records of stages 0 to 2.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,16 @@
 
 namespace plumbline::osmesa {
 
-/// Loads each draw's matrices and reads GL's own back. Call within a PassState, a Target bound.
+/// Loads each draw's matrices into GL and reads them back; the normal matrix is computed from the model-view matrix.
+/// Call within a PassState, with a Target bound.
 std::vector<Matrices<double>> read_matrices(const Gl& gl, const SceneInGl& scene);
 
-/// A program that hands on what the fixed function computes of a vertex; made once per context.
+/// A vertex program that computes what the fixed function does and outputs it; to be made once per context.
 class VertexProgram {
  public:
   explicit VertexProgram(const Gl& gl);
 
-  /// All draws' vertices by transform feedback. Call as read_matrices.
+  /// All draws' vertices by transform feedback. Call as read_matrices(). Throws RendererFailed.
   std::vector<Vertex<double>> run(const SceneInGl& scene) const;
 
  private:
@@ -24,19 +25,19 @@ class VertexProgram {
   GLint normals_;  ///< location of the uniform that selects the normals' treatment (scene.h, Normals)
 };
 
-/// The vertices' colours; made once per context.
+/// Reader of vertex colours; to be made once per context.
 class VertexColors {
  public:
   explicit VertexColors(const Gl& gl);
 
-  /// All draws' vertices, lit: each drawn as a point that is a pixel. (Feedback mode would hand them out, too, but
-  /// Mesa compiles each vertex shader once more for it, and keeps none of these.) Call as read_matrices; leaves another
-  /// target bound.
+  /// The lit colours of all draws' vertices, each drawn as a point of one pixel. (Feedback mode would return them, too,
+  /// but Mesa compiles each vertex shader once more for it, and keeps none of these.) Call as read_matrices(); leaves
+  /// another target bound. Throws RendererFailed.
   std::vector<Lit<double>> read(const SceneInGl& scene) const;
 
  private:
   const Gl& gl_;
-  Program primary_;  ///< its fragments have the primary colour
+  Program primary_;  ///< fragment program that outputs the primary colour
 };
 
 }  // namespace plumbline::osmesa

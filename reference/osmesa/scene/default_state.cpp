@@ -66,7 +66,7 @@ void set_light(const Gl& gl, GLenum light) {
 /// The model-view matrix must be the identity: GL transforms a light's place as it is set.
 void set_lighting(const Gl& gl) {
   constexpr GLfloat kAmbient[] = {0.2f, 0.2f, 0.2f, 1}, kDiffuse[] = {0.8f, 0.8f, 0.8f, 1};
-  constexpr GLenum kLights = 8;  // as many as a scene has at most, and OpenGL at least
+  constexpr GLenum kLights = 8;  // most lights of a scene, and fewest of an OpenGL
   for (GLenum i = 0; i < kLights; ++i) set_light(gl, GL_LIGHT0 + i);
   gl.LightModelfv(GL_LIGHT_MODEL_AMBIENT, kAmbient);
   gl.LightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, GL_FALSE);
@@ -116,7 +116,7 @@ void set_rasterization(const Gl& gl) {
 }
 
 void set_fragment_operations(const Gl& gl) {
-  gl.Scissor(0, 0, 0, 0);  // initially the window's size, which nobody here draws into
+  gl.Scissor(0, 0, 0, 0);  // GL's initial value is the window's size; there is no window here
   gl.AlphaFunc(GL_ALWAYS, 0);
   gl.StencilFuncSeparate(GL_FRONT_AND_BACK, GL_ALWAYS, 0, ~0u);
   gl.StencilOpSeparate(GL_FRONT_AND_BACK, GL_KEEP, GL_KEEP, GL_KEEP);

@@ -8,15 +8,15 @@ namespace plumbline::osmesa {
 
 GLenum gl_compare(CompareFunc func);
 
-/// Alpha and stencil test, and polygon offset. Call within a PassState.
+/// Sets a draw's alpha test, stencil test and polygon offset. Call within a PassState.
 void set_fragment_tests(const Gl& gl, const Draw& draw);
-/// No alpha, stencil or depth test: every fragment counts.
+/// Disables alpha, stencil and depth test, so that every fragment counts.
 void disable_tests(const Gl& gl);
 void set_logic_op(const Gl& gl, const std::optional<LogicOp>& op);
 
-/// Turns every fragment's rgb to the bytes of a number, from red up, and leaves its alpha as textures have made it.
-/// Call within a PassState; lasts as long as that. A texture environment, on the unit after the scene's: it acts
-/// before the alpha test, and a constant is interpolated by nobody.
+/// Texture environment that replaces every fragment's rgb by the bytes of a number, red the lowest, and keeps the alpha
+/// that the scene's texture has made. It is on the unit after the scene's; it acts before the alpha test, and its
+/// constant colour is not interpolated. Use within a PassState, no longer than that.
 class NumberedFragments {
  public:
   explicit NumberedFragments(const Gl& gl);

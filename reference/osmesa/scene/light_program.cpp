@@ -9,7 +9,7 @@
 namespace plumbline::osmesa {
 namespace {
 
-/// AMBIENT(m) and so on: of the material m, or gl_Color where that stands for it.
+/// Macros AMBIENT(m), DIFFUSE(m)...: the colour of the material m, or the vertex colour where it replaces that colour.
 std::string material_of(const Scene& scene, const Draw& draw) {
   const bool colors = !scene.meshes[draw.mesh].colors.empty();
   const auto define = [&](const char* name, const char* member, bool follows) {
@@ -32,7 +32,8 @@ const char* normal_of(Normals normals) {
   return "";
 }
 
-/// share(): attenuation and cone of a light whose VP, not yet of unit length, is given (OpenGL 2.1 spec 2.14.1).
+/// GLSL function share(): attenuation times cone of a light. vp: vector to the light, of any length (OpenGL 2.1 spec
+/// 2.14.1).
 constexpr const char* kShare = R"(
 float share(gl_LightSourceParameters light, vec3 vp) {
   if (light.position.w == 0.0) return 1.0;
@@ -45,7 +46,7 @@ float share(gl_LightSourceParameters light, vec3 vp) {
 }
 )";
 
-/// lit(): the colour at a point of eye space, and what is added to it later.
+/// GLSL function lit(): the primary colour at a point of eye space; `secondary` is the colour of the colour sum.
 std::string equation_of(const Scene& scene) {
   const LightModel& model = scene.light_model;
   const char* to_eye = model.local_viewer ? "normalize(-p)" : "vec3(0.0, 0.0, 1.0)";
@@ -82,9 +83,10 @@ vec4 lit(gl_MaterialParameters m, vec3 p, vec3 n, vec4 color, out vec4 secondary
                      model.separate_specular ? "shine" : "answer");
 }
 
-// Mesa 22.3 (ffvertex_prog.c) leaves N.H out where the shininess is 0, and then gives a light that is attenuated or has
-// a cone the specular term (N.L)^(N.L) for 1 (measured: .239 gives .7103). Where one side's shininess alone is 0, it
-// takes the power of both, and of an N.H of 0 or less 0^0 for 0 (measured); where both are 0 the same term is 1.
+// Whether Mesa 22.3 (ffvertex_prog.c) lights the draw wrongly. Where the shininess is 0, it leaves N.H out, and
+// computes the specular term of a light that is attenuated or has a cone as (N.L)^(N.L) in place of 1 (measured: .239
+// gives .7103). Where only one side's shininess is 0, it computes the power for both, and 0^0 as 0 where N.H is 0 or
+// less (measured); where both are 0, that term is 1.
 bool mesa_is_wrong(const Scene& scene, const Draw& draw) {
   const bool front = draw.material.shininess == 0,
              back = draw.back_material ? draw.back_material->shininess == 0 : front;
@@ -112,7 +114,7 @@ constexpr const char* kPassedOn = R"(
   gl_FogFragCoord = abs(p_eye.z);
 )";
 
-/// OpenGL 2.1 spec 3.10, the distance the fragment's own.
+/// GLSL statements of the draw's fog, by the fragment's own distance (OpenGL 2.1 spec 3.10); empty without fog.
 std::string fog_of(const Draw& draw) {
   if (!draw.fog) return "";
   const char* factor = draw.fog->mode == Fog::Mode::linear ? "(gl_Fog.end - c) / (gl_Fog.end - gl_Fog.start)"

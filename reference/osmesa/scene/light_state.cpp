@@ -7,7 +7,8 @@
 namespace plumbline::osmesa {
 namespace {
 
-// In the world, homogeneous. A direction of unit length, so that its rounding to float loses nothing to its size.
+// A light's position or direction in world space, homogeneous. A direction is normalised, so that rounding to float
+// does not depend on its length.
 glm::dvec4 place(const Light& light) {
   if (light.kind == Light::Kind::point) return glm::dvec4(light.vector, 1);
   const double length = glm::length(light.vector);
@@ -61,7 +62,7 @@ void set_lights(const Gl& gl, const Scene& scene) {
   gl.LightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, model.local_viewer ? GL_TRUE : GL_FALSE);
   gl.LightModeli(GL_LIGHT_MODEL_TWO_SIDE, model.sides == LightModel::Sides::two ? GL_TRUE : GL_FALSE);
   gl.LightModeli(GL_LIGHT_MODEL_COLOR_CONTROL, model.separate_specular ? GL_SEPARATE_SPECULAR_COLOR : GL_SINGLE_COLOR);
-  // GL takes a light's place through the model-view matrix of the moment; it comes in eye space already.
+  // GL multiplies a light's position by the current model-view matrix; positions are passed in eye space.
   gl.MatrixMode(GL_MODELVIEW);
   gl.LoadIdentity();
   const glm::dmat4 view = math::view_matrix(scene);
@@ -78,7 +79,7 @@ void set_lights(const Gl& gl, const Scene& scene) {
 }
 
 void set_material(const Gl& gl, const Scene& scene, const Draw& draw) {
-  gl.Disable(GL_COLOR_MATERIAL);  // it would keep the last vertex colour
+  gl.Disable(GL_COLOR_MATERIAL);  // else the material keeps the last vertex colour
   set_face(gl, GL_FRONT, draw.material);
   set_face(gl, GL_BACK, draw.back_material.value_or(draw.material));
   set_normals(gl, draw.normals);

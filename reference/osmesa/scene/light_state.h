@@ -1,4 +1,4 @@
-// Lights, materials and normals as GL's fixed function has them (OpenGL 2.1 spec 2.14).
+// GL state of lights, materials and normals for the fixed function (OpenGL 2.1 spec 2.14).
 #pragma once
 
 #include "reference/osmesa/gl/gl.h"
@@ -6,10 +6,10 @@
 
 namespace plumbline::osmesa {
 
-/// Light model and lights; leaves MODELVIEW the identity. Call within a PassState.
+/// Sets light model and lights; leaves the identity in MODELVIEW. Call within a PassState.
 void set_lights(const Gl& gl, const Scene& scene);
 
-/// Of a draw that is lit: material, what of it follows the vertex colour, and what becomes of normals.
+/// Sets the materials of a lit draw, the colours that follow the vertex colour, and the treatment of normals.
 void set_material(const Gl& gl, const Scene& scene, const Draw& draw);
 
 }  // namespace plumbline::osmesa

@@ -104,7 +104,7 @@ void Multisamples::fetch(GLuint texture, int sample, GLuint to) const {
 }
 
 void Multisamples::resolve(GLuint to) const {
-  const PassState state(gl_);  // without a scissor test, which would cut what is copied
+  const PassState state(gl_);  // without a scissor test, which would crop the copy
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_buffer_);
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
   gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,

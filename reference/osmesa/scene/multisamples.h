@@ -8,8 +8,9 @@ namespace plumbline::osmesa {
 
 class Multisamples {
  public:
-  /// Of these formats, with four samples at the places of scene/antialias.h. Throws Unsupported where OpenGL has none
-  /// (softpipe), or has others.
+  /// Has the frame's size, these formats, and samples at the positions of reference/arithmetic/passes.h. Throws
+  /// Unsupported where OpenGL has fewer samples (softpipe) or other positions, RendererFailed where it refuses the
+  /// formats.
   Multisamples(const Gl& gl, const FrameFormat& frame, GLenum color, GLenum depth);
   ~Multisamples();
   Multisamples(const Multisamples&) = delete;
@@ -17,11 +18,10 @@ class Multisamples {
 
   GLuint frame_buffer() const { return frame_buffer_; }
 
-  /// One sample's colours, as they are, or its depths as red, become the colours of the frame buffer that is given. In
-  /// GL's default state.
+  /// Draws one sample's colours, unchanged, or its depths, as red, into the frame buffer `to`, in a PassState.
   void fetch_colors(int sample, GLuint to) const;
   void fetch_depths(int sample, GLuint to) const;
-  /// Resolves into it, as glBlitFramebuffer does.
+  /// Resolves colour and depth into the frame buffer `to`, by glBlitFramebuffer.
   void resolve(GLuint to) const;
 
  private:

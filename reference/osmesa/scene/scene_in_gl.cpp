@@ -23,10 +23,10 @@ struct Corner {
   glm::vec4 weight;
 };
 
-// What GL takes for a pointer: bytes from the bound buffer's start.
+// An offset into the bound buffer [bytes], as the pointer that GL takes.
 const void* offset(std::uintptr_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
-// OpenGL would read past the end of the arrays.
+// Checks that a mesh's arrays and indices fit each other: else OpenGL would read past the arrays' ends.
 void require_whole(const Scene& scene, const Draw& draw) {
   const Mesh& mesh = scene.meshes.at(draw.mesh);
   const std::size_t vertices = mesh.positions.size();
@@ -192,7 +192,7 @@ void SceneInGl::set_vertex_light(std::size_t draw) const {
   set_material(gl_, scene_, d);
   if (!has_vertex_program(draw)) return;
   gl_.UseProgram(light_programs_[draw]->name());
-  // With a vertex shader, these are not the light model's matter.
+  // With a vertex shader, the light model has no effect on two sides and colour sum: these have switches of their own.
   if (scene_.light_model.sides == LightModel::Sides::two) gl_.Enable(GL_VERTEX_PROGRAM_TWO_SIDE);
   if (scene_.light_model.separate_specular) gl_.Enable(GL_COLOR_SUM);
 }
@@ -214,8 +214,8 @@ void SceneInGl::set_surface(std::size_t draw) const {
   const Draw& d = scene_.draws[draw];
   textures_.set(d);
   set_fog(draw);
-  // The sum of a lit draw's colours is clamped (OpenGL 2.1, section 3.9); into a frame of floats GL leaves it
-  // otherwise.
+  // The colour sum of a lit draw is clamped (OpenGL 2.1, section 3.9); in a float frame GL would not clamp it by
+  // default.
   const bool clamped = d.lit && scene_.light_model.separate_specular;
   gl_.ClampColor(GL_CLAMP_FRAGMENT_COLOR, clamped ? GL_TRUE : GL_FIXED_ONLY);
   set_vertex_light(draw);

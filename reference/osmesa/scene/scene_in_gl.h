@@ -1,4 +1,4 @@
-// A scene's meshes in GL's buffers, each draw's uploaded once, and the GL calls that draw them.
+// A scene in GL: the meshes of its draws, uploaded once, and the calls that set a draw's state and draw it.
 #pragma once
 
 #include <functional>
@@ -14,14 +14,15 @@
 
 namespace plumbline::osmesa {
 
-/// Some of a draw's primitives, by their numbers in the scene.
+/// A range of a draw's primitives, by their numbers in the scene.
 struct Primitives {
   std::uint32_t first, count;
 };
 
 class SceneInGl {
  public:
-  /// Keeps a reference to the scene. Throws RendererFailed for meshes whose arrays do not fit each other.
+  /// Keeps references to both. Throws RendererFailed for meshes whose arrays do not fit each other, and where OpenGL's
+  /// limits do not suffice.
   SceneInGl(const Gl& gl, const Scene& scene);
 
   const Scene& scene() const { return scene_; }
@@ -29,29 +30,30 @@ class SceneInGl {
   const Matrices<double>& matrices(std::size_t draw) const { return matrices_[draw]; }
 
   // GL state of the scene and its draws. Call within a PassState.
-  void clear(const glm::vec4& color) const;   ///< to a colour and the frame's other clear values
-  void set_matrices(std::size_t draw) const;  ///< and the depth range
-  void set_surface(std::size_t draw) const;   ///< lit or not, material, flat or smooth, fog
-  /// Of that, what colours the vertices: feedback mode runs no fragments, and what they do not read would be lost in
-  /// it.
+  void clear(const glm::vec4& color) const;   ///< to `color` and the frame's clear depth and stencil value
+  void set_matrices(std::size_t draw) const;  ///< matrices, depth range and depth clamp
+  void set_surface(std::size_t draw) const;   ///< light, material, shade model, texture, fog
+  /// Sets the part of set_surface() that colours vertices. Feedback mode needs only this: it runs no fragments, and
+  /// would lose vertex outputs that the fragments' state does not read.
   void set_vertex_light(std::size_t draw) const;
-  bool has_vertex_program(std::size_t draw) const;  ///< whether that is a program, not the fixed function
-  void set_fragments(std::size_t draw) const;       ///< culling, polygon modes and offset, widths, tests, depth mask
-  void set_texture_source(std::size_t draw) const;  ///< its fragments become their filtered texels
+  bool has_vertex_program(std::size_t draw) const;  ///< whether set_vertex_light() uses a program (light_program.h)
+  void set_fragments(std::size_t draw) const;  ///< culling, polygon modes, offset, widths, scissor, tests, depth mask
+  void set_texture_source(std::size_t draw) const;  ///< fragments become their filtered texels
   void set_merge(std::size_t draw) const;           ///< blending, logic op and colour mask
 
-  // The draw's mesh, under the state that is set.
+  // Draw the draw's mesh under the state that is set.
   void draw_primitives(std::size_t draw) const;      ///< with normals and colours
-  void draw_without_colors(std::size_t draw) const;  ///< with normals, in the colour that is set
-  /// As draw_primitives, calling before(its number) before each.
+  void draw_without_colors(std::size_t draw) const;  ///< with normals, in GL's current colour
+  /// draw_primitives() with one GL call per primitive, and before(number of the primitive) before each.
   void draw_one_by_one(std::size_t draw, const std::function<void(std::uint32_t)>& before) const;
-  void draw_points(std::size_t draw) const;  ///< each vertex, with normals and colours
-  /// Vertices of a draw, each as a point of its own, calling before(its number after the first) before each.
+  void draw_points(std::size_t draw) const;  ///< each vertex as a point, with normals and colours
+  /// The draw's vertices `these`, numbered from 0 within the draw, with one GL call per vertex; calls before(k) before
+  /// the k-th.
   void draw_points(std::size_t draw, Primitives these, const std::function<void(std::uint32_t)>& before) const;
   void draw_ids(std::size_t draw) const;  ///< each primitive in the colour whose four bytes are its number + 1
-  void draw_id(std::size_t draw, std::uint32_t primitive) const;  ///< this one alone
+  void draw_id(std::size_t draw, std::uint32_t primitive) const;  ///< draw_ids() of one primitive
   void draw_weights(std::size_t draw) const;  ///< each primitive in the colour (1, id_weight_part 0, 1, 2)
-  // The same of `these` alone.
+  // The same for `these` alone.
   void draw_primitives(std::size_t draw, Primitives these) const;
   void draw_without_colors(std::size_t draw, Primitives these) const;
   void draw_weights(std::size_t draw, Primitives these) const;
@@ -67,7 +69,7 @@ class SceneInGl {
   struct Arrays {
     Buffer vertices;  ///< MeshVertex
     Buffer indices;   ///< the mesh's primitives
-    Buffer corners;   ///< every primitive's corners alone, so that it can have a colour of its own
+    Buffer corners;   ///< the corners of each primitive, not shared, so that each primitive can have its own colour
   };
   static std::vector<MeshVertex> vertices_of(const Mesh& mesh);
   Primitives all(std::size_t draw) const { return {ranges_[draw].first_primitive, ranges_[draw].primitive_count}; }
@@ -81,7 +83,7 @@ class SceneInGl {
   std::vector<DrawRange> ranges_;
   std::vector<Matrices<double>> matrices_;
   std::vector<Arrays> arrays_;
-  std::vector<std::optional<Program>> light_programs_;  ///< where the fixed function has no such light
+  std::vector<std::optional<Program>> light_programs_;  ///< per draw; set if needs_light_program()
   TexturesInGl textures_;
 };
 

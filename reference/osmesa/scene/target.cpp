@@ -17,7 +17,7 @@ struct DepthBits {
   GLint bits;
 };
 
-// With stencil values in one buffer, as frame buffer objects want it; there is none of 16 bits.
+// Format of depth and stencil in one buffer, as frame buffer objects require it; there is none with 16 bits of depth.
 GLenum with_stencil(DepthFormat format) {
   return format == DepthFormat::z32f ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8;
 }
@@ -47,7 +47,7 @@ ColorBits color_bits(ColorFormat format) {
   return {GL_RGBA32F, 32};
 }
 
-// GL may give a format of more bits than were asked for; then the codes would not be the frame's.
+// Checks the bits of a channel: GL may give more than were asked for, and then codes would not be those of the frame.
 void require_bits(const Gl& gl, GLenum name, GLint expected, std::string_view what) {
   GLint bits = 0;
   gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, name, &bits);
@@ -65,8 +65,9 @@ void require_size(const Gl& gl, const FrameFormat& frame) {
                   frame.width, frame.height, largest, largest, viewport[0], viewport[1]));
 }
 
-// GL makes a float of a 24-bit code by a product with 1/(2^24 - 1) in float, which is not the nearest one: the code is
-// that whose product it is. (Of fewer bits the nearest code is right.)
+// Window z of a sample's depth that GL returned as a float. GL converts a 24-bit code to float by a product with
+// 1/(2^24 - 1) in float, which is not the nearest float: the code is the one whose product is z. (For fewer bits it is
+// the nearest code.)
 double window_z_of_sample(float z, DepthFormat format) {
   const double scale = depth_scale(format);
   if (scale == 0) return static_cast<double>(z);

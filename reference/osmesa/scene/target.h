@@ -1,4 +1,4 @@
-// A frame buffer object to draw into and read from.
+// A frame buffer object to draw to and read from.
 #pragma once
 
 #include <cstdint>
@@ -15,33 +15,35 @@ namespace plumbline::osmesa {
 class Target {
  public:
   /// Has the frame's size and depth format, but z24 for z8 (which OpenGL lacks) and for z16 with stencil values.
-  /// `color`: rgba8, rgba16 or rgba32f. Throws RendererFailed, naming OpenGL's limit, where OpenGL cannot give that.
-  /// A pass of one sample (Pass::sample) draws all four samples, and that one is read. The samples of a multisampled
-  /// frame are resolved before they are read.
+  /// `color`: rgba8, rgba16 or rgba32f. A pass of one sample (Pass::sample) draws all four samples, of which that one
+  /// is read. The samples of a multisampled frame are resolved before they are read. Throws RendererFailed, naming
+  /// OpenGL's limit, where OpenGL cannot give size or format, and Unsupported where it lacks the samples
+  /// (Multisamples).
   Target(const Gl& gl, const FrameFormat& frame, ColorFormat color);
   ~Target();
   Target(const Target&) = delete;
   Target& operator=(const Target&) = delete;
 
-  /// Draws go here from now on, through a viewport of its whole size.
+  /// Makes this the frame buffer of further draws, with a viewport of its whole size.
   void bind() const;
 
-  /// One byte per channel: r in the low byte. For rgba8.
+  // The functions that read bind another frame buffer: call bind() before the next draw.
+  /// Colour codes of an rgba8 target, one byte per channel, r in the low byte.
   Plane<std::uint32_t> read_codes() const;
-  /// The same of `size` pixels from pixel `origin` on.
+  /// The codes of `size` pixels from pixel `origin` on.
   Plane<std::uint32_t> read_codes(glm::ivec2 origin, glm::ivec2 size) const;
-  /// Codes from pixel `origin` on into `to`, as many columns and rows as it has.
+  /// The codes of as many pixels as `to` has, from pixel `origin` on.
   void read_codes(glm::ivec2 origin, Plane<std::uint32_t>& to) const;
-  /// Codes as code / 255, code / 65535.
+  /// Colours; codes as code / 255 or code / 65535.
   Plane<glm::vec4> read_color() const;
   Plane<glm::vec4> read_color(glm::ivec2 origin, glm::ivec2 size) const;
-  /// Window z: n-bit codes as code / (2^n - 1).
+  /// Window z; n-bit codes of the target's format, which may not be the frame's, as code / (2^n - 1).
   Plane<double> read_depth() const;
   Plane<std::uint8_t> read_stencil() const;  ///< empty where the frame has none
 
  private:
   void release();
-  void take_samples() const;  // before anything but a sample's depth is read
+  void take_samples() const;  // fetches or resolves samples into frame_buffer_, for all reads but a sample's depth
   Plane<double> read_sample_depth() const;
 
   const Gl& gl_;

@@ -113,7 +113,7 @@ void TexturesInGl::upload(const Texture& texture) const {
   const Sampler& s = texture.sampler;
   for (std::size_t i = 0; i < texture.levels.size(); ++i) {
     const TextureLevel& level = texture.levels[i];
-    // Of source components GL takes what the format has: luminance and intensity from red, alpha from alpha.
+    // GL takes the format's components from the source components: luminance and intensity from red, alpha from alpha.
     gl_.TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), internal_format(texture.format, texture.type), level.width,
                    level.height, 0, GL_RGBA, GL_FLOAT, level.texels.data());
   }
