@@ -18,19 +18,20 @@ namespace plumbline::pipeline {
 struct PerspectiveSetup {
   std::array<float, 3> inv_w;
   Affine<double> q1, q2, sum;
-  /// The three are evaluated in double at the first pixel of each 4 x 4 block, and in float from there: where
-  /// changes_little() holds and the draw carries no varying. (With a texture, float could move a border between texels
-  /// off a pixel's centre.)
+  /// Whether q1, q2 and sum are evaluated in double at the first pixel of each 4 x 4 block only, and in float from
+  /// there. So it is for triangles whose draw carries no varying, where changes_little() holds. (With a texture, float
+  /// could move a border between texels off a pixel's centre.)
   bool in_blocks = false;
 };
+/// f times `by`.
 template <class W>
 [[gnu::always_inline]] inline Affine<W> scaled(const Affine<W>& f, const W& by) {
   return {f.at_0 * by, f.x * by, f.y * by};
 }
-/// Whether q_1, q_2 and their sum with q_0 change by at most half of the least 1/w within a block of 4 x 4 pixels. Then
-/// float is enough within blocks: with D = |added_in_block()| <= least / 2, a value q is off by u (|q| + D) for the
-/// first pixel's rounded to float, 3 u D for the slopes, products and their sum, and u |q| for the last sum: 2 u |q| +
-/// 4 u D.
+/// Whether q_1, q_2 and their sum with q_0 change by at most half of the least 1/w within a block of 4 x 4 pixels, and
+/// every 1/w is within (2^-60, 2^60). Then float is enough within blocks, u = 2^-24: with D = |added_in_block()| <=
+/// least / 2, a value q is off by u (|q| + D) as the first pixel's is rounded to float, 3 u D for the slopes, the
+/// products and their sum, and u |q| for the last sum: 2 u |q| + 4 u D.
 template <class W>
 [[gnu::always_inline]] inline auto changes_little(const Affine<W>& q1, const Affine<W>& q2, const Affine<W>& sum,
                                                   const W (&inv_w)[3]) {
@@ -38,25 +39,26 @@ template <class W>
   const W least = lesser_of(lesser_of(inv_w[0], inv_w[1]), inv_w[2]);
   const W most = greater_of(greater_of(inv_w[0], inv_w[1]), inv_w[2]);
   const auto little = [&](const Affine<W>& f) { return (size(f.x) + size(f.y)) * W(2.0 * (kBlock - 1)) <= least; };
-  // 1/w within 2^-60 to 2^60: slopes, products and reciprocals are normal numbers of float.
+  // Within these bounds of 1/w, slopes, products and reciprocals are normal numbers of float.
   const auto q1_little = little(q1), q2_little = little(q2), sum_little = little(sum);
   return q1_little & q2_little & sum_little & (least > W(0x1p-60)) & (most < W(0x1p60));
 }
-/// `colors_alone`: nothing else is interpolated. Lines and points are never in blocks.
+/// `colors_alone`: the draw carries no varying. Lines and points are never in blocks.
 PerspectiveSetup perspective_setup(const WindowTriangle& triangle, const CornerPlanes<double>& planes,
                                    bool colors_alone);
-/// `may_go_in_blocks`: where the three change little.
+/// `may_go_in_blocks`: in_blocks is set where changes_little() holds.
 PerspectiveSetup perspective_setup(const std::array<float, 3>& inv_w, const CornerPlanes<double>& planes,
                                    bool may_go_in_blocks);
 
+/// Values of an attribute at a triangle's corners.
 struct AttributeSetup {
   Vec4<float> value0, delta1, delta2;  ///< corner 0's, and the others' differences from it
-  bool constant = false;               ///< no differences
+  bool constant = false;               ///< all differences are 0
 };
 /// Setup of an attribute from its values at the corners.
 AttributeSetup attribute_setup(const std::array<Vec4<float>, 3>& corners);
 
-/// k_1 and k_2.
+/// Weights k_1 and k_2 of a perspective-correct mean.
 template <class R>
 struct Weights {
   R k1, k2;
@@ -73,7 +75,7 @@ template <class R>
 [[gnu::always_inline]] inline R added_in_block(const Affine<double>& f, const R& column, const R& row) {
   return column * R(to_float(f.x)) + row * R(to_float(f.y));
 }
-/// `at`: in whole pixels from the tile's first.
+/// Weights at a fragment. `at`: whole pixels from the tile's first, where s.in_blocks.
 template <class R>
 [[gnu::always_inline]] inline Weights<R> weights(const PerspectiveSetup& s, const Offset<R>& at) {
   if (!s.in_blocks) {
@@ -91,12 +93,12 @@ template <class R>
   return weights<R>(value(s.q1), value(s.q2), value(s.sum));
 }
 
-/// The mean by these weights. `s`: an AttributeSetup, or one of lanes.
+/// Mean of the corners' values by the weights. `s`: an AttributeSetup, or the painter's AttributeLanes.
 template <class R>
 [[gnu::always_inline]] inline Color<R> mixed(const auto& s, const Weights<R>& k) {
   return (Color<R>(s.value0) + k.k1 * Color<R>(s.delta1)) + k.k2 * Color<R>(s.delta2);
 }
-/// The same; where there are no differences, without weights.
+/// mixed(); of a constant attribute the corners' value, whatever the weights are (they may be NaN).
 template <class R>
 [[gnu::always_inline]] inline Color<R> mean(const AttributeSetup& s, const Weights<R>& k) {
   if (s.constant) return Color<R>(s.value0) + R(0);  // + 0: -0 is 0, as it is where there are differences

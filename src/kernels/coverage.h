@@ -21,41 +21,42 @@
 
 namespace plumbline::pipeline {
 
-/// The three edge functions over pixel numbers: E_i(x, y) = at_origin[i] + step_x[i] x + step_y[i] y, less 1 where the
-/// tie rule does not give the edge's own pixels to the triangle: covered where all are >= 0.
+/// Three edge functions over pixel numbers: E_i(x, y) = at_origin[i] + step_x[i] x + step_y[i] y, less 1 where the tie
+/// rule does not give centres on edge i to the triangle. A pixel is covered where all three are >= 0.
 struct Edges {
   std::int64_t at_origin[3];
   std::int64_t step_x[3];
   std::int64_t step_y[3];
 };
 
+/// `triangle`: three corners.
 Edges edges_of(const WindowTriangle& triangle);
 
-/// The triangle with its snapped corners counted from `sample` [1/256 pixel from the centre]: what holds of the centre
-/// holds of the sample. Lines and points are covered by the centre in every pass.
+/// The triangle moved by -sample [1/256 pixel]: it covers a pixel's centre where the given triangle covers the sample
+/// at centre + sample. Lines and points are not moved: their coverage is the centre's in every pass.
 inline WindowTriangle as_seen_from(const WindowTriangle& triangle, glm::ivec2 sample) {
   WindowTriangle out = triangle;
   for (WindowVertex& v : out.v) v.snapped -= triangle.corners == 3 ? sample : glm::ivec2(0);
   return out;
 }
 
-/// The pixels whose centres lie in the triangle's bounding box, and of a line or point all that it may cover: [x0, x1)
-/// x [y0, y1).
+/// Box of pixels [x0, x1) x [y0, y1); empty where x0 >= x1 or y0 >= y1.
 struct PixelBounds {
   int x0, y0, x1, y1;
 };
+/// Pixels whose centres lie in the triangle's bounding box; of a line or point, all that it may cover, and some more.
 PixelBounds pixel_bounds(const WindowTriangle& triangle);
 inline PixelBounds intersection(const PixelBounds& a, const PixelBounds& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
-/// Calls visit(pixel) for those of a line (line_diamond.h) or of a point within the box of `size` pixels that begins at
-/// pixel `origin`.
+/// Calls visit(pixel) for each pixel of a line (line_diamond.h), in the order of its steps, or of a point, row by row,
+/// that lies in the box of `size` pixels from pixel `origin` on.
 ///
 /// A wide line is moved down its minor axis by (width - 1) / 2; each of its pixels is the lowest of `width` in a column
 /// (y-major: the first of a row; OpenGL 2.1, section 3.4.2). A wide point is a square of so many pixels, about the
 /// centre of the pixel that it lies in, or, of an even size, about the nearest corner of pixels (section 3.3): either
-/// way its first column is floor(x - (width - 1) / 2).
+/// way its first column is floor(x - (width - 1) / 2), and its first row likewise.
 void visit_line_or_point(const WindowTriangle& line_or_point, glm::ivec2 origin, glm::ivec2 size, auto visit) {
   const glm::i64vec2 from = std::int64_t{kSubpixel} * glm::i64vec2(origin);
   const glm::i64vec2 a = glm::i64vec2(line_or_point.v[0].snapped) - from;
@@ -70,7 +71,8 @@ void visit_line_or_point(const WindowTriangle& line_or_point, glm::ivec2 origin,
   }
   const glm::i64vec2 d = glm::abs(b - a);
   const int minor = d.x >= d.y ? 1 : 0;
-  glm::i64vec2 moved(0);  // so that what begins below the box, and reaches into it, is seen
+  // The line is walked width - 1 pixels higher, in a box that much taller: pixels below the box are walked, too.
+  glm::i64vec2 moved(0);
   moved[minor] = kSubpixel * (width - 1) - kSubpixel / 2 * (width - 1);
   glm::ivec2 box = size;
   box[minor] += width - 1;
@@ -82,6 +84,7 @@ void visit_line_or_point(const WindowTriangle& line_or_point, glm::ivec2 origin,
   });
 }
 
+/// Whether all three edge functions are >= 0 at pixel (p.x, p.y). Int<R> has to hold Edges' numbers: R = float.
 template <class R>
 Mask<R> coverage(const Edges& e, const Pixels<R>& p) {
   const auto at = [&](int i) { return e.at_origin[i] + e.step_x[i] * p.x + e.step_y[i] * p.y; };
@@ -97,18 +100,18 @@ void visit_inside(const Edges& edges, const PixelBounds& box, auto visit) {
   }
 }
 
-/// The box's pixels that are also the frame's.
+/// Pixels of the scissor box that the frame has.
 PixelBounds scissored(const Scissor& box, const PixelBounds& frame);
 
 /// Pixels of `box` that the triangle, line or point covers: row by row from the bottom, from left to right.
 std::vector<glm::ivec2> covered_pixels(const WindowTriangle& triangle, const PixelBounds& box);
-/// Pixels of `bounds` and `box` that the edges cover, in that order.
+/// Pixels in both `bounds` and `box` that the edges cover: row by row from the bottom, from left to right.
 std::vector<glm::ivec2> covered_pixels(const Edges& edges, const PixelBounds& bounds, const PixelBounds& box);
 
-/// The frame's pixels.
+/// All pixels of the frame.
 PixelBounds bounds_of(const FrameFormat& frame);
 
-/// Mask of the pixels in the box.
+/// Mask of the pixels in the scissor box.
 template <class R>
 Mask<R> scissor(const Scissor& box, const Pixels<R>& p) {
   return (p.x >= box.x) & (p.x < box.x + box.width) & (p.y >= box.y) & (p.y < box.y + box.height);

@@ -14,7 +14,7 @@ PlaneCorners<double> corners_of(const WindowTriangle& t) {
                               {v[0].snapped.y, v[1].snapped.y, v[2].snapped.y}, t.front ? 1.0 : -1.0);
 }
 
-// In window z.
+// Polygon offset [window z]; 0 for lines and points.
 double offset_of(const WindowTriangle& triangle, const DepthState& state) {
   if (triangle.corners < 3 || state.offset == PolygonOffset{}) return 0;
   const double z0 = triangle.v[0].p_win.z, z1 = triangle.v[1].p_win.z, z2 = triangle.v[2].p_win.z;
@@ -44,7 +44,6 @@ BarycentricPlanes at_offset(const BarycentricPlanes& planes, glm::ivec2 offset) 
   return {planes, {planes.x0 - by.x, planes.y0 - by.y}};
 }
 
-// Clamp range of window z: under depth clamp the draw's depth range (GL_ARB_depth_clamp), else [0,1].
 DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp) {
   if (!depth_clamp) return {format, 0, 1, draw.polygon_offset};
   const auto [low, high] = std::minmax(draw.depth_range.near, draw.depth_range.far);

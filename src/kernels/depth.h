@@ -17,12 +17,12 @@ template <class W>
 struct Affine {
   W at_0, x, y;
 };
-/// From the anchor to where a value is asked for.
+/// Offset of the point of evaluation from the anchor [pixels].
 template <class R>
 struct Offset {
   Wide<R> dx, dy;
 };
-/// `f`: one function, in double, or each lane's own, in Wide<R>. The sum in brackets is a row's.
+/// Value of `f`: one function in double, or each lane's own in Wide<R>. The bracketed sum is the same along a row.
 template <class R, class W>
 [[gnu::always_inline]] inline Wide<R> value_at(const Affine<W>& f, const Offset<R>& from_anchor) {
   return (f.at_0 + from_anchor.dy * f.y) + from_anchor.dx * f.x;
@@ -36,7 +36,7 @@ W difference_of_products(W a, W b, W c, W d) {
   return fused(a, b, -cd) + error;
 }
 
-/// Window positions that a triangle's planes go through: corner 0, and the others' differences from it.
+/// Window positions that a triangle's planes go through [pixels]: corner 0, and the others' differences from it.
 template <class W>
 struct PlaneCorners {
   W p0_x, p0_y, d1_x, d1_y, d2_x, d2_y;
@@ -47,14 +47,15 @@ template <class W>
   const W d1_x = x[1] - x[0], d1_y = y[1] - y[0], d2_x = x[2] - x[0], d2_y = y[2] - y[0];
   return {x[0], y[0], d1_x, d1_y, d2_x, d2_y, difference_of_products(d1_x, d2_y, d1_y, d2_x)};
 }
-/// A line's: a triangle whose third corner, at a right angle to it, has the values of the first.
+/// PlaneCorners of a line. The third corner lies at a right angle to the line; given the first's values there, planes
+/// are constant across the line.
 template <class W>
 [[gnu::always_inline]] inline PlaneCorners<W> line_corners(const W& x0, const W& y0, const W& x1, const W& y1) {
   const W d_x = x1 - x0, d_y = y1 - y0;
   return {x0, y0, d_x, d_y, -d_y, d_x, d_x * d_x + d_y * d_y};
 }
-/// Where the unsnapped area is zero or of the other sign than the snapped, the snapped corners. `facing`: 1 of a front
-/// face, -1 of a back one.
+/// PlaneCorners of the unsnapped positions; of the snapped ones where the unsnapped area is 0 or has not the sign of
+/// the snapped area. `facing`: that sign, 1 of a front face, -1 of a back face.
 template <class R>
 PlaneCorners<Wide<R>> plane_corners(const R (&x_win)[3], const R (&y_win)[3], const Int<R> (&snapped_x)[3],
                                     const Int<R> (&snapped_y)[3], const Wide<R>& facing) {
@@ -97,16 +98,17 @@ template <class W>
   return {c, area_1, area_2, {area_1 * inv, c.d2_y * inv, -c.d2_x * inv}, {area_2 * inv, -c.d1_y * inv, c.d1_x * inv}};
 }
 
+/// Point that planes are evaluated from.
 struct Anchor {
   double x0, y0;  ///< window
 };
-/// Planes of a window triangle, and their anchor.
+/// Planes of a window triangle, line or point, and their anchor.
 struct BarycentricPlanes : CornerPlanes<double>, Anchor {};
 
-/// Along a line, l1 = (p - p0).(p1 - p0) / |p1 - p0|^2 and l2 = 0 (OpenGL 2.1, equation 3.5); of a point both are 0.
-/// Where the unsnapped area is zero or of the other sign than the snapped, the planes go through the snapped corners.
-/// (x0, y0): a pixel at most a tile away from those that are wanted. From a far anchor, the terms of a sliver's sum
-/// would be so large that double itself is too coarse.
+/// Planes anchored at the centre of pixel (x0, y0), which is at most a tile from the pixels of evaluation: from a far
+/// anchor, the terms of a sliver's sum would be too large for double. Of a triangle through the corners that
+/// plane_corners() chooses; along a line, l1 = (p - p0).(p1 - p0) / |p1 - p0|^2 and l2 = 0 (OpenGL 2.1, equation 3.5);
+/// of a point, l1 = l2 = 0.
 BarycentricPlanes planes_of(const WindowTriangle& triangle, int x0, int y0);
 
 /// Planes whose value at p is the given planes' at p + offset [1/256 pixel].
@@ -120,39 +122,39 @@ template <class R>
 /// A draw's state of stage 6.
 struct DepthState {
   DepthFormat format;
-  double low = 0, high = 1;  ///< depths beyond are clamped
+  double low = 0, high = 1;  ///< clamp range [window z]
   PolygonOffset offset = {};
 };
+/// Clamp range: under depth clamp the draw's depth range (GL_ARB_depth_clamp), else [0,1].
 DepthState depth_state(const Draw& draw, DepthFormat format, bool depth_clamp);
 
-/// A triangle's window depths, as corner 0's and the differences from it.
+/// Window depths of a triangle's corners, polygon offset included: corner 0's, and the others' differences from it.
 struct DepthSetup {
   double z0, dz1, dz2;
   double scale;              ///< the largest code of the depth format (scene.h, depth_scale); 0: float
   double low = 0, high = 1;  ///< as DepthState
 };
-/// With the polygon offset, which moves the whole plane.
+/// The polygon offset moves the whole plane; lines and points have none.
 DepthSetup depth_setup(const WindowTriangle& triangle, const DepthState& state);
-/// Their plane, in codes of the depth format; of float depth as they are.
+/// Plane of depth, in codes of the depth format; in window z where the format is float.
 struct DepthPlane {
   Affine<double> code;
-  double scale, low, high;  ///< as DepthSetup, but in codes
+  double scale, low, high;  ///< as DepthSetup; low and high in the plane's unit
 };
 DepthPlane depth_plane(const DepthSetup& depth, const CornerPlanes<double>& planes);
 /// Plane whose value at p is the given plane's at p + offset [1/256 pixel].
 DepthPlane at_offset(const DepthPlane& depth, glm::ivec2 offset);
 
-/// The code nearest to `scaled` in [0, scale], half to even; of 8 bits half up, as tinyrenderer's int(z + .5) (note
-/// 002).
+/// Code nearest to `scaled`, [0, scale]: half to even; of 8 bits half up, as tinyrenderer's int(z + .5) (note 002).
 template <class W>
 [[gnu::always_inline]] inline W rounded_code(const W& scaled, double scale) {
   const W code = round_even(scaled);
   return scale == 255.0 ? select(scaled - code == 0.5, code + 1.0, code) : code;
 }
-/// Code of z in [0,1].
+/// Code of window z, [0,1].
 inline double depth_code(double z, double scale) { return rounded_code(z * scale, scale); }
 
-/// In the depth format: a code, which a float holds exactly up to 2^24, or window z itself for z32f.
+/// Depth of a fragment, clamped: a code, which a float holds exactly up to 2^24; for z32f, window z.
 template <class R>
 [[gnu::always_inline]] inline R depth(const DepthPlane& s, const Offset<R>& at) {
   const Wide<R> code = clamped<Wide<R>>(value_at<R>(s.code, at), s.low, s.high);

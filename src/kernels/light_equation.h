@@ -13,21 +13,21 @@
 
 namespace plumbline::pipeline {
 
-/// The scene's lights, as stage 0 hands them on.
+/// Lights of the scene in eye space, as stage 0 hands them on, in the scene's order.
 using Lights = std::span<const LightSource<float>>;
 
 /// A light in eye space, ready for the equation.
 struct EyeLight {
   bool directional;
-  Vec3<float> vector;  ///< unit direction towards it, or its place
-  Vec3<float> half;    ///< of a directional light, unit, half way to a viewer infinitely far away
+  Vec3<float> vector;  ///< unit direction towards a directional light; position of a point light
+  Vec3<float> half;    ///< directional: unit vector half way between `vector` and a viewer infinitely far along +z
   bool attenuates, has_cone;
   Vec3<float> attenuation;  ///< k0, k1, k2
-  Vec3<float> cone;         ///< unit direction to which it shines
+  Vec3<float> cone;         ///< unit direction in which a spot light shines
   float cos_cutoff, exponent;
 };
 
-/// Light model and lights: the same for all of a scene.
+/// Light model and lights of a scene.
 struct Illumination {
   LightModel model;
   FixedVector<EyeLight, 8> lights;
@@ -35,25 +35,25 @@ struct Illumination {
 /// `lights`: one for each of the scene's.
 Illumination illumination(const Scene& scene, Lights lights);
 
-/// A material, and what of it a colour stands for (lit_material(), scene.h).
+/// A material, and which of its colours the vertex colour replaces (lit_material(), scene.h).
 struct ColoredMaterial {
   Material own;
   bool emission = false, ambient = false, diffuse = false, specular = false;
 };
 ColoredMaterial colored_material(const Scene& scene, const Draw& draw, LitPart part);
 
-/// A material's colours times the lights': emission and ambient light, and each light's three.
+/// Products of a material's colours and the lights' colours.
 template <class R>
 struct Reflectance {
   struct Answer {
     Vec3<R> ambient, diffuse, specular;
   };
-  Vec3<R> base;
-  std::array<Answer, 8> answers;  ///< beside the lights
+  Vec3<R> base;                   ///< emission, and ambient times the light model's ambient
+  std::array<Answer, 8> answers;  ///< per light, in the scene's order
   float shininess;
   R alpha;
 };
-/// `color`: the vertex colour, in place of those parts of the material that `material` says it stands for.
+/// `color`: the vertex colour; read only for the parts that `material` marks as replaced.
 template <class R>
 Reflectance<R> reflectance(const Scene& scene, const ColoredMaterial& material, const Color<R>& color) {
   const Material& own = material.own;
@@ -102,14 +102,15 @@ Cosines<R> cosines(const LightModel& model, const EyeLight& light, Vec3<R> n, co
   return {diffuse, positive_dot(mirrored, to_eye)};
 }
 
-/// Share of a light that distance and cone leave.
+/// Factor of a point light's attenuation and cone; 0 outside the cone. `from_point`: vector from the point to the
+/// light; `to_light`: the same, unit.
 template <class R>
 R reach(const EyeLight& light, const Vec3<R>& from_point, const Vec3<R>& to_light) {
   R share(1);
   if (light.attenuates) {
     const R d = length(from_point);
     const Vec3<float>& k = light.attenuation;
-    // Only a light at the point itself has nothing to divide by.
+    // The sum is 0 only at the light itself, where k0 is 0.
     share = R(1) / greater_of(R(std::numeric_limits<float>::min()), k.x + (k.y + k.z * d) * d);
   }
   if (light.has_cone) {
@@ -119,9 +120,9 @@ R reach(const EyeLight& light, const Vec3<R>& from_point, const Vec3<R>& to_ligh
   return share;
 }
 
-/// rgba, clamped to [0,1]; alpha is the diffuse material's. Where a normal faces away from a light, its diffuse and
-/// specular terms are 0; outside a light's cone, its ambient one too. `n_eye` need not be of unit length.
-/// `T`: float where all lanes are of one material, or R.
+/// Lit colour of a point: rgba clamped to [0,1], alpha the diffuse material's. Where the normal faces away from a
+/// light, the light's diffuse and specular terms are 0; outside its cone, so is its ambient term. `n_eye` is used as it
+/// is, of any length. `T`: float where all lanes have one material, else R.
 template <class R, class T>
 Color<R> lit(const Illumination& illumination, const Reflectance<T>& reflectance, const Vec3<R>& p_eye,
              const Vec3<R>& n_eye) {
@@ -155,19 +156,19 @@ Color<R> lit(const Illumination& illumination, const Reflectance<T>& reflectance
 
 // Light per fragment (Phong, Illumination for computer generated pictures, CACM 1975).
 
-/// Per-draw input of the light equation at fragments.
+/// Per-draw input of the light equation at fragments. `scene` must outlive it.
 struct FragmentLight {
   const Scene* scene;
-  bool by_color;  ///< its colours stand for some of its material
+  bool by_color;  ///< the mesh's colours replace parts of the material
   Illumination illumination;
-  // Front or back, without and of the specular part:
-  ColoredMaterial material[2][2];
-  Reflectance<float> reflectance[2][2];  ///< of its own material
+  ColoredMaterial material[2][2];        ///< [LitPart::back][LitPart::secondary]
+  Reflectance<float> reflectance[2][2];  ///< of material[][].own
 };
 /// `lights`: stage 0's.
 FragmentLight fragment_light(const Scene& scene, const Draw& draw, Lights lights);
 
-/// The light equation at a point of a face, the normal brought to unit length. `color`: the interpolated vertex colour.
+/// Light equation at a fragment. `n`: the interpolated normal, brought to unit length here, and turned over for a back
+/// part; `p`: the interpolated p_eye; `color`: the interpolated vertex colour.
 template <class R>
 Color<R> lit_fragment(const FragmentLight& light, LitPart part, const Color<R>& color, const Color<R>& n,
                       const Color<R>& p) {

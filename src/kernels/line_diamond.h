@@ -25,12 +25,13 @@ struct DiamondSteps {
   std::int64_t toward;  ///< 1 or -1
   std::int64_t rest, step, divisor;
 };
-/// Steps of the line from `a` to `b` over the columns that are in the frame.
+/// Steps of the line from `a` to `b` over the columns (y-major: rows) of the frame; their minor coordinate may lie
+/// outside of it. Units, range and error: visit_diamond_exit_line().
 DiamondSteps diamond_steps(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame);
 
 /// Calls visit(pixel) for the pixels of the line from `a` to `b` within [0, frame.x) x [0, frame.y), in the order in
-/// which they are exited. Ends in 1/256 pixel, pixel (i, j)'s centre at (256 i, 256 j), within +-2^29;
-/// std::invalid_argument beyond.
+/// which they are exited. Ends [1/256 pixel]: pixel (i, j)'s centre is (256 i, 256 j); within +-2^29, else throws
+/// std::invalid_argument.
 void visit_diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame, auto visit) {
   const DiamondSteps s = diamond_steps(a, b, frame);
   const int minor = 1 - s.major;
@@ -46,7 +47,7 @@ void visit_diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame, a
     }
   }
 }
-/// The same, in a list.
+/// Pixels of visit_diamond_exit_line(), in its order.
 std::vector<glm::ivec2> diamond_exit_line(glm::i64vec2 a, glm::i64vec2 b, glm::ivec2 frame);
 
 }  // namespace plumbline::raster

@@ -1,17 +1,17 @@
-// Mathematics over the lane type: colours and vectors, glm's with what glm has for plain floats alone; and our own
-// transcendental functions, the same bits on every machine, which a C library does not promise.
+// Mathematics over the lane type. Colours and vectors are glm's; functions that glm has for plain floats only are
+// written here for lanes. So are log2, exp2 and power: a C library does not promise the same bits on every machine.
 #pragma once
 
 #include "kernels/lanes.h"
 
 namespace plumbline::pipeline {
 
-inline constexpr double kRadians = 3.14159265358979323846 / 180.0;  ///< a degree
+inline constexpr double kRadians = 3.14159265358979323846 / 180.0;  ///< one degree [radians]
 
-/// rgba of `Lanes<R>::width` fragments.
+/// rgba of Lanes<R>::width vertices or fragments.
 template <class R>
 using Color = Vec4<R>;
-/// f of each channel, or of each channel of two colours.
+/// Colour of f(channel), or of f(channel of c, channel of d).
 template <class R>
 [[gnu::always_inline]] inline auto by_channel(const Color<R>& c, auto f) {
   return Color<decltype(f(c.r))>{f(c.r), f(c.g), f(c.b), f(c.a)};
@@ -43,7 +43,7 @@ Vec3<R> unit(const Vec3<R>& v) {
   return v / length(v);
 }
 
-/// m p of a point, and of a direction: summed left to right.
+/// m p, summed left to right: of a point (w = 1), and of a direction.
 template <class R>
 [[gnu::always_inline]] inline Vec4<R> product(const Mat4<float>& m, const Vec3<R>& p) {
   return ((Vec4<R>(m[0]) * p.x + Vec4<R>(m[1]) * p.y) + Vec4<R>(m[2]) * p.z) + Vec4<R>(m[3]);
@@ -78,8 +78,8 @@ W exp2_of(W x) {
   return select(x < -1022.0, W(0), series * power_of_two(n));
 }
 
-/// x^y for x >= 0 and y in [0, 128], at most 2^127; 0^0 = 1. Relative error below 1e-9 where the result is above
-/// 1e-300.
+/// x^y for y in [0, 128], in double, rounded once to R; at most 2^127. 0^0 = 1; for y > 0, 0 where x <= 0 or x is NaN.
+/// Relative error before the last rounding: below 1e-9.
 template <class R>
 R power(R x, float y) {
   using W = Wide<R>;

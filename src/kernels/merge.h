@@ -6,9 +6,10 @@
 
 namespace plumbline::pipeline {
 
-/// `scale` 255, 4095, 65535: rgba8, rgba12, rgba16. Clamped to [0,1], times the scale, and rounded to the nearest code,
-/// half to even (GL 2.1 spec 2.14.9), which a float holds exactly. The product is a float's of up to 12 bits: a colour
-/// within 2^-25 of half way between two codes may go to either. Of 16 bits it is exact. `scale` 0: float, as it is.
+/// Colour in the frame's format. `scale` 255, 4095, 65535: rgba8, rgba12, rgba16. Clamped to [0,1], times the scale,
+/// and rounded to the nearest code, half to even (GL 2.1 spec 2.14.9), which a float holds exactly. For up to 12 bits
+/// the product is rounded to float: a colour within about 2^-25 of half way between two codes may go to either. For 16
+/// bits it is exact. `scale` 0: float, as it is.
 template <class R>
 [[gnu::always_inline]] inline Color<R> merge(const Color<R>& color, float scale) {
   if (scale == 0.0f) return color;
@@ -32,8 +33,8 @@ template <class R>
   return packed_codes_near(codes.r, codes.g, codes.b, codes.a);
 }
 
-/// A blend factor's channels, times `unit`, so that those of the frame's colour are its codes and rounded nowhere.
-/// `source` in [0,1] and `stored` in codes, or both as they are, and unit 1.
+/// Blend factor times `unit`. `unit`: the frame's largest code, with `source` in [0,1] and `stored` in codes, so that
+/// factors made of `stored` are codes and not rounded; 1 in a float frame, with both as they are.
 template <class W>
 [[gnu::always_inline]] inline Color<W> blend_factor(BlendFactor factor, const Color<W>& source, const Color<W>& stored,
                                                     const glm::vec4& constant, double unit) {
@@ -63,7 +64,7 @@ template <class W>
   return all(W(0));
 }
 
-/// The commonest: source alpha, and one minus it.
+/// The most common blending: source alpha, one minus source alpha.
 constexpr BlendTerm kOverTerm{BlendFactor::source_alpha, BlendFactor::one_minus_source_alpha, BlendEquation::add};
 constexpr Blend kOver{kOverTerm, kOverTerm, glm::vec4(0)};
 inline bool is_over(const Blend& blend) { return blend.rgb == kOverTerm && blend.alpha == kOverTerm; }
@@ -88,9 +89,10 @@ template <class R>
           shifted_left<24>(code(source.a, shifted_right<24>(held) & most)));
 }
 
-/// `source` blended with what is `stored`, in the frame's format, as merge() makes it (OpenGL 2.1 spec 4.1.8). In
-/// double, for the layers' errors add up: a product of a colour and a code is exact there, and the sum is rounded to
-/// codes as the real number would be, but for sums within some 2^-45 codes of a half.
+/// `source`, as stage 9 makes it, blended with `stored`; the latter and the result are in the frame's format, as
+/// merge() makes it (OpenGL 2.1 spec 4.1.8). In double, for the errors of many layers add up: a product of a colour and
+/// a code is exact there, and the sum is rounded to codes as the real number would be, but for sums within some 2^-45
+/// codes of a half.
 template <class R>
 [[gnu::always_inline]] inline Color<R> blend(const Blend& state, const Color<R>& source, const Color<R>& stored,
                                              float scale) {
@@ -133,8 +135,8 @@ template <class R>
   return out;
 }
 
-/// `source`, in codes as merge() makes it, and what is `stored`, bit by bit (OpenGL 2.1 spec 4.1.10); a float colour
-/// replaces what is there.
+/// Logic op, bit by bit, of the codes that merge() makes of `source` and of `stored`, which is in codes (OpenGL 2.1
+/// spec 4.1.10). In a float frame (`scale` 0), `source` as it is.
 template <class R>
 Color<R> logic(LogicOp op, const Color<R>& source, const Color<R>& stored, float scale) {
   const Color<R> code = merge<R>(source, scale);

@@ -14,12 +14,12 @@
 
 namespace plumbline::pipeline {
 
-/// A draw's state of stages 7 to 9. Pointers into the scene.
+/// Per-draw state of stages 7 to 9. Points into the scene, which must outlive it.
 struct Surface {
   const Scene* scene = nullptr;
   const Draw* draw = nullptr;
   std::optional<FragmentLight> light;       ///< none: lit at the vertices, or not at all
-  FixedVector<Varying, kVaryings> carried;  ///< by the draw's fragments
+  FixedVector<Varying, kVaryings> carried;  ///< varyings of the draw's fragments, in the enum's order
   std::optional<TextureSetup> texture;
   const void* program = nullptr;  ///< a user's fragment program (program.h)
 };
@@ -37,8 +37,8 @@ inline Surface surface_of(const Scene& scene, const Draw& draw, Lights lights) {
   return surface;
 }
 
-/// A fragment's attributes, and its texel where there is a texture. Varyings that the surface does not carry are never
-/// read: 0 in the definition, unset in the painter.
+/// Input of stage 9: a fragment's attributes and texel. Not set in the painter, and never read: varyings that the
+/// surface does not carry, the texel without a texture, its lod. In the definition these are 0.
 template <class R>
 struct SurfaceAttributes {
   Color<R> color;
@@ -93,22 +93,22 @@ R fog_factor(const Fog& fog, R z_eye) {
   return R(1);
 }
 
-/// f color + (1 - f) fog's; alpha as it is.
+/// Fogged colour f c + (1 - f) c_fog; alpha as it is.
 template <class R>
 Color<R> fogged(const Fog& fog, const Color<R>& color, R z_eye) {
   const R f = fog_factor<R>(fog, z_eye), rest = R(1) - f;
   return {f * Vec3<R>(color) + rest * Vec3<R>(fog.color), color.a};
 }
 
-/// rgb of the two added up, the first's alpha, all four clamped to [0,1] (OpenGL 2.1 spec 3.9).
+/// Sum of the rgb of both and alpha of `primary`, clamped to [0,1] (OpenGL 2.1 spec 3.9).
 template <class R>
 Color<R> color_sum(const Color<R>& primary, const Color<R>& secondary) {
   const Color<R> sum = primary + secondary;
   return {clamp01(sum.r), clamp01(sum.g), clamp01(sum.b), clamp01(primary.a)};
 }
 
-/// In OpenGL's order (2.1, figure 3.1): light, where it is per fragment, texture environment, sum of colours, fog.
-/// `front`: the face, where light has two sides.
+/// Stage 9 in OpenGL's order (2.1, figure 3.1): light, where it is per fragment, texture environment, sum of colours,
+/// fog. `front`: the triangle's facing; chooses the material where light has two sides.
 template <class R>
 Color<R> shade(const Surface& surface, bool front, const SurfaceAttributes<R>& attributes) {
   const LightModel& model = surface.scene->light_model;

@@ -1,6 +1,6 @@
-// The words of lanes.h for as many pixels at a time as the target has lanes, over Highway: each lane does what float
-// does, bit for bit. Included by simd_kernels.cpp alone, which is compiled once for each target, PLUMBLINE_TARGET: a
-// namespace of that name keeps their functions apart.
+// Lane operations (lanes.h) for SIMD, over Highway: each lane does what float does, bit for bit. To be included only by
+// files that are compiled once for each target, PLUMBLINE_TARGET (painter/simd_kernels.cpp, a test): a namespace of
+// that name keeps the targets' functions apart.
 #pragma once
 
 #include <bit>
@@ -12,12 +12,12 @@
 
 namespace plumbline::pipeline {
 namespace PLUMBLINE_TARGET {
-namespace {  // so that what is made of these types is the object file's own
+namespace {  // templates over these types are the object file's own
 
 namespace hn = hwy::HWY_NAMESPACE;
 
 static_assert(HWY_TARGET <= HWY_SSE4, "what narrower ones emulate is not the same to the last bit");
-inline constexpr int kWidth = HWY_MAX_BYTES / 4;  // 4, 8 or 16: a part of a block, or all of it
+inline constexpr int kWidth = HWY_MAX_BYTES / 4;  // lanes: 4, 8 or 16 of a block's 16 pixels
 inline constexpr int kHalf = kWidth / 2;
 inline constexpr hn::FixedTag<float, kWidth> kFloats{};
 inline constexpr hn::FixedTag<float, kHalf> kHalfFloats{};
@@ -47,7 +47,8 @@ inline unsigned bits_of(SimdMask mask) {
   return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
 }
 
-/// A float, or an integer of 32 bits, a lane. Integers: pixels, codes, and edge functions counted from a tile.
+/// One float, or one 32-bit integer, per lane. Integers: pixels, snapped positions, codes, and edge functions counted
+/// from a tile.
 template <class Tag>
 struct SimdOf {
   using Vector = hn::Vec<Tag>;
@@ -84,7 +85,7 @@ struct SimdOf {
   friend SimdOf lesser_of(SimdOf a, SimdOf b) { return hn::Min(a.v, b.v); }
   friend hn::TFromD<Tag> greatest_lane(SimdOf of) { return hn::GetLane(hn::MaxOfLanes(Tag(), of.v)); }
   friend void store(SimdOf of, hn::TFromD<Tag>* to) { hn::StoreU(of.v, Tag(), to); }
-  // Not by masked stores, which are slow on some machines: the tile is one thread's own.
+  // Reads, selects and writes all lanes, for masked stores are slow on some machines. Memory of one thread only.
   friend void store(SimdMask mask, SimdOf of, hn::TFromD<Tag>* to) {
     store(select(mask, of, hn::LoadU(Tag(), to)), to);
   }
@@ -105,6 +106,7 @@ struct WideMask {
   }
 };
 
+/// One double per lane, in two halves.
 struct SimdWide {
   DoubleVector low, high;
   SimdWide() = default;
@@ -153,7 +155,7 @@ inline void store(SimdMask mask, SimdInt value, std::uint8_t* to) {
 
 inline SimdWide floor_of(SimdWide w) { return {hn::Floor(w.low), hn::Floor(w.high)}; }
 inline SimdInt to_int(SimdWide w) {
-  const SimdWide counted = w + 6755399441055744.0;  // 1.5 * 2^52: they stand in the lowest bits
+  const SimdWide counted = w + 6755399441055744.0;  // 1.5 * 2^52: the integer stands in the lowest bits
   return hn::ConcatEven(kInts, hn::BitCast(kInts, counted.high), hn::BitCast(kInts, counted.low));
 }
 
@@ -165,7 +167,7 @@ inline void store(SimdWide value, double* to) {
 inline void store_kept(SimdMask mask, SimdInt value, std::int32_t* to) {
   if constexpr (kWidth == 16) {
     hn::StoreU(hn::Compress(value.v, hn::RebindMask(kInts, mask.m)), kInts, to);
-  } else {  // whose Compress is of tables, and in builds that are not optimised wants Highway's library
+  } else {  // no Compress: below AVX-512 it is made of tables, and unoptimised builds then need Highway's library
     HWY_ALIGN std::int32_t lanes[kWidth];
     hn::Store(value.v, kInts, lanes);
     for (unsigned bits = bits_of(mask); bits != 0; bits &= bits - 1) *to++ = lanes[std::countr_zero(bits)];
@@ -189,7 +191,8 @@ SimdInt shifted_right(SimdInt value) {
 }
 inline SimdInt as_int(Simd value) { return hn::BitCast(kInts, value.v); }
 inline Simd as_float(SimdInt bits) { return hn::BitCast(kFloats, bits.v); }
-// x86's own: the nearest, of what fits no int the most negative; and packs that saturate, by blocks of 128 bits.
+// x86 intrinsics. rounded(): nearest, half to even; INT_MIN for NaN and beyond the range of an int. to_bytes():
+// saturating packs, by blocks of 128 bits.
 inline __m128i rounded(__m128 v) { return _mm_cvtps_epi32(v); }
 inline __m128i to_bytes(__m128i a, __m128i b) { return _mm_packus_epi16(a, b); }
 #if HWY_TARGET <= HWY_AVX2
@@ -197,7 +200,7 @@ inline __m256i rounded(__m256 v) { return _mm256_cvtps_epi32(v); }
 inline __m256i to_bytes(__m256i a, __m256i b) { return _mm256_packus_epi16(a, b); }
 #endif
 #if HWY_TARGET <= HWY_AVX3
-// Masked by all ones, for GCC 12 calls _mm512_cvtps_epi32's own unset operand uninitialized (PR 105593).
+// Masked by all ones: GCC 12 warns that _mm512_cvtps_epi32's own operand is uninitialized (PR 105593).
 inline __m512i rounded(__m512 v) { return _mm512_maskz_cvtps_epi32(0xffff, v); }
 inline __m512i to_bytes(__m512i a, __m512i b) { return _mm512_packus_epi16(a, b); }
 #endif
@@ -246,7 +249,7 @@ inline SimdWide mantissa_of(SimdWide w) {
   return {of(w.low), of(w.high)};
 }
 inline SimdWide exponent_of(SimdWide w) {
-  // Below 2^52's leading bit: 2^52 + the biased exponent.
+  // The biased exponent in the mantissa of 2^52 makes the double 2^52 + biased exponent.
   const auto of = [](DoubleVector v) {
     const auto biased = hn::ShiftRight<52>(hn::BitCast(kLongs, v));
     return hn::BitCast(kDoubles, hn::Or(biased, hn::Set(kLongs, 0x4330000000000000)));
@@ -259,7 +262,7 @@ inline SimdWide power_of_two(SimdWide n) {
   return {of(biased.low), of(biased.high)};
 }
 
-// Fours go by blocks of 128 bits.
+// Four floats of one lane are one block of 128 bits.
 inline constexpr hn::FixedTag<float, 4> kBlockFloats{};
 template <class Block>
 FloatVector of_blocks(Block block) {
@@ -349,7 +352,7 @@ struct LanesOfSimd {
                                                        256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
     return (Int(static_cast<std::int32_t>(bits)) & load(kBits)) != Int(0);
   }
-  // Halves that are equal are one value, so that what is made of them is made once.
+  // Where both halves are equal they are one value, so that the compiler computes with it once.
   [[gnu::always_inline]] static Wide columns_of_block(int block_x, int) {
     HWY_ALIGN static constexpr double kX[2 * kBlock] = {0, 1, 2, 3, 0, 1, 2, 3};
     const auto x = hn::Set(kDoubles, block_x), low = hn::Add(x, hn::LoadU(kDoubles, kX));

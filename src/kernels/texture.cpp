@@ -16,7 +16,7 @@ GradientSetup gradient_setup(const WindowTriangle& triangle, const std::array<Ve
 }
 
 TextureSetup texture_setup(const Texture& texture, const Sampler& sampler) {
-  // Where nearest texels of mipmaps take over from a linear magnification, they do so half a level later (3.8.9).
+  // c is 1/2 where a linear magnification meets nearest texels of mipmaps (3.8.9).
   const bool later = sampler.mag == MagFilter::linear && (sampler.min == MinFilter::nearest_mipmap_nearest ||
                                                           sampler.min == MinFilter::nearest_mipmap_linear);
   const double c = later ? 0.5 : 0.0;
@@ -26,7 +26,7 @@ TextureSetup texture_setup(const Texture& texture, const Sampler& sampler) {
       sampler,
       std::min(static_cast<int>(texture.levels.size()) - 1, sampler.max_level),
       c,
-      // A little less than 4^(c - bias): which side of it log2 finds is then beyond doubt.
+      // A little less than 4^(c - bias), so that log2's rounding cannot put lambda above c.
       to_wide(sampler.min_lod) > c ? 0 : 0.999 * exp2_of(lesser_of(2 * (c - to_wide(sampler.lod_bias)), 1000.0)),
       static_cast<double>(base.width),
       static_cast<double>(base.height),

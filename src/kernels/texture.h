@@ -1,7 +1,7 @@
 // Stage 8: the filtered texel (OpenGL 2.1 spec 3.8.7 to 3.8.9), and the level of detail that it was filtered at.
 //
-// Texel coordinates are worked out in double: s times a width is exact there, so that which texel is the nearest, and
-// how far off its centre a fragment lies, is not rounded at all.
+// Texel coordinates are computed in double, where s times a width is exact: the nearest texel, and the fragment's
+// distance from its centre, come from no rounded number.
 #pragma once
 
 #include <array>
@@ -19,22 +19,23 @@ template <class R>
 struct TexCoords {
   R s, t;
 };
-/// Derivatives of s and t by window x and y, times q^2: each is affine in the window, in x or in y alone.
+/// Derivatives of s and t by window x and y [1/pixel], times q^2. Those by x are affine in y alone, those by y in x
+/// alone.
 template <class R>
 struct Gradients {
   Wide<R> ds_dx, dt_dx, ds_dy, dt_dy;
   Wide<R> q = Wide<R>(1);  ///< 1/w
 };
-/// A fragment's.
+/// Output of stage 8 for one fragment.
 template <class R>
 struct FilteredTexel {
   Color<R> color;  ///< texture source components (Cs, As)
   R lod;           ///< lambda: bias and limits applied
 };
 
-/// A triangle's Gradients, anchored as its barycentric planes. With S = s/w and q = 1/w, d(S/q)/dx q^2 is S_x q - S
-/// q_x, in which the terms of x cancel: (S_x q_0 - S_0 q_x) + (S_x q_y - S_y q_x) dy. By y likewise, and the last
-/// term's sign is turned.
+/// Per-triangle input of gradients(), with the barycentric planes' anchor. With S = s/w and q = 1/w, d(S/q)/dx q^2 is
+/// S_x q - S q_x, in which the terms of x cancel: (S_x q_0 - S_0 q_x) + (S_x q_y - S_y q_x) dy. By y it is
+/// (S_y q_0 - S_0 q_y) - (S_x q_y - S_y q_x) dx; `turn` is the bracket that both have.
 template <class W>
 struct GradientSetupOf {
   W ds_dx, ds_dy, s_turn, dt_dx, dt_dy, t_turn;
@@ -54,25 +55,27 @@ template <class W>
 GradientSetup gradient_setup(const WindowTriangle& triangle, const std::array<Vec4<float>, 3>& texcoords,
                              const BarycentricPlanes& planes);
 
-/// `g`: GradientSetupOf one triangle or each lane's; `q`: 1/w. Exact for each pixel: no neighbours are asked.
+/// Gradients at a fragment, analytic: no differences between neighbouring pixels. `g`: GradientSetupOf one triangle, or
+/// of each lane's; `q`: 1/w.
 template <class R>
 [[gnu::always_inline]] inline Gradients<R> gradients(const auto& g, const Offset<R>& at, const Wide<R>& q) {
   return {g.ds_dx + at.dy * g.s_turn, g.dt_dx + at.dy * g.t_turn, g.ds_dy - at.dx * g.s_turn,
           g.dt_dy - at.dx * g.t_turn, q};
 }
 
-/// Per-draw input of stage 8.
+/// Per-draw input of stage 8. Points to the texture and its texels, which must outlive it.
 struct TextureSetup {
   const Texture* texture;
   Sampler sampler;
-  int last;                                 ///< the highest level that may be sampled
+  int last;                                 ///< highest level that may be sampled
   double c;                                 ///< lambda up to which a texture is magnified
-  double magnified_rho2;                    ///< rho^2 up to which a texture is surely magnified; 0: no such bound
-  double width, height;                     ///< of the base level
+  double magnified_rho2;                    ///< rho^2 up to which a texture is certainly magnified; 0: no such bound
+  double width, height;                     ///< of the base level [texels]
   std::array<const glm::vec4*, 16> texels;  ///< of each level
   glm::vec4 border;                         ///< texture source components
-  bool has_border;                          ///< whether it is asked for
+  bool has_border;                          ///< whether either wrap is clamp_to_border
 };
+/// `texture`: levels[sampler.base_level] exists, at most 16 levels.
 TextureSetup texture_setup(const Texture& texture, const Sampler& sampler);
 
 /// Squared length, times q^4, of the longer of the two vectors by which texel coordinates go from one pixel to the next
@@ -87,7 +90,7 @@ template <class R>
 }
 
 /// lambda (equations 3.17 to 3.22): log2 of the longer of the two vectors by which texel coordinates go from one pixel
-/// to the next; of no length, the smallest.
+/// to the next, plus the bias, clamped to [min_lod, max_lod]. Squared lengths outside (1e-300, 1e300): min_lod.
 template <class R>
 [[gnu::always_inline]] inline R level_of_detail(const TextureSetup& t, const Gradients<R>& g) {
   using W = Wide<R>;
@@ -121,7 +124,7 @@ W wrapped(Wrap wrap, const W& i, const W& size) {
   }
   return i;
 }
-/// Numbers of texel `i` and the next, wrapped. `halves`: all levels' sizes are powers of two.
+/// Numbers of texels `i` and i + 1, wrapped. `halves`: the sizes of all levels are powers of two.
 template <class R>
 [[gnu::always_inline]] inline std::array<Int<R>, 2> texel_numbers(Wrap wrap, const Wide<R>& i, const Wide<R>& size,
                                                                   bool halves) {
@@ -132,13 +135,13 @@ template <class R>
   return {to_int(wrapped<Wide<R>>(wrap, i, size)), to_int(wrapped<Wide<R>>(wrap, i + 1.0, size))};
 }
 
-/// A mean, 1 - k of `x` and k of `y`.
+/// Weighted mean (1 - k) x + k y.
 template <class W>
 W mix(const W& x, const W& y, const W& k) {
   return x + k * (y - x);
 }
 
-/// A level's width or height, or those of each lane's level.
+/// Width or height of a level [texels], or of each lane's level. `base`: that of level 0.
 template <class R>
 [[gnu::always_inline]] inline Wide<R> size_of_level(int base, int level) {
   return Wide<R>(static_cast<double>(std::max(base >> level, 1)));
@@ -157,7 +160,7 @@ struct Taps {
   std::int32_t twice[4][kLanes];    ///< 2 x texel number (x86 scales an index by at most 8 bytes); below 0: the border
   double right[kLanes], above[kLanes];
 };
-/// `level`: one number, or each lane's.
+/// `level`: one level's number, or each lane's. `linear`: the filter takes four taps, else tap 0 alone.
 template <class R, class Level>
 [[gnu::always_inline]] inline void find_taps(const TextureSetup& t, const Level& level, bool linear,
                                              const TexCoords<R>& at, Taps<R>& out) {
@@ -196,7 +199,7 @@ template <class R, class Level>
   store(v - j, out.above);
 }
 
-/// One row (row_of_fours) of the taps' mean by area, or of the first tap.
+/// Row (row_of_fours) of the mean of the taps by area, or, with a nearest filter, of tap 0.
 template <class R, bool kBorder>
 [[gnu::always_inline]] inline Wide<R> texel_row(const TextureSetup& t, const Taps<R>& taps, bool linear, int row) {
   using W = Wide<R>;
@@ -211,7 +214,8 @@ template <class R, bool kBorder>
   return mix<W>(mix<W>(tap(0), tap(1), right), mix<W>(tap(2), tap(3), right), above);
 }
 
-/// The level below lambda; whether it is mixed with the next, and how much of that.
+/// Levels that lambda chooses: `first`, the nearest or, where two levels are mixed, the one below lambda; `two`,
+/// whether level first + 1 is mixed in; k, its share [0,1).
 template <class R>
 struct Levels {
   R first;
@@ -233,7 +237,8 @@ Levels<R> levels(const TextureSetup& t, R lod) {
   return {to_float(lesser_of(first, last)), first < last, lambda - whole};
 }
 
-/// Texel of the first level, mixed where `two` with the second, whose share is k; linear or nearest. Rounded once.
+/// Texel of level `first`, mixed where `two` with level `second`, whose share is k; linear or nearest within a level.
+/// Rounded once, from double.
 template <class R, bool kBorder, class Level>
 Color<R> mix_levels(const TextureSetup& t, const TexCoords<R>& at, bool linear, const Level& first, const Level& second,
                     const Mask<R>& two, const Wide<R>& k) {
@@ -260,6 +265,7 @@ Color<R> sample_levels(const TextureSetup& t, const TexCoords<R>& at, bool linea
                       : mix_levels<R, false>(t, at, linear, first, second, two, k);
 }
 
+/// Texel of the base level by the magnification filter.
 template <class R>
 [[gnu::always_inline]] inline Color<R> magnified(const TextureSetup& t, const TexCoords<R>& at) {
   const R none(0);
@@ -267,7 +273,7 @@ template <class R>
   return sample_levels<R>(t, at, t.sampler.mag == MagFilter::linear, level, level, none != none, Wide<R>(0));
 }
 
-/// At a level of detail, no NaN.
+/// Texel at level of detail `lod`, which is not NaN.
 template <class R>
 Color<R> sample(const TextureSetup& t, const TexCoords<R>& at, R lod) {
   const Sampler& s = t.sampler;
@@ -279,7 +285,7 @@ Color<R> sample(const TextureSetup& t, const TexCoords<R>& at, R lod) {
   const Levels<R> of = levels<R>(t, lod);
   const R first = select(larger, R(static_cast<float>(s.base_level)), of.first);
   const Mask<R> two = of.two & smaller;
-  const int one = static_cast<int>(greatest_lane(first));  // of all lanes, mostly
+  const int one = static_cast<int>(greatest_lane(first));  // most often the level of all lanes
   const Color<R> low = [&] {
     if constexpr (Lanes<R>::width > 1) {
       if (!all(first == R(static_cast<float>(one)))) {
@@ -292,7 +298,7 @@ Color<R> sample(const TextureSetup& t, const TexCoords<R>& at, R lod) {
   return alike || !any(larger) ? low : select<R>(larger, magnified<R>(t, at), low);
 }
 
-/// The texel of stage 8 alone: where all lanes are magnified, no level of detail has to be known.
+/// Stage 8 without the level of detail, which is not computed where all lanes are certainly magnified.
 template <class R>
 [[gnu::always_inline]] inline Color<R> texel_color(const TextureSetup& t, const TexCoords<R>& at,
                                                    const Gradients<R>& g) {
@@ -301,7 +307,7 @@ template <class R>
   return sample<R>(t, at, level_of_detail<R>(t, g));
 }
 
-/// Stage 8.
+/// Stage 8: the filtered texel and its level of detail.
 template <class R>
 FilteredTexel<R> texture(const TextureSetup& t, const TexCoords<R>& at, const Gradients<R>& gradients) {
   const R lod = level_of_detail<R>(t, gradients);

@@ -7,7 +7,7 @@
 
 namespace plumbline::pipeline {
 
-/// A depth, stencil or alpha function.
+/// Whether `a` compares so with `b`. Depth: incoming, stored; alpha: incoming, reference; stencil: reference, stored.
 template <class R, class T>
 Mask<R> compares(CompareFunc func, T a, T b) {
   switch (func) {
@@ -23,8 +23,8 @@ Mask<R> compares(CompareFunc func, T a, T b) {
   return a == a;
 }
 
-/// `scale`: the frame's largest code; 0: float, compared as it is. In double, where the product of a float and a scale
-/// is exact and so is its rounding.
+/// Alpha test. `scale`: the frame's largest colour code; 0: float, compared as it is. Codes are made in double, where
+/// the product of a float and a scale is exact and its rounding correct.
 template <class R>
 Mask<R> alpha_passes(const AlphaTest& test, R alpha, float scale) {
   using W = Wide<R>;
@@ -33,13 +33,13 @@ Mask<R> alpha_passes(const AlphaTest& test, R alpha, float scale) {
   return compares<R>(test.func, round_even(clamp01(value) * scale), round_even(reference * scale));
 }
 
-/// `held` from 0 to 255.
+/// Stencil function. `held`: stored values [0, 255].
 template <class R>
 Mask<R> stencil_passes(const StencilFace& face, Int<R> held) {
   return compares<R>(face.func, Int<R>(face.reference & face.mask), held & Int<R>(face.mask));
 }
 
-/// Value that an op makes of the value held.
+/// Stencil value [0, 255] that an op makes of the stored one.
 template <class R>
 Int<R> stencil_value(StencilOp op, std::uint8_t reference, Int<R> held) {
   const Int<R> one(1), most(255);
@@ -56,8 +56,8 @@ Int<R> stencil_value(StencilOp op, std::uint8_t reference, Int<R> held) {
   return held;
 }
 
-/// Mask of the fragments `alive` that pass the stencil test; the values at `at` change as the face says. `nearer`: the
-/// depth test's answer.
+/// Mask of the fragments `alive` that pass the stencil test, whatever the depth test says. Of every fragment alive, the
+/// stored value at `at` (one per lane) changes by the face's op. `nearer`: the fragments that pass the depth test.
 template <class R>
 Mask<R> stencil_test(const StencilFace& face, Mask<R> alive, Mask<R> nearer, std::uint8_t* at) {
   const Int<R> held = Lanes<R>::load(at), write(face.write_mask), kept(255 & ~face.write_mask);

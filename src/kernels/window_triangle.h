@@ -10,35 +10,38 @@
 namespace plumbline::pipeline {
 
 struct WindowVertex {
-  Vec3<float> p_win;   ///< x, y [pixels], z in [0,1]
+  Vec3<float> p_win;   ///< x, y [pixels]; z in [0,1] but for rounding, any finite number under depth clamp
   float inv_w;         ///< 1 / w_clip
   glm::ivec2 snapped;  ///< [1/256 pixel], pixel (i, j)'s centre is (256 i, 256 j)
 };
 
-/// A line's last corner stands there twice; a point's three corners are equal.
+/// Window triangle, line (the last corner repeated) or point (three equal corners).
 struct WindowTriangle {
   std::array<WindowVertex, 3> v;
   std::uint32_t primitive = 0;
-  bool front = true;          ///< counter-clockwise triangle, or polygon of an outline; a mesh's line or point: true
+  bool front = true;          ///< facing; of an outline its polygon's, of a mesh's line or point true
   std::uint32_t corners = 3;  ///< of a line 2, of a point 1
-  std::uint32_t width = 1;    ///< [pixels] of a line, or the side of a point's square
+  std::uint32_t width = 1;    ///< line width, or side of a point's square [pixels]
 };
 
-/// (win - 1/2) * 256, rounded half to even. The sum is exact in double; adding 1.5 * 2^52 rounds half to even.
+/// Snapped coordinate (win - 1/2) * 256, half to even, for |win| <= 2^20. The difference is exact in double for |win|
+/// >= 2^-31, and nearer to 0 no result is half way; adding 1.5 * 2^52 rounds half to even.
 inline int snap(float win) {
   constexpr double kRound = 6755399441055744.0;
   return static_cast<int>(((static_cast<double>(win) - 0.5) * kSubpixel + kRound) - kRound);
 }
 
-/// Twice the snapped area [1/65536 pixel]; > 0: counter-clockwise in the window, a front face.
+/// Twice the snapped area [2^-16 pixel^2]; > 0: counter-clockwise in the window, a front face.
 inline std::int64_t snapped_area(const WindowTriangle& t) {
   const glm::i64vec2 a(t.v[0].snapped), b(t.v[1].snapped), c(t.v[2].snapped);
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Splits a convex polygon of `count` corners, less what the draw culls. Calls triangle(i, front) for each triangle
-/// (i - 1, i, 0) of its fan that has an area; or, of a face that is not filled, line(a, b, front) for each edge or
-/// point(a, front) for each corner. area(i): twice the snapped area of the fan's triangle i.
+/// Splits a convex polygon of `count` corners into the primitives that the draw does not cull. area(i): twice the
+/// snapped area of triangle (i - 1, i, 0) of the polygon's fan. The sum of the areas (0: back) decides the
+/// polygon's mode and, unless both modes are fill, culling. Filled: calls triangle(i, front) for each triangle of the
+/// fan that has an area, faced and culled by its own area. Else calls line(a, b, front) for each edge, or point(a,
+/// front) for each corner, faced as the polygon.
 void visit_polygon(const Draw& draw, std::size_t count, auto area, auto triangle, auto line, auto point) {
   const auto culled = [&](bool front) { return draw.cull != Cull::none && front == (draw.cull == Cull::front); };
   std::int64_t sum = 0;
