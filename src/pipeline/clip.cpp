@@ -16,7 +16,7 @@ float distance_to(const Vec4<float>& plane, const Vec4<float>& p) {
   return ((p.x * plane.x + p.y * plane.y) + p.z * plane.z) + p.w * plane.w;
 }
 
-// Vertex at t of the way from `v` to `towards`, attributes too.
+// Vertex at share t of the way from `v` to `towards`, with its attributes.
 ClipVertex lerp(const ClipVertex& v, const ClipVertex& towards, float t) {
   ClipVertex out{v.p_clip + t * (towards.p_clip - v.p_clip), {}, true};
   for (std::size_t i = 0; i < kAttributes; ++i) {
@@ -25,8 +25,9 @@ ClipVertex lerp(const ClipVertex& v, const ClipVertex& towards, float t) {
   return out;
 }
 
-// A plane adds one vertex to a convex polygon. Rounding may make the polygon cross a plane many times; each run of
-// vertices outside becomes two: at most 3, 4, 6, 9, 13, 19, 28 vertices after 0 to 6 planes (Polygon::kMostCorners).
+// Polygon less what lies outside of the plane. A plane adds one vertex to a convex polygon. Rounding may make the
+// polygon cross a plane many times; each run of vertices outside becomes two vertices: at most 3, 4, 6, 9, 13, 19, 28
+// vertices after 0 to 6 planes (Polygon::kMostCorners).
 Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
   Polygon out{in.primitive, {}};
   for (std::size_t i = 0; i < in.corners.size(); ++i) {
@@ -44,7 +45,8 @@ Polygon cut_by(const Vec4<float>& plane, const Polygon& in) {
   return out;
 }
 
-// A line's two vertices, or none: each end is moved by the largest of the shares that the planes cut off there.
+// Line less what lies outside of the planes; no corners where nothing is left. Each end moves by the largest share that
+// a plane cuts off there.
 Polygon cut_line(std::span<const Vec4<float>> planes, const Polygon& line) {
   const ClipVertex &a = line.corners[0], &b = line.corners[1];
   float from_a = 0, from_b = 0;

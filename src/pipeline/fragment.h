@@ -1,4 +1,4 @@
-// Stages 6 to 11 of one fragment: what the stage functions (stages.h) are called with.
+// Stages 6 to 11 of one fragment, by the stage functions (stages.h).
 #pragma once
 
 #include "pipeline/frame.h"
@@ -6,25 +6,27 @@
 
 namespace plumbline::pipeline {
 
-/// The lower left pixel of the tile that the pixel lies in.
+/// Lower left pixel of the tile of `pixel`, which is >= 0.
 inline glm::ivec2 anchor_of(glm::ivec2 pixel) { return pixel / kTile * kTile; }
 
-/// Planes of stages 6 to 8 for the fragments of the tile at `anchor`; of attributes, the colour and those of `surface`.
+/// Setup of stages 6 to 8 for the triangle's fragments in the tile whose lower left pixel is `anchor`. Attributes: the
+/// colour, and the varyings that `surface` carries.
 TriangleSetup set_up(const Stages& stages, const ShadedTriangle& triangle, const Surface& surface,
                      const DepthState& depth, const SampleOffsets& offsets, glm::ivec2 anchor);
 
-/// The pixel's centre.
+/// The pixel and its centre.
 inline Pixels<float> pixel_at(glm::ivec2 pixel) { return {pixel.x, pixel.y, pixel.x + 0.5, pixel.y + 0.5}; }
 
-/// Stage 7 of all attributes that the surface carries.
+/// Stage 7 of the colour and of all varyings that the surface carries; other varyings are 0, the texel is not set.
 SurfaceAttributes<float> interpolated(const Stages& stages, const Surface& surface, const TriangleSetup& setup,
                                       const Pixels<float>& pixel);
-/// Stage 8 at a fragment of a surface with a texture.
+/// Stage 8 at a fragment of a surface with a texture. `texcoords`: s, t of stage 7.
 FilteredTexel<float> filtered(const Stages& stages, const TextureSetup& texture, const TriangleSetup& setup,
                               const Color<float>& texcoords, const Pixels<float>& pixel);
 
-/// Stage 10: whether the fragment passes alpha, stencil and depth test, in this order (OpenGL 2.1 spec, chapter 4.1).
-/// `nearer`: the depth test's answer. The stencil value `held` changes where the draw has a stencil test.
+/// Stage 10: whether the fragment is not discarded and passes alpha, stencil and depth test, in this order (OpenGL 2.1
+/// spec, chapter 4.1). `nearer`: whether it passes the depth test. `held`: the pixel's stencil value, which changes
+/// where the draw has a stencil test; else not read, it may be null.
 bool passes_tests(const Stages& stages, const Draw& draw, bool front, bool nearer, const Shaded& shaded,
                   float color_scale, std::uint8_t* held);
 

@@ -1,4 +1,4 @@
-// The frame: while it is drawn, in floats; finished, in its own formats, as a display or a file takes it.
+// The frame: FrameBuffer, in floats, while it is drawn; Frame, in its own formats, when it is finished.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ namespace plumbline::pipeline {
 /// Finished frame. Row 0 is the bottom row, in dialect gzrender the top row (scene.h, rows_from_top). Of the colour
 /// planes, and of the depth planes, only the one of the frame's format is filled.
 struct Frame {
-  explicit Frame(const FrameFormat& format);
+  explicit Frame(const FrameFormat& format);  ///< all values 0, whatever the clear values
+  /// Whether the planes have been moved away.
   bool empty() const { return depth_code.empty() && depth_z32f.empty(); }
 
   Plane<glm::u8vec4> color_rgba8;
@@ -29,18 +30,18 @@ struct Frame {
 struct Formats {
   double depth_scale;    ///< largest depth code; 0: float
   float color_scale;     ///< largest colour code; 0: float
-  glm::ivec2 sample{0};  ///< from a pixel's centre to where it is covered [1/256 pixel] (scene/antialias.h)
+  glm::ivec2 sample{0};  ///< offset from a pixel's centre to the pass' sample [1/256 pixel] (scene/antialias.h)
 };
 Formats formats_of(const FrameFormat& frame);
 
-/// Values of a cleared pixel, in the frame's formats.
+/// Values of a cleared pixel, in the frame's formats, as floats.
 struct ClearPixel {
   float depth;
   Color<float> color;
 };
 ClearPixel clear_pixel(const FrameFormat& frame);
 
-/// A pixel of the frame that is drawn.
+/// Addresses of one pixel's values in a FrameBuffer.
 struct FramePixel {
   float* depth;           ///< code, or window z
   glm::vec4* color;       ///< codes, or floats
@@ -50,12 +51,13 @@ struct FramePixel {
 /// The frame while it is drawn: codes as floats, which hold them exactly.
 struct FrameBuffer {
   explicit FrameBuffer(const FrameFormat& format);  ///< cleared
-  FramePixel at(glm::ivec2 pixel);
+  FramePixel at(glm::ivec2 pixel);                  ///< `pixel` is in the frame
 
   Plane<float> depth;
   Plane<glm::vec4> color;
   Plane<std::uint8_t> stencil;  ///< empty where the format has none
 };
+/// The buffer's values, converted to the frame's formats.
 Frame finished(const FrameFormat& format, const FrameBuffer& buffer);
 
 }  // namespace plumbline::pipeline

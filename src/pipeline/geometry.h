@@ -11,72 +11,74 @@ namespace plumbline::pipeline {
 
 // 0. A draw's transforms, camera and projection (dialect.h) become matrices; the camera takes lights to eye space.
 
-/// Built in double, rounded once to float (entries below 1e-12 become 0).
+/// Matrices of a draw, built in double, rounded once to float (entries of magnitude below 1e-12 become 0). Throws
+/// std::invalid_argument where the projection is not one of the scene's dialect.
 Matrices<float> matrices(const Scene& scene, const Draw& draw);
 
-/// One for each of the scene's lights, built in double, rounded once to float.
+/// The scene's lights (at most 8) in eye space, built in double, rounded once to float.
 FixedVector<LightSource<float>, 8> light_sources(const Scene& scene);
 
 // 1. Each vertex of the mesh, once, from model space to eye and clip space.
 
-/// P M, rounded as the recipe below has it.
+/// Product P M of transform()'s recipe.
 Mat4<float> clip_matrix(const Matrices<float>& matrices);
 
-/// Appends one record per vertex of the mesh.
+/// Appends one record per vertex of the mesh, which has as many normals as positions.
 ///
-/// clip = (P M) p, both products in float, summed left to right without FMA: the recipe of a common OpenGL driver, so
-/// that positions, and with them coverage, can be compared bit for bit. Normals go by the inverse transpose; then they
-/// are brought to unit length, or divided by the length of its third column (OpenGL 2.1 spec 2.11.3: the third row of
-/// the inverse), or stay as they are.
+/// p_clip = (P M) p, both products in float, summed left to right without FMA: the recipe of a common OpenGL driver, so
+/// that positions, and with them coverage, can be compared bit for bit. Normals go by the inverse transpose. Then
+/// they are brought to unit length (NaN for a zero normal), or divided by the length of that matrix' third column
+/// (OpenGL 2.1 spec 2.11.3: the third row of the inverse), or stay as they are.
 void transform(const Matrices<float>& matrices, Normals normals, const Mesh& mesh, std::vector<Vertex<float>>& out);
 
 // 2. The attributes of each vertex, its lit colour first.
 
 /// Appends one record per vertex of the draw; attributes that the draw does not carry are zero. `lights`: stage 0's.
 ///
-/// Colours are clamped to [0,1]. Lit: by light_equation.h, with the draw's material or what of it the mesh's colours
-/// stand for (2.14.3). Unlit, or to be lit per fragment: the mesh's colour, or the material's diffuse.
+/// Colours are clamped to [0,1]. Lit: by light_equation.h, with the draw's material, in which the mesh's colours
+/// replace what the draw's ColorMaterial names (2.14.3). Unlit, or to be lit per fragment: the mesh's colour, or the
+/// material's diffuse.
 void light(const Scene& scene, const Draw& draw, const Mesh& mesh, Lights lights,
            std::span<const Vertex<float>> vertices, std::vector<Attributes>& out);
 
-/// One part of a lit draw's colours, into one attribute of each of `out`, which lie beside `vertices`; of a secondary
-/// part, alpha is 0. `attribute`: 0 the colour, 1 + v a Varying.
+/// Writes one part of a lit draw's colours into attribute number `attribute` (0: the colour, 1 + v: Varying v) of each
+/// of `out`, which has one entry per vertex. Alpha of a secondary part is 0.
 void light_part(const Scene& scene, const Draw& draw, const Mesh& mesh, LitPart part, Lights lights,
                 std::span<const Vertex<float>> vertices, std::size_t attribute, std::span<Attributes> out);
 
 // 3. Primitives are assembled and cut at the six planes of the view volume.
 
-/// The primitive whose vertices are `corners`: 3 of a triangle, the first 2 of a line, the first of a point. Under flat
-/// shading every corner has the provoking (last) vertex' lit colours (OpenGL 2.1 spec 2.14.7).
+/// Primitive of the vertices `corners`: 3 of a triangle, the first 2 of a line, the first of a point; its number is
+/// left 0. Under flat shading every corner has the colours of the provoking (last) vertex (OpenGL 2.1 spec 2.14.7).
 Polygon assemble(const DrawInput& input, const glm::uvec3& corners, std::span<const Vertex<float>> vertices,
                  std::span<const Attributes> attributes);
 
-/// Cuts the polygon to -w <= x, y, z <= w; under depth clamp, to x and y alone. A polygon that lies outside, or has a
+/// Cuts the polygon to -w <= x, y, z <= w; under depth clamp, to -w <= x, y <= w. A polygon that lies outside, or has a
 /// coordinate that is not finite, loses all corners.
 ///
-/// Triangles: Sutherland-Hodgman (Reentrant polygon clipping, CACM 1974), planes in the order right, left, top, bottom,
-/// near, far, those only that a vertex violates. A cut is taken from the end that is nearer to the plane (a tie: the
-/// inside end), whichever way the edge runs, so that neighbours cut a shared edge at the same point.
+/// Triangles: Sutherland-Hodgman (Reentrant polygon clipping, CACM 1974), by each plane that an original vertex
+/// violates, in the order right, left, top, bottom, near, far. A cut is taken from the end that is nearer to the
+/// plane (a tie: the inside end), whichever way the edge runs, so that neighbours cut a shared edge at the same point.
 ///
-/// A line is cut at either end by the farthest of the cuts that the planes make there (Liang and Barsky, A new concept
-/// and method for line clipping, TOG 1984); a point is kept or dropped (OpenGL 2.1, section 2.12).
+/// A line is cut at either end by the plane that cuts off most there (Liang and Barsky, A new concept and method for
+/// line clipping, TOG 1984); a point is kept or dropped (OpenGL 2.1, section 2.12).
 void clip(const DrawInput& input, Polygon& polygon);
 
-/// The same at other planes: inside is dot(plane, p_clip) >= 0. At most six.
+/// clip() at other planes, at most six: inside is dot(plane, p_clip) >= 0.
 void clip_at(std::span<const Vec4<float>> planes, Polygon& polygon);
 
-/// -w <= x, y, z <= w, in the order above.
+/// Planes of -w <= x, y, z <= w, in clip()'s order.
 std::span<const Vec4<float>, 6> view_volume();
 
 // 4. Polygons are divided by w, moved to the window, split into triangles, snapped and faced.
 
 /// Appends a polygon's fan of triangles, corners (i-1, i, 0); a line or point as it is; of a polygon that the draw does
 /// not fill, its edges or corners (capture/stages.h). Where the draw is lit from two sides, back faces have the back's
-/// colours. Dropped: triangles of zero snapped area, those that the draw culls, and those of a polygon with a corner of
-/// w = 0 or more than 2^20 pixels away.
+/// colours. Dropped: triangles of zero snapped area, what the draw culls, and polygons, lines and points with a corner
+/// that is not drawable: |x| or |y| beyond 2^20 pixels, or z or 1/w not finite.
 ///
-/// p_win = p_ndc * scale + translate, fused for vertices of the mesh and not for cut ones, as the driver of the vertex
-/// recipe of stage 1 does.
+/// p_win = p_clip * (1/w) * scale + translate: the last two operations are one FMA for vertices of the mesh and two
+/// roundings for cut ones, as in the driver whose recipe transform() follows.
 void to_window(const DrawInput& input, const Polygon& polygon, std::vector<ShadedTriangle>& out);
 
 }  // namespace plumbline::pipeline

@@ -24,7 +24,7 @@ void require_drawable(std::size_t triangles, const FrameFormat& format) {
 Frame draw_program(std::span<const Vertex<float>> vertices, std::span<const Attributes> varyings,
                    std::size_t varying_fours, const FrameFormat& format, const ProgramState& state,
                    decltype(Stages::shade) shade, const void* program) {
-  Scene scene;  // of stage 0 the viewport alone counts
+  Scene scene;  // read for the viewport alone
   scene.frame = format;
   Draw draw;
   draw.cull = state.cull;

@@ -1,4 +1,4 @@
-// Programmable stages: a vertex() and a fragment() of one's own in the place of stages 1, 2 and 9.
+// Programmable stages: a user's vertex() and fragment() in the place of stages 1, 2 and 9.
 //
 //   struct Gouraud {
 //     struct Varyings {
@@ -28,9 +28,9 @@ namespace plumbline::pipeline {
 /// order. A triangle with a p_clip that is not finite is dropped.
 ///
 /// fragment(in, color) is called for each fragment that passes the depth test, with perspective-correct varyings, whose
-/// weights are of double precision where there are more than four floats (PerspectiveSetup, in_blocks). The
-/// colour is clamped and rounded to the frame's format. Where it returns true, the fragment is discarded: colour and
-/// depth stay as they are.
+/// weights are of double precision where there are more than four floats (PerspectiveSetup, in_blocks). `color` is
+/// (0, 0, 0, 1) before the call, and then converted to the frame's format: clamped and rounded to codes, or float as it
+/// is. A fragment for which fragment() returns true is discarded: the frame's colour and depth stay as they are.
 template <class P, class V = typename P::Varyings>
 concept Program = requires(const P& program, V out, const V& in, glm::vec4 color) {
   { program.vertex(std::size_t{0}, 0, out) } -> std::same_as<glm::vec4>;
@@ -41,7 +41,7 @@ concept Program = requires(const P& program, V out, const V& in, glm::vec4 color
 
 /// The fixed state under which a program draws (scene.h, Draw).
 struct ProgramState {
-  Shading shading = Shading::gouraud;  ///< flat: every corner takes the last one's varyings
+  Shading shading = Shading::gouraud;  ///< flat: every corner takes the last corner's varyings; else smooth
   Cull cull = Cull::none;
   DepthFunc depth_func = DepthFunc::less;
 };
@@ -50,8 +50,9 @@ struct ProgramState {
 /// pixels a side.
 void require_drawable(std::size_t triangles, const FrameFormat& format);
 
-/// A program's vertices and varyings, three vertices to a triangle, drawn on a cleared frame. Throws as
-/// require_drawable.
+/// Draws a program's vertices, of which p_clip alone is read, on a cleared frame: three to a triangle, with one entry
+/// of `varyings` each. `varying_fours`: entries of Attributes in use, 0 to kAttributes; `shade`: stage 9, with
+/// `program` in its Surface. The caller has called require_drawable().
 Frame draw_program(std::span<const Vertex<float>> vertices, std::span<const Attributes> varyings,
                    std::size_t varying_fours, const FrameFormat& format, const ProgramState& state,
                    decltype(Stages::shade) shade, const void* program);

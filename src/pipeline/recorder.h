@@ -1,4 +1,4 @@
-// What a capture keeps of a frame while it is drawn: records of stages 0 to 10, and planes of stages 5 and 7 to 10.
+// Recorder of a capture: records of stages 0 to 10, and planes of stages 5 and 7 to 10, of a frame as it is drawn.
 #pragma once
 
 #include <span>
@@ -18,17 +18,19 @@ struct Fragment {
   bool drawn;
 };
 
-/// Widens records to double and keeps those that a request names. Each call adds the records of one step.
+/// Widens records to double and keeps those that a request names. Each call adds the records of one step, in the order
+/// of render(): lights(); per draw, draw(), vertices(), attributes(); per primitive polygon(), triangle(), fragment().
 class Recorder {
  public:
   Recorder() = default;  ///< keeps nothing
-  /// `bytes`: what else counts against the request's memory budget. What goes beyond it throws OverBudget.
+  /// Makes the planes in `out`. `bytes`: memory in use that counts against the request's budget; a call that goes
+  /// beyond the budget throws OverBudget. Scene, request and `out` must outlive the recorder.
   Recorder(const Scene& scene, const Request& request, std::size_t bytes, Capture& out);
 
-  /// Whether every fragment is wanted, hidden ones too.
+  /// Whether fragment() is to be called for every fragment, hidden ones too.
   bool keeps_fragments() const { return out_ != nullptr; }
 
-  /// Lights of a scene that draws something.
+  /// Lights of the scene; not kept of a scene without draws.
   void lights(std::span<const LightSource<float>> lights);
   /// The draw whose records come next.
   void draw(const Draw& draw, const Matrices<float>& matrices);
@@ -53,7 +55,7 @@ class Recorder {
   Plane<std::uint8_t> wanted_pixels_;  // empty: all
   std::vector<Varying> carried_;       // by any draw
   const Draw* draw_ = nullptr;
-  std::uint32_t triangles_ = 0;  // kept so far
+  std::uint32_t triangles_ = 0;  // of wanted primitives, so far
   std::uint32_t primitive_ = 0;  // of the last triangle
 };
 

@@ -78,7 +78,7 @@ void draw_primitives(const PreparedDraw& d, const FrameFormat& format, const Sta
         // 6. Depth: the plane of window z.
         const float z = stages.depth(setup, centre);
         const bool nearer = stages.depth_passes(draw.depth_func, z, *to.depth);
-        if (!nearer && !draw.stencil && !records.keeps_fragments()) continue;  // it changes nothing
+        if (!nearer && !draw.stencil && !records.keeps_fragments()) continue;  // changes neither frame nor records
 
         // 7. Attributes: perspective-correct.
         SurfaceAttributes<float> attributes = interpolated(stages, d.surface, setup, centre);

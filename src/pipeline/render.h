@@ -10,23 +10,24 @@
 
 namespace plumbline::pipeline {
 
-/// Draws the scene by these stage functions; of a scene that is not antialiased, `records` keeps what it is asked for.
+/// Frame of the scene by these stage functions. `records` keeps what its request names; of an antialiased scene,
+/// nothing. Throws std::invalid_argument where the projection is not one of the dialect, and OverBudget (recorder.h).
 Frame render(const Scene& scene, const Stages& stages = production_stages(), Recorder records = {});
 
-/// Input of stages 3 to 11 of one draw: its primitives, and vertices that have been through stages 0 to 2.
+/// Per-draw input of stages 3 to 11: primitives, and vertices as stages 0 to 2 leave them.
 struct PreparedDraw {
   DrawInput input;
   std::span<const glm::uvec3> primitives;  ///< corners: numbers of vertices
   std::span<const Vertex<float>> vertices;
   std::span<const Attributes> attributes;  ///< beside vertices
-  std::uint32_t first_primitive;           ///< number of the first
+  std::uint32_t first_primitive;           ///< number of primitives[0] in the scene
   Surface surface;
 };
-/// Draws the primitives into `frame`: stages 3 to 11.
+/// Stages 3 to 11: draws the primitives, in order, into `frame`, which has the format's size.
 void draw_primitives(const PreparedDraw& draw, const FrameFormat& format, const Stages& stages, FrameBuffer& frame,
                      Recorder& records);
 
-/// The frames of an antialiased scene's passes.
+/// Frames of the scene's passes, in the order of passes_of().
 std::vector<Frame> render_passes(const Scene& scene, const Stages& stages);
 
 }  // namespace plumbline::pipeline

@@ -9,7 +9,7 @@ namespace plumbline::pipeline {
 
 namespace {
 
-// `plane`: a frame's of one colour format (&Frame::color_rgba8).
+// `plane`: a colour plane of Frame, such as &Frame::color_rgba8; nothing happens where the format has none.
 void resolve_colors(Resolve channel, const FrameFormat& format, std::span<const Frame> passes, auto plane,
                     Frame& frame) {
   auto& to = frame.*plane;

@@ -20,7 +20,7 @@
 
 namespace plumbline::pipeline {
 
-inline constexpr std::size_t kAttributes = 1 + kVaryings;
+inline constexpr std::size_t kAttributes = 1 + kVaryings;  ///< the colour and every Varying
 
 /// Attributes of a vertex: the colour first, then one for each Varying; zero where the draw does not carry it.
 struct Attributes : std::array<Vec4<float>, kAttributes> {
@@ -31,23 +31,25 @@ struct Attributes : std::array<Vec4<float>, kAttributes> {
   const Vec4<float>& operator[](Varying v) const { return (*this)[1 + static_cast<std::size_t>(v)]; }
 };
 
+/// Vertex of a polygon of stage 3.
 struct ClipVertex {
   Vec4<float> p_clip;
   Attributes attributes;
   bool cut = false;  ///< made by a cut, not a vertex of the mesh
 };
-/// A convex polygon; a line has 2 corners, a point 1; none: nothing is left.
+/// Convex polygon, line (2 corners) or point (1) of stage 3; no corners: nothing is left of the primitive.
 struct Polygon {
   static constexpr std::size_t kMostCorners = kMostPolygonVertices;
   std::uint32_t primitive = 0;  ///< numbered over the scene (scene.h, DrawRange)
   FixedVector<ClipVertex, kMostCorners> corners;
 };
 
+/// Window triangle, line or point with its corners' attributes.
 struct ShadedTriangle : WindowTriangle {
   std::array<Attributes, 3> attributes;
 };
 
-/// Per-draw input of stages 3 and 4.
+/// Per-draw input of stages 3 and 4. `draw` must outlive it.
 struct DrawInput {
   const Draw* draw;
   Topology topology;
@@ -60,7 +62,7 @@ inline DrawInput draw_input(const Scene& scene, const Draw& draw, const Matrices
           matrices};
 }
 
-/// Offsets of a pass' sample from the pixel's centre [1/256 pixel].
+/// Offsets from the pixel's centre at which a pass takes coverage, depth and attributes [1/256 pixel].
 struct SampleOffsets {
   glm::ivec2 coverage, depth, color;
 };
@@ -87,36 +89,37 @@ struct Shaded {
   bool discarded = false;  ///< by a user's program
 };
 
-/// One function a stage, or a few; those with `out` append to it. A fault, a user's program and a test each set one.
+/// One function or more per stage, none null; those with `out` append to it. Faults, users' programs and tests replace
+/// single functions.
 struct Stages {
   // 0 matrices
   Matrices<float> (*matrices)(const Scene&, const Draw&);
   FixedVector<LightSource<float>, 8> (*lights)(const Scene&);
-  // 1 vertex: one for each vertex of the mesh
+  // 1 vertex: one record for each vertex of the mesh
   void (*vertex)(const Matrices<float>&, Normals, const Mesh&, std::vector<Vertex<float>>& out);
   // 2 light: attributes of each vertex
   void (*light)(const Scene&, const Draw&, const Mesh&, Lights, std::span<const Vertex<float>>,
                 std::vector<Attributes>& out);
-  // 3 clip
+  // 3 clip: the caller sets the assembled polygon's primitive
   Polygon (*assemble)(const DrawInput&, const glm::uvec3& corners, std::span<const Vertex<float>>,
                       std::span<const Attributes>);
   void (*clip)(const DrawInput&, Polygon&);
   // 4 window
   void (*window)(const DrawInput&, const Polygon&, std::vector<ShadedTriangle>& out);
-  // 5 coverage: row by row from the bottom, from left to right
+  // 5 coverage: pixels row by row from the bottom, from left to right; `sample`: Formats::sample
   SampleOffsets (*sample_offsets)(glm::ivec2 sample);
   PixelBounds (*scissor)(const Scissor&, const PixelBounds& frame);
   std::vector<glm::ivec2> (*coverage)(const WindowTriangle& seen_from_sample, const PixelBounds& box);
-  // 6 depth, in the frame's format: a code, or window z
+  // 6 depth, in the frame's format: a code, or window z (z32f)
   DepthSetup (*depth_setup)(const WindowTriangle&, const DepthState&);
   float (*depth)(const TriangleSetup&, const Pixels<float>&);
-  // 7 attributes: one of them
+  // 7 attributes: one attribute at one fragment
   Color<float> (*attributes)(const TriangleSetup&, const AttributeSetup&, const Pixels<float>&);
   // 8 texture
   FilteredTexel<float> (*texture)(const TextureSetup&, const TexCoords<float>&, const Gradients<float>&);
   // 9 shade
   Shaded (*shade)(const Surface&, bool front, const SurfaceAttributes<float>&);
-  // 10 visibility
+  // 10 visibility; color_scale: the largest colour code, 0 for float
   bool (*depth_passes)(DepthFunc, float incoming, float stored);
   bool (*alpha_passes)(const AlphaTest&, float alpha, float color_scale);
   bool (*stencil_test)(const StencilFace&, bool alive, bool nearer, std::uint8_t* held);
